@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What every shape becomes: closed loops of smooth pieces, interior on the left. Plain data.
+#pragma once
+
+#include "trime/geometry/vec2.hpp"
+
+#include <string>
+#include <vector>
+
+namespace trime::geometry {
+
+/// A straight segment or a circular arc from `start` to `end`; both ends lie on the lattice.
+struct Piece {
+  Vec2 start, end;
+  bool circular = false;
+  Vec2 center;          ///< circular pieces only, as the rest
+  double radius = 0;
+  double start_angle = 0; ///< radians
+  double sweep = 0;     ///< signed angle from start to end, radians, counter-clockwise positive, |sweep| <= 2 pi
+  int part = 0;         ///< index into Boundary::part_names of the part that the piece comes from
+
+  /// Arc length.
+  double length() const;
+  /// Point at arc length s from the start, 0 <= s <= length(); the ends themselves are returned bit for bit.
+  Vec2 point(double s) const;
+  /// Unit tangent at arc length s.
+  Vec2 tangent(double s) const;
+  /// Distance from p to the piece.
+  double distance(Vec2 p) const;
+};
+
+/// Closed curve: piece i ends where piece i+1 starts, the last where the first starts.
+struct Loop {
+  std::vector<Piece> pieces;
+  bool outer = true; ///< counter-clockwise around a component, or clockwise around a hole
+  int tag = 1;       ///< value written for its edges, from 1
+
+  double length() const;
+  /// Turn in degrees, 0..180, at the start of piece i.
+  double turn_degrees(std::size_t i) const;
+};
+
+/// The boundary of a shape. Invariant: loops do not cross or touch; area > 0.
+struct Boundary {
+  std::vector<Loop> loops;
+  std::vector<std::string> part_names;
+  double area = 0; ///< enclosed area, arcs included
+
+  int components() const; ///< number of outer loops
+  int holes() const;      ///< number of hole loops
+  double length() const;
+  Box bounding_box() const;
+};
+
+} // namespace trime::geometry

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Exact predicates for points of one lattice (lattice.hpp) inside its container or within twice its size around it.
+#pragma once
+
+#include "trime/geometry/lattice.hpp"
+#include "trime/geometry/vec2.hpp"
+
+namespace trime::geometry {
+
+/// @brief Sign of the area of the triangle a, b, c: +1 counter-clockwise, 0 collinear, -1 clockwise. Exact.
+///
+/// The differences of lattice points are exact, and rounding is monotone: if the two rounded products differ, so do
+/// the products, in the same sense. Only equal rounded products need their rounding errors (two fused products).
+inline int orient2d(Vec2 a, Vec2 b, Vec2 c) {
+  const double acx = a.x - c.x, acy = a.y - c.y, bcx = b.x - c.x, bcy = b.y - c.y;
+  const double left = acx * bcy, right = acy * bcx;
+  if (left > right)
+    return 1;
+  if (left < right)
+    return -1;
+  const double left_error = std::fma(acx, bcy, -left), right_error = std::fma(acy, bcx, -right);
+  return (left_error > right_error) - (left_error < right_error);
+}
+
+/// @brief +1 if d lies inside the circle through a, b, c (counter-clockwise), -1 outside. Exact; never 0 for four
+/// different points of which a, b, c are not collinear.
+///
+/// Cocircular points are decided as if the lifted height x^2+y^2 of each point were raised by an infinitesimal, the
+/// larger the later the point comes in lexicographic order (symbolic perturbation, Devillers and Teillaud 2011), so
+/// the answer depends on the coordinates alone. A float filter (Shewchuk 1997, error bound A) decides nearly all
+/// calls; the rest are evaluated in 192-bit integers on lattice steps.
+int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice);
+
+/// The same without filter: for tests and as the slow path.
+int in_circle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice);
+
+} // namespace trime::geometry

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points and vectors of the plane, and the axis-parallel box.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+namespace trime::geometry {
+
+struct Vec2 {
+  double x = 0, y = 0;
+
+  friend constexpr bool operator==(const Vec2&, const Vec2&) = default;
+  friend constexpr Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
+  friend constexpr Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
+  friend constexpr Vec2 operator*(double s, Vec2 a) { return {s * a.x, s * a.y}; }
+};
+
+constexpr double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
+constexpr double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
+constexpr double squared_length(Vec2 a) { return dot(a, a); }
+inline double length(Vec2 a) { return std::sqrt(dot(a, a)); }
+/// Turned by +90 degrees: the left normal of a direction.
+constexpr Vec2 left_normal(Vec2 a) { return {-a.y, a.x}; }
+/// Lexicographic order of the coordinates, x first: the order behind every tie.
+constexpr bool lexicographically_less(Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
+
+/// Closed rectangle; empty (min > max) by default.
+struct Box {
+  Vec2 min{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Vec2 max{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
+  double width() const { return max.x - min.x; }
+  double height() const { return max.y - min.y; }
+  bool contains(Vec2 p) const { return p.x >= min.x && p.x <= max.x && p.y >= min.y && p.y <= max.y; }
+  void include(Vec2 p) {
+    min = {std::fmin(min.x, p.x), std::fmin(min.y, p.y)};
+    max = {std::fmax(max.x, p.x), std::fmax(max.y, p.y)};
+  }
+};
+
+} // namespace trime::geometry
