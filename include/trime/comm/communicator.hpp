@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// MPI wrapped once: start and end, a duplicated communicator, and the few collectives that the program uses.
+// Callers need no mpi.h. Every MPI error ends the job with its text: there is no recovery from a broken network.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace trime::comm {
+
+/// @brief Initialises MPI (MPI_THREAD_FUNNELED) and finalises it; one object in main.
+/// Works without mpirun. While an exception unwinds the stack it does not finalise: other ranks may sit in a collective
+/// for ever, and finalising would wait for them.
+class Environment {
+public:
+  Environment(int& argc, char**& argv);
+  ~Environment();
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+};
+
+/// Bytes for one peer.
+struct Message {
+  int peer;
+  std::vector<std::byte> data;
+};
+
+/// @brief A communicator of our own (duplicated, so that no message meets those of others). Move-only.
+class Communicator {
+public:
+  /// All processes of the job. Collective.
+  static Communicator world();
+  Communicator(Communicator&&) noexcept;
+  Communicator& operator=(Communicator&&) noexcept;
+  ~Communicator();
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  bool is_root() const { return rank_ == 0; }
+
+  /// Collective.
+  void barrier() const;
+  /// Element-wise over all ranks, in place. Collective.
+  void sum(std::span<std::int64_t> values) const;
+  void min(std::span<double> values) const;
+  void max(std::span<double> values) const;
+  /// Collective.
+  std::int64_t sum(std::int64_t value) const;
+  std::int64_t min(std::int64_t value) const;
+  std::int64_t max(std::int64_t value) const;
+  double min(double value) const;
+  double max(double value) const;
+  /// Sum over the lower ranks; 0 on rank 0. Collective.
+  std::int64_t exclusive_scan(std::int64_t value) const;
+  /// The value of each rank, by rank. O(ranks) memory. Collective.
+  std::vector<std::int64_t> all_gather(std::int64_t value) const;
+  std::vector<double> all_gather(double value) const;
+  /// The text of `root` on every rank. Collective.
+  std::string broadcast(std::string text, int root = 0) const;
+  /// The text of each rank on rank 0 (empty elsewhere). Collective.
+  std::vector<std::string> gather(const std::string& text) const;
+
+  /// @brief Sends each message to its peer and returns what arrived, ordered by peer. Peers need not know each other
+  /// beforehand (one reduction counts the incoming messages). At most one message per peer. Collective.
+  std::vector<Message> exchange_any(const std::vector<Message>& outgoing) const;
+  /// @brief Exchange between ranks that know each other: `incoming[k].data` must have the size that its peer sends.
+  /// Non-blocking sends and receives; empty messages are not sent. Only the ranks named take part.
+  void exchange_known(std::span<const Message> outgoing, std::span<Message> incoming) const;
+
+  /// Implementation handle, for native.hpp.
+  struct Native;
+  const Native& native() const { return *native_; }
+
+private:
+  explicit Communicator(std::unique_ptr<Native> native);
+  std::unique_ptr<Native> native_;
+  int rank_ = 0, size_ = 1;
+};
+
+/// Bytes of trivially copyable values, and back.
+template <class T>
+std::vector<std::byte> to_bytes(std::span<const T> values) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  std::vector<std::byte> bytes(values.size_bytes());
+  if (!bytes.empty())
+    std::memcpy(bytes.data(), values.data(), bytes.size());
+  return bytes;
+}
+template <class T>
+std::vector<T> from_bytes(std::span<const std::byte> bytes) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  std::vector<T> values(bytes.size() / sizeof(T));
+  if (!values.empty())
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+  return values;
+}
+
+} // namespace trime::comm

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The MPI communicator itself, for io only (HDF5 needs it).
+#pragma once
+
+#include "trime/comm/communicator.hpp"
+
+#include <mpi.h>
+
+namespace trime::comm {
+
+struct Communicator::Native {
+  MPI_Comm comm = MPI_COMM_NULL;
+};
+
+inline MPI_Comm native_handle(const Communicator& communicator) { return communicator.native().comm; }
+
+} // namespace trime::comm

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Quality of triangles and of whole meshes. Statistics are integers inside (fixed-point sums, histograms), so that
+// merging them in any order gives the same bits.
+#pragma once
+
+#include "trime/core/sum.hpp"
+#include "trime/geometry/vec2.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace trime::mesh {
+
+/// @brief alpha = abc / (8 (s-a)(s-b)(s-c)) = R/(2r), s half the perimeter: 1 for an equilateral triangle, infinity for a
+/// flat one.
+double aspect_ratio(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
+/// beta = longest edge / shortest edge.
+double edge_ratio(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
+/// Smallest angle in degrees.
+double min_angle_degrees(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
+
+/// Mean, half-mean ((mean of square roots)^2), standard deviation, median and maximum of a ratio that is at least 1.
+struct RatioSummary {
+  double median = 1, mean = 1, max = 1, half_mean = 1, std = 0;
+};
+
+/// @brief Mergeable statistics of a ratio >= 1: values are capped at 2^16 in the sums, exact in the maximum; the
+/// median comes from bins of 1e-4 up to 2 and of 1e-2 up to 10 beyond.
+class RatioStatistics {
+public:
+  RatioStatistics();
+  void add(double ratio);
+  void merge(const RatioStatistics& other);
+  RatioSummary summary() const;
+  std::int64_t count() const { return count_; }
+  double max() const { return max_; }
+
+  /// For sums over ranks: all integers packed, and back. The maximum travels apart.
+  std::vector<std::int64_t> pack() const;
+  void unpack(const std::vector<std::int64_t>& packed, double max);
+  /// Counts in bins [1,1.01), [1.01,1.02), [1.02,1.05), [1.05,1.1), [1.1,1.2), [1.2,1.5), [1.5,2), [2,5), [5,inf).
+  std::array<std::int64_t, 9> histogram() const;
+  static constexpr std::array<double, 9> histogram_edges{1, 1.01, 1.02, 1.05, 1.1, 1.2, 1.5, 2, 5};
+
+private:
+  static std::size_t bin(double ratio);
+  static double bin_middle(std::size_t bin);
+  std::int64_t count_ = 0;
+  FixedSum sum_, sum_of_roots_, sum_of_squares_;
+  double max_ = 1;
+  std::vector<std::int64_t> bins_;
+};
+
+/// Quality of a whole mesh, as printed and stored.
+struct QualitySummary {
+  RatioSummary alpha, beta;
+  double min_angle_degrees = 60;
+  double size_mean = 1, size_std = 0; ///< L / (s h(mid)) over edges; s is chosen so that the mean is 1
+  std::array<std::int64_t, 9> alpha_histogram{};
+};
+
+} // namespace trime::mesh

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The mesher: from the boundary of a shape and a size field to a certified mesh, over all ranks.
+#pragma once
+
+#include "trime/comm/communicator.hpp"
+#include "trime/core/log.hpp"
+#include "trime/core/timer.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/meshing/options.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <memory>
+
+namespace trime::meshing {
+
+class Mesher {
+public:
+  /// @brief Keeps references: all arguments must outlive the object. `boundary` and `size` are replicated: the same bits
+  /// on every rank.
+  Mesher(const comm::Communicator& comm, const geometry::Boundary& boundary, const sizing::SizeField& size,
+         const MeshOptions& options, Log& log, TimerTable& timers);
+  ~Mesher();
+
+  /// @brief Makes the mesh. @note Collective.
+  /// @throws GeometryError on all ranks together if the shape cannot be meshed at this resolution
+  /// @throws ConfigError on all ranks together for options that no mesh can meet
+  MeshResult run();
+
+private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+} // namespace trime::meshing

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a user asks of the mesher, and what comes back beside the mesh. Plain data.
+#pragma once
+
+#include "trime/core/types.hpp"
+#include "trime/geometry/vec2.hpp"
+#include "trime/mesh/distributed_mesh.hpp"
+#include "trime/mesh/quality.hpp"
+#include "trime/mesh/validity.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trime::meshing {
+
+enum class Method { distmesh };
+enum class Start { automatic, lattice, hilbert };
+
+struct MeshOptions {
+  geometry::Box container{{0, 0}, {1, 1}};
+  std::optional<int> cells_x, cells_y;    ///< container grid; empty: about 3.3 points a cell
+  Method method = Method::distmesh;
+  std::optional<GlobalId> points;         ///< exactly one of points and edge_length is set
+  std::optional<double> edge_length;      ///< target edge length (uniform size)
+  double corner_angle = 30;               ///< degrees
+  std::uint64_t seed = 1;
+  int max_sweeps = 500;
+  std::optional<double> stop_tolerance;   ///< empty: the default of the method
+  Start start = Start::automatic;         ///< lattice for a uniform size field, else Hilbert quantiles
+};
+
+enum class StopReason { converged, quality_stalled, sweep_cap };
+/// "converged", "quality stalled", "sweep cap".
+std::string to_string(StopReason reason);
+
+/// One line of history.
+struct SweepRecord {
+  int sweep = 0;
+  GlobalId points = 0;
+  double mean_alpha = 1, max_alpha = 1;
+  double max_move = 0;      ///< longest move over local h
+  double moving_share = 0;  ///< share of the sites that moved more than 0.005 h
+  GlobalId rebuilt_stars = 0, pushed = 0, deleted = 0;
+  double seconds = 0;       ///< since the start of the run; differs from run to run
+};
+
+struct MeshResult {
+  mesh::DistributedMesh mesh;
+  mesh::QualitySummary quality;
+  mesh::Checks checks;
+  std::vector<SweepRecord> history;
+  StopReason stop_reason = StopReason::sweep_cap;
+  GlobalId requested_points = 0; ///< 0 if an edge length was asked for
+  double edge_length = 0;        ///< target edge length that was used (mean h)
+  GlobalId corners = 0;
+  int components = 0, holes = 0;
+  double shape_area = 0;
+};
+
+} // namespace trime::meshing

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/comm/agree.hpp"
+
+#include <new>
+
+namespace trime::comm {
+
+void agree(const Communicator& comm, const std::optional<Error>& error) {
+  const std::int64_t failing = comm.min(error ? comm.rank() : comm.size());
+  if (failing == comm.size())
+    return;
+  const int root = static_cast<int>(failing);
+  std::string text = error ? std::string(1, static_cast<char>(error->code())) + error->what() : std::string();
+  text = comm.broadcast(std::move(text), root);
+  const std::string suffix = root > 0 ? fmt::format(" (rank {})", root) : "";
+  throw Error(static_cast<ExitCode>(text[0]), text.substr(1) + suffix);
+}
+
+void run_agreed(const Communicator& comm, const std::function<void()>& work) {
+  std::optional<Error> error;
+  try {
+    work();
+  } catch (const Error& e) {
+    error = e;
+  } catch (const std::bad_alloc&) {
+    error = Error(ExitCode::out_of_memory,
+                  "out of memory; ask for fewer points, or use more nodes (about 300 bytes per point are needed)");
+  } catch (const std::exception& e) {
+    error = InternalError(e.what());
+  }
+  agree(comm, error);
+}
+
+} // namespace trime::comm

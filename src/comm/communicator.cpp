@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/comm/communicator.hpp"
+
+#include "trime/comm/native.hpp"
+#include "trime/core/error.hpp"
+
+#include <algorithm>
+#include <exception>
+
+namespace trime::comm {
+namespace {
+
+/// The only place that looks at MPI return codes.
+void check(int code) {
+  if (code == MPI_SUCCESS)
+    return;
+  char text[MPI_MAX_ERROR_STRING];
+  int length = 0;
+  MPI_Error_string(code, text, &length);
+  fmt::print(stderr, "trime_mpi: MPI error: {}\n", std::string(text, static_cast<std::size_t>(length)));
+  MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitCode::internal_error));
+}
+
+enum Tag : int { tag_any = 101, tag_known = 102 };
+
+/// Largest piece of a message: MPI counts are int. Longer messages travel in several pieces, in order.
+constexpr std::size_t piece_bytes = std::size_t{1} << 30;
+
+void post(const Message& message, bool send, int tag, MPI_Comm comm, std::vector<MPI_Request>& requests) {
+  for (std::size_t offset = 0; offset < message.data.size(); offset += piece_bytes) {
+    const int count = static_cast<int>(std::min(piece_bytes, message.data.size() - offset));
+    std::byte* start = const_cast<std::byte*>(message.data.data()) + offset; // MPI receives through the same path
+    requests.emplace_back();
+    check(send ? MPI_Isend(start, count, MPI_BYTE, message.peer, tag, comm, &requests.back())
+               : MPI_Irecv(start, count, MPI_BYTE, message.peer, tag, comm, &requests.back()));
+  }
+}
+
+template <class T>
+void reduce_in_place(std::span<T> values, MPI_Datatype type, MPI_Op op, MPI_Comm comm) {
+  if (!values.empty())
+    check(MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), type, op, comm));
+}
+
+} // namespace
+
+Environment::Environment(int& argc, char**& argv) {
+  int provided = MPI_THREAD_SINGLE;
+  check(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided));
+  if (provided < MPI_THREAD_FUNNELED) {
+    fmt::print(stderr, "trime_mpi: this MPI gives thread level {}, at least MPI_THREAD_FUNNELED is needed\n", provided);
+    MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitCode::internal_error));
+  }
+}
+
+Environment::~Environment() {
+  if (std::uncaught_exceptions() > 0)
+    return;
+  int finalized = 0;
+  MPI_Finalized(&finalized);
+  if (!finalized)
+    MPI_Finalize();
+}
+
+Communicator Communicator::world() {
+  auto native = std::make_unique<Native>();
+  check(MPI_Comm_dup(MPI_COMM_WORLD, &native->comm));
+  check(MPI_Comm_set_errhandler(native->comm, MPI_ERRORS_RETURN));
+  return Communicator(std::move(native));
+}
+
+Communicator::Communicator(std::unique_ptr<Native> native) : native_(std::move(native)) {
+  check(MPI_Comm_rank(native_->comm, &rank_));
+  check(MPI_Comm_size(native_->comm, &size_));
+}
+Communicator::Communicator(Communicator&&) noexcept = default;
+Communicator& Communicator::operator=(Communicator&& other) noexcept {
+  std::swap(native_, other.native_);
+  std::swap(rank_, other.rank_);
+  std::swap(size_, other.size_);
+  return *this;
+}
+Communicator::~Communicator() {
+  if (native_ && native_->comm != MPI_COMM_NULL && std::uncaught_exceptions() == 0)
+    MPI_Comm_free(&native_->comm);
+}
+
+void Communicator::barrier() const { check(MPI_Barrier(native_->comm)); }
+
+void Communicator::sum(std::span<std::int64_t> values) const {
+  reduce_in_place(values, MPI_INT64_T, MPI_SUM, native_->comm);
+}
+void Communicator::min(std::span<double> values) const { reduce_in_place(values, MPI_DOUBLE, MPI_MIN, native_->comm); }
+void Communicator::max(std::span<double> values) const { reduce_in_place(values, MPI_DOUBLE, MPI_MAX, native_->comm); }
+
+std::int64_t Communicator::sum(std::int64_t value) const {
+  reduce_in_place(std::span(&value, 1), MPI_INT64_T, MPI_SUM, native_->comm);
+  return value;
+}
+std::int64_t Communicator::min(std::int64_t value) const {
+  reduce_in_place(std::span(&value, 1), MPI_INT64_T, MPI_MIN, native_->comm);
+  return value;
+}
+std::int64_t Communicator::max(std::int64_t value) const {
+  reduce_in_place(std::span(&value, 1), MPI_INT64_T, MPI_MAX, native_->comm);
+  return value;
+}
+double Communicator::min(double value) const {
+  min(std::span(&value, 1));
+  return value;
+}
+double Communicator::max(double value) const {
+  max(std::span(&value, 1));
+  return value;
+}
+
+std::int64_t Communicator::exclusive_scan(std::int64_t value) const {
+  std::int64_t before = 0;
+  check(MPI_Exscan(&value, &before, 1, MPI_INT64_T, MPI_SUM, native_->comm));
+  return rank_ == 0 ? 0 : before;
+}
+
+std::vector<std::int64_t> Communicator::all_gather(std::int64_t value) const {
+  std::vector<std::int64_t> all(static_cast<std::size_t>(size_));
+  check(MPI_Allgather(&value, 1, MPI_INT64_T, all.data(), 1, MPI_INT64_T, native_->comm));
+  return all;
+}
+std::vector<double> Communicator::all_gather(double value) const {
+  std::vector<double> all(static_cast<std::size_t>(size_));
+  check(MPI_Allgather(&value, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, native_->comm));
+  return all;
+}
+
+std::string Communicator::broadcast(std::string text, int root) const {
+  std::int64_t length = static_cast<std::int64_t>(text.size());
+  check(MPI_Bcast(&length, 1, MPI_INT64_T, root, native_->comm));
+  text.resize(static_cast<std::size_t>(length));
+  for (std::size_t offset = 0; offset < text.size(); offset += piece_bytes)
+    check(MPI_Bcast(text.data() + offset, static_cast<int>(std::min(piece_bytes, text.size() - offset)), MPI_CHAR, root,
+                    native_->comm));
+  return text;
+}
+
+std::vector<std::string> Communicator::gather(const std::string& text) const {
+  std::vector<Message> outgoing;
+  if (!is_root() && !text.empty())
+    outgoing.push_back({0, to_bytes(std::span<const char>(text))});
+  const std::vector<Message> incoming = exchange_any(outgoing);
+  std::vector<std::string> all;
+  if (is_root()) {
+    all.resize(static_cast<std::size_t>(size_));
+    all[0] = text;
+    for (const Message& message : incoming)
+      all[static_cast<std::size_t>(message.peer)].assign(reinterpret_cast<const char*>(message.data.data()),
+                                                         message.data.size());
+  }
+  return all;
+}
+
+std::vector<Message> Communicator::exchange_any(const std::vector<Message>& outgoing) const {
+  // O(ranks) memory: one count per rank, reduced and scattered, tells how many messages to expect.
+  std::vector<int> counts(static_cast<std::size_t>(size_), 0);
+  std::vector<std::int64_t> sizes(outgoing.size());
+  std::vector<MPI_Request> requests;
+  for (std::size_t k = 0; k < outgoing.size(); ++k)
+    counts[static_cast<std::size_t>(outgoing[k].peer)] += 1;
+  int expected = 0;
+  check(MPI_Reduce_scatter_block(counts.data(), &expected, 1, MPI_INT, MPI_SUM, native_->comm));
+  for (std::size_t k = 0; k < outgoing.size(); ++k) {
+    sizes[k] = static_cast<std::int64_t>(outgoing[k].data.size());
+    requests.emplace_back();
+    check(MPI_Isend(&sizes[k], 1, MPI_INT64_T, outgoing[k].peer, tag_any, native_->comm, &requests.back()));
+  }
+  std::vector<Message> incoming;
+  for (int k = 0; k < expected; ++k) {
+    std::int64_t size = 0;
+    MPI_Status status;
+    check(MPI_Recv(&size, 1, MPI_INT64_T, MPI_ANY_SOURCE, tag_any, native_->comm, &status));
+    incoming.push_back({status.MPI_SOURCE, std::vector<std::byte>(static_cast<std::size_t>(size))});
+  }
+  std::sort(incoming.begin(), incoming.end(), [](const Message& a, const Message& b) { return a.peer < b.peer; });
+  check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
+  exchange_known(outgoing, incoming);
+  barrier(); // a second exchange_any must not meet the counts of this one
+  return incoming;
+}
+
+void Communicator::exchange_known(std::span<const Message> outgoing, std::span<Message> incoming) const {
+  std::vector<MPI_Request> requests;
+  for (const Message& message : incoming)
+    post(message, false, tag_known, native_->comm, requests);
+  for (const Message& message : outgoing)
+    post(message, true, tag_known, native_->comm, requests);
+  check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
+}
+
+} // namespace trime::comm
