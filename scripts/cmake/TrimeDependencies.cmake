@@ -1,5 +1,5 @@
 # Every dependency of the program, with a hint where one is missing.
-set(MPI_CXX_SKIP_MPICXX ON)
+set(MPI_CXX_SKIP_MPICXX ON) # the C++ bindings of old MPI headers warn, and nobody uses them
 find_package(MPI REQUIRED COMPONENTS CXX)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(fmt REQUIRED)

@@ -6,7 +6,7 @@
 namespace trime::comm {
 
 void agree(const Communicator& comm, const std::optional<Error>& error) {
-  const std::int64_t failing = comm.min(error ? comm.rank() : comm.size());
+  const std::int64_t failing = comm.min(std::int64_t{error ? comm.rank() : comm.size()});
   if (failing == comm.size())
     return;
   const int root = static_cast<int>(failing);
