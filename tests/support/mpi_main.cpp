@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Main of the parallel tests: rank 0 prints as usual, the other ranks print their failures only, and the exit code is
+// the largest of all ranks. Tests run in declared order on every rank: they hold collectives.
+#include "trime/comm/communicator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+namespace {
+
+/// Prints what failed on a rank that prints nothing else.
+class FailurePrinter : public ::testing::EmptyTestEventListener {
+public:
+  explicit FailurePrinter(int rank) : rank_(rank) {}
+
+  void OnTestPartResult(const ::testing::TestPartResult& result) override {
+    if (!result.failed())
+      return;
+    const ::testing::TestInfo* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    std::fprintf(stderr, "[rank %d] %s.%s: %s:%d: %s\n", rank_, test ? test->test_suite_name() : "", //
+                 test ? test->name() : "", result.file_name() ? result.file_name() : "?", result.line_number(),
+                 result.message());
+    std::fflush(stderr);
+  }
+
+private:
+  int rank_;
+};
+
+void prepare_rank(const trime::comm::Communicator& comm) {
+  ::testing::FLAGS_gtest_shuffle = false;
+  // An exception that leaves a test on one rank would let the others wait for ever: terminate, mpirun ends the rest.
+  ::testing::FLAGS_gtest_catch_exceptions = comm.size() == 1;
+  if (comm.is_root())
+    return;
+  ::testing::FLAGS_gtest_output = "";
+  ::testing::TestEventListeners& listeners = ::testing::UnitTest::GetInstance()->listeners();
+  delete listeners.Release(listeners.default_result_printer());
+  listeners.Append(new FailurePrinter(comm.rank())); // owned by GoogleTest
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  trime::comm::Environment environment(argc, argv);
+  ::testing::InitGoogleTest(&argc, argv);
+  const trime::comm::Communicator comm = trime::comm::Communicator::world();
+  prepare_rank(comm);
+  const int here = RUN_ALL_TESTS();
+  const auto anywhere = static_cast<int>(comm.max(std::int64_t{here}));
+  if (comm.is_root() && here == 0 && anywhere != 0)
+    std::fprintf(stderr, "Tests failed on another rank than 0, see above.\n");
+  return anywhere;
+}
