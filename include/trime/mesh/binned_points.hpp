@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sites that one rank knows: its own, sorted by tile and bin, and after them the ghosts, sorted likewise. Bins of
+// foreign tiles are known or unknown; a search that meets an unknown bin says so. Holds no MPI and no triangles.
+#pragma once
+
+#include "trime/core/types.hpp"
+#include "trime/geometry/vec2.hpp"
+#include "trime/mesh/tile_grid.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace trime::mesh {
+
+/// A site with all that travels with it when it changes its owner.
+struct Site {
+  geometry::Vec2 position;
+  std::int32_t boundary = -1; ///< index of the boundary site that it is, or -1 inside
+  std::int32_t pushes = 0;    ///< times that it was pushed out of a boundary disc
+};
+
+/// A bin of a tile.
+struct BinRef {
+  LocalIndex tile;
+  std::int32_t bin;
+  friend auto operator<=>(const BinRef&, const BinRef&) = default;
+};
+
+class BinnedPoints {
+public:
+  /// @pre `grid` outlives this object
+  explicit BinnedPoints(const TileGrid& grid);
+
+  const TileGrid& grid() const { return *grid_; }
+
+  /// @brief Replaces the owned sites: those of tiles [first_tile, last_tile). Sorts them by tile and bin and drops
+  /// all but one of interior sites at equal coordinates (a boundary site stays, the larger push count is kept).
+  /// Forgets the ghosts.
+  /// @param new_index if not null: for each input site its new local index, -1 if dropped
+  /// @return number of dropped sites. O(n); threads.
+  LocalIndex assign_owned(std::span<const Site> sites, LocalIndex first_tile, LocalIndex last_tile,
+                          std::vector<LocalIndex>* new_index = nullptr);
+
+  /// @brief Replaces the ghosts: `bins` (ascending, of foreign tiles) are known from now on and hold counts[k] sites
+  /// each, concatenated in `sites`.
+  void assign_ghosts(std::span<const BinRef> bins, std::span<const std::int32_t> counts, std::span<const Site> sites);
+
+  LocalIndex owned() const { return owned_; }
+  LocalIndex size() const { return static_cast<LocalIndex>(positions_.size()); }
+  std::span<const geometry::Vec2> positions() const { return positions_; }
+  geometry::Vec2 position(LocalIndex i) const { return positions_[static_cast<std::size_t>(i)]; }
+  /// Index of the boundary site that site i is, or -1.
+  std::int32_t boundary(LocalIndex i) const { return boundary_[static_cast<std::size_t>(i)]; }
+  Site site(LocalIndex i) const {
+    return {position(i), boundary(i), i < owned_ ? pushes_[static_cast<std::size_t>(i)] : 0};
+  }
+
+  LocalIndex first_tile() const { return first_tile_; }
+  LocalIndex last_tile() const { return last_tile_; }
+  /// Owned sites of an owned tile.
+  struct Range {
+    LocalIndex begin, end;
+  };
+  Range tile_range(LocalIndex tile) const;
+  /// Sites of a bin of an owned or partly known tile; empty if unknown.
+  Range bin_range(BinRef bin) const;
+
+  /// @brief Calls visit(begin, end) for runs of local indices that together hold every known site of all bins that
+  /// meet the square of half-width `reach` around `center`, and missing(BinRef) for each such bin that is unknown.
+  template <class Visit, class Missing>
+  void for_each_near(geometry::Vec2 center, double reach, const Visit& visit, const Missing& missing) const;
+
+  std::size_t memory_bytes() const;
+
+private:
+  struct Block { // bins of one tile that is owned or partly known
+    std::size_t first_bin; // into bin_start_ and bin_known_
+    bool complete;         // every bin known
+  };
+  void sort_into_tiles(std::span<const Site> sites);
+  LocalIndex sort_tile(std::span<const Site> sites, LocalIndex tile);
+
+  const TileGrid* grid_;
+  LocalIndex owned_ = 0, first_tile_ = 0, last_tile_ = 0;
+  std::vector<geometry::Vec2> positions_;
+  std::vector<std::int32_t> boundary_;
+  std::vector<std::uint8_t> pushes_; // owned only
+  std::vector<LocalIndex> tile_block_;   // by tile number: index into blocks_, -1 unknown; O(tiles of the container)
+  std::vector<Block> blocks_;
+  std::vector<LocalIndex> bin_begin_, bin_end_;
+  std::vector<std::uint8_t> bin_known_;
+  LocalIndex owned_blocks_ = 0;
+  // Work space of assign_owned, kept between calls.
+  std::vector<LocalIndex> tile_start_, order_, kept_;
+  std::vector<std::int32_t> key_;
+};
+
+template <class Visit, class Missing>
+void BinnedPoints::for_each_near(geometry::Vec2 center, double reach, const Visit& visit, const Missing& missing) const {
+  const TileGrid& grid = *grid_;
+  const int bits = grid.bin_bits(), mask = grid.bins_per_side() - 1;
+  const int x0 = grid.bin_of(grid.fixed_x(center.x - reach)), x1 = grid.bin_of(grid.fixed_x(center.x + reach));
+  const int y0 = grid.bin_of(grid.fixed_y(center.y - reach)), y1 = grid.bin_of(grid.fixed_y(center.y + reach));
+  for (int ty = y0 >> bits; ty <= y1 >> bits; ++ty)
+    for (int tx = x0 >> bits; tx <= x1 >> bits; ++tx) {
+      const LocalIndex tile = grid.tile_at(tx, ty);
+      const LocalIndex block = tile_block_[static_cast<std::size_t>(tile)];
+      const int bx0 = tx == x0 >> bits ? x0 & mask : 0, bx1 = tx == x1 >> bits ? x1 & mask : mask;
+      const int by0 = ty == y0 >> bits ? y0 & mask : 0, by1 = ty == y1 >> bits ? y1 & mask : mask;
+      for (int by = by0; by <= by1; ++by) {
+        const int row = by << bits;
+        if (block < 0) {
+          for (int bx = bx0; bx <= bx1; ++bx)
+            missing(BinRef{tile, row | bx});
+          continue;
+        }
+        const Block& b = blocks_[static_cast<std::size_t>(block)];
+        const std::size_t first = b.first_bin + static_cast<std::size_t>(row);
+        if (b.complete) { // the bins of a row are contiguous in memory
+          visit(bin_begin_[first + bx0], bin_end_[first + bx1]);
+          continue;
+        }
+        for (int bx = bx0; bx <= bx1; ++bx) {
+          if (bin_known_[first + bx])
+            visit(bin_begin_[first + bx], bin_end_[first + bx]);
+          else
+            missing(BinRef{tile, row | bx});
+        }
+      }
+    }
+}
+
+} // namespace trime::mesh

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The container grid: cells, tiles (blocks of cells) numbered along a Hilbert curve, bins inside a tile. Geometry
+// only: it holds no points and knows nothing of ranks.
+#pragma once
+
+#include "trime/core/types.hpp"
+#include "trime/geometry/vec2.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace trime::mesh {
+
+/// Position along the Hilbert curve of order `level` (a 2^level x 2^level square) of the cell (x, y).
+std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y, int level);
+/// Inverse of hilbert_key.
+struct GridPosition {
+  std::uint32_t x, y;
+};
+GridPosition hilbert_position(std::uint64_t key, int level);
+
+/// What the grid is made of.
+struct GridOptions {
+  std::optional<int> cells_x, cells_y; ///< container grid; empty: about 3.3 points a cell
+  double point_spacing = 0.01;         ///< typical edge length, for the sizes that are not given
+};
+
+/// @brief Tiles are numbered 0..tile_count()-1 in Hilbert order; bins of one tile row by row. Every point of the
+/// container has a 32-bit fixed-point position per axis; tile, bin and Hilbert key are its leading bits, so the
+/// numbering of tiles is a prefix of the order of points. Immutable. O(tiles) memory, replicated on every rank.
+class TileGrid {
+public:
+  TileGrid(const geometry::Box& container, const GridOptions& options);
+
+  const geometry::Box& container() const { return container_; }
+  LocalIndex tile_count() const { return static_cast<LocalIndex>(tile_position_.size()); }
+  int tiles_x() const { return tiles_x_; }
+  int tiles_y() const { return tiles_y_; }
+  /// Cells of the container grid along each axis.
+  int cells_x() const { return cells_x_; }
+  int cells_y() const { return cells_y_; }
+  /// Tile number at column x, row y of the tile grid.
+  LocalIndex tile_at(int x, int y) const { return tile_number_[static_cast<std::size_t>(y) * tiles_x_ + x]; }
+  GridPosition tile_position(LocalIndex tile) const { return tile_position_[static_cast<std::size_t>(tile)]; }
+  geometry::Box tile_box(LocalIndex tile) const;
+
+  /// Bins along one side of every tile, a power of two.
+  int bins_per_side() const { return 1 << bin_bits_; }
+  int bins_per_tile() const { return 1 << (2 * bin_bits_); }
+
+  /// 32-bit fixed-point position; monotone in the coordinate, clamped to the container.
+  std::uint32_t fixed_x(double x) const { return fixed((x - container_.min.x) * scale_x_, limit_x_); }
+  std::uint32_t fixed_y(double y) const { return fixed((y - container_.min.y) * scale_y_, limit_y_); }
+  /// Tile column (or row) and bin column (or row) over the whole grid of a fixed-point position.
+  int tile_of(std::uint32_t position) const { return static_cast<int>(position >> tile_shift_); }
+  int bin_of(std::uint32_t position) const { return static_cast<int>(position >> bin_shift_); }
+
+  /// Tile and bin of a point.
+  struct Place {
+    LocalIndex tile;
+    int bin;
+  };
+  Place place(geometry::Vec2 p) const {
+    const int bx = bin_of(fixed_x(p.x)), by = bin_of(fixed_y(p.y)), mask = bins_per_side() - 1;
+    return {tile_at(bx >> bin_bits_, by >> bin_bits_), ((by & mask) << bin_bits_) | (bx & mask)};
+  }
+  int bin_bits() const { return bin_bits_; }
+  /// Hilbert key of a point to 32 bits per axis: the canonical order of the mesh, ties lexicographic.
+  std::uint64_t point_key(geometry::Vec2 p) const { return hilbert_key(fixed_x(p.x), fixed_y(p.y), 32); }
+
+private:
+  static std::uint32_t fixed(double v, std::uint32_t limit) {
+    return v <= 0 ? 0 : v >= static_cast<double>(limit) ? limit : static_cast<std::uint32_t>(v);
+  }
+
+  geometry::Box container_;
+  int cells_x_ = 1, cells_y_ = 1, tiles_x_ = 1, tiles_y_ = 1;
+  int bin_bits_ = 4, tile_shift_ = 32, bin_shift_ = 28;
+  double scale_x_ = 1, scale_y_ = 1;
+  std::uint32_t limit_x_ = 0, limit_y_ = 0;
+  double tile_width_ = 1, tile_height_ = 1;
+  std::vector<LocalIndex> tile_number_;     // by row and column
+  std::vector<GridPosition> tile_position_; // by tile number
+};
+
+} // namespace trime::mesh

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/mesh/binned_points.hpp"
+
+#include "trime/core/error.hpp"
+#include "trime/core/thread_loop.hpp"
+
+#include <algorithm>
+
+namespace trime::mesh {
+
+BinnedPoints::BinnedPoints(const TileGrid& grid)
+    : grid_(&grid), tile_block_(static_cast<std::size_t>(grid.tile_count()), -1) {}
+
+LocalIndex BinnedPoints::assign_owned(std::span<const Site> sites, LocalIndex first_tile, LocalIndex last_tile,
+                                      std::vector<LocalIndex>* new_index) {
+  const LocalIndex tiles = last_tile - first_tile;
+  const std::size_t bins = static_cast<std::size_t>(grid_->bins_per_tile());
+  first_tile_ = first_tile;
+  last_tile_ = last_tile;
+  std::fill(tile_block_.begin(), tile_block_.end(), -1);
+  blocks_.clear();
+  for (LocalIndex t = 0; t < tiles; ++t) {
+    tile_block_[static_cast<std::size_t>(first_tile + t)] = t;
+    blocks_.push_back({static_cast<std::size_t>(t) * bins, true});
+  }
+  owned_blocks_ = tiles;
+  bin_begin_.resize(static_cast<std::size_t>(tiles) * bins);
+  bin_end_.resize(bin_begin_.size());
+  bin_known_.assign(bin_begin_.size(), 1);
+
+  sort_into_tiles(sites);
+  kept_.assign(static_cast<std::size_t>(tiles) + 1, 0);
+  thread_loop(tiles, 1, [&](std::ptrdiff_t t, int) {
+    kept_[static_cast<std::size_t>(t) + 1] = sort_tile(sites, static_cast<LocalIndex>(t));
+  });
+  for (std::size_t t = 1; t < kept_.size(); ++t)
+    kept_[t] += kept_[t - 1];
+  owned_ = tiles > 0 ? kept_.back() : 0;
+
+  positions_.resize(static_cast<std::size_t>(owned_));
+  boundary_.resize(positions_.size());
+  pushes_.resize(positions_.size());
+  if (new_index)
+    new_index->assign(sites.size(), -1);
+  thread_loop(tiles, 1, [&](std::ptrdiff_t tile, int) {
+    const std::size_t t = static_cast<std::size_t>(tile);
+    const LocalIndex shift = kept_[t] - tile_start_[t]; // dropped sites close up
+    for (std::size_t b = t * bins; b < (t + 1) * bins; ++b) {
+      bin_begin_[b] += shift;
+      bin_end_[b] += shift;
+    }
+    for (LocalIndex k = kept_[t]; k < kept_[t + 1]; ++k) {
+      const LocalIndex from = order_[static_cast<std::size_t>(k - shift)];
+      const Site& s = sites[static_cast<std::size_t>(from)];
+      positions_[static_cast<std::size_t>(k)] = s.position;
+      boundary_[static_cast<std::size_t>(k)] = s.boundary;
+      pushes_[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(std::min(s.pushes, 255));
+      if (new_index)
+        (*new_index)[static_cast<std::size_t>(from)] = k;
+    }
+  });
+  return static_cast<LocalIndex>(sites.size()) - owned_;
+}
+
+/// Fills order_ with the site indices grouped by tile (tile_start_) and key_ with the bin of each site.
+void BinnedPoints::sort_into_tiles(std::span<const Site> sites) {
+  const LocalIndex tiles = last_tile_ - first_tile_;
+  const std::ptrdiff_t n = static_cast<std::ptrdiff_t>(sites.size());
+  const int parts = std::max(1, thread_count());
+  key_.resize(sites.size());
+  order_.resize(sites.size());
+  std::vector<LocalIndex> tile_of(sites.size());
+  // counts[part][tile]: each part is a contiguous piece of the input, so the order is stable for any thread count.
+  std::vector<LocalIndex> counts(static_cast<std::size_t>(parts) * tiles, 0);
+  const auto part_begin = [&](int part) { return n * part / parts; };
+  thread_loop(parts, 1, [&](std::ptrdiff_t part, int) {
+    LocalIndex* count = counts.data() + part * tiles;
+    for (std::ptrdiff_t i = part_begin(static_cast<int>(part)); i < part_begin(static_cast<int>(part) + 1); ++i) {
+      const TileGrid::Place place = grid_->place(sites[static_cast<std::size_t>(i)].position);
+      TRIME_ASSERT(place.tile >= first_tile_ && place.tile < last_tile_, "site of tile {} given to the owner of {}..{}",
+                   place.tile, first_tile_, last_tile_);
+      key_[static_cast<std::size_t>(i)] = place.bin;
+      tile_of[static_cast<std::size_t>(i)] = place.tile - first_tile_;
+      ++count[place.tile - first_tile_];
+    }
+  });
+  tile_start_.assign(static_cast<std::size_t>(tiles) + 1, 0);
+  LocalIndex running = 0;
+  for (LocalIndex t = 0; t < tiles; ++t) {
+    tile_start_[static_cast<std::size_t>(t)] = running;
+    for (int part = 0; part < parts; ++part) {
+      LocalIndex& count = counts[static_cast<std::size_t>(part) * tiles + t];
+      const LocalIndex here = count;
+      count = running;
+      running += here;
+    }
+  }
+  tile_start_[static_cast<std::size_t>(tiles)] = running;
+  thread_loop(parts, 1, [&](std::ptrdiff_t part, int) {
+    LocalIndex* next = counts.data() + part * tiles;
+    for (std::ptrdiff_t i = part_begin(static_cast<int>(part)); i < part_begin(static_cast<int>(part) + 1); ++i)
+      order_[static_cast<std::size_t>(next[tile_of[static_cast<std::size_t>(i)]]++)] = static_cast<LocalIndex>(i);
+  });
+}
+
+/// Sorts one tile's piece of order_ by bin, drops duplicates, sets its bins; returns the number of sites kept.
+LocalIndex BinnedPoints::sort_tile(std::span<const Site> sites, LocalIndex tile) {
+  const std::size_t bins = static_cast<std::size_t>(grid_->bins_per_tile()), first_bin = tile * bins;
+  const LocalIndex begin = tile_start_[static_cast<std::size_t>(tile)];
+  const auto first = order_.begin() + begin, last = order_.begin() + tile_start_[static_cast<std::size_t>(tile) + 1];
+  const auto site = [&](LocalIndex i) -> const Site& { return sites[static_cast<std::size_t>(i)]; };
+  std::sort(first, last, [&](LocalIndex i, LocalIndex j) {
+    const std::int32_t bi = key_[static_cast<std::size_t>(i)], bj = key_[static_cast<std::size_t>(j)];
+    if (bi != bj)
+      return bi < bj;
+    const Site &a = site(i), &b = site(j);
+    if (!(a.position == b.position))
+      return geometry::lexicographically_less(a.position, b.position);
+    // Of equal sites the first is kept: the boundary site, else the one pushed most often.
+    return a.boundary != b.boundary ? a.boundary > b.boundary : a.pushes > b.pushes;
+  });
+  const auto end = std::unique(first, last, [&](LocalIndex i, LocalIndex j) {
+    return site(i).position == site(j).position;
+  });
+  auto next = first;
+  for (std::size_t b = 0; b < bins; ++b) {
+    bin_begin_[first_bin + b] = static_cast<LocalIndex>(next - order_.begin());
+    while (next != end && key_[static_cast<std::size_t>(*next)] == static_cast<std::int32_t>(b))
+      ++next;
+    bin_end_[first_bin + b] = static_cast<LocalIndex>(next - order_.begin());
+  }
+  return static_cast<LocalIndex>(end - first);
+}
+
+void BinnedPoints::assign_ghosts(std::span<const BinRef> bins, std::span<const std::int32_t> counts,
+                                 std::span<const Site> sites) {
+  const std::size_t per_tile = static_cast<std::size_t>(grid_->bins_per_tile());
+  for (std::size_t b = static_cast<std::size_t>(owned_blocks_); b < blocks_.size(); ++b)
+    blocks_[b].complete = false;
+  blocks_.resize(static_cast<std::size_t>(owned_blocks_));
+  for (LocalIndex& block : tile_block_)
+    block = block >= owned_blocks_ ? -1 : block;
+  bin_begin_.resize(static_cast<std::size_t>(owned_blocks_) * per_tile);
+  bin_end_.resize(bin_begin_.size());
+  bin_known_.resize(bin_begin_.size());
+  positions_.resize(static_cast<std::size_t>(owned_));
+  boundary_.resize(positions_.size());
+  for (const Site& s : sites) {
+    positions_.push_back(s.position);
+    boundary_.push_back(s.boundary);
+  }
+  LocalIndex next = owned_;
+  for (std::size_t k = 0; k < bins.size(); ++k) {
+    LocalIndex& block = tile_block_[static_cast<std::size_t>(bins[k].tile)];
+    if (block < 0) {
+      block = static_cast<LocalIndex>(blocks_.size());
+      blocks_.push_back({bin_begin_.size(), false});
+      bin_begin_.resize(bin_begin_.size() + per_tile, 0);
+      bin_end_.resize(bin_begin_.size(), 0);
+      bin_known_.resize(bin_begin_.size(), 0);
+    }
+    const std::size_t bin = blocks_[static_cast<std::size_t>(block)].first_bin + static_cast<std::size_t>(bins[k].bin);
+    bin_begin_[bin] = next;
+    next += counts[k];
+    bin_end_[bin] = next;
+    bin_known_[bin] = 1;
+  }
+  TRIME_ASSERT(next == size(), "{} ghosts announced, {} received", next - owned_, size() - owned_);
+}
+
+BinnedPoints::Range BinnedPoints::tile_range(LocalIndex tile) const {
+  const std::size_t t = static_cast<std::size_t>(tile - first_tile_);
+  return {kept_[t], kept_[t + 1]};
+}
+
+BinnedPoints::Range BinnedPoints::bin_range(BinRef bin) const {
+  const LocalIndex block = tile_block_[static_cast<std::size_t>(bin.tile)];
+  if (block < 0)
+    return {0, 0};
+  const std::size_t at = blocks_[static_cast<std::size_t>(block)].first_bin + static_cast<std::size_t>(bin.bin);
+  return {bin_begin_[at], bin_end_[at]};
+}
+
+std::size_t BinnedPoints::memory_bytes() const {
+  return positions_.capacity() * sizeof(geometry::Vec2) + boundary_.capacity() * 4 + pushes_.capacity() +
+         tile_block_.capacity() * 4 + blocks_.capacity() * sizeof(Block) + bin_begin_.capacity() * 9 +
+         (tile_start_.capacity() + order_.capacity() + kept_.capacity() + key_.capacity()) * 4;
+}
+
+} // namespace trime::mesh

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/mesh/quality.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::mesh {
+namespace {
+
+using geometry::Vec2;
+
+struct Edges {
+  double a, b, c;
+};
+
+Edges edges(Vec2 p, Vec2 q, Vec2 r) {
+  return {geometry::length(q - r), geometry::length(r - p), geometry::length(p - q)};
+}
+
+constexpr double fine_bin = 1e-4, coarse_bin = 1e-2;
+constexpr std::size_t fine_bins = 10000, coarse_bins = 800; // [1, 2), [2, 10), and one for the rest
+constexpr double sum_cap = 65536;
+constexpr double degrees_per_radian = 57.29577951308232;
+
+} // namespace
+
+double aspect_ratio(Vec2 p, Vec2 q, Vec2 r) {
+  // With the area A = |cross|/2: abc/(8(s-a)(s-b)(s-c)) = abc s/(8 A^2), which does not cancel for flat triangles.
+  const Edges e = edges(p, q, r);
+  const double twice_area = geometry::cross(q - p, r - p);
+  return std::max(1.0, e.a * e.b * e.c * (e.a + e.b + e.c) / (4 * twice_area * twice_area));
+}
+
+double edge_ratio(Vec2 p, Vec2 q, Vec2 r) {
+  const Edges e = edges(p, q, r);
+  return std::max({e.a, e.b, e.c}) / std::min({e.a, e.b, e.c});
+}
+
+double min_angle_degrees(Vec2 p, Vec2 q, Vec2 r) {
+  Edges e = edges(p, q, r);
+  if (e.b < e.a)
+    std::swap(e.a, e.b);
+  if (e.c < e.a)
+    std::swap(e.a, e.c); // a is now the shortest, the smallest angle lies opposite
+  const double sine = std::fabs(geometry::cross(q - p, r - p)) / (e.b * e.c);
+  return std::asin(std::min(1.0, sine)) * degrees_per_radian;
+}
+
+RatioStatistics::RatioStatistics() : bins_(fine_bins + coarse_bins + 1, 0) {}
+
+std::size_t RatioStatistics::bin(double ratio) {
+  if (ratio < 2)
+    return std::min(fine_bins - 1, static_cast<std::size_t>((ratio - 1) / fine_bin));
+  if (ratio < 10)
+    return std::min(fine_bins + coarse_bins - 1, fine_bins + static_cast<std::size_t>((ratio - 2) / coarse_bin));
+  return fine_bins + coarse_bins;
+}
+
+double RatioStatistics::bin_middle(std::size_t bin) {
+  if (bin < fine_bins)
+    return 1 + (static_cast<double>(bin) + 0.5) * fine_bin;
+  return 2 + (static_cast<double>(bin - fine_bins) + 0.5) * coarse_bin;
+}
+
+void RatioStatistics::add(double ratio) {
+  const double capped = ratio < sum_cap ? ratio : sum_cap; // also catches infinity and NaN
+  ++count_;
+  sum_.add(capped);
+  sum_of_roots_.add(std::sqrt(capped));
+  sum_of_squares_.add((capped - 1) * (capped - 1) < sum_cap ? (capped - 1) * (capped - 1) : sum_cap);
+  max_ = std::max(max_, ratio);
+  ++bins_[bin(capped)];
+}
+
+void RatioStatistics::merge(const RatioStatistics& other) {
+  count_ += other.count_;
+  sum_.add(other.sum_);
+  sum_of_roots_.add(other.sum_of_roots_);
+  sum_of_squares_.add(other.sum_of_squares_);
+  max_ = std::max(max_, other.max_);
+  for (std::size_t k = 0; k < bins_.size(); ++k)
+    bins_[k] += other.bins_[k];
+}
+
+RatioSummary RatioStatistics::summary() const {
+  RatioSummary s;
+  if (count_ == 0)
+    return s;
+  const double n = static_cast<double>(count_);
+  s.mean = sum_.value() / n;
+  s.half_mean = (sum_of_roots_.value() / n) * (sum_of_roots_.value() / n);
+  s.std = std::sqrt(std::max(0.0, sum_of_squares_.value() / n - (s.mean - 1) * (s.mean - 1)));
+  s.max = max_;
+  std::int64_t below = 0;
+  for (std::size_t k = 0; k < bins_.size(); ++k) {
+    below += bins_[k];
+    if (2 * below > count_) {
+      s.median = bin_middle(k);
+      break;
+    }
+  }
+  return s;
+}
+
+std::vector<std::int64_t> RatioStatistics::pack() const {
+  std::vector<std::int64_t> packed(bins_);
+  packed.push_back(count_);
+  for (const FixedSum& sum : {sum_, sum_of_roots_, sum_of_squares_}) {
+    packed.push_back(sum.split().low);
+    packed.push_back(sum.split().high);
+  }
+  return packed;
+}
+
+void RatioStatistics::unpack(const std::vector<std::int64_t>& packed, double max) {
+  std::copy_n(packed.begin(), bins_.size(), bins_.begin());
+  const std::int64_t* rest = packed.data() + bins_.size();
+  count_ = rest[0];
+  sum_ = FixedSum::join({rest[1], rest[2]});
+  sum_of_roots_ = FixedSum::join({rest[3], rest[4]});
+  sum_of_squares_ = FixedSum::join({rest[5], rest[6]});
+  max_ = max;
+}
+
+std::array<std::int64_t, 9> RatioStatistics::histogram() const {
+  std::array<std::int64_t, 9> counts{};
+  for (std::size_t k = 0; k < bins_.size(); ++k) {
+    const double middle = bin_middle(k);
+    const auto next = std::upper_bound(histogram_edges.begin(), histogram_edges.end(), middle);
+    counts[static_cast<std::size_t>(next - histogram_edges.begin()) - 1] += bins_[k];
+  }
+  return counts;
+}
+
+} // namespace trime::mesh

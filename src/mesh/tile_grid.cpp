@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/mesh/tile_grid.hpp"
+
+#include "trime/core/error.hpp"
+
+#include <cmath>
+
+namespace trime::mesh {
+namespace {
+
+constexpr double points_per_cell = 3.3;
+constexpr double points_per_tile = 845; // 16 x 16 cells
+constexpr int max_cells = 1 << 28;
+
+/// One step of the curve: the quadrant order is turned and mirrored so that pieces join end to end.
+void rotate(std::uint32_t side, std::uint32_t& x, std::uint32_t& y, bool right, bool upper) {
+  if (upper)
+    return;
+  if (right) {
+    x = side - 1 - x;
+    y = side - 1 - y;
+  }
+  std::swap(x, y);
+}
+
+int auto_cells(double extent, double spacing) {
+  const double cell = std::sqrt(points_per_cell * 0.8660254037844386) * spacing;
+  return static_cast<int>(std::clamp(std::floor(extent / cell), 1.0, static_cast<double>(max_cells)));
+}
+
+} // namespace
+
+std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y, int level) {
+  std::uint64_t key = 0;
+  for (int bit = level - 1; bit >= 0; --bit) {
+    const bool right = (x >> bit) & 1, upper = (y >> bit) & 1;
+    key = (key << 2) | static_cast<std::uint64_t>(right ? (upper ? 2 : 3) : (upper ? 1 : 0));
+    const std::uint32_t mask = bit == 0 ? 0 : (std::uint32_t{1} << bit) - 1;
+    x &= mask;
+    y &= mask;
+    if (bit > 0)
+      rotate(mask + 1, x, y, right, upper);
+  }
+  return key;
+}
+
+GridPosition hilbert_position(std::uint64_t key, int level) {
+  std::uint32_t x = 0, y = 0;
+  for (int bit = 0; bit < level; ++bit) {
+    const unsigned quadrant = static_cast<unsigned>(key >> (2 * bit)) & 3;
+    const bool right = quadrant >= 2, upper = quadrant == 1 || quadrant == 2;
+    if (bit > 0)
+      rotate(std::uint32_t{1} << bit, x, y, right, upper);
+    x |= static_cast<std::uint32_t>(right) << bit;
+    y |= static_cast<std::uint32_t>(upper) << bit;
+  }
+  return {x, y};
+}
+
+TileGrid::TileGrid(const geometry::Box& container, const GridOptions& options) : container_(container) {
+  TRIME_ASSERT(container.width() > 0 && container.height() > 0);
+  cells_x_ = options.cells_x.value_or(auto_cells(container.width(), options.point_spacing));
+  cells_y_ = options.cells_y.value_or(auto_cells(container.height(), options.point_spacing));
+  const double cell_width = container.width() / cells_x_, cell_height = container.height() / cells_y_;
+  const double density = 1 / (0.8660254037844386 * options.point_spacing * options.point_spacing);
+  const double in_cell = density * cell_width * cell_height;
+
+  // A tile is a block of 2^k cells a side: about 845 points, fewer where that would leave fewer than 256 tiles.
+  const double all_points = in_cell * cells_x_ * cells_y_;
+  const double wanted = std::clamp(all_points / 256, points_per_cell * 16, points_per_tile);
+  int block_bits = 0;
+  while (block_bits < 15 && in_cell * std::ldexp(1.0, 2 * (block_bits + 1)) <= 1.5 * wanted)
+    ++block_bits;
+  const int block = 1 << block_bits;
+  tiles_x_ = (cells_x_ + block - 1) / block;
+  tiles_y_ = (cells_y_ + block - 1) / block;
+  tile_width_ = cell_width * block;
+  tile_height_ = cell_height * block;
+  const double in_tile = in_cell * block * block;
+  bin_bits_ = std::clamp(static_cast<int>(std::lround(0.5 * std::log2(std::max(1.0, in_tile / points_per_cell)))), 0, 12);
+
+  int level = 0;
+  while ((1 << level) < std::max(tiles_x_, tiles_y_))
+    ++level;
+  tile_shift_ = 32 - level;
+  if (level == 0) { // one tile: keep the shift below 32 by leaving the upper half of the square empty
+    level = 1;
+    tile_shift_ = 31;
+  }
+  bin_bits_ = std::min(bin_bits_, tile_shift_);
+  bin_shift_ = tile_shift_ - bin_bits_;
+  scale_x_ = std::ldexp(1.0, tile_shift_) / tile_width_;
+  scale_y_ = std::ldexp(1.0, tile_shift_) / tile_height_;
+  const auto limit = [&](int tiles) {
+    return static_cast<std::uint32_t>((static_cast<std::uint64_t>(tiles) << tile_shift_) - 1);
+  };
+  limit_x_ = limit(tiles_x_);
+  limit_y_ = limit(tiles_y_);
+
+  std::vector<std::pair<std::uint64_t, GridPosition>> order;
+  order.reserve(static_cast<std::size_t>(tiles_x_) * tiles_y_);
+  for (int y = 0; y < tiles_y_; ++y)
+    for (int x = 0; x < tiles_x_; ++x) {
+      const GridPosition at{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
+      order.emplace_back(hilbert_key(at.x, at.y, level), at);
+    }
+  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  tile_number_.resize(order.size());
+  tile_position_.reserve(order.size());
+  for (const auto& [key, at] : order) {
+    tile_number_[static_cast<std::size_t>(at.y) * tiles_x_ + at.x] = static_cast<LocalIndex>(tile_position_.size());
+    tile_position_.push_back(at);
+  }
+}
+
+geometry::Box TileGrid::tile_box(LocalIndex tile) const {
+  const GridPosition at = tile_position(tile);
+  return {{container_.min.x + at.x * tile_width_, container_.min.y + at.y * tile_height_},
+          {container_.min.x + (at.x + 1) * tile_width_, container_.min.y + (at.y + 1) * tile_height_}};
+}
+
+} // namespace trime::mesh
