@@ -19,11 +19,13 @@ struct Segment {
 /// Squared distance from p to the segment.
 double squared_distance(Vec2 p, const Segment& segment);
 
-/// @brief Bins over the bounding box of M segments; O(M log M) to build, O(M) memory, immutable and thread-safe after.
+/// @brief Bins over M segments: a tree of square cells, each split into 4 x 4 while it meets more than a few segments,
+/// so that a smooth curve of many short segments has 1-4 of them in a bin. O(M log M) to build, O(M) memory, immutable
+/// and thread-safe after.
 ///
 /// The segments together must form closed polygons (every end is shared by an even number of segments) for `inside`;
 /// the distance queries need nothing. All coordinates, of segments and of queries to `inside`, must be points of one
-/// lattice, so that orient2d is exact.
+/// lattice, so that orient2d is exact. Cell corners have few bits and are exact with any such lattice.
 class SegmentGrid {
 public:
   SegmentGrid() = default;
@@ -39,7 +41,7 @@ public:
   /// Nearest segment at any distance. @pre at least one segment
   Nearest nearest(Vec2 p) const;
   /// Even-odd rule with symbolic perturbation: exact; a point on the boundary gets the side of the point moved by
-  /// (epsilon^2, epsilon). O(segments in one bin).
+  /// (epsilon^2, epsilon). O(depth + segments in one bin).
   bool inside(Vec2 p) const;
   /// Calls visit(index) for every segment that may meet `box`, each once in ascending order per bin, possibly more
   /// than once over bins; stops when visit returns false.
@@ -50,31 +52,65 @@ public:
   std::size_t memory_bytes() const;
 
 private:
-  int column(double x) const;
-  int row(double y) const;
+  /// A leaf lists the segments that meet the closed cell; a split cell has 16 children, row by row from below.
+  struct Cell {
+    LocalIndex first = 0; ///< into cell_segment_, or the first child in cells_
+    LocalIndex count = 0; ///< segments listed
+    bool split = false;
+    bool corner_inside = false; ///< parity at the lower-left corner, perturbed
+  };
+  /// A cell with its place: lower-left corner and side.
+  struct Placed {
+    LocalIndex cell;
+    Vec2 corner;
+    double side;
+
+    Placed child(LocalIndex first, int i, int j) const {
+      return {first + 4 * j + i, {corner.x + 0.25 * side * i, corner.y + 0.25 * side * j}, 0.25 * side};
+    }
+    /// Squared distance from p to the closed cell.
+    double squared_distance(Vec2 p) const;
+  };
+  class Builder;
+
+  void nearest_in(const Placed& place, Vec2 p, Nearest& best) const;
+  template <class Visit>
+  bool visit_near(const Placed& place, const Box& box, const Visit& visit) const;
 
   std::vector<Segment> segments_;
   Box box_;
-  int columns_ = 0, rows_ = 0;
-  double inverse_width_ = 0, inverse_height_ = 0, cell_width_ = 0, cell_height_ = 0;
-  std::vector<LocalIndex> cell_start_;   // columns*rows + 1
-  std::vector<LocalIndex> cell_segment_; // segment indices, ascending in each cell
-  std::vector<std::uint8_t> corner_inside_; // lower-left corner of each cell
+  Placed root_{0, {}, 0};
+  std::vector<Cell> cells_;              // the root first
+  std::vector<LocalIndex> cell_segment_; // segment indices, ascending in each leaf
 };
+
+template <class Visit>
+bool SegmentGrid::visit_near(const Placed& place, const Box& box, const Visit& visit) const {
+  const Cell& cell = cells_[place.cell];
+  if (!cell.split) {
+    for (LocalIndex k = 0; k < cell.count; ++k)
+      if (!visit(cell_segment_[cell.first + k]))
+        return false;
+    return true;
+  }
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i) {
+      const Placed child = place.child(cell.first, i, j);
+      if (box.max.x < child.corner.x || box.min.x > child.corner.x + child.side || box.max.y < child.corner.y ||
+          box.min.y > child.corner.y + child.side)
+        continue;
+      if (!visit_near(child, box, visit))
+        return false;
+    }
+  return true;
+}
 
 template <class Visit>
 void SegmentGrid::for_each_near(const Box& box, const Visit& visit) const {
   if (segments_.empty() || box.max.x < box_.min.x || box.min.x > box_.max.x || box.max.y < box_.min.y ||
       box.min.y > box_.max.y)
     return;
-  const int i0 = column(box.min.x), i1 = column(box.max.x), j0 = row(box.min.y), j1 = row(box.max.y);
-  for (int j = j0; j <= j1; ++j)
-    for (int i = i0; i <= i1; ++i) {
-      const std::size_t cell = static_cast<std::size_t>(j) * columns_ + i;
-      for (LocalIndex k = cell_start_[cell]; k < cell_start_[cell + 1]; ++k)
-        if (!visit(cell_segment_[k]))
-          return;
-    }
+  visit_near(root_, box, visit);
 }
 
 } // namespace trime::geometry
