@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The one list of the Debian packages that this project needs, and a function that installs those that are missing.
+# To be sourced by run.sh and test.sh; does nothing by itself.
+
+# To build and run the program, and to draw its mesh.
+trime_run_packages=(
+  g++ cmake ninja-build                           # tool chain
+  openmpi-bin libopenmpi-dev libhdf5-openmpi-dev  # MPI, and HDF5 with MPI
+  libfmt-dev libcli11-dev nlohmann-json3-dev      # text, command line, reports
+  python3 python3-h5py python3-numpy python3-matplotlib # scripts/plot_mesh.py, scripts/scaling.py
+)
+# To run the tests, beside the above.
+trime_test_packages=(
+  libgtest-dev libbenchmark-dev libcgal-dev       # unit tests, benchmarks, oracle of both
+  hdf5-tools python3-vtk9 python3-meshio          # h5diff, and two foreign readers of the mesh file
+  clang clang-format libomp-dev                   # second compiler with its OpenMP, house style
+)
+
+# Prints those of its arguments that are not installed.
+trime_missing_packages() {
+  local package
+  for package in "$@"; do
+    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)" = installed ] || printf '%s\n' "$package"
+  done
+}
+
+# Installs what is missing of its arguments; with TRIME_NO_INSTALL=1, or without the right to install, says what and fails.
+trime_need_packages() {
+  if ! command -v dpkg-query >/dev/null; then
+    echo "This is no Debian-like system, so nothing is installed. Needed, under their Debian names: $*" >&2
+    return 0
+  fi
+  local missing=() update install root=()
+  mapfile -t missing < <(trime_missing_packages "$@")
+  [ "${#missing[@]}" -gt 0 ] || return 0
+  update="apt-get update"
+  install="apt-get install -y --no-install-recommends ${missing[*]}"
+  if [ "$(id -u)" -ne 0 ]; then
+    if command -v sudo >/dev/null && { [ -t 0 ] || sudo -n true 2>/dev/null; }; then
+      root=(sudo)
+    fi
+  fi
+  if [ "${TRIME_NO_INSTALL:-0}" = 1 ]; then
+    echo "Missing packages; TRIME_NO_INSTALL=1 forbids to install them. As root:" >&2
+  elif [ "$(id -u)" -ne 0 ] && [ "${#root[@]}" -eq 0 ]; then
+    echo "Missing packages, and no right to install them here. As root:" >&2
+  else
+    echo "Installing ${#missing[@]} missing packages: ${missing[*]}"
+    trime_quietly packages ${root[@]+"${root[@]}"} $update
+    trime_quietly packages ${root[@]+"${root[@]}"} env DEBIAN_FRONTEND=noninteractive $install
+    return
+  fi
+  echo "  $update && $install" >&2
+  return 1
+}
+
+# trime_quietly NAME COMMAND...: runs the command with its output in a log file, which is shown only if it fails.
+trime_quietly() {
+  local log status=0
+  log=$(mktemp "${TMPDIR:-/tmp}/trime-$1-XXXXXX.log")
+  shift
+  "$@" >"$log" 2>&1 </dev/null || status=$?
+  if [ "$status" -ne 0 ]; then
+    tail -n 60 "$log" >&2
+    echo "Failed with exit code $status: $*" >&2
+    echo "Whole output: $log" >&2
+    return "$status"
+  fi
+  rm -f "$log"
+}
+
+# Lets Open MPI start as root (containers) and start more ranks than there are cores.
+trime_mpi_environment() {
+  if [ "$(id -u)" -eq 0 ]; then
+    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+  fi
+}

@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Runs every test: installs what is missing (Debian 12), then format, layers, a release build with all its tests, the
+# serial tests under sanitizers, and a build with a second compiler.
+#   scripts/test.sh [--quick]      --quick: without sanitizers and second compiler
+# The last line says how many tests passed and failed. Environment: TRIME_JOBS (cores), TRIME_NO_INSTALL=1.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+source "$root/scripts/packages.sh"
+cd "$root"
+
+quick=no
+case "${1:-}" in
+  --quick) quick=yes ;;
+  '') ;;
+  *) sed -n '3,6s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 2 ;;
+esac
+
+trime_need_packages "${trime_run_packages[@]}" "${trime_test_packages[@]}"
+trime_mpi_environment
+export OMPI_MCA_rmaps_base_oversubscribe=1 OMP_WAIT_POLICY=passive
+if command -v ccache >/dev/null; then
+  export CMAKE_CXX_COMPILER_LAUNCHER=ccache
+fi
+jobs=${TRIME_JOBS:-$(nproc)}
+passed=0
+failed=0
+failures=()
+output=$(mktemp "${TMPDIR:-/tmp}/trime-test-XXXXXX.log")
+trap 'rm -f "$output"' EXIT
+
+# stage NAME COMMAND...: one test of its own; what it prints is shown only if it fails.
+stage() {
+  local name=$1 start=$SECONDS
+  shift
+  if trime_quietly "$name" "$@"; then
+    passed=$((passed + 1))
+    echo "-- $name: passed ($((SECONDS - start)) s)"
+  else
+    failed=$((failed + 1))
+    failures+=("$name")
+    echo "-- $name: FAILED"
+    return 1
+  fi
+}
+
+# tests PRESET [ctest options]: runs the tests of a preset and adds up what ctest counts.
+tests() {
+  local preset=$1 status=0 total bad
+  shift
+  echo "-- ctest, preset $preset"
+  ctest --preset "$preset" "$@" 2>&1 | tee "$output" || status=$?
+  read -r bad total < <(sed -n 's/^.*% tests passed, \([0-9]*\) tests failed out of \([0-9]*\).*/\1 \2/p' "$output") ||
+    { bad=1 total=1; }
+  [ "$total" -gt 0 ] && { [ "$status" -eq 0 ] || [ "$bad" -gt 0 ]; } || { bad=1 total=1; } # no test at all is a failure
+  passed=$((passed + total - bad))
+  failed=$((failed + bad))
+  [ "$bad" -eq 0 ] || failures+=("ctest $preset")
+}
+
+# build PRESET: configures and builds it.
+build() {
+  echo "-- building $1"
+  stage "configure_$1" cmake --preset "$1" && stage "build_$1" cmake --build --preset "$1" -j "$jobs"
+}
+
+# The bytes of our sources against .clang-format.
+check_format() {
+  find include src tests \( -name '*.hpp' -o -name '*.cpp' \) -print0 | xargs -0 clang-format --dry-run -Werror
+}
+export -f check_format
+
+stage format bash -euo pipefail -c check_format || true
+stage layers /usr/bin/python3 scripts/check_layers.py || true
+if build ci; then
+  tests ci -j "$jobs"
+fi
+if [ "$quick" = no ]; then
+  for preset in asan tsan; do
+    if build "$preset"; then
+      tests "$preset" -j "$jobs"
+    fi
+  done
+  build clang || true
+fi
+
+[ "$failed" -eq 0 ] || printf 'Failed: %s\n' "${failures[*]}"
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

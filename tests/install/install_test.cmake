@@ -1,0 +1,15 @@
+# The steps of the install test; each must succeed. Variables: see CMakeLists.txt beside this file.
+set(prefix "${WORK}/prefix")
+file(REMOVE_RECURSE "${prefix}" "${WORK}/build")
+function(step)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "failed (${status}): ${ARGN}\n${output}")
+  endif()
+endfunction()
+step(${CMAKE_COMMAND} --install "${BUILD}" --prefix "${prefix}")
+step("${prefix}/bin/trime_mpi" --version)
+step(${CMAKE_COMMAND} -S "${CONSUMER}" -B "${WORK}/build" -G "${GENERATOR}" "-DCMAKE_PREFIX_PATH=${prefix}"
+     "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
+step(${CMAKE_COMMAND} --build "${WORK}/build")
+step("${WORK}/build/consumer")
