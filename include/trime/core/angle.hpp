@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sine, cosine and the angle of a vector from + - * / sqrt alone: the same bits with every compiler and C library,
+// so that points on circular arcs may become coordinates of a mesh.
+#pragma once
+
+namespace trime {
+
+inline constexpr double pi = 0x1.921fb54442d18p+1;
+
+struct SinCos {
+  double sin, cos;
+};
+
+/// @brief Sine and cosine, each to within 3e-16. @pre |radians| <= 1e5
+SinCos sin_cos(double radians);
+
+/// @brief Angle of the vector (x, y) from the positive x axis, -pi..pi, to within 4e-16; 0 for the null vector.
+/// The arguments stand in the order of std::atan2; signs of zeros are ignored (so (-1, -0.0) has +pi).
+double angle_of(double y, double x);
+
+} // namespace trime
