@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reader of ini texts that knows where every value came from: sections, `key = value`, comments from `;` or `#` to the
+// end of the line. It knows no keys: what they mean is the business of the caller. All problems are collected, so that
+// a user sees every mistake of a file at once.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace trime::io {
+
+/// Line number of values given on the command line.
+inline constexpr int command_line_origin = 0;
+/// Line number of problems that belong to the whole file (something is missing).
+inline constexpr int whole_file = -1;
+
+/// One `key = value`, blanks at both ends removed.
+struct IniEntry {
+  std::string section, key, value;
+  int line = whole_file; ///< from 1; command_line_origin for overrides
+};
+
+struct IniSection {
+  std::string name;
+  int line = whole_file;
+};
+
+/// @brief Mistakes with their places.
+class Diagnostics {
+public:
+  /// @param file name of the file as it shall stand in the messages
+  explicit Diagnostics(std::string file) : file_(std::move(file)) {}
+  void add(int line, std::string message) { problems_.push_back({line, std::move(message)}); }
+  bool empty() const { return problems_.empty(); }
+  std::size_t size() const { return problems_.size(); }
+  /// @brief One line per problem: `file:17: ...` in the order of the file, then those of the whole file (`file: ...`),
+  /// then `command line: ...`. After `limit` lines only the number of the others is told.
+  std::string text(std::size_t limit = 30) const;
+  /// @throws ConfigError with text() if there is any problem
+  void throw_if_any() const;
+
+private:
+  struct Problem {
+    int line;
+    std::string message;
+  };
+  std::string file_;
+  std::vector<Problem> problems_;
+};
+
+/// Sections and entries in the order of the text. Invariant: no two entries have the same section and key.
+struct IniDocument {
+  std::vector<IniSection> sections;
+  std::vector<IniEntry> entries;
+
+  /// Null if absent. O(entries).
+  const IniEntry* find(std::string_view section, std::string_view key) const;
+};
+
+/// @brief Reads a text. Duplicates, repeated sections, keys before the first section, empty values and lines that are
+/// none of these go to `problems`; reading goes on behind them. O(characters + entries^2).
+IniDocument parse_ini(std::string_view text, Diagnostics& problems);
+
+/// @brief Sets one value as given on the command line: `section.key=value`, the section being all before the last dot
+/// of the left side. An empty value takes the entry away, so that the default holds. Replaces what the file says.
+void apply_override(IniDocument& document, std::string_view text, Diagnostics& problems);
+
+/// @brief The candidate that differs from `word` by the fewest insertions, deletions, replacements and swaps of
+/// neighbours (Damerau-Levenshtein, optimal string alignment), upper and lower case being equal; empty if none is near
+/// (more than a third of the letters differ). The first wins a tie.
+std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates);
+
+/// `; did you mean 'x'?` for the nearest candidate, or nothing.
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
+
+} // namespace trime::io
