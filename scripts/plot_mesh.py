@@ -1,0 +1,183 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Draws a mesh file of trime_mpi: all triangles coloured by alpha, the neighbourhood of the worst one, a histogram.
+
+alpha = circumradius / (2 inradius) is 1 for an equilateral triangle. Meshes of more than 200000 triangles are drawn as
+an image (mean alpha per pixel), since single triangles would be smaller than the ink.
+"""
+import argparse
+import pathlib
+import sys
+
+try:
+    import h5py
+    import matplotlib
+    import numpy as np
+except ImportError as error:
+    sys.exit(f"plot_mesh.py needs the Python module '{error.name}'. Debian: apt-get install python3-h5py "
+             "python3-matplotlib python3-numpy (they belong to /usr/bin/python3)")
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (after the choice of the backend)
+from matplotlib.collections import LineCollection, PolyCollection  # noqa: E402
+
+RASTER_ABOVE = 200_000  # triangles
+ZOOM_TRIANGLES = 500    # about that many in the window around the worst triangle
+COLOURS = matplotlib.colors.LinearSegmentedColormap.from_list(
+    "alpha", ["#f7f5ee", "#f6e3a1", "#f2ae5f", "#d9603f", "#8c1d40"])
+ALPHA_RANGE = (1.0, 1.5)
+INK = "#26323d"
+
+
+class Mesh:
+    """Arrays of a mesh file: xy [N,2], triangles [M,3], alpha [M], facets [B,2], hash (text)."""
+
+    def __init__(self, path):
+        with h5py.File(path, "r") as file:
+            self.xy = file["Mesh/mesh/geometry"][:]
+            self.triangles = file["Mesh/mesh/topology"][:]
+            self.facets = file["Mesh/facets/topology"][:]
+            stored = file["trime_mpi"].attrs.get("mesh_hash", "unknown")
+        self.hash = hash_text(stored)
+        self.alpha, self.min_angle = shape_numbers(self.xy, self.triangles)
+
+    def middles(self):
+        """Centroids, [M,2]."""
+        return self.xy[self.triangles].mean(axis=1)
+
+
+def hash_text(stored):
+    """The mesh hash as 16 hexadecimal digits, whether stored as a number or as text."""
+    if isinstance(stored, bytes):
+        return stored.decode()
+    return stored if isinstance(stored, str) else f"{int(stored) & 0xffffffffffffffff:016x}"
+
+
+def shape_numbers(xy, triangles):
+    """alpha per triangle [M], and the smallest angle of all in degrees."""
+    if len(triangles) == 0:
+        return np.zeros(0), 0.0
+    corner = [xy[triangles[:, k]] for k in range(3)]
+    a, b, c = (np.hypot(*(corner[(k + 1) % 3] - corner[(k + 2) % 3]).T) for k in range(3))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        half = (a + b + c) / 2
+        alpha = a * b * c / (8 * (half - a) * (half - b) * (half - c))
+    edges = np.sort(np.stack([a, b, c]), axis=0)  # the smallest angle lies opposite the shortest edge
+    cosine = (edges[1] ** 2 + edges[2] ** 2 - edges[0] ** 2) / (2 * edges[1] * edges[2])
+    return alpha, float(np.degrees(np.arccos(np.clip(cosine, -1, 1).max())))
+
+
+def draw_triangles(axes, mesh, chosen, line_width):
+    """Triangles `chosen` (an index) as polygons coloured by alpha, the boundary on top."""
+    axes.add_collection(PolyCollection(
+        mesh.xy[mesh.triangles[chosen]], array=mesh.alpha[chosen], cmap=COLOURS, clim=ALPHA_RANGE,
+        edgecolors=INK, linewidths=line_width, rasterized=True))
+    axes.add_collection(LineCollection(mesh.xy[mesh.facets], colors=INK, linewidths=max(3 * line_width, 0.6)))
+
+
+def draw_raster(axes, mesh, pixels=1000):
+    """Mean alpha of the triangles whose centroid lies in each pixel."""
+    low, high = mesh.xy.min(axis=0), mesh.xy.max(axis=0)
+    middles = mesh.middles()
+    per_side = int(min(pixels, max(50, np.sqrt(len(middles) / 4))))
+    box = [[low[0], high[0]], [low[1], high[1]]]
+    count, _, _ = np.histogram2d(*middles.T, bins=per_side, range=box)
+    total, _, _ = np.histogram2d(*middles.T, bins=per_side, range=box, weights=np.minimum(mesh.alpha, 100))
+    with np.errstate(invalid="ignore"):
+        mean = total / count
+    axes.imshow(mean.T, origin="lower", extent=[low[0], high[0], low[1], high[1]], cmap=COLOURS,
+                vmin=ALPHA_RANGE[0], vmax=ALPHA_RANGE[1], interpolation="nearest")
+    axes.add_collection(LineCollection(mesh.xy[mesh.facets], colors=INK, linewidths=0.6))
+
+
+def frame(axes, low, high):
+    """Equal scales, the given window with a margin, no ticks beyond a few."""
+    margin = 0.02 * (high - low).max()
+    axes.set_aspect("equal")
+    axes.set_xlim(low[0] - margin, high[0] + margin)
+    axes.set_ylim(low[1] - margin, high[1] + margin)
+    axes.tick_params(labelsize=7, colors=INK, length=2)
+    for spine in axes.spines.values():
+        spine.set_color("#b8bfc6")
+
+
+def draw_zoom(axes, mesh):
+    """The window around the worst triangle."""
+    middles = mesh.middles()
+    worst = int(np.argmax(np.nan_to_num(mesh.alpha, nan=np.inf)))
+    distance = np.abs(middles - middles[worst]).max(axis=1)
+    last = min(ZOOM_TRIANGLES, len(distance) - 1)
+    reach = np.partition(distance, last)[last]
+    low, high = mesh.xy.min(axis=0), mesh.xy.max(axis=0)
+    reach = min(reach, (high - low).min() / 2)
+    centre = np.clip(middles[worst], low + reach, high - reach)  # a window beyond the mesh shows nothing
+    chosen = np.flatnonzero(np.abs(middles - centre).max(axis=1) <= 1.2 * reach)
+    draw_triangles(axes, mesh, chosen, 0.35)
+    frame(axes, centre - reach, centre + reach)
+    axes.set_title(f"around the worst triangle ({middles[worst][0]:.4g}, {middles[worst][1]:.4g})", fontsize=9, color=INK)
+    return centre, reach
+
+
+def draw_histogram(axes, alpha):
+    """Counts of alpha, logarithmic."""
+    top = max(1.2, min(float(np.nanmax(alpha)), 3.0))
+    bins = np.linspace(1, top, 81)
+    counts, _, bars = axes.hist(np.clip(alpha, 1, top), bins=bins, log=True)
+    for left, bar in zip(bins, bars):
+        bar.set_facecolor(COLOURS(0.12 + 0.88 * min(1.0, (left - ALPHA_RANGE[0]) / (ALPHA_RANGE[1] - ALPHA_RANGE[0]))))
+        bar.set_edgecolor("#8a939b")
+        bar.set_linewidth(0.3)
+    axes.axvline(np.median(alpha), color=INK, linewidth=0.8, linestyle="--")
+    axes.text(np.median(alpha), counts.max() * 1.3, f"  median {np.median(alpha):.4f}", fontsize=8, color=INK)
+    axes.set_ylim(0.7, counts.max() * 4)
+    axes.set_xlabel("alpha = R / 2r" + ("   (last bar: all beyond)" if np.nanmax(alpha) > top else ""), fontsize=8)
+    axes.set_ylabel("triangles", fontsize=8)
+    axes.tick_params(labelsize=7, colors=INK, length=2)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
+
+
+def draw(mesh, name):
+    """The whole figure."""
+    figure = plt.figure(figsize=(14, 8.6), facecolor="white")
+    grid = figure.add_gridspec(2, 2, width_ratios=[1.75, 1], height_ratios=[1, 1.45], left=0.04, right=0.985,
+                               top=0.89, bottom=0.06, wspace=0.1, hspace=0.28)
+    main = figure.add_subplot(grid[:, 0])
+    if len(mesh.triangles) > RASTER_ABOVE:
+        draw_raster(main, mesh)
+    else:
+        draw_triangles(main, mesh, slice(None), float(np.clip(22 / np.sqrt(len(mesh.triangles)), 0.03, 0.5)))
+    frame(main, mesh.xy.min(axis=0), mesh.xy.max(axis=0))
+    draw_histogram(figure.add_subplot(grid[0, 1]), mesh.alpha)
+    if len(mesh.triangles) > 4 * ZOOM_TRIANGLES:
+        middle, reach = draw_zoom(figure.add_subplot(grid[1, 1]), mesh)
+        main.add_patch(plt.Rectangle(middle - reach, 2 * reach, 2 * reach, fill=False, color="#0b6e99", linewidth=1.4, zorder=5))
+    scale = plt.cm.ScalarMappable(plt.Normalize(*ALPHA_RANGE), COLOURS)
+    bar = figure.colorbar(scale, ax=main, fraction=0.03, pad=0.015, extend="max", aspect=40)
+    bar.ax.tick_params(labelsize=7)
+    bar.set_label("alpha", fontsize=8)
+    figure.text(0.04, 0.955, name, fontsize=16, fontweight="bold", color=INK)
+    figure.text(0.04, 0.92, f"{len(mesh.xy):,} points   {len(mesh.triangles):,} triangles   "
+                f"alpha mean {mesh.alpha.mean():.4f}, max {mesh.alpha.max():.3f}   "
+                f"smallest angle {mesh.min_angle:.1f}°   mesh_hash {mesh.hash}", fontsize=10, color=INK)
+    return figure
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("mesh", type=pathlib.Path, help="mesh file, NAME.h5")
+    parser.add_argument("-o", "--output", type=pathlib.Path, help="picture (default: NAME.png beside the mesh)")
+    parser.add_argument("--dpi", type=int, default=130, help="dots per inch (default %(default)s)")
+    options = parser.parse_args()
+    picture = options.output or options.mesh.with_suffix(".png")
+    try:
+        mesh = Mesh(options.mesh)
+    except (OSError, KeyError) as error:
+        sys.exit(f"plot_mesh.py: {options.mesh} is not a mesh file of trime_mpi: {error}")
+    if len(mesh.triangles) == 0:
+        sys.exit(f"plot_mesh.py: {options.mesh} holds no triangles")
+    draw(mesh, options.mesh.stem).savefig(picture, dpi=options.dpi)
+    print(f"{picture}: {len(mesh.xy)} points, {len(mesh.triangles)} triangles")
+
+
+if __name__ == "__main__":
+    main()
