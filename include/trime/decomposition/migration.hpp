@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sites that have left the tiles of their owner travel to the new owner.
+#pragma once
+
+#include "trime/comm/communicator.hpp"
+#include "trime/decomposition/partition.hpp"
+#include "trime/mesh/binned_points.hpp"
+
+#include <vector>
+
+namespace trime::decomposition {
+
+/// @brief Sites of each owned tile, summed over ranks: the weights of a partition. O(tiles) memory. Collective.
+std::vector<std::int64_t> tile_weights(const comm::Communicator& comm, const mesh::TileGrid& grid,
+                                       std::span<const mesh::Site> sites);
+
+/// @brief Gives every site to the owner of its tile. Sites that stay keep their order and position in the list's front;
+/// arrivals follow, ordered by sending rank. Collective.
+/// @param stays if not null: for each input site its index among those that stay, or -1
+void migrate(const comm::Communicator& comm, const mesh::TileGrid& grid, const Partition& partition,
+             std::vector<mesh::Site>& sites, std::vector<LocalIndex>* stays = nullptr);
+
+} // namespace trime::decomposition

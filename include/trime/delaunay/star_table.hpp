@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The stars of the owned sites: for each the ring of its Delaunay neighbours, counter-clockwise.
+#pragma once
+
+#include "trime/core/types.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+namespace trime::delaunay {
+
+/// Entry of a ring that stands for a gap: the triangles there are missing or larger than the cap.
+constexpr LocalIndex gap = -1;
+
+/// @brief Rings of local indices, starting at the lexicographically smallest neighbour, in 8 fixed slots a site; longer
+/// rings lie in an overflow list. A ring with a gap in it (a site at the rim) has the entry `gap` there, never two
+/// in a row; an empty ring belongs to a site without triangles, or one whose star was not computed.
+class StarTable {
+public:
+  static constexpr int slots = 8;
+
+  /// Room for n sites, all rings empty and not certain.
+  void reset(LocalIndex n);
+  LocalIndex size() const { return static_cast<LocalIndex>(degree_.size()); }
+
+  std::span<const LocalIndex> ring(LocalIndex i) const {
+    const std::size_t at = static_cast<std::size_t>(i);
+    const std::size_t n = degree_[at];
+    return n <= slots ? std::span<const LocalIndex>(rings_[at].data(), n)
+                      : std::span<const LocalIndex>(overflow_[static_cast<std::size_t>(rings_[at][0])]);
+  }
+  /// Copies the ring of site i while other sites are being stored.
+  void load(LocalIndex i, std::vector<LocalIndex>& ring) const;
+  /// Stores a ring; different sites may be stored concurrently.
+  void store(LocalIndex i, std::span<const LocalIndex> ring);
+  /// Empties the ring of site i.
+  void clear(LocalIndex i) { degree_[static_cast<std::size_t>(i)] = 0; }
+
+  /// True once every bin that the discs of the star meet is known and the star was computed with them.
+  bool certain(LocalIndex i) const { return certain_[static_cast<std::size_t>(i)] != 0; }
+  void set_certain(LocalIndex i, bool certain) { certain_[static_cast<std::size_t>(i)] = certain; }
+
+  /// @brief Moves the rings to a new numbering of the owned sites. Rings with a neighbour that has no new index (a ghost, a
+  /// deleted or migrated site) become empty. All stars become uncertain. O(n); threads.
+  /// @param new_index by old index of an owned site: its new index or -1
+  void renumber(std::span<const LocalIndex> new_index, LocalIndex new_size);
+  /// Renumbers ghosts in place: old local index i >= first becomes new_index[i - first].
+  void renumber_ghosts(LocalIndex first, std::span<const LocalIndex> new_index);
+
+  std::size_t memory_bytes() const;
+
+private:
+  std::vector<std::array<LocalIndex, slots>> rings_, rings_back_;
+  std::vector<std::uint8_t> degree_, degree_back_; // length of the ring; slots + 1 stands for an overflow entry
+  std::vector<std::uint8_t> certain_;
+  std::vector<std::vector<LocalIndex>> overflow_, overflow_back_;
+  std::unique_ptr<std::mutex> overflow_mutex_ = std::make_unique<std::mutex>();
+};
+
+} // namespace trime::delaunay

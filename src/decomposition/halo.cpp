@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/decomposition/halo.hpp"
+
+#include "trime/core/error.hpp"
+
+#include <algorithm>
+
+namespace trime::decomposition {
+namespace {
+
+using comm::Message;
+using mesh::BinRef;
+using mesh::Site;
+
+/// Sorted union of two ascending lists, in place.
+void merge_into(std::vector<BinRef>& list, std::span<const BinRef> more) {
+  const std::ptrdiff_t middle = static_cast<std::ptrdiff_t>(list.size());
+  list.insert(list.end(), more.begin(), more.end());
+  std::sort(list.begin() + middle, list.end());
+  std::inplace_merge(list.begin(), list.begin() + middle, list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+/// The entry of `rank`, made where it is missing; the list stays ascending.
+template <class Peers>
+auto& entry(Peers& peers, int rank) {
+  auto at = std::lower_bound(peers.begin(), peers.end(), rank, [](const auto& p, int r) { return p.rank < r; });
+  if (at == peers.end() || at->rank != rank)
+    at = peers.insert(at, {rank, {}});
+  return *at;
+}
+
+/// Appends the bytes of a value.
+template <class T>
+void append(std::vector<std::byte>& bytes, const T& value) {
+  const std::size_t at = bytes.size();
+  bytes.resize(at + sizeof(T));
+  std::memcpy(bytes.data() + at, &value, sizeof(T));
+}
+
+/// Values of all messages, one after the other.
+template <class T>
+std::vector<T> concatenate(std::span<const Message> messages) {
+  std::vector<T> all;
+  for (const Message& message : messages) {
+    const std::size_t at = all.size();
+    all.resize(at + message.data.size() / sizeof(T));
+    if (!message.data.empty())
+      std::memcpy(all.data() + at, message.data.data(), message.data.size());
+  }
+  return all;
+}
+
+} // namespace
+
+Halo::Halo(const comm::Communicator& comm, const mesh::TileGrid& grid)
+    : comm_(&comm), grid_(&grid), partition_(grid.tile_count(), comm.size()) {}
+
+void Halo::reset(const Partition& partition, int margin) {
+  partition_ = partition;
+  imports_.clear();
+  exports_.clear();
+  imported_.clear();
+  refreshed_.clear();
+  counts_.clear();
+  const int side = grid_->bins_per_side(), bits = grid_->bin_bits();
+  const LocalIndex first = partition.first_tile(comm_->rank()), last = partition.last_tile(comm_->rank());
+  std::vector<BinRef> wanted;
+  for (LocalIndex tile = first; tile < last; ++tile) {
+    const mesh::GridPosition at = grid_->tile_position(tile);
+    const int x0 = static_cast<int>(at.x) * side, y0 = static_cast<int>(at.y) * side;
+    for (int y = std::max(0, y0 - margin); y < std::min(grid_->tiles_y() * side, y0 + side + margin); ++y)
+      for (int x = std::max(0, x0 - margin); x < std::min(grid_->tiles_x() * side, x0 + side + margin); ++x) {
+        if (x >= x0 && x < x0 + side && y >= y0 && y < y0 + side) {
+          x = x0 + side - 1; // skip the tile itself
+          continue;
+        }
+        const LocalIndex neighbour = grid_->tile_at(x >> bits, y >> bits);
+        if (neighbour < first || neighbour >= last)
+          wanted.push_back({neighbour, ((y & (side - 1)) << bits) | (x & (side - 1))});
+      }
+  }
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  subscribe(wanted);
+}
+
+void Halo::subscribe(std::span<const BinRef> bins) {
+  std::vector<Peer> requests;
+  for (const BinRef& bin : bins)
+    entry(requests, partition_.owner(bin.tile)).bins.push_back(bin);
+  std::vector<Message> outgoing;
+  for (const Peer& request : requests) {
+    TRIME_ASSERT(request.rank != comm_->rank(), "rank {} asks for its own bins", request.rank);
+    merge_into(entry(imports_, request.rank).bins, request.bins);
+    outgoing.push_back({request.rank, comm::to_bytes(std::span<const BinRef>(request.bins))});
+  }
+  for (const Message& message : comm_->exchange_any(outgoing))
+    merge_into(entry(exports_, message.peer).bins, comm::from_bytes<BinRef>(message.data));
+  imported_.clear();
+  for (const Peer& peer : imports_)
+    imported_.insert(imported_.end(), peer.bins.begin(), peer.bins.end());
+}
+
+void Halo::refresh(mesh::BinnedPoints& points) {
+  std::vector<Message> counts_out, sites_out, counts_in, sites_in;
+  for (const Peer& peer : exports_) {
+    counts_out.push_back({peer.rank, {}});
+    sites_out.push_back({peer.rank, {}});
+    for (const BinRef& bin : peer.bins) {
+      const auto [begin, end] = points.bin_range(bin);
+      append(counts_out.back().data, static_cast<std::int32_t>(end - begin));
+      for (LocalIndex i = begin; i < end; ++i)
+        append(sites_out.back().data, points.site(i));
+    }
+  }
+  for (const Peer& peer : imports_)
+    counts_in.push_back({peer.rank, std::vector<std::byte>(peer.bins.size() * sizeof(std::int32_t))});
+  comm_->exchange_known(counts_out, counts_in);
+  for (const Message& message : counts_in) {
+    std::size_t sites = 0;
+    for (const std::int32_t count : comm::from_bytes<std::int32_t>(message.data))
+      sites += static_cast<std::size_t>(count);
+    sites_in.push_back({message.peer, std::vector<std::byte>(sites * sizeof(Site))});
+  }
+  comm_->exchange_known(sites_out, sites_in);
+  const std::vector<std::int32_t> counts = concatenate<std::int32_t>(counts_in);
+  note_renumbering(points.owned(), counts);
+  points.assign_ghosts(imported_, counts, concatenate<Site>(sites_in));
+  counts_ = counts;
+  refreshed_ = imported_;
+}
+
+/// Bins that were imported before keep their sites, only at other indices.
+void Halo::note_renumbering(LocalIndex owned, std::span<const std::int32_t> new_counts) {
+  ghost_renumbering_.clear();
+  LocalIndex next = owned;
+  std::size_t old = 0;
+  for (std::size_t k = 0; k < imported_.size(); ++k) {
+    if (old < refreshed_.size() && refreshed_[old] == imported_[k]) {
+      for (std::int32_t s = 0; s < std::min(counts_[old], new_counts[k]); ++s)
+        ghost_renumbering_.push_back(next + s);
+      ++old;
+    }
+    next += new_counts[k];
+  }
+}
+
+std::vector<GlobalId> Halo::exchange(const mesh::BinnedPoints& points, std::span<const GlobalId> owned_values) const {
+  std::vector<Message> outgoing, incoming;
+  for (const Peer& peer : exports_) {
+    outgoing.push_back({peer.rank, {}});
+    for (const BinRef& bin : peer.bins) {
+      const auto [begin, end] = points.bin_range(bin);
+      for (LocalIndex i = begin; i < end; ++i)
+        append(outgoing.back().data, owned_values[static_cast<std::size_t>(i)]);
+    }
+  }
+  for (const Peer& peer : imports_) {
+    std::size_t sites = 0;
+    for (const BinRef& bin : peer.bins) {
+      const auto [begin, end] = points.bin_range(bin);
+      sites += static_cast<std::size_t>(end - begin);
+    }
+    incoming.push_back({peer.rank, std::vector<std::byte>(sites * sizeof(GlobalId))});
+  }
+  comm_->exchange_known(outgoing, incoming);
+  return concatenate<GlobalId>(incoming);
+}
+
+std::size_t Halo::memory_bytes() const {
+  std::size_t bins = 2 * imported_.capacity();
+  for (const std::vector<Peer>* peers : {&imports_, &exports_})
+    for (const Peer& peer : *peers)
+      bins += peer.bins.capacity();
+  return bins * sizeof(BinRef) + counts_.capacity() * 4 + ghost_renumbering_.capacity() * 4;
+}
+
+} // namespace trime::decomposition

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/delaunay/star_builder.hpp"
+
+#include "delaunay/star_kernel.hpp"
+#include "trime/core/thread_loop.hpp"
+#include "trime/geometry/predicates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::delaunay {
+namespace {
+
+using geometry::Vec2;
+
+/// Searches are widened by this factor and two lattice steps, so that rounding in radii and window borders cannot lose
+/// a site.
+constexpr double inflation = 1 + 1e-9;
+
+/// Squared circumradius from the vertices in lexicographic order: the same bits from each of the three stars.
+double canonical_squared_radius(Vec2 a, Vec2 b, Vec2 c) {
+  if (geometry::lexicographically_less(b, a))
+    std::swap(a, b);
+  if (geometry::lexicographically_less(c, b)) {
+    std::swap(b, c);
+    if (geometry::lexicographically_less(b, a))
+      std::swap(a, b);
+  }
+  const Vec2 u = b - a, v = c - a;
+  const double area = geometry::cross(u, v);
+  return geometry::dot(u, u) * geometry::dot(v, v) * geometry::squared_length(u - v) / (4 * area * area);
+}
+
+/// All that one thread needs to compute stars one after the other.
+class StarWorker {
+public:
+  StarWorker(const mesh::BinnedPoints& points, StarTable& stars, const geometry::Lattice& lattice, double cap)
+      : points_(points), stars_(stars), cap_(cap), slack_(2 * lattice.step()), kernel_(lattice, lattice.snap(2 * cap) + lattice.step()) {}
+
+  void compute(LocalIndex i) {
+    site_ = i;
+    center_ = points_.position(i);
+    const bool warm = start_warm();
+    const bool certain = warm ? finish(0, 0) : start_cold();
+    pass_.rebuilt += !warm;
+    pass_.uncertain += !certain;
+    stars_.set_certain(i, certain);
+    if (certain)
+      store();
+    else
+      stars_.clear(i);
+  }
+
+  const StarPass& pass() const { return pass_; }
+  const std::vector<mesh::BinRef>& missing() const { return missing_; }
+
+private:
+  struct Candidate {
+    double squared_distance;
+    LocalIndex id;
+  };
+
+  Vec2 offset(LocalIndex i) const { return points_.position(i) - center_; }
+
+  /// Takes up the last ring, if it has no gap and still is a star.
+  bool start_warm() {
+    stars_.load(site_, ring_);
+    if (ring_.size() < 3)
+      return false;
+    offsets_.clear();
+    for (const LocalIndex neighbour : ring_) {
+      if (neighbour == gap)
+        return false;
+      offsets_.push_back(offset(neighbour));
+    }
+    return kernel_.start_ring(ring_, offsets_);
+  }
+
+  /// From the virtual square: the last ring first, then the sites nearby in order of distance, then all others.
+  bool start_cold() {
+    kernel_.start_virtual();
+    for (const LocalIndex neighbour : ring_)
+      if (neighbour != gap)
+        kernel_.insert(neighbour, offset(neighbour));
+    const double near = 0.6 * cap_;
+    const double sorted_within = 0.25 * cap_ * cap_; // squared: about the first ring of neighbours
+    candidates_.clear();
+    rest_.clear();
+    const std::size_t missing_before = missing_.size();
+    points_.for_each_near(
+        center_, near,
+        [&](LocalIndex begin, LocalIndex end) {
+          for (LocalIndex j = begin; j < end; ++j) {
+            const double d2 = geometry::squared_length(offset(j));
+            if (d2 > 0)
+              (d2 < sorted_within ? candidates_ : rest_).push_back({d2, j});
+          }
+        },
+        [&](mesh::BinRef bin) { missing_.push_back(bin); });
+    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+      return a.squared_distance < b.squared_distance;
+    });
+    for (const Candidate& c : candidates_)
+      try_insert(c);
+    for (const Candidate& c : rest_)
+      try_insert(c);
+    const bool complete = missing_.size() == missing_before;
+    return finish(near, near * near) && complete;
+  }
+
+  void try_insert(const Candidate& c) {
+    if (c.squared_distance < 4 * kernel_.squared_radius() && !kernel_.contains(c.id))
+      kernel_.insert(c.id, offset(c.id));
+  }
+
+  /// Radius that must be searched: no site farther than 2 R_max, or than 2 cap, can change what counts.
+  double needed() const { return std::min(2 * std::sqrt(kernel_.squared_radius()), 2 * cap_) * inflation + slack_; }
+
+  /// @brief Inserts what lies within the security radius, in windows that grow at most by 1.6 at a time (each window can
+  /// shrink the radius); sites nearer than sqrt(done) have been inserted before.
+  /// @return false if a bin within the radius is unknown
+  bool finish(double searched, double done) {
+    bool complete = true;
+    while (searched < needed()) {
+      const double reach = searched == 0 ? needed() : std::min(needed(), 1.6 * searched);
+      const std::size_t missing_before = missing_.size();
+      if (searched == 0)
+        check_members(reach);
+      else
+        insert_window(reach, done);
+      complete = complete && missing_.size() == missing_before;
+      searched = reach;
+      done = reach * reach;
+    }
+    return complete;
+  }
+
+  /// For a warm star: sites within the security radius are counted first; if they are as many as the members within it,
+  /// the star is right, and nobody's identity needs a look.
+  void check_members(double reach) {
+    const double r2 = 4 * kernel_.squared_radius();
+    std::ptrdiff_t inside = -1; // the site itself
+    const auto miss = [&](mesh::BinRef bin) { missing_.push_back(bin); };
+    points_.for_each_near(
+        center_, reach,
+        [&](LocalIndex begin, LocalIndex end) {
+          for (LocalIndex j = begin; j < end; ++j)
+            inside += geometry::squared_length(offset(j)) <= r2;
+        },
+        miss);
+    for (std::size_t k = 0; k < kernel_.degree(); ++k)
+      inside -= geometry::squared_length(kernel_.offset(k)) <= r2;
+    if (inside != 0)
+      points_.for_each_near(
+          center_, reach, [&](LocalIndex begin, LocalIndex end) { insert_run(begin, end, 0); }, [](mesh::BinRef) {});
+  }
+
+  void insert_window(double reach, double done) {
+    points_.for_each_near(
+        center_, reach, [&](LocalIndex begin, LocalIndex end) { insert_run(begin, end, done); },
+        [&](mesh::BinRef bin) { missing_.push_back(bin); });
+  }
+
+  void insert_run(LocalIndex begin, LocalIndex end, double done) {
+    for (LocalIndex j = begin; j < end; ++j) {
+      const double d2 = geometry::squared_length(offset(j));
+      if (d2 > done)
+        try_insert({d2, j});
+    }
+  }
+
+  /// Does the triangle between neighbours k and k+1 count?
+  bool counts(std::size_t k) const {
+    const std::size_t next = k + 1 == kernel_.degree() ? 0 : k + 1;
+    if (kernel_.id(k) < 0 || kernel_.id(next) < 0)
+      return false;
+    const double r2 = kernel_.squared_radius(k);
+    if (r2 < 0.99 * cap_ * cap_)
+      return true; // r2 is an upper bound
+    return canonical_squared_radius(center_, points_.position(kernel_.id(k)), points_.position(kernel_.id(next))) <
+           cap_ * cap_;
+  }
+
+  /// Writes the ring from its lexicographically smallest neighbour on, with gaps where triangles do not count.
+  void store() {
+    const std::size_t n = kernel_.degree();
+    ring_.clear();
+    std::size_t start = n;
+    bool before = counts(n - 1);
+    counted_.assign(n, 0);
+    for (std::size_t k = 0; k < n; ++k) {
+      const bool after = counts(k);
+      counted_[k] = after;
+      if ((before || after) &&
+          (start == n || geometry::lexicographically_less(kernel_.offset(k), kernel_.offset(start))))
+        start = k;
+      before = after;
+    }
+    if (start == n) {
+      stars_.clear(site_);
+      return;
+    }
+    for (std::size_t m = 0, k = start; m < n; ++m, k = k + 1 == n ? 0 : k + 1) {
+      const bool left = counted_[k == 0 ? n - 1 : k - 1], right = counted_[k];
+      if (left || right)
+        ring_.push_back(kernel_.id(k));
+      if (!right && (left || right))
+        ring_.push_back(gap);
+    }
+    stars_.store(site_, ring_);
+  }
+
+  const mesh::BinnedPoints& points_;
+  StarTable& stars_;
+  double cap_, slack_;
+  StarKernel kernel_;
+  LocalIndex site_ = 0;
+  Vec2 center_;
+  StarPass pass_;
+  std::vector<mesh::BinRef> missing_;
+  std::vector<LocalIndex> ring_;
+  std::vector<Vec2> offsets_;
+  std::vector<Candidate> candidates_, rest_;
+  std::vector<std::uint8_t> counted_;
+};
+
+} // namespace
+
+StarBuilder::StarBuilder(const geometry::Lattice& lattice, double cap) : lattice_(lattice), cap_(cap) {}
+
+bool StarBuilder::counts(Vec2 a, Vec2 b, Vec2 c) const { return canonical_squared_radius(a, b, c) < cap_ * cap_; }
+
+StarPass StarBuilder::update(const mesh::BinnedPoints& points, StarTable& stars, std::span<const std::uint8_t> wanted,
+                             std::vector<mesh::BinRef>& missing) const {
+  std::vector<StarWorker> workers;
+  for (int thread = 0; thread < std::max(1, thread_count()); ++thread)
+    workers.emplace_back(points, stars, lattice_, cap_);
+  const LocalIndex first_tile = points.first_tile();
+  thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t tile, int thread) {
+    const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(tile));
+    for (LocalIndex i = begin; i < end; ++i) {
+      if (!wanted.empty() && !wanted[static_cast<std::size_t>(i)])
+        stars.clear(i);
+      else if (!stars.certain(i))
+        workers[static_cast<std::size_t>(thread)].compute(i);
+    }
+  });
+  StarPass pass;
+  for (const StarWorker& worker : workers) {
+    pass.rebuilt += worker.pass().rebuilt;
+    pass.uncertain += worker.pass().uncertain;
+    missing.insert(missing.end(), worker.missing().begin(), worker.missing().end());
+  }
+  std::sort(missing.begin(), missing.end());
+  missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
+  return pass;
+}
+
+} // namespace trime::delaunay

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/delaunay/star_table.hpp"
+
+#include "trime/core/thread_loop.hpp"
+
+#include <algorithm>
+
+namespace trime::delaunay {
+namespace {
+
+constexpr std::uint8_t overflowing = StarTable::slots + 1;
+constexpr int chunk = 4096;
+
+} // namespace
+
+void StarTable::reset(LocalIndex n) {
+  rings_.resize(static_cast<std::size_t>(n));
+  degree_.assign(static_cast<std::size_t>(n), 0);
+  certain_.assign(static_cast<std::size_t>(n), 0);
+  overflow_.clear();
+}
+
+void StarTable::load(LocalIndex i, std::vector<LocalIndex>& ring) const {
+  if (degree_[static_cast<std::size_t>(i)] != overflowing) {
+    const std::span<const LocalIndex> r = this->ring(i);
+    ring.assign(r.begin(), r.end());
+    return;
+  }
+  const std::lock_guard lock(*overflow_mutex_); // the overflow list may be growing
+  const std::span<const LocalIndex> r = this->ring(i);
+  ring.assign(r.begin(), r.end());
+}
+
+void StarTable::store(LocalIndex i, std::span<const LocalIndex> ring) {
+  const std::size_t at = static_cast<std::size_t>(i);
+  if (ring.size() <= slots) {
+    std::copy(ring.begin(), ring.end(), rings_[at].begin());
+    degree_[at] = static_cast<std::uint8_t>(ring.size());
+    return;
+  }
+  // Rare (degree above 8): the order of the entries depends on the threads, the rings themselves do not.
+  const std::lock_guard lock(*overflow_mutex_);
+  if (degree_[at] != overflowing) {
+    rings_[at][0] = static_cast<LocalIndex>(overflow_.size());
+    overflow_.emplace_back();
+  }
+  overflow_[static_cast<std::size_t>(rings_[at][0])].assign(ring.begin(), ring.end());
+  degree_[at] = overflowing;
+}
+
+void StarTable::renumber(std::span<const LocalIndex> new_index, LocalIndex new_size) {
+  rings_back_.resize(static_cast<std::size_t>(new_size));
+  degree_back_.assign(static_cast<std::size_t>(new_size), 0);
+  certain_.assign(static_cast<std::size_t>(new_size), 0);
+  const LocalIndex old_size = static_cast<LocalIndex>(degree_.size());
+  const auto mapped = [&](LocalIndex neighbour) {
+    return neighbour == gap ? gap : neighbour < old_size ? new_index[static_cast<std::size_t>(neighbour)] : LocalIndex{-2};
+  };
+  const auto map_ring = [&](std::span<const LocalIndex> from, LocalIndex* to) {
+    for (const LocalIndex neighbour : from) {
+      const LocalIndex m = mapped(neighbour);
+      if (m < 0 && neighbour != gap)
+        return false;
+      *to++ = m;
+    }
+    return true;
+  };
+  thread_loop((old_size + chunk - 1) / chunk, 1, [&](std::ptrdiff_t part, int) {
+    const LocalIndex end = std::min(old_size, static_cast<LocalIndex>((part + 1) * chunk));
+    for (LocalIndex i = static_cast<LocalIndex>(part * chunk); i < end; ++i) {
+      const LocalIndex to = new_index[static_cast<std::size_t>(i)];
+      const std::uint8_t n = degree_[static_cast<std::size_t>(i)];
+      if (to >= 0 && n != overflowing &&
+          map_ring({rings_[static_cast<std::size_t>(i)].data(), n}, rings_back_[static_cast<std::size_t>(to)].data()))
+        degree_back_[static_cast<std::size_t>(to)] = n;
+    }
+  });
+  overflow_back_.clear();
+  for (LocalIndex i = 0; i < old_size; ++i) {
+    const LocalIndex to = new_index[static_cast<std::size_t>(i)];
+    if (to < 0 || degree_[static_cast<std::size_t>(i)] != overflowing)
+      continue;
+    std::vector<LocalIndex> moved(overflow_[static_cast<std::size_t>(rings_[static_cast<std::size_t>(i)][0])]);
+    if (map_ring(moved, moved.data())) {
+      rings_back_[static_cast<std::size_t>(to)][0] = static_cast<LocalIndex>(overflow_back_.size());
+      degree_back_[static_cast<std::size_t>(to)] = overflowing;
+      overflow_back_.push_back(std::move(moved));
+    }
+  }
+  std::swap(rings_, rings_back_);
+  std::swap(degree_, degree_back_);
+  std::swap(overflow_, overflow_back_);
+}
+
+void StarTable::renumber_ghosts(LocalIndex first, std::span<const LocalIndex> new_index) {
+  const auto map = [&](LocalIndex& neighbour) {
+    if (neighbour >= first)
+      neighbour = new_index[static_cast<std::size_t>(neighbour - first)];
+  };
+  for (std::size_t i = 0; i < rings_.size(); ++i)
+    if (degree_[i] != overflowing)
+      std::for_each_n(rings_[i].begin(), degree_[i], map);
+  for (std::vector<LocalIndex>& ring : overflow_)
+    std::for_each(ring.begin(), ring.end(), map);
+}
+
+std::size_t StarTable::memory_bytes() const {
+  std::size_t bytes = (rings_.capacity() + rings_back_.capacity()) * sizeof(rings_[0]) + degree_.capacity() +
+                      degree_back_.capacity() + certain_.capacity();
+  for (const auto& ring : overflow_)
+    bytes += sizeof(ring) + ring.capacity() * sizeof(LocalIndex);
+  return bytes;
+}
+
+} // namespace trime::delaunay
