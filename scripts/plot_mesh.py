@@ -33,8 +33,12 @@ class Mesh:
 
     def __init__(self, path):
         with h5py.File(path, "r") as file:
-            self.xy = file["Mesh/mesh/geometry"][:]
-            self.triangles = file["Mesh/mesh/topology"][:]
+            if "Mesh/mesh" in file:
+                self.xy = file["Mesh/mesh/geometry"][:]
+                self.triangles = file["Mesh/mesh/topology"][:]
+            else:  # written for ParaView only
+                self.xy = file["VTKHDF/Points"][:, :2]
+                self.triangles = file["VTKHDF/Connectivity"][:].reshape(-1, 3)
             self.facets = file["Mesh/facets/topology"][:]
             stored = file["trime_mpi"].attrs.get("mesh_hash", "unknown")
         self.hash = hash_text(stored)
