@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The mesh file: NAME.h5 with its views NAME.xdmf and NAME.vtkhdf, written by all ranks together under a temporary
+// name, read back, and renamed only when it is whole. The layout is a contract with users, see README.
+#pragma once
+
+#include "trime/comm/communicator.hpp"
+#include "trime/io/metadata.hpp"
+#include "trime/mesh/distributed_mesh.hpp"
+
+#include <string>
+#include <vector>
+
+namespace trime::io {
+
+/// Which files, and where.
+struct MeshFileOptions {
+  std::string directory = "out"; ///< made if it is missing
+  std::string name = "mesh";     ///< stem of the file names
+  bool overwrite = false;
+  bool vtkhdf = true; ///< group /VTKHDF and the link NAME.vtkhdf
+  bool xdmf = true;   ///< group /Mesh/mesh and the file NAME.xdmf
+
+  /// `directory/name` + ending.
+  std::string path(const std::string& ending) const { return directory + "/" + name + ending; }
+};
+
+/// @brief Makes the directory if it is missing and sees that the files can be written: to be called before work starts
+/// that would be lost. @return warnings, e.g. of files that a killed run has left; on rank 0 only
+/// @throws FileError on all ranks if the directory cannot be made or written, or a file exists and may not be
+/// overwritten
+/// @note Collective.
+std::vector<std::string> check_output(const MeshFileOptions& options, const comm::Communicator& comm);
+
+/// What was written.
+struct WrittenFiles {
+  std::vector<std::string> paths;
+  std::int64_t bytes = 0; ///< size of NAME.h5
+};
+
+/// @brief Writes the mesh, reads every array back and compares it, and gives the files their names.
+/// The metadata of rank 0 are written. Extra memory: two slices of a few MB per rank.
+/// @throws FileError on all ranks together; no file under the final name is touched before the new one is whole, and
+/// the temporary file is removed
+/// @note Collective. Ranks may hold nothing.
+WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedMesh& mesh, const Metadata& metadata,
+                        const comm::Communicator& comm);
+
+/// @brief Removes the temporary file that is being written by this process, if any. Safe in a signal handler.
+void remove_temporary_file() noexcept;
+
+/// Version of the HDF5 library, e.g. "1.10.8".
+std::string hdf5_version();
+
+} // namespace trime::io

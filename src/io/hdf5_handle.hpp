@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// HDF5 identifiers that close themselves, and the text of HDF5's error stack. Nothing here talks to other ranks except
+// where HDF5 itself does (files).
+#pragma once
+
+#include <hdf5.h>
+
+#include <string>
+#include <utility>
+
+namespace trime::io {
+
+/// @brief What went wrong innermost in the last failed call, in one line; the system's own words (such as "No space
+/// left on device") where HDF5 passes them on. Empties the stack.
+std::string hdf5_error_text();
+
+/// Turns off HDF5's own printing of errors: they come as exceptions.
+void silence_hdf5();
+
+/// @throws FileError "cannot `action`: reason" if `code` (identifier or status) is negative
+hid_t checked(hid_t code, const std::string& action);
+
+using Hdf5Close = herr_t (*)(hid_t);
+
+/// Move-only identifier.
+template <Hdf5Close close_function>
+class Hdf5Handle {
+public:
+  Hdf5Handle() = default;
+  /// @throws FileError as `checked`
+  Hdf5Handle(hid_t id, const std::string& action) : id_(checked(id, action)) {}
+  Hdf5Handle(Hdf5Handle&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
+  Hdf5Handle& operator=(Hdf5Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    return *this;
+  }
+  ~Hdf5Handle() {
+    if (id_ >= 0)
+      close_function(id_); // only on the way out of an error may this fail unseen
+  }
+
+  operator hid_t() const { return id_; }
+  bool is_open() const { return id_ >= 0; }
+  /// Closes now. @throws FileError
+  void close(const std::string& action) {
+    if (id_ >= 0)
+      checked(close_function(std::exchange(id_, -1)), action);
+  }
+
+private:
+  hid_t id_ = -1;
+};
+
+using Hdf5File = Hdf5Handle<H5Fclose>;
+using Hdf5Group = Hdf5Handle<H5Gclose>;
+using Hdf5Dataset = Hdf5Handle<H5Dclose>;
+using Hdf5Space = Hdf5Handle<H5Sclose>;
+using Hdf5Type = Hdf5Handle<H5Tclose>;
+using Hdf5Attribute = Hdf5Handle<H5Aclose>;
+using Hdf5Properties = Hdf5Handle<H5Pclose>;
+
+} // namespace trime::io

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/io/mesh_file.hpp"
+
+#include "io/slab_file.hpp"
+#include "io/temporary_file.hpp"
+#include "io/xdmf.hpp"
+#include "trime/comm/agree.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <memory>
+#include <optional>
+
+namespace trime::io {
+namespace {
+
+template <class T>
+hid_t value_type();
+template <>
+hid_t value_type<double>() {
+  return H5T_NATIVE_DOUBLE;
+}
+template <>
+hid_t value_type<float>() {
+  return H5T_NATIVE_FLOAT;
+}
+template <>
+hid_t value_type<std::int64_t>() {
+  return H5T_NATIVE_INT64;
+}
+template <>
+hid_t value_type<std::int32_t>() {
+  return H5T_NATIVE_INT32;
+}
+template <>
+hid_t value_type<std::uint8_t>() {
+  return H5T_NATIVE_UINT8;
+}
+
+/// An array whose rows are Row values in memory, each made of `columns` (0: one) values of type T.
+template <class T, class Row>
+SlabArray stored(const std::string& path, const mesh::Slab& slab, hsize_t columns, const std::vector<Row>& rows) {
+  static_assert(std::is_trivially_copyable_v<Row> && sizeof(Row) % sizeof(T) == 0);
+  const auto fill = [&rows](std::int64_t first, std::int64_t count, std::byte* out) {
+    std::memcpy(out, rows.data() + first, static_cast<std::size_t>(count) * sizeof(Row));
+  };
+  const std::size_t values_per_row = sizeof(Row) / sizeof(T);
+  // A flat array of several values per row (Connectivity) is the same bytes with longer indices.
+  const auto flat = static_cast<std::int64_t>(columns == 0 ? values_per_row : 1);
+  if (flat == 1)
+    return {path, value_type<T>(), sizeof(T), columns, slab, static_cast<std::int64_t>(rows.size()), fill};
+  const auto fill_flat = [&rows](std::int64_t first, std::int64_t count, std::byte* out) {
+    std::memcpy(out, reinterpret_cast<const std::byte*>(rows.data()) + first * static_cast<std::int64_t>(sizeof(T)),
+                static_cast<std::size_t>(count) * sizeof(T));
+  };
+  return {path,
+          value_type<T>(),
+          sizeof(T),
+          0,
+          {flat * slab.first, flat * slab.total},
+          flat * static_cast<std::int64_t>(rows.size()),
+          fill_flat};
+}
+
+/// An array whose row i (global) is computed.
+template <class T, class Value>
+SlabArray computed(const std::string& path, const mesh::Slab& slab, std::int64_t rows, const Value& value) {
+  const auto fill = [first_here = slab.first, value](std::int64_t first, std::int64_t count, std::byte* out) {
+    for (std::int64_t k = 0; k < count; ++k) {
+      const T v = value(first_here + first + k);
+      std::memcpy(out + static_cast<std::size_t>(k) * sizeof v, &v, sizeof v);
+    }
+  };
+  return {path, value_type<T>(), sizeof(T), 0, slab, rows, fill};
+}
+
+/// Points with z = 0, as VTK wants them.
+SlabArray points_in_space(const std::string& path, const mesh::DistributedMesh& mesh) {
+  const auto fill = [&points = mesh.points](std::int64_t first, std::int64_t count, std::byte* out) {
+    for (std::int64_t k = 0; k < count; ++k) {
+      const geometry::Vec2 p = points[static_cast<std::size_t>(first + k)];
+      const double xyz[3] = {p.x, p.y, 0};
+      std::memcpy(out + static_cast<std::size_t>(k) * sizeof xyz, xyz, sizeof xyz);
+    }
+  };
+  return {path, H5T_NATIVE_DOUBLE, sizeof(double), 3, mesh.point_slab, static_cast<std::int64_t>(mesh.points.size()),
+          fill};
+}
+
+/// Offsets 0, 3, 6, ..., 3M: one more than triangles; the rank that holds the last triangle writes the last one.
+SlabArray offsets(const std::string& path, const mesh::DistributedMesh& mesh) {
+  mesh::Slab slab = mesh.triangle_slab;
+  auto rows = static_cast<std::int64_t>(mesh.triangles.size());
+  if (rows > 0 && slab.first + rows == slab.total)
+    ++rows;
+  slab.total += 1;
+  return computed<std::int64_t>(path, slab, rows, [](std::int64_t row) { return 3 * row; });
+}
+
+void write_fields(SlabFile& file, const std::string& cells, const std::string& points,
+                  const mesh::DistributedMesh& mesh) {
+  file.group(cells);
+  file.slab(stored<float>(cells + "/alpha", mesh.triangle_slab, 0, mesh.alpha));
+  file.slab(stored<float>(cells + "/beta", mesh.triangle_slab, 0, mesh.beta));
+  file.slab(stored<std::int32_t>(cells + "/region", mesh.triangle_slab, 0, mesh.region));
+  file.group(points);
+  file.slab(stored<std::int32_t>(points + "/boundary", mesh.point_slab, 0, mesh.boundary));
+  file.slab(stored<float>(points + "/size", mesh.point_slab, 0, mesh.size));
+  file.slab(stored<std::uint8_t>(points + "/fixed", mesh.point_slab, 0, mesh.fixed));
+}
+
+void write_vtkhdf(SlabFile& file, const mesh::DistributedMesh& mesh) {
+  file.group("/VTKHDF");
+  const std::int64_t version[2] = {1, 0};
+  file.attribute("/VTKHDF", "Version", version);
+  file.ascii_attribute("/VTKHDF", "Type", "UnstructuredGrid");
+  const std::int64_t points = mesh.point_slab.total, triangles = mesh.triangle_slab.total;
+  file.column("/VTKHDF", {"NumberOfPoints", std::vector<std::int64_t>{points}});
+  file.column("/VTKHDF", {"NumberOfCells", std::vector<std::int64_t>{triangles}});
+  file.column("/VTKHDF", {"NumberOfConnectivityIds", std::vector<std::int64_t>{3 * triangles}});
+  file.slab(points_in_space("/VTKHDF/Points", mesh));
+  file.slab(stored<std::int64_t>("/VTKHDF/Connectivity", mesh.triangle_slab, 0, mesh.triangles));
+  file.slab(offsets("/VTKHDF/Offsets", mesh));
+  constexpr std::uint8_t vtk_triangle = 5;
+  file.slab(computed<std::uint8_t>("/VTKHDF/Types", mesh.triangle_slab,
+                                   static_cast<std::int64_t>(mesh.triangles.size()),
+                                   [](std::int64_t) { return vtk_triangle; }));
+}
+
+/// The 2D view of FEniCS, with hard links at the places where PETSc looks.
+void write_plain_mesh(SlabFile& file, const mesh::DistributedMesh& mesh) {
+  file.group("/Mesh/mesh");
+  file.slab(stored<double>("/Mesh/mesh/geometry", mesh.point_slab, 2, mesh.points));
+  file.slab(stored<std::int64_t>("/Mesh/mesh/topology", mesh.triangle_slab, 3, mesh.triangles));
+  file.attribute("/Mesh/mesh/topology", {"cell_dim", std::int64_t{2}});
+  file.attribute("/Mesh/mesh/topology", {"cell_corners", std::int64_t{3}});
+  file.group("/geometry");
+  file.hard_link("/Mesh/mesh/geometry", "/geometry/vertices");
+  file.group("/viz");
+  file.group("/viz/topology");
+  file.hard_link("/Mesh/mesh/topology", "/viz/topology/cells");
+}
+
+void write_facets(SlabFile& file, const mesh::DistributedMesh& mesh) {
+  file.group("/Mesh/facets");
+  file.slab(stored<std::int64_t>("/Mesh/facets/topology", mesh.facet_slab, 2, mesh.facets));
+  file.slab(stored<std::int32_t>("/Mesh/facets/values", mesh.facet_slab, 0, mesh.facet_tags));
+}
+
+void write_metadata(SlabFile& file, const Metadata& metadata) {
+  file.group("/trime_mpi");
+  for (const Attribute& attribute : metadata.attributes)
+    file.attribute("/trime_mpi", attribute);
+  for (const Text& text : metadata.texts)
+    file.text("/trime_mpi/" + text.name, text.text);
+  for (const MetadataGroup& group : metadata.groups) {
+    const std::string path = "/trime_mpi/" + group.name;
+    file.group(path);
+    for (const Attribute& attribute : group.attributes)
+      file.attribute(path, attribute);
+    for (const Column& column : group.columns)
+      file.column(path, column);
+  }
+}
+
+/// Groups of the fields: inside /VTKHDF, or beside the plain mesh when that view is not wanted.
+std::string field_group(const MeshFileOptions& options, const char* name) {
+  return std::string(options.vtkhdf ? "/VTKHDF/" : "/Mesh/") + name;
+}
+
+void write_hdf5(const std::string& path, const MeshFileOptions& options, const mesh::DistributedMesh& mesh,
+                const Metadata& metadata, const comm::Communicator& comm) {
+  SlabFile file(comm, path);
+  file.group("/Mesh");
+  if (options.vtkhdf)
+    write_vtkhdf(file, mesh);
+  write_fields(file, field_group(options, "CellData"), field_group(options, "PointData"), mesh);
+  if (options.xdmf)
+    write_plain_mesh(file, mesh);
+  write_facets(file, mesh);
+  write_metadata(file, metadata);
+  file.verify();
+  file.close();
+}
+
+void check_shapes(const mesh::DistributedMesh& mesh) {
+  const std::size_t points = mesh.points.size(), triangles = mesh.triangles.size(), facets = mesh.facets.size();
+  TRIME_ASSERT(mesh.boundary.size() == points && mesh.size.size() == points && mesh.fixed.size() == points,
+               "{} points, {} boundary, {} size, {} fixed", points, mesh.boundary.size(), mesh.size.size(),
+               mesh.fixed.size());
+  TRIME_ASSERT(mesh.alpha.size() == triangles && mesh.beta.size() == triangles && mesh.region.size() == triangles,
+               "{} triangles, {} alpha, {} beta, {} region", triangles, mesh.alpha.size(), mesh.beta.size(),
+               mesh.region.size());
+  TRIME_ASSERT(mesh.facet_tags.size() == facets, "{} facets, {} tags", facets, mesh.facet_tags.size());
+}
+
+/// Rank 0: final names, and the views that belong to them.
+WrittenFiles publish(TemporaryFile& temporary, const MeshFileOptions& options, const mesh::DistributedMesh& mesh) {
+  const std::string h5 = options.path(".h5"), xdmf = options.path(".xdmf"), vtkhdf = options.path(".vtkhdf");
+  temporary.publish(h5);
+  WrittenFiles written{{h5}, 0};
+  struct stat status {};
+  if (stat(h5.c_str(), &status) == 0)
+    written.bytes = status.st_size;
+  // Views of an older mesh of this name would lie about the new one.
+  unlink(xdmf.c_str());
+  unlink(vtkhdf.c_str());
+  if (options.xdmf) {
+    write_text_file(xdmf,
+                    xdmf_text({options.name + ".h5", field_group(options, "CellData"),
+                               field_group(options, "PointData"), mesh.point_slab.total, mesh.triangle_slab.total}));
+    written.paths.push_back(xdmf);
+  }
+  if (options.vtkhdf) {
+    replace_link(options.name + ".h5", vtkhdf);
+    written.paths.push_back(vtkhdf);
+  }
+  return written;
+}
+
+} // namespace
+
+WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedMesh& mesh, const Metadata& metadata,
+                        const comm::Communicator& comm) {
+  check_shapes(mesh);
+  const Metadata of_root = broadcast(metadata, comm);
+  const std::string path = comm.broadcast(temporary_name(options.path(".h5")));
+  std::optional<TemporaryFile> temporary; // rank 0 removes it if anything fails
+  if (comm.is_root())
+    temporary.emplace(path);
+  write_hdf5(path, options, mesh, of_root, comm);
+  WrittenFiles written;
+  comm::run_agreed(comm, [&] {
+    if (temporary)
+      written = publish(*temporary, options, mesh);
+  });
+  return written;
+}
+
+std::string hdf5_version() {
+  unsigned major = 0, minor = 0, release = 0;
+  H5get_libversion(&major, &minor, &release);
+  return fmt::format("{}.{}.{}", major, minor, release);
+}
+
+} // namespace trime::io

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/io/metadata.hpp"
+
+#include "trime/core/error.hpp"
+
+#include <cstring>
+#include <type_traits>
+
+namespace trime::io {
+namespace {
+
+/// Appends values to a text of bytes.
+class Packer {
+public:
+  void operator()(const std::string& text) {
+    (*this)(text.size());
+    bytes_ += text;
+  }
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void operator()(T value) { bytes_.append(reinterpret_cast<const char*>(&value), sizeof value); }
+  template <class T>
+  void operator()(const std::vector<T>& values) {
+    (*this)(values.size());
+    for (const T& value : values)
+      (*this)(value);
+  }
+  template <class... T>
+  void operator()(const std::variant<T...>& value) {
+    (*this)(value.index());
+    std::visit([this](const auto& held) { (*this)(held); }, value);
+  }
+  void operator()(const Attribute& a) { both(a.name, a.value); }
+  void operator()(const Column& c) { both(c.name, c.values); }
+  void operator()(const Text& t) { both(t.name, t.text); }
+  void operator()(const MetadataGroup& g) {
+    (*this)(g.name);
+    both(g.attributes, g.columns);
+  }
+  std::string take() { return std::move(bytes_); }
+
+private:
+  template <class A, class B>
+  void both(const A& a, const B& b) {
+    (*this)(a);
+    (*this)(b);
+  }
+  std::string bytes_;
+};
+
+/// Takes the values from the text in the same order.
+class Unpacker {
+public:
+  explicit Unpacker(std::string bytes) : bytes_(std::move(bytes)) {}
+
+  void operator()(std::string& text) {
+    text = bytes_.substr(position_, size());
+    position_ += text.size();
+  }
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void operator()(T& value) {
+    TRIME_ASSERT(position_ + sizeof value <= bytes_.size());
+    std::memcpy(&value, bytes_.data() + position_, sizeof value);
+    position_ += sizeof value;
+  }
+  template <class T>
+  void operator()(std::vector<T>& values) {
+    values.resize(size());
+    for (T& value : values)
+      (*this)(value);
+  }
+  template <class... T>
+  void operator()(std::variant<T...>& value) {
+    choose<0>(value, size());
+  }
+  void operator()(Attribute& a) { both(a.name, a.value); }
+  void operator()(Column& c) { both(c.name, c.values); }
+  void operator()(Text& t) { both(t.name, t.text); }
+  void operator()(MetadataGroup& g) {
+    (*this)(g.name);
+    both(g.attributes, g.columns);
+  }
+
+private:
+  std::size_t size() {
+    std::size_t value = 0;
+    (*this)(value);
+    return value;
+  }
+  template <std::size_t I, class V>
+  void choose(V& variant, std::size_t index) {
+    if constexpr (I < std::variant_size_v<V>) {
+      if (index == I)
+        (*this)(variant.template emplace<I>());
+      else
+        choose<I + 1>(variant, index);
+    }
+  }
+  template <class A, class B>
+  void both(A& a, B& b) {
+    (*this)(a);
+    (*this)(b);
+  }
+  std::string bytes_;
+  std::size_t position_ = 0;
+};
+
+} // namespace
+
+Metadata broadcast(const Metadata& metadata, const comm::Communicator& comm) {
+  if (comm.size() == 1)
+    return metadata;
+  Packer pack;
+  if (comm.is_root()) {
+    pack(metadata.attributes);
+    pack(metadata.texts);
+    pack(metadata.groups);
+  }
+  Unpacker unpack(comm.broadcast(pack.take()));
+  Metadata result;
+  unpack(result.attributes);
+  unpack(result.texts);
+  unpack(result.groups);
+  return result;
+}
+
+} // namespace trime::io

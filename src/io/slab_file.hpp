@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An HDF5 file that all ranks write together: large arrays as one contiguous slab per rank, collectively and in slices;
+// small things (attributes, columns, texts) the same on every rank. After each step the ranks agree on errors, so that
+// all of them throw together and none is left waiting.
+#pragma once
+
+#include "io/hdf5_handle.hpp"
+#include "trime/comm/communicator.hpp"
+#include "trime/io/metadata.hpp"
+#include "trime/mesh/distributed_mesh.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace trime::io {
+
+/// An array of `slab.total` rows over all ranks. The rows are made on demand, slice by slice, so that no second copy of
+/// an array is held.
+struct SlabArray {
+  std::string path;
+  hid_t type = -1;             ///< native type of one value, in memory and in the file
+  std::size_t value_bytes = 0; ///< its size
+  hsize_t columns = 0;         ///< 0: one-dimensional
+  mesh::Slab slab;
+  std::int64_t rows = 0; ///< rows of this rank
+  /// Writes rows [first, first + count) of this rank to `out`; must give the same bytes at each call.
+  std::function<void(std::int64_t first, std::int64_t count, std::byte* out)> fill;
+
+  std::size_t row_bytes() const { return value_bytes * (columns == 0 ? 1 : static_cast<std::size_t>(columns)); }
+};
+
+/// All functions are collective and throw FileError on all ranks together. Errors name the file by `path`.
+class SlabFile {
+public:
+  /// Creates or empties the file. One rank uses the plain driver, several MPI-IO.
+  SlabFile(const comm::Communicator& comm, std::string path);
+
+  void group(const std::string& path);
+  void hard_link(const std::string& existing, const std::string& path);
+  /// `object` is the path of a group or dataset.
+  void attribute(const std::string& object, const Attribute& attribute);
+  void attribute(const std::string& object, const std::string& name, std::span<const std::int64_t> values);
+  /// Text of exactly its own length, ASCII, no terminator: what readers of VTKHDF ask for.
+  void ascii_attribute(const std::string& object, const std::string& name, const std::string& text);
+  void column(const std::string& group, const Column& column);
+  void text(const std::string& path, const std::string& text);
+  /// Keeps a copy of the description for verify().
+  void slab(SlabArray array);
+  /// Flushes, reads every slab back and compares each byte with what its rank holds.
+  void verify();
+  void close();
+
+private:
+  void small_dataset(const std::string& path, hid_t type, hid_t space, const void* data);
+  void write_slices(hid_t dataset, const SlabArray& array);
+  void verify_slices(const SlabArray& array);
+  std::string action(const std::string& verb, const std::string& what) const;
+
+  const comm::Communicator& comm_;
+  std::string path_;
+  Hdf5File file_;
+  std::vector<SlabArray> arrays_;
+};
+
+} // namespace trime::io

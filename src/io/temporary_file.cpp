@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/temporary_file.hpp"
+
+#include "trime/core/error.hpp"
+#include "trime/io/mesh_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace trime::io {
+namespace {
+
+// For the signal handler: a plain buffer, valid while the flag is set.
+char active_path[PATH_MAX];
+std::atomic<bool> active{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+/// Brings a file or directory to the disk. File systems that cannot synchronise a directory are forgiven.
+void synchronise(const std::string& path, int flags) {
+  const int descriptor = open(path.c_str(), flags | O_CLOEXEC);
+  if (descriptor < 0)
+    throw FileError(fmt::format("cannot open {}: {}", path, system_error()));
+  const int result = fsync(descriptor);
+  const bool forgiven = errno == EINVAL || errno == ENOTSUP || errno == EROFS;
+  const std::string reason = system_error();
+  ::close(descriptor);
+  if (result != 0 && !forgiven)
+    throw FileError(fmt::format("cannot write {} to disk: {}", path, reason));
+}
+
+std::string directory_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
+}
+
+} // namespace
+
+std::string system_error() {
+  return std::strerror(errno);
+}
+
+TemporaryFile::TemporaryFile(std::string path) : path_(std::move(path)) {
+  if (path_.size() < sizeof active_path) {
+    std::memcpy(active_path, path_.c_str(), path_.size() + 1);
+    active = true;
+  }
+}
+
+TemporaryFile::~TemporaryFile() {
+  active = false;
+  if (!published_)
+    unlink(path_.c_str());
+}
+
+void TemporaryFile::publish(const std::string& final_path) {
+  synchronise(path_, O_RDWR);
+  if (std::rename(path_.c_str(), final_path.c_str()) != 0)
+    throw FileError(fmt::format("cannot rename {} to {}: {}", path_, final_path, system_error()));
+  published_ = true;
+  active = false;
+  synchronise(directory_of(final_path), O_RDONLY | O_DIRECTORY);
+}
+
+void remove_temporary_file() noexcept {
+  if (active)
+    unlink(active_path);
+}
+
+std::string temporary_name(const std::string& final_path) {
+  const char* job = std::getenv("SLURM_JOB_ID");
+  return final_path + ".tmp-" + (job && *job ? std::string(job) : std::to_string(getpid()));
+}
+
+void write_text_file(const std::string& final_path, const std::string& text) {
+  TemporaryFile temporary(temporary_name(final_path));
+  std::FILE* file = std::fopen(temporary.path().c_str(), "wb");
+  if (!file)
+    throw FileError(fmt::format("cannot create {}: {}", temporary.path(), system_error()));
+  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  const bool closed = std::fclose(file) == 0;
+  if (!written || !closed)
+    throw FileError(fmt::format("cannot write {}: {}", temporary.path(), system_error()));
+  temporary.publish(final_path);
+}
+
+void replace_link(const std::string& target, const std::string& path) {
+  const std::string temporary = temporary_name(path);
+  unlink(temporary.c_str());
+  if (symlink(target.c_str(), temporary.c_str()) != 0 || std::rename(temporary.c_str(), path.c_str()) != 0) {
+    const std::string reason = system_error();
+    unlink(temporary.c_str());
+    throw FileError(fmt::format("cannot make the link {} to {}: {}", path, target, reason));
+  }
+}
+
+} // namespace trime::io

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files that appear whole or not at all: written under a temporary name, synchronised, renamed. Serial: rank 0 only.
+#pragma once
+
+#include <string>
+
+namespace trime::io {
+
+/// @brief Keeps one temporary name; removes the file at the end of its life unless it was renamed, and lets
+/// remove_temporary_file() find it in a signal handler. One object at a time.
+class TemporaryFile {
+public:
+  explicit TemporaryFile(std::string path);
+  ~TemporaryFile();
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  const std::string& path() const { return path_; }
+  /// Brings the bytes to the disk, then renames, then brings the directory to the disk. @throws FileError
+  void publish(const std::string& final_path);
+
+private:
+  std::string path_;
+  bool published_ = false;
+};
+
+/// `final_path` + ".tmp-" + the job's id under SLURM, else the process id.
+std::string temporary_name(const std::string& final_path);
+
+/// Writes a text to `final_path`, whole or not at all. @throws FileError
+void write_text_file(const std::string& final_path, const std::string& text);
+
+/// Makes or replaces the symbolic link `path` to `target` (relative to the directory of `path`). @throws FileError
+void replace_link(const std::string& target, const std::string& path);
+
+/// The system's words for errno.
+std::string system_error();
+
+} // namespace trime::io

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/xdmf.hpp"
+
+#include <fmt/format.h>
+
+namespace trime::io {
+namespace {
+
+/// Characters that mean something in XML.
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text)
+    switch (c) {
+    case '&':
+      result += "&amp;";
+      break;
+    case '<':
+      result += "&lt;";
+      break;
+    case '>':
+      result += "&gt;";
+      break;
+    default:
+      result += c;
+    }
+  return result;
+}
+
+struct Field {
+  const char* name;
+  const char* center; ///< "Node" or "Cell"
+  const char* number_type;
+  int precision; ///< bytes
+};
+
+std::string attribute(const XdmfContent& content, const Field& field) {
+  const bool on_cells = field.center[0] == 'C';
+  return fmt::format(" <Attribute Name=\"{}\" AttributeType=\"Scalar\" Center=\"{}\">\n"
+                     "  <DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" Format=\"HDF\">{}:{}/{}"
+                     "</DataItem></Attribute>\n",
+                     field.name, field.center, on_cells ? content.triangles : content.points, field.number_type,
+                     field.precision, escaped(content.file), on_cells ? content.cell_data : content.point_data,
+                     field.name);
+}
+
+} // namespace
+
+/// One Domain with one Grid, sizes equal to the HDF5 shapes, no Time and no Information: meshio and dolfinx refuse
+/// more.
+std::string xdmf_text(const XdmfContent& content) {
+  const std::string file = escaped(content.file);
+  std::string text = fmt::format(
+      "<?xml version=\"1.0\"?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n"
+      "<Xdmf Version=\"3.0\"><Domain><Grid Name=\"mesh\" GridType=\"Uniform\">\n"
+      " <Topology TopologyType=\"Triangle\" NumberOfElements=\"{1}\" NodesPerElement=\"3\">\n"
+      "  <DataItem Dimensions=\"{1} 3\" NumberType=\"Int\" Precision=\"8\" Format=\"HDF\">{2}:/Mesh/mesh/topology"
+      "</DataItem></Topology>\n"
+      " <Geometry GeometryType=\"XY\">\n"
+      "  <DataItem Dimensions=\"{0} 2\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">{2}:/Mesh/mesh/geometry"
+      "</DataItem></Geometry>\n",
+      content.points, content.triangles, file);
+  for (const Field& field :
+       {Field{"alpha", "Cell", "Float", 4}, Field{"beta", "Cell", "Float", 4}, Field{"region", "Cell", "Int", 4},
+        Field{"boundary", "Node", "Int", 4}, Field{"size", "Node", "Float", 4}, Field{"fixed", "Node", "UChar", 1}})
+    text += attribute(content, field);
+  return text + "</Grid></Domain></Xdmf>\n";
+}
+
+} // namespace trime::io

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The mesh file against its contract, by plain HDF5 calls of its own: paths, types, shapes, attributes and values, the
+// same for any distribution over ranks, empty ranks included.
+#include "trime/io/mesh_file.hpp"
+
+#include "io/hdf5_handle.hpp"
+#include "support/temporary_directory.hpp"
+#include "trime/core/error.hpp"
+#include "trime/core/random.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace trime::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A mesh whose values are functions of the global index: not geometric, but every slip of a row shows.
+constexpr std::int64_t n_points = 1000, n_triangles = 1900, n_facets = 101;
+
+double coordinate(std::int64_t i, int axis) {
+  return random_unit(1, RandomPurpose::test, i, axis);
+}
+std::int64_t vertex(std::int64_t i, int k) {
+  return (3 * i + k) % n_points;
+}
+
+/// Uneven shares in which about a third of the ranks hold nothing.
+mesh::Slab share(const comm::Communicator& comm, std::int64_t total, std::uint64_t seed, std::int64_t& rows) {
+  std::vector<std::int64_t> weights;
+  for (int rank = 0; rank < comm.size(); ++rank) {
+    const std::uint64_t bits = random_bits(seed, RandomPurpose::test, rank, comm.size());
+    weights.push_back(bits % 3 == 0 ? 0 : static_cast<std::int64_t>(bits % 1000));
+  }
+  weights[static_cast<std::size_t>(seed) % weights.size()] += 1;
+  std::int64_t sum = 0, before = 0;
+  for (std::size_t rank = 0; rank < weights.size(); ++rank) {
+    sum += weights[rank];
+    before += static_cast<int>(rank) < comm.rank() ? weights[rank] : 0;
+  }
+  const std::int64_t first = total * before / sum;
+  rows = total * (before + weights[static_cast<std::size_t>(comm.rank())]) / sum - first;
+  return {first, total};
+}
+
+mesh::DistributedMesh make_mesh(const comm::Communicator& comm, std::uint64_t seed) {
+  mesh::DistributedMesh mesh;
+  std::int64_t points = 0, triangles = 0, facets = 0;
+  mesh.point_slab = share(comm, n_points, seed, points);
+  mesh.triangle_slab = share(comm, n_triangles, seed + 10, triangles);
+  mesh.facet_slab = share(comm, n_facets, seed + 20, facets);
+  for (std::int64_t k = 0, i = mesh.point_slab.first; k < points; ++k, ++i) {
+    mesh.points.push_back({coordinate(i, 0), coordinate(i, 1)});
+    mesh.boundary.push_back(static_cast<std::int32_t>(i % 4));
+    mesh.size.push_back(static_cast<float>(i) / 7);
+    mesh.fixed.push_back(i % 5 == 0);
+  }
+  for (std::int64_t k = 0, i = mesh.triangle_slab.first; k < triangles; ++k, ++i) {
+    mesh.triangles.push_back({vertex(i, 0), vertex(i, 1), vertex(i, 2)});
+    mesh.alpha.push_back(1 + static_cast<float>(i) / 3);
+    mesh.beta.push_back(1 + static_cast<float>(i) / 5);
+    mesh.region.push_back(static_cast<std::int32_t>(i % 2));
+  }
+  for (std::int64_t k = 0, i = mesh.facet_slab.first; k < facets; ++k, ++i) {
+    mesh.facets.push_back({i, (i + 1) % n_facets});
+    mesh.facet_tags.push_back(static_cast<std::int32_t>(1 + i % 3));
+  }
+  return mesh;
+}
+
+Metadata make_metadata(const comm::Communicator& comm) {
+  // What other ranks say must not matter, not even its length.
+  const std::string host = comm.is_root() ? "node1" : "some-other-node";
+  Metadata metadata;
+  metadata.attributes = {{"host", host},
+                         {"empty", std::string()},
+                         {"mesh_hash", std::uint64_t{0xfedcba9876543210}},
+                         {"seconds", 0.5 + comm.rank()}};
+  metadata.texts = {{"config_text", "[domain]\n; \xC3\xA4\n"}, {"nothing", ""}};
+  metadata.groups = {{"history",
+                      {{"sweeps", std::int64_t{2}}},
+                      {{"sweep", std::vector<std::int64_t>{1, 2}}, {"mean_alpha", std::vector<double>{1.5, 1.25}}}},
+                     {"tags",
+                      {},
+                      {{"edge_id", std::vector<std::int32_t>{1, 2}},
+                       {"edge_name", std::vector<std::string>{"outer", "h"}},
+                       {"none", std::vector<double>{}}}}};
+  return metadata;
+}
+
+/// Reads one dataset on one rank and looks at its shape and type in the file.
+template <class T>
+std::vector<T> read(hid_t file, const char* path, hid_t type, const std::vector<hsize_t>& shape) {
+  const Hdf5Dataset dataset(H5Dopen2(file, path, H5P_DEFAULT), path);
+  const Hdf5Space space(H5Dget_space(dataset), "space");
+  std::vector<hsize_t> found(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+  H5Sget_simple_extent_dims(space, found.data(), nullptr);
+  EXPECT_EQ(found, shape) << path;
+  const Hdf5Type stored(H5Dget_type(dataset), "type");
+  EXPECT_GT(H5Tequal(stored, type), 0) << path;
+  const Hdf5Properties creation(H5Dget_create_plist(dataset), "properties");
+  EXPECT_EQ(H5Pget_layout(creation), H5D_CONTIGUOUS) << path;
+  H5O_info_t info;
+  EXPECT_GE(H5Oget_info2(dataset, &info, H5O_INFO_TIME), 0);
+  EXPECT_EQ(info.mtime, 0) << path << " keeps the time of its making";
+  std::vector<T> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  if (!values.empty()) {
+    EXPECT_GE(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0) << path;
+  }
+  return values;
+}
+
+template <class T, class F>
+void expect_values(const std::vector<T>& values, std::int64_t count, const F& expected) {
+  ASSERT_EQ(static_cast<std::int64_t>(values.size()), count);
+  for (std::int64_t i = 0; i < count; ++i)
+    ASSERT_EQ(values[static_cast<std::size_t>(i)], static_cast<T>(expected(i))) << i;
+}
+
+std::string read_text(hid_t object, const char* attribute) {
+  const Hdf5Attribute opened(H5Aopen(object, attribute, H5P_DEFAULT), attribute);
+  const Hdf5Type type(H5Aget_type(opened), "type");
+  EXPECT_EQ(H5Tis_variable_str(type), 0);
+  std::string text(H5Tget_size(type), 'x');
+  H5Aread(opened, type, text.data());
+  return text;
+}
+
+void expect_vtkhdf(hid_t file) {
+  const Hdf5Group group(H5Gopen2(file, "/VTKHDF", H5P_DEFAULT), "VTKHDF");
+  EXPECT_EQ(read_text(group, "Type"), "UnstructuredGrid");
+  const Hdf5Attribute type_attribute(H5Aopen(group, "Type", H5P_DEFAULT), "Type");
+  const Hdf5Type type(H5Aget_type(type_attribute), "type");
+  EXPECT_EQ(H5Tget_cset(type), H5T_CSET_ASCII);
+  const Hdf5Attribute version(H5Aopen(group, "Version", H5P_DEFAULT), "Version");
+  std::int64_t numbers[2] = {-1, -1};
+  H5Aread(version, H5T_NATIVE_INT64, numbers);
+  EXPECT_EQ(numbers[0], 1);
+  EXPECT_EQ(numbers[1], 0);
+  const hid_t i64 = H5T_NATIVE_INT64, f32 = H5T_NATIVE_FLOAT, i32 = H5T_NATIVE_INT32;
+  EXPECT_EQ(read<std::int64_t>(file, "/VTKHDF/NumberOfPoints", i64, {1})[0], n_points);
+  EXPECT_EQ(read<std::int64_t>(file, "/VTKHDF/NumberOfCells", i64, {1})[0], n_triangles);
+  EXPECT_EQ(read<std::int64_t>(file, "/VTKHDF/NumberOfConnectivityIds", i64, {1})[0], 3 * n_triangles);
+  expect_values(read<double>(file, "/VTKHDF/Points", H5T_NATIVE_DOUBLE, {n_points, 3}), 3 * n_points,
+                [](std::int64_t i) { return i % 3 == 2 ? 0 : coordinate(i / 3, static_cast<int>(i % 3)); });
+  expect_values(read<std::int64_t>(file, "/VTKHDF/Connectivity", i64, {3 * n_triangles}), 3 * n_triangles,
+                [](std::int64_t i) { return vertex(i / 3, static_cast<int>(i % 3)); });
+  expect_values(read<std::int64_t>(file, "/VTKHDF/Offsets", i64, {n_triangles + 1}), n_triangles + 1,
+                [](std::int64_t i) { return 3 * i; });
+  expect_values(read<std::uint8_t>(file, "/VTKHDF/Types", H5T_NATIVE_UINT8, {n_triangles}), n_triangles,
+                [](std::int64_t) { return 5; });
+  expect_values(read<float>(file, "/VTKHDF/CellData/alpha", f32, {n_triangles}), n_triangles,
+                [](std::int64_t i) { return 1 + static_cast<float>(i) / 3; });
+  expect_values(read<float>(file, "/VTKHDF/CellData/beta", f32, {n_triangles}), n_triangles,
+                [](std::int64_t i) { return 1 + static_cast<float>(i) / 5; });
+  expect_values(read<std::int32_t>(file, "/VTKHDF/CellData/region", i32, {n_triangles}), n_triangles,
+                [](std::int64_t i) { return i % 2; });
+  expect_values(read<std::int32_t>(file, "/VTKHDF/PointData/boundary", i32, {n_points}), n_points,
+                [](std::int64_t i) { return i % 4; });
+  expect_values(read<float>(file, "/VTKHDF/PointData/size", f32, {n_points}), n_points,
+                [](std::int64_t i) { return static_cast<float>(i) / 7; });
+  expect_values(read<std::uint8_t>(file, "/VTKHDF/PointData/fixed", H5T_NATIVE_UINT8, {n_points}), n_points,
+                [](std::int64_t i) { return i % 5 == 0; });
+}
+
+void expect_plain_mesh(hid_t file) {
+  const hid_t i64 = H5T_NATIVE_INT64;
+  for (const char* path : {"/Mesh/mesh/geometry", "/geometry/vertices"})
+    expect_values(read<double>(file, path, H5T_NATIVE_DOUBLE, {n_points, 2}), 2 * n_points,
+                  [](std::int64_t i) { return coordinate(i / 2, static_cast<int>(i % 2)); });
+  for (const char* path : {"/Mesh/mesh/topology", "/viz/topology/cells"}) {
+    expect_values(read<std::int64_t>(file, path, i64, {n_triangles, 3}), 3 * n_triangles,
+                  [](std::int64_t i) { return vertex(i / 3, static_cast<int>(i % 3)); });
+    for (const auto& [name, expected] : {std::pair("cell_dim", 2), std::pair("cell_corners", 3)}) {
+      const Hdf5Attribute attribute(H5Aopen_by_name(file, path, name, H5P_DEFAULT, H5P_DEFAULT), name);
+      std::int64_t value = 0;
+      H5Aread(attribute, i64, &value);
+      EXPECT_EQ(value, expected);
+    }
+  }
+  expect_values(read<std::int64_t>(file, "/Mesh/facets/topology", i64, {n_facets, 2}), 2 * n_facets,
+                [](std::int64_t i) { return (i / 2 + i % 2) % n_facets; });
+  expect_values(read<std::int32_t>(file, "/Mesh/facets/values", H5T_NATIVE_INT32, {n_facets}), n_facets,
+                [](std::int64_t i) { return 1 + i % 3; });
+}
+
+void expect_metadata(hid_t file) {
+  const Hdf5Group group(H5Gopen2(file, "/trime_mpi", H5P_DEFAULT), "trime_mpi");
+  EXPECT_EQ(read_text(group, "host"), "node1");
+  std::uint64_t hash = 0;
+  const Hdf5Attribute attribute(H5Aopen(group, "mesh_hash", H5P_DEFAULT), "mesh_hash");
+  H5Aread(attribute, H5T_NATIVE_UINT64, &hash);
+  EXPECT_EQ(hash, 0xfedcba9876543210u);
+  EXPECT_EQ(read<double>(file, "/trime_mpi/history/mean_alpha", H5T_NATIVE_DOUBLE, {2})[1], 1.25);
+  EXPECT_EQ(read<std::int64_t>(file, "/trime_mpi/history/sweep", H5T_NATIVE_INT64, {2})[1], 2);
+  EXPECT_EQ(read<std::int32_t>(file, "/trime_mpi/tags/edge_id", H5T_NATIVE_INT32, {2})[1], 2);
+  EXPECT_EQ(read<double>(file, "/trime_mpi/tags/none", H5T_NATIVE_DOUBLE, {0}).size(), 0u);
+  const Hdf5Dataset text(H5Dopen2(file, "/trime_mpi/config_text", H5P_DEFAULT), "config_text");
+  const Hdf5Type type(H5Dget_type(text), "type");
+  EXPECT_EQ(H5Tget_cset(type), H5T_CSET_UTF8);
+  std::string config(H5Tget_size(type), 'x');
+  H5Dread(text, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, config.data());
+  EXPECT_EQ(config, "[domain]\n; \xC3\xA4\n");
+}
+
+std::string content(const std::string& path) {
+  std::stringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+MeshFileOptions options_in(const std::string& directory) {
+  MeshFileOptions options;
+  options.directory = directory + "/deep/er";
+  options.name = "a&b";
+  return options;
+}
+
+TEST(MeshFile, KeepsItsContractOnAnyDistribution) {
+  const comm::Communicator comm = comm::Communicator::world();
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const test::TemporaryDirectory directory(comm);
+    const MeshFileOptions options = options_in(directory.path());
+    EXPECT_TRUE(check_output(options, comm).empty());
+    const WrittenFiles written = write_mesh(options, make_mesh(comm, seed), make_metadata(comm), comm);
+    if (!comm.is_root())
+      continue;
+    EXPECT_EQ(written.paths.size(), 3u);
+    EXPECT_EQ(std::distance(fs::directory_iterator(options.directory), {}), 3) << "something was left behind";
+    EXPECT_EQ(fs::read_symlink(options.path(".vtkhdf")), "a&b.h5");
+    const Hdf5File file(H5Fopen(options.path(".vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "open");
+    expect_vtkhdf(file);
+    expect_plain_mesh(file);
+    expect_metadata(file);
+    const std::string xdmf = content(options.path(".xdmf"));
+    EXPECT_NE(xdmf.find("Dimensions=\"1900 3\""), std::string::npos);
+    EXPECT_NE(xdmf.find("a&amp;b.h5:/VTKHDF/CellData/alpha<"), std::string::npos);
+  }
+}
+
+TEST(MeshFile, WritesOnlyTheViewsThatAreWanted) {
+  const comm::Communicator comm = comm::Communicator::world();
+  const test::TemporaryDirectory directory(comm);
+  MeshFileOptions options = options_in(directory.path());
+  check_output(options, comm);
+  write_mesh(options, make_mesh(comm, 4), {}, comm);
+  options.overwrite = true;
+  for (const bool vtkhdf : {true, false}) {
+    options.vtkhdf = vtkhdf;
+    options.xdmf = !vtkhdf;
+    check_output(options, comm);
+    write_mesh(options, make_mesh(comm, 5), {}, comm);
+    if (!comm.is_root())
+      continue;
+    EXPECT_EQ(fs::is_symlink(options.path(".vtkhdf")), vtkhdf);
+    EXPECT_EQ(fs::exists(options.path(".xdmf")), !vtkhdf);
+    const Hdf5File file(H5Fopen(options.path(".h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "open");
+    EXPECT_EQ(H5Lexists(file, "/VTKHDF", H5P_DEFAULT) > 0, vtkhdf);
+    EXPECT_EQ(H5Lexists(file, "/Mesh/mesh", H5P_DEFAULT) > 0, !vtkhdf);
+    EXPECT_GT(H5Lexists(file, "/Mesh/facets", H5P_DEFAULT), 0);
+    EXPECT_EQ(H5Lexists(file, "/Mesh/CellData", H5P_DEFAULT) > 0, !vtkhdf);
+  }
+}
+
+TEST(MeshFile, RefusesToOverwriteAndTellsWhatWasLeft) {
+  const comm::Communicator comm = comm::Communicator::world();
+  const test::TemporaryDirectory directory(comm);
+  MeshFileOptions options = options_in(directory.path());
+  check_output(options, comm);
+  if (comm.is_root()) {
+    std::ofstream(options.path(".h5.tmp-1")) << "x";
+    std::ofstream(options.path(".xdmf")) << "x";
+  }
+  comm.barrier();
+  try {
+    check_output(options, comm);
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::file);
+    EXPECT_NE(std::string(error.what()).find("output.overwrite = true"), std::string::npos);
+  }
+  options.overwrite = true;
+  EXPECT_EQ(check_output(options, comm).size(), comm.is_root() ? 1u : 0u);
+  options.directory = options.path(".xdmf"); // a file, not a directory
+  EXPECT_THROW(check_output(options, comm), Error);
+}
+
+TEST(MeshFile, AFailureLeavesNothingAndIsThrownByAllRanks) {
+  const comm::Communicator comm = comm::Communicator::world();
+  const test::TemporaryDirectory directory(comm);
+  MeshFileOptions options = options_in(directory.path());
+  EXPECT_THROW(write_mesh(options, make_mesh(comm, 6), {}, comm), Error) << "the directory does not exist";
+  check_output(options, comm);
+  if (comm.is_root())
+    fs::create_directory(options.path(".h5")); // in the way of the last rename
+  comm.barrier();
+  EXPECT_THROW(write_mesh(options, make_mesh(comm, 6), {}, comm), Error);
+  comm.barrier();
+  EXPECT_EQ(std::distance(fs::directory_iterator(options.directory), {}), 1);
+}
+
+} // namespace
+} // namespace trime::io
