@@ -1,0 +1,79 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""A killed run leaves no half file under the final name: either nothing, or a mesh that is whole."""
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+import h5py
+
+from trime_run import ROOT, Workspace, command, environment
+
+CONFIG = ROOT / "configs" / "square.ini"
+POINTS = 150_000
+PATIENCE = 100  # seconds
+
+
+def processes_of(directory):
+    """Ids of the processes whose command line names this directory (ours alone, it is a fresh one)."""
+    found = []
+    for entry in os.listdir("/proc"):
+        if entry.isdigit() and int(entry) != os.getpid():
+            try:
+                with open(f"/proc/{entry}/cmdline", "rb") as stream:
+                    if str(directory).encode() in stream.read():
+                        found.append(int(entry))
+            except OSError:
+                pass
+    return found
+
+
+class Interrupted(unittest.TestCase):
+    def start(self, directory):
+        """Starts a run on 2 ranks."""
+        arguments = [CONFIG, f"meshing.points={POINTS}", f"output.directory={directory}", "output.name=mesh"]
+        return subprocess.Popen(command(arguments, 2), env=environment(1), stdout=subprocess.DEVNULL,
+                                stderr=subprocess.DEVNULL)
+
+    def kill_when(self, directory, due, number):
+        """Sends the signal to mpirun as soon as due() holds, and waits until no rank is left."""
+        mpirun = self.start(directory)
+        end = time.monotonic() + PATIENCE
+        while not due() and mpirun.poll() is None and time.monotonic() < end:
+            time.sleep(0.002)
+        mpirun.send_signal(number)
+        mpirun.wait(PATIENCE)
+        while processes_of(directory) and time.monotonic() < end:
+            time.sleep(0.05)
+        self.assertEqual(processes_of(directory), [], "ranks survive their mpirun")
+
+    def assert_nothing_or_whole(self, directory):
+        """The promise. Returns whether there is a mesh."""
+        mesh = directory / "mesh.h5"
+        if not mesh.exists():
+            return False
+        with h5py.File(mesh, "r") as file:
+            self.assertEqual(int(file["trime_mpi"].attrs["complete"]), 1)
+            self.assertGreater(file["Mesh/mesh/topology"][:].max(), POINTS // 2)
+        return True
+
+    def test_killed_while_meshing(self):
+        for number in (signal.SIGKILL, signal.SIGTERM):
+            with self.subTest(signal=number), Workspace() as directory:
+                begin = time.monotonic()
+                self.kill_when(directory, lambda: time.monotonic() > begin + 0.8, number)
+                self.assertFalse(self.assert_nothing_or_whole(directory), "the run ended before it could be killed")
+
+    def test_killed_while_writing(self):
+        for number in (signal.SIGKILL, signal.SIGTERM):
+            with self.subTest(signal=number), Workspace() as directory:
+                def written(folder=directory):
+                    return any(".tmp-" in path.name and path.stat().st_size > 100_000 for path in folder.iterdir())
+                self.kill_when(directory, written, number)
+                self.assert_nothing_or_whole(directory)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,83 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The scripts around the program: picture, scaling table, and what the first command does where it may not install."""
+import csv
+import json
+import os
+import subprocess
+import sys
+import unittest
+
+from trime_run import PROGRAM, ROOT, Workspace, environment, run
+
+SCRIPTS = ROOT / "scripts"
+
+
+def call(*command, **changes):
+    """Runs a script; returns the finished process."""
+    return subprocess.run([str(part) for part in command], env=environment(1) | changes, capture_output=True, text=True,
+                          check=False, timeout=120)
+
+
+class Scripts(unittest.TestCase):
+    def test_picture_of_a_mesh(self):
+        with Workspace() as work:
+            done = run(ROOT / "configs" / "circle.ini", "meshing.points=1000", f"output.directory={work}", "output.name=m")
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            done = call(SCRIPTS / "plot_mesh.py", work / "m.h5", MPLCONFIGDIR=str(work))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            picture = (work / "m.png").read_bytes()
+            self.assertTrue(picture.startswith(b"\x89PNG"))
+            self.assertGreater(len(picture), 20_000)
+
+    def test_picture_of_something_else(self):
+        with Workspace() as work:
+            (work / "m.h5").write_text("no mesh", encoding="utf-8")
+            done = call(SCRIPTS / "plot_mesh.py", work / "m.h5", MPLCONFIGDIR=str(work))
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("not a mesh file", done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+
+    def test_scaling_table(self):
+        with Workspace() as work:
+            done = call(SCRIPTS / "scaling.py", "--cases", "1x1,2x1,1x64", "--points", "2e3", "--repeats", "2",
+                        "--program", PROGRAM, "--output", work)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            with (work / "scaling.csv").open(encoding="utf-8") as stream:
+                rows = list(csv.DictReader(stream))
+            self.assertEqual([(row["ranks"], row["threads"]) for row in rows], [("1", "1"), ("2", "1"), ("1", "64")])
+            self.assertEqual({row["same_mesh"] for row in rows}, {"OK"})
+            self.assertEqual(len({row["mesh_hash"] for row in rows}), 1)
+            self.assertEqual(float(rows[0]["efficiency"]), 1)
+            if os.cpu_count() < 64:
+                self.assertEqual(rows[2]["efficiency"], "", "more threads than cores: no efficiency")
+            runs = [json.loads(line) for line in (work / "runs.jsonl").read_text(encoding="utf-8").splitlines()]
+            self.assertEqual(len(runs), 6, "the warm-up is dropped")
+            for record in runs:
+                parts = sum(phase["avg"] for phase in record["phases"].values())
+                self.assertLessEqual(abs(parts - record["seconds"]), 0.1 * record["seconds"] + 0.02)
+            self.assertIn("| 2,000 | 1 x 1 |", (work / "scaling.md").read_text(encoding="utf-8"))
+
+    def test_scaling_refuses_nonsense(self):
+        for arguments in (["--cases", "2"], ["--cases", "0x1"], ["--points", "many"], ["--program", "/nowhere"]):
+            with self.subTest(arguments=arguments):
+                done = call(SCRIPTS / "scaling.py", *arguments)
+                self.assertEqual(done.returncode, 2)
+                self.assertNotIn("Traceback", done.stderr)
+
+    def test_first_commands_say_what_they_would_install(self):
+        with Workspace() as work:
+            fake = work / "dpkg-query"
+            fake.write_text("#!/bin/sh\nexit 1\n", encoding="utf-8")  # nothing is installed here
+            fake.chmod(0o755)
+            path = f"{work}:{os.environ['PATH']}"
+            for script, package in (("run.sh", "libhdf5-openmpi-dev"), ("test.sh", "libgtest-dev")):
+                with self.subTest(script=script):
+                    done = call(SCRIPTS / script, PATH=path, TRIME_NO_INSTALL="1")
+                    self.assertNotEqual(done.returncode, 0)
+                    self.assertRegex(done.stderr, rf"apt-get install .*\b{package}\b")
+                    self.assertEqual(done.stdout, "")
+
+
+if __name__ == "__main__":
+    unittest.main()

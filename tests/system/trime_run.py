@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs trime_mpi for the system tests. The program and mpirun come from the environment that ctest sets."""
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = os.environ.get("TRIME_PROGRAM", str(ROOT / "build" / "ci" / "trime_mpi"))
+MPIEXEC = os.environ.get("TRIME_MPIEXEC", "mpirun")
+
+
+def environment(threads):
+    """For more ranks and threads than cores, also as root in a container."""
+    return dict(os.environ, OMP_NUM_THREADS=str(threads), OMP_WAIT_POLICY="passive", OMPI_ALLOW_RUN_AS_ROOT="1",
+                OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
+                OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_mpi_yield_when_idle="1")
+
+
+def command(arguments, ranks):
+    """The command line; one rank runs without mpirun."""
+    start = [] if ranks == 1 else [MPIEXEC, "-np", str(ranks)]
+    return start + [PROGRAM] + [str(argument) for argument in arguments]
+
+
+def run(*arguments, ranks=1, threads=1, timeout=120, cwd=None):
+    """A finished run: returncode, stdout, stderr."""
+    return subprocess.run(command(arguments, ranks), env=environment(threads), cwd=cwd, capture_output=True, text=True,
+                          timeout=timeout, check=False)
+
+
+class Workspace:
+    """A directory of its own for a test, removed at its end."""
+
+    def __enter__(self):
+        self.path = pathlib.Path(tempfile.mkdtemp(prefix="trime-system-"))
+        return self.path
+
+    def __exit__(self, *_):
+        shutil.rmtree(self.path, ignore_errors=True)
