@@ -81,7 +81,8 @@ def check(root):
             continue
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
             match = INCLUDE.match(line)
-            reason = complaint(module, public, *match.groups()) if match else None
+            neighbour = match and "/" not in match.group(2) and (path.parent / match.group(2)).is_file()
+            reason = complaint(module, public, *match.groups()) if match and not neighbour else None
             if reason:
                 found.append(f"{where}:{number}: {match.group(2)}: {reason}")
     return found, count

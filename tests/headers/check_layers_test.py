@@ -74,6 +74,12 @@ class Layers(unittest.TestCase):
     def test_public_headers_cannot_include_private_ones(self):
         self.assert_refused("include/trime/io/a.hpp", '#include "io/hdf5_handle.hpp"', "private")
 
+    def test_neighbours_in_one_folder_may_be_named_without_it(self):
+        files = {"src/io/a.cpp": '#include "b.hpp"\n', "src/io/b.hpp": "\n"}
+        self.assertEqual(run(files)[0], 0)
+        files = {"src/io/a.cpp": '#include "../app/b.hpp"\n', "src/app/b.hpp": "\n"}
+        self.assertEqual(run(files)[0], 1, "a way around the check")
+
     def test_unknown_modules_and_an_empty_tree_are_refused(self):
         self.assert_refused("src/io/a.cpp", '#include "handle.hpp"', "no module")
         self.assertEqual(run({"src/solver/a.cpp": "\n"})[0], 1)
