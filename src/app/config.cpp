@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/config.hpp"
+
+#include "app/settings.hpp"
+#include "trime/core/error.hpp"
+#include "trime/geometry/region.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace trime::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double most_points = 4e9;
+
+/// Place of the later of two entries: the command line comes after the file.
+int later_line(const Settings& settings, const std::string& section, const std::string& a, const std::string& b) {
+  const int first = settings.line(section, a), second = settings.line(section, b);
+  const bool overridden = first == io::command_line_origin || second == io::command_line_origin;
+  return overridden ? io::command_line_origin : std::max(first, second);
+}
+
+/// `low < high`, unless one of them was refused already (then both read as absent).
+void check_interval(const Settings& settings, const std::string& section, const std::string& axis,
+                    io::Diagnostics& problems) {
+  const std::string low = axis + "_min", high = axis + "_max";
+  const auto from = settings.optional_number(section, low), to = settings.optional_number(section, high);
+  if (!from || !to || *from < *to)
+    return;
+  problems.add(later_line(settings, section, low, high),
+               fmt::format("[{}] needs {} < {}, found {} and {}", section, low, high, *from, *to));
+}
+
+geometry::Box box_of(const Settings& settings, const std::string& section) {
+  return {{settings.number(section, "x_min"), settings.number(section, "y_min")},
+          {settings.number(section, "x_max"), settings.number(section, "y_max")}};
+}
+
+PartOptions part_of(const Settings& settings, const std::string& name, const fs::path& directory,
+                    io::Diagnostics& problems) {
+  const std::string section = "shape." + name;
+  PartOptions part;
+  part.name = name;
+  part.type = settings.text(section, "type");
+  if (part.type == "rectangle") {
+    check_interval(settings, section, "x", problems);
+    check_interval(settings, section, "y", problems);
+    part.box = box_of(settings, section);
+  } else if (part.type == "circle") {
+    part.center = settings.pair(section, "center");
+    part.radius = settings.number(section, "radius");
+  } else if (part.type == "triangle") {
+    part.corners = {settings.pair(section, "p0"), settings.pair(section, "p1"), settings.pair(section, "p2")};
+  } else if (part.type == "contour") {
+    part.file = (directory / settings.text(section, "file")).lexically_normal().string(); // absolute paths stay
+    part.normalize = settings.boolean(section, "normalize");
+  }
+  return part;
+}
+
+/// The region must parse; parts that it does not use are worth a word.
+void read_region(const Settings& settings, RunOptions& options, io::Diagnostics& problems) {
+  options.region = settings.text("shape", "region");
+  if (options.region.empty()) {
+    if (!settings.is_set("shape", "region"))
+      problems.add(io::whole_file,
+                   settings.parts().empty()
+                       ? "no shape is given; set 'region' in [shape] and describe its parts, or 'region = domain'"
+                       : fmt::format("'region' in [shape] is not set; for example 'region = {}'", settings.parts()[0]));
+    return;
+  }
+  try {
+    const geometry::Region region = geometry::Region::parse(options.region, settings.parts());
+    for (int part = 0; part < static_cast<int>(settings.parts().size()); ++part)
+      if (std::find(region.parts().begin(), region.parts().end(), part) == region.parts().end())
+        options.warnings.push_back(fmt::format("part '{}' does not occur in the region '{}'",
+                                               settings.parts()[static_cast<std::size_t>(part)], options.region));
+  } catch (const Error& error) {
+    problems.add(settings.line("shape", "region"), error.what());
+  }
+}
+
+void read_shape(const Settings& settings, const fs::path& directory, RunOptions& options, io::Diagnostics& problems) {
+  for (const std::string& name : settings.parts())
+    options.parts.push_back(part_of(settings, name, directory, problems));
+  read_region(settings, options, problems);
+}
+
+void read_domain(const Settings& settings, meshing::MeshOptions& mesh, io::Diagnostics& problems) {
+  check_interval(settings, "domain", "x", problems);
+  check_interval(settings, "domain", "y", problems);
+  mesh.container = box_of(settings, "domain");
+  const double longest = std::max(mesh.container.width(), mesh.container.height());
+  if (!std::isfinite(longest * longest))
+    problems.add(io::whole_file, "the container [domain] is too large for double precision");
+  if (const auto cells = settings.optional_integer("domain", "cells_x"))
+    mesh.cells_x = static_cast<int>(*cells);
+  if (const auto cells = settings.optional_integer("domain", "cells_y"))
+    mesh.cells_y = static_cast<int>(*cells);
+}
+
+/// Exactly one of points and edge_length, and no edge length that asks for an absurd number of points.
+void read_resolution(const Settings& settings, meshing::MeshOptions& mesh, io::Diagnostics& problems) {
+  mesh.points = settings.optional_integer("meshing", "points");
+  mesh.edge_length = settings.optional_number("meshing", "edge_length");
+  const bool points = settings.is_set("meshing", "points"), length = settings.is_set("meshing", "edge_length");
+  if (points && length)
+    problems.add(later_line(settings, "meshing", "points", "edge_length"),
+                 "both 'points' and 'edge_length' are set in [meshing]; keep one of them (on the command line, "
+                 "'meshing.points=' takes the value of the file away)");
+  if (!points && !length)
+    problems.add(io::whole_file, "set 'points' or 'edge_length' in [meshing], for example 'points = 5000'");
+  const double area = mesh.container.width() * mesh.container.height();
+  const double expected = mesh.edge_length ? area / (std::sqrt(0.75) * *mesh.edge_length * *mesh.edge_length) : 0;
+  if (expected > most_points)
+    problems.add(
+        settings.line("meshing", "edge_length"),
+        fmt::format("'edge_length = {}' in [meshing] asks for about {:.2g} points in a container of area {:.3g}; "
+                    "at most {:.0e} are possible",
+                    *mesh.edge_length, expected, area, most_points));
+}
+
+void read_meshing(const Settings& settings, meshing::MeshOptions& mesh, io::Diagnostics& problems) {
+  read_resolution(settings, mesh, problems);
+  mesh.corner_angle = settings.number("meshing", "corner_angle");
+  mesh.seed = static_cast<std::uint64_t>(settings.integer("meshing", "seed"));
+  mesh.max_sweeps = static_cast<int>(settings.integer("meshing", "max_sweeps"));
+  mesh.stop_tolerance = settings.optional_number("meshing", "stop_tolerance");
+}
+
+void read_parallel(const Settings& settings, RunOptions& options, io::Diagnostics& problems) {
+  options.threads = static_cast<int>(settings.integer("parallel", "mesh_threads"));
+  const std::int64_t setup = settings.integer("parallel", "setup_threads");
+  if (setup != 0 && setup != options.threads)
+    problems.add(settings.line("parallel", "setup_threads"),
+                 fmt::format("'setup_threads = {}' in [parallel] is not supported yet; leave it 0, or equal to "
+                             "mesh_threads ({})",
+                             setup, options.threads));
+}
+
+void read_output(const Settings& settings, RunOptions& options, io::Diagnostics& problems) {
+  io::MeshFileOptions& output = options.output;
+  output.directory = settings.text("output", "directory");
+  output.name = settings.text("output", "name");
+  output.overwrite = settings.boolean("output", "overwrite");
+  const std::vector<std::string> formats = split_words(settings.text("output", "formats"));
+  output.vtkhdf = std::find(formats.begin(), formats.end(), "vtkhdf") != formats.end();
+  output.xdmf = std::find(formats.begin(), formats.end(), "xdmf") != formats.end();
+  options.write_final = settings.integer("output", "interval") != 0;
+  if (output.name.find('/') != std::string::npos || output.name == "." || output.name == "..")
+    problems.add(settings.line("output", "name"),
+                 fmt::format("'name = {}' in [output]: expected the stem of a file name, without directory; set "
+                             "'directory' for that",
+                             output.name));
+}
+
+void read_log(const Settings& settings, RunOptions& options) {
+  constexpr std::pair<const char*, LogLevel> levels[] = {{"debug", LogLevel::debug},
+                                                         {"info", LogLevel::info},
+                                                         {"warning", LogLevel::warning},
+                                                         {"error", LogLevel::error},
+                                                         {"silent", LogLevel::silent}};
+  for (const auto& [name, level] : levels)
+    if (settings.text("log", "level") == name)
+      options.log_level = level;
+  options.log_interval = static_cast<int>(settings.integer("log", "interval"));
+}
+
+} // namespace
+
+RunOptions parse_config(std::string_view text, const std::string& path, const std::vector<std::string>& overrides) {
+  io::Diagnostics problems(path);
+  io::IniDocument document = io::parse_ini(text, problems);
+  for (const std::string& override_text : overrides)
+    io::apply_override(document, override_text, problems);
+  if (!document.find("output", "name")) {
+    const std::string stem = fs::path(path).stem().string();
+    document.entries.push_back({"output", "name", stem.empty() ? "mesh" : stem, io::whole_file});
+  }
+  const Settings settings(document, problems);
+  RunOptions options;
+  read_domain(settings, options.mesh, problems);
+  read_shape(settings, fs::path(path).parent_path(), options, problems);
+  read_meshing(settings, options.mesh, problems);
+  read_parallel(settings, options, problems);
+  read_output(settings, options, problems);
+  read_log(settings, options);
+  problems.throw_if_any();
+  options.resolved = settings.resolved();
+  return options;
+}
+
+} // namespace trime::app

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/option_table.hpp"
+
+#include <algorithm>
+
+namespace trime::app {
+namespace {
+
+constexpr double huge = std::numeric_limits<double>::infinity();
+constexpr Range positive{0, huge, true};
+constexpr Range not_negative{0, huge};
+
+constexpr Option table[] = {
+    {.section = "domain",
+     .key = "x_min",
+     .fallback = "0",
+     .meaning = "left side of the container, a rectangle a little larger than the shape"},
+    {.section = "domain", .key = "x_max", .fallback = "1", .meaning = "right side"},
+    {.section = "domain", .key = "y_min", .fallback = "0", .meaning = "lower side"},
+    {.section = "domain", .key = "y_max", .fallback = "1", .meaning = "upper side"},
+    {.section = "domain",
+     .key = "periodic_x",
+     .kind = Kind::boolean,
+     .fallback = "false",
+     .supported = "false",
+     .meaning = "left and right side are the same"},
+    {.section = "domain",
+     .key = "periodic_y",
+     .kind = Kind::boolean,
+     .fallback = "false",
+     .supported = "false",
+     .meaning = "lower and upper side are the same"},
+    {.section = "domain",
+     .key = "cells_x",
+     .kind = Kind::integer,
+     .fallback = "auto",
+     .choices = "auto",
+     .range = {1, 1e6},
+     .meaning = "columns of the container grid; auto: about 3.3 points a cell"},
+    {.section = "domain",
+     .key = "cells_y",
+     .kind = Kind::integer,
+     .fallback = "auto",
+     .choices = "auto",
+     .range = {1, 1e6},
+     .meaning = "rows of the container grid"},
+
+    {.section = "shape",
+     .key = "region",
+     .kind = Kind::text,
+     .meaning =
+         "the shape, made of named parts: a name, `domain` for the container itself, or `union`, `intersection`, "
+         "`difference` of two or more, nested: `difference(spade, union(hole, slot))`"},
+    {.section = "shape.NAME",
+     .key = "type",
+     .kind = Kind::word,
+     .choices = "rectangle circle triangle contour expression",
+     .supported = "rectangle circle triangle contour",
+     .meaning = "what the part NAME is; one section per part"},
+    {.section = "shape.NAME", .key = "x_min", .part_type = "rectangle", .meaning = "left side"},
+    {.section = "shape.NAME", .key = "x_max", .part_type = "rectangle", .meaning = "right side"},
+    {.section = "shape.NAME", .key = "y_min", .part_type = "rectangle", .meaning = "lower side"},
+    {.section = "shape.NAME", .key = "y_max", .part_type = "rectangle", .meaning = "upper side"},
+    {.section = "shape.NAME", .key = "center", .part_type = "circle", .kind = Kind::pair, .meaning = "centre X Y"},
+    {.section = "shape.NAME", .key = "radius", .part_type = "circle", .range = positive, .meaning = "radius"},
+    {.section = "shape.NAME", .key = "p0", .part_type = "triangle", .kind = Kind::pair, .meaning = "corner X Y"},
+    {.section = "shape.NAME", .key = "p1", .part_type = "triangle", .kind = Kind::pair, .meaning = "corner X Y"},
+    {.section = "shape.NAME", .key = "p2", .part_type = "triangle", .kind = Kind::pair, .meaning = "corner X Y"},
+    {.section = "shape.NAME",
+     .key = "file",
+     .part_type = "contour",
+     .kind = Kind::path,
+     .meaning = "rings: `.xy`, one `x y` a line, a blank line ends a ring, `#` comments; holes by even-odd nesting"},
+    {.section = "shape.NAME",
+     .key = "normalize",
+     .part_type = "contour",
+     .kind = Kind::boolean,
+     .fallback = "false",
+     .meaning = "centre the bounding box in the container and scale its longer side to 0.8 of the container's shorter "
+                "side"},
+    {.section = "shape.NAME",
+     .key = "sdf",
+     .part_type = "expression",
+     .kind = Kind::text,
+     .meaning = "signed distance as a formula of x and y, negative inside"},
+
+    {.section = "sizing",
+     .key = "type",
+     .kind = Kind::word,
+     .fallback = "uniform",
+     .choices = "uniform automatic expression",
+     .supported = "uniform",
+     .meaning = "relative size of the elements"},
+    {.section = "sizing",
+     .key = "gradation",
+     .fallback = "0.1",
+     .range = not_negative,
+     .supported = "0.1 0",
+     .meaning = "bound on the gradient of the automatic size; 0: uniform. No effect on type uniform"},
+    {.section = "sizing",
+     .key = "expression",
+     .kind = Kind::text,
+     .fallback = "none",
+     .supported = "none",
+     .meaning = "relative size as a formula of x and y, e.g. `1+3*x+3*y`"},
+    {.section = "sizing",
+     .key = "min_size",
+     .fallback = "none",
+     .choices = "none",
+     .range = positive,
+     .supported = "none",
+     .meaning = "no element is asked to be smaller"},
+    {.section = "sizing",
+     .key = "max_size",
+     .fallback = "none",
+     .choices = "none",
+     .range = positive,
+     .supported = "none",
+     .meaning = "no element is asked to be larger"},
+
+    {.section = "meshing",
+     .key = "method",
+     .kind = Kind::word,
+     .fallback = "hybrid",
+     .choices = "distmesh cvd hybrid",
+     .supported = "distmesh",
+     .meaning = "how points move: repulsive bars, centroidal Voronoi cells, or one after the other"},
+    {.section = "meshing",
+     .key = "points",
+     .kind = Kind::integer,
+     .range = {3, 4e9},
+     .meaning = "total number of points; exactly one of `points` and `edge_length`"},
+    {.section = "meshing",
+     .key = "edge_length",
+     .range = positive,
+     .meaning = "target edge length; exactly one of `points` and `edge_length`"},
+    {.section = "meshing",
+     .key = "initial_fraction",
+     .fallback = "auto",
+     .choices = "auto",
+     .range = {0, 1, true},
+     .supported = "auto 1",
+     .meaning = "share of the points placed before the first sweep"},
+    {.section = "meshing",
+     .key = "fixed_points",
+     .kind = Kind::path,
+     .fallback = "none",
+     .supported = "none",
+     .meaning = "file of `x y` lines: points that are kept exactly and never move"},
+    {.section = "meshing",
+     .key = "fixed_points_normalize_with",
+     .kind = Kind::text,
+     .fallback = "none",
+     .supported = "none",
+     .meaning = "part whose normalisation the fixed points undergo"},
+    {.section = "meshing",
+     .key = "corner_angle",
+     .fallback = "30",
+     .range = {0, 180, true},
+     .meaning = "degrees; a boundary vertex that turns by more is kept as a vertex of the mesh"},
+    {.section = "meshing",
+     .key = "seed",
+     .kind = Kind::integer,
+     .fallback = "1",
+     .range = {0, 9007199254740992.0},
+     .meaning = "of the random numbers"},
+    {.section = "meshing",
+     .key = "max_sweeps",
+     .kind = Kind::integer,
+     .fallback = "500",
+     .range = {0, 1e6},
+     .meaning = "a run that is not done by then ends with exit code 5; its mesh is written and marked"},
+    {.section = "meshing",
+     .key = "stop_tolerance",
+     .fallback = "auto",
+     .choices = "auto",
+     .range = positive,
+     .meaning = "longest move, over the local size, at which a mesh counts as converged"},
+
+    {.section = "parallel",
+     .key = "setup_threads",
+     .kind = Kind::integer,
+     .fallback = "0",
+     .range = {0, 4096},
+     .meaning = "threads of a rank while the shape is made ready; 0, or equal to `mesh_threads`"},
+    {.section = "parallel",
+     .key = "mesh_threads",
+     .kind = Kind::integer,
+     .fallback = "0",
+     .range = {0, 4096},
+     .meaning = "threads of a rank; 0: OMP_NUM_THREADS, else all cores that the rank may use"},
+
+    {.section = "output",
+     .key = "directory",
+     .kind = Kind::path,
+     .fallback = "out",
+     .meaning = "where the files go, relative to the working directory; made if missing"},
+    {.section = "output",
+     .key = "name",
+     .kind = Kind::text,
+     .meaning = "stem of the file names; without it that of the config file"},
+    {.section = "output",
+     .key = "overwrite",
+     .kind = Kind::boolean,
+     .fallback = "false",
+     .meaning = "replace files that exist"},
+    {.section = "output",
+     .key = "formats",
+     .kind = Kind::words,
+     .fallback = "vtkhdf xdmf",
+     .choices = "vtkhdf xdmf gmsh triangle medit text vtu",
+     .supported = "vtkhdf xdmf",
+     .meaning = "`vtkhdf`: for ParaView and VTK; `xdmf`: for ParaView, FEniCS, PETSc; both lie in one file NAME.h5"},
+    {.section = "output",
+     .key = "interval",
+     .kind = Kind::integer,
+     .fallback = "-1",
+     .range = {-2, 1e9},
+     .supported = "0 -1",
+     .meaning = "0: no mesh; -1: the final mesh; -2: the first and the final one; n: every n-th retriangulation"},
+
+    {.section = "checkpoint",
+     .key = "interval",
+     .fallback = "0",
+     .range = not_negative,
+     .supported = "0",
+     .meaning = "seconds between checkpoints; 0: only on a signal"},
+    {.section = "checkpoint",
+     .key = "keep",
+     .kind = Kind::integer,
+     .fallback = "2",
+     .range = {1, 1000},
+     .supported = "2",
+     .meaning = "checkpoints that are kept"},
+
+    {.section = "log",
+     .key = "level",
+     .kind = Kind::word,
+     .fallback = "info",
+     .choices = "debug info warning error silent",
+     .meaning = "least important message that is printed"},
+    {.section = "log",
+     .key = "interval",
+     .kind = Kind::integer,
+     .fallback = "0",
+     .range = {0, 1e9},
+     .meaning = "print the line of every n-th sweep; 0: each on a terminal, sparse ones in a file"},
+};
+
+void add_once(std::vector<std::string>& names, const char* name) {
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    names.emplace_back(name);
+}
+
+} // namespace
+
+std::span<const Option> option_table() {
+  return table;
+}
+
+std::string_view table_section(std::string_view section) {
+  return section.starts_with("shape.") ? part_section : section;
+}
+
+const Option* find_option(std::string_view section, std::string_view key) {
+  for (const Option& option : table)
+    if (option.section == table_section(section) && option.key == key)
+      return &option;
+  return nullptr;
+}
+
+std::vector<std::string> section_names() {
+  std::vector<std::string> names;
+  for (const Option& option : table)
+    add_once(names, option.section);
+  return names;
+}
+
+std::vector<std::string> key_names(std::string_view section) {
+  std::vector<std::string> names;
+  for (const Option& option : table)
+    if (option.section == table_section(section))
+      add_once(names, option.key);
+  return names;
+}
+
+std::vector<std::string> split_words(std::string_view text) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t first = text.find_first_not_of(" \t", at);
+    if (first == std::string_view::npos)
+      break;
+    at = std::min(text.find_first_of(" \t", first), text.size());
+    words.emplace_back(text.substr(first, at - first));
+  }
+  return words;
+}
+
+} // namespace trime::app

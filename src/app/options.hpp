@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Everything that a run is told, as plain structs: what remains of the config file once it is understood.
+#pragma once
+
+#include "trime/core/log.hpp"
+#include "trime/geometry/vec2.hpp"
+#include "trime/io/mesh_file.hpp"
+#include "trime/meshing/options.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace trime::app {
+
+/// One section [shape.NAME]; the fields of other types keep their defaults.
+struct PartOptions {
+  std::string name;
+  std::string type; ///< rectangle, circle, triangle, contour
+  geometry::Box box;
+  geometry::Vec2 center;
+  double radius = 0;
+  std::array<geometry::Vec2, 3> corners;
+  std::string file; ///< path as the program can open it
+  bool normalize = false;
+};
+
+struct RunOptions {
+  std::vector<PartOptions> parts;
+  std::string region;
+  meshing::MeshOptions mesh;
+  int threads = 0; ///< per rank; 0: chosen from the machine
+  io::MeshFileOptions output;
+  bool write_final = true; ///< false: nothing is written
+  LogLevel log_level = LogLevel::info;
+  int log_interval = 0;
+  std::string resolved;              ///< the whole config with all defaults, as a complete ini
+  std::vector<std::string> warnings; ///< one sentence each
+};
+
+} // namespace trime::app

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/settings.hpp"
+
+#include "app/option_value.hpp"
+#include "trime/core/error.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace trime::app {
+namespace {
+
+constexpr std::string_view part_prefix = "shape.";
+const std::vector<std::string> reserved_names{"domain", "union", "intersection", "difference"};
+
+bool is_part_name(std::string_view name) {
+  return !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0])) &&
+         std::all_of(name.begin(), name.end(),
+                     [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; });
+}
+
+/// Sections of the table in which a key of this name exists, for "did you mean".
+std::string other_home(const std::string& section, const std::string& key) {
+  for (const Option& option : option_table())
+    if (option.key == key && option.section != table_section(section))
+      return fmt::format("; it belongs to [{}]", option.section);
+  return "";
+}
+
+} // namespace
+
+Settings::Settings(const io::IniDocument& document, io::Diagnostics& problems) : document_(document) {
+  check_sections(problems);
+  for (const io::IniEntry& entry : document.entries)
+    if (is_known_section(entry.section))
+      check_entry(entry, problems);
+    else
+      meant_.push_back({io::nearest_name(entry.section, section_names()), entry.key, entry.value, entry.line});
+  for (const Option& option : option_table())
+    check_default(option, problems);
+  for (const std::string& part : parts_)
+    check_part(std::string(part_prefix) + part, problems);
+}
+
+bool Settings::is_known_section(const std::string& section) const {
+  if (section.starts_with(part_prefix))
+    return std::find(parts_.begin(), parts_.end(), section.substr(part_prefix.size())) != parts_.end();
+  const std::vector<std::string> known = section_names();
+  return section != part_section && std::find(known.begin(), known.end(), section) != known.end();
+}
+
+void Settings::check_sections(io::Diagnostics& problems) {
+  for (const io::IniSection& section : document_.sections) {
+    if (!section.name.starts_with(part_prefix)) {
+      if (!is_known_section(section.name))
+        problems.add(section.line, fmt::format("unknown section [{}]{}", section.name,
+                                               io::suggestion(section.name, section_names())));
+      continue;
+    }
+    const std::string name = section.name.substr(part_prefix.size());
+    const bool reserved = std::find(reserved_names.begin(), reserved_names.end(), name) != reserved_names.end();
+    if (reserved)
+      problems.add(section.line, fmt::format("'{}' cannot name a part: it has a meaning in region", name));
+    else if (!is_part_name(name))
+      problems.add(section.line,
+                   fmt::format("'{}' cannot name a part: use letters, digits and '_', a letter first", name));
+    else if (std::find(parts_.begin(), parts_.end(), name) == parts_.end())
+      parts_.push_back(name);
+  }
+}
+
+void Settings::check_entry(const io::IniEntry& entry, io::Diagnostics& problems) {
+  const Option* option = find_option(entry.section, entry.key);
+  if (!option) {
+    const std::string near = io::suggestion(entry.key, key_names(entry.section));
+    meant_.push_back({entry.section, io::nearest_name(entry.key, key_names(entry.section)), entry.value, entry.line});
+    problems.add(entry.line, fmt::format("unknown key '{}' in [{}]{}", entry.key, entry.section,
+                                         near.empty() ? other_home(entry.section, entry.key) : near));
+    return;
+  }
+  const std::string problem = value_problem(*option, entry.section, entry.value);
+  if (problem.empty())
+    good_.push_back(entry);
+  else
+    problems.add(entry.line, problem);
+}
+
+/// A key that the user left out may have a default that this version does not obey: that must be said, too.
+void Settings::check_default(const Option& option, io::Diagnostics& problems) const {
+  const std::string fallback = option.fallback;
+  if (fallback.empty() || is_set(option.section, option.key) || value_problem(option, option.section, fallback).empty())
+    return;
+  const std::vector<std::string> supported = split_words(option.supported);
+  problems.add(io::whole_file, fmt::format("'{0}' in [{1}] is not set, and its default '{2}' is not supported yet; set "
+                                           "'{0} = {3}' in [{1}]",
+                                           option.key, option.section, fallback, supported.at(0)));
+}
+
+/// The keys of a part against its type. A line that was refused already is not reported again.
+void Settings::check_part(const std::string& section, io::Diagnostics& problems) const {
+  if (!is_set(section, "type")) {
+    problems.add(section_line(section),
+                 fmt::format("[{}] needs a type: {}", section, expectation(*find_option(section, "type"))));
+    return;
+  }
+  const std::string type = text(section, "type");
+  if (type.empty())
+    return;
+  for (const io::IniEntry& entry : good_) {
+    const Option* option = entry.section == section ? find_option(section, entry.key) : nullptr;
+    bool belongs = option == nullptr || *option->part_type == '\0';
+    for (const Option& other : option_table()) // x_min stands in the table once per type that has it
+      belongs = belongs || (other.section == part_section && other.key == entry.key && other.part_type == type);
+    if (!belongs)
+      problems.add(entry.line, fmt::format("'{}' in [{}] belongs to type {}, but the type is {}", entry.key, section,
+                                           option->part_type, type));
+  }
+  for (const Option& option : option_table())
+    if (option.section == part_section && option.part_type == type && *option.fallback == '\0' &&
+        !is_set(section, option.key))
+      problems.add(section_line(section),
+                   fmt::format("[{}] of type {} needs '{}': {}", section, type, option.key, expectation(option)));
+}
+
+int Settings::section_line(const std::string& section) const {
+  for (const io::IniSection& known : document_.sections)
+    if (known.name == section)
+      return known.line;
+  return io::whole_file;
+}
+
+bool Settings::is_set(const std::string& section, const std::string& key) const {
+  return document_.find(section, key) != nullptr ||
+         std::any_of(meant_.begin(), meant_.end(),
+                     [&](const io::IniEntry& entry) { return entry.section == section && entry.key == key; });
+}
+
+int Settings::line(const std::string& section, const std::string& key) const {
+  const io::IniEntry* entry = document_.find(section, key);
+  return entry ? entry->line : io::whole_file;
+}
+
+std::string Settings::text(const std::string& section, const std::string& key) const {
+  for (const io::IniEntry& entry : good_)
+    if (entry.section == section && entry.key == key)
+      return entry.value;
+  const Option* option = find_option(section, key);
+  TRIME_ASSERT(option != nullptr, "[{}] {} is not in the option table", section, key);
+  return option->fallback;
+}
+
+std::optional<double> Settings::optional_number(const std::string& section, const std::string& key) const {
+  return parse_number(text(section, key));
+}
+
+std::optional<std::int64_t> Settings::optional_integer(const std::string& section, const std::string& key) const {
+  return parse_integer(text(section, key));
+}
+
+double Settings::number(const std::string& section, const std::string& key) const {
+  return optional_number(section, key).value_or(0);
+}
+
+std::int64_t Settings::integer(const std::string& section, const std::string& key) const {
+  return optional_integer(section, key).value_or(0);
+}
+
+bool Settings::boolean(const std::string& section, const std::string& key) const {
+  return parse_boolean(text(section, key)).value_or(false);
+}
+
+geometry::Vec2 Settings::pair(const std::string& section, const std::string& key) const {
+  return parse_pair(text(section, key)).value_or(geometry::Vec2{});
+}
+
+std::string Settings::resolved() const {
+  std::string result;
+  const auto section_text = [&](const std::string& section) {
+    result += fmt::format("{}[{}]\n", result.empty() ? "" : "\n", section);
+    const std::string type = section.starts_with(part_prefix) ? text(section, "type") : "";
+    for (const Option& option : option_table()) {
+      if (option.section != table_section(section) || (*option.part_type != '\0' && option.part_type != type))
+        continue;
+      const std::string value = text(section, option.key);
+      result +=
+          value.empty() ? fmt::format("; {} is not set\n", option.key) : fmt::format("{} = {}\n", option.key, value);
+    }
+  };
+  for (const std::string& section : section_names()) {
+    if (section != part_section) {
+      section_text(section);
+      continue;
+    }
+    for (const std::string& part : parts_)
+      section_text(std::string(part_prefix) + part);
+  }
+  return result;
+}
+
+} // namespace trime::app

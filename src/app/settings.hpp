@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An ini document held against the option table: unknown sections, unknown keys and bad values are told; what remains
+// is looked up with the defaults of the table.
+#pragma once
+
+#include "app/option_table.hpp"
+#include "trime/geometry/vec2.hpp"
+#include "trime/io/ini.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trime::app {
+
+class Settings {
+public:
+  /// Entries with problems are told to `problems` and read as if they were absent.
+  Settings(const io::IniDocument& document, io::Diagnostics& problems);
+
+  /// Names of the sections [shape.NAME], in the order of the file.
+  const std::vector<std::string>& parts() const { return parts_; }
+  /// Line of the section in the file.
+  int section_line(const std::string& section) const;
+
+  /// True if the user set the key, even to a bad value or with a misspelt name: no second error should follow from it.
+  bool is_set(const std::string& section, const std::string& key) const;
+  /// Line of the entry; io::whole_file if it is not set.
+  int line(const std::string& section, const std::string& key) const;
+  /// The value in force as text: the user's if it is good, else the default of the table.
+  std::string text(const std::string& section, const std::string& key) const;
+
+  /// The value in force, converted; for keys whose value is none of the words (auto, none) that may stand there.
+  double number(const std::string& section, const std::string& key) const;
+  bool boolean(const std::string& section, const std::string& key) const;
+  geometry::Vec2 pair(const std::string& section, const std::string& key) const;
+  /// Empty where the value is absent or a word such as auto.
+  std::optional<double> optional_number(const std::string& section, const std::string& key) const;
+  std::optional<std::int64_t> optional_integer(const std::string& section, const std::string& key) const;
+  std::int64_t integer(const std::string& section, const std::string& key) const;
+
+  /// The whole config with all defaults as an ini text; reading it again gives the same settings.
+  std::string resolved() const;
+
+private:
+  void check_sections(io::Diagnostics& problems);
+  void check_entry(const io::IniEntry& entry, io::Diagnostics& problems);
+  void check_default(const Option& option, io::Diagnostics& problems) const;
+  void check_part(const std::string& section, io::Diagnostics& problems) const;
+  bool is_known_section(const std::string& section) const;
+
+  const io::IniDocument& document_;
+  std::vector<std::string> parts_;
+  std::vector<io::IniEntry> good_;
+  std::vector<io::IniEntry> meant_; ///< what misspelt sections and keys were probably meant to set
+};
+
+} // namespace trime::app

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The option table and the config: every key, every bad value, all mistakes at once, and the printed config as input.
+#include "app/config.hpp"
+
+#include "app/option_table.hpp"
+#include "app/option_value.hpp"
+#include "trime/core/error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace trime::app {
+namespace {
+
+const std::string good = "[shape]\nregion = difference(box, hole)\n"                                           // 1, 2
+                         "[shape.box]\ntype = rectangle\nx_min = 0.1\nx_max = 0.9\ny_min = 0.1\ny_max = 0.9\n" // 3-8
+                         "[shape.hole]\ntype = circle\ncenter = 0.5 0.5\nradius = 0.1\n"                       // 9-12
+                         "[meshing]\nmethod = distmesh\npoints = 5000\n";                                      // 13-15
+
+std::string errors_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    parse_config(text, "dir/c.ini", overrides);
+    return "";
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+}
+
+/// The good config with one override must fail with a message that holds `expected`.
+void expect_refused(const std::string& override_text, const std::string& expected) {
+  const std::string message = errors_of(good, {override_text});
+  EXPECT_NE(message.find(expected), std::string::npos) << override_text << " gave: " << message;
+  EXPECT_NE(message.find("command line: "), std::string::npos) << message;
+}
+
+TEST(OptionTable, IsSound) {
+  for (const Option& option : option_table()) {
+    EXPECT_GT(std::string(option.meaning).size(), 3u) << option.key;
+    EXPECT_EQ(std::string(option.meaning).find('|'), std::string::npos) << "breaks the Markdown table";
+    for (const std::string& word : split_words(option.supported))
+      EXPECT_EQ(value_problem(option, option.section, word), "") << option.key;
+    const auto same = [&](const Option& o) {
+      return std::string(o.section) == option.section && std::string(o.key) == option.key &&
+             std::string(o.part_type) == option.part_type;
+    };
+    EXPECT_EQ(std::count_if(option_table().begin(), option_table().end(), same), 1) << option.key;
+    EXPECT_NE(help_config().find(option.key), std::string::npos);
+  }
+}
+
+TEST(OptionValue, TakesAWholeTextOrNothing) {
+  EXPECT_EQ(parse_number("1e3"), 1000);
+  EXPECT_EQ(parse_number("+.5"), 0.5);
+  EXPECT_EQ(parse_number("-0"), 0);
+  for (const char* text : {"", "nan", "inf", "-inf", "1,5", "3x", "0x10", "1e999", "+-1", "1 2", "--1"})
+    EXPECT_FALSE(parse_number(text)) << text;
+  EXPECT_EQ(parse_integer("1e6"), 1000000);
+  for (const char* text : {"0.5", "1e17", "ten", ""})
+    EXPECT_FALSE(parse_integer(text)) << text;
+  EXPECT_EQ(parse_pair("0.5\t-1"), (geometry::Vec2{0.5, -1}));
+  for (const char* text : {"1", "1 2 3", "1, 2", "a b"})
+    EXPECT_FALSE(parse_pair(text)) << text;
+  EXPECT_FALSE(parse_boolean("True"));
+}
+
+TEST(Config, UnderstandsAGoodFile) {
+  const RunOptions options = parse_config(
+      good + "corner_angle = 45\n[parallel]\nmesh_threads = 3\n[shape.map]\ntype = contour\nfile = a/b.xy\n"
+             "normalize = true\n[output]\nformats = xdmf\n[log]\nlevel = debug\n",
+      "dir/c.ini", {"domain.x_max=2", "shape.hole.radius=0.2"});
+  EXPECT_EQ(options.mesh.container.max, (geometry::Vec2{2, 1}));
+  ASSERT_EQ(options.parts.size(), 3u);
+  EXPECT_EQ(options.parts[0].box.min, (geometry::Vec2{0.1, 0.1}));
+  EXPECT_EQ(options.parts[1].radius, 0.2);
+  EXPECT_EQ(options.parts[2].file, "dir/a/b.xy");
+  EXPECT_TRUE(options.parts[2].normalize);
+  EXPECT_EQ(options.region, "difference(box, hole)");
+  EXPECT_EQ(options.mesh.points, 5000);
+  EXPECT_FALSE(options.mesh.edge_length.has_value());
+  EXPECT_EQ(options.mesh.corner_angle, 45);
+  EXPECT_EQ(options.threads, 3);
+  EXPECT_EQ(options.output.name, "c");
+  EXPECT_EQ(options.output.directory, "out");
+  EXPECT_FALSE(options.output.vtkhdf);
+  EXPECT_EQ(options.log_level, LogLevel::debug);
+  ASSERT_EQ(options.warnings.size(), 1u); // map does not occur in the region
+  EXPECT_NE(options.warnings[0].find("'map'"), std::string::npos);
+}
+
+TEST(Config, AbsoluteContourPathsStay) {
+  const RunOptions options = parse_config(good + "[shape.map]\ntype = contour\nfile = /data/b.xy\n", "dir/c.ini", {});
+  EXPECT_EQ(options.parts[2].file, "/data/b.xy");
+}
+
+TEST(Config, ThePrintedConfigReadsBackTheSame) {
+  for (const char* change : {"log.interval=0", "meshing.points=1e4", "domain.cells_x=17", "domain.x_max=1.5",
+                             "output.name=other", "meshing.seed=7", "output.formats=xdmf"}) {
+    const RunOptions first = parse_config(good, "dir/c.ini", {change});
+    const RunOptions second = parse_config(first.resolved, "dir/c.ini", {});
+    EXPECT_EQ(first.resolved, second.resolved);
+    EXPECT_EQ(first.mesh.points, second.mesh.points);
+    EXPECT_EQ(first.mesh.cells_x, second.mesh.cells_x);
+    EXPECT_EQ(first.output.name, second.output.name);
+    EXPECT_EQ(first.parts.size(), second.parts.size());
+  }
+  const std::string resolved = parse_config(good, "dir/c.ini", {}).resolved;
+  for (const Option& option : option_table())
+    EXPECT_TRUE(option.section == part_section || resolved.find(option.key) != std::string::npos) << option.key;
+}
+
+TEST(Config, TellsAllMistakesAtOnceInTheOrderOfTheFile) {
+  EXPECT_EQ(errors_of("[domain]\nx_min = 1\nx_max = 1\n[sizing]\ngradaton = 0.2\n[meshin]\nseed = 1\n[shape]\n"
+                      "region = hole\n[shape.hole]\ntype = circle\ncenter = 0.5\nradus = 1\n[meshing]\nmethod = cvd\n"
+                      "points = 0\n",
+                      {"log.levle=info"}),
+            "dir/c.ini:3: [domain] needs x_min < x_max, found 1 and 1\n"
+            "dir/c.ini:5: unknown key 'gradaton' in [sizing]; did you mean 'gradation'?\n"
+            "dir/c.ini:6: unknown section [meshin]; did you mean 'meshing'?\n"
+            "dir/c.ini:12: 'center = 0.5' in [shape.hole]: expected two numbers X Y separated by a blank\n"
+            "dir/c.ini:13: unknown key 'radus' in [shape.hole]; did you mean 'radius'?\n"
+            "dir/c.ini:15: 'method = cvd' in [meshing] is not supported yet; use distmesh\n"
+            "dir/c.ini:16: 'points = 0' in [meshing]: expected an integer from 3 to 4000000000\n"
+            "command line: unknown key 'levle' in [log]; did you mean 'level'?");
+}
+
+TEST(Config, RefusesValuesThatMakeNoSense) {
+  expect_refused("meshing.points=-5", "expected an integer from 3 to 4000000000");
+  expect_refused("meshing.points=2", "expected an integer from 3");
+  expect_refused("meshing.points=5e9", "expected an integer from 3");
+  expect_refused("meshing.points=5000.5", "expected an integer");
+  expect_refused("meshing.points=many", "expected an integer");
+  expect_refused("domain.x_min=nan", "expected a number");
+  expect_refused("domain.x_min=1", "needs x_min < x_max, found 1 and 1");
+  expect_refused("domain.y_max=-1", "needs y_min < y_max");
+  expect_refused("domain.cells_x=0", "auto or an integer from 1");
+  expect_refused("domain.periodic_x=yes", "expected true or false");
+  expect_refused("shape.hole.radius=-1", "expected a number > 0");
+  expect_refused("shape.hole.radius=0", "expected a number > 0");
+  expect_refused("shape.box.x_max=0.1", "needs x_min < x_max, found 0.1 and 0.1");
+  expect_refused("shape.hole.type=circel", "did you mean 'circle'?");
+  expect_refused("shape.hole.x_min=1", "'x_min' in [shape.hole] belongs to type rectangle, but the type is circle");
+  expect_refused("shape.region=difference(box, hol)", "hol");
+  expect_refused("shape.region=difference(box", "region");
+  expect_refused("shape.union.type=circle", "'union' cannot name a part");
+  expect_refused("shape.2nd.type=circle", "'2nd' cannot name a part");
+  expect_refused("meshing.corner_angle=181", "expected a number > 0 and <= 180");
+  expect_refused("meshing.initial_fraction=0", "expected auto or a number > 0 and <= 1");
+  expect_refused("meshing.stop_tolerance=0", "expected auto or a number > 0");
+  expect_refused("meshing.edge_length=0.1", "both 'points' and 'edge_length'");
+  expect_refused("meshing.radius=1", "unknown key 'radius' in [meshing]; it belongs to [shape.NAME]");
+  expect_refused("output.formats=vtk", "expected a list of");
+  expect_refused("output.name=a/b", "without directory");
+  expect_refused("log.level=loud", "expected one of debug, info");
+  expect_refused("parallel.setup_threads=2", "not supported yet");
+}
+
+TEST(Config, AChangedTypeShowsTheKeysThatNoLongerBelong) {
+  const std::string message = errors_of(good, {"shape.box.type=triangle"});
+  EXPECT_NE(message.find("dir/c.ini:5: 'x_min' in [shape.box] belongs to type rectangle, but the type is triangle"),
+            std::string::npos);
+}
+
+TEST(Config, RefusesByNameWhatThisVersionCannotDo) {
+  expect_refused("domain.periodic_x=true", "'periodic_x = true' in [domain] is not supported yet; leave it false");
+  expect_refused("domain.periodic_y=true", "not supported yet; leave it false");
+  expect_refused("shape.hole.type=expression", "not supported yet");
+  expect_refused("sizing.type=automatic", "not supported yet; leave it uniform");
+  expect_refused("sizing.gradation=0.2", "not supported yet");
+  expect_refused("sizing.expression=1+x", "not supported yet; leave it none");
+  expect_refused("sizing.min_size=0.1", "not supported yet; leave it none");
+  expect_refused("sizing.max_size=0.1", "not supported yet");
+  expect_refused("meshing.method=hybrid", "not supported yet; use distmesh");
+  expect_refused("meshing.initial_fraction=0.2", "not supported yet; use auto or 1");
+  expect_refused("meshing.fixed_points=p.xy", "not supported yet");
+  expect_refused("meshing.fixed_points_normalize_with=box", "not supported yet");
+  expect_refused("output.formats=vtkhdf gmsh", "not supported yet; use vtkhdf, xdmf");
+  expect_refused("output.interval=-2", "not supported yet; use 0 or -1");
+  expect_refused("output.interval=10", "not supported yet");
+  expect_refused("checkpoint.interval=60", "not supported yet; leave it 0");
+  expect_refused("checkpoint.keep=3", "not supported yet; leave it 2");
+}
+
+TEST(Config, TakesTheDefaultsWhenTheyAreSpeltOut) {
+  for (const char* text :
+       {"domain.periodic_x=false", "sizing.gradation=0.1", "sizing.gradation=0.0", "meshing.initial_fraction=1",
+        "output.interval=0", "checkpoint.keep=2", "parallel.setup_threads=0", "meshing.points=4e9"})
+    EXPECT_EQ(errors_of(good, {text}), "") << text;
+}
+
+TEST(Config, TheUnsupportedDefaultOfMethodIsExplained) {
+  EXPECT_NE(errors_of(good, {"meshing.method="}).find("set 'method = distmesh' in [meshing]"), std::string::npos);
+}
+
+TEST(Config, ExactlyOneResolution) {
+  EXPECT_NE(errors_of(good, {"meshing.points="}).find("set 'points' or 'edge_length'"), std::string::npos);
+  EXPECT_EQ(errors_of(good, {"meshing.points=", "meshing.edge_length=0.02"}), "");
+  EXPECT_NE(errors_of(good, {"meshing.points=", "meshing.edge_length=1e-9"}).find("asks for about"), std::string::npos);
+}
+
+TEST(Config, AnEmptyFileSaysWhatIsMissing) {
+  const std::string message = errors_of("");
+  EXPECT_NE(message.find("no shape is given"), std::string::npos);
+  EXPECT_NE(message.find("set 'points'"), std::string::npos);
+  EXPECT_NE(message.find("method = distmesh"), std::string::npos);
+}
+
+TEST(Config, APartNeedsItsTypeAndKeys) {
+  EXPECT_NE(errors_of(good + "[shape.a]\nradius = 1\n").find("dir/c.ini:16: [shape.a] needs a type: one of"),
+            std::string::npos);
+  EXPECT_NE(errors_of(good + "[shape.a]\ntype = triangle\np0 = 0 0\np2 = 1 1\n")
+                .find("dir/c.ini:16: [shape.a] of type triangle needs 'p1': two numbers"),
+            std::string::npos);
+  EXPECT_NE(errors_of(good, {"shape.a.radius=1"}).find("command line: [shape.a] needs a type"), std::string::npos);
+}
+
+} // namespace
+} // namespace trime::app
