@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From the rings of a contour to a checked polygon on the lattice.
+#pragma once
+
+#include "trime/geometry/contour.hpp"
+#include "trime/geometry/frame.hpp"
+#include "trime/geometry/part.hpp"
+
+#include <string>
+#include <vector>
+
+namespace trime::geometry {
+
+/// @brief Moves, snaps and checks the rings of a contour, and finds which side of each ring is inside.
+/// @param warnings gets a sentence for each ring of which the lattice made vertices equal
+/// @throws GeometryError see Part::contour
+Polygon make_contour_polygon(const Contour& contour, const Normalization& normalization, const Frame& frame,
+                             std::vector<std::string>& warnings);
+
+/// @brief Polygon of one ring that is known to be simple. @pre at least three vertices, not all collinear
+Polygon make_simple_polygon(const std::vector<Vec2>& ring);
+
+} // namespace trime::geometry

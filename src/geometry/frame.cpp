@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/geometry/frame.hpp"
+
+namespace trime::geometry {
+
+Frame::Frame(const Box& container) : container_(container), lattice_(container) {
+  const double step = lattice_.step(), inverse = lattice_.inverse_step();
+  inner_.min = {std::ceil(container.min.x * inverse) * step, std::ceil(container.min.y * inverse) * step};
+  inner_.max = {std::floor(container.max.x * inverse) * step, std::floor(container.max.y * inverse) * step};
+  const double margin = 2 * std::fmax(container.width(), container.height());
+  reach_.min = container.min - Vec2{margin, margin};
+  reach_.max = container.max + Vec2{margin, margin};
+}
+
+} // namespace trime::geometry

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/geometry/region.hpp"
+
+#include "trime/core/error.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+
+namespace trime::geometry {
+
+namespace {
+
+/// Smallest number of single-letter changes, insertions and deletions from a to b (Levenshtein).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, diagonal + 1, row[j] + 1});
+    }
+  }
+  return row.back();
+}
+
+bool is_name_character(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+}
+
+std::string unknown_part_message(const std::string& name, std::span<const std::string> known) {
+  std::string list, nearest;
+  std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
+  const auto consider = [&](std::string_view candidate) {
+    list += fmt::format("{}{}", list.empty() ? "" : ", ", candidate);
+    if (const std::size_t distance = edit_distance(name, candidate); distance < least) {
+      least = distance;
+      nearest = candidate;
+    }
+  };
+  for (const std::string& candidate : known)
+    consider(candidate);
+  consider(domain_name);
+  return fmt::format("unknown part '{}' in region; known: {}{}", name, list,
+                     nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
+}
+
+} // namespace
+
+/// Recursive descent, at most max_depth deep.
+class Region::Parser {
+public:
+  Parser(Region& region, std::span<const std::string> names) : region_(region), names_(names), text_(region.text_) {}
+
+  void parse() {
+    expression(0);
+    skip_blanks();
+    if (position_ < text_.size())
+      fail("expected the end");
+  }
+
+private:
+  [[noreturn]] void fail(const std::string& what) const {
+    const std::string found = position_ < text_.size() ? fmt::format("'{}'", text_.substr(position_, 20)) : "the end";
+    throw ConfigError(fmt::format("region, column {}: {}, found {} in '{}'", position_ + 1, what, found, text_));
+  }
+
+  void skip_blanks() {
+    while (position_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[position_])) != 0)
+      ++position_;
+  }
+
+  bool take(char c) {
+    skip_blanks();
+    if (position_ >= text_.size() || text_[position_] != c)
+      return false;
+    ++position_;
+    return true;
+  }
+
+  std::string name() {
+    skip_blanks();
+    const std::size_t start = position_;
+    while (position_ < text_.size() && is_name_character(text_[position_]))
+      ++position_;
+    if (position_ == start)
+      fail("expected the name of a part, or union(...), intersection(...), difference(...)");
+    return std::string(text_.substr(start, position_ - start));
+  }
+
+  int expression(int depth) {
+    if (depth > max_depth)
+      fail(fmt::format("expected at most {} nested operations", max_depth));
+    const std::string word = name();
+    const int node = static_cast<int>(region_.nodes_.size());
+    region_.nodes_.push_back({Operation::part, -1, {}});
+    if (take('('))
+      operation(node, word, depth);
+    else
+      region_.nodes_[node].part = part_index(word);
+    return node;
+  }
+
+  void operation(int node, const std::string& word, int depth) {
+    if (word != "union" && word != "intersection" && word != "difference")
+      fail(fmt::format("expected union(...), intersection(...) or difference(...) instead of '{}(...)'", word));
+    std::vector<int> operands;
+    do
+      operands.push_back(expression(depth + 1));
+    while (take(','));
+    if (!take(')'))
+      fail("expected ',' or ')'");
+    if (operands.size() < 2)
+      fail(fmt::format("expected two or more arguments of {}(...) before this", word));
+    region_.nodes_[node].operation = word == "union"          ? Operation::unite
+                                     : word == "intersection" ? Operation::intersect
+                                                              : Operation::subtract;
+    region_.nodes_[node].operands = std::move(operands);
+  }
+
+  int part_index(const std::string& word) {
+    int index = 0;
+    if (word == domain_name)
+      index = static_cast<int>(names_.size());
+    else {
+      const auto found = std::find(names_.begin(), names_.end(), word);
+      if (found == names_.end())
+        throw ConfigError(unknown_part_message(word, names_));
+      index = static_cast<int>(found - names_.begin());
+    }
+    region_.parts_.push_back(index);
+    return index;
+  }
+
+  Region& region_;
+  std::span<const std::string> names_;
+  std::string_view text_;
+  std::size_t position_ = 0;
+};
+
+Region Region::parse(std::string_view text, std::span<const std::string> part_names) {
+  Region region;
+  region.text_ = text;
+  Parser(region, part_names).parse();
+  std::sort(region.parts_.begin(), region.parts_.end());
+  region.parts_.erase(std::unique(region.parts_.begin(), region.parts_.end()), region.parts_.end());
+  return region;
+}
+
+} // namespace trime::geometry

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/geometry/shape.hpp"
+
+#include "trime/core/error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace trime::geometry {
+
+namespace {
+
+double squared_distance_to_box(Vec2 p, const Box& box) {
+  const double dx = std::fmax(0.0, std::fmax(box.min.x - p.x, p.x - box.max.x));
+  const double dy = std::fmax(0.0, std::fmax(box.min.y - p.y, p.y - box.max.y));
+  return dx * dx + dy * dy;
+}
+
+/// Contains the arc, if not tightly.
+Box box_of(const Piece& piece) {
+  Box box;
+  box.include(piece.start);
+  box.include(piece.end);
+  if (piece.circular) {
+    // No point of an arc is farther from an end than half its length.
+    const double margin = 0.5 * piece.length();
+    box.min = box.min - Vec2{margin, margin};
+    box.max = box.max + Vec2{margin, margin};
+  }
+  return box;
+}
+
+std::vector<std::string> names_of(const std::vector<Part>& parts) {
+  std::vector<std::string> names;
+  for (const Part& part : parts) {
+    if (part.name() == domain_name)
+      throw ConfigError(fmt::format("a part must not be named '{}': this name means the container", domain_name));
+    if (std::find(names.begin(), names.end(), part.name()) != names.end())
+      throw ConfigError(fmt::format("two parts are named '{}'; expected different names", part.name()));
+    names.push_back(part.name());
+  }
+  return names;
+}
+
+} // namespace
+
+PieceTree::PieceTree(const Boundary& boundary) {
+  std::vector<Box> runs;
+  for (const Loop& loop : boundary.loops)
+    for (const Piece& piece : loop.pieces) {
+      if (items_.size() % run_length == 0)
+        runs.emplace_back();
+      const Box box = box_of(piece);
+      runs.back().include(box.min);
+      runs.back().include(box.max);
+      items_.push_back({piece.start, piece.end, piece.circular ? static_cast<LocalIndex>(arcs_.size()) : -1});
+      if (piece.circular)
+        arcs_.push_back(piece);
+    }
+  std::size_t leaves = 1;
+  while (leaves < runs.size())
+    leaves *= 2;
+  boxes_.resize(2 * leaves);
+  std::copy(runs.begin(), runs.end(), boxes_.begin() + static_cast<std::ptrdiff_t>(leaves));
+  for (std::size_t k = leaves - 1; k >= 1; --k)
+    for (const Box& child : {boxes_[2 * k], boxes_[2 * k + 1]})
+      if (child.min.x <= child.max.x) {
+        boxes_[k].include(child.min);
+        boxes_[k].include(child.max);
+      }
+}
+
+double PieceTree::squared_distance_to_run(std::size_t run, Vec2 p) const {
+  double best = std::numeric_limits<double>::infinity();
+  const std::size_t last = std::min(items_.size(), (run + 1) * run_length);
+  for (std::size_t k = run * run_length; k < last; ++k) {
+    if (items_[k].arc < 0) {
+      best = std::fmin(best, squared_distance(p, {items_[k].a, items_[k].b}));
+    } else {
+      const double distance = arcs_[items_[k].arc].distance(p);
+      best = std::fmin(best, distance * distance);
+    }
+  }
+  return best;
+}
+
+double PieceTree::distance(Vec2 p) const {
+  if (items_.empty())
+    return std::numeric_limits<double>::infinity();
+  struct Entry {
+    std::size_t node;
+    double squared_distance;
+  };
+  std::array<Entry, 64> stack; // deeper than any tree in memory
+  const std::size_t leaves = boxes_.size() / 2;
+  double best = std::numeric_limits<double>::infinity();
+  std::size_t size = 0;
+  stack[size++] = {1, 0.0};
+  while (size > 0) {
+    const Entry entry = stack[--size];
+    if (entry.squared_distance >= best)
+      continue;
+    if (entry.node >= leaves) {
+      best = std::fmin(best, squared_distance_to_run(entry.node - leaves, p));
+      continue;
+    }
+    Entry near{2 * entry.node, squared_distance_to_box(p, boxes_[2 * entry.node])};
+    Entry far{2 * entry.node + 1, squared_distance_to_box(p, boxes_[2 * entry.node + 1])};
+    if (far.squared_distance < near.squared_distance)
+      std::swap(near, far);
+    stack[size++] = far;
+    stack[size++] = near;
+  }
+  return std::sqrt(best);
+}
+
+Shape::Shape(std::vector<Part> parts, std::string_view region, const Frame& frame)
+    : frame_(frame), parts_(std::move(parts)), region_(Region::parse(region, names_of(parts_))),
+      boundary_(make_boundary(region_, parts_, frame)), tree_(boundary_) {
+  parts_.push_back(Part::rectangle(std::string(domain_name), frame.inner(), frame));
+}
+
+bool Shape::inside(Vec2 p) const {
+  return region_.contains([&](int part) { return parts_[part].inside(p); });
+}
+
+} // namespace trime::geometry
