@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Boundary first: the sites on the boundary of a shape, laid out before any site inside. Corners are kept, arcs are
+// divided by the size field, sharp corners by shells; then segments are halved until every chord between neighbouring
+// sites is the diameter of a disc without other sites and the polygon of chords has the topology of the curve.
+#pragma once
+
+#include "trime/core/types.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace trime::meshing {
+
+struct BoundarySite {
+  geometry::Vec2 position;   ///< on the lattice
+  LocalIndex previous, next; ///< along its loop, interior on the left
+  std::int32_t tag;          ///< of its loop; also of the chord from here to `next`
+  bool corner;               ///< given by the shape, kept bit for bit
+};
+
+/// Invariants: sites of one loop are consecutive and in order; at least 3 a loop; no two positions are equal; the open
+/// diametral disc of each chord (site, next) holds no other site, so no two chords cross.
+struct BoundarySites {
+  std::vector<BoundarySite> sites;
+  std::vector<LocalIndex> loop_start; ///< loops + 1: sites of loop i are loop_start[i] .. loop_start[i+1]-1
+  LocalIndex corners = 0;
+  LocalIndex sharp_corners = 0; ///< corners with an angle below 60 degrees on either side
+  LocalIndex halvings = 0;      ///< segments divided after the layout
+  int rounds = 0;               ///< of halving
+  double shortest = 0;          ///< length of the shortest chord
+};
+
+/// @brief Lays out the sites of `boundary` for the absolute element size `size`.
+///
+/// A junction of two pieces that turns by more than `corner_angle` degrees is a corner. Each arc between corners, or a
+/// whole loop without any, is divided at equal quantiles of the integral of ds/h. Where two arms meet at less than 60
+/// degrees both get sites at equal distances from the corner until their gap reaches h (shells; Ruppert 1995). A
+/// segment is then divided while another site lies in its diametral disc, or the curve between its ends leaves that
+/// disc or turns by more than 60 degrees: in the middle, or next to a sharp corner on a power-of-two radius
+/// (concentric shells), so that the process ends for any angle. Deterministic; O(B log B) for B sites and pieces.
+/// @throws GeometryError with the place, if two parts of the boundary are too close to be told apart, or if the size
+///         asks for more than 2^27 sites
+BoundarySites make_boundary_sites(const geometry::Boundary& boundary, const sizing::SizeField& size,
+                                  const geometry::Lattice& lattice, double corner_angle);
+
+} // namespace trime::meshing

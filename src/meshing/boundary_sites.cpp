@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rounds of halving: all segments that offend are divided at once, until none does.
+#include "trime/meshing/boundary_sites.hpp"
+
+#include "boundary_layout.hpp"
+#include "loop_metric.hpp"
+#include "site_tree.hpp"
+
+#include "trime/core/angle.hpp"
+#include "trime/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::meshing {
+
+using geometry::Vec2;
+
+namespace {
+
+constexpr int max_rounds = 60;
+constexpr double shortest_in_steps = 0x1p11;   // a shorter part is not divided
+constexpr double largest_turn = pi / 3 + 1e-6; // of the curve between neighbouring sites
+constexpr double junction_turn = pi / 4; // a junction that turns by more becomes a site when its segment is divided
+
+double nearest_power_of_two(double v) {
+  int exponent = 0;
+  const double fraction = std::frexp(v, &exponent);
+  return std::ldexp(1.0, fraction * fraction < 0.5 ? exponent - 1 : exponent);
+}
+
+class Refiner {
+public:
+  Refiner(const geometry::Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
+          double corner_angle)
+      : boundary_(boundary), lattice_(lattice) {
+    metrics_.reserve(boundary.loops.size());
+    for (const geometry::Loop& loop : boundary.loops) {
+      metrics_.emplace_back(loop, size);
+      add_loop(lay_out_loop(metrics_.back(), size, lattice, corner_angle));
+    }
+    most_sites_ = std::max<std::size_t>(4000000, 16 * sites_.size());
+  }
+
+  void run() {
+    std::vector<LocalIndex> fresh_sites(sites_.size());
+    for (std::size_t k = 0; k < sites_.size(); ++k)
+      fresh_sites[k] = static_cast<LocalIndex>(k);
+    std::vector<LocalIndex> fresh_segments = fresh_sites;
+    for (rounds_ = 0; !fresh_sites.empty(); ++rounds_) {
+      const std::vector<Cut> cuts = find_cuts(fresh_sites, fresh_segments);
+      fresh_sites.clear();
+      fresh_segments.clear();
+      for (const Cut& cut : cuts) {
+        if (rounds_ == max_rounds)
+          fail(cut);
+        fresh_segments.push_back(cut.segment);
+        fresh_sites.push_back(divide(cut));
+        fresh_segments.push_back(fresh_sites.back());
+        if (sites_.size() > most_sites_)
+          fail(cut);
+      }
+      halvings_ += static_cast<LocalIndex>(cuts.size());
+    }
+    --rounds_;
+  }
+
+  BoundarySites result() const;
+
+private:
+  struct Site {
+    double t;
+    Vec2 position;
+    LocalIndex previous, next;
+    std::int32_t loop;
+    SiteKind kind;
+  };
+  /// Segment to divide and why.
+  struct Cut {
+    LocalIndex segment;
+    LocalIndex intruder; // site in its disc, -1: because of the curve itself
+  };
+
+  void add_loop(const std::vector<LoopSite>& loop_sites);
+  std::vector<Cut> find_cuts(const std::vector<LocalIndex>& fresh_sites, const std::vector<LocalIndex>& fresh_segments);
+  bool curve_offends(LocalIndex segment) const;
+  LocalIndex divide(const Cut& cut);
+  double cut_place(const Site& a, const Site& b, double end) const;
+  [[noreturn]] void fail(const Cut& cut) const;
+
+  const Site& next(const Site& site) const { return sites_[site.next]; }
+  /// t of the end of the segment that starts at `site`, unwrapped.
+  double end_t(const Site& site) const {
+    const double t = next(site).t;
+    return t > site.t ? t : t + metrics_[site.loop].total();
+  }
+  PartSummary summarize(const Site& a) const {
+    return metrics_[a.loop].summarize(a.t, end_t(a), a.position, next(a).position);
+  }
+
+  const geometry::Boundary& boundary_;
+  const geometry::Lattice& lattice_;
+  std::vector<LoopMetric> metrics_;
+  std::vector<Site> sites_;
+  std::vector<LocalIndex> loop_first_; // some site of each loop that stays its first
+  std::vector<SiteTree> trees_;        // one per round, of the sites that came in it
+  std::size_t most_sites_ = 0;
+  LocalIndex halvings_ = 0;
+  int rounds_ = 0;
+};
+
+void Refiner::add_loop(const std::vector<LoopSite>& loop_sites) {
+  const LocalIndex first = static_cast<LocalIndex>(sites_.size()), n = static_cast<LocalIndex>(loop_sites.size());
+  loop_first_.push_back(first);
+  const auto loop = static_cast<std::int32_t>(loop_first_.size() - 1);
+  for (LocalIndex k = 0; k < n; ++k)
+    sites_.push_back({loop_sites[k].t, loop_sites[k].position, first + (k + n - 1) % n, first + (k + 1) % n, loop,
+                      loop_sites[k].kind});
+}
+
+/// New segments against everything, old ones against the new sites only; ascending by segment.
+std::vector<Refiner::Cut> Refiner::find_cuts(const std::vector<LocalIndex>& fresh_sites,
+                                             const std::vector<LocalIndex>& fresh_segments) {
+  std::vector<SiteTree::Item> items;
+  for (const LocalIndex k : fresh_sites)
+    items.push_back({sites_[k].position, k});
+  trees_.emplace_back(std::move(items));
+  std::vector<std::uint8_t> fresh(sites_.size(), 0);
+  for (const LocalIndex k : fresh_segments)
+    fresh[k] = 1;
+  std::vector<Cut> cuts;
+  for (LocalIndex k = 0; k < static_cast<LocalIndex>(sites_.size()); ++k) {
+    const Site &a = sites_[k], &b = next(a);
+    LocalIndex intruder = -1;
+    for (std::size_t tree = fresh[k] ? 0 : trees_.size() - 1; tree < trees_.size() && intruder < 0; ++tree)
+      intruder = trees_[tree].find_in_disc(a.position, b.position, k, a.next);
+    if (intruder >= 0 || (fresh[k] && curve_offends(k)))
+      cuts.push_back({k, intruder});
+  }
+  return cuts;
+}
+
+bool Refiner::curve_offends(LocalIndex segment) const {
+  const Site& a = sites_[segment];
+  const PartSummary part = summarize(a);
+  return part.leaves_disc || std::fabs(part.turn) > largest_turn || a.position == next(a).position;
+}
+
+/// Where to divide the segment from a to b, as t after a.
+double Refiner::cut_place(const Site& a, const Site& b, double end) const {
+  const LoopMetric& metric = metrics_[a.loop];
+  const PartSummary part = summarize(a);
+  if (part.sharpest_turn > junction_turn) {
+    const double t = metric.piece_t(part.sharpest);
+    return t > a.t ? t : t + metric.total();
+  }
+  const bool sharp_a = a.kind == SiteKind::sharp_corner, sharp_b = b.kind == SiteKind::sharp_corner;
+  if (sharp_a != sharp_b) {
+    const Site& apex = sharp_a ? a : b;
+    const double radius = nearest_power_of_two(0.5 * geometry::length(b.position - a.position));
+    const auto t = sharp_a ? metric.first_at_radius(a.t, end, apex.position, radius)
+                           : metric.first_at_radius(end, a.t, apex.position, radius);
+    if (t && *t > a.t && *t < end)
+      return *t;
+  }
+  if (std::fabs(part.turn) > largest_turn)
+    return part.half_turn_t;
+  return 0.5 * (a.t + end);
+}
+
+LocalIndex Refiner::divide(const Cut& cut) {
+  const Site a = sites_[cut.segment], b = next(a);
+  const LoopMetric& metric = metrics_[a.loop];
+  const double end = end_t(a);
+  if (metric.arc_length(a.t, end) < shortest_in_steps * lattice_.step() ||
+      (cut.intruder >= 0 &&
+       (sites_[cut.intruder].position == a.position || sites_[cut.intruder].position == b.position)))
+    fail(cut);
+  double t = cut_place(a, b, end);
+  const Vec2 position = lattice_.snap(metric.point(t));
+  if (position == a.position || position == b.position)
+    fail(cut);
+  t = t >= metric.total() ? t - metric.total() : t;
+  const auto index = static_cast<LocalIndex>(sites_.size());
+  sites_.push_back({t, position, cut.segment, a.next, a.loop, SiteKind::plain});
+  sites_[cut.segment].next = index;
+  sites_[a.next].previous = index;
+  return index;
+}
+
+void Refiner::fail(const Cut& cut) const {
+  const Site& a = sites_[cut.segment];
+  const Vec2 from = a.position, to = next(a).position;
+  std::string cause = "the curve turns back on itself there";
+  if (cut.intruder >= 0) {
+    const Vec2 p = sites_[cut.intruder].position;
+    const double gap = std::sqrt(std::fmin(geometry::squared_length(p - from), geometry::squared_length(p - to)));
+    cause = fmt::format("another part of the boundary passes at a distance of {:.3g}, at ({:.17g}, {:.17g})", gap, p.x,
+                        p.y);
+  }
+  throw GeometryError(fmt::format(
+      "the boundary is too narrow near ({:.17g}, {:.17g}): {}; expected parts that are at least {:.3g} apart (the "
+      "resolution of the container), divided {} times down to a segment of {:.3g}. More points are not the cure: "
+      "simplify the contour there, or move its parts clearly apart or together, or make the container smaller",
+      from.x, from.y, cause, shortest_in_steps * lattice_.step(), rounds_, geometry::length(to - from)));
+}
+
+BoundarySites Refiner::result() const {
+  BoundarySites out;
+  out.sites.reserve(sites_.size());
+  out.halvings = halvings_;
+  out.rounds = rounds_;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t loop = 0; loop < loop_first_.size(); ++loop) {
+    const auto first = static_cast<LocalIndex>(out.sites.size());
+    out.loop_start.push_back(first);
+    LocalIndex k = loop_first_[loop];
+    do {
+      const Site& site = sites_[k];
+      const auto index = static_cast<LocalIndex>(out.sites.size());
+      out.sites.push_back(
+          {site.position, index - 1, index + 1, boundary_.loops[loop].tag, site.kind != SiteKind::plain});
+      out.corners += site.kind != SiteKind::plain;
+      out.sharp_corners += site.kind == SiteKind::sharp_corner;
+      shortest = std::fmin(shortest, geometry::squared_length(next(site).position - site.position));
+      k = site.next;
+    } while (k != loop_first_[loop]);
+    out.sites[first].previous = static_cast<LocalIndex>(out.sites.size()) - 1;
+    out.sites.back().next = first;
+  }
+  out.loop_start.push_back(static_cast<LocalIndex>(out.sites.size()));
+  out.shortest = std::sqrt(shortest);
+  return out;
+}
+
+} // namespace
+
+BoundarySites make_boundary_sites(const geometry::Boundary& boundary, const sizing::SizeField& size,
+                                  const geometry::Lattice& lattice, double corner_angle) {
+  Refiner refiner(boundary, size, lattice, corner_angle);
+  refiner.run();
+  return refiner.result();
+}
+
+} // namespace trime::meshing

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop_metric.hpp"
+
+#include "trime/core/angle.hpp"
+#include "trime/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::meshing {
+
+using geometry::Piece;
+using geometry::Vec2;
+
+namespace {
+
+constexpr std::size_t max_knots = std::size_t{1} << 27;
+
+double checked_size(const sizing::SizeField& size, Vec2 p) {
+  const double h = size.size(p);
+  if (!(h > 0) || !std::isfinite(h))
+    throw GeometryError(
+        fmt::format("element size on the boundary: expected a positive number, found {} at ({}, {})", h, p.x, p.y));
+  return h;
+}
+
+double signed_turn(const Piece& before, const Piece& after) {
+  const Vec2 in = before.tangent(before.length()), out = after.tangent(0);
+  return angle_of(geometry::cross(in, out), geometry::dot(in, out));
+}
+
+} // namespace
+
+LoopMetric::LoopMetric(const geometry::Loop& loop, const sizing::SizeField& size) : loop_(loop) {
+  const std::size_t n = loop.pieces.size();
+  TRIME_ASSERT(n > 0);
+  knots_.push_back({0, 0, 0, 0});
+  for (std::size_t i = 0; i < n; ++i) {
+    piece_t_.push_back(knots_.back().t);
+    turn_.push_back(signed_turn(loop.pieces[(i + n - 1) % n], loop.pieces[i]));
+    add_piece(static_cast<LocalIndex>(i), size);
+  }
+  piece_t_.push_back(total());
+}
+
+/// Steps of half the local size, Simpson's rule on each; one step does for a uniform size.
+void LoopMetric::add_piece(LocalIndex i, const sizing::SizeField& size) {
+  const Piece& piece = loop_.pieces[i];
+  const double whole = piece.length();
+  if (!(whole > 0))
+    throw GeometryError(fmt::format("boundary piece {} at ({}, {}) has no length: expected pieces of positive length; "
+                                    "remove the repeated point",
+                                    i, piece.start.x, piece.start.y));
+  double s = 0, h = checked_size(size, piece.start);
+  knots_.back().piece = i;
+  knots_.back().s = 0;
+  while (s < whole) {
+    double step = size.is_uniform() ? whole : 0.5 * h;
+    if (s + 1.25 * step >= whole)
+      step = whole - s;
+    const double end = step == whole - s ? whole : s + step;
+    const double middle = checked_size(size, piece.point(s + 0.5 * step)), last = checked_size(size, piece.point(end));
+    const double integral = step * (1 / h + 4 / middle + 1 / last) / 6;
+    knots_.push_back({knots_.back().t + integral, knots_.back().arc + step, i, end});
+    if (knots_.size() > max_knots)
+      throw GeometryError(
+          fmt::format("the element size near ({}, {}) is {}: the boundary would get more than {} sites; "
+                      "ask for fewer points or a larger edge length",
+                      piece.start.x, piece.start.y, h, max_knots / 2));
+    s = end;
+    h = last;
+  }
+}
+
+LocalIndex LoopMetric::knot_before(double t) const {
+  const auto above = std::upper_bound(knots_.begin(), knots_.end(), t, [](double v, const Knot& k) { return v < k.t; });
+  const auto index = std::clamp<std::ptrdiff_t>(above - knots_.begin() - 1, 0, std::ssize(knots_) - 2);
+  return static_cast<LocalIndex>(index);
+}
+
+Vec2 LoopMetric::point(double t) const {
+  t = t >= total() ? t - total() : t < 0 ? t + total() : t;
+  const LocalIndex k = knot_before(t);
+  const Knot &low = knots_[k], &high = knots_[k + 1];
+  const Piece& piece = loop_.pieces[low.piece];
+  const double share = std::clamp((t - low.t) / (high.t - low.t), 0.0, 1.0);
+  return piece.point(low.s + share * (high.arc - low.arc));
+}
+
+double LoopMetric::arc(double t) const {
+  const double turns = t >= total() ? 1 : t < 0 ? -1 : 0;
+  t -= turns * total();
+  const Knot &low = knots_[knot_before(t)], &high = knots_[knot_before(t) + 1];
+  return turns * knots_.back().arc + low.arc + (high.arc - low.arc) * ((t - low.t) / (high.t - low.t));
+}
+
+std::optional<double> LoopMetric::first_at_radius(double t0, double t1, Vec2 center, double radius) const {
+  const auto reached = [&](double t) { return geometry::squared_length(point(t) - center) >= radius * radius; };
+  const bool forward = t1 > t0;
+  const double period = t0 >= total() ? total() : t0 < 0 ? -total() : 0;
+  const LocalIndex intervals = static_cast<LocalIndex>(knots_.size()) - 1;
+  LocalIndex k = knot_before(t0 - period);
+  double shift = period, near = t0, far = t0;
+  for (LocalIndex visited = 0; visited <= intervals; ++visited) {
+    const double end = shift + knots_[forward ? k + 1 : k].t;
+    far = forward ? std::fmin(end, t1) : std::fmax(end, t1);
+    if (reached(far))
+      break;
+    if (far == t1)
+      return std::nullopt;
+    near = far;
+    k += forward ? 1 : -1;
+    if (k == intervals || k < 0) {
+      k = forward ? 0 : intervals - 1;
+      shift += forward ? total() : -total();
+    }
+  }
+  if (!reached(far))
+    return std::nullopt;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (near + far);
+    (reached(middle) ? far : near) = middle;
+  }
+  return far;
+}
+
+PartSummary LoopMetric::summarize(double t0, double t1, Vec2 a, Vec2 b) const {
+  PartSummary part;
+  const double tolerance = 1e-9 * geometry::squared_length(b - a);
+  const auto look = [&](Vec2 p) { part.leaves_disc |= geometry::dot(a - p, b - p) > tolerance; };
+  struct Turn {
+    double t, amount;
+  };
+  std::vector<Turn> turns; // where the curve turns; arcs as four equal turns
+  const LocalIndex n = static_cast<LocalIndex>(loop_.pieces.size());
+  double shift = t0 >= total() ? total() : 0;
+  LocalIndex i = knots_[knot_before(t0 - shift)].piece;
+  for (LocalIndex visited = 0; visited <= n; ++visited) {
+    const double low = shift + piece_t_[i], high = shift + piece_t_[i + 1];
+    if (low >= t1)
+      break;
+    const Piece& piece = loop_.pieces[i];
+    if (low > t0) {
+      look(piece.start);
+      turns.push_back({low, turn_[i]});
+      if (std::fabs(turn_[i]) > part.sharpest_turn) {
+        part.sharpest_turn = std::fabs(turn_[i]);
+        part.sharpest = i;
+      }
+    }
+    if (piece.circular) {
+      const double from = std::fmax(low, t0), to = std::fmin(high, t1);
+      const double share = arc_length(from, to) / piece.length();
+      for (int quarter = 0; quarter < 4; ++quarter) {
+        turns.push_back({from + (to - from) * (0.125 + 0.25 * quarter), 0.25 * share * piece.sweep});
+        look(point(turns.back().t));
+      }
+    }
+    if (++i == n) {
+      i = 0;
+      shift += total();
+    }
+  }
+  double sum = 0, half = 0;
+  for (const Turn& turn : turns) {
+    part.turn += turn.amount;
+    sum += std::fabs(turn.amount);
+  }
+  part.half_turn_t = 0.5 * (t0 + t1);
+  for (const Turn& turn : turns) {
+    half += std::fabs(turn.amount);
+    if (half >= 0.5 * sum) {
+      part.half_turn_t = turn.t;
+      break;
+    }
+  }
+  return part;
+}
+
+} // namespace trime::meshing

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One loop of the boundary measured in local element sizes: the coordinate t along it is the integral of ds/h.
+#pragma once
+
+#include "trime/core/types.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace trime::meshing {
+
+/// The part of the loop between two of its points.
+struct PartSummary {
+  double turn = 0;          ///< net turn between the ends, radians, junctions at the ends not counted
+  double half_turn_t = 0;   ///< where half of the total (unsigned) turn is reached
+  double sharpest_turn = 0; ///< largest unsigned turn of a junction strictly between
+  LocalIndex sharpest = -1; ///< that junction: index of the piece that starts there
+  bool leaves_disc = false; ///< a piece end or arc point strictly between lies outside the chord's diametral disc
+};
+
+class LoopMetric {
+public:
+  /// Keeps a reference to `loop`. @throws GeometryError if the size asks for more than 2^27 samples
+  LoopMetric(const geometry::Loop& loop, const sizing::SizeField& size);
+
+  /// Length of the whole loop in t; coordinates below are taken modulo it.
+  double total() const { return knots_.back().t; }
+  /// t of the start of piece i.
+  double piece_t(std::size_t i) const { return piece_t_[i]; }
+  const geometry::Loop& loop() const { return loop_; }
+  geometry::Vec2 point(double t) const;
+  /// Arc length between t0 <= t1 <= t0 + total().
+  double arc_length(double t0, double t1) const { return arc(t1) - arc(t0); }
+  /// The first t on the way from t0 to t1 (either direction) at which the distance from `center` reaches `radius`.
+  /// @pre the point at t0 is nearer than `radius`
+  std::optional<double> first_at_radius(double t0, double t1, geometry::Vec2 center, double radius) const;
+  /// The curve between t0 < t1 <= t0 + total(), whose ends became the sites a and b.
+  PartSummary summarize(double t0, double t1, geometry::Vec2 a, geometry::Vec2 b) const;
+
+private:
+  struct Knot {
+    double t;
+    double arc; // arc length from the start of the loop
+    LocalIndex piece;
+    double s; // arc length in the piece
+  };
+  void add_piece(LocalIndex i, const sizing::SizeField& size);
+  double arc(double t) const;
+  LocalIndex knot_before(double t) const;
+
+  const geometry::Loop& loop_;
+  std::vector<Knot> knots_;     // ascending in t; the last closes the loop
+  std::vector<double> piece_t_; // pieces + 1
+  std::vector<double> turn_;    // signed turn at the start of each piece, radians
+};
+
+} // namespace trime::meshing

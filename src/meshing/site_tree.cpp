@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "site_tree.hpp"
+
+#include "trime/geometry/diametral.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace trime::meshing {
+
+using geometry::Vec2;
+
+namespace {
+constexpr std::size_t leaf_size = 8;
+}
+
+SiteTree::SiteTree(std::vector<Item> items) : items_(std::move(items)), split_y_(items_.size(), 0) {
+  build(0, items_.size());
+}
+
+void SiteTree::build(std::size_t low, std::size_t high) {
+  if (high - low <= leaf_size)
+    return;
+  geometry::Box box;
+  for (std::size_t k = low; k < high; ++k)
+    box.include(items_[k].position);
+  const std::size_t middle = low + (high - low) / 2;
+  const bool by_y = box.height() > box.width();
+  const auto less = [by_y](const Item& a, const Item& b) {
+    const double u = by_y ? a.position.y : a.position.x, v = by_y ? b.position.y : b.position.x;
+    return u < v || (u == v && a.index < b.index);
+  };
+  std::nth_element(items_.begin() + low, items_.begin() + middle, items_.begin() + high, less);
+  split_y_[middle] = by_y;
+  build(low, middle);
+  build(middle + 1, high);
+}
+
+LocalIndex SiteTree::find_in_disc(Vec2 a, Vec2 b, LocalIndex index_a, LocalIndex index_b) const {
+  const Vec2 center = 0.5 * (a + b);
+  const double radius = 0.5 * geometry::length(b - a) * (1 + 1e-9) +
+                        1e-15 * (std::fabs(center.x) + std::fabs(center.y)); // rounding must not hide a site
+  const auto in_disc = [&](const Item& item) {
+    return item.index != index_a && item.index != index_b &&
+           (geometry::diametral_side(a, b, item.position) < 0 || item.position == a || item.position == b);
+  };
+  struct Range {
+    std::size_t low, high;
+  };
+  std::array<Range, 64> stack; // each level leaves at most one range waiting
+  int top = 0;
+  stack[top++] = {0, items_.size()};
+  while (top > 0) {
+    const Range range = stack[--top];
+    if (range.high - range.low <= leaf_size) {
+      for (std::size_t k = range.low; k < range.high; ++k)
+        if (in_disc(items_[k]))
+          return items_[k].index;
+      continue;
+    }
+    const std::size_t middle = range.low + (range.high - range.low) / 2;
+    const Item& item = items_[middle];
+    if (in_disc(item))
+      return item.index;
+    const double offset = split_y_[middle] ? center.y - item.position.y : center.x - item.position.x;
+    if (offset <= radius)
+      stack[top++] = {range.low, middle};
+    if (offset >= -radius)
+      stack[top++] = {middle + 1, range.high};
+  }
+  return -1;
+}
+
+} // namespace trime::meshing

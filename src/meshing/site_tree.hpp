@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// k-d tree of boundary sites: is a diametral disc free of other sites? Sites of a curve are too unevenly spread for
+// plain bins.
+#pragma once
+
+#include "trime/core/types.hpp"
+#include "trime/geometry/vec2.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace trime::meshing {
+
+/// Immutable; O(n log n) to build.
+class SiteTree {
+public:
+  struct Item {
+    geometry::Vec2 position;
+    LocalIndex index;
+  };
+  explicit SiteTree(std::vector<Item> items);
+
+  /// A site strictly inside the diametral disc of a-b, or at the place of a or b, other than `index_a` and `index_b`;
+  /// -1 if there is none. Exact.
+  LocalIndex find_in_disc(geometry::Vec2 a, geometry::Vec2 b, LocalIndex index_a, LocalIndex index_b) const;
+  std::size_t size() const { return items_.size(); }
+
+private:
+  void build(std::size_t low, std::size_t high);
+
+  std::vector<Item> items_;           // the item in the middle of a range splits it
+  std::vector<std::uint8_t> split_y_; // per item: does it split by y?
+};
+
+} // namespace trime::meshing
