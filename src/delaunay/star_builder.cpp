@@ -35,20 +35,21 @@ double canonical_squared_radius(Vec2 a, Vec2 b, Vec2 c) {
 class StarWorker {
 public:
   StarWorker(const mesh::BinnedPoints& points, StarTable& stars, const geometry::Lattice& lattice, double cap)
-      : points_(points), stars_(stars), cap_(cap), slack_(2 * lattice.step()), kernel_(lattice, lattice.snap(2 * cap) + lattice.step()) {}
+      : points_(points), positions_(points.positions().data()), stars_(stars), cap_(cap), slack_(2 * lattice.step()), kernel_(lattice, lattice.snap(2 * cap) + lattice.step()) {}
 
   void compute(LocalIndex i) {
     site_ = i;
-    center_ = points_.position(i);
+    center_ = positions_[i];
+    changed_ = false;
     const bool warm = start_warm();
     const bool certain = warm ? finish(0, 0) : start_cold();
     pass_.rebuilt += !warm;
     pass_.uncertain += !certain;
     stars_.set_certain(i, certain);
-    if (certain)
-      store();
-    else
+    if (!certain)
       stars_.clear(i);
+    else if (!warm || changed_ || !is_stored_right())
+      store();
   }
 
   const StarPass& pass() const { return pass_; }
@@ -60,61 +61,67 @@ private:
     LocalIndex id;
   };
 
-  Vec2 offset(LocalIndex i) const { return points_.position(i) - center_; }
+  Vec2 offset(LocalIndex i) const { return positions_[i] - center_; }
 
   /// Takes up the last ring, if it has no gap and still is a star.
   bool start_warm() {
-    stars_.load(site_, ring_);
-    if (ring_.size() < 3)
+    ring_ = stars_.load(site_, ring_copy_);
+    if (ring_.size() < 3 || std::find(ring_.begin(), ring_.end(), gap) != ring_.end())
       return false;
-    offsets_.clear();
-    for (const LocalIndex neighbour : ring_) {
-      if (neighbour == gap)
-        return false;
-      offsets_.push_back(offset(neighbour));
-    }
-    return kernel_.start_ring(ring_, offsets_);
+    return kernel_.start_ring(ring_, positions_, center_);
   }
 
-  /// From the virtual square: the last ring first, then the sites nearby in order of distance, then all others.
+  /// A star that kept its ring needs no new entry if all its triangles count and its first neighbour still is the smallest.
+  bool is_stored_right() {
+    return kernel_.squared_radius() < 0.99 * cap_ * cap_ && kernel_.smallest() == 0;
+  }
+
+  /// From the virtual square: the last ring first, then the sites nearby (about the first ring of neighbours, in any
+  /// order), then all others, most of which lie beyond the security radius by then.
   bool start_cold() {
     kernel_.start_virtual();
     for (const LocalIndex neighbour : ring_)
       if (neighbour != gap)
         kernel_.insert(neighbour, offset(neighbour));
-    const double near = 0.6 * cap_;
-    const double sorted_within = 0.25 * cap_ * cap_; // squared: about the first ring of neighbours
-    candidates_.clear();
-    rest_.clear();
+    const double window = 0.6 * cap_;
+    near_.clear();
+    far_.clear();
     const std::size_t missing_before = missing_.size();
     points_.for_each_near(
-        center_, near,
-        [&](LocalIndex begin, LocalIndex end) {
-          for (LocalIndex j = begin; j < end; ++j) {
-            const double d2 = geometry::squared_length(offset(j));
-            if (d2 > 0)
-              (d2 < sorted_within ? candidates_ : rest_).push_back({d2, j});
-          }
-        },
+        center_, window, [&](LocalIndex begin, LocalIndex end) { collect(begin, end, 0.25 * cap_ * cap_); },
         [&](mesh::BinRef bin) { missing_.push_back(bin); });
-    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-      return a.squared_distance < b.squared_distance;
-    });
-    for (const Candidate& c : candidates_)
+    for (const Candidate& c : near_)
       try_insert(c);
-    for (const Candidate& c : rest_)
+    for (const Candidate& c : far_)
       try_insert(c);
     const bool complete = missing_.size() == missing_before;
-    return finish(near, near * near) && complete;
+    return finish(window, window * window) && complete;
+  }
+
+  /// Sorts a run of sites into nearer and farther ones, without branches.
+  void collect(LocalIndex begin, LocalIndex end, double limit) {
+    std::size_t near = near_.size(), far = far_.size();
+    const std::size_t n = static_cast<std::size_t>(end - begin);
+    near_.resize(near + n);
+    far_.resize(far + n);
+    for (LocalIndex j = begin; j < end; ++j) {
+      const double d2 = geometry::squared_length(offset(j));
+      near_[near] = {d2, j};
+      far_[far] = {d2, j};
+      near += (d2 < limit) & (d2 > 0);
+      far += d2 >= limit;
+    }
+    near_.resize(near);
+    far_.resize(far);
   }
 
   void try_insert(const Candidate& c) {
-    if (c.squared_distance < 4 * kernel_.squared_radius() && !kernel_.contains(c.id))
-      kernel_.insert(c.id, offset(c.id));
+    if (c.squared_distance < 4 * kernel_.squared_radius() && (ring_.empty() || !kernel_.contains(c.id)))
+      changed_ |= kernel_.insert(c.id, offset(c.id));
   }
 
   /// Radius that must be searched: no site farther than 2 R_max, or than 2 cap, can change what counts.
-  double needed() const { return std::min(2 * std::sqrt(kernel_.squared_radius()), 2 * cap_) * inflation + slack_; }
+  double needed() { return std::min(2 * std::sqrt(kernel_.squared_radius()), 2 * cap_) * inflation + slack_; }
 
   /// @brief Inserts what lies within the security radius, in windows that grow at most by 1.6 at a time (each window can
   /// shrink the radius); sites nearer than sqrt(done) have been inserted before.
@@ -144,13 +151,15 @@ private:
     points_.for_each_near(
         center_, reach,
         [&](LocalIndex begin, LocalIndex end) {
+          const Vec2 center = center_;
+          const Vec2* position = positions_;
+          int count = 0;
           for (LocalIndex j = begin; j < end; ++j)
-            inside += geometry::squared_length(offset(j)) <= r2;
+            count += geometry::squared_length(position[j] - center) <= r2;
+          inside += count;
         },
         miss);
-    for (std::size_t k = 0; k < kernel_.degree(); ++k)
-      inside -= geometry::squared_length(kernel_.offset(k)) <= r2;
-    if (inside != 0)
+    if (inside != kernel_.members_within(r2))
       points_.for_each_near(
           center_, reach, [&](LocalIndex begin, LocalIndex end) { insert_run(begin, end, 0); }, [](mesh::BinRef) {});
   }
@@ -184,7 +193,8 @@ private:
   /// Writes the ring from its lexicographically smallest neighbour on, with gaps where triangles do not count.
   void store() {
     const std::size_t n = kernel_.degree();
-    ring_.clear();
+    std::vector<LocalIndex>& ring = ring_copy_;
+    ring.clear();
     std::size_t start = n;
     bool before = counts(n - 1);
     counted_.assign(n, 0);
@@ -203,14 +213,15 @@ private:
     for (std::size_t m = 0, k = start; m < n; ++m, k = k + 1 == n ? 0 : k + 1) {
       const bool left = counted_[k == 0 ? n - 1 : k - 1], right = counted_[k];
       if (left || right)
-        ring_.push_back(kernel_.id(k));
+        ring.push_back(kernel_.id(k));
       if (!right && (left || right))
-        ring_.push_back(gap);
+        ring.push_back(gap);
     }
-    stars_.store(site_, ring_);
+    stars_.store(site_, ring);
   }
 
   const mesh::BinnedPoints& points_;
+  const Vec2* positions_;
   StarTable& stars_;
   double cap_, slack_;
   StarKernel kernel_;
@@ -218,9 +229,10 @@ private:
   Vec2 center_;
   StarPass pass_;
   std::vector<mesh::BinRef> missing_;
-  std::vector<LocalIndex> ring_;
-  std::vector<Vec2> offsets_;
-  std::vector<Candidate> candidates_, rest_;
+  bool changed_ = false;
+  std::span<const LocalIndex> ring_; // the last ring of the site
+  std::vector<LocalIndex> ring_copy_;
+  std::vector<Candidate> near_, far_;
   std::vector<std::uint8_t> counted_;
 };
 

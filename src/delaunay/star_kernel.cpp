@@ -4,155 +4,232 @@
 #include "trime/geometry/predicates.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace trime::delaunay {
 namespace {
 
-using geometry::cross;
-using geometry::dot;
 using geometry::Vec2;
 
 constexpr double epsilon = 0x1p-53;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t typical_degree = 64; // room reserved; longer rings still work
+constexpr std::size_t typical_degree = 64; // room at the start; longer rings make more
+
+/// Circumcentre of the origin, a and b.
+struct Vertex {
+  double x, y, error, r2;
+  bool sound;
+};
+
+/// c = (|a|^2 b - |b|^2 a) turned, over 2 a x b. With the rounding errors of the two sums of products in the numerators
+/// (4 eps S) and of the determinant (2 eps D), S and D being the sums of magnitudes, each coordinate of c is exact to
+/// (4 eps S / 2 + |c| (2 eps D)) / det plus a few eps |c|; everything is rounded up generously. It is not sound if the
+/// determinant is of the order of its own error.
+inline Vertex circumcenter(double ax, double ay, double bx, double by) {
+  const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by;
+  const double axby = ax * by, aybx = ay * bx, determinant = axby - aybx;
+  const double determinant_size = std::fabs(axby) + std::fabs(aybx);
+  const double half_inverse = 0.5 / determinant;
+  const double x = (a2 * by - b2 * ay) * half_inverse, y = (b2 * ax - a2 * bx) * half_inverse;
+  const double size = std::fabs(x) + std::fabs(y);
+  const double products = a2 * (std::fabs(bx) + std::fabs(by)) + b2 * (std::fabs(ax) + std::fabs(ay));
+  const double center_error = epsilon * (std::fabs(half_inverse) * 5 * (products + determinant_size * size) + 8 * size);
+  return {x, y, 2 * center_error + 8 * epsilon * size, (x * x + y * y) * (1 + 1e-12) + 4 * center_error * (size + center_error),
+          determinant > 64 * epsilon * determinant_size};
+}
 
 } // namespace
 
 StarKernel::StarKernel(const geometry::Lattice& lattice, double virtual_distance)
-    : lattice_(lattice), virtual_distance_(virtual_distance) {
-  ids_.reserve(typical_degree);
-  offsets_.reserve(typical_degree);
-  vertices_.reserve(typical_degree);
+    : lattice_(lattice) {
+  reserve(typical_degree);
+  const double d = virtual_distance;
+  square_ = {Vec2{d, 0}, Vec2{0, d}, Vec2{-d, 0}, Vec2{0, -d}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vertex v = circumcenter(square_[k].x, square_[k].y, square_[(k + 1) % 4].x, square_[(k + 1) % 4].y);
+    square_vertex_[k] = {v.x, v.y};
+    square_error_ = v.error; // the same for all four
+    square_r2_ = v.r2;
+  }
 }
 
-/// Circumcentre c = (|a|^2 b - |b|^2 a) turned, over 2 a x b. With the rounding errors of the two sums of products in
-/// the numerators (4 eps S) and of the determinant (2 eps D), S and D being the sums of magnitudes, each coordinate of c
-/// is exact to (4 eps S / 2 + |c| (2 eps D)) / det plus a few eps |c|; everything is rounded up generously. A determinant
-/// of the order of its own error gives a vertex of unknown place: the exact test decides everything about it.
-StarKernel::Vertex StarKernel::vertex(Vec2 a, Vec2 b) const {
-  const double a2 = dot(a, a), b2 = dot(b, b);
-  const double axby = a.x * b.y, aybx = a.y * b.x;
-  const double determinant_size = std::fabs(axby) + std::fabs(aybx);
-  if (axby - aybx <= 64 * epsilon * determinant_size)
-    return {0, 0, infinity, infinity};
-  const double half_inverse = 0.5 / (axby - aybx);
-  const double x = (a2 * b.y - b2 * a.y) * half_inverse, y = (b2 * a.x - a2 * b.x) * half_inverse;
-  const double size = std::fabs(x) + std::fabs(y);
-  const double products = a2 * (std::fabs(b.x) + std::fabs(b.y)) + b2 * (std::fabs(a.x) + std::fabs(a.y));
-  const double center_error =
-      epsilon * (std::fabs(half_inverse) * (5 * products + 5 * determinant_size * size) + 8 * size);
-  return {x, y, 2 * center_error + 8 * epsilon * size,
-          (x * x + y * y) * (1 + 1e-12) + 4 * center_error * (size + center_error)};
+void StarKernel::reserve(std::size_t degree) {
+  if (degree + 2 <= x_.size())
+    return;
+  id_.resize(2 * degree);
+  for (std::vector<double>* list : {&x_, &y_, &vertex_x_, &vertex_y_, &vertex_error_, &vertex_r2_, &depth_,
+                                    &tolerance_})
+    list->resize(2 * degree);
 }
 
-bool StarKernel::cut(std::size_t k, Vec2 q, double q2, double q1) const {
-  const Vertex& v = vertices_[k];
-  const double depth = 2 * (v.x * q.x + v.y * q.y) - q2;
-  const double tolerance = v.error * q1 + 8 * epsilon * q1 * q1;
-  if (depth > tolerance)
+void StarKernel::set_vertex(std::size_t k, std::size_t next) {
+  const Vertex v = circumcenter(x_[k], y_[k], x_[next], y_[next]);
+  // A vertex that is not sound is left to the exact test, whatever is asked about it.
+  vertex_x_[k] = v.sound ? v.x : 0;
+  vertex_y_[k] = v.sound ? v.y : 0;
+  vertex_error_[k] = v.sound ? v.error : infinity;
+  vertex_r2_[k] = v.sound ? v.r2 : infinity;
+}
+
+bool StarKernel::is_cut(std::size_t k, Vec2 q) const {
+  if (depth_[k] > tolerance_[k])
     return true;
-  if (depth < -tolerance)
+  if (depth_[k] < -tolerance_[k])
     return false;
-  return geometry::in_circle(Vec2{}, offsets_[k], offsets_[next(k)], q, lattice_) > 0;
+  return geometry::in_circle(Vec2{}, offset(k), offset(next(k)), q, lattice_) > 0;
 }
 
-void StarKernel::find_radius() {
-  double r2 = 0;
-  for (const Vertex& v : vertices_)
-    r2 = std::max(r2, v.squared_radius);
-  squared_radius_ = r2;
+double StarKernel::squared_radius() {
+  if (squared_radius_ < 0) {
+    double r2 = 0;
+    for (std::size_t k = 0; k < degree_; ++k)
+      r2 = std::max(r2, vertex_r2_[k]);
+    squared_radius_ = r2;
+  }
+  return squared_radius_;
+}
+
+std::size_t StarKernel::smallest() const {
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < degree_; ++k)
+    if (x_[k] < x_[best] || (x_[k] == x_[best] && y_[k] < y_[best]))
+      best = k;
+  return best;
 }
 
 void StarKernel::start_virtual() {
-  const double d = virtual_distance_;
-  ids_ = {-2, -3, -4, -5};
-  offsets_ = {{d, 0}, {0, d}, {-d, 0}, {0, -d}};
-  vertices_.clear();
-  for (std::size_t k = 0; k < 4; ++k)
-    vertices_.push_back(vertex(offsets_[k], offsets_[next(k)]));
-  find_radius();
+  degree_ = 4;
+  squared_radius_ = -1;
+  for (std::size_t k = 0; k < 4; ++k) {
+    id_[k] = -2 - static_cast<LocalIndex>(k);
+    x_[k] = square_[k].x;
+    y_[k] = square_[k].y;
+    vertex_x_[k] = square_vertex_[k].x;
+    vertex_y_[k] = square_vertex_[k].y;
+    vertex_error_[k] = square_error_;
+    vertex_r2_[k] = square_r2_;
+  }
 }
 
-bool StarKernel::start_ring(std::span<const LocalIndex> ids, std::span<const Vec2> offsets) {
+bool StarKernel::start_ring(std::span<const LocalIndex> ids, const Vec2* positions, Vec2 center) {
   const std::size_t n = ids.size();
-  ids_.assign(ids.begin(), ids.end());
-  offsets_.assign(offsets.begin(), offsets.end());
-  vertices_.resize(n);
-  int turns = 0; // times the ring passes from below the x axis to above it
+  reserve(n);
+  degree_ = n;
   for (std::size_t k = 0; k < n; ++k) {
-    const Vec2 a = offsets_[k], b = offsets_[next(k)];
-    if (geometry::orient2d(Vec2{}, a, b) <= 0)
-      return false;
-    turns += (a.y < 0) && (b.y >= 0);
-    vertices_[k] = vertex(a, b);
+    id_[k] = ids[k];
+    const Vec2 p = positions[ids[k]];
+    x_[k] = p.x - center.x;
+    y_[k] = p.y - center.y;
   }
-  if (turns != 1)
+  for (std::size_t k = 0; k < 2; ++k) { // cyclic padding for the loops below
+    x_[n + k] = x_[k];
+    y_[n + k] = y_[k];
+  }
+  return is_locally_convex();
+}
+
+/// Every neighbour lies outside the disc of the vertex before it: with one counter-clockwise turn, that makes the ring the
+/// edges of a convex cell in order.
+bool StarKernel::is_locally_convex() {
+  const std::size_t n = degree_;
+  int turns = 0, unsound = 0, undecided = 0;
+  double r2 = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vertex v = circumcenter(x_[k], y_[k], x_[k + 1], y_[k + 1]);
+    turns += (y_[k] < 0) & (y_[k + 1] >= 0);
+    unsound |= !v.sound;
+    vertex_x_[k] = v.x;
+    vertex_y_[k] = v.y;
+    vertex_error_[k] = v.error;
+    vertex_r2_[k] = v.r2;
+    r2 = std::max(r2, v.r2);
+    const double qx = x_[k + 2], qy = y_[k + 2], q1 = std::fabs(qx) + std::fabs(qy);
+    depth_[k] = 2 * (v.x * qx + v.y * qy) - (qx * qx + qy * qy);
+    tolerance_[k] = v.error * q1 + 8 * epsilon * q1 * q1;
+    undecided |= !(depth_[k] < -tolerance_[k]);
+  }
+  if (turns != 1 || unsound)
     return false;
-  for (std::size_t k = 0; k < n; ++k) {
-    const Vec2 q = offsets_[next(next(k))];
-    if (cut(k, q, dot(q, q), std::fabs(q.x) + std::fabs(q.y)))
+  squared_radius_ = r2;
+  if (!undecided)
+    return true;
+  for (std::size_t k = 0; k < n; ++k)
+    if (is_cut(k, {x_[k + 2], y_[k + 2]}))
       return false;
-  }
-  find_radius();
   return true;
 }
 
 bool StarKernel::insert(LocalIndex id, Vec2 q) {
-  const double q2 = dot(q, q), q1 = std::fabs(q.x) + std::fabs(q.y);
-  const std::size_t n = ids_.size();
-  std::size_t first = n;
-  for (std::size_t k = 0; k < n; ++k)
-    if (cut(k, q, q2, q1)) {
-      first = k;
-      break;
-    }
+  const double q2 = geometry::dot(q, q), q1 = std::fabs(q.x) + std::fabs(q.y);
+  const std::size_t n = degree_;
+  bool possible = false;
+  for (std::size_t k = 0; k < n; ++k) {
+    depth_[k] = 2 * (vertex_x_[k] * q.x + vertex_y_[k] * q.y) - q2;
+    tolerance_[k] = vertex_error_[k] * q1 + 8 * epsilon * q1 * q1;
+    possible |= !(depth_[k] < -tolerance_[k]);
+  }
+  if (!possible)
+    return false;
+  std::size_t first = 0;
+  while (first < n && !is_cut(first, q))
+    ++first;
   if (first == n)
     return false;
   // The cut vertices are one run of the ring: extend it both ways.
   std::size_t cuts = 1;
   if (first == 0)
-    while (cuts < n && cut(previous(first), q, q2, q1)) {
+    while (cuts < n && is_cut(previous(first), q)) {
       first = previous(first);
       ++cuts;
     }
-  for (std::size_t k = (first + cuts) % n; cuts < n && cut(k, q, q2, q1); k = next(k))
+  for (std::size_t k = (first + cuts) % n; cuts < n && is_cut(k, q); k = next(k))
     ++cuts;
   if (cuts == n)
-    return false; // cannot happen in exact arithmetic: a bisector leaves part of a bounded cell
+    return false; // impossible in exact arithmetic: a bisector leaves part of a bounded cell
   replace(first, cuts, id, q);
-  find_radius();
+  squared_radius_ = -1;
   return true;
 }
 
-/// Puts q between neighbours `first` and first + cuts + 1, whose vertices in between are cut.
+/// Moves `count` neighbours with their vertices from place `from` to place `to`.
+void StarKernel::shift(std::size_t from, std::size_t to, std::size_t count) {
+  const auto copy = [&](std::size_t k) {
+    id_[to + k] = id_[from + k];
+    x_[to + k] = x_[from + k];
+    y_[to + k] = y_[from + k];
+    vertex_x_[to + k] = vertex_x_[from + k];
+    vertex_y_[to + k] = vertex_y_[from + k];
+    vertex_error_[to + k] = vertex_error_[from + k];
+    vertex_r2_[to + k] = vertex_r2_[from + k];
+  };
+  if (to < from)
+    for (std::size_t k = 0; k < count; ++k)
+      copy(k);
+  else if (to > from)
+    for (std::size_t k = count; k-- > 0;)
+      copy(k);
+}
+
+/// Puts q between neighbours `first` and first + cuts + 1 (cyclic); the vertices first .. first + cuts - 1 go, and with
+/// them the neighbours first + 1 .. first + cuts - 1.
 void StarKernel::replace(std::size_t first, std::size_t cuts, LocalIndex id, Vec2 q) {
-  const std::size_t n = ids_.size();
-  if (first + cuts >= n) { // the run wraps around: turn the ring so that it does not
-    const std::ptrdiff_t shift = static_cast<std::ptrdiff_t>(first);
-    std::rotate(ids_.begin(), ids_.begin() + shift, ids_.end());
-    std::rotate(offsets_.begin(), offsets_.begin() + shift, offsets_.end());
-    std::rotate(vertices_.begin(), vertices_.begin() + shift, vertices_.end());
-    first = 0;
+  reserve(degree_ + 1);
+  std::size_t at = first + 1; // place of q
+  if (first + cuts <= degree_) {
+    const std::size_t tail = degree_ - (first + cuts);
+    shift(first + cuts, first + 2, tail);
+    degree_ = first + 2 + tail;
+  } else { // neighbours 0 .. m-1 go too: what stays, m .. first, moves to the front
+    const std::size_t m = first + cuts - degree_;
+    shift(m, 0, first + 1 - m);
+    at = first + 1 - m;
+    degree_ = at + 1;
   }
-  // Vertices first .. first+cuts-1 go, and with them the neighbours first+1 .. first+cuts-1.
-  const std::size_t at = first + 1, removed = cuts - 1;
-  if (removed == 0) {
-    const std::ptrdiff_t p = static_cast<std::ptrdiff_t>(at);
-    ids_.insert(ids_.begin() + p, id);
-    offsets_.insert(offsets_.begin() + p, q);
-    vertices_.insert(vertices_.begin() + p, Vertex{});
-  } else {
-    ids_[at] = id;
-    offsets_[at] = q;
-    const std::ptrdiff_t from = static_cast<std::ptrdiff_t>(at + 1), to = static_cast<std::ptrdiff_t>(at + removed);
-    ids_.erase(ids_.begin() + from, ids_.begin() + to);
-    offsets_.erase(offsets_.begin() + from, offsets_.begin() + to);
-    vertices_.erase(vertices_.begin() + from, vertices_.begin() + to);
-  }
-  vertices_[first] = vertex(offsets_[first], q);
-  vertices_[at] = vertex(q, offsets_[next(at)]);
+  id_[at] = id;
+  x_[at] = q.x;
+  y_[at] = q.y;
+  set_vertex(at - 1, at);
+  set_vertex(at, next(at));
 }
 
 } // namespace trime::delaunay

@@ -6,6 +6,8 @@
 #include "trime/geometry/lattice.hpp"
 #include "trime/geometry/vec2.hpp"
 
+#include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -13,54 +15,69 @@ namespace trime::delaunay {
 
 /// @brief Ring of neighbours around the origin (coordinates relative to the site, exact), counter-clockwise, and for each
 /// pair of consecutive neighbours the circumcentre with the origin and a bound on its error.
+///
+/// Everything lies in arrays of its own, so that the loops over the ring run without branches; what they cannot decide
+/// goes to geometry::in_circle.
 class StarKernel {
 public:
   /// @param virtual_distance of the four virtual neighbours, a lattice multiple
   StarKernel(const geometry::Lattice& lattice, double virtual_distance);
 
-  /// Starts with the four virtual neighbours.
+  /// Starts with the four virtual neighbours (their ids are negative).
   void start_virtual();
-  /// @brief Starts with a ring of real neighbours; false if it is no star any more: it does not wind once counter-clockwise,
-  /// or is not locally convex. O(degree).
-  bool start_ring(std::span<const LocalIndex> ids, std::span<const geometry::Vec2> offsets);
+  /// @brief Starts with a ring of at least 3 real neighbours at `positions`, seen from `center`; false if it is no star any
+  /// more: it does not wind once counter-clockwise, or is not locally convex. O(degree).
+  bool start_ring(std::span<const LocalIndex> ids, const geometry::Vec2* positions, geometry::Vec2 center);
   /// Cuts the cell with a site at `offset`, not the origin and not a member; true if it became a neighbour. O(degree).
   bool insert(LocalIndex id, geometry::Vec2 offset);
   bool contains(LocalIndex id) const {
-    for (const LocalIndex member : ids_)
-      if (member == id)
-        return true;
-    return false;
+    bool found = false;
+    for (std::size_t k = 0; k < degree_; ++k)
+      found |= id_[k] == id;
+    return found;
   }
 
   /// Square of an upper bound of the largest circumradius.
-  double squared_radius() const { return squared_radius_; }
-  std::size_t degree() const { return ids_.size(); }
+  double squared_radius();
+  std::size_t degree() const { return degree_; }
   /// Neighbour k: its index (negative: virtual) and offset.
-  LocalIndex id(std::size_t k) const { return ids_[k]; }
-  geometry::Vec2 offset(std::size_t k) const { return offsets_[k]; }
-  /// Squared circumradius of the triangle between neighbours k and k+1, and a bound on its relative error.
-  double squared_radius(std::size_t k) const { return vertices_[k].squared_radius; }
+  LocalIndex id(std::size_t k) const { return id_[k]; }
+  geometry::Vec2 offset(std::size_t k) const { return {x_[k], y_[k]}; }
+  /// Upper bound of the squared circumradius of the triangle between neighbours k and k+1.
+  double squared_radius(std::size_t k) const { return vertex_r2_[k]; }
+  /// Neighbours at squared distance at most r2.
+  std::ptrdiff_t members_within(double r2) const {
+    std::ptrdiff_t n = 0;
+    for (std::size_t k = 0; k < degree_; ++k)
+      n += x_[k] * x_[k] + y_[k] * y_[k] <= r2;
+    return n;
+  }
+  /// The lexicographically smallest neighbour.
+  std::size_t smallest() const;
 
 private:
-  struct Vertex { // circumcentre of the origin and neighbours k, k+1
-    double x, y;
-    double error;          // |2 c.q - |q|^2| is exact to error * |q|_1 + 8 eps |q|_1^2
-    double squared_radius; // upper bound
-  };
-  Vertex vertex(geometry::Vec2 a, geometry::Vec2 b) const;
-  /// Does a site at q lie in the disc of vertex k? Exact.
-  bool cut(std::size_t k, geometry::Vec2 q, double q2, double q1) const;
-  void find_radius();
+  void reserve(std::size_t degree);
+  /// Computes the circumcentre between neighbours k and next.
+  void set_vertex(std::size_t k, std::size_t next);
+  /// Does the site at q, of which depth_ and tolerance_ speak, lie in the disc of vertex k? Exact.
+  bool is_cut(std::size_t k, geometry::Vec2 q) const;
+  bool is_locally_convex();
   void replace(std::size_t first_cut, std::size_t cuts, LocalIndex id, geometry::Vec2 q);
-  std::size_t next(std::size_t k) const { return k + 1 == ids_.size() ? 0 : k + 1; }
-  std::size_t previous(std::size_t k) const { return k == 0 ? ids_.size() - 1 : k - 1; }
+  void shift(std::size_t from, std::size_t to, std::size_t count);
+  std::size_t next(std::size_t k) const { return k + 1 == degree_ ? 0 : k + 1; }
+  std::size_t previous(std::size_t k) const { return k == 0 ? degree_ - 1 : k - 1; }
 
   geometry::Lattice lattice_;
-  double virtual_distance_;
-  double squared_radius_ = 0;
-  std::vector<LocalIndex> ids_;
-  std::vector<geometry::Vec2> offsets_;
-  std::vector<Vertex> vertices_;
+  std::array<geometry::Vec2, 4> square_, square_vertex_; // the virtual neighbours and the corners of their cell
+  double square_error_ = 0, square_r2_ = 0;
+  double squared_radius_ = -1; // negative: not known
+  std::size_t degree_ = 0;
+  std::vector<LocalIndex> id_;
+  std::vector<double> x_, y_; // neighbours
+  std::vector<double> vertex_x_, vertex_y_;
+  std::vector<double> vertex_error_; // 2 c.q - |q|^2 is known to vertex_error |q|_1 + 8 eps |q|_1^2
+  std::vector<double> vertex_r2_;
+  std::vector<double> depth_, tolerance_; // of the last site in the disc of each vertex, and what is known of it
 };
 
 } // namespace trime::delaunay

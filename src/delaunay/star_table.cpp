@@ -20,15 +20,13 @@ void StarTable::reset(LocalIndex n) {
   overflow_.clear();
 }
 
-void StarTable::load(LocalIndex i, std::vector<LocalIndex>& ring) const {
-  if (degree_[static_cast<std::size_t>(i)] != overflowing) {
-    const std::span<const LocalIndex> r = this->ring(i);
-    ring.assign(r.begin(), r.end());
-    return;
-  }
+std::span<const LocalIndex> StarTable::load(LocalIndex i, std::vector<LocalIndex>& room) const {
+  if (degree_[static_cast<std::size_t>(i)] != overflowing)
+    return ring(i);
   const std::lock_guard lock(*overflow_mutex_); // the overflow list may be growing
-  const std::span<const LocalIndex> r = this->ring(i);
-  ring.assign(r.begin(), r.end());
+  const std::span<const LocalIndex> r = ring(i);
+  room.assign(r.begin(), r.end());
+  return room;
 }
 
 void StarTable::store(LocalIndex i, std::span<const LocalIndex> ring) {

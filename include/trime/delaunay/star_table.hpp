@@ -33,8 +33,8 @@ public:
     return n <= slots ? std::span<const LocalIndex>(rings_[at].data(), n)
                       : std::span<const LocalIndex>(overflow_[static_cast<std::size_t>(rings_[at][0])]);
   }
-  /// Copies the ring of site i while other sites are being stored.
-  void load(LocalIndex i, std::vector<LocalIndex>& ring) const;
+  /// The ring of site i while other sites are being stored; `room` holds it if it comes from the overflow list.
+  std::span<const LocalIndex> load(LocalIndex i, std::vector<LocalIndex>& room) const;
   /// Stores a ring; different sites may be stored concurrently.
   void store(LocalIndex i, std::span<const LocalIndex> ring);
   /// Empties the ring of site i.

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the inner sites start. Each rank makes the sites of its own tiles; the set does not depend on the ranks.
+#pragma once
+
+#include "trime/comm/communicator.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/mesh/binned_points.hpp"
+#include "trime/meshing/boundary_guard.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace trime::meshing {
+
+/// Tiles [first, last) of a grid.
+struct TileRange {
+  const mesh::TileGrid& grid;
+  LocalIndex first, last;
+};
+
+/// @brief Hexagonal lattice of a given spacing whose rows run along the longest straight side of the boundary, the first
+/// row one row height from it (axis-parallel if there is no straight side).
+class LatticeStart {
+public:
+  LatticeStart(const geometry::Boundary& boundary, const BoundaryGuard& guard, const geometry::Lattice& lattice);
+
+  /// @brief Sites inside the shape at least 0.45 spacings away from its boundary, by tile, row and column. Threads.
+  std::vector<mesh::Site> sites(const TileRange& tiles, double spacing) const;
+  /// Their number, without making them.
+  std::int64_t count(const TileRange& tiles, double spacing) const;
+
+private:
+  template <class Visit>
+  void for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile, double spacing, const Visit& visit) const;
+
+  const BoundaryGuard& guard_;
+  geometry::Lattice lattice_;
+  geometry::Vec2 origin_, along_;
+};
+
+/// @brief Quantiles of the integral of h^-2 along the Hilbert curve, outside a strip of 0.43 h along the boundary: site j sits
+/// where the integral passes (j + 1/2) / n of its total. Weights are integers, so the sites are the same on any ranks;
+/// the count error in any interval of the curve is at most one, so long waves start quiet. Collective (one scan).
+/// @param n number of sites over all ranks
+std::vector<mesh::Site> hilbert_start(const comm::Communicator& comm, const TileRange& tiles, const BoundaryGuard& guard,
+                                      const sizing::SizeField& size, const geometry::Lattice& lattice, std::int64_t n,
+                                      std::uint64_t seed);
+
+} // namespace trime::meshing

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Keeps inner sites inside and out of the diametral discs of the boundary segments: push, and delete after three pushes.
+#pragma once
+
+#include "meshing/site_state.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/meshing/boundary_guard.hpp"
+#include "trime/meshing/update_rule.hpp"
+
+namespace trime::meshing {
+
+/// What one round did on this rank.
+struct MoveCounts {
+  std::int64_t moving = 0; ///< moved by more than 0.005 h
+  std::int64_t pushed = 0, deleted = 0;
+  double max_move = 0;     ///< longest move over h
+};
+
+/// What a round of moves needs to know.
+struct MoveContext {
+  const BoundaryGuard& guard;
+  const sizing::SizeField& size;
+  const geometry::Lattice& lattice;
+};
+
+/// @brief One Jacobi move of all inner sites by `rule`, capped at 0.4 h, snapped, kept inside and out of the discs, then
+/// migration and sorting. Collective.
+MoveCounts move_by_rule(SiteState& state, const UpdateRule& rule, const MoveContext& context);
+
+/// @brief One round without any rule: offenders are pushed, or deleted once they have been pushed three times or
+/// `delete_all` is set. Collective. @return counts of this rank; pushed + deleted == 0 everywhere means that all discs
+/// are empty
+MoveCounts settle_round(SiteState& state, const MoveContext& context, bool delete_all);
+
+} // namespace trime::meshing

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The proof that ends every run. What is counted here comes from the stars and the boundary anew, not from the way in
+// which the mesh was made.
+#include "meshing/extraction.hpp"
+
+#include "trime/core/random.hpp"
+#include "trime/core/thread_loop.hpp"
+#include "trime/geometry/predicates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::meshing {
+namespace {
+
+using geometry::Vec2;
+__extension__ using Int128 = __int128;
+
+std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
+
+/// Twice an area in squared lattice steps: exact, also over ranks (in three parts of 40 bits and the rest).
+struct ExactArea {
+  Int128 twice = 0;
+
+  void add_triangle(Vec2 p, Vec2 q, Vec2 r, const geometry::Lattice& lattice) {
+    const Int128 ux = lattice.steps(q.x - p.x), uy = lattice.steps(q.y - p.y);
+    const Int128 vx = lattice.steps(r.x - p.x), vy = lattice.steps(r.y - p.y);
+    twice += ux * vy - uy * vx;
+  }
+  std::array<std::int64_t, 3> split() const {
+    constexpr Int128 mask = (Int128{1} << 40) - 1;
+    return {static_cast<std::int64_t>(twice & mask), static_cast<std::int64_t>((twice >> 40) & mask),
+            static_cast<std::int64_t>(twice >> 80)};
+  }
+  static ExactArea join(const std::array<std::int64_t, 3>& parts) {
+    return {(Int128{parts[2]} << 80) + (Int128{parts[1]} << 40) + parts[0]};
+  }
+  double value(const geometry::Lattice& lattice) const {
+    return 0.5 * static_cast<double>(twice) * lattice.step() * lattice.step();
+  }
+};
+
+/// Everything that is counted, mergeable.
+struct Counts {
+  std::int64_t points = 0, edges = 0, triangles = 0, facets = 0, listings = 0;
+  std::int64_t hash_of_listings = 0, hash_of_triangles = 0; // mod 2^64
+  std::int64_t not_positive = 0, not_delaunay = 0, incomplete = 0, unused = 0, corners = 0;
+  ExactArea area;
+
+  static constexpr std::size_t size = 15;
+  std::array<std::int64_t, size> pack() const {
+    const auto parts = area.split();
+    return {points,       edges,      triangles, facets,  listings, hash_of_listings, hash_of_triangles, not_positive,
+            not_delaunay, incomplete, unused,    corners, parts[0], parts[1],         parts[2]};
+  }
+  static Counts unpack(const std::array<std::int64_t, size>& p) {
+    Counts c{p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10], p[11], {}};
+    c.area = ExactArea::join({p[12], p[13], p[14]});
+    return c;
+  }
+  void add(const Counts& other) {
+    auto sum = pack();
+    const auto more = other.pack();
+    for (std::size_t k = 0; k < size; ++k)
+      sum[k] = static_cast<std::int64_t>(static_cast<std::uint64_t>(sum[k]) + static_cast<std::uint64_t>(more[k]));
+    *this = unpack(sum);
+  }
+};
+
+/// Hash of a triangle that does not depend on the vertex from which it is seen.
+std::int64_t triangle_hash(GlobalId a, GlobalId b, GlobalId c) {
+  if (b < a && b < c) {
+    std::swap(a, b);
+    std::swap(b, c);
+  } else if (c < a && c < b) {
+    std::swap(a, c);
+    std::swap(b, c);
+  }
+  return static_cast<std::int64_t>(mix_bits(
+      mix_bits(mix_bits(static_cast<std::uint64_t>(a)) ^ static_cast<std::uint64_t>(b)) ^ static_cast<std::uint64_t>(c)));
+}
+
+std::int64_t wrapping_sum(std::int64_t a, std::int64_t b) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
+}
+
+void count_site(const ExtractionContext& context, const std::vector<GlobalId>& ids, LocalIndex i, Counts& counts) {
+  const mesh::BinnedPoints& points = context.state.points();
+  const Fan fan = inside_fan(context, i);
+  const Vec2 p = points.position(i);
+  const std::int32_t b = points.boundary(i);
+  ++counts.points;
+  counts.incomplete += !fan.complete;
+  counts.unused += fan.triangles == 0;
+  counts.corners += b >= 0 && context.boundary.sites[at(b)].corner && p == context.boundary.sites[at(b)].position;
+  counts.facets += b >= 0 && fan.complete; // the segment to the next boundary site
+  for (std::size_t k = 0; k < fan.triangles; ++k) {
+    const LocalIndex u = fan.neighbour(k), v = fan.neighbour(k + 1);
+    const Vec2 q = points.position(u), r = points.position(v);
+    const std::int64_t hash = triangle_hash(ids[at(i)], ids[at(u)], ids[at(v)]);
+    ++counts.listings;
+    counts.hash_of_listings = wrapping_sum(counts.hash_of_listings, hash);
+    if (ids[at(i)] < ids[at(u)] && ids[at(i)] < ids[at(v)]) {
+      ++counts.triangles;
+      counts.hash_of_triangles = wrapping_sum(counts.hash_of_triangles, hash);
+      counts.not_positive += geometry::orient2d(p, q, r) <= 0;
+      counts.area.add_triangle(p, q, r, context.lattice);
+    }
+    if (k + 1 < fan.triangles || fan.closed) { // the edge to v lies between two triangles
+      const Vec2 s = points.position(fan.neighbour(k + 2));
+      counts.not_delaunay += geometry::in_circle(p, q, r, s, context.lattice) > 0;
+    }
+  }
+  for (std::size_t k = 0; fan.complete && k < fan.edges(); ++k)
+    counts.edges += ids[at(i)] < ids[at(fan.neighbour(k))];
+}
+
+ExactArea polygon_area(const BoundarySites& boundary, const geometry::Lattice& lattice) {
+  ExactArea area;
+  if (boundary.sites.empty())
+    return area;
+  const Vec2 origin = boundary.sites.front().position;
+  for (const BoundarySite& site : boundary.sites)
+    area.add_triangle(origin, site.position, boundary.sites[at(site.next)].position, lattice);
+  return area;
+}
+
+mesh::Check check(const char* name, std::int64_t expected, std::int64_t found, const char* meaning) {
+  return {name, static_cast<double>(expected), static_cast<double>(found), expected == found, meaning};
+}
+
+} // namespace
+
+mesh::Checks certify(const ExtractionContext& context, const decomposition::Numbering& numbering,
+                     const Expectation& expectation) {
+  const mesh::BinnedPoints& points = context.state.points();
+  std::vector<Counts> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
+  thread_loop(points.owned(), 4096, [&](std::ptrdiff_t i, int thread) {
+    count_site(context, numbering.global_ids, static_cast<LocalIndex>(i), of_thread[static_cast<std::size_t>(thread)]);
+  });
+  Counts counts;
+  for (const Counts& c : of_thread)
+    counts.add(c);
+  auto packed = counts.pack();
+  context.state.comm().sum(packed);
+  counts = Counts::unpack(packed);
+
+  const std::int64_t segments = static_cast<std::int64_t>(context.boundary.sites.size());
+  const ExactArea polygon = polygon_area(context.boundary, context.lattice);
+  const std::int64_t hash_of_thrice = wrapping_sum(
+      counts.hash_of_triangles, wrapping_sum(counts.hash_of_triangles, counts.hash_of_triangles));
+  mesh::Checks checks;
+  checks.push_back(check("incomplete_fans", 0, counts.incomplete, "manifold: each site has one unbroken fan of triangles"));
+  checks.push_back(check("star_listings", 3 * counts.triangles, counts.listings, "every triangle is listed by its three stars"));
+  checks.push_back(check("star_disagreements", 0, hash_of_thrice != counts.hash_of_listings, "and all three list the same one"));
+  checks.push_back(check("not_positive", 0, counts.not_positive, "triangles that are not counter-clockwise"));
+  checks.push_back(check("euler_characteristic", expectation.components - expectation.holes,
+                         counts.points - counts.edges + counts.triangles, "components minus holes"));
+  checks.push_back(check("edge_count", (3 * counts.triangles + segments) / 2, counts.edges, "inner edges have two triangles, boundary edges one"));
+  checks.push_back(check("not_delaunay", 0, counts.not_delaunay, "edges that are not locally Delaunay (exact test)"));
+  checks.push_back(check("boundary_segments", segments, counts.facets, "boundary segments that are edges of the mesh"));
+  checks.push_back(check("corners", context.boundary.corners, counts.corners, "corners that are vertices, bit for bit"));
+  checks.push_back(check("unused_points", 0, counts.unused, "points without a triangle"));
+  checks.push_back({"area", polygon.value(context.lattice), counts.area.value(context.lattice),
+                    polygon.twice == counts.area.twice, "triangles fill the boundary polygon (exact integers)"});
+  return checks;
+}
+
+} // namespace trime::meshing

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From certified stars to the mesh: which fans lie inside, triangles in canonical order, quality, and the certificate.
+#pragma once
+
+#include "meshing/site_state.hpp"
+#include "trime/decomposition/numbering.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/mesh/distributed_mesh.hpp"
+#include "trime/mesh/quality.hpp"
+#include "trime/mesh/validity.hpp"
+#include "trime/meshing/boundary_sites.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <span>
+
+namespace trime::meshing {
+
+/// What the extraction needs to know of the run.
+struct ExtractionContext {
+  const SiteState& state;
+  const BoundarySites& boundary;
+  const sizing::SizeField& size;
+  const geometry::Lattice& lattice;
+  const delaunay::StarBuilder& builder;
+};
+
+/// @brief The inside fan of a site: the run of ring entries whose consecutive pairs are the triangles inside the shape.
+/// For an inner site the whole ring (`closed`); for a boundary site from its next to its previous boundary neighbour.
+/// `complete` is false if a triangle or a boundary segment is missing.
+struct Fan {
+  std::span<const LocalIndex> ring;
+  std::size_t first = 0, triangles = 0;
+  bool closed = false, complete = false;
+
+  LocalIndex neighbour(std::size_t k) const { return ring[(first + k) % ring.size()]; }
+  /// Number of edges from the site: triangles, plus one for an open fan.
+  std::size_t edges() const { return closed ? triangles : triangles + 1; }
+};
+Fan inside_fan(const ExtractionContext& context, LocalIndex i);
+
+/// Owned sites whose fan is not complete, on this rank.
+std::int64_t count_incomplete_fans(const ExtractionContext& context);
+
+/// @brief The mesh in canonical numbering. @pre stars of all sites are certain, halo fresh. Collective.
+mesh::DistributedMesh extract_mesh(const ExtractionContext& context, const decomposition::Numbering& numbering);
+
+/// Quality over all ranks. Collective.
+mesh::QualitySummary measure_quality(const ExtractionContext& context, const decomposition::Numbering& numbering);
+
+/// What the shape promises.
+struct Expectation {
+  int components = 0, holes = 0;
+};
+
+/// @brief The certificate: manifold, positive, Euler characteristic, area, Delaunay, boundary segments, corners, agreement
+/// of all stars. Exact integers throughout. Collective. O(points)
+mesh::Checks certify(const ExtractionContext& context, const decomposition::Numbering& numbering,
+                     const Expectation& expectation);
+
+} // namespace trime::meshing

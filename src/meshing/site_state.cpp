@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meshing/site_state.hpp"
+
+#include "trime/core/error.hpp"
+
+namespace trime::meshing {
+namespace {
+
+/// Bins around the owned tiles that are fetched unasked: wide enough for the discs of a relaxed mesh.
+constexpr int halo_margin = 2;
+/// Rounds of asking for more bins; every round reaches at least one bin farther, two suffice in practice.
+constexpr int max_halo_rounds = 100;
+
+} // namespace
+
+SiteState::SiteState(const comm::Communicator& comm, const geometry::Box& container,
+                     const mesh::GridOptions& grid_options)
+    : comm_(comm), grid_(container, grid_options), partition_(grid_.tile_count(), comm.size()), points_(grid_),
+      halo_(comm, grid_) {}
+
+void SiteState::distribute(std::vector<mesh::Site> sites) {
+  partition_ = decomposition::Partition(decomposition::tile_weights(comm_, grid_, sites), comm_.size());
+  decomposition::migrate(comm_, grid_, partition_, sites);
+  points_.assign_owned(sites, partition_.first_tile(comm_.rank()), partition_.last_tile(comm_.rank()));
+  stars_.reset(points_.owned());
+  halo_.reset(partition_, halo_margin);
+}
+
+void SiteState::move_sites(std::vector<mesh::Site>& sites, std::span<const std::uint8_t> deleted) {
+  const std::size_t before = sites.size();
+  renumbering_.assign(before, -1);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < before; ++i)
+    if (!deleted[i]) {
+      renumbering_[i] = static_cast<LocalIndex>(kept);
+      sites[kept++] = sites[i];
+    }
+  sites.resize(kept);
+  decomposition::migrate(comm_, grid_, partition_, sites, &stays_);
+  points_.assign_owned(sites, partition_.first_tile(comm_.rank()), partition_.last_tile(comm_.rank()), &sorted_);
+  for (LocalIndex& index : renumbering_)
+    if (index >= 0)
+      index = stays_[static_cast<std::size_t>(index)];
+  for (LocalIndex& index : renumbering_)
+    if (index >= 0)
+      index = sorted_[static_cast<std::size_t>(index)];
+  stars_.renumber(renumbering_, points_.owned());
+}
+
+delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder, Wanted wanted) {
+  halo_.refresh(points_);
+  wanted_.clear();
+  if (wanted == Wanted::inner_sites)
+    for (LocalIndex i = 0; i < points_.owned(); ++i)
+      wanted_.push_back(points_.boundary(i) < 0);
+  delaunay::StarPass all;
+  std::vector<mesh::BinRef> missing;
+  for (int round = 0; round < max_halo_rounds; ++round) {
+    missing.clear();
+    const delaunay::StarPass pass = builder.update(points_, stars_, wanted_, missing);
+    all.rebuilt += pass.rebuilt;
+    if (comm_.size() == 1 || comm_.sum(pass.uncertain) == 0)
+      return all;
+    const LocalIndex ghosts_from = points_.owned();
+    halo_.subscribe(missing);
+    halo_.refresh(points_);
+    stars_.renumber_ghosts(ghosts_from, halo_.ghost_renumbering());
+  }
+  throw InternalError(fmt::format("the halo still grows after {} rounds", max_halo_rounds));
+}
+
+std::size_t SiteState::memory_bytes() const {
+  return points_.memory_bytes() + halo_.memory_bytes() + stars_.memory_bytes();
+}
+
+} // namespace trime::meshing

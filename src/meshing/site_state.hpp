@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sites of a run and what holds them together over the ranks: grid, partition, halo, stars.
+#pragma once
+
+#include "trime/comm/communicator.hpp"
+#include "trime/decomposition/halo.hpp"
+#include "trime/decomposition/migration.hpp"
+#include "trime/delaunay/star_builder.hpp"
+#include "trime/mesh/binned_points.hpp"
+
+#include <vector>
+
+namespace trime::meshing {
+
+/// Which stars are to be computed.
+enum class Wanted { inner_sites, all_sites };
+
+/// @brief Owned and ghost sites with their stars. After each change of sites: set_sites, then compute_stars.
+class SiteState {
+public:
+  SiteState(const comm::Communicator& comm, const geometry::Box& container, const mesh::GridOptions& grid_options);
+
+  /// First sites, from any ranks: partitions the tiles by their counts. Collective.
+  void distribute(std::vector<mesh::Site> sites);
+  /// @brief The owned sites moved: `sites[i]` is owned site i, or deleted where `deleted[i]`. Migrates, sorts, keeps the rings.
+  /// Collective.
+  void move_sites(std::vector<mesh::Site>& sites, std::span<const std::uint8_t> deleted);
+
+  /// @brief Refreshes the halo and computes the wanted stars, asking for more bins until every one is certain. Collective.
+  delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, Wanted wanted);
+  /// Refreshes the ghosts. Collective among neighbours.
+  void refresh_halo() { halo_.refresh(points_); }
+
+  const mesh::TileGrid& grid() const { return grid_; }
+  const mesh::BinnedPoints& points() const { return points_; }
+  const delaunay::StarTable& stars() const { return stars_; }
+  delaunay::StarTable& stars() { return stars_; }
+  const decomposition::Halo& halo() const { return halo_; }
+  const decomposition::Partition& partition() const { return partition_; }
+  const comm::Communicator& comm() const { return comm_; }
+  std::size_t memory_bytes() const;
+
+private:
+  const comm::Communicator& comm_;
+  mesh::TileGrid grid_;
+  decomposition::Partition partition_;
+  mesh::BinnedPoints points_;
+  decomposition::Halo halo_;
+  delaunay::StarTable stars_;
+  std::vector<std::uint8_t> wanted_;
+  std::vector<LocalIndex> stays_, sorted_, renumbering_;
+};
+
+} // namespace trime::meshing
