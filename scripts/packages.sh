@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The one list of the Debian packages that this project needs, and a function that installs those that are missing.
 # To be sourced by run.sh and test.sh; does nothing by itself.
+# shellcheck shell=bash disable=SC2034
 
 # To build and run the program, and to draw its mesh.
 trime_run_packages=(
@@ -30,27 +31,26 @@ trime_need_packages() {
     echo "This is no Debian-like system, so nothing is installed. Needed, under their Debian names: $*" >&2
     return 0
   fi
-  local missing=() update install root=()
+  local missing=() update=(apt-get update) install=(apt-get install -y --no-install-recommends) as_root=()
   mapfile -t missing < <(trime_missing_packages "$@")
   [ "${#missing[@]}" -gt 0 ] || return 0
-  update="apt-get update"
-  install="apt-get install -y --no-install-recommends ${missing[*]}"
+  install+=("${missing[@]}")
   if [ "$(id -u)" -ne 0 ]; then
     if command -v sudo >/dev/null && { [ -t 0 ] || sudo -n true 2>/dev/null; }; then
-      root=(sudo)
+      as_root=(sudo)
     fi
   fi
   if [ "${TRIME_NO_INSTALL:-0}" = 1 ]; then
     echo "Missing packages; TRIME_NO_INSTALL=1 forbids to install them. As root:" >&2
-  elif [ "$(id -u)" -ne 0 ] && [ "${#root[@]}" -eq 0 ]; then
+  elif [ "$(id -u)" -ne 0 ] && [ "${#as_root[@]}" -eq 0 ]; then
     echo "Missing packages, and no right to install them here. As root:" >&2
   else
     echo "Installing ${#missing[@]} missing packages: ${missing[*]}"
-    trime_quietly packages ${root[@]+"${root[@]}"} $update
-    trime_quietly packages ${root[@]+"${root[@]}"} env DEBIAN_FRONTEND=noninteractive $install
+    trime_quietly packages ${as_root[@]+"${as_root[@]}"} "${update[@]}"
+    trime_quietly packages ${as_root[@]+"${as_root[@]}"} env DEBIAN_FRONTEND=noninteractive "${install[@]}"
     return
   fi
-  echo "  $update && $install" >&2
+  echo "  ${update[*]} && ${install[*]}" >&2
   return 1
 }
 

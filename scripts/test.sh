@@ -23,6 +23,11 @@ if command -v ccache >/dev/null; then
   export CMAKE_CXX_COMPILER_LAUNCHER=ccache
 fi
 jobs=${TRIME_JOBS:-$(nproc)}
+# Sanitizers of this age need addresses that are not spread too widely.
+fixed_addresses=()
+if setarch -R true 2>/dev/null; then
+  fixed_addresses=(setarch -R)
+fi
 passed=0
 failed=0
 failures=()
@@ -49,7 +54,7 @@ tests() {
   local preset=$1 status=0 total bad
   shift
   echo "-- ctest, preset $preset"
-  ctest --preset "$preset" "$@" 2>&1 | tee "$output" || status=$?
+  ${fixed_addresses[@]+"${fixed_addresses[@]}"} ctest --preset "$preset" "$@" 2>&1 | tee "$output" || status=$?
   read -r bad total < <(sed -n 's/^.*% tests passed, \([0-9]*\) tests failed out of \([0-9]*\).*/\1 \2/p' "$output") ||
     { bad=1 total=1; }
   [ "$total" -gt 0 ] && { [ "$status" -eq 0 ] || [ "$bad" -gt 0 ]; } || { bad=1 total=1; } # no test at all is a failure
@@ -61,7 +66,8 @@ tests() {
 # build PRESET: configures and builds it.
 build() {
   echo "-- building $1"
-  stage "configure_$1" cmake --preset "$1" && stage "build_$1" cmake --build --preset "$1" -j "$jobs"
+  stage "configure_$1" cmake --preset "$1" && stage "build_$1" \
+    ${fixed_addresses[@]+"${fixed_addresses[@]}"} cmake --build --preset "$1" -j "$jobs"
 }
 
 # The bytes of our sources against .clang-format.
