@@ -252,6 +252,7 @@ SegmentGrid::Nearest SegmentGrid::nearest(Vec2 p) const {
   TRIME_ASSERT(!segments_.empty());
   Nearest best{-1, std::numeric_limits<double>::infinity()};
   nearest_in(root_, p, best);
+  TRIME_ASSERT(best.segment >= 0, "p = ({}, {})", p.x, p.y);
   return best;
 }
 

@@ -127,33 +127,44 @@ std::optional<double> LoopMetric::first_at_radius(double t0, double t1, Vec2 cen
 PartSummary LoopMetric::summarize(double t0, double t1, Vec2 a, Vec2 b) const {
   PartSummary part;
   const double tolerance = 1e-9 * geometry::squared_length(b - a);
-  const auto look = [&](Vec2 p) { part.leaves_disc |= geometry::dot(a - p, b - p) > tolerance; };
-  struct Turn {
-    double t, amount;
-  };
-  std::vector<Turn> turns; // where the curve turns; arcs as four equal turns
+  double unsigned_turn = 0;
+  for_each_turn(t0, t1, [&](const Turn& turn) {
+    part.leaves_disc |= geometry::dot(a - turn.position, b - turn.position) > tolerance;
+    part.turn += turn.amount;
+    unsigned_turn += std::fabs(turn.amount);
+    if (turn.junction >= 0 && std::fabs(turn.amount) > part.sharpest_turn) {
+      part.sharpest_turn = std::fabs(turn.amount);
+      part.sharpest = turn.junction;
+    }
+  });
+  part.half_turn_t = 0.5 * (t0 + t1);
+  double before = 0;
+  for_each_turn(t0, t1, [&](const Turn& turn) {
+    const double after = before + std::fabs(turn.amount);
+    if (before < 0.5 * unsigned_turn && after >= 0.5 * unsigned_turn)
+      part.half_turn_t = turn.t;
+    before = after;
+  });
+  return part;
+}
+
+/// Calls visit(turn) along the way from t0 to t1: junctions strictly between, arcs as four equal turns.
+template <class Visit>
+void LoopMetric::for_each_turn(double t0, double t1, const Visit& visit) const {
   const LocalIndex n = static_cast<LocalIndex>(loop_.pieces.size());
   double shift = t0 >= total() ? total() : 0;
   LocalIndex i = knots_[knot_before(t0 - shift)].piece;
-  for (LocalIndex visited = 0; visited <= n; ++visited) {
+  for (LocalIndex visited = 0; visited <= n && shift + piece_t_[i] < t1; ++visited) {
     const double low = shift + piece_t_[i], high = shift + piece_t_[i + 1];
-    if (low >= t1)
-      break;
     const Piece& piece = loop_.pieces[i];
-    if (low > t0) {
-      look(piece.start);
-      turns.push_back({low, turn_[i]});
-      if (std::fabs(turn_[i]) > part.sharpest_turn) {
-        part.sharpest_turn = std::fabs(turn_[i]);
-        part.sharpest = i;
-      }
-    }
+    if (low > t0)
+      visit(Turn{low, piece.start, turn_[i], i});
     if (piece.circular) {
       const double from = std::fmax(low, t0), to = std::fmin(high, t1);
-      const double share = arc_length(from, to) / piece.length();
+      const double amount = 0.25 * piece.sweep * arc_length(from, to) / piece.length();
       for (int quarter = 0; quarter < 4; ++quarter) {
-        turns.push_back({from + (to - from) * (0.125 + 0.25 * quarter), 0.25 * share * piece.sweep});
-        look(point(turns.back().t));
+        const double t = from + (to - from) * (0.125 + 0.25 * quarter);
+        visit(Turn{t, point(t), amount, -1});
       }
     }
     if (++i == n) {
@@ -161,20 +172,6 @@ PartSummary LoopMetric::summarize(double t0, double t1, Vec2 a, Vec2 b) const {
       shift += total();
     }
   }
-  double sum = 0, half = 0;
-  for (const Turn& turn : turns) {
-    part.turn += turn.amount;
-    sum += std::fabs(turn.amount);
-  }
-  part.half_turn_t = 0.5 * (t0 + t1);
-  for (const Turn& turn : turns) {
-    half += std::fabs(turn.amount);
-    if (half >= 0.5 * sum) {
-      part.half_turn_t = turn.t;
-      break;
-    }
-  }
-  return part;
 }
 
 } // namespace trime::meshing

@@ -46,6 +46,14 @@ private:
     LocalIndex piece;
     double s; // arc length in the piece
   };
+  struct Turn {
+    double t;
+    geometry::Vec2 position;
+    double amount;       // signed, radians
+    LocalIndex junction; // index of the piece that starts there; -1 for a part of an arc
+  };
+  template <class Visit>
+  void for_each_turn(double t0, double t1, const Visit& visit) const;
   void add_piece(LocalIndex i, const sizing::SizeField& size);
   double arc(double t) const;
   LocalIndex knot_before(double t) const;
