@@ -131,8 +131,8 @@ private:
     for (List& child : children)
       child.clear();
     const double inverse = 4 / place.side;
-    const auto first = [](double v) { return std::clamp(static_cast<int>(std::ceil(v)) - 1, 0, 3); };
-    const auto last = [](double v) { return std::clamp(static_cast<int>(std::floor(v)), 0, 3); };
+    const auto first = [](double v) { return static_cast<int>(std::clamp(std::ceil(v) - 1, 0.0, 3.0)); };
+    const auto last = [](double v) { return static_cast<int>(std::clamp(std::floor(v), 0.0, 3.0)); };
     std::size_t entries = 0;
     for (const LocalIndex k : list) {
       const Segment& s = grid_.segments_[k];

@@ -147,6 +147,19 @@ TEST(SegmentGrid, ManySegmentsAtOnePointAndCombsStaySmall) {
   EXPECT_LT(SegmentGrid(comb).memory_bytes(), 1000 * comb.size());
 }
 
+TEST(SegmentGrid, LongSegmentsPassThroughTheSmallestCells) {
+  // A tiny dense circle on the edge of a long triangle: cells 2^-30 of the length of its segments.
+  std::vector<Segment> segments;
+  const Vec2 center = lattice.snap(Vec2{0.123, 0.5});
+  add_polygon(segments, {{0, 0.5}, {1, 0.5}, {0.5, 1}});
+  add_polygon(segments, star(center, 1e-9, 300, 8));
+  std::vector<Vec2> queries;
+  for (int k = 0; k < 500; ++k)
+    queries.push_back(lattice.snap(
+        Vec2{center.x + 2.4e-9 * (uniform(500, 2 * k) - 0.5), center.y + 2.4e-9 * (uniform(500, 2 * k + 1) - 0.5)}));
+  expect_agreement(segments, queries);
+}
+
 TEST(SegmentGrid, NearestWithinReachAndBoxQueries) {
   std::vector<Segment> segments;
   add_polygon(segments, star({0.5, 0.5}, 0.4, 300, 6));
