@@ -189,7 +189,7 @@ RunOptions parse_config(std::string_view text, const std::string& path, const st
   read_output(settings, options, problems);
   read_log(settings, options);
   problems.throw_if_any();
-  options.resolved = settings.resolved();
+  options.resolved = settings.resolved(fs::path(path).parent_path().string());
   return options;
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 
 namespace trime::app {
 namespace {
@@ -173,7 +174,8 @@ geometry::Vec2 Settings::pair(const std::string& section, const std::string& key
   return parse_pair(text(section, key)).value_or(geometry::Vec2{});
 }
 
-std::string Settings::resolved() const {
+std::string Settings::resolved(const std::string& directory) const {
+  namespace fs = std::filesystem;
   std::string result;
   const auto section_text = [&](const std::string& section) {
     result += fmt::format("{}[{}]\n", result.empty() ? "" : "\n", section);
@@ -181,7 +183,9 @@ std::string Settings::resolved() const {
     for (const Option& option : option_table()) {
       if (option.section != table_section(section) || (*option.part_type != '\0' && option.part_type != type))
         continue;
-      const std::string value = text(section, option.key);
+      std::string value = text(section, option.key);
+      if (option.kind == Kind::path && table_section(section) == part_section)
+        value = fs::absolute(fs::path(directory) / value).lexically_normal().string();
       result +=
           value.empty() ? fmt::format("; {} is not set\n", option.key) : fmt::format("{} = {}\n", option.key, value);
     }

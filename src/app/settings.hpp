@@ -39,8 +39,9 @@ public:
   std::optional<std::int64_t> optional_integer(const std::string& section, const std::string& key) const;
   std::int64_t integer(const std::string& section, const std::string& key) const;
 
-  /// The whole config with all defaults as an ini text; reading it again gives the same settings.
-  std::string resolved() const;
+  /// The whole config with all defaults as an ini text; reading it again, from anywhere, gives the same settings: paths
+  /// of parts, relative to `directory`, become absolute.
+  std::string resolved(const std::string& directory) const;
 
 private:
   void check_sections(io::Diagnostics& problems);

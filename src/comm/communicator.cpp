@@ -62,6 +62,14 @@ Environment::~Environment() {
     MPI_Finalize();
 }
 
+std::string library_version() {
+  char text[MPI_MAX_LIBRARY_VERSION_STRING];
+  int length = 0;
+  check(MPI_Get_library_version(text, &length));
+  const std::string version(text, static_cast<std::size_t>(length));
+  return version.substr(0, version.find_first_of(",\n"));
+}
+
 Communicator Communicator::world() {
   auto native = std::make_unique<Native>();
   check(MPI_Comm_dup(MPI_COMM_WORLD, &native->comm));

@@ -25,6 +25,9 @@ public:
   Environment& operator=(const Environment&) = delete;
 };
 
+/// Name and version of the MPI library, one line.
+std::string library_version();
+
 /// Bytes for one peer.
 struct Message {
   int peer;

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/command_line.hpp"
+
+#include "trime/core/error.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+
+namespace trime::app {
+namespace {
+
+struct Flags {
+  bool help_config = false, version = false, validate = false, dry_run = false, print_config = false, quiet = false;
+  std::optional<std::string> threads, level, restart, time_limit;
+};
+
+void declare(CLI::App& app, CommandLine& line, Flags& flags) {
+  app.add_option("CONFIG", line.config, "config file, for example configs/square.ini");
+  app.add_option("overrides", line.overrides, "section.key=value: set after the file; an empty value means the default")
+      ->expected(0, -1);
+  app.add_flag("--help-config", flags.help_config, "list all keys of a config file");
+  app.add_flag("--version", flags.version, "print versions and how the program was built");
+  app.add_flag("--validate", flags.validate, "check config and shape, estimate the memory, mesh nothing");
+  app.add_flag("--dry-run", flags.dry_run, "the same, and say how the work is shared out");
+  app.add_flag("--print-config", flags.print_config, "print the config with all defaults, as a complete file");
+  app.add_option("--threads", flags.threads, "threads per rank: parallel.mesh_threads");
+  app.add_option("--log-level", flags.level, "debug, info, warning, error, silent: log.level");
+  app.add_flag("--quiet", flags.quiet, "print only warnings and errors");
+  app.add_option("--restart", flags.restart, "not supported yet");
+  app.add_option("--time-limit", flags.time_limit, "not supported yet");
+  app.footer("Exit codes: 0 done, 1 internal error, 2 usage or config, 3 geometry, 4 file, 5 mesh written but marked\n"
+             "(sweep cap, or a check failed), 6 out of memory.");
+}
+
+Action action_of(const Flags& flags) {
+  return flags.version        ? Action::version
+         : flags.help_config  ? Action::help_config
+         : flags.print_config ? Action::print_config
+         : flags.validate     ? Action::validate
+         : flags.dry_run      ? Action::dry_run
+                              : Action::mesh;
+}
+
+void refuse_what_is_missing(const CommandLine& line, const Flags& flags) {
+  if (flags.restart)
+    throw ConfigError("'--restart' is not supported yet; run the config from the start");
+  if (flags.time_limit)
+    throw ConfigError("'--time-limit' is not supported yet; limit meshing.max_sweeps instead");
+  const bool needs_config =
+      line.action != Action::version && line.action != Action::help_config && line.action != Action::help;
+  if (needs_config && line.config.empty())
+    throw ConfigError("no config file is given; usage: trime_mpi CONFIG [section.key=value ...], see --help");
+  if (flags.quiet && flags.level)
+    throw ConfigError("'--quiet' and '--log-level' contradict each other; give one of them");
+}
+
+} // namespace
+
+CommandLine parse_command_line(int argc, const char* const* argv) {
+  CommandLine line;
+  Flags flags;
+  CLI::App app("Distributed generator of large 2D triangle meshes.\n"
+               "[mpirun -np RANKS] trime_mpi CONFIG [section.key=value ...] [OPTIONS]",
+               "trime_mpi");
+  declare(app, line, flags);
+  for (int k = 0; k < argc; ++k)
+    line.as_given += (k > 0 ? " " : "") + std::string(argv[k]);
+  try {
+    app.parse(argc, argv);
+    line.action = action_of(flags);
+  } catch (const CLI::CallForHelp&) {
+    line.action = Action::help;
+    line.help = app.help();
+  } catch (const CLI::ParseError& error) {
+    throw ConfigError(fmt::format("command line: {}; see --help", error.what()));
+  }
+  refuse_what_is_missing(line, flags);
+  if (flags.threads)
+    line.overrides.push_back("parallel.mesh_threads=" + *flags.threads);
+  if (flags.level)
+    line.overrides.push_back("log.level=" + *flags.level);
+  if (flags.quiet)
+    line.overrides.push_back("log.level=warning");
+  return line;
+}
+
+} // namespace trime::app

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line of trime_mpi.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace trime::app {
+
+/// What the program shall do.
+enum class Action { mesh, validate, dry_run, print_config, help, help_config, version };
+
+struct CommandLine {
+  Action action = Action::mesh;
+  std::string config;                 ///< path; empty only where none is needed
+  std::vector<std::string> overrides; ///< section.key=value, those that options stand for included
+  std::string help;                   ///< text of --help
+  std::string as_given;               ///< the whole line, for the records
+};
+
+/// @throws ConfigError for a line that cannot be obeyed
+CommandLine parse_command_line(int argc, const char* const* argv);
+
+} // namespace trime::app

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/machine.hpp"
+
+#include "app/build_info.hpp"
+#include "trime/core/random.hpp"
+#include "trime/core/thread_loop.hpp"
+#include "trime/io/mesh_file.hpp"
+
+#include <sched.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <set>
+
+namespace trime::app {
+namespace {
+
+std::int64_t hash_text(const std::string& text) {
+  std::uint64_t hash = text.size();
+  for (const char c : text)
+    hash = mix_bits(hash ^ static_cast<unsigned char>(c));
+  return static_cast<std::int64_t>(hash >> 1);
+}
+
+/// One character per processor: 1 if this process may use it.
+std::string processor_mask() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (sched_getaffinity(0, sizeof set, &set) != 0)
+    return "1";
+  std::string mask;
+  for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu)
+    mask += CPU_ISSET(cpu, &set) ? '1' : '0';
+  return mask;
+}
+
+} // namespace
+
+void avoid_broken_file_writer() {
+  setenv("OMPI_MCA_fcoll", "^vulcan", 0);
+}
+
+Placement place_threads(int asked, const comm::Communicator& comm) {
+  const std::string mask = processor_mask();
+  const std::vector<std::int64_t> hosts = comm.all_gather(hash_text(host_name()));
+  const std::int64_t mine = hash_text(host_name() + " " + mask);
+  const std::vector<std::int64_t> places = comm.all_gather(mine);
+  Placement placement;
+  placement.ranks = comm.size();
+  placement.nodes = static_cast<int>(std::set<std::int64_t>(hosts.begin(), hosts.end()).size());
+  placement.cores = std::max(1, static_cast<int>(std::count(mask.begin(), mask.end(), '1')));
+  placement.sharing = static_cast<int>(std::count(places.begin(), places.end(), mine));
+  const char* given = std::getenv("OMP_NUM_THREADS");
+  placement.threads = asked > 0         ? asked
+                      : given && *given ? thread_count()
+                                        : std::max(1, placement.cores / placement.sharing);
+  set_thread_count(placement.threads);
+  return placement;
+}
+
+void report_placement(const Placement& placement, const comm::Communicator& comm, Log& log) {
+  const std::int64_t fewest = comm.min(std::int64_t{placement.threads}),
+                     most = comm.max(std::int64_t{placement.threads});
+  log.info("{} rank{} x {} thread{} on {} node{}", placement.ranks, placement.ranks == 1 ? "" : "s",
+           fewest == most ? std::to_string(most) : fmt::format("{} to {}", fewest, most), most == 1 ? "" : "s",
+           placement.nodes, placement.nodes == 1 ? "" : "s");
+  const std::int64_t crowded = comm.sum(std::int64_t{placement.threads > placement.cores});
+  const std::int64_t shared = comm.sum(std::int64_t{placement.threads * placement.sharing > placement.cores});
+  if (crowded > 0)
+    log.warning("{} of {} ranks have more threads than cores they may use (rank 0: {} threads, {} cores); start with "
+                "mpirun --map-by slot:PE={} or --bind-to none, or set --threads",
+                crowded, placement.ranks, placement.threads, placement.cores, most);
+  else if (shared > 0)
+    log.warning("{} of {} ranks share their cores with others and have more threads than cores together; set --threads "
+                "or start fewer ranks",
+                shared, placement.ranks);
+}
+
+std::int64_t peak_memory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.rfind("VmHWM:", 0) == 0)
+      return std::strtoll(line.c_str() + 6, nullptr, 10) * 1024;
+  return 0;
+}
+
+std::string host_name() {
+  char name[256] = "unknown";
+  gethostname(name, sizeof name - 1);
+  return name;
+}
+
+std::string utc_time() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+BuildInfo build_info() {
+#if defined(__clang__)
+  const std::string compiler = "clang " __clang_version__;
+#else
+  const std::string compiler = "g++ " __VERSION__;
+#endif
+  return {TRIME_VERSION, TRIME_GIT_COMMIT, TRIME_BUILD_TYPE, compiler, comm::library_version(), io::hdf5_version()};
+}
+
+} // namespace trime::app

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the program knows of the machine under it: cores, threads, memory, versions.
+#pragma once
+
+#include "trime/comm/communicator.hpp"
+#include "trime/core/log.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace trime::app {
+
+/// @brief Steers Open MPI 4 round its collective file writer `vulcan`, which is known to write wrong data, unless the
+/// user has chosen one. To be called before MPI starts.
+void avoid_broken_file_writer();
+
+struct Placement {
+  int ranks = 1, threads = 1; ///< threads: of this rank
+  int nodes = 1;
+  int cores = 1;   ///< processors that this rank may use
+  int sharing = 1; ///< ranks of this node with exactly these processors
+};
+
+/// @brief Where the ranks are, and how many threads each uses: `asked` if positive, else OMP_NUM_THREADS, else all
+/// processors that the rank may use, divided among the ranks that share them. Sets the thread count.
+/// @note Collective.
+Placement place_threads(int asked, const comm::Communicator& comm);
+
+/// Says ranks x threads, and warns where threads outnumber processors. @note Collective.
+void report_placement(const Placement& placement, const comm::Communicator& comm, Log& log);
+
+/// Peak resident memory of this process in bytes; 0 if unknown.
+std::int64_t peak_memory();
+
+std::string host_name();
+/// Now, as 2000-12-31T23:59:59Z.
+std::string utc_time();
+
+/// Versions of the program and of what it was built with.
+struct BuildInfo {
+  std::string version, git_commit, build_type, compiler, mpi_library, hdf5_library;
+};
+BuildInfo build_info();
+
+} // namespace trime::app

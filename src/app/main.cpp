@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// trime_mpi: starts and ends MPI, and turns errors into messages and exit codes. The only try of the program.
+#include "app/machine.hpp"
+#include "app/program.hpp"
+#include "trime/io/mesh_file.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+#include <string>
+
+namespace {
+
+using trime::ExitCode;
+
+/// Leaves no temporary file, then ends as the signal would have ended the program.
+void end_by_signal(int number) {
+  trime::io::remove_temporary_file();
+  std::signal(number, SIG_DFL);
+  std::raise(number);
+}
+
+/// Every line of the message as one line of error.
+void print_error(const std::string& message) {
+  std::string text;
+  for (std::size_t at = 0; at <= message.size();) {
+    const std::size_t end = std::min(message.find('\n', at), message.size());
+    text += "trime_mpi: error: " + message.substr(at, end - at) + "\n";
+    at = end + 1;
+  }
+  std::fflush(stdout);
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
+/// An error that this rank has alone: others may wait for it for ever. Leaving without MPI_Finalize makes mpirun end
+/// them.
+[[noreturn]] void leave_alone(const std::string& message, ExitCode code) {
+  print_error(message);
+  trime::io::remove_temporary_file();
+  std::_Exit(static_cast<int>(code));
+}
+
+/// Errors of the program are the same on all ranks; rank 0 tells them.
+ExitCode run(int argc, char** argv, const trime::comm::Communicator& comm) {
+  try {
+    return trime::app::run_program(argc, argv, comm);
+  } catch (const trime::Error& error) {
+    if (comm.is_root())
+      print_error(error.what());
+    return error.code();
+  } catch (const std::bad_alloc&) {
+    leave_alone("out of memory; ask for fewer points, or use more nodes (about 300 bytes per point are needed)",
+                ExitCode::out_of_memory);
+  } catch (const std::exception& error) {
+    leave_alone(std::string("internal error: ") + error.what() + "; please report this with the config",
+                ExitCode::internal_error);
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  trime::app::avoid_broken_file_writer();
+  const trime::comm::Environment environment(argc, argv);
+  const trime::comm::Communicator comm = trime::comm::Communicator::world();
+  std::signal(SIGINT, end_by_signal);
+  std::signal(SIGTERM, end_by_signal);
+  return static_cast<int>(run(argc, argv, comm));
+}

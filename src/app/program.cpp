@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/program.hpp"
+
+#include "app/boundary_check.hpp"
+#include "app/command_line.hpp"
+#include "app/config.hpp"
+#include "app/machine.hpp"
+#include "app/option_table.hpp"
+#include "app/run_report.hpp"
+#include "app/shape_builder.hpp"
+#include "trime/meshing/mesher.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace trime::app {
+namespace {
+
+void print(const comm::Communicator& comm, const std::string& text) {
+  if (comm.is_root())
+    std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+}
+
+std::string version_text() {
+  const BuildInfo build = build_info();
+  return fmt::format("trime_mpi {} (commit {}, {})\ncompiler {}\nMPI      {}\nHDF5     {}\n", build.version,
+                     build.git_commit, build.build_type, build.compiler, build.mpi_library, build.hdf5_library);
+}
+
+/// Points that the options ask for.
+double expected_points(const RunOptions& options, const geometry::Boundary& boundary) {
+  if (options.mesh.points)
+    return static_cast<double>(*options.mesh.points);
+  const double length = options.mesh.edge_length.value_or(1);
+  return boundary.area / (std::sqrt(0.75) * length * length) + boundary.length() / (2 * length);
+}
+
+/// What --validate and --dry-run say in place of a mesh.
+std::string estimate(const RunOptions& options, const geometry::Boundary& boundary, const Placement& placement,
+                     bool with_decomposition) {
+  constexpr double bytes_per_point = 300;
+  const double points = expected_points(options, boundary);
+  std::string text = fmt::format(
+      "shape: area {:.6g}, boundary length {:.6g}, {} component{}, {} hole{}\n", boundary.area, boundary.length(),
+      boundary.components(), boundary.components() == 1 ? "" : "s", boundary.holes(), boundary.holes() == 1 ? "" : "s");
+  text += fmt::format("about {:.0f} points, {:.0f} triangles, {:.1f} MiB of memory over all ranks\n", points,
+                      2 * points, points * bytes_per_point / 0x1p20);
+  if (with_decomposition)
+    text += fmt::format("{} ranks x {} threads: about {:.0f} points per rank, {:.0f} per thread\n", placement.ranks,
+                        placement.threads, points / placement.ranks, points / placement.ranks / placement.threads);
+  return text + fmt::format("output: {} (not written)\n", options.output.path(".h5"));
+}
+
+/// Config, shape and what surrounds them, ready to be meshed.
+struct Job {
+  const comm::Communicator& comm;
+  const CommandLine& line;
+  const std::string& config_text;
+  const RunOptions& options;
+  Log& log;
+  TimerTable& timers;
+};
+
+ExitCode make_mesh(const Job& job) {
+  const auto& [comm, line, config_text, options, log, timers] = job;
+  const Placement placement = place_threads(options.threads, comm);
+  report_placement(placement, comm, log);
+  for (const std::string& warning : options.warnings)
+    log.warning("{}", warning);
+
+  const geometry::Shape shape = [&] {
+    const auto timing = timers.scope("shape");
+    return build_shape(options, comm, log);
+  }();
+  if (line.action == Action::validate || line.action == Action::dry_run) {
+    print(comm, estimate(options, shape.boundary(), placement, line.action == Action::dry_run));
+    return ExitCode::done;
+  }
+  if (options.write_final)
+    for (const std::string& warning : io::check_output(options.output, comm))
+      log.warning("{}", warning);
+
+  const sizing::UniformSize size;
+  meshing::MeshResult result = meshing::Mesher(comm, shape.boundary(), size, options.mesh, log, timers).run();
+  {
+    const auto timing = timers.scope("boundary check");
+    for (mesh::Check& check : check_boundary_distance(result.mesh, shape, comm))
+      result.checks.push_back(std::move(check));
+  }
+
+  io::WrittenFiles files;
+  if (options.write_final) {
+    const io::Metadata metadata = describe_run({line, options, config_text, placement, shape.boundary()}, result,
+                                               gather_measurements(timers, comm));
+    const auto timing = timers.scope("output");
+    files = io::write_mesh(options.output, result.mesh, metadata, comm);
+  }
+  log.info("{}", run_report(result, gather_measurements(timers, comm), files));
+  return is_complete(result) ? ExitCode::done : ExitCode::incomplete;
+}
+
+} // namespace
+
+ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm) {
+  TimerTable timers;
+  const CommandLine line = parse_command_line(argc, argv);
+  if (line.action == Action::help || line.action == Action::help_config || line.action == Action::version) {
+    print(comm, line.action == Action::help      ? line.help
+                : line.action == Action::version ? version_text()
+                                                 : help_config());
+    return ExitCode::done;
+  }
+  const std::string config_text = read_shared(line.config, comm);
+  const RunOptions options = parse_config(config_text, line.config, line.overrides);
+  if (line.action == Action::print_config) {
+    print(comm, options.resolved);
+    return ExitCode::done;
+  }
+  Log log(options.log_level, comm.is_root());
+  log.set_progress_interval(options.log_interval);
+  return make_mesh({comm, line, config_text, options, log, timers});
+}
+
+} // namespace trime::app

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/run_report.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+
+namespace trime::app {
+namespace {
+
+/// One value of each element as a column.
+template <class T, class Element, class Value>
+io::Column column(const std::string& name, const std::vector<Element>& elements, const Value& value) {
+  std::vector<T> values;
+  for (const Element& element : elements)
+    values.push_back(static_cast<T>(std::invoke(value, element)));
+  return {name, std::move(values)};
+}
+
+std::vector<io::Attribute> attributes(const Provenance& p, const meshing::MeshResult& result,
+                                      const Measurements& measured) {
+  const BuildInfo build = build_info();
+  const char* job = std::getenv("SLURM_JOB_ID");
+  const auto points = static_cast<double>(std::max<GlobalId>(result.mesh.point_slab.total, 1));
+  return {{"format", std::string("trime_mpi-mesh")},
+          {"format_version", std::int64_t{1}},
+          {"program_version", build.version},
+          {"git_commit", build.git_commit},
+          {"build_type", build.build_type},
+          {"compiler", build.compiler},
+          {"mpi_library", build.mpi_library},
+          {"hdf5_library", build.hdf5_library},
+          {"created_utc", utc_time()},
+          {"command_line", p.line.as_given},
+          {"host", host_name()},
+          {"job_id", std::string(job ? job : "")},
+          {"seed", p.options.mesh.seed},
+          {"mpi_ranks", std::int64_t{p.placement.ranks}},
+          {"omp_threads", std::int64_t{p.placement.threads}},
+          {"nodes", std::int64_t{p.placement.nodes}},
+          {"iterations", std::int64_t{result.history.empty() ? 0 : result.history.back().sweep}},
+          {"stop_reason", meshing::to_string(result.stop_reason)},
+          {"points", result.mesh.point_slab.total},
+          {"triangles", result.mesh.triangle_slab.total},
+          {"requested_points", result.requested_points},
+          {"edge_length", result.edge_length},
+          {"corners", result.corners},
+          {"components", std::int64_t{result.components}},
+          {"holes", std::int64_t{result.holes}},
+          {"shape_area", result.shape_area},
+          {"seconds_total", measured.total}, // up to the writing of this file
+          {"peak_memory_bytes", measured.peak_memory},
+          {"bytes_per_point", static_cast<double>(measured.memory_sum) / points},
+          {"mesh_hash", result.mesh.hash},
+          {"complete", std::int64_t{is_complete(result)}}};
+}
+
+io::MetadataGroup history_group(const std::vector<meshing::SweepRecord>& history) {
+  using Record = meshing::SweepRecord;
+  return {
+      "history",
+      {},
+      {column<std::int64_t>("sweep", history, &Record::sweep), column<std::int64_t>("points", history, &Record::points),
+       column<double>("mean_alpha", history, &Record::mean_alpha),
+       column<double>("max_alpha", history, &Record::max_alpha), column<double>("max_move", history, &Record::max_move),
+       column<double>("moving_share", history, &Record::moving_share),
+       column<std::int64_t>("rebuilt_stars", history, &Record::rebuilt_stars),
+       column<std::int64_t>("pushed", history, &Record::pushed),
+       column<std::int64_t>("deleted", history, &Record::deleted),
+       column<double>("seconds", history, &Record::seconds)}};
+}
+
+void add_summary(std::vector<io::Attribute>& to, const std::string& name, const mesh::RatioSummary& s) {
+  to.push_back({name + "_median", s.median});
+  to.push_back({name + "_mean", s.mean});
+  to.push_back({name + "_max", s.max});
+  to.push_back({name + "_half_mean", s.half_mean});
+  to.push_back({name + "_std", s.std});
+}
+
+io::MetadataGroup quality_group(const mesh::QualitySummary& quality) {
+  io::MetadataGroup group{"quality", {}, {}};
+  add_summary(group.attributes, "alpha", quality.alpha);
+  add_summary(group.attributes, "beta", quality.beta);
+  group.attributes.push_back({"min_angle_degrees", quality.min_angle_degrees});
+  group.attributes.push_back({"size_mean", quality.size_mean});
+  group.attributes.push_back({"size_std", quality.size_std});
+  const auto& edges = mesh::RatioStatistics::histogram_edges;
+  const auto& counts = quality.alpha_histogram;
+  group.columns.push_back({"alpha_histogram_from", std::vector<double>(edges.begin(), edges.end())});
+  group.columns.push_back({"alpha_histogram", std::vector<std::int64_t>(counts.begin(), counts.end())});
+  return group;
+}
+
+io::MetadataGroup checks_group(const mesh::Checks& checks) {
+  using mesh::Check;
+  return {"checks",
+          {},
+          {column<std::string>("name", checks, &Check::name), column<double>("expected", checks, &Check::expected),
+           column<double>("found", checks, &Check::found), column<std::int32_t>("passed", checks, &Check::passed),
+           column<std::string>("meaning", checks, &Check::meaning)}};
+}
+
+io::MetadataGroup timers_group(const std::vector<TimeRow>& times) {
+  return {"timers",
+          {},
+          {column<std::string>("name", times, &TimeRow::section), column<std::int64_t>("calls", times, &TimeRow::calls),
+           column<double>("min", times, &TimeRow::min), column<double>("avg", times, &TimeRow::mean),
+           column<double>("max", times, &TimeRow::max)}};
+}
+
+/// Names of the parts along a loop, in order, each once: "square" or "square+disc".
+std::string loop_name(const geometry::Boundary& boundary, const geometry::Loop& loop) {
+  std::vector<int> parts;
+  std::string name;
+  for (const geometry::Piece& piece : loop.pieces)
+    if (std::find(parts.begin(), parts.end(), piece.part) == parts.end()) {
+      parts.push_back(piece.part);
+      name += (name.empty() ? "" : "+") + boundary.part_names.at(static_cast<std::size_t>(piece.part));
+    }
+  return name;
+}
+
+io::MetadataGroup tags_group(const geometry::Boundary& boundary, const std::string& region) {
+  return {"tags",
+          {},
+          {column<std::int32_t>("edge_id", boundary.loops, &geometry::Loop::tag),
+           column<std::string>("edge_name", boundary.loops,
+                               [&](const geometry::Loop& loop) { return loop_name(boundary, loop); }),
+           {"region_id", std::vector<std::int32_t>{1}},
+           {"region_name", std::vector<std::string>{region}}}};
+}
+
+} // namespace
+
+io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result, const Measurements& measured) {
+  return {attributes(p, result, measured),
+          {{"config_text", p.config_text}, {"config_resolved", p.options.resolved}},
+          {history_group(result.history), quality_group(result.quality), checks_group(result.checks),
+           timers_group(measured.times), tags_group(p.boundary, p.options.region)}};
+}
+
+} // namespace trime::app

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/run_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::app {
+namespace {
+
+constexpr double microsecond = 1e-6;
+
+TimeRow reduce_time(std::string section, double seconds, std::int64_t calls, const comm::Communicator& comm) {
+  const std::int64_t sum = comm.sum(static_cast<std::int64_t>(std::llround(seconds / microsecond)));
+  return {std::move(section), comm.max(calls), comm.min(seconds), static_cast<double>(sum) * microsecond / comm.size(),
+          comm.max(seconds)};
+}
+
+std::string summary_line(const char* name, const mesh::RatioSummary& s) {
+  return fmt::format("  {:<8}{:>9.4f}{:>10.4f}{:>10.4f}{:>11.4f}{:>9.4f}\n", name, s.median, s.mean, s.max, s.half_mean,
+                     s.std);
+}
+
+std::string quality_text(const mesh::QualitySummary& q) {
+  std::string text = "Quality    median      mean       max  half-mean      std   (1 is equilateral)\n";
+  text += summary_line("alpha", q.alpha) + summary_line("beta", q.beta);
+  text += fmt::format("  smallest angle {:.2f} degrees; edge length over wanted length: mean {:.4f}, std {:.4f}\n",
+                      q.min_angle_degrees, q.size_mean, q.size_std);
+  std::int64_t count = 0;
+  for (const std::int64_t bin : q.alpha_histogram)
+    count += bin;
+  text += "  alpha from   triangles   share\n";
+  for (std::size_t k = 0; k < q.alpha_histogram.size(); ++k)
+    text += fmt::format(
+        "  {:>10.2f}{:>12}{:>7.2f} %\n", mesh::RatioStatistics::histogram_edges[k], q.alpha_histogram[k],
+        100 * static_cast<double>(q.alpha_histogram[k]) / static_cast<double>(std::max<std::int64_t>(count, 1)));
+  return text;
+}
+
+std::string checks_text(const mesh::Checks& checks) {
+  std::string text = "Checks\n";
+  for (const mesh::Check& check : checks)
+    text += fmt::format("  {:<7}{:<28} expected {:<12.6g} found {:<12.6g} {}\n", check.passed ? "ok" : "FAILED",
+                        check.name, check.expected, check.found, check.meaning);
+  return text;
+}
+
+std::string times_text(const Measurements& measured) {
+  std::string text = "Time [s]                 min      mean       max    share\n";
+  const double whole = std::max(measured.total, 1e-9);
+  for (const TimeRow& row : measured.times)
+    text += fmt::format("  {:<18}{:>8.3f}{:>10.3f}{:>10.3f}{:>7.1f} %\n", row.section, row.min, row.mean, row.max,
+                        100 * row.mean / whole);
+  return text + fmt::format("  {:<18}{:>18.3f}{:>17.1f} %\n", "total", measured.total, 100.0);
+}
+
+} // namespace
+
+Measurements gather_measurements(const TimerTable& timers, const comm::Communicator& comm) {
+  // Rank 0 names the sections; what another rank alone has timed counts as "other".
+  std::string names;
+  for (const TimerTable::Section& section : timers.sections())
+    names += section.name + "\n";
+  names = comm.broadcast(std::move(names));
+  const double total = timers.total();
+  double rest = total;
+  Measurements measured;
+  for (std::size_t at = 0; at < names.size();) {
+    const std::size_t end = names.find('\n', at);
+    TimerTable::Section own{names.substr(at, end - at)};
+    at = end + 1;
+    for (const TimerTable::Section& section : timers.sections())
+      if (section.name == own.name)
+        own = section;
+    rest -= own.seconds;
+    measured.times.push_back(reduce_time(own.name, own.seconds, own.calls, comm));
+  }
+  measured.times.push_back(reduce_time("other", rest, 1, comm));
+  for (const TimeRow& row : measured.times)
+    measured.total += row.mean;
+  measured.peak_memory = comm.max(peak_memory());
+  measured.memory_sum = comm.sum(peak_memory());
+  return measured;
+}
+
+bool is_complete(const meshing::MeshResult& result) {
+  return result.stop_reason != meshing::StopReason::sweep_cap && mesh::all_passed(result.checks);
+}
+
+std::string run_report(const meshing::MeshResult& result, const Measurements& measured, const io::WrittenFiles& files) {
+  const auto points = static_cast<double>(std::max<GlobalId>(result.mesh.point_slab.total, 1));
+  std::string text = fmt::format("\n{} points, {} triangles, {} boundary edges; target edge length {:.6g}\n",
+                                 result.mesh.point_slab.total, result.mesh.triangle_slab.total,
+                                 result.mesh.facet_slab.total, result.edge_length);
+  text += fmt::format("Stopped after {} sweeps: {}\n\n", result.history.empty() ? 0 : result.history.back().sweep,
+                      meshing::to_string(result.stop_reason));
+  text += quality_text(result.quality) + "\n" + checks_text(result.checks) + "\n" + times_text(measured);
+  text += fmt::format("  {:.0f} points per second\n\n", points / std::max(measured.total, 1e-9));
+  text += fmt::format("Memory     at most {:.1f} MiB per rank, {:.0f} bytes per point over all ranks\n",
+                      static_cast<double>(measured.peak_memory) / 0x1p20,
+                      static_cast<double>(measured.memory_sum) / points);
+  text += fmt::format("Mesh hash  {:016x}\n", result.mesh.hash);
+  for (std::size_t k = 0; k < files.paths.size(); ++k)
+    text += fmt::format("{:<11}{}{}\n", k == 0 ? "Files" : "", files.paths[k],
+                        k == 0 ? fmt::format("  ({:.1f} MiB)", static_cast<double>(files.bytes) / 0x1p20) : "");
+  if (!files.paths.empty())
+    text += "           draw it: scripts/plot_mesh.py " + files.paths[0] + "; or open it in ParaView\n";
+  if (!is_complete(result))
+    text += fmt::format("\nThe mesh is NOT complete ({}): it is marked so in the file, and the exit code is 5.\n",
+                        mesh::all_passed(result.checks) ? "the sweep cap was reached, see meshing.max_sweeps"
+                                                        : "a check failed, see above");
+  return text;
+}
+
+} // namespace trime::app

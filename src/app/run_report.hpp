@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run has to say at its end, as text for people and as metadata for the file.
+#pragma once
+
+#include "app/command_line.hpp"
+#include "app/machine.hpp"
+#include "app/options.hpp"
+#include "trime/comm/communicator.hpp"
+#include "trime/core/timer.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/io/mesh_file.hpp"
+#include "trime/meshing/options.hpp"
+
+#include <string>
+#include <vector>
+
+namespace trime::app {
+
+/// Seconds of one section over the ranks.
+struct TimeRow {
+  std::string section;
+  std::int64_t calls = 0;
+  double min = 0, mean = 0, max = 0;
+};
+
+/// What the ranks measured, brought together.
+struct Measurements {
+  std::vector<TimeRow> times;                   ///< sections, then "other": the means add up to the total
+  double total = 0;                             ///< seconds, mean over ranks
+  std::int64_t peak_memory = 0, memory_sum = 0; ///< bytes: largest of a rank, and of all ranks together
+};
+
+/// @note Collective.
+Measurements gather_measurements(const TimerTable& timers, const comm::Communicator& comm);
+
+/// True if the stop rule was met and every check passed.
+bool is_complete(const meshing::MeshResult& result);
+
+/// @brief The report of a run, several lines. `files` may be empty.
+std::string run_report(const meshing::MeshResult& result, const Measurements& measured, const io::WrittenFiles& files);
+
+/// Everything that the group /trime_mpi holds. Only that of rank 0 counts.
+struct Provenance {
+  const CommandLine& line;
+  const RunOptions& options;
+  const std::string& config_text;
+  const Placement& placement;
+  const geometry::Boundary& boundary;
+};
+io::Metadata describe_run(const Provenance& provenance, const meshing::MeshResult& result,
+                          const Measurements& measured);
+
+} // namespace trime::app

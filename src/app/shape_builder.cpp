@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/shape_builder.hpp"
+
+#include "trime/comm/agree.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+namespace trime::app {
+namespace {
+
+std::string read_file(const std::string& path) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+  if (!file)
+    throw FileError(fmt::format("cannot open {}: {}", path, std::strerror(errno)));
+  std::string text;
+  char buffer[1 << 16];
+  std::size_t count = 0;
+  while ((count = std::fread(buffer, 1, sizeof buffer, file.get())) > 0)
+    text.append(buffer, count);
+  if (std::ferror(file.get()))
+    throw FileError(fmt::format("cannot read {}: {}", path, std::strerror(errno)));
+  return text;
+}
+
+/// Contour text on every rank; the reader of the geometry refuses formats that it does not know.
+std::string read_contour(const std::string& path, const comm::Communicator& comm) {
+  std::string text;
+  comm::run_agreed(comm, [&] {
+    if (comm.is_root())
+      text = geometry::read_contour_text(path);
+  });
+  return comm.broadcast(std::move(text));
+}
+
+geometry::Part build_part(const PartOptions& part, const geometry::Frame& frame, const comm::Communicator& comm) {
+  if (part.type == "rectangle")
+    return geometry::Part::rectangle(part.name, part.box, frame);
+  if (part.type == "circle")
+    return geometry::Part::circle(part.name, part.center, part.radius, frame);
+  if (part.type == "triangle")
+    return geometry::Part::triangle(part.name, part.corners, frame);
+  const geometry::Contour contour = geometry::parse_xy(read_contour(part.file, comm), part.file);
+  const geometry::Normalization place =
+      part.normalize ? geometry::fit_to_container(contour, frame.container()) : geometry::Normalization{};
+  return geometry::Part::contour(part.name, contour, place, frame);
+}
+
+} // namespace
+
+std::string read_shared(const std::string& path, const comm::Communicator& comm) {
+  std::string text;
+  comm::run_agreed(comm, [&] {
+    if (comm.is_root())
+      text = read_file(path);
+  });
+  return comm.broadcast(std::move(text));
+}
+
+/// All ranks build the same shape from the same numbers, so they throw the same errors without asking each other.
+geometry::Shape build_shape(const RunOptions& options, const comm::Communicator& comm, Log& log) {
+  const geometry::Frame frame(options.mesh.container);
+  std::vector<geometry::Part> parts;
+  for (const PartOptions& part : options.parts) {
+    parts.push_back(build_part(part, frame, comm));
+    for (const std::string& warning : parts.back().warnings())
+      log.warning("{}", warning);
+  }
+  return geometry::Shape(std::move(parts), options.region, frame);
+}
+
+} // namespace trime::app

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From the sections [shape.NAME] to a Shape on every rank. Files are read by rank 0 only.
+#pragma once
+
+#include "app/options.hpp"
+#include "trime/comm/communicator.hpp"
+#include "trime/geometry/shape.hpp"
+
+namespace trime::app {
+
+/// Bytes of a file on every rank; rank 0 reads. @throws FileError on all ranks. @note Collective.
+std::string read_shared(const std::string& path, const comm::Communicator& comm);
+
+/// @throws GeometryError, ConfigError, FileError on all ranks together
+/// @note Collective.
+geometry::Shape build_shape(const RunOptions& options, const comm::Communicator& comm, Log& log);
+
+} // namespace trime::app
