@@ -6,6 +6,7 @@
 #include "trime/geometry/shape.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace trime::geometry {
@@ -45,12 +46,12 @@ public:
 
   Boundary make() {
     classify();
-    if (kept_.empty())
-      throw GeometryError(
-          fmt::format("the region '{}' is empty: no point of the container lies in it", region_.text()));
-    check_container();
+    if (!kept_.empty())
+      check_container();
     link();
     chain();
+    if (boundary_.loops.empty())
+      throw GeometryError(fmt::format("the region '{}' is empty: no part of the plane lies in it", region_.text()));
     return std::move(boundary_);
   }
 
@@ -207,11 +208,6 @@ void BoundaryMaker::chain() {
             [](const Loop& a, const Loop& b) { return lexicographically_less(a.pieces[0].start, b.pieces[0].start); });
   for (std::size_t k = 0; k < boundary_.loops.size(); ++k)
     boundary_.loops[k].tag = static_cast<int>(k) + 1;
-  double twice_area = 0;
-  for (const Loop& loop : boundary_.loops)
-    for (const Piece& piece : loop.pieces)
-      twice_area += twice_area_under(piece, frame_.container().min);
-  boundary_.area = 0.5 * twice_area;
 }
 
 Piece BoundaryMaker::finished(const Kept& kept) const {
@@ -243,7 +239,11 @@ void BoundaryMaker::add_loop(std::vector<LocalIndex>& cycle) {
     loop.pieces.push_back(finished(kept_[k]));
     twice_area += twice_area_under(loop.pieces.back(), loop.pieces.front().start);
   }
+  // Slivers of a few lattice steps, where sides of parts were meant to be equal, are no features.
+  if (std::fabs(twice_area) <= VertexTable::merge_steps * frame_.step() * loop.length())
+    return;
   loop.outer = twice_area > 0;
+  boundary_.area += 0.5 * twice_area;
   boundary_.loops.push_back(std::move(loop));
 }
 

@@ -138,6 +138,9 @@ TEST(MakeBoundary, SidesThatDifferByRounding) {
   const std::vector<Part> parts{rectangle("a", 0.1, 0.1, 0.1 + 0.2, 0.5),
                                 Part::rectangle("b", {{0.3 + 3e-13, 0.1}, {0.6, 0.5 - 3e-13}}, unit_frame)};
   expect_region(parts, "union(a, b)", {0.2, 1, 0, 6});
+  const std::vector<Part> slivers{rectangle("a", 0.1, 0.1, 0.5, 0.5),
+                                  Part::rectangle("b", {{0.1, 0.1}, {0.5 - 8e-13, 0.5}}, unit_frame)};
+  EXPECT_NE(error_of(slivers, "difference(a, b)").find("empty"), std::string::npos);
 }
 
 TEST(MakeBoundary, IdenticalParts) {
@@ -214,6 +217,56 @@ TEST(MakeBoundary, RandomRegionsHaveTheAreaThatAGridOfPointsCounts) {
       count += shape.inside(unit_frame.snap({(i % n + 0.5) / n, (i / n + 0.5) / n})) ? 1 : 0;
     EXPECT_NEAR(shape.boundary().area, count / double(n * n), 3.0 / n * shape.boundary().length() / 4) << seed;
   }
+}
+
+/// A random expression over parts p0 ... p(n-1).
+std::string random_expression(std::uint64_t& counter, int depth, int n) {
+  const auto pick = [&](int choices) { return static_cast<int>(random(counter++, 20) * choices); };
+  if (depth == 0 || pick(4) == 0)
+    return fmt::format("p{}", pick(n));
+  const char* operations[] = {"union", "intersection", "difference"};
+  std::string text = fmt::format("{}({}", operations[pick(3)], random_expression(counter, depth - 1, n));
+  for (int k = 1 + pick(2); k > 0; --k)
+    text += ", " + random_expression(counter, depth - 1, n);
+  return text + ")";
+}
+
+TEST(MakeBoundary, SpecialPositionsGiveAShapeOrAClearRefusal) {
+  // Multiples of 0.1 and regular polygons make sides, vertices and circles coincide and touch all the time.
+  std::uint64_t counter = 0;
+  const auto pick = [&](int choices) { return static_cast<int>(random(counter++, 20) * choices); };
+  int made = 0, touching = 0, empty = 0;
+  for (int round = 0; round < 400; ++round) {
+    std::vector<Part> parts;
+    for (int k = 0; k < 4; ++k) {
+      const std::string name = fmt::format("p{}", k);
+      const Vec2 at{0.1 * (1 + pick(5)), 0.1 * (1 + pick(5))}, center{0.3 + 0.1 * pick(5), 0.3 + 0.1 * pick(5)};
+      const double size = 0.1 * (1 + pick(3));
+      std::vector<Vec2> ring;
+      for (int j = 0, n = 3 + pick(20); j < n; ++j)
+        ring.push_back(center + size * Vec2{sin_cos(2 * pi * j / n).cos, sin_cos(2 * pi * j / n).sin});
+      const int kind = pick(3);
+      parts.push_back(kind == 0   ? Part::rectangle(name, {at, at + Vec2{size, 0.1 * (1 + pick(3))}}, unit_frame)
+                      : kind == 1 ? Part::circle(name, center, size, unit_frame)
+                                  : Part::contour(name, make_contour({ring}, name), {}, unit_frame));
+    }
+    const std::string region = random_expression(counter, 3, 4);
+    try {
+      const Shape shape(parts, region, unit_frame);
+      expect_valid(shape.boundary());
+      expect_inside_on_left(shape);
+      ++made;
+    } catch (const GeometryError& error) {
+      const std::string message = error.what();
+      const bool is_empty = message.find("empty") != std::string::npos;
+      ASSERT_TRUE(is_empty || message.find("touches itself") != std::string::npos) << region << ": " << message;
+      ++(is_empty ? empty : touching);
+    }
+    ASSERT_FALSE(HasFailure()) << region << " in round " << round;
+  }
+  EXPECT_GT(made, 200);
+  EXPECT_GT(touching, 2);
+  EXPECT_GT(empty, 20);
 }
 
 TEST(MakeBoundary, ContourVerticesStayBitForBit) {
