@@ -14,7 +14,9 @@ namespace trime::bench {
 inline const geometry::Box unit_square{{0, 0}, {1, 1}};
 
 /// Edge length of n equilateral triangles' vertices in the unit square.
-inline double spacing_of(std::int64_t n) { return std::sqrt(1 / (0.8660254037844386 * static_cast<double>(n))); }
+inline double spacing_of(std::int64_t n) {
+  return std::sqrt(1 / (0.8660254037844386 * static_cast<double>(n)));
+}
 
 inline double noise(std::uint64_t key, std::uint64_t slot) {
   return 2 * random_unit(7, RandomPurpose::test, key, slot) - 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// trime_bench: kernels of the mesher, and CGAL's Delaunay triangulation as the yardstick. Start it with OMP_NUM_THREADS=1
-// for figures of one core.
+// trime_bench: kernels of the mesher, and CGAL's Delaunay triangulation as the yardstick. Start it with
+// OMP_NUM_THREADS=1 for figures of one core.
 #include "trime/comm/communicator.hpp"
 
 #include <benchmark/benchmark.h>

@@ -36,6 +36,13 @@ void post(const Message& message, bool send, int tag, MPI_Comm comm, std::vector
   }
 }
 
+std::unique_ptr<Communicator::Native> duplicate(MPI_Comm comm) {
+  auto native = std::make_unique<Communicator::Native>();
+  check(MPI_Comm_dup(comm, &native->comm));
+  check(MPI_Comm_set_errhandler(native->comm, MPI_ERRORS_RETURN));
+  return native;
+}
+
 template <class T>
 void reduce_in_place(std::span<T> values, MPI_Datatype type, MPI_Op op, MPI_Comm comm) {
   if (!values.empty())
@@ -71,10 +78,10 @@ std::string library_version() {
 }
 
 Communicator Communicator::world() {
-  auto native = std::make_unique<Native>();
-  check(MPI_Comm_dup(MPI_COMM_WORLD, &native->comm));
-  check(MPI_Comm_set_errhandler(native->comm, MPI_ERRORS_RETURN));
-  return Communicator(std::move(native));
+  return Communicator(duplicate(MPI_COMM_WORLD));
+}
+Communicator Communicator::self() {
+  return Communicator(duplicate(MPI_COMM_SELF));
 }
 
 Communicator::Communicator(std::unique_ptr<Native> native) : native_(std::move(native)) {
@@ -93,13 +100,19 @@ Communicator::~Communicator() {
     MPI_Comm_free(&native_->comm);
 }
 
-void Communicator::barrier() const { check(MPI_Barrier(native_->comm)); }
+void Communicator::barrier() const {
+  check(MPI_Barrier(native_->comm));
+}
 
 void Communicator::sum(std::span<std::int64_t> values) const {
   reduce_in_place(values, MPI_INT64_T, MPI_SUM, native_->comm);
 }
-void Communicator::min(std::span<double> values) const { reduce_in_place(values, MPI_DOUBLE, MPI_MIN, native_->comm); }
-void Communicator::max(std::span<double> values) const { reduce_in_place(values, MPI_DOUBLE, MPI_MAX, native_->comm); }
+void Communicator::min(std::span<double> values) const {
+  reduce_in_place(values, MPI_DOUBLE, MPI_MIN, native_->comm);
+}
+void Communicator::max(std::span<double> values) const {
+  reduce_in_place(values, MPI_DOUBLE, MPI_MAX, native_->comm);
+}
 
 std::int64_t Communicator::sum(std::int64_t value) const {
   reduce_in_place(std::span(&value, 1), MPI_INT64_T, MPI_SUM, native_->comm);

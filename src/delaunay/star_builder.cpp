@@ -35,7 +35,8 @@ double canonical_squared_radius(Vec2 a, Vec2 b, Vec2 c) {
 class StarWorker {
 public:
   StarWorker(const mesh::BinnedPoints& points, StarTable& stars, const geometry::Lattice& lattice, double cap)
-      : points_(points), positions_(points.positions().data()), stars_(stars), cap_(cap), slack_(2 * lattice.step()), kernel_(lattice, lattice.snap(2 * cap) + lattice.step()) {}
+      : points_(points), positions_(points.positions().data()), stars_(stars), cap_(cap), slack_(2 * lattice.step()),
+        kernel_(lattice, lattice.snap(2 * cap) + lattice.step()) {}
 
   void compute(LocalIndex i) {
     site_ = i;
@@ -71,10 +72,9 @@ private:
     return kernel_.start_ring(ring_, positions_, center_);
   }
 
-  /// A star that kept its ring needs no new entry if all its triangles count and its first neighbour still is the smallest.
-  bool is_stored_right() {
-    return kernel_.squared_radius() < 0.99 * cap_ * cap_ && kernel_.smallest() == 0;
-  }
+  /// A star that kept its ring needs no new entry if all its triangles count and its first neighbour still is the
+  /// smallest.
+  bool is_stored_right() { return kernel_.squared_radius() < 0.99 * cap_ * cap_ && kernel_.smallest() == 0; }
 
   /// From the virtual square: the last ring first, then the sites nearby (about the first ring of neighbours, in any
   /// order), then all others, most of which lie beyond the security radius by then.
@@ -123,8 +123,8 @@ private:
   /// Radius that must be searched: no site farther than 2 R_max, or than 2 cap, can change what counts.
   double needed() { return std::min(2 * std::sqrt(kernel_.squared_radius()), 2 * cap_) * inflation + slack_; }
 
-  /// @brief Inserts what lies within the security radius, in windows that grow at most by 1.6 at a time (each window can
-  /// shrink the radius); sites nearer than sqrt(done) have been inserted before.
+  /// @brief Inserts what lies within the security radius, in windows that grow at most by 1.6 at a time (each window
+  /// can shrink the radius); sites nearer than sqrt(done) have been inserted before.
   /// @return false if a bin within the radius is unknown
   bool finish(double searched, double done) {
     bool complete = true;
@@ -240,7 +240,9 @@ private:
 
 StarBuilder::StarBuilder(const geometry::Lattice& lattice, double cap) : lattice_(lattice), cap_(cap) {}
 
-bool StarBuilder::counts(Vec2 a, Vec2 b, Vec2 c) const { return canonical_squared_radius(a, b, c) < cap_ * cap_; }
+bool StarBuilder::counts(Vec2 a, Vec2 b, Vec2 c) const {
+  return canonical_squared_radius(a, b, c) < cap_ * cap_;
+}
 
 StarPass StarBuilder::update(const mesh::BinnedPoints& points, StarTable& stars, std::span<const std::uint8_t> wanted,
                              std::vector<mesh::BinRef>& missing) const {

@@ -34,14 +34,14 @@ inline Vertex circumcenter(double ax, double ay, double bx, double by) {
   const double size = std::fabs(x) + std::fabs(y);
   const double products = a2 * (std::fabs(bx) + std::fabs(by)) + b2 * (std::fabs(ax) + std::fabs(ay));
   const double center_error = epsilon * (std::fabs(half_inverse) * 5 * (products + determinant_size * size) + 8 * size);
-  return {x, y, 2 * center_error + 8 * epsilon * size, (x * x + y * y) * (1 + 1e-12) + 4 * center_error * (size + center_error),
+  return {x, y, 2 * center_error + 8 * epsilon * size,
+          (x * x + y * y) * (1 + 1e-12) + 4 * center_error * (size + center_error),
           determinant > 64 * epsilon * determinant_size};
 }
 
 } // namespace
 
-StarKernel::StarKernel(const geometry::Lattice& lattice, double virtual_distance)
-    : lattice_(lattice) {
+StarKernel::StarKernel(const geometry::Lattice& lattice, double virtual_distance) : lattice_(lattice) {
   reserve(typical_degree);
   const double d = virtual_distance;
   square_ = {Vec2{d, 0}, Vec2{0, d}, Vec2{-d, 0}, Vec2{0, -d}};
@@ -57,8 +57,8 @@ void StarKernel::reserve(std::size_t degree) {
   if (degree + 2 <= x_.size())
     return;
   id_.resize(2 * degree);
-  for (std::vector<double>* list : {&x_, &y_, &vertex_x_, &vertex_y_, &vertex_error_, &vertex_r2_, &depth_,
-                                    &tolerance_})
+  for (std::vector<double>* list :
+       {&x_, &y_, &vertex_x_, &vertex_y_, &vertex_error_, &vertex_r2_, &depth_, &tolerance_})
     list->resize(2 * degree);
 }
 
@@ -128,8 +128,8 @@ bool StarKernel::start_ring(std::span<const LocalIndex> ids, const Vec2* positio
   return is_locally_convex();
 }
 
-/// Every neighbour lies outside the disc of the vertex before it: with one counter-clockwise turn, that makes the ring the
-/// edges of a convex cell in order.
+/// Every neighbour lies outside the disc of the vertex before it: with one counter-clockwise turn, that makes the ring
+/// the edges of a convex cell in order.
 bool StarKernel::is_locally_convex() {
   const std::size_t n = degree_;
   int turns = 0, unsound = 0, undecided = 0;

@@ -13,8 +13,8 @@
 
 namespace trime::delaunay {
 
-/// @brief Ring of neighbours around the origin (coordinates relative to the site, exact), counter-clockwise, and for each
-/// pair of consecutive neighbours the circumcentre with the origin and a bound on its error.
+/// @brief Ring of neighbours around the origin (coordinates relative to the site, exact), counter-clockwise, and for
+/// each pair of consecutive neighbours the circumcentre with the origin and a bound on its error.
 ///
 /// Everything lies in arrays of its own, so that the loops over the ring run without branches; what they cannot decide
 /// goes to geometry::in_circle.
@@ -25,8 +25,8 @@ public:
 
   /// Starts with the four virtual neighbours (their ids are negative).
   void start_virtual();
-  /// @brief Starts with a ring of at least 3 real neighbours at `positions`, seen from `center`; false if it is no star any
-  /// more: it does not wind once counter-clockwise, or is not locally convex. O(degree).
+  /// @brief Starts with a ring of at least 3 real neighbours at `positions`, seen from `center`; false if it is no star
+  /// any more: it does not wind once counter-clockwise, or is not locally convex. O(degree).
   bool start_ring(std::span<const LocalIndex> ids, const geometry::Vec2* positions, geometry::Vec2 center);
   /// Cuts the cell with a site at `offset`, not the origin and not a member; true if it became a neighbour. O(degree).
   bool insert(LocalIndex id, geometry::Vec2 offset);

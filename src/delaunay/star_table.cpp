@@ -52,7 +52,9 @@ void StarTable::renumber(std::span<const LocalIndex> new_index, LocalIndex new_s
   certain_.assign(static_cast<std::size_t>(new_size), 0);
   const LocalIndex old_size = static_cast<LocalIndex>(degree_.size());
   const auto mapped = [&](LocalIndex neighbour) {
-    return neighbour == gap ? gap : neighbour < old_size ? new_index[static_cast<std::size_t>(neighbour)] : LocalIndex{-2};
+    return neighbour == gap       ? gap
+           : neighbour < old_size ? new_index[static_cast<std::size_t>(neighbour)]
+                                  : LocalIndex{-2};
   };
   const auto map_ring = [&](std::span<const LocalIndex> from, LocalIndex* to) {
     for (const LocalIndex neighbour : from) {
@@ -100,6 +102,12 @@ void StarTable::renumber_ghosts(LocalIndex first, std::span<const LocalIndex> ne
       std::for_each_n(rings_[i].begin(), degree_[i], map);
   for (std::vector<LocalIndex>& ring : overflow_)
     std::for_each(ring.begin(), ring.end(), map);
+}
+
+void StarTable::release_work_space() {
+  std::vector<std::array<LocalIndex, slots>>().swap(rings_back_);
+  std::vector<std::uint8_t>().swap(degree_back_);
+  std::vector<std::vector<LocalIndex>>().swap(overflow_back_);
 }
 
 std::size_t StarTable::memory_bytes() const {

@@ -69,7 +69,8 @@ void BinnedPoints::sort_into_tiles(std::span<const Site> sites) {
   const int parts = std::max(1, thread_count());
   key_.resize(sites.size());
   order_.resize(sites.size());
-  std::vector<LocalIndex> tile_of(sites.size());
+  tile_of_.resize(sites.size());
+  sorted_.resize(sites.size());
   // counts[part][tile]: each part is a contiguous piece of the input, so the order is stable for any thread count.
   std::vector<LocalIndex> counts(static_cast<std::size_t>(parts) * tiles, 0);
   const auto part_begin = [&](int part) { return n * part / parts; };
@@ -80,7 +81,7 @@ void BinnedPoints::sort_into_tiles(std::span<const Site> sites) {
       TRIME_ASSERT(place.tile >= first_tile_ && place.tile < last_tile_, "site of tile {} given to the owner of {}..{}",
                    place.tile, first_tile_, last_tile_);
       key_[static_cast<std::size_t>(i)] = place.bin;
-      tile_of[static_cast<std::size_t>(i)] = place.tile - first_tile_;
+      tile_of_[static_cast<std::size_t>(i)] = place.tile - first_tile_;
       ++count[place.tile - first_tile_];
     }
   });
@@ -99,37 +100,49 @@ void BinnedPoints::sort_into_tiles(std::span<const Site> sites) {
   thread_loop(parts, 1, [&](std::ptrdiff_t part, int) {
     LocalIndex* next = counts.data() + part * tiles;
     for (std::ptrdiff_t i = part_begin(static_cast<int>(part)); i < part_begin(static_cast<int>(part) + 1); ++i)
-      order_[static_cast<std::size_t>(next[tile_of[static_cast<std::size_t>(i)]]++)] = static_cast<LocalIndex>(i);
+      order_[static_cast<std::size_t>(next[tile_of_[static_cast<std::size_t>(i)]]++)] = static_cast<LocalIndex>(i);
   });
 }
 
-/// Sorts one tile's piece of order_ by bin, drops duplicates, sets its bins; returns the number of sites kept.
+/// Sorts one tile's piece of order_ by bin (counting, then by coordinates inside a bin), drops duplicates, sets the
+/// bins; returns the number of sites kept.
 LocalIndex BinnedPoints::sort_tile(std::span<const Site> sites, LocalIndex tile) {
   const std::size_t bins = static_cast<std::size_t>(grid_->bins_per_tile()), first_bin = tile * bins;
   const LocalIndex begin = tile_start_[static_cast<std::size_t>(tile)];
-  const auto first = order_.begin() + begin, last = order_.begin() + tile_start_[static_cast<std::size_t>(tile) + 1];
+  const LocalIndex end = tile_start_[static_cast<std::size_t>(tile) + 1];
+  LocalIndex* bin_end = bin_end_.data() + first_bin;
   const auto site = [&](LocalIndex i) -> const Site& { return sites[static_cast<std::size_t>(i)]; };
-  std::sort(first, last, [&](LocalIndex i, LocalIndex j) {
-    const std::int32_t bi = key_[static_cast<std::size_t>(i)], bj = key_[static_cast<std::size_t>(j)];
-    if (bi != bj)
-      return bi < bj;
+  const auto before = [&](LocalIndex i, LocalIndex j) {
     const Site &a = site(i), &b = site(j);
     if (!(a.position == b.position))
       return geometry::lexicographically_less(a.position, b.position);
     // Of equal sites the first is kept: the boundary site, else the one pushed most often.
     return a.boundary != b.boundary ? a.boundary > b.boundary : a.pushes > b.pushes;
-  });
-  const auto end = std::unique(first, last, [&](LocalIndex i, LocalIndex j) {
-    return site(i).position == site(j).position;
-  });
-  auto next = first;
-  for (std::size_t b = 0; b < bins; ++b) {
-    bin_begin_[first_bin + b] = static_cast<LocalIndex>(next - order_.begin());
-    while (next != end && key_[static_cast<std::size_t>(*next)] == static_cast<std::int32_t>(b))
-      ++next;
-    bin_end_[first_bin + b] = static_cast<LocalIndex>(next - order_.begin());
+  };
+  std::fill(bin_end, bin_end + bins, 0);
+  for (LocalIndex k = begin; k < end; ++k)
+    ++bin_end[key_[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])]];
+  LocalIndex next = begin;
+  for (std::size_t b = 0; b < bins; ++b) { // bin_end is the running end of each bin while it fills
+    const LocalIndex count = bin_end[b];
+    bin_begin_[first_bin + b] = bin_end[b] = next;
+    next += count;
   }
-  return static_cast<LocalIndex>(end - first);
+  for (LocalIndex k = begin; k < end; ++k) {
+    const LocalIndex i = order_[static_cast<std::size_t>(k)];
+    sorted_[static_cast<std::size_t>(bin_end[key_[static_cast<std::size_t>(i)]]++)] = i;
+  }
+  next = begin;
+  for (std::size_t b = 0; b < bins; ++b) {
+    const auto first = sorted_.begin() + bin_begin_[first_bin + b], last = sorted_.begin() + bin_end[b];
+    std::sort(first, last, before);
+    bin_begin_[first_bin + b] = next;
+    for (auto it = first; it != last; ++it)
+      if (it == first || !(site(*it).position == site(*(it - 1)).position))
+        order_[static_cast<std::size_t>(next++)] = *it;
+    bin_end[b] = next;
+  }
+  return next - begin;
 }
 
 void BinnedPoints::assign_ghosts(std::span<const BinRef> bins, std::span<const std::int32_t> counts,
@@ -181,10 +194,17 @@ BinnedPoints::Range BinnedPoints::bin_range(BinRef bin) const {
   return {bin_begin_[at], bin_end_[at]};
 }
 
+void BinnedPoints::release_work_space() {
+  for (std::vector<LocalIndex>* list : {&tile_start_, &order_, &sorted_, &tile_of_, &key_})
+    std::vector<LocalIndex>().swap(*list);
+}
+
 std::size_t BinnedPoints::memory_bytes() const {
   return positions_.capacity() * sizeof(geometry::Vec2) + boundary_.capacity() * 4 + pushes_.capacity() +
          tile_block_.capacity() * 4 + blocks_.capacity() * sizeof(Block) + bin_begin_.capacity() * 9 +
-         (tile_start_.capacity() + order_.capacity() + kept_.capacity() + key_.capacity()) * 4;
+         (tile_start_.capacity() + order_.capacity() + sorted_.capacity() + tile_of_.capacity() + kept_.capacity() +
+          key_.capacity()) *
+             4;
 }
 
 } // namespace trime::mesh

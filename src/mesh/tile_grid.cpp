@@ -77,7 +77,8 @@ TileGrid::TileGrid(const geometry::Box& container, const GridOptions& options) :
   tile_width_ = cell_width * block;
   tile_height_ = cell_height * block;
   const double in_tile = in_cell * block * block;
-  bin_bits_ = std::clamp(static_cast<int>(std::lround(0.5 * std::log2(std::max(1.0, in_tile / points_per_cell)))), 0, 12);
+  bin_bits_ =
+      std::clamp(static_cast<int>(std::lround(0.5 * std::log2(std::max(1.0, in_tile / points_per_cell)))), 0, 12);
 
   int level = 0;
   while ((1 << level) < std::max(tiles_x_, tiles_y_))

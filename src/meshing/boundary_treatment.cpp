@@ -11,8 +11,8 @@ namespace {
 
 using geometry::Vec2;
 
-constexpr double move_cap = 0.4;    // of h
-constexpr double still = 0.005;     // of h
+constexpr double move_cap = 0.4; // of h
+constexpr double still = 0.005;  // of h
 constexpr int pushes_allowed = 3;
 
 Vec2 capped(Vec2 move, double limit) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps inner sites inside and out of the diametral discs of the boundary segments: push, and delete after three pushes.
+// Keeps inner sites inside and out of the diametral discs of the boundary segments: push, and delete after three
+// pushes.
 #pragma once
 
 #include "meshing/site_state.hpp"
@@ -13,7 +14,7 @@ namespace trime::meshing {
 struct MoveCounts {
   std::int64_t moving = 0; ///< moved by more than 0.005 h
   std::int64_t pushed = 0, deleted = 0;
-  double max_move = 0;     ///< longest move over h
+  double max_move = 0; ///< longest move over h
 };
 
 /// What a round of moves needs to know.
@@ -23,8 +24,8 @@ struct MoveContext {
   const geometry::Lattice& lattice;
 };
 
-/// @brief One Jacobi move of all inner sites by `rule`, capped at 0.4 h, snapped, kept inside and out of the discs, then
-/// migration and sorting. Collective.
+/// @brief One Jacobi move of all inner sites by `rule`, capped at 0.4 h, snapped, kept inside and out of the discs,
+/// then migration and sorting. Collective.
 MoveCounts move_by_rule(SiteState& state, const UpdateRule& rule, const MoveContext& context);
 
 /// @brief One round without any rule: offenders are pushed, or deleted once they have been pushed three times or

@@ -16,7 +16,9 @@ namespace {
 using geometry::Vec2;
 __extension__ using Int128 = __int128;
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
+std::size_t at(LocalIndex i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// Twice an area in squared lattice steps: exact, also over ranks (in three parts of 40 bits and the rest).
 struct ExactArea {
@@ -76,8 +78,9 @@ std::int64_t triangle_hash(GlobalId a, GlobalId b, GlobalId c) {
     std::swap(a, c);
     std::swap(b, c);
   }
-  return static_cast<std::int64_t>(mix_bits(
-      mix_bits(mix_bits(static_cast<std::uint64_t>(a)) ^ static_cast<std::uint64_t>(b)) ^ static_cast<std::uint64_t>(c)));
+  return static_cast<std::int64_t>(
+      mix_bits(mix_bits(mix_bits(static_cast<std::uint64_t>(a)) ^ static_cast<std::uint64_t>(b)) ^
+               static_cast<std::uint64_t>(c)));
 }
 
 std::int64_t wrapping_sum(std::int64_t a, std::int64_t b) {
@@ -147,19 +150,24 @@ mesh::Checks certify(const ExtractionContext& context, const decomposition::Numb
 
   const std::int64_t segments = static_cast<std::int64_t>(context.boundary.sites.size());
   const ExactArea polygon = polygon_area(context.boundary, context.lattice);
-  const std::int64_t hash_of_thrice = wrapping_sum(
-      counts.hash_of_triangles, wrapping_sum(counts.hash_of_triangles, counts.hash_of_triangles));
+  const std::int64_t hash_of_thrice =
+      wrapping_sum(counts.hash_of_triangles, wrapping_sum(counts.hash_of_triangles, counts.hash_of_triangles));
   mesh::Checks checks;
-  checks.push_back(check("incomplete_fans", 0, counts.incomplete, "manifold: each site has one unbroken fan of triangles"));
-  checks.push_back(check("star_listings", 3 * counts.triangles, counts.listings, "every triangle is listed by its three stars"));
-  checks.push_back(check("star_disagreements", 0, hash_of_thrice != counts.hash_of_listings, "and all three list the same one"));
+  checks.push_back(
+      check("incomplete_fans", 0, counts.incomplete, "manifold: each site has one unbroken fan of triangles"));
+  checks.push_back(
+      check("star_listings", 3 * counts.triangles, counts.listings, "every triangle is listed by its three stars"));
+  checks.push_back(
+      check("star_disagreements", 0, hash_of_thrice != counts.hash_of_listings, "and all three list the same one"));
   checks.push_back(check("not_positive", 0, counts.not_positive, "triangles that are not counter-clockwise"));
   checks.push_back(check("euler_characteristic", expectation.components - expectation.holes,
                          counts.points - counts.edges + counts.triangles, "components minus holes"));
-  checks.push_back(check("edge_count", (3 * counts.triangles + segments) / 2, counts.edges, "inner edges have two triangles, boundary edges one"));
+  checks.push_back(check("edge_count", (3 * counts.triangles + segments) / 2, counts.edges,
+                         "inner edges have two triangles, boundary edges one"));
   checks.push_back(check("not_delaunay", 0, counts.not_delaunay, "edges that are not locally Delaunay (exact test)"));
   checks.push_back(check("boundary_segments", segments, counts.facets, "boundary segments that are edges of the mesh"));
-  checks.push_back(check("corners", context.boundary.corners, counts.corners, "corners that are vertices, bit for bit"));
+  checks.push_back(
+      check("corners", context.boundary.corners, counts.corners, "corners that are vertices, bit for bit"));
   checks.push_back(check("unused_points", 0, counts.unused, "points without a triangle"));
   checks.push_back({"area", polygon.value(context.lattice), counts.area.value(context.lattice),
                     polygon.twice == counts.area.twice, "triangles fill the boundary polygon (exact integers)"});

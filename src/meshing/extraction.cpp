@@ -12,7 +12,9 @@ namespace {
 using geometry::Vec2;
 using mesh::DistributedMesh;
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
+std::size_t at(LocalIndex i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// Triangles and boundary edges that are listed from one site: those whose lowest global id it has.
 struct Emitter {
@@ -85,7 +87,8 @@ void fill_points(const ExtractionContext& context, const decomposition::Numberin
   mesh.point_slab = {numbering.first, numbering.total};
 }
 
-void fill_triangles(const ExtractionContext& context, const decomposition::Numbering& numbering, DistributedMesh& mesh) {
+void fill_triangles(const ExtractionContext& context, const decomposition::Numbering& numbering,
+                    DistributedMesh& mesh) {
   const Emitter emitter{context, numbering.global_ids};
   const mesh::BinnedPoints& points = context.state.points();
   const std::vector<std::int64_t> starts = starts_of(numbering.order, [&](LocalIndex i) {

@@ -52,8 +52,8 @@ struct Expectation {
   int components = 0, holes = 0;
 };
 
-/// @brief The certificate: manifold, positive, Euler characteristic, area, Delaunay, boundary segments, corners, agreement
-/// of all stars. Exact integers throughout. Collective. O(points)
+/// @brief The certificate: manifold, positive, Euler characteristic, area, Delaunay, boundary segments, corners,
+/// agreement of all stars. Exact integers throughout. Collective. O(points)
 mesh::Checks certify(const ExtractionContext& context, const decomposition::Numbering& numbering,
                      const Expectation& expectation);
 

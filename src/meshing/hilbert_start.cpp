@@ -13,8 +13,8 @@ namespace {
 using geometry::Vec2;
 __extension__ using Int128 = __int128;
 
-constexpr double strip = 0.43;       // of h along the boundary stays free
-constexpr int cells_per_bin_bits = 3; // 8 x 8 sampling cells in a bin of about 3.3 sites
+constexpr double strip = 0.43;         // of h along the boundary stays free
+constexpr int cells_per_bin_bits = 3;  // 8 x 8 sampling cells in a bin of about 3.3 sites
 constexpr double weight_unit = 0x1p20; // integer weight of one site's share
 
 /// The sampling cells of a tile in Hilbert order.
@@ -51,9 +51,9 @@ std::int64_t cell_weight(const TileSampler& sampler, std::uint64_t key, const me
 
 } // namespace
 
-std::vector<mesh::Site> hilbert_start(const comm::Communicator& comm, const TileRange& tiles, const BoundaryGuard& guard,
-                                      const sizing::SizeField& size, const geometry::Lattice& lattice, std::int64_t n,
-                                      std::uint64_t seed) {
+std::vector<mesh::Site> hilbert_start(const comm::Communicator& comm, const TileRange& tiles,
+                                      const BoundaryGuard& guard, const sizing::SizeField& size,
+                                      const geometry::Lattice& lattice, std::int64_t n, std::uint64_t seed) {
   const std::ptrdiff_t count = tiles.last - tiles.first;
   std::vector<std::int64_t> before(static_cast<std::size_t>(count) + 1, 0);
   const auto weight = [&](const TileSampler& sampler, std::uint64_t key) {

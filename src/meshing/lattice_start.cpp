@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace trime::meshing {
 namespace {
@@ -13,6 +14,50 @@ using geometry::Vec2;
 
 constexpr double row_height = 0.8660254037844386; // of the spacing: sqrt(3)/2
 constexpr double clearance = 0.45;                // of the spacing: experiments give 0.4 to 0.55 as best
+
+/// Which bins of a tile have a chord of the boundary within a margin: only there distances need a look.
+class NearBins {
+public:
+  NearBins(const mesh::TileGrid& grid, LocalIndex tile, const BoundaryGuard& guard, double margin)
+      : side_(grid.bins_per_side()), near_(static_cast<std::size_t>(side_) * side_, 0) {
+    const geometry::Box box = grid.tile_box(tile);
+    const double width = box.width() / side_, height = box.height() / side_;
+    for (int y = 0; y < side_; ++y)
+      for (int x = 0; x < side_; ++x) {
+        const Vec2 corner{box.min.x + x * width, box.min.y + y * height};
+        // The margin is doubled: rounding in the corners of a bin is far below it.
+        const geometry::Box reach{corner - Vec2{2 * margin, 2 * margin},
+                                  corner + Vec2{width + 2 * margin, height + 2 * margin}};
+        guard.chords().for_each_near(reach, [&](LocalIndex) {
+          near_[static_cast<std::size_t>(y) * side_ + x] = 1;
+          return false;
+        });
+      }
+  }
+  bool at(int bin) const { return near_[static_cast<std::size_t>(bin)] != 0; }
+
+private:
+  int side_;
+  std::vector<std::uint8_t> near_;
+};
+
+/// Smallest and largest t with from + t * direction inside the box; empty (first > second) if the line misses it.
+std::pair<double, double> clip_line(Vec2 from, Vec2 direction, const geometry::Box& box) {
+  double low = -INFINITY, high = INFINITY;
+  const auto clip = [&](double start, double slope, double min, double max) {
+    if (std::fabs(slope) < 1e-12) {
+      if (start < min || start > max)
+        low = INFINITY;
+      return;
+    }
+    const double a = (min - start) / slope, b = (max - start) / slope;
+    low = std::max(low, std::min(a, b));
+    high = std::min(high, std::max(a, b));
+  };
+  clip(from.x, direction.x, box.min.x, box.max.x);
+  clip(from.y, direction.y, box.min.y, box.max.y);
+  return {low, high};
+}
 
 } // namespace
 
@@ -33,34 +78,41 @@ LatticeStart::LatticeStart(const geometry::Boundary& boundary, const BoundaryGua
 }
 
 /// Visits the lattice sites of one tile, row by row. A site belongs to the tile of its snapped coordinates; rows and
-/// columns reach one beyond the tile's box, so rounding cannot lose any.
+/// columns reach a little beyond the tile's box, so rounding cannot lose any.
 template <class Visit>
 void LatticeStart::for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile, double spacing,
                                     const Visit& visit) const {
-  const geometry::Box box = grid.tile_box(tile);
+  geometry::Box box = grid.tile_box(tile);
+  box = {box.min - Vec2{0.1 * spacing, 0.1 * spacing}, box.max + Vec2{0.1 * spacing, 0.1 * spacing}};
   const Vec2 across = geometry::left_normal(along_);
-  const double height = row_height * spacing;
-  double low = INFINITY, high = -INFINITY, left = INFINITY, right = -INFINITY;
+  const double height = row_height * spacing, free = clearance * spacing;
+  double low = INFINITY, high = -INFINITY;
   for (const Vec2 corner : {box.min, Vec2{box.max.x, box.min.y}, box.max, Vec2{box.min.x, box.max.y}}) {
     low = std::min(low, geometry::dot(corner - origin_, across));
     high = std::max(high, geometry::dot(corner - origin_, across));
-    left = std::min(left, geometry::dot(corner - origin_, along_));
-    right = std::max(right, geometry::dot(corner - origin_, along_));
   }
-  const auto first_row = static_cast<std::int64_t>(std::floor(low / height)) - 1;
-  const auto last_row = static_cast<std::int64_t>(std::ceil(high / height)) + 1;
-  const auto first_column = static_cast<std::int64_t>(std::floor(left / spacing)) - 1;
-  const auto last_column = static_cast<std::int64_t>(std::ceil(right / spacing)) + 1;
-  for (std::int64_t row = first_row; row <= last_row; ++row)
-    for (std::int64_t column = first_column; column <= last_column; ++column) {
-      const double u = (static_cast<double>(column) + 0.5 * static_cast<double>(row & 1)) * spacing;
-      const Vec2 p = lattice_.snap(origin_ + u * along_ + (static_cast<double>(row) * height) * across);
-      if (!grid.container().contains(p) || grid.place(p).tile != tile)
+  const NearBins near(grid, tile, guard_, free);
+  const auto last_row = static_cast<std::int64_t>(std::ceil(high / height));
+  for (auto row = static_cast<std::int64_t>(std::floor(low / height)); row <= last_row; ++row) {
+    const Vec2 start = origin_ + (static_cast<double>(row) * height) * across;
+    const double shift = 0.5 * static_cast<double>(row & 1);
+    const auto [first, last] = clip_line(start, along_, box);
+    if (!(first <= last))
+      continue;
+    const auto last_column = static_cast<std::int64_t>(std::ceil(last / spacing - shift));
+    for (auto column = static_cast<std::int64_t>(std::floor(first / spacing - shift)); column <= last_column;
+         ++column) {
+      const Vec2 p = lattice_.snap(start + ((static_cast<double>(column) + shift) * spacing) * along_);
+      if (!grid.container().contains(p))
         continue;
-      const double free = clearance * spacing;
-      if (guard_.inside(p) && guard_.distance(p, free) >= free && !guard_.encroaches(p))
-        visit(p);
+      const mesh::TileGrid::Place place = grid.place(p);
+      if (place.tile != tile || !guard_.inside(p))
+        continue;
+      if (near.at(place.bin) && (guard_.distance(p, free) < free || guard_.encroaches(p)))
+        continue;
+      visit(p);
     }
+  }
 }
 
 std::vector<mesh::Site> LatticeStart::sites(const TileRange& tiles, double spacing) const {

@@ -19,9 +19,9 @@ namespace trime::meshing {
 namespace {
 
 constexpr double row_height = 0.8660254037844386;
-constexpr double cap_in_sizes = 2.5;         // circumradius that counts, in h: a relaxed mesh has 0.6, a start up to 1.5
-constexpr GlobalId few_points = 2000;        // below, the cap is the whole container
-constexpr double default_tolerance = 0.02;
+constexpr double cap_in_sizes = 2.5;  // circumradius that counts, in h: a relaxed mesh has 0.6, a start up to 1.5
+constexpr GlobalId few_points = 2000; // below, the cap is the whole container
+constexpr double default_tolerance = 0.04;
 constexpr int settle_rounds = 12, settle_pushes = 8;
 constexpr int spacing_rounds = 12;
 
@@ -61,19 +61,20 @@ private:
       set_size(options_.edge_length ? *options_.edge_length
                                     : estimated_size(boundary_.area, boundary_.length(), std::max(3.0, n)));
       if (options_.points && *options_.points < static_cast<GlobalId>(boundary_sites_.sites.size()))
-        throw ConfigError(fmt::format("points = {} are too few: the boundary alone needs {} (each corner, and each place "
-                                      "where the boundary comes near itself, takes its own); ask for more points",
-                                      *options_.points, boundary_sites_.sites.size()));
+        throw ConfigError(
+            fmt::format("points = {} are too few: the boundary alone needs {} (each corner, and each place "
+                        "where the boundary comes near itself, takes its own); ask for more points",
+                        *options_.points, boundary_sites_.sites.size()));
     });
-    log_.info("boundary: {} loops, {} sites, {} corners, h = {:.6g}", boundary_.loops.size(), boundary_sites_.sites.size(),
-              boundary_sites_.corners, reference_size_);
+    log_.info("boundary: {} loops, {} sites, {} corners, h = {:.6g}", boundary_.loops.size(),
+              boundary_sites_.sites.size(), boundary_sites_.corners, reference_size_);
   }
 
   void set_size(double h) {
     reference_size_ = h;
     size_ = std::make_unique<sizing::ScaledSize>(relative_size_, h);
     boundary_sites_ = make_boundary_sites(boundary_, *size_, lattice_, options_.corner_angle);
-    guard_ = std::make_unique<BoundaryGuard>(boundary_sites_);
+    guard_ = std::make_unique<BoundaryGuard>(boundary_sites_, lattice_);
   }
 
   void place_sites() {
@@ -92,12 +93,13 @@ private:
     state_->distribute(std::move(sites));
     const GlobalId placed = comm_.sum(std::int64_t{state_->points().owned()});
     make_builder(placed);
-    log_.info("start: {} points in {} tiles ({} x {} cells)", placed, grid.tile_count(), grid.cells_x(), grid.cells_y());
+    log_.info("start: {} points in {} tiles ({} x {} cells)", placed, grid.tile_count(), grid.cells_x(),
+              grid.cells_y());
   }
 
   std::vector<mesh::Site> inner_sites(const TileRange& tiles) {
-    const bool lattice_start = options_.start == Start::lattice ||
-                               (options_.start == Start::automatic && relative_size_.is_uniform());
+    const bool lattice_start =
+        options_.start == Start::lattice || (options_.start == Start::automatic && relative_size_.is_uniform());
     const GlobalId on_boundary = static_cast<GlobalId>(boundary_sites_.sites.size());
     if (lattice_start) {
       const LatticeStart start(boundary_, *guard_, lattice_);
@@ -107,30 +109,29 @@ private:
     const double n = options_.points ? static_cast<double>(*options_.points - on_boundary)
                                      : boundary_.area / (row_height * reference_size_ * reference_size_) -
                                            0.5 * static_cast<double>(on_boundary);
-    return hilbert_start(comm_, tiles, *guard_, *size_, lattice_, std::max<std::int64_t>(0, std::llround(n)), options_.seed);
+    return hilbert_start(comm_, tiles, *guard_, *size_, lattice_, std::max<std::int64_t>(0, std::llround(n)),
+                         options_.seed);
   }
 
-  /// @brief The smallest spacing found whose lattice has at most `wanted` sites: secant steps on the count, which falls
-  /// like the inverse square of the spacing. All ranks take the same steps.
+  /// @brief The smallest spacing found whose lattice has at most `wanted` sites. The count falls like the inverse
+  /// square of the spacing, in jumps where whole rows go: secant steps inside a bracket. All ranks take the same steps.
   double fitting_spacing(const LatticeStart& start, const TileRange& tiles, GlobalId wanted) {
-    double spacing = reference_size_, best = 0;
-    GlobalId best_count = -1;
-    for (int round = 0; round < spacing_rounds && best_count != wanted; ++round) {
+    const double none = 4 * (options_.container.width() + options_.container.height()); // no site fits at all
+    double low = 0, high = none, spacing = reference_size_;
+    GlobalId best = 0;
+    for (int round = 0; round < spacing_rounds && wanted - best > wanted / 5000; ++round) {
       const GlobalId count = comm_.sum(start.count(tiles, spacing));
-      if (count <= wanted && count > best_count) {
-        best = spacing;
-        best_count = count;
-        if (static_cast<double>(wanted - count) <= 2e-4 * static_cast<double>(wanted))
-          break;
+      if (count > wanted) {
+        low = spacing;
+      } else if (count >= best) {
+        high = spacing;
+        best = count;
       }
-      // Aim a little below the wanted number; small counts jump, so the step is at least half a percent there.
-      const double aim = std::max(0.5, static_cast<double>(wanted) * (1 - 1e-4));
-      const double factor = std::sqrt((static_cast<double>(count) + 0.5) / aim);
-      spacing *= std::abs(factor - 1) < 1e-7 ? 1 + 1e-4 : count > wanted ? std::max(factor, 1 + 2e-5) : factor;
+      const double guess =
+          spacing * std::sqrt((static_cast<double>(count) + 0.5) / (static_cast<double>(wanted) + 0.25));
+      spacing = guess > low && guess < high ? guess : 0.5 * (low + std::min(high, 2 * low + reference_size_));
     }
-    if (best_count < 0) // nothing fitted: so few are wanted that only the boundary remains
-      return 4 * (options_.container.width() + options_.container.height());
-    return best;
+    return high;
   }
 
   void make_builder(GlobalId points) {
@@ -171,9 +172,11 @@ private:
   SweepSums record_sweep(const delaunay::StarPass& pass, const MoveCounts& moved) {
     const auto time = timers_.scope("measure");
     SweepSums sums = measure({state_->points(), state_->stars(), *size_}, reference_size_);
-    const auto l = sums.squared_length_ratio.split(), s = sums.squared_size_ratio.split(), a = sums.excess_alpha.split();
-    std::array<std::int64_t, 12> packed{l.low, l.high, s.low, s.high, a.low, a.high, sums.triangles,
-                                        state_->points().owned(), pass.rebuilt, moved.moving, moved.pushed, moved.deleted};
+    const auto l = sums.squared_length_ratio.split(), s = sums.squared_size_ratio.split(),
+               a = sums.excess_alpha.split();
+    std::array<std::int64_t, 12> packed{l.low,        l.high,       s.low,          s.high,
+                                        a.low,        a.high,       sums.triangles, state_->points().owned(),
+                                        pass.rebuilt, moved.moving, moved.pushed,   moved.deleted};
     comm_.sum(packed);
     std::array<double, 2> largest{sums.max_alpha, moved.max_move};
     comm_.max(largest);
@@ -239,8 +242,10 @@ private:
 
   MeshResult extract() {
     const auto time = timers_.scope("extract");
+    state_->release_work_space();
     const ExtractionContext context = extraction();
-    const decomposition::Numbering numbering = decomposition::canonical_numbering(comm_, state_->points(), state_->halo());
+    const decomposition::Numbering numbering =
+        decomposition::canonical_numbering(comm_, state_->points(), state_->halo());
     MeshResult result;
     result.components = boundary_.components();
     result.holes = boundary_.holes();
@@ -280,6 +285,8 @@ Mesher::Mesher(const comm::Communicator& comm, const geometry::Boundary& boundar
     : implementation_(std::make_unique<Implementation>(comm, boundary, size, options, log, timers)) {}
 Mesher::~Mesher() = default;
 
-MeshResult Mesher::run() { return implementation_->run(); }
+MeshResult Mesher::run() {
+  return implementation_->run();
+}
 
 } // namespace trime::meshing

@@ -69,6 +69,13 @@ delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder
   throw InternalError(fmt::format("the halo still grows after {} rounds", max_halo_rounds));
 }
 
+void SiteState::release_work_space() {
+  points_.release_work_space();
+  stars_.release_work_space();
+  for (std::vector<LocalIndex>* list : {&stays_, &sorted_, &renumbering_})
+    std::vector<LocalIndex>().swap(*list);
+}
+
 std::size_t SiteState::memory_bytes() const {
   return points_.memory_bytes() + halo_.memory_bytes() + stars_.memory_bytes();
 }

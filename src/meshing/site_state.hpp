@@ -22,11 +22,12 @@ public:
 
   /// First sites, from any ranks: partitions the tiles by their counts. Collective.
   void distribute(std::vector<mesh::Site> sites);
-  /// @brief The owned sites moved: `sites[i]` is owned site i, or deleted where `deleted[i]`. Migrates, sorts, keeps the rings.
-  /// Collective.
+  /// @brief The owned sites moved: `sites[i]` is owned site i, or deleted where `deleted[i]`. Migrates, sorts, keeps
+  /// the rings. Collective.
   void move_sites(std::vector<mesh::Site>& sites, std::span<const std::uint8_t> deleted);
 
-  /// @brief Refreshes the halo and computes the wanted stars, asking for more bins until every one is certain. Collective.
+  /// @brief Refreshes the halo and computes the wanted stars, asking for more bins until every one is certain.
+  /// Collective.
   delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, Wanted wanted);
   /// Refreshes the ghosts. Collective among neighbours.
   void refresh_halo() { halo_.refresh(points_); }
@@ -38,6 +39,8 @@ public:
   const decomposition::Halo& halo() const { return halo_; }
   const decomposition::Partition& partition() const { return partition_; }
   const comm::Communicator& comm() const { return comm_; }
+  /// Frees what only further moves would need.
+  void release_work_space();
   std::size_t memory_bytes() const;
 
 private:

@@ -4,7 +4,7 @@
 namespace trime::meshing {
 namespace {
 
-constexpr double moving_share = 0.01;
+constexpr double still = 0.005; // of h
 constexpr int window = 5, earliest = 10;
 
 } // namespace
@@ -12,7 +12,7 @@ constexpr int window = 5, earliest = 10;
 std::optional<StopReason> StopRule::decide(const std::vector<SweepRecord>& history) const {
   const int n = static_cast<int>(history.size());
   const SweepRecord& last = history.back();
-  if (n > 1 && last.moving_share < moving_share)
+  if (n > 1 && last.max_move < still)
     return StopReason::converged;
   if (n >= earliest) {
     const double before = history[static_cast<std::size_t>(n - 1 - window)].mean_alpha - 1;

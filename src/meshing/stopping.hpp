@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When the sweeps end: from integer counts and fixed-point sums over all ranks only, never from times.
+// When the sweeps end: from maxima and fixed-point sums over all ranks only, never from times.
 #pragma once
 
 #include "trime/meshing/options.hpp"
@@ -9,7 +9,7 @@
 
 namespace trime::meshing {
 
-/// @brief Converged: less than 1 % of the sites moved by more than 0.005 h in the last sweep. Quality stalled: the mean of
+/// @brief Converged: no site moved by more than 0.005 h in the last sweep. Quality stalled: the mean of
 /// alpha - 1 fell by less than `tolerance` of itself over the last five sweeps, checked from sweep 10 on. Sweep cap.
 class StopRule {
 public:

@@ -11,11 +11,12 @@
 namespace trime::comm {
 
 /// @brief If any rank brings an error, all ranks throw the error of the lowest such rank (its message names the rank
-/// when there are several ranks and the failing one is not rank 0). Collective; one integer reduction in the normal case.
+/// when there are several ranks and the failing one is not rank 0). Collective; one integer reduction in the normal
+/// case.
 void agree(const Communicator& comm, const std::optional<Error>& error);
 
-/// @brief Runs `work` (which must not communicate) and agrees on what it threw. Anything that is not an Error becomes one:
-/// std::bad_alloc exit code 6, other exceptions exit code 1. Collective.
+/// @brief Runs `work` (which must not communicate) and agrees on what it threw. Anything that is not an Error becomes
+/// one: std::bad_alloc exit code 6, other exceptions exit code 1. Collective.
 void run_agreed(const Communicator& comm, const std::function<void()>& work);
 
 } // namespace trime::comm

@@ -39,6 +39,8 @@ class Communicator {
 public:
   /// All processes of the job. Collective.
   static Communicator world();
+  /// This process alone.
+  static Communicator self();
   Communicator(Communicator&&) noexcept;
   Communicator& operator=(Communicator&&) noexcept;
   ~Communicator();

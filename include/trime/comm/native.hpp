@@ -12,6 +12,8 @@ struct Communicator::Native {
   MPI_Comm comm = MPI_COMM_NULL;
 };
 
-inline MPI_Comm native_handle(const Communicator& communicator) { return communicator.native().comm; }
+inline MPI_Comm native_handle(const Communicator& communicator) {
+  return communicator.native().comm;
+}
 
 } // namespace trime::comm

@@ -14,10 +14,10 @@ namespace trime {
 enum class ExitCode : int {
   done = 0,
   internal_error = 1,
-  usage = 2,         ///< command line or config
-  geometry = 3,      ///< the shape cannot be meshed
-  file = 4,          ///< a file cannot be read or written
-  incomplete = 5,    ///< mesh written and marked: sweep cap reached or a check failed
+  usage = 2,      ///< command line or config
+  geometry = 3,   ///< the shape cannot be meshed
+  file = 4,       ///< a file cannot be read or written
+  incomplete = 5, ///< mesh written and marked: sweep cap reached or a check failed
   out_of_memory = 6,
   checkpointed = 75, ///< stopped at a checkpoint, run again
 };

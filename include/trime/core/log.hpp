@@ -18,11 +18,17 @@ public:
   Log(LogLevel level, bool active, std::FILE* stream = stdout);
 
   template <class... A>
-  void debug(fmt::format_string<A...> f, A&&... a) { write(LogLevel::debug, fmt::format(f, std::forward<A>(a)...)); }
+  void debug(fmt::format_string<A...> f, A&&... a) {
+    write(LogLevel::debug, fmt::format(f, std::forward<A>(a)...));
+  }
   template <class... A>
-  void info(fmt::format_string<A...> f, A&&... a) { write(LogLevel::info, fmt::format(f, std::forward<A>(a)...)); }
+  void info(fmt::format_string<A...> f, A&&... a) {
+    write(LogLevel::info, fmt::format(f, std::forward<A>(a)...));
+  }
   template <class... A>
-  void warning(fmt::format_string<A...> f, A&&... a) { write(LogLevel::warning, fmt::format(f, std::forward<A>(a)...)); }
+  void warning(fmt::format_string<A...> f, A&&... a) {
+    write(LogLevel::warning, fmt::format(f, std::forward<A>(a)...));
+  }
 
   /// One line about sweep number `step`: replaces the last one on a terminal; elsewhere only every `interval`-th step
   /// (interval 0: steps 1, 2, 5, 10, 20, 50, ...) or `force` is printed.

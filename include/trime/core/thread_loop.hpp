@@ -10,10 +10,14 @@
 namespace trime {
 
 /// Threads that a loop will use.
-inline int thread_count() { return omp_get_max_threads(); }
+inline int thread_count() {
+  return omp_get_max_threads();
+}
 
 /// Sets how many threads all later loops use. @pre threads >= 1
-inline void set_thread_count(int threads) { omp_set_num_threads(threads); }
+inline void set_thread_count(int threads) {
+  omp_set_num_threads(threads);
+}
 
 /// Calls body(item, thread) for item in [0, n), dynamically, `chunk` items at a time.
 template <class Body>

@@ -19,22 +19,23 @@ public:
   /// @pre both outlive this object
   Halo(const comm::Communicator& comm, const mesh::TileGrid& grid);
 
-  /// @brief Starts anew for a partition: subscribes to all foreign bins within `margin` bins of an owned tile. Collective.
+  /// @brief Starts anew for a partition: subscribes to all foreign bins within `margin` bins of an owned tile.
+  /// Collective.
   void reset(const Partition& partition, int margin);
 
   /// @brief Adds `bins` (of foreign tiles) to the subscriptions of this rank. Collective; ranks may ask for nothing.
   void subscribe(std::span<const mesh::BinRef> bins);
 
-  /// @brief Fetches the sites of all subscribed bins and puts them into `points` as ghosts. Collective among neighbours only.
-  /// Two messages per neighbour: site counts per bin, then the sites (24 bytes each).
+  /// @brief Fetches the sites of all subscribed bins and puts them into `points` as ghosts. Collective among neighbours
+  /// only. Two messages per neighbour: site counts per bin, then the sites (24 bytes each).
   void refresh(mesh::BinnedPoints& points);
 
-  /// @brief New local index by old index - owned for the ghosts of the last refresh, after a growth of the subscriptions with
-  /// unchanged sites. Valid until the next refresh.
+  /// @brief New local index by old index - owned for the ghosts of the last refresh, after a growth of the
+  /// subscriptions with unchanged sites. Valid until the next refresh.
   std::span<const LocalIndex> ghost_renumbering() const { return ghost_renumbering_; }
 
-  /// @brief The values of all ghosts, in ghost order, from the values of the owned sites. @pre refresh was called and no
-  /// site has changed since. Collective among neighbours only.
+  /// @brief The values of all ghosts, in ghost order, from the values of the owned sites. @pre refresh was called and
+  /// no site has changed since. Collective among neighbours only.
   std::vector<GlobalId> exchange(const mesh::BinnedPoints& points, std::span<const GlobalId> owned_values) const;
 
   /// Bins that this rank imports, ascending.

@@ -13,8 +13,8 @@ namespace trime::decomposition {
 /// Replicated: ranks + 1 integers. Ranks may own nothing.
 class Partition {
 public:
-  /// @brief Ranges of about equal weight. Tile t goes to rank floor(ranks * m / total), m being the weight before the middle of
-  /// t: monotone, so the ranges are contiguous. If all weights are zero the tiles are shared out evenly.
+  /// @brief Ranges of about equal weight. Tile t goes to rank floor(ranks * m / total), m being the weight before the
+  /// middle of t: monotone, so the ranges are contiguous. If all weights are zero the tiles are shared out evenly.
   Partition(std::span<const std::int64_t> tile_weights, int ranks);
   /// Tiles of equal weight.
   Partition(LocalIndex tiles, int ranks);

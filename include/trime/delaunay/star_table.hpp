@@ -44,13 +44,15 @@ public:
   bool certain(LocalIndex i) const { return certain_[static_cast<std::size_t>(i)] != 0; }
   void set_certain(LocalIndex i, bool certain) { certain_[static_cast<std::size_t>(i)] = certain; }
 
-  /// @brief Moves the rings to a new numbering of the owned sites. Rings with a neighbour that has no new index (a ghost, a
-  /// deleted or migrated site) become empty. All stars become uncertain. O(n); threads.
+  /// @brief Moves the rings to a new numbering of the owned sites. Rings with a neighbour that has no new index (a
+  /// ghost, a deleted or migrated site) become empty. All stars become uncertain. O(n); threads.
   /// @param new_index by old index of an owned site: its new index or -1
   void renumber(std::span<const LocalIndex> new_index, LocalIndex new_size);
   /// Renumbers ghosts in place: old local index i >= first becomes new_index[i - first].
   void renumber_ghosts(LocalIndex first, std::span<const LocalIndex> new_index);
 
+  /// Frees the second set of rings that renumber uses.
+  void release_work_space();
   std::size_t memory_bytes() const;
 
 private:

@@ -71,10 +71,12 @@ public:
   template <class Visit, class Missing>
   void for_each_near(geometry::Vec2 center, double reach, const Visit& visit, const Missing& missing) const;
 
+  /// Frees what the next assign_owned would use again.
+  void release_work_space();
   std::size_t memory_bytes() const;
 
 private:
-  struct Block { // bins of one tile that is owned or partly known
+  struct Block {           // bins of one tile that is owned or partly known
     std::size_t first_bin; // into bin_start_ and bin_known_
     bool complete;         // every bin known
   };
@@ -85,19 +87,21 @@ private:
   LocalIndex owned_ = 0, first_tile_ = 0, last_tile_ = 0;
   std::vector<geometry::Vec2> positions_;
   std::vector<std::int32_t> boundary_;
-  std::vector<std::uint8_t> pushes_; // owned only
-  std::vector<LocalIndex> tile_block_;   // by tile number: index into blocks_, -1 unknown; O(tiles of the container)
+  std::vector<std::uint8_t> pushes_;   // owned only
+  std::vector<LocalIndex> tile_block_; // by tile number: index into blocks_, -1 unknown; O(tiles of the container)
   std::vector<Block> blocks_;
   std::vector<LocalIndex> bin_begin_, bin_end_;
   std::vector<std::uint8_t> bin_known_;
   LocalIndex owned_blocks_ = 0;
+  std::vector<LocalIndex> kept_; // first owned site of each owned tile, and the end
   // Work space of assign_owned, kept between calls.
-  std::vector<LocalIndex> tile_start_, order_, kept_;
+  std::vector<LocalIndex> tile_start_, order_, sorted_, tile_of_;
   std::vector<std::int32_t> key_;
 };
 
 template <class Visit, class Missing>
-void BinnedPoints::for_each_near(geometry::Vec2 center, double reach, const Visit& visit, const Missing& missing) const {
+void BinnedPoints::for_each_near(geometry::Vec2 center, double reach, const Visit& visit,
+                                 const Missing& missing) const {
   const TileGrid& grid = *grid_;
   const int bits = grid.bin_bits(), mask = grid.bins_per_side() - 1;
   const int x0 = grid.bin_of(grid.fixed_x(center.x - reach)), x1 = grid.bin_of(grid.fixed_x(center.x + reach));

@@ -12,8 +12,8 @@
 
 namespace trime::mesh {
 
-/// @brief alpha = abc / (8 (s-a)(s-b)(s-c)) = R/(2r), s half the perimeter: 1 for an equilateral triangle, infinity for a
-/// flat one.
+/// @brief alpha = abc / (8 (s-a)(s-b)(s-c)) = R/(2r), s half the perimeter: 1 for an equilateral triangle, infinity for
+/// a flat one.
 double aspect_ratio(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
 /// beta = longest edge / shortest edge.
 double edge_ratio(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);

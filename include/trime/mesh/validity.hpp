@@ -8,11 +8,11 @@
 namespace trime::mesh {
 
 struct Check {
-  std::string name;     ///< lower case with underscores, also the name in the file
+  std::string name; ///< lower case with underscores, also the name in the file
   double expected = 0;
   double found = 0;
   bool passed = false;
-  std::string meaning;  ///< one line for the report
+  std::string meaning; ///< one line for the report
 };
 
 using Checks = std::vector<Check>;

@@ -15,8 +15,8 @@ namespace trime::meshing {
 
 class Mesher {
 public:
-  /// @brief Keeps references: all arguments must outlive the object. `boundary` and `size` are replicated: the same bits
-  /// on every rank.
+  /// @brief Keeps references: all arguments must outlive the object. `boundary` and `size` are replicated: the same
+  /// bits on every rank.
   Mesher(const comm::Communicator& comm, const geometry::Boundary& boundary, const sizing::SizeField& size,
          const MeshOptions& options, Log& log, TimerTable& timers);
   ~Mesher();

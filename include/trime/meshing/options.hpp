@@ -20,15 +20,15 @@ enum class Start { automatic, lattice, hilbert };
 
 struct MeshOptions {
   geometry::Box container{{0, 0}, {1, 1}};
-  std::optional<int> cells_x, cells_y;    ///< container grid; empty: about 3.3 points a cell
+  std::optional<int> cells_x, cells_y; ///< container grid; empty: about 3.3 points a cell
   Method method = Method::distmesh;
-  std::optional<GlobalId> points;         ///< exactly one of points and edge_length is set
-  std::optional<double> edge_length;      ///< target edge length (uniform size)
-  double corner_angle = 30;               ///< degrees
+  std::optional<GlobalId> points;    ///< exactly one of points and edge_length is set
+  std::optional<double> edge_length; ///< target edge length (uniform size)
+  double corner_angle = 30;          ///< degrees
   std::uint64_t seed = 1;
   int max_sweeps = 500;
-  std::optional<double> stop_tolerance;   ///< empty: the default of the method
-  Start start = Start::automatic;         ///< lattice for a uniform size field, else Hilbert quantiles
+  std::optional<double> stop_tolerance; ///< empty: the default of the method
+  Start start = Start::automatic;       ///< lattice for a uniform size field, else Hilbert quantiles
 };
 
 enum class StopReason { converged, quality_stalled, sweep_cap };
@@ -40,10 +40,10 @@ struct SweepRecord {
   int sweep = 0;
   GlobalId points = 0;
   double mean_alpha = 1, max_alpha = 1;
-  double max_move = 0;      ///< longest move over local h
-  double moving_share = 0;  ///< share of the sites that moved more than 0.005 h
+  double max_move = 0;     ///< longest move over local h
+  double moving_share = 0; ///< share of the sites that moved more than 0.005 h
   GlobalId rebuilt_stars = 0, pushed = 0, deleted = 0;
-  double seconds = 0;       ///< since the start of the run; differs from run to run
+  double seconds = 0; ///< since the start of the run; differs from run to run
 };
 
 struct MeshResult {

@@ -20,8 +20,8 @@ struct TileRange {
   LocalIndex first, last;
 };
 
-/// @brief Hexagonal lattice of a given spacing whose rows run along the longest straight side of the boundary, the first
-/// row one row height from it (axis-parallel if there is no straight side).
+/// @brief Hexagonal lattice of a given spacing whose rows run along the longest straight side of the boundary, the
+/// first row one row height from it (axis-parallel if there is no straight side).
 class LatticeStart {
 public:
   LatticeStart(const geometry::Boundary& boundary, const BoundaryGuard& guard, const geometry::Lattice& lattice);
@@ -40,12 +40,13 @@ private:
   geometry::Vec2 origin_, along_;
 };
 
-/// @brief Quantiles of the integral of h^-2 along the Hilbert curve, outside a strip of 0.43 h along the boundary: site j sits
-/// where the integral passes (j + 1/2) / n of its total. Weights are integers, so the sites are the same on any ranks;
-/// the count error in any interval of the curve is at most one, so long waves start quiet. Collective (one scan).
+/// @brief Quantiles of the integral of h^-2 along the Hilbert curve, outside a strip of 0.43 h along the boundary: site
+/// j sits where the integral passes (j + 1/2) / n of its total. Weights are integers, so the sites are the same on any
+/// ranks; the count error in any interval of the curve is at most one, so long waves start quiet. Collective (one
+/// scan).
 /// @param n number of sites over all ranks
-std::vector<mesh::Site> hilbert_start(const comm::Communicator& comm, const TileRange& tiles, const BoundaryGuard& guard,
-                                      const sizing::SizeField& size, const geometry::Lattice& lattice, std::int64_t n,
-                                      std::uint64_t seed);
+std::vector<mesh::Site> hilbert_start(const comm::Communicator& comm, const TileRange& tiles,
+                                      const BoundaryGuard& guard, const sizing::SizeField& size,
+                                      const geometry::Lattice& lattice, std::int64_t n, std::uint64_t seed);
 
 } // namespace trime::meshing

@@ -34,8 +34,8 @@ struct SweepSums {
 /// Sums over the inner owned sites. Threads over tiles. @param reference_size h_ref, any typical size
 SweepSums measure(const StarView& view, double reference_size);
 
-/// @brief A gather kernel: the new position of a site from its own ring, neighbours in canonical order, old positions only
-/// (Jacobi). The result must be a pure function of these coordinates, of h and of the sums over all ranks.
+/// @brief A gather kernel: the new position of a site from its own ring, neighbours in canonical order, old positions
+/// only (Jacobi). The result must be a pure function of these coordinates, of h and of the sums over all ranks.
 class UpdateRule {
 public:
   virtual ~UpdateRule() = default;
@@ -46,8 +46,8 @@ public:
 };
 
 /// @brief DistMesh (Persson and Strang 2004) as in TriMe++: bars repel where they are shorter than
-/// L0 = 1.2 h(mid) sqrt(sum L^2 / sum h^2); explicit Euler with step 0.3. Bars between two boundary sites are not in the
-/// sums, since the boundary is held.
+/// L0 = 1.2 h(mid) sqrt(sum L^2 / sum h^2); explicit Euler with step 0.3. Bars between two boundary sites are not in
+/// the sums, since the boundary is held.
 class DistMeshRule final : public UpdateRule {
 public:
   void begin_sweep(const SweepSums& sums) override;
