@@ -182,10 +182,6 @@ void apply_override(IniDocument& document, std::string_view text, Diagnostics& p
   const IniEntry entry{std::string(left.substr(0, dot)), std::string(left.substr(dot + 1)),
                        std::string(trim(text.substr(equals + 1))), command_line_origin};
   const IniEntry* known = document.find(entry.section, entry.key);
-  if (known && known->line == command_line_origin) {
-    problems.add(command_line_origin, fmt::format("{}.{} is given twice", entry.section, entry.key));
-    return;
-  }
   if (known)
     document.entries.erase(document.entries.begin() + (known - document.entries.data()));
   const bool section_known = std::any_of(document.sections.begin(), document.sections.end(),

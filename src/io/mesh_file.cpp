@@ -170,9 +170,26 @@ std::string field_group(const MeshFileOptions& options, const char* name) {
   return std::string(options.vtkhdf ? "/VTKHDF/" : "/Mesh/") + name;
 }
 
+/// Size of the file, a little too large.
+std::int64_t file_bytes(const MeshFileOptions& options, const mesh::DistributedMesh& mesh, const Metadata& metadata) {
+  const std::int64_t vtkhdf = options.vtkhdf ? 1 : 0, xdmf = options.xdmf ? 1 : 0;
+  const std::int64_t per_point = 9 + 24 * vtkhdf + 16 * xdmf, per_triangle = 12 + 33 * vtkhdf + 24 * xdmf;
+  constexpr std::int64_t headers = 64 << 10, per_facet = 20;
+  std::int64_t bytes = headers + per_point * mesh.point_slab.total + per_triangle * mesh.triangle_slab.total +
+                       per_facet * mesh.facet_slab.total;
+  for (const Text& text : metadata.texts)
+    bytes += static_cast<std::int64_t>(text.text.size());
+  for (const MetadataGroup& group : metadata.groups)
+    for (const Column& column : group.columns)
+      bytes +=
+          std::visit([](const auto& values) { return static_cast<std::int64_t>(64 * values.size()); }, column.values);
+  return bytes + bytes / 16; // alignment of large arrays
+}
+
 void write_hdf5(const std::string& path, const MeshFileOptions& options, const mesh::DistributedMesh& mesh,
                 const Metadata& metadata, const comm::Communicator& comm) {
   SlabFile file(comm, path);
+  file.reserve(file_bytes(options, mesh, metadata));
   file.group("/Mesh");
   if (options.vtkhdf)
     write_vtkhdf(file, mesh);

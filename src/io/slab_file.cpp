@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/slab_file.hpp"
 
+#include "io/temporary_file.hpp"
 #include "trime/comm/agree.hpp"
 #include "trime/comm/native.hpp"
 
@@ -108,6 +109,13 @@ SlabFile::SlabFile(const comm::Communicator& comm, std::string path) : comm_(com
 
 std::string SlabFile::action(const std::string& verb, const std::string& what) const {
   return fmt::format("{} {} in {}", verb, what, path_);
+}
+
+void SlabFile::reserve(std::int64_t bytes) {
+  comm::run_agreed(comm_, [&] {
+    if (comm_.is_root())
+      reserve_space(path_, bytes);
+  });
 }
 
 void SlabFile::group(const std::string& path) {

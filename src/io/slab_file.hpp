@@ -38,6 +38,11 @@ public:
   /// Creates or empties the file. One rank uses the plain driver, several MPI-IO.
   SlabFile(const comm::Communicator& comm, std::string path);
 
+  /// @brief Sees that the file system has room for `bytes`, and takes it where it can be taken. When a disk fills up
+  /// inside a collective write, Open MPI tells only some of the ranks and the others wait for ever: better to know
+  /// before.
+  void reserve(std::int64_t bytes);
+
   void group(const std::string& path);
   void hard_link(const std::string& existing, const std::string& path);
   /// `object` is the path of a group or dataset.

@@ -5,6 +5,8 @@
 #include "trime/io/mesh_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -60,6 +62,9 @@ TemporaryFile::~TemporaryFile() {
 }
 
 void TemporaryFile::publish(const std::string& final_path) {
+  struct stat status {};
+  if (stat(path_.c_str(), &status) == 0 && truncate(path_.c_str(), status.st_size) != 0)
+    throw FileError(fmt::format("cannot write {}: {}", path_, system_error()));
   synchronise(path_, O_RDWR);
   if (std::rename(path_.c_str(), final_path.c_str()) != 0)
     throw FileError(fmt::format("cannot rename {} to {}: {}", path_, final_path, system_error()));
@@ -76,6 +81,28 @@ void remove_temporary_file() noexcept {
 std::string temporary_name(const std::string& final_path) {
   const char* job = std::getenv("SLURM_JOB_ID");
   return final_path + ".tmp-" + (job && *job ? std::string(job) : std::to_string(getpid()));
+}
+
+void reserve_space(const std::string& path, std::int64_t bytes) {
+  const auto too_small = [&](const std::string& reason) {
+    return FileError(fmt::format("{} needs {:.1f} MiB: {}; free some space, or set output.directory", path,
+                                 static_cast<double>(bytes) / 0x1p20, reason));
+  };
+  const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0)
+    throw FileError(fmt::format("cannot open {}: {}", path, system_error()));
+  const int result = fallocate(descriptor, FALLOC_FL_KEEP_SIZE, 0, bytes);
+  const int code = errno;
+  struct statvfs space {};
+  const bool known = fstatvfs(descriptor, &space) == 0;
+  ::close(descriptor);
+  if (result == 0)
+    return;
+  if (code == ENOSPC || code == EDQUOT || code == EFBIG)
+    throw too_small(std::strerror(code));
+  const double available = static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize);
+  if (known && space.f_blocks > 0 && available < static_cast<double>(bytes)) // some file systems tell nothing
+    throw too_small(fmt::format("only {:.1f} MiB are free", available / 0x1p20));
 }
 
 void write_text_file(const std::string& final_path, const std::string& text) {

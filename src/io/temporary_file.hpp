@@ -2,6 +2,7 @@
 // Files that appear whole or not at all: written under a temporary name, synchronised, renamed. Serial: rank 0 only.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace trime::io {
@@ -16,7 +17,8 @@ public:
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   const std::string& path() const { return path_; }
-  /// Brings the bytes to the disk, then renames, then brings the directory to the disk. @throws FileError
+  /// Gives back reserved space, brings the bytes to the disk, then renames, then brings the directory to the disk.
+  /// @throws FileError
   void publish(const std::string& final_path);
 
 private:
@@ -26,6 +28,10 @@ private:
 
 /// `final_path` + ".tmp-" + the job's id under SLURM, else the process id.
 std::string temporary_name(const std::string& final_path);
+
+/// @brief Takes `bytes` of disk space for a file that exists, without changing its size; where the file system cannot
+/// do that, compares with the free space. @throws FileError if there is not enough
+void reserve_space(const std::string& path, std::int64_t bytes);
 
 /// Writes a text to `final_path`, whole or not at all. @throws FileError
 void write_text_file(const std::string& final_path, const std::string& text);

@@ -64,7 +64,8 @@ struct IniDocument {
 IniDocument parse_ini(std::string_view text, Diagnostics& problems);
 
 /// @brief Sets one value as given on the command line: `section.key=value`, the section being all before the last dot
-/// of the left side. An empty value takes the entry away, so that the default holds. Replaces what the file says.
+/// of the left side. An empty value takes the entry away, so that the default holds. Replaces what the file or an
+/// earlier override says: scripts append the wishes of their users to their own.
 void apply_override(IniDocument& document, std::string_view text, Diagnostics& problems);
 
 /// @brief The candidate that differs from `word` by the fewest insertions, deletions, replacements and swaps of

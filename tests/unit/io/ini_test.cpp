@@ -65,7 +65,8 @@ TEST(Ini, EmptyTextIsAnEmptyDocument) {
 TEST(Ini, OverrideReplacesAddsAndRemoves) {
   Diagnostics problems("a.ini");
   IniDocument document = parse_ini("[meshing]\npoints = 10\nseed = 3\n", problems);
-  apply_override(document, "meshing.points = 20", problems);
+  apply_override(document, "meshing.points = 15", problems);
+  apply_override(document, "meshing.points = 20", problems); // the last one holds
   apply_override(document, "shape.hole.radius=0.2", problems);
   apply_override(document, "meshing.seed=", problems);
   EXPECT_TRUE(problems.empty()) << problems.text();
@@ -78,11 +79,10 @@ TEST(Ini, OverrideReplacesAddsAndRemoves) {
 TEST(Ini, BadOverridesNameTheCommandLine) {
   Diagnostics problems("a.ini");
   IniDocument document;
-  for (const char* text : {"points", "points=3", ".points=3", "meshing.=3", "", "a.b=1", "a.b=2"})
+  for (const char* text : {"points", "points=3", ".points=3", "meshing.=3", ""})
     apply_override(document, text, problems);
-  EXPECT_EQ(problems.size(), 6u);
+  EXPECT_EQ(problems.size(), 5u);
   EXPECT_EQ(problems.text().rfind("command line: expected section.key=value, found 'points'", 0), 0u);
-  EXPECT_NE(problems.text().find("command line: a.b is given twice"), std::string::npos);
   EXPECT_THROW(problems.throw_if_any(), ConfigError);
 }
 
