@@ -12,7 +12,7 @@ import h5py
 from trime_run import ROOT, Workspace, command, environment
 
 CONFIG = ROOT / "configs" / "square.ini"
-POINTS = 150_000
+LONG, SHORT = 2_000_000, 100_000  # points: far from its end after a second; soon at its end
 PATIENCE = 100  # seconds
 
 
@@ -31,15 +31,15 @@ def processes_of(directory):
 
 
 class Interrupted(unittest.TestCase):
-    def start(self, directory):
+    def start(self, directory, points):
         """Starts a run on 2 ranks."""
-        arguments = [CONFIG, f"meshing.points={POINTS}", f"output.directory={directory}", "output.name=mesh"]
+        arguments = [CONFIG, f"meshing.points={points}", f"output.directory={directory}", "output.name=mesh"]
         return subprocess.Popen(command(arguments, 2), env=environment(1), stdout=subprocess.DEVNULL,
                                 stderr=subprocess.DEVNULL)
 
-    def kill_when(self, directory, due, number):
+    def kill_when(self, directory, points, due, number):
         """Sends the signal to mpirun as soon as due() holds, and waits until no rank is left."""
-        mpirun = self.start(directory)
+        mpirun = self.start(directory, points)
         end = time.monotonic() + PATIENCE
         while not due() and mpirun.poll() is None and time.monotonic() < end:
             time.sleep(0.002)
@@ -56,14 +56,14 @@ class Interrupted(unittest.TestCase):
             return False
         with h5py.File(mesh, "r") as file:
             self.assertEqual(int(file["trime_mpi"].attrs["complete"]), 1)
-            self.assertGreater(file["Mesh/mesh/topology"][:].max(), POINTS // 2)
+            self.assertGreater(file["Mesh/mesh/topology"][:].max(), SHORT // 2)
         return True
 
     def test_killed_while_meshing(self):
         for number in (signal.SIGKILL, signal.SIGTERM):
             with self.subTest(signal=number), Workspace() as directory:
                 begin = time.monotonic()
-                self.kill_when(directory, lambda: time.monotonic() > begin + 0.8, number)
+                self.kill_when(directory, LONG, lambda: time.monotonic() > begin + 1, number)
                 self.assertFalse(self.assert_nothing_or_whole(directory), "the run ended before it could be killed")
 
     def test_killed_while_writing(self):
@@ -71,7 +71,7 @@ class Interrupted(unittest.TestCase):
             with self.subTest(signal=number), Workspace() as directory:
                 def written(folder=directory):
                     return any(".tmp-" in path.name and path.stat().st_size > 100_000 for path in folder.iterdir())
-                self.kill_when(directory, written, number)
+                self.kill_when(directory, SHORT, written, number)
                 self.assert_nothing_or_whole(directory)
 
 
