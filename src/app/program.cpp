@@ -64,7 +64,11 @@ struct Job {
 };
 
 ExitCode make_mesh(const Job& job) {
-  const auto& [comm, line, config_text, options, log, timers] = job;
+  const comm::Communicator& comm = job.comm;
+  const RunOptions& options = job.options;
+  const Action action = job.line.action;
+  Log& log = job.log;
+  TimerTable& timers = job.timers;
   const Placement placement = place_threads(options.threads, comm);
   report_placement(placement, comm, log);
   for (const std::string& warning : options.warnings)
@@ -74,8 +78,8 @@ ExitCode make_mesh(const Job& job) {
     const auto timing = timers.scope("shape");
     return build_shape(options, comm, log);
   }();
-  if (line.action == Action::validate || line.action == Action::dry_run) {
-    print(comm, estimate(options, shape.boundary(), placement, line.action == Action::dry_run));
+  if (action == Action::validate || action == Action::dry_run) {
+    print(comm, estimate(options, shape.boundary(), placement, action == Action::dry_run));
     return ExitCode::done;
   }
   if (options.write_final)
@@ -92,8 +96,8 @@ ExitCode make_mesh(const Job& job) {
 
   io::WrittenFiles files;
   if (options.write_final) {
-    const io::Metadata metadata = describe_run({line, options, config_text, placement, shape.boundary()}, result,
-                                               gather_measurements(timers, comm));
+    const io::Metadata metadata = describe_run({job.line, options, job.config_text, placement, shape.boundary()},
+                                               result, gather_measurements(timers, comm));
     const auto timing = timers.scope("output");
     files = io::write_mesh(options.output, result.mesh, metadata, comm);
   }

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The report: its time table adds up, and a mesh that failed is never told as if it were good.
+#include "app/run_report.hpp"
+
+#include <gtest/gtest.h>
+
+namespace trime::app {
+namespace {
+
+meshing::MeshResult good_result() {
+  meshing::MeshResult result;
+  result.mesh.point_slab.total = 1000;
+  result.mesh.triangle_slab.total = 1900;
+  result.mesh.hash = 0x1234;
+  result.checks = {{"not_delaunay", 0, 0, true, "edges"}};
+  result.stop_reason = meshing::StopReason::converged;
+  return result;
+}
+
+TEST(RunReport, TheTimeTableAddsUpOverRanks) {
+  const comm::Communicator comm = comm::Communicator::world();
+  TimerTable timers;
+  timers.add("stars", 0.001 * (1 + comm.rank()));
+  if (comm.rank() == 1)
+    timers.add("known to rank 1 only", 0.001);
+  const Measurements measured = gather_measurements(timers, comm);
+  ASSERT_EQ(measured.times.size(), 2u);
+  EXPECT_EQ(measured.times[1].section, "other");
+  EXPECT_DOUBLE_EQ(measured.times[0].min, 0.001);
+  EXPECT_DOUBLE_EQ(measured.times[0].max, 0.001 * comm.size());
+  EXPECT_NEAR(measured.times[0].mean, 0.0005 * (1 + comm.size()), 1e-6);
+  EXPECT_DOUBLE_EQ(measured.times[0].mean + measured.times[1].mean, measured.total);
+  EXPECT_GE(measured.memory_sum, measured.peak_memory);
+  EXPECT_GT(measured.peak_memory, 1 << 20);
+}
+
+TEST(RunReport, MarksWhatIsNotComplete) {
+  meshing::MeshResult result = good_result();
+  EXPECT_TRUE(is_complete(result));
+  const std::string good = run_report(result, {}, {});
+  EXPECT_NE(good.find("0000000000001234"), std::string::npos);
+  EXPECT_EQ(good.find("FAILED"), std::string::npos);
+  EXPECT_EQ(good.find("NOT complete"), std::string::npos);
+  result.checks[0] = {"not_delaunay", 0, 3, false, "edges"};
+  EXPECT_FALSE(is_complete(result));
+  EXPECT_NE(run_report(result, {}, {}).find("FAILED not_delaunay"), std::string::npos);
+  EXPECT_NE(run_report(result, {}, {}).find("a check failed"), std::string::npos);
+  result = good_result();
+  result.stop_reason = meshing::StopReason::sweep_cap;
+  EXPECT_FALSE(is_complete(result));
+  EXPECT_NE(run_report(result, {}, {}).find("sweep cap"), std::string::npos);
+}
+
+TEST(Placement, SharesCoresAndObeysWishes) {
+  const comm::Communicator comm = comm::Communicator::world();
+  const Placement asked = place_threads(1, comm);
+  EXPECT_EQ(asked.threads, 1);
+  EXPECT_EQ(asked.ranks, comm.size());
+  EXPECT_EQ(asked.nodes, 1);
+  EXPECT_GE(asked.cores, 1);
+  EXPECT_LE(asked.sharing, comm.size());
+  EXPECT_GE(place_threads(0, comm).threads, 1);
+}
+
+} // namespace
+} // namespace trime::app

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line: actions, options that stand for overrides, and what is refused.
+#include "app/command_line.hpp"
+
+#include "trime/core/error.hpp"
+
+#include <gtest/gtest.h>
+
+namespace trime::app {
+namespace {
+
+CommandLine parse(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "trime_mpi");
+  return parse_command_line(static_cast<int>(arguments.size()), arguments.data());
+}
+
+TEST(CommandLine, ReadsConfigOverridesAndOptionsInAnyOrder) {
+  const CommandLine line = parse({"--threads", "3", "a.ini", "shape.hole.radius=0.2", "--quiet", "log.interval=5"});
+  EXPECT_EQ(line.action, Action::mesh);
+  EXPECT_EQ(line.config, "a.ini");
+  EXPECT_EQ(line.overrides, (std::vector<std::string>{"shape.hole.radius=0.2", "log.interval=5",
+                                                      "parallel.mesh_threads=3", "log.level=warning"}));
+  EXPECT_EQ(line.as_given.rfind("trime_mpi --threads 3 a.ini", 0), 0u);
+}
+
+TEST(CommandLine, KnowsItsActions) {
+  EXPECT_EQ(parse({"a.ini", "--validate"}).action, Action::validate);
+  EXPECT_EQ(parse({"a.ini", "--dry-run"}).action, Action::dry_run);
+  EXPECT_EQ(parse({"--print-config", "a.ini"}).action, Action::print_config);
+  EXPECT_EQ(parse({"--version"}).action, Action::version);
+  EXPECT_EQ(parse({"--help-config"}).action, Action::help_config);
+  EXPECT_EQ(parse({"--help"}).action, Action::help);
+  EXPECT_NE(parse({"--help"}).help.find("--log-level"), std::string::npos);
+}
+
+TEST(CommandLine, RefusesWhatItCannotDo) {
+  EXPECT_THROW(parse({}), ConfigError);
+  EXPECT_THROW(parse({"--validate"}), ConfigError);
+  EXPECT_THROW(parse({"a.ini", "--no-such-option"}), ConfigError);
+  EXPECT_THROW(parse({"a.ini", "--threads"}), ConfigError);
+  EXPECT_THROW(parse({"a.ini", "--restart", "f"}), ConfigError);
+  EXPECT_THROW(parse({"a.ini", "--time-limit", "1:00:00"}), ConfigError);
+  EXPECT_THROW(parse({"a.ini", "--quiet", "--log-level", "debug"}), ConfigError);
+}
+
+} // namespace
+} // namespace trime::app
