@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/delaunay/star_builder.hpp"
 
+#include "delaunay/double2.hpp"
 #include "delaunay/star_kernel.hpp"
 #include "trime/core/thread_loop.hpp"
 #include "trime/geometry/predicates.hpp"
@@ -151,12 +152,7 @@ private:
     points_.for_each_near(
         center_, reach,
         [&](LocalIndex begin, LocalIndex end) {
-          const Vec2 center = center_;
-          const Vec2* position = positions_;
-          int count = 0;
-          for (LocalIndex j = begin; j < end; ++j)
-            count += geometry::squared_length(position[j] - center) <= r2;
-          inside += count;
+          inside += count_within(positions_ + begin, positions_ + end, center_, r2);
         },
         miss);
     if (inside != kernel_.members_within(r2))
@@ -179,7 +175,7 @@ private:
   }
 
   /// Does the triangle between neighbours k and k+1 count?
-  bool counts(std::size_t k) const {
+  bool counts(std::size_t k) {
     const std::size_t next = k + 1 == kernel_.degree() ? 0 : k + 1;
     if (kernel_.id(k) < 0 || kernel_.id(next) < 0)
       return false;

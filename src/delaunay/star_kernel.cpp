@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "delaunay/star_kernel.hpp"
 
+#include "delaunay/double2.hpp"
 #include "trime/geometry/predicates.hpp"
 
 #include <algorithm>
@@ -54,12 +55,12 @@ StarKernel::StarKernel(const geometry::Lattice& lattice, double virtual_distance
 }
 
 void StarKernel::reserve(std::size_t degree) {
-  if (degree + 2 <= x_.size())
+  if (degree + 4 <= x_.size())
     return;
-  id_.resize(2 * degree);
+  id_.resize(2 * degree + 4);
   for (std::vector<double>* list :
        {&x_, &y_, &vertex_x_, &vertex_y_, &vertex_error_, &vertex_r2_, &depth_, &tolerance_})
-    list->resize(2 * degree);
+    list->resize(2 * degree + 4);
 }
 
 void StarKernel::set_vertex(std::size_t k, std::size_t next) {
@@ -100,6 +101,7 @@ std::size_t StarKernel::smallest() const {
 void StarKernel::start_virtual() {
   degree_ = 4;
   squared_radius_ = -1;
+  vertices_known_ = true;
   for (std::size_t k = 0; k < 4; ++k) {
     id_[k] = -2 - static_cast<LocalIndex>(k);
     x_[k] = square_[k].x;
@@ -121,46 +123,60 @@ bool StarKernel::start_ring(std::span<const LocalIndex> ids, const Vec2* positio
     x_[k] = p.x - center.x;
     y_[k] = p.y - center.y;
   }
-  for (std::size_t k = 0; k < 2; ++k) { // cyclic padding for the loops below
+  for (std::size_t k = 0; k < 3; ++k) { // cyclic padding for the loops over pairs
     x_[n + k] = x_[k];
     y_[n + k] = y_[k];
   }
+  vertices_known_ = false;
   return is_locally_convex();
 }
 
-/// Every neighbour lies outside the disc of the vertex before it: with one counter-clockwise turn, that makes the ring
-/// the edges of a convex cell in order.
+/// @brief Every neighbour lies outside the disc of the two before it: with one counter-clockwise turn, that makes the
+/// ring the edges of a convex cell in order.
+///
+/// For consecutive neighbours a, b, q the determinant (positive: q is outside) is |a|^2 b x q + |b|^2 q x a + |q|^2 a x
+/// b; the sum of the magnitudes in it is at most |a|^2 |b|^2 + |b|^2 |q|^2 + |q|^2 |a|^2, since |ux vy| + |uy vx| <=
+/// (u^2 + v^2) / 2. The squared circumradius |a|^2 |b|^2 |a - b|^2 / (4 (a x b)^2) is known to 1e-8 of itself where a x
+/// b is at least 1e-7 of |a|^2 + |b|^2; flatter stars are left to the other path.
 bool StarKernel::is_locally_convex() {
   const std::size_t n = degree_;
-  int turns = 0, unsound = 0, undecided = 0;
-  double r2 = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    const Vertex v = circumcenter(x_[k], y_[k], x_[k + 1], y_[k + 1]);
-    turns += (y_[k] < 0) & (y_[k + 1] >= 0);
-    unsound |= !v.sound;
-    vertex_x_[k] = v.x;
-    vertex_y_[k] = v.y;
-    vertex_error_[k] = v.error;
-    vertex_r2_[k] = v.r2;
-    r2 = std::max(r2, v.r2);
-    const double qx = x_[k + 2], qy = y_[k + 2], q1 = std::fabs(qx) + std::fabs(qy);
-    depth_[k] = 2 * (v.x * qx + v.y * qy) - (qx * qx + qy * qy);
-    tolerance_[k] = v.error * q1 + 8 * epsilon * q1 * q1;
-    undecided |= !(depth_[k] < -tolerance_[k]);
+  Mask2 bad{0, 0}, undecided{0, 0};
+  Double2 largest = both(0);
+  for (std::size_t k = 0; k < n; k += 2) { // for odd n the last pair repeats the first neighbour
+    const Double2 ax = load2(&x_[k]), bx = load2(&x_[k + 1]), qx = load2(&x_[k + 2]);
+    const Double2 ay = load2(&y_[k]), by = load2(&y_[k + 1]), qy = load2(&y_[k + 2]);
+    const Double2 a2 = ax * ax + ay * ay, b2 = bx * bx + by * by, q2 = qx * qx + qy * qy;
+    const Double2 ab = ax * by - ay * bx, bq = bx * qy - by * qx, qa = qx * ay - qy * ax;
+    const Double2 determinant = a2 * bq + b2 * qa + q2 * ab;
+    const Double2 magnitude = a2 * b2 + b2 * q2 + q2 * a2;
+    undecided |= ~(determinant > both(20 * epsilon) * magnitude);
+    bad |= ~(ab > both(1e-7) * (a2 + b2));
+    const Double2 ex = ax - bx, ey = ay - by;
+    largest = max2(largest, a2 * b2 * (ex * ex + ey * ey) / (both(4) * ab * ab));
   }
-  if (turns != 1 || unsound)
-    return false;
-  squared_radius_ = r2;
-  if (!undecided)
-    return true;
+  int turns = 0;
   for (std::size_t k = 0; k < n; ++k)
-    if (is_cut(k, {x_[k + 2], y_[k + 2]}))
-      return false;
+    turns += (y_[k] < 0) & (y_[k + 1] >= 0);
+  if (any(bad) || turns != 1)
+    return false;
+  squared_radius_ = std::max(largest[0], largest[1]) * (1 + 1e-7);
+  if (any(undecided))
+    for (std::size_t k = 0; k < n; ++k)
+      if (geometry::in_circle(Vec2{}, offset(k), offset(next(k)), {x_[k + 2], y_[k + 2]}, lattice_) > 0)
+        return false;
   return true;
+}
+
+void StarKernel::find_vertices() {
+  for (std::size_t k = 0; k < degree_; ++k)
+    set_vertex(k, next(k));
+  vertices_known_ = true;
 }
 
 bool StarKernel::insert(LocalIndex id, Vec2 q) {
   const double q2 = geometry::dot(q, q), q1 = std::fabs(q.x) + std::fabs(q.y);
+  if (!vertices_known_)
+    find_vertices();
   const std::size_t n = degree_;
   bool possible = false;
   for (std::size_t k = 0; k < n; ++k) {

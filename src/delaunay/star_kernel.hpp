@@ -44,7 +44,11 @@ public:
   LocalIndex id(std::size_t k) const { return id_[k]; }
   geometry::Vec2 offset(std::size_t k) const { return {x_[k], y_[k]}; }
   /// Upper bound of the squared circumradius of the triangle between neighbours k and k+1.
-  double squared_radius(std::size_t k) const { return vertex_r2_[k]; }
+  double squared_radius(std::size_t k) {
+    if (!vertices_known_)
+      find_vertices();
+    return vertex_r2_[k];
+  }
   /// Neighbours at squared distance at most r2.
   std::ptrdiff_t members_within(double r2) const {
     std::ptrdiff_t n = 0;
@@ -62,6 +66,7 @@ private:
   /// Does the site at q, of which depth_ and tolerance_ speak, lie in the disc of vertex k? Exact.
   bool is_cut(std::size_t k, geometry::Vec2 q) const;
   bool is_locally_convex();
+  void find_vertices();
   void replace(std::size_t first_cut, std::size_t cuts, LocalIndex id, geometry::Vec2 q);
   void shift(std::size_t from, std::size_t to, std::size_t count);
   std::size_t next(std::size_t k) const { return k + 1 == degree_ ? 0 : k + 1; }
@@ -72,6 +77,7 @@ private:
   double square_error_ = 0, square_r2_ = 0;
   double squared_radius_ = -1; // negative: not known
   std::size_t degree_ = 0;
+  bool vertices_known_ = false; // a ring that is only checked needs none
   std::vector<LocalIndex> id_;
   std::vector<double> x_, y_; // neighbours
   std::vector<double> vertex_x_, vertex_y_;

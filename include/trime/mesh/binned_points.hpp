@@ -80,6 +80,8 @@ private:
     std::size_t first_bin; // into bin_start_ and bin_known_
     bool complete;         // every bin known
   };
+  template <class Visit, class Missing>
+  void visit_row(BinRef first_bin, int bx0, int bx1, const Visit& visit, const Missing& missing) const;
   void sort_into_tiles(std::span<const Site> sites);
   LocalIndex sort_tile(std::span<const Site> sites, LocalIndex tile);
 
@@ -106,33 +108,48 @@ void BinnedPoints::for_each_near(geometry::Vec2 center, double reach, const Visi
   const int bits = grid.bin_bits(), mask = grid.bins_per_side() - 1;
   const int x0 = grid.bin_of(grid.fixed_x(center.x - reach)), x1 = grid.bin_of(grid.fixed_x(center.x + reach));
   const int y0 = grid.bin_of(grid.fixed_y(center.y - reach)), y1 = grid.bin_of(grid.fixed_y(center.y + reach));
-  for (int ty = y0 >> bits; ty <= y1 >> bits; ++ty)
-    for (int tx = x0 >> bits; tx <= x1 >> bits; ++tx) {
-      const LocalIndex tile = grid.tile_at(tx, ty);
-      const LocalIndex block = tile_block_[static_cast<std::size_t>(tile)];
-      const int bx0 = tx == x0 >> bits ? x0 & mask : 0, bx1 = tx == x1 >> bits ? x1 & mask : mask;
-      const int by0 = ty == y0 >> bits ? y0 & mask : 0, by1 = ty == y1 >> bits ? y1 & mask : mask;
-      for (int by = by0; by <= by1; ++by) {
-        const int row = by << bits;
-        if (block < 0) {
-          for (int bx = bx0; bx <= bx1; ++bx)
-            missing(BinRef{tile, row | bx});
-          continue;
-        }
-        const Block& b = blocks_[static_cast<std::size_t>(block)];
-        const std::size_t first = b.first_bin + static_cast<std::size_t>(row);
-        if (b.complete) { // the bins of a row are contiguous in memory
-          visit(bin_begin_[first + bx0], bin_end_[first + bx1]);
-          continue;
-        }
-        for (int bx = bx0; bx <= bx1; ++bx) {
-          if (bin_known_[first + bx])
-            visit(bin_begin_[first + bx], bin_end_[first + bx]);
-          else
-            missing(BinRef{tile, row | bx});
-        }
-      }
+  const int tx0 = x0 >> bits, tx1 = x1 >> bits, ty0 = y0 >> bits, ty1 = y1 >> bits;
+  if (tx0 == tx1 && ty0 == ty1) { // most squares lie in one tile
+    const LocalIndex block = tile_block_[static_cast<std::size_t>(grid.tile_at(tx0, ty0))];
+    if (block >= 0 && blocks_[static_cast<std::size_t>(block)].complete) {
+      const std::size_t first = blocks_[static_cast<std::size_t>(block)].first_bin;
+      const LocalIndex* begin = bin_begin_.data() + first + (x0 & mask);
+      const LocalIndex* end = bin_end_.data() + first + (x1 & mask);
+      for (int row = (y0 & mask) << bits; row <= (y1 & mask) << bits; row += mask + 1)
+        visit(begin[row], end[row]); // the bins of a row are contiguous in memory
+      return;
     }
+  }
+  for (int ty = ty0; ty <= ty1; ++ty)
+    for (int tx = tx0; tx <= tx1; ++tx) {
+      const int bx0 = tx == tx0 ? x0 & mask : 0, bx1 = tx == tx1 ? x1 & mask : mask;
+      const int by0 = ty == ty0 ? y0 & mask : 0, by1 = ty == ty1 ? y1 & mask : mask;
+      for (int by = by0; by <= by1; ++by)
+        visit_row({grid.tile_at(tx, ty), by << bits}, bx0, bx1, visit, missing);
+    }
+}
+
+/// Bins first_bin.bin + bx0 .. first_bin.bin + bx1 of one row of one tile.
+template <class Visit, class Missing>
+void BinnedPoints::visit_row(BinRef first_bin, int bx0, int bx1, const Visit& visit, const Missing& missing) const {
+  const LocalIndex block = tile_block_[static_cast<std::size_t>(first_bin.tile)];
+  if (block < 0) {
+    for (int bx = bx0; bx <= bx1; ++bx)
+      missing(BinRef{first_bin.tile, first_bin.bin | bx});
+    return;
+  }
+  const Block& b = blocks_[static_cast<std::size_t>(block)];
+  const std::size_t first = b.first_bin + static_cast<std::size_t>(first_bin.bin);
+  if (b.complete) {
+    visit(bin_begin_[first + bx0], bin_end_[first + bx1]);
+    return;
+  }
+  for (int bx = bx0; bx <= bx1; ++bx) {
+    if (bin_known_[first + bx])
+      visit(bin_begin_[first + bx], bin_end_[first + bx]);
+    else
+      missing(BinRef{first_bin.tile, first_bin.bin | bx});
+  }
 }
 
 } // namespace trime::mesh
