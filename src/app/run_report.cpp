@@ -7,6 +7,12 @@
 namespace trime::app {
 namespace {
 
+/// A count in full, any other value to six digits.
+std::string value_text(double value) {
+  return value == std::floor(value) && std::fabs(value) < 1e15 ? fmt::format("{:.0f}", value)
+                                                               : fmt::format("{:.6g}", value);
+}
+
 constexpr double microsecond = 1e-6;
 
 TimeRow reduce_time(std::string section, double seconds, std::int64_t calls, const comm::Communicator& comm) {
@@ -39,8 +45,8 @@ std::string quality_text(const mesh::QualitySummary& q) {
 std::string checks_text(const mesh::Checks& checks) {
   std::string text = "Checks\n";
   for (const mesh::Check& check : checks)
-    text += fmt::format("  {:<7}{:<28} expected {:<12.6g} found {:<12.6g} {}\n", check.passed ? "ok" : "FAILED",
-                        check.name, check.expected, check.found, check.meaning);
+    text += fmt::format("  {:<7}{:<26} expected {:<12} found {:<12} {}\n", check.passed ? "ok" : "FAILED", check.name,
+                        value_text(check.expected), value_text(check.found), check.meaning);
   return text;
 }
 

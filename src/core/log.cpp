@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/core/log.hpp"
 
+#include <cstdlib>
+#include <string_view>
 #include <unistd.h>
 
 namespace trime {
@@ -13,10 +15,23 @@ bool is_sparse_step(long step) {
   return step == 1 || step == 2 || step == 5;
 }
 
+/// Does a person watch? Under mpirun every process writes to a pseudo-terminal of its launcher, so there the launcher's
+/// own output is asked; a launcher on another node, which cannot be asked, counts as no terminal.
+bool is_watched(std::FILE* stream) {
+  if (isatty(fileno(stream)) == 0)
+    return false;
+  if (std::getenv("OMPI_COMM_WORLD_RANK") == nullptr)
+    return true;
+  char target[64] = "";
+  if (readlink(fmt::format("/proc/{}/fd/1", getppid()).c_str(), target, sizeof target - 1) < 0)
+    return false;
+  return std::string_view(target).starts_with("/dev/pts/") || std::string_view(target).starts_with("/dev/tty");
+}
+
 } // namespace
 
 Log::Log(LogLevel level, bool active, std::FILE* stream)
-    : level_(level), active_(active), terminal_(isatty(fileno(stream)) != 0), stream_(stream) {}
+    : level_(level), active_(active), terminal_(active && is_watched(stream)), stream_(stream) {}
 
 void Log::write(LogLevel level, const std::string& message) {
   if (!active_ || level < level_)

@@ -26,7 +26,7 @@ void measure_site(const StarView& view, LocalIndex i, double inverse_reference, 
     if (a == delaunay::gap)
       continue;
     const Vec2 q = view.points.position(a);
-    const double h = view.size.size(0.5 * (p + q)) * inverse_reference;
+    const double h = view.size(0.5 * (p + q)) * inverse_reference;
     sums.squared_length_ratio.add(geometry::squared_length(q - p) * inverse_reference * inverse_reference);
     sums.squared_size_ratio.add(h * h);
     if (b != delaunay::gap && is_measured_from(view.points, p, a, b)) {
@@ -77,7 +77,7 @@ Vec2 DistMeshRule::displacement(const StarView& view, LocalIndex i) const {
     if (neighbour == delaunay::gap)
       continue;
     const Vec2 bar = view.points.position(neighbour) - p;
-    const double rest = length_scale_ * view.size.size(p + 0.5 * bar), actual = geometry::length(bar);
+    const double rest = length_scale_ * view.size(p + 0.5 * bar), actual = geometry::length(bar);
     if (actual < rest)
       force = force - (rest / actual - 1) * bar;
   }

@@ -13,11 +13,22 @@
 
 namespace trime::meshing {
 
-/// What a rule sees: certified stars around the inner sites.
-struct StarView {
+/// What a rule sees: certified stars around the inner sites, and h.
+class StarView {
+public:
+  StarView(const mesh::BinnedPoints& all_points, const delaunay::StarTable& all_stars, const sizing::SizeField& field)
+      : points(all_points), stars(all_stars), size_(field), is_uniform_(field.is_uniform()),
+        uniform_size_(is_uniform_ ? field.size({}) : 0) {}
+
+  double size(geometry::Vec2 p) const { return is_uniform_ ? uniform_size_ : size_.size(p); }
+
   const mesh::BinnedPoints& points;
   const delaunay::StarTable& stars;
-  const sizing::SizeField& size;
+
+private:
+  const sizing::SizeField& size_;
+  bool is_uniform_;
+  double uniform_size_;
 };
 
 /// Sums of one sweep over the inner sites of a rank, in fixed point: their order is irrelevant.
