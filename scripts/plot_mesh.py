@@ -117,7 +117,8 @@ def draw_zoom(axes, mesh):
     chosen = np.flatnonzero(np.abs(middles - centre).max(axis=1) <= 1.2 * reach)
     draw_triangles(axes, mesh, chosen, 0.35)
     frame(axes, centre - reach, centre + reach)
-    axes.set_title(f"around the worst triangle ({middles[worst][0]:.4g}, {middles[worst][1]:.4g})", fontsize=9, color=INK)
+    axes.set_title(f"around the worst triangle ({middles[worst][0]:.4g}, {middles[worst][1]:.4g})", fontsize=9,
+                   color=INK)
     return centre, reach
 
 
@@ -154,7 +155,8 @@ def draw(mesh, name):
     draw_histogram(figure.add_subplot(grid[0, 1]), mesh.alpha)
     if len(mesh.triangles) > 4 * ZOOM_TRIANGLES:
         middle, reach = draw_zoom(figure.add_subplot(grid[1, 1]), mesh)
-        main.add_patch(plt.Rectangle(middle - reach, 2 * reach, 2 * reach, fill=False, color="#0b6e99", linewidth=1.4, zorder=5))
+        main.add_patch(plt.Rectangle(middle - reach, 2 * reach, 2 * reach, fill=False, color="#0b6e99", linewidth=1.4,
+                                     zorder=5))
     scale = plt.cm.ScalarMappable(plt.Normalize(*ALPHA_RANGE), COLOURS)
     bar = figure.colorbar(scale, ax=main, fraction=0.03, pad=0.015, extend="max", aspect=40)
     bar.ax.tick_params(labelsize=7)

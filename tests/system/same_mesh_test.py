@@ -47,7 +47,8 @@ class SameMesh(unittest.TestCase):
         with Workspace() as directory:
             hashes = set()
             for points in (POINTS, POINTS + 500):
-                done = run(CONFIG, f"meshing.points={points}", f"output.directory={directory}", f"output.name=n{points}")
+                done = run(CONFIG, f"meshing.points={points}", f"output.directory={directory}",
+                           f"output.name=n{points}")
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                 with h5py.File(directory / f"n{points}.h5", "r") as file:
                     hashes.add(str(file["trime_mpi"].attrs["mesh_hash"]))

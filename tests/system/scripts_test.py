@@ -22,7 +22,8 @@ def call(*command, **changes):
 class Scripts(unittest.TestCase):
     def test_picture_of_a_mesh(self):
         with Workspace() as work:
-            done = run(ROOT / "configs" / "circle.ini", "meshing.points=1000", f"output.directory={work}", "output.name=m")
+            done = run(ROOT / "configs" / "circle.ini", "meshing.points=1000", f"output.directory={work}",
+                       "output.name=m")
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             done = call(SCRIPTS / "plot_mesh.py", work / "m.h5", MPLCONFIGDIR=str(work))
             self.assertEqual(done.returncode, 0, done.stderr)
@@ -64,6 +65,12 @@ class Scripts(unittest.TestCase):
                 done = call(SCRIPTS / "scaling.py", *arguments)
                 self.assertEqual(done.returncode, 2)
                 self.assertNotIn("Traceback", done.stderr)
+
+    def test_readme_holds_the_config_table(self):
+        table = run("--help-config").stdout.strip()
+        self.assertGreater(len(table.splitlines()), 30)
+        self.assertIn(table, (ROOT / "README.md").read_text(encoding="utf-8"),
+                      "put the output of trime_mpi --help-config into README.md")
 
     def test_first_commands_say_what_they_would_install(self):
         with Workspace() as work:

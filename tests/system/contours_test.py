@@ -1,0 +1,81 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Two real contours (not part of the project): a poker spade minus a disc, and North America with its 8 lakes.
+
+Looked for in $TRIME_SHARED_DATA, else beside the source tree in shared/data; skipped where they are missing."""
+import os
+import pathlib
+import unittest
+
+import h5py
+
+from trime_run import ROOT, Workspace, run
+
+DATA = pathlib.Path(os.environ.get("TRIME_SHARED_DATA", ROOT.parent / "shared" / "data"))
+
+POKER = """[shape]
+region = difference(spade, hole)
+[shape.spade]
+type = contour
+file = {data}/poker.xy
+normalize = true
+[shape.hole]
+type = circle
+center = 0.5 0.7
+radius = 0.1
+[meshing]
+method = distmesh
+points = 10000
+"""
+
+NORTH_AMERICA = """[shape]
+region = coast
+[shape.coast]
+type = contour
+file = {data}/north_america.xy
+normalize = true
+[meshing]
+method = distmesh
+points = 100000
+"""
+
+
+def checks_of(path):
+    """Name -> (passed, found) of the certificate in a mesh file."""
+    with h5py.File(path, "r") as file:
+        group = file["trime_mpi/checks"]
+        names = [name.decode() for name in group["name"][:]]
+        return dict(zip(names, zip(group["passed"][:], group["found"][:])))
+
+
+@unittest.skipUnless((DATA / "north_america.xy").exists(), f"no contours in {DATA}")
+class Contours(unittest.TestCase):
+    def mesh(self, work, text, **how):
+        """Meshes a config; returns checks and points per hash."""
+        (work / "c.ini").write_text(text.format(data=DATA), encoding="utf-8")
+        done = run(work / "c.ini", f"output.directory={work}", "output.overwrite=true", timeout=280, **how)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        with h5py.File(work / "c.h5", "r") as file:
+            size = file["Mesh/mesh/geometry"].shape[0]
+            return checks_of(work / "c.h5"), size, str(file["trime_mpi"].attrs["mesh_hash"])
+
+    def test_poker_minus_disc(self):
+        with Workspace() as work:
+            checks, size, mesh_hash = self.mesh(work, POKER)
+            self.assertTrue(all(passed for passed, _ in checks.values()), checks)
+            self.assertEqual(checks["euler_characteristic"][1], 0)
+            self.assertTrue(9900 <= size <= 10000, size)
+            for ranks, threads in ((3, 1), (4, 2)):
+                self.assertEqual(self.mesh(work, POKER, ranks=ranks, threads=threads)[2], mesh_hash)
+
+    def test_north_america_keeps_its_lakes(self):
+        with Workspace() as work:
+            checks, size, mesh_hash = self.mesh(work, NORTH_AMERICA, ranks=2)
+            self.assertTrue(all(passed for passed, _ in checks.values()), checks)
+            self.assertEqual(checks["euler_characteristic"][1], 1 - 8)
+            self.assertTrue(99000 <= size <= 100000, size)
+            self.assertEqual(self.mesh(work, NORTH_AMERICA, threads=2)[2], mesh_hash)
+
+
+if __name__ == "__main__":
+    unittest.main()
