@@ -12,7 +12,8 @@ trime_run_packages=(
 )
 # To run the tests, beside the above.
 trime_test_packages=(
-  libgtest-dev libbenchmark-dev libcgal-dev       # unit tests, benchmarks, oracle of both
+  libgtest-dev libbenchmark-dev                   # unit tests, benchmarks
+  libcgal-dev libboost-dev                        # their oracles: CGAL, big integers of Boost
   hdf5-tools python3-vtk9 python3-meshio          # h5diff, and two foreign readers of the mesh file
   clang clang-format libomp-dev                   # second compiler with its OpenMP, house style
 )

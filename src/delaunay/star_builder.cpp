@@ -169,8 +169,8 @@ private:
   void insert_run(LocalIndex begin, LocalIndex end, double done) {
     for (LocalIndex j = begin; j < end; ++j) {
       const double d2 = geometry::squared_length(offset(j));
-      if (d2 > done)
-        try_insert({d2, j});
+      if (d2 > done && d2 < 4 * kernel_.squared_radius() && !kernel_.contains(j)) // runs overlap: j may be a member
+        changed_ |= kernel_.insert(j, offset(j));
     }
   }
 
@@ -249,10 +249,12 @@ StarPass StarBuilder::update(const mesh::BinnedPoints& points, StarTable& stars,
   thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t tile, int thread) {
     const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(tile));
     for (LocalIndex i = begin; i < end; ++i) {
-      if (!wanted.empty() && !wanted[static_cast<std::size_t>(i)])
+      if (!wanted.empty() && !wanted[static_cast<std::size_t>(i)]) {
         stars.clear(i);
-      else if (!stars.certain(i))
+        stars.set_certain(i, false); // to be computed once it is wanted
+      } else if (!stars.certain(i)) {
         workers[static_cast<std::size_t>(thread)].compute(i);
+      }
     }
   });
   StarPass pass;

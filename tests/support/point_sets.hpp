@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Point sets of the tests, easy and ugly, all on the lattice of the unit square.
+#pragma once
+
+#include "support/boundary_shapes.hpp"
+#include "trime/core/random.hpp"
+#include "trime/core/thread_loop.hpp"
+#include "trime/mesh/binned_points.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace trime::testing {
+
+/// Threads of the loops during the life of this object.
+class OnThreads {
+public:
+  explicit OnThreads(int threads) : before_(thread_count()) { set_thread_count(threads); }
+  ~OnThreads() { set_thread_count(before_); }
+  OnThreads(const OnThreads&) = delete;
+  OnThreads& operator=(const OnThreads&) = delete;
+
+private:
+  int before_;
+};
+
+/// Uniform in the unit square, on its lattice.
+inline geometry::Vec2 random_vec2(std::uint64_t seed, std::uint64_t key) {
+  return unit_lattice().snap(geometry::Vec2{random_unit(seed, RandomPurpose::test, key, 0), //
+                                            random_unit(seed, RandomPurpose::test, key, 1)});
+}
+
+inline std::vector<mesh::Site> random_sites(std::size_t n, std::uint64_t seed) {
+  std::vector<mesh::Site> sites;
+  for (std::size_t k = 0; k < n; ++k)
+    sites.push_back({random_vec2(seed, k)});
+  return sites;
+}
+
+/// n x n sites in a square lattice; every unit square is a tie.
+inline std::vector<mesh::Site> square_lattice(int n, double spacing, geometry::Vec2 origin = {0.125, 0.125}) {
+  std::vector<mesh::Site> sites;
+  const double step = unit_lattice().snap(spacing);
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i)
+      sites.push_back(
+          {unit_lattice().snap(origin) + step * geometry::Vec2{static_cast<double>(i), static_cast<double>(j)}});
+  return sites;
+}
+
+/// n rows of n sites in a hexagonal lattice.
+inline std::vector<mesh::Site> hexagonal_lattice(int n, double spacing, geometry::Vec2 origin = {0.125, 0.125}) {
+  std::vector<mesh::Site> sites;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i)
+      sites.push_back({unit_lattice().snap(
+          origin + spacing * geometry::Vec2{i + 0.5 * (j & 1), 0.8660254037844386 * static_cast<double>(j)})});
+  return sites;
+}
+
+/// n sites about evenly on a circle and one in its centre: a star of degree n.
+inline std::vector<mesh::Site> wheel(int n, geometry::Vec2 center, double radius) {
+  std::vector<mesh::Site> sites{{unit_lattice().snap(center)}};
+  for (int k = 0; k < n; ++k) {
+    const SinCos direction = sin_cos(2 * pi * k / n);
+    sites.push_back({unit_lattice().snap(center + radius * geometry::Vec2{direction.cos, direction.sin})});
+  }
+  return sites;
+}
+
+/// Exactly cocircular sites: integer points of the circle of radius 65 (36 of them), and of one half as large.
+inline std::vector<mesh::Site> cocircular_rings() {
+  std::vector<mesh::Site> sites;
+  const double unit = 2 * unit_lattice().snap(0.0025); // half of it is on the lattice too
+  for (const double scale : {unit, 0.5 * unit})
+    for (int x = -65; x <= 65; ++x)
+      for (int y = -65; y <= 65; ++y)
+        if (x * x + y * y == 65 * 65)
+          sites.push_back({geometry::Vec2{0.5 + scale * x, 0.5 + scale * y}});
+  return sites;
+}
+
+/// Two tight clusters and a few sites far away.
+inline std::vector<mesh::Site> clusters(std::size_t n, std::uint64_t seed) {
+  std::vector<mesh::Site> sites;
+  for (std::size_t k = 0; k < n; ++k) {
+    const geometry::Vec2 p = random_vec2(seed, k);
+    const double size = k % 10 == 0 ? 1 : k % 2 == 0 ? 1e-3 : 1e-6;
+    const geometry::Vec2 at = k % 10 == 0  ? geometry::Vec2{0, 0}
+                              : k % 2 == 0 ? geometry::Vec2{0.3, 0.7}
+                                           : geometry::Vec2{0.3005, 0.7};
+    sites.push_back({unit_lattice().snap(at + size * p)});
+  }
+  return sites;
+}
+
+/// Random sites, most of them with a twin 1e-12 away (about nine lattice steps).
+inline std::vector<mesh::Site> near_duplicates(std::size_t n, std::uint64_t seed) {
+  std::vector<mesh::Site> sites = random_sites(n, seed);
+  for (std::size_t k = 0; k < n; ++k)
+    if (k % 4 != 0)
+      sites.push_back(
+          {unit_lattice().snap(sites[k].position + 1e-12 * (random_vec2(seed + 1, k) - geometry::Vec2{0.5, 0.5}))});
+  return sites;
+}
+
+/// All on one line: no triangles at all.
+inline std::vector<mesh::Site> collinear(int n) {
+  std::vector<mesh::Site> sites;
+  const double step = unit_lattice().snap(0.01);
+  for (int k = 0; k < n; ++k)
+    sites.push_back({geometry::Vec2{0.25 + step * k, 0.125 + 0.5 * step * k}});
+  return sites;
+}
+
+} // namespace trime::testing

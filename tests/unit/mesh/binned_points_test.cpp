@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sites in tiles and bins: nothing is lost, nothing is found twice, what is unknown is said.
+#include "support/point_sets.hpp"
+#include "trime/core/thread_loop.hpp"
+#include "trime/mesh/binned_points.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace trime::mesh {
+namespace {
+
+using geometry::Vec2;
+using testing::OnThreads;
+
+const geometry::Box square{{0, 0}, {1, 1}};
+
+TileGrid small_grid() {
+  return TileGrid(square, {{}, {}, 0.02});
+}
+
+/// Sites of `sites` in tiles [first, last).
+std::vector<Site> in_tiles(const TileGrid& grid, const std::vector<Site>& sites, LocalIndex first, LocalIndex last) {
+  std::vector<Site> chosen;
+  for (const Site& site : sites)
+    if (const LocalIndex tile = grid.place(site.position).tile; tile >= first && tile < last)
+      chosen.push_back(site);
+  return chosen;
+}
+
+TEST(BinnedPoints, EverySiteIsInItsBinAndKnowsItsNewIndex) {
+  const TileGrid grid = small_grid();
+  const std::vector<Site> sites = testing::random_sites(2000, 1);
+  for (const int threads : {1, 3}) {
+    const OnThreads on(threads);
+    BinnedPoints points(grid);
+    std::vector<LocalIndex> new_index;
+    EXPECT_EQ(points.assign_owned(sites, 0, grid.tile_count(), &new_index), 0);
+    ASSERT_EQ(points.owned(), 2000);
+    for (std::size_t k = 0; k < sites.size(); ++k)
+      EXPECT_EQ(points.position(new_index[k]), sites[k].position);
+    LocalIndex next = 0;
+    for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile) {
+      EXPECT_EQ(points.tile_range(tile).begin, next);
+      for (int bin = 0; bin < grid.bins_per_tile(); ++bin) {
+        const auto [begin, end] = points.bin_range({tile, bin});
+        EXPECT_EQ(begin, next);
+        for (LocalIndex i = begin; i < end; ++i) {
+          EXPECT_EQ(grid.place(points.position(i)).tile, tile);
+          EXPECT_EQ(grid.place(points.position(i)).bin, bin);
+        }
+        next = end;
+      }
+      EXPECT_EQ(points.tile_range(tile).end, next);
+    }
+    EXPECT_EQ(next, points.owned());
+  }
+}
+
+TEST(BinnedPoints, TheOrderOfTheInputDoesNotMatter) {
+  const TileGrid grid = small_grid();
+  std::vector<Site> sites = testing::random_sites(1000, 2);
+  BinnedPoints one(grid), other(grid);
+  one.assign_owned(sites, 0, grid.tile_count());
+  std::reverse(sites.begin(), sites.end());
+  other.assign_owned(sites, 0, grid.tile_count());
+  EXPECT_TRUE(std::equal(one.positions().begin(), one.positions().end(), other.positions().begin()));
+}
+
+TEST(BinnedPoints, OfSitesAtOnePlaceTheBoundarySiteStaysElseTheOneMostPushed) {
+  const TileGrid grid = small_grid();
+  const Vec2 p{0.25, 0.5}, q{0.75, 0.5};
+  const std::vector<Site> sites{{p, -1, 2}, {p, 7, 0}, {p, -1, 1}, {q, -1, 1}, {q, -1, 3}, {q, -1, 0}, {{0.3, 0.3}}};
+  BinnedPoints points(grid);
+  std::vector<LocalIndex> new_index;
+  EXPECT_EQ(points.assign_owned(sites, 0, grid.tile_count(), &new_index), 4);
+  ASSERT_EQ(points.owned(), 3);
+  for (const std::size_t dropped : {0, 2, 3, 5})
+    EXPECT_EQ(new_index[dropped], -1);
+  EXPECT_EQ(points.boundary(new_index[1]), 7);
+  EXPECT_EQ(points.site(new_index[4]).pushes, 3);
+}
+
+TEST(BinnedPoints, NothingIsASetOfSitesToo) {
+  const TileGrid grid = small_grid();
+  BinnedPoints points(grid);
+  EXPECT_EQ(points.assign_owned({}, 0, grid.tile_count()), 0);
+  EXPECT_EQ(points.owned(), 0);
+  EXPECT_EQ(points.assign_owned({}, 3, 3), 0); // a rank without tiles
+  EXPECT_EQ(points.size(), 0);
+  int missing = 0;
+  points.for_each_near(
+      {0.5, 0.5}, 0.01, [](LocalIndex, LocalIndex) {}, [&](BinRef) { ++missing; });
+  EXPECT_GT(missing, 0);
+}
+
+TEST(BinnedPoints, SearchFindsAllSitesNearEvenBeyondTheRim) {
+  const TileGrid grid = small_grid();
+  std::vector<Site> sites = testing::random_sites(1500, 3);
+  sites.push_back({{1.05, 0.5}}); // outside of the container: kept in the bins of the rim
+  sites.push_back({{-0.2, -0.3}});
+  BinnedPoints points(grid);
+  points.assign_owned(sites, 0, grid.tile_count());
+  for (std::uint64_t key = 0; key < 200; ++key) {
+    const Vec2 center = testing::random_vec2(9, key);
+    const double reach = 0.3 * testing::random_vec2(10, key).x;
+    std::set<LocalIndex> found;
+    points.for_each_near(
+        center, reach,
+        [&](LocalIndex begin, LocalIndex end) {
+          for (LocalIndex i = begin; i < end; ++i)
+            EXPECT_TRUE(found.insert(i).second) << "visited twice";
+        },
+        [](BinRef) { ADD_FAILURE() << "every bin is known"; });
+    for (LocalIndex i = 0; i < points.size(); ++i)
+      EXPECT_TRUE(geometry::length(points.position(i) - center) > reach || found.count(i))
+          << "site " << i << " is lost";
+  }
+}
+
+TEST(BinnedPoints, UnknownBinsAreReportedUntilTheirSitesArrive) {
+  const TileGrid grid = small_grid();
+  const std::vector<Site> sites = testing::random_sites(1500, 4);
+  const LocalIndex half = grid.tile_count() / 2;
+  BinnedPoints points(grid), all(grid);
+  all.assign_owned(sites, 0, grid.tile_count());
+  const std::vector<Site> mine = in_tiles(grid, sites, 0, half);
+  points.assign_owned(mine, 0, half);
+  const Vec2 center{0.5, 0.5};
+  const double reach = 0.2;
+  std::set<BinRef> missing;
+  points.for_each_near(
+      center, reach, [](LocalIndex, LocalIndex) {}, [&](BinRef bin) { missing.insert(bin); });
+  ASSERT_FALSE(missing.empty());
+  std::vector<BinRef> bins;
+  std::vector<std::int32_t> counts;
+  std::vector<Site> ghosts;
+  for (const BinRef& bin : missing) {
+    EXPECT_GE(bin.tile, half);
+    const auto [begin, end] = all.bin_range(bin);
+    bins.push_back(bin);
+    counts.push_back(end - begin);
+    for (LocalIndex i = begin; i < end; ++i)
+      ghosts.push_back(all.site(i));
+  }
+  for (int round = 0; round < 2; ++round) // the same ghosts again replace the ghosts
+    points.assign_ghosts(bins, counts, ghosts);
+  EXPECT_EQ(points.owned(), static_cast<LocalIndex>(mine.size()));
+  EXPECT_EQ(points.size(), static_cast<LocalIndex>(mine.size() + ghosts.size()));
+  std::size_t near = 0, expected = 0;
+  points.for_each_near(
+      center, reach,
+      [&](LocalIndex begin, LocalIndex end) {
+        for (LocalIndex i = begin; i < end; ++i)
+          near += geometry::length(points.position(i) - center) <= reach;
+      },
+      [](BinRef) { ADD_FAILURE() << "all bins near are known now"; });
+  for (const Site& site : sites)
+    expected += geometry::length(site.position - center) <= reach;
+  EXPECT_EQ(near, expected);
+  int still = 0;
+  points.for_each_near(
+      center, 0.4, [](LocalIndex, LocalIndex) {}, [&](BinRef bin) { still += !missing.count(bin); });
+  EXPECT_GT(still, 0) << "bins farther away are still unknown";
+  points.assign_owned(mine, 0, half);
+  EXPECT_EQ(points.size(), points.owned()) << "new owned sites forget the ghosts";
+}
+
+} // namespace
+} // namespace trime::mesh

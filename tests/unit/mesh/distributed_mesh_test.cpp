@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The hash of a mesh belongs to the mesh, not to its distribution.
+#include "trime/mesh/distributed_mesh.hpp"
+
+#include <gtest/gtest.h>
+
+namespace trime::mesh {
+namespace {
+
+DistributedMesh square_mesh() {
+  DistributedMesh mesh;
+  mesh.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5, 0.5}};
+  mesh.triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 4}, {2, 3, 4}};
+  mesh.point_slab = {0, 5};
+  mesh.triangle_slab = {0, 4};
+  return mesh;
+}
+
+TEST(MeshHash, TheSharesOfAnySlabsAddUpToTheWhole) {
+  const DistributedMesh whole = square_mesh();
+  const std::uint64_t expected = partial_hash(whole);
+  for (std::size_t p = 0; p <= whole.points.size(); ++p)
+    for (std::size_t t = 0; t <= whole.triangles.size(); ++t) {
+      DistributedMesh first, second;
+      first.points.assign(whole.points.begin(), whole.points.begin() + static_cast<std::ptrdiff_t>(p));
+      second.points.assign(whole.points.begin() + static_cast<std::ptrdiff_t>(p), whole.points.end());
+      first.triangles.assign(whole.triangles.begin(), whole.triangles.begin() + static_cast<std::ptrdiff_t>(t));
+      second.triangles.assign(whole.triangles.begin() + static_cast<std::ptrdiff_t>(t), whole.triangles.end());
+      second.point_slab.first = static_cast<GlobalId>(p);
+      second.triangle_slab.first = static_cast<GlobalId>(t);
+      EXPECT_EQ(partial_hash(first) + partial_hash(second), expected);
+    }
+}
+
+TEST(MeshHash, SeesEveryChangeButTheSignOfZero) {
+  const std::uint64_t expected = partial_hash(square_mesh());
+  DistributedMesh mesh = square_mesh();
+  mesh.points[0].x = -0.0;
+  EXPECT_EQ(partial_hash(mesh), expected);
+  mesh.points[4].x += 1e-16;
+  EXPECT_NE(partial_hash(mesh), expected);
+  mesh = square_mesh();
+  std::swap(mesh.points[0], mesh.points[1]);
+  EXPECT_NE(partial_hash(mesh), expected);
+  mesh = square_mesh();
+  std::swap(mesh.triangles[0], mesh.triangles[1]);
+  EXPECT_NE(partial_hash(mesh), expected);
+  mesh = square_mesh();
+  mesh.triangles[0] = {1, 4, 0};
+  EXPECT_NE(partial_hash(mesh), expected);
+  mesh = square_mesh();
+  std::swap(mesh.points[0].x, mesh.points[1].x); // the coordinates of two points exchanged
+  EXPECT_NE(partial_hash(mesh), expected);
+}
+
+} // namespace
+} // namespace trime::mesh

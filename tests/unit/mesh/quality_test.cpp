@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Quality of single triangles and the statistics over many.
+#include "trime/core/random.hpp"
+#include "trime/mesh/quality.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace trime::mesh {
+namespace {
+
+using geometry::Vec2;
+
+TEST(TriangleQuality, KnownTriangles) {
+  const Vec2 o{0, 0};
+  const Vec2 apex{0.5, std::sqrt(3.0) / 2};
+  EXPECT_NEAR(aspect_ratio(o, {1, 0}, apex), 1, 1e-12);
+  EXPECT_NEAR(edge_ratio(o, {1, 0}, apex), 1, 1e-12);
+  EXPECT_NEAR(min_angle_degrees(o, {1, 0}, apex), 60, 1e-9);
+  // 3-4-5: R = 5/2, r = 1.
+  EXPECT_NEAR(aspect_ratio(o, {3, 0}, {0, 4}), 1.25, 1e-12);
+  EXPECT_NEAR(edge_ratio(o, {3, 0}, {0, 4}), 5.0 / 3, 1e-12);
+  EXPECT_NEAR(min_angle_degrees(o, {3, 0}, {0, 4}), std::asin(0.6) * 180 / M_PI, 1e-9);
+  // Half a square: R = sqrt(2)/2, r = 1 - sqrt(2)/2.
+  EXPECT_NEAR(aspect_ratio(o, {1, 0}, {0, 1}), std::sqrt(0.5) / (2 - std::sqrt(2.0)), 1e-12);
+  EXPECT_NEAR(min_angle_degrees(o, {1, 0}, {0, 1}), 45, 1e-9);
+}
+
+TEST(TriangleQuality, DoesNotDependOnSizePlaceAndOrderOfTheVertices) {
+  const Vec2 a{0.1, 0.2}, b{0.9, 0.3}, c{0.4, 0.8};
+  const double alpha = aspect_ratio(a, b, c), beta = edge_ratio(a, b, c), angle = min_angle_degrees(a, b, c);
+  for (const double scale : {1e-9, 1.0, 1e9}) {
+    const Vec2 shift{3 * scale, -7 * scale};
+    const Vec2 p = shift + scale * a, q = shift + scale * b, r = shift + scale * c;
+    EXPECT_NEAR(aspect_ratio(r, p, q), alpha, 1e-9);
+    EXPECT_NEAR(aspect_ratio(q, p, r), alpha, 1e-9);
+    EXPECT_NEAR(edge_ratio(q, p, r), beta, 1e-9);
+    EXPECT_NEAR(min_angle_degrees(q, p, r), angle, 1e-9);
+  }
+}
+
+TEST(TriangleQuality, FlatTrianglesAreInfinitelyBadButDefined) {
+  EXPECT_TRUE(std::isinf(aspect_ratio({0, 0}, {1, 1}, {2, 2})));
+  EXPECT_EQ(min_angle_degrees({0, 0}, {1, 1}, {2, 2}), 0);
+  const double alpha = aspect_ratio({0, 0}, {1, 0}, {0.5, 1e-9});
+  EXPECT_TRUE(std::isfinite(alpha));
+  EXPECT_GT(alpha, 1e8);
+}
+
+std::vector<double> random_ratios(std::size_t n) {
+  std::vector<double> ratios;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double u = random_unit(1, RandomPurpose::test, k, 0);
+    ratios.push_back(1 + 0.1 * u / (1.0001 - u));
+  }
+  return ratios;
+}
+
+void expect_same(const RatioSummary& a, const RatioSummary& b) {
+  EXPECT_EQ(a.median, b.median);
+  EXPECT_EQ(a.mean, b.mean);
+  EXPECT_EQ(a.max, b.max);
+  EXPECT_EQ(a.half_mean, b.half_mean);
+  EXPECT_EQ(a.std, b.std);
+}
+
+TEST(RatioStatistics, AgreesWithPlainSums) {
+  const std::vector<double> ratios = random_ratios(10001);
+  RatioStatistics statistics;
+  double sum = 0, roots = 0, squares = 0;
+  for (const double r : ratios) {
+    statistics.add(r);
+    sum += r;
+    roots += std::sqrt(r);
+    squares += r * r;
+  }
+  const double n = static_cast<double>(ratios.size()), mean = sum / n;
+  const RatioSummary summary = statistics.summary();
+  EXPECT_EQ(statistics.count(), static_cast<std::int64_t>(ratios.size()));
+  EXPECT_NEAR(summary.mean, mean, 1e-8);
+  EXPECT_NEAR(summary.half_mean, roots / n * (roots / n), 1e-8);
+  EXPECT_NEAR(summary.std, std::sqrt(squares / n - mean * mean), 1e-4 * summary.std);
+  EXPECT_EQ(summary.max, *std::max_element(ratios.begin(), ratios.end()));
+  std::vector<double> sorted(ratios);
+  std::nth_element(sorted.begin(), sorted.begin() + 5000, sorted.end());
+  EXPECT_NEAR(summary.median, sorted[5000], 1e-4);
+}
+
+TEST(RatioStatistics, MergingInAnyOrderGivesTheSameBits) {
+  const std::vector<double> ratios = random_ratios(3000);
+  RatioStatistics whole, forward, backward, parts[7];
+  for (std::size_t k = 0; k < ratios.size(); ++k) {
+    whole.add(ratios[k]);
+    parts[(k * k) % 7].add(ratios[ratios.size() - 1 - k]);
+  }
+  for (int k = 0; k < 7; ++k) {
+    forward.merge(parts[k]);
+    backward.merge(parts[6 - k]);
+  }
+  expect_same(forward.summary(), whole.summary());
+  expect_same(backward.summary(), whole.summary());
+  EXPECT_EQ(forward.pack(), backward.pack());
+}
+
+TEST(RatioStatistics, PackedPartsMayBeAddedAsIntegers) {
+  const std::vector<double> ratios = random_ratios(1000);
+  RatioStatistics whole, first, second, joined;
+  for (std::size_t k = 0; k < ratios.size(); ++k) {
+    whole.add(ratios[k]);
+    (k < 300 ? first : second).add(ratios[k]);
+  }
+  std::vector<std::int64_t> packed = first.pack();
+  const std::vector<std::int64_t> more = second.pack();
+  ASSERT_EQ(packed.size(), more.size());
+  for (std::size_t k = 0; k < packed.size(); ++k)
+    packed[k] += more[k];
+  joined.unpack(packed, std::max(first.max(), second.max()));
+  expect_same(joined.summary(), whole.summary());
+  EXPECT_EQ(joined.histogram(), whole.histogram());
+}
+
+TEST(RatioStatistics, HistogramCountsEveryValueInItsClass) {
+  RatioStatistics statistics;
+  for (const double r : {1.0, 1.005, 1.015, 1.03, 1.07, 1.15, 1.3, 1.7, 3.0, 7.0, 1e9, double{INFINITY}})
+    statistics.add(r);
+  const std::array<std::int64_t, 9> expected{2, 1, 1, 1, 1, 1, 1, 1, 3};
+  EXPECT_EQ(statistics.histogram(), expected);
+}
+
+TEST(RatioStatistics, NothingAndInfinityAreDefined) {
+  EXPECT_EQ(RatioStatistics().summary().mean, 1);
+  RatioStatistics statistics;
+  statistics.add(INFINITY);
+  statistics.add(1.5);
+  EXPECT_TRUE(std::isfinite(statistics.summary().mean));
+  EXPECT_TRUE(std::isfinite(statistics.summary().std));
+  EXPECT_TRUE(std::isinf(statistics.summary().max));
+}
+
+} // namespace
+} // namespace trime::mesh

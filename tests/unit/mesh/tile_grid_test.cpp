@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The Hilbert curve and the grid of tiles and bins.
+#include "trime/core/random.hpp"
+#include "trime/mesh/tile_grid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <set>
+#include <vector>
+
+namespace trime::mesh {
+namespace {
+
+using geometry::Box;
+using geometry::Vec2;
+
+Vec2 random_point(const Box& box, std::uint64_t key) {
+  return {box.min.x + box.width() * random_unit(1, RandomPurpose::test, key, 0),
+          box.min.y + box.height() * random_unit(1, RandomPurpose::test, key, 1)};
+}
+
+/// Grids of all shapes: square, slender, given cells, one tile, offset, tiny.
+std::vector<TileGrid> grids() {
+  std::vector<TileGrid> all;
+  all.emplace_back(Box{{0, 0}, {1, 1}}, GridOptions{{}, {}, 0.01});
+  all.emplace_back(Box{{-3, 5}, {7, 6}}, GridOptions{{}, {}, 0.02});
+  all.emplace_back(Box{{0, 0}, {0.1, 20}}, GridOptions{{}, {}, 0.02});
+  all.emplace_back(Box{{0, 0}, {1, 1}}, GridOptions{7, 13, 0.05});
+  all.emplace_back(Box{{0, 0}, {1, 1}}, GridOptions{1, 1000, 0.01});
+  all.emplace_back(Box{{0, 0}, {1, 1}}, GridOptions{{}, {}, 3.0});
+  all.emplace_back(Box{{0, 0}, {1, 1}}, GridOptions{1, 1, 0.01});
+  all.emplace_back(Box{{1e6, 1e6}, {1e6 + 1, 1e6 + 1}}, GridOptions{{}, {}, 0.03});
+  all.emplace_back(Box{{0, 0}, {1e-9, 1e-9}}, GridOptions{{}, {}, 2e-11});
+  return all;
+}
+
+TEST(HilbertCurve, KeyAndPositionAreInverse) {
+  for (int level = 1; level <= 5; ++level)
+    for (std::uint64_t key = 0; key < std::uint64_t{1} << (2 * level); ++key) {
+      const GridPosition at = hilbert_position(key, level);
+      ASSERT_LT(std::max(at.x, at.y), 1u << level);
+      ASSERT_EQ(hilbert_key(at.x, at.y, level), key);
+    }
+  for (std::uint64_t k = 0; k < 1000; ++k) {
+    const std::uint64_t key = random_bits(1, RandomPurpose::test, k, 0);
+    const GridPosition at = hilbert_position(key, 32);
+    EXPECT_EQ(hilbert_key(at.x, at.y, 32), key);
+  }
+}
+
+TEST(HilbertCurve, NextKeyIsANeighbouringCell) {
+  const auto distance = [](GridPosition a, GridPosition b) {
+    return std::abs(static_cast<std::int64_t>(a.x) - b.x) + std::abs(static_cast<std::int64_t>(a.y) - b.y);
+  };
+  for (std::uint64_t key = 0; key + 1 < 4096; ++key)
+    ASSERT_EQ(distance(hilbert_position(key, 6), hilbert_position(key + 1, 6)), 1);
+  for (std::uint64_t k = 0; k < 1000; ++k) {
+    const std::uint64_t key = random_bits(2, RandomPurpose::test, k, 0) >> 1;
+    ASSERT_EQ(distance(hilbert_position(key, 32), hilbert_position(key + 1, 32)), 1);
+  }
+}
+
+TEST(HilbertCurve, CoarseKeyIsThePrefixOfTheFineKey) {
+  for (std::uint64_t k = 0; k < 1000; ++k) {
+    const auto x = static_cast<std::uint32_t>(random_bits(3, RandomPurpose::test, k, 0));
+    const auto y = static_cast<std::uint32_t>(random_bits(3, RandomPurpose::test, k, 1));
+    const int level = 1 + static_cast<int>(k % 31);
+    ASSERT_EQ(hilbert_key(x, y, 32) >> (2 * (32 - level)), hilbert_key(x >> (32 - level), y >> (32 - level), level));
+  }
+}
+
+TEST(TileGrid, TilesAreNumberedInTheOrderOfThePointsInThem) {
+  for (const TileGrid& grid : grids()) {
+    std::vector<std::pair<std::uint64_t, LocalIndex>> points;
+    for (std::uint64_t k = 0; k < 500; ++k) {
+      const Vec2 p = random_point(grid.container(), k);
+      points.emplace_back(grid.point_key(p), grid.place(p).tile);
+    }
+    std::sort(points.begin(), points.end());
+    for (std::size_t k = 1; k < points.size(); ++k)
+      ASSERT_LE(points[k - 1].second, points[k].second);
+  }
+}
+
+TEST(TileGrid, EveryPointHasAPlaceInItsTileBox) {
+  for (const TileGrid& grid : grids()) {
+    const double slack = 1e-6 * std::max(grid.container().width(), grid.container().height());
+    for (std::uint64_t k = 0; k < 500; ++k) {
+      const Vec2 p = random_point(grid.container(), k);
+      const TileGrid::Place place = grid.place(p);
+      ASSERT_TRUE(place.tile >= 0 && place.tile < grid.tile_count());
+      ASSERT_TRUE(place.bin >= 0 && place.bin < grid.bins_per_tile());
+      const Box box = grid.tile_box(place.tile);
+      EXPECT_TRUE(p.x >= box.min.x - slack && p.x <= box.max.x + slack && p.y >= box.min.y - slack &&
+                  p.y <= box.max.y + slack);
+    }
+  }
+}
+
+TEST(TileGrid, TilesCoverTheContainerOnce) {
+  for (const TileGrid& grid : grids()) {
+    ASSERT_EQ(grid.tile_count(), grid.tiles_x() * grid.tiles_y());
+    std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
+    for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile) {
+      const GridPosition at = grid.tile_position(tile);
+      EXPECT_EQ(grid.tile_at(static_cast<int>(at.x), static_cast<int>(at.y)), tile);
+      EXPECT_TRUE(seen.emplace(at.x, at.y).second);
+    }
+    const Vec2 corner = grid.tile_box(grid.tile_at(grid.tiles_x() - 1, grid.tiles_y() - 1)).max;
+    EXPECT_GE(corner.x, grid.container().max.x - 1e-12 * grid.container().width());
+    EXPECT_GE(corner.y, grid.container().max.y - 1e-12 * grid.container().height());
+  }
+}
+
+TEST(TileGrid, PointsOutsideAreClampedToTheRim) {
+  for (const TileGrid& grid : grids()) {
+    const Box& box = grid.container();
+    const double far = 1000 * std::max(box.width(), box.height());
+    EXPECT_EQ(grid.place({box.min.x - far, box.min.y - far}).tile, grid.tile_at(0, 0));
+    EXPECT_EQ(grid.place({box.max.x + far, box.max.y + far}).tile,
+              grid.tile_at(grid.tiles_x() - 1, grid.tiles_y() - 1));
+    EXPECT_EQ(grid.place({box.max.x + far, box.max.y + far}).bin, grid.bins_per_tile() - 1);
+    EXPECT_EQ(grid.place({box.min.x - far, box.min.y - far}).bin, 0);
+    const Vec2 infinite{INFINITY, -INFINITY};
+    EXPECT_EQ(grid.place(infinite).tile, grid.tile_at(grid.tiles_x() - 1, 0));
+  }
+}
+
+TEST(TileGrid, FixedPositionsAreMonotone) {
+  for (const TileGrid& grid : grids()) {
+    std::uint32_t last = 0;
+    for (int k = -10; k <= 1010; ++k) {
+      const std::uint32_t at = grid.fixed_x(grid.container().min.x + grid.container().width() * k / 1000);
+      EXPECT_GE(at, last);
+      last = at;
+    }
+  }
+}
+
+TEST(TileGrid, KeepsTheGivenCells) {
+  const TileGrid grid(Box{{0, 0}, {1, 1}}, GridOptions{7, 13, 0.05});
+  EXPECT_EQ(grid.cells_x(), 7);
+  EXPECT_EQ(grid.cells_y(), 13);
+}
+
+TEST(TileGrid, ABinHoldsAFewPointsOfTheGivenSpacing) {
+  for (const double spacing : {0.3, 0.05, 0.01, 0.001}) {
+    const TileGrid grid(Box{{0, 0}, {1, 1}}, GridOptions{{}, {}, spacing});
+    const Box tile = grid.tile_box(0);
+    const double points = tile.width() * tile.height() / (0.866 * spacing * spacing) / grid.bins_per_tile();
+    EXPECT_GT(points, 1) << spacing;
+    EXPECT_LT(points, 8) << spacing;
+  }
+}
+
+} // namespace
+} // namespace trime::mesh
