@@ -175,7 +175,8 @@ constexpr Option table[] = {
      .fallback = "auto",
      .choices = "auto",
      .range = positive,
-     .meaning = "longest move, over the local size, at which a mesh counts as converged"},
+     .meaning =
+         "the sweeps end once five of them lower the mean of alpha - 1 by less than this share of it; auto: 0.04"},
 
     {.section = "parallel",
      .key = "setup_threads",
