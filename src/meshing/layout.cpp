@@ -79,9 +79,19 @@ private:
     });
   }
 
+  /// The container grid; where its cells are left to the program, only the part of it around the shape.
   void make_grid() {
+    geometry::Box box = options_.container;
+    if (!options_.cells_x && !options_.cells_y) {
+      geometry::Box around;
+      for (const BoundarySite& site : layout_.boundary.sites)
+        around.include(site.position);
+      const double h = layout_.edge_length;
+      box = {{std::max(box.min.x, around.min.x - h), std::max(box.min.y, around.min.y - h)},
+             {std::min(box.max.x, around.max.x + h), std::min(box.max.y, around.max.y + h)}};
+    }
     layout_.state = std::make_unique<SiteState>(
-        context_.comm, options_.container, mesh::GridOptions{options_.cells_x, options_.cells_y, layout_.edge_length});
+        context_.comm, box, mesh::GridOptions{options_.cells_x, options_.cells_y, layout_.edge_length});
   }
 
   /// The tiles that this rank fills with sites: an even share, before anything is known of their number.

@@ -13,9 +13,8 @@ constexpr int max_halo_rounds = 100;
 
 } // namespace
 
-SiteState::SiteState(const comm::Communicator& comm, const geometry::Box& container,
-                     const mesh::GridOptions& grid_options)
-    : comm_(comm), grid_(container, grid_options), partition_(grid_.tile_count(), comm.size()), points_(grid_),
+SiteState::SiteState(const comm::Communicator& comm, const geometry::Box& box, const mesh::GridOptions& grid_options)
+    : comm_(comm), grid_(box, grid_options), partition_(grid_.tile_count(), comm.size()), points_(grid_),
       halo_(comm, grid_) {}
 
 void SiteState::distribute(std::vector<mesh::Site> sites) {

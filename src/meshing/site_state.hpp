@@ -18,7 +18,8 @@ enum class Wanted { inner_sites, all_sites };
 /// @brief Owned and ghost sites with their stars. After each change of sites: set_sites, then compute_stars.
 class SiteState {
 public:
-  SiteState(const comm::Communicator& comm, const geometry::Box& container, const mesh::GridOptions& grid_options);
+  /// @param box that holds all sites, now and later
+  SiteState(const comm::Communicator& comm, const geometry::Box& box, const mesh::GridOptions& grid_options);
 
   /// First sites, from any ranks: partitions the tiles by their counts. Collective.
   void distribute(std::vector<mesh::Site> sites);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The one way in which this program uses threads: a loop over items whose results go to places of their own.
-// The body must not throw, allocate in its inner part, or call MPI.
+// The body must not call MPI. It should not throw; what it throws all the same (no memory) leaves the loop as one
+// exception.
 #pragma once
 
 #include <omp.h>
 
 #include <cstddef>
+#include <exception>
 
 namespace trime {
 
@@ -19,12 +21,22 @@ inline void set_thread_count(int threads) {
   omp_set_num_threads(threads);
 }
 
-/// Calls body(item, thread) for item in [0, n), dynamically, `chunk` items at a time.
+/// Calls body(item, thread) for item in [0, n), dynamically, `chunk` items at a time. Rethrows the first exception of a
+/// body, after all others are done.
 template <class Body>
 void thread_loop(std::ptrdiff_t n, int chunk, const Body& body) {
+  std::exception_ptr thrown;
 #pragma omp parallel for schedule(dynamic, chunk) if (n > chunk)
   for (std::ptrdiff_t item = 0; item < n; ++item)
-    body(item, omp_get_thread_num());
+    try {
+      body(item, omp_get_thread_num());
+    } catch (...) { // an exception must not cross the end of a parallel region
+#pragma omp critical(trime_thread_loop)
+      if (!thrown)
+        thrown = std::current_exception();
+    }
+  if (thrown)
+    std::rethrow_exception(thrown);
 }
 
 } // namespace trime
