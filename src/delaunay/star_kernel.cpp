@@ -156,7 +156,7 @@ bool StarKernel::is_locally_convex() {
   }
   int turns = 0;
   for (std::size_t k = 0; k < n; ++k)
-    turns += (y_[k] < 0) & (y_[k + 1] >= 0);
+    turns += static_cast<int>(y_[k] < 0 && y_[k + 1] >= 0);
   if (any(bad) || turns != 1)
     return false;
   squared_radius_ = std::max(largest[0], largest[1]) * (1 + 1e-7);
