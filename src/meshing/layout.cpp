@@ -112,7 +112,9 @@ private:
     const double none = 4 * (options_.container.width() + options_.container.height()); // no site fits at all
     double low = 0, high = none, spacing = layout_.edge_length;
     GlobalId best = 0;
-    for (int round = 0; round < spacing_rounds && wanted - best > wanted / 5000; ++round) {
+    // The discs of a coarse boundary may leave no room at all, however fine the lattice.
+    const double finest = 0.1 * std::sqrt(context_.boundary.area / (row_height * static_cast<double>(wanted + 1)));
+    for (int round = 0; round < spacing_rounds && wanted - best > wanted / 5000 && spacing > finest; ++round) {
       const GlobalId count = context_.comm.sum(start.count(tiles, spacing));
       if (count > wanted) {
         low = spacing;
@@ -124,7 +126,7 @@ private:
           spacing * std::sqrt((static_cast<double>(count) + 0.5) / (static_cast<double>(wanted) + 0.25));
       spacing = guess > low && guess < high ? guess : 0.5 * (low + std::min(high, 2 * low + layout_.edge_length));
     }
-    return high;
+    return best > 0 ? high : none;
   }
 
   std::vector<mesh::Site> inner_sites(const TileRange& tiles) const {

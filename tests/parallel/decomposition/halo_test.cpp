@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Ghosts are the sites of their owners; subscriptions grow; the numbering of the mesh does not know the ranks.
+#include "meshing/site_state.hpp"
+#include "support/distributed.hpp"
+#include "trime/decomposition/halo.hpp"
+#include "trime/decomposition/numbering.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace trime::decomposition {
+namespace {
+
+using geometry::Vec2;
+using mesh::BinRef;
+using mesh::Site;
+
+const geometry::Box square{{0, 0}, {1, 1}};
+
+/// Sites of the whole square, distributed; and all of them on this rank as the truth.
+struct Stage {
+  explicit Stage(std::vector<Site> sites, double spacing = 0.03)
+      : grid(square, {{}, {}, spacing}), points(grid), truth(grid), halo(comm, grid), partition(grid.tile_count(), 1) {
+    truth.assign_owned(sites, 0, grid.tile_count());
+    sites = testing::dealt(comm, sites);
+    partition = Partition(tile_weights(comm, grid, sites), comm.size());
+    migrate(comm, grid, partition, sites);
+    points.assign_owned(sites, partition.first_tile(comm.rank()), partition.last_tile(comm.rank()));
+  }
+
+  /// Each imported bin holds the sites of the truth, in the same order.
+  void expect_true_ghosts() const {
+    LocalIndex next = points.owned();
+    for (const BinRef& bin : halo.imported_bins()) {
+      EXPECT_NE(partition.owner(bin.tile), comm.rank());
+      const auto [begin, end] = points.bin_range(bin);
+      const auto [first, last] = truth.bin_range(bin);
+      ASSERT_EQ(begin, next);
+      ASSERT_EQ(end - begin, last - first);
+      for (LocalIndex i = 0; i < end - begin; ++i) {
+        EXPECT_EQ(points.position(begin + i), truth.position(first + i));
+        EXPECT_EQ(points.boundary(begin + i), truth.boundary(first + i));
+      }
+      next = end;
+    }
+    EXPECT_EQ(next, points.size());
+  }
+
+  comm::Communicator comm = comm::Communicator::world();
+  mesh::TileGrid grid;
+  mesh::BinnedPoints points, truth;
+  Halo halo;
+  Partition partition;
+};
+
+TEST(Halo, GhostsEqualTheSitesOfTheirOwners) {
+  Stage stage(testing::random_sites(1500, 1));
+  for (const int margin : {0, 1, 2, 9}) {
+    stage.halo.reset(stage.partition, margin);
+    stage.halo.refresh(stage.points);
+    stage.expect_true_ghosts();
+    EXPECT_TRUE(margin > 0 || stage.points.size() == stage.points.owned());
+    int unknown = 0; // within the margin around an owned tile everything is known
+    const double bin = stage.grid.tile_box(0).width() / stage.grid.bins_per_side();
+    for (LocalIndex i = 0; i < stage.points.owned() && margin > 0; ++i)
+      stage.points.for_each_near(
+          stage.points.position(i), 0.99 * margin * bin, [](LocalIndex, LocalIndex) {}, [&](BinRef) { ++unknown; });
+    EXPECT_EQ(unknown, 0);
+  }
+}
+
+TEST(Halo, SubscriptionsGrowAndOldGhostsKeepTheirIdentity) {
+  Stage stage(testing::random_sites(1200, 2));
+  stage.halo.reset(stage.partition, 1);
+  stage.halo.refresh(stage.points);
+  for (int round = 0; round < 3; ++round) {
+    std::vector<Vec2> old;
+    for (LocalIndex i = stage.points.owned(); i < stage.points.size(); ++i)
+      old.push_back(stage.points.position(i));
+    std::vector<BinRef> more; // every seventh foreign bin, on some ranks only; some are known already
+    if (comm::Communicator::world().rank() % 2 == round % 2)
+      for (LocalIndex tile = 0; tile < stage.grid.tile_count(); ++tile)
+        for (int bin = round; bin < stage.grid.bins_per_tile(); bin += 7)
+          if (stage.partition.owner(tile) != stage.comm.rank())
+            more.push_back({tile, bin});
+    stage.halo.subscribe(more);
+    stage.halo.refresh(stage.points);
+    stage.expect_true_ghosts();
+    const std::span<const LocalIndex> renumbering = stage.halo.ghost_renumbering();
+    ASSERT_EQ(renumbering.size(), old.size());
+    for (std::size_t k = 0; k < old.size(); ++k)
+      EXPECT_EQ(stage.points.position(renumbering[k]), old[k]);
+  }
+}
+
+TEST(Halo, ExchangeBringsTheValuesOfTheOwners) {
+  Stage stage(testing::random_sites(1000, 3));
+  stage.halo.reset(stage.partition, 2);
+  stage.halo.refresh(stage.points);
+  const auto value_of = [](Vec2 p) {
+    return static_cast<GlobalId>(p.x * 0x1p40) ^ static_cast<GlobalId>(p.y * 0x1p30);
+  };
+  std::vector<GlobalId> values;
+  for (LocalIndex i = 0; i < stage.points.owned(); ++i)
+    values.push_back(value_of(stage.points.position(i)));
+  const std::vector<GlobalId> ghosts = stage.halo.exchange(stage.points, values);
+  ASSERT_EQ(static_cast<LocalIndex>(ghosts.size()), stage.points.size() - stage.points.owned());
+  for (std::size_t k = 0; k < ghosts.size(); ++k)
+    EXPECT_EQ(ghosts[k], value_of(stage.points.position(stage.points.owned() + static_cast<LocalIndex>(k))));
+}
+
+TEST(Halo, WorksForRanksWithoutTilesAndWithoutSites) {
+  Stage few(testing::random_sites(3, 4), 5.0); // one tile
+  few.halo.reset(few.partition, 3);
+  few.halo.refresh(few.points);
+  few.expect_true_ghosts();
+  Stage empty(std::vector<Site>{});
+  empty.halo.reset(empty.partition, 2);
+  empty.halo.refresh(empty.points);
+  EXPECT_EQ(empty.points.size(), 0);
+}
+
+TEST(Numbering, IsThatOfOneRankAndFollowsTheHilbertCurve) {
+  for (const double spacing : {0.03, 5.0}) {
+    Stage stage(testing::near_duplicates(500, 5), spacing);
+    stage.halo.reset(stage.partition, 2);
+    stage.halo.refresh(stage.points);
+    const Numbering numbering = canonical_numbering(stage.comm, stage.points, stage.halo);
+
+    const comm::Communicator self = comm::Communicator::self();
+    Halo nothing(self, stage.grid);
+    nothing.reset(Partition(stage.grid.tile_count(), 1), 0);
+    const Numbering truth = canonical_numbering(self, stage.truth, nothing);
+
+    EXPECT_EQ(numbering.total, truth.total);
+    EXPECT_EQ(numbering.first, stage.comm.exclusive_scan(stage.points.owned()));
+    ASSERT_EQ(static_cast<LocalIndex>(numbering.global_ids.size()), stage.points.size());
+    const auto place = [&](GlobalId id) { return stage.truth.position(truth.order[static_cast<std::size_t>(id)]); };
+    for (LocalIndex i = 0; i < stage.points.size(); ++i)
+      EXPECT_EQ(place(numbering.global_ids[static_cast<std::size_t>(i)]), stage.points.position(i));
+    for (std::size_t k = 0; k < numbering.order.size(); ++k)
+      EXPECT_EQ(numbering.global_ids[static_cast<std::size_t>(numbering.order[k])],
+                numbering.first + static_cast<GlobalId>(k));
+    for (GlobalId id = 1; id < truth.total; ++id) {
+      const std::uint64_t before = stage.grid.point_key(place(id - 1)), key = stage.grid.point_key(place(id));
+      EXPECT_TRUE(before < key || (before == key && geometry::lexicographically_less(place(id - 1), place(id))));
+    }
+  }
+}
+
+} // namespace
+} // namespace trime::decomposition

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sites travel to the owner of their tile; nobody is lost.
+#include "support/distributed.hpp"
+#include "trime/decomposition/migration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace trime::decomposition {
+namespace {
+
+using mesh::Site;
+
+const geometry::Box square{{0, 0}, {1, 1}};
+
+std::vector<Site> marked_sites(std::size_t n) {
+  std::vector<Site> sites = testing::random_sites(n, 1);
+  for (std::size_t k = 0; k < n; ++k) {
+    sites[k].boundary = static_cast<std::int32_t>(k);
+    sites[k].pushes = static_cast<std::int32_t>(k % 3);
+  }
+  return sites;
+}
+
+TEST(TileWeights, CountTheSitesOfAllRanks) {
+  const comm::Communicator comm = comm::Communicator::world();
+  const mesh::TileGrid grid(square, {{}, {}, 0.05});
+  const std::vector<Site> sites = marked_sites(500);
+  const std::vector<std::int64_t> weights = tile_weights(comm, grid, testing::dealt(comm, sites));
+  EXPECT_EQ(std::accumulate(weights.begin(), weights.end(), std::int64_t{0}), 500);
+  EXPECT_EQ(weights, tile_weights(comm::Communicator::self(), grid, sites));
+}
+
+TEST(Migration, EverySiteArrivesAtItsOwnerWithAllThatBelongsToIt) {
+  const comm::Communicator comm = comm::Communicator::world();
+  for (const double spacing : {0.05, 5.0}) { // many tiles, and fewer tiles than ranks
+    const mesh::TileGrid grid(square, {{}, {}, spacing});
+    const std::vector<Site> all = marked_sites(500);
+    const std::vector<Site> before = testing::dealt(comm, all);
+    const Partition partition(tile_weights(comm, grid, before), comm.size());
+    std::vector<Site> sites = before;
+    std::vector<LocalIndex> stays;
+    migrate(comm, grid, partition, sites, &stays);
+    for (const Site& site : sites)
+      EXPECT_EQ(partition.owner(grid.place(site.position).tile), comm.rank());
+    ASSERT_EQ(stays.size(), before.size());
+    LocalIndex next = 0;
+    for (std::size_t k = 0; k < before.size(); ++k)
+      if (stays[k] >= 0) {
+        EXPECT_EQ(stays[k], next++) << "those that stay keep their order in front";
+        EXPECT_EQ(sites[static_cast<std::size_t>(stays[k])].boundary, before[k].boundary);
+      }
+    std::vector<Site> together = testing::gather_all(comm, sites);
+    ASSERT_EQ(together.size(), all.size());
+    std::sort(together.begin(), together.end(), [](const Site& a, const Site& b) { return a.boundary < b.boundary; });
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      EXPECT_EQ(together[k].boundary, static_cast<std::int32_t>(k));
+      EXPECT_EQ(together[k].position, all[k].position);
+      EXPECT_EQ(together[k].pushes, all[k].pushes);
+    }
+    const std::vector<Site> settled = sites;
+    migrate(comm, grid, partition, sites);
+    EXPECT_EQ(sites.size(), settled.size()) << "nobody travels twice";
+  }
+}
+
+TEST(Migration, OneRankMayGetEverything) {
+  const comm::Communicator comm = comm::Communicator::world();
+  const mesh::TileGrid grid(square, {{}, {}, 0.05});
+  std::vector<std::int64_t> weights(static_cast<std::size_t>(grid.tile_count()), 0);
+  weights.back() = 1;
+  const Partition partition(weights, comm.size());
+  std::vector<Site> sites = testing::dealt(comm, marked_sites(100));
+  migrate(comm, grid, partition, sites);
+  EXPECT_EQ(comm.sum(static_cast<std::int64_t>(sites.size())), 100);
+}
+
+} // namespace
+} // namespace trime::decomposition

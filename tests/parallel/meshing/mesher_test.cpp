@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The whole mesher: certified on every shape, and the same bits on any ranks and threads.
+#include "support/distributed.hpp"
+#include "trime/core/error.hpp"
+#include "trime/geometry/shape.hpp"
+#include "trime/meshing/mesher.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace trime::meshing {
+namespace {
+
+using geometry::Box;
+using geometry::Frame;
+using geometry::Part;
+using geometry::Shape;
+using geometry::Vec2;
+
+const Frame& unit_frame() {
+  static const Frame frame(Box{{0, 0}, {1, 1}});
+  return frame;
+}
+
+Shape square() {
+  return Shape({Part::rectangle("s", {{0.1, 0.1}, {0.9, 0.9}}, unit_frame())}, "s", unit_frame());
+}
+Shape disc_with_hole() {
+  return Shape({Part::circle("d", {0.5, 0.5}, 0.4, unit_frame()), Part::circle("h", {0.55, 0.5}, 0.15, unit_frame())},
+               "difference(d, h)", unit_frame());
+}
+Shape thin_triangle() {
+  return Shape({Part::triangle("t", {Vec2{0.1, 0.5}, {0.9, 0.5}, {0.6, 0.54}}, unit_frame())}, "t", unit_frame());
+}
+Shape triangle() {
+  return Shape({Part::triangle("t", {Vec2{0.1, 0.1}, {0.9, 0.2}, {0.4, 0.8}}, unit_frame())}, "t", unit_frame());
+}
+Shape two_discs() {
+  return Shape({Part::circle("a", {0.25, 0.3}, 0.2, unit_frame()), Part::circle("b", {0.7, 0.7}, 0.25, unit_frame())},
+               "union(a, b)", unit_frame());
+}
+Shape whole_container() {
+  return Shape({}, "domain", unit_frame());
+}
+
+/// Finer towards the left side.
+class GradedSize final : public sizing::SizeField {
+public:
+  double size(Vec2 p) const override { return 0.5 + p.x; }
+};
+
+struct Case {
+  std::string name;
+  Shape shape;
+  MeshOptions options;
+  bool graded = false;
+};
+
+MeshOptions with_points(GlobalId points, Start start = Start::automatic) {
+  MeshOptions options;
+  options.points = points;
+  options.start = start;
+  options.max_sweeps = 12;
+  return options;
+}
+
+MeshResult run(const comm::Communicator& comm, const Case& c) {
+  Log log(LogLevel::silent, false);
+  TimerTable timers;
+  const sizing::UniformSize uniform;
+  const GradedSize graded;
+  const sizing::SizeField& size = c.graded ? static_cast<const sizing::SizeField&>(graded) : uniform;
+  return Mesher(comm, c.shape.boundary(), size, c.options, log, timers).run();
+}
+
+void expect_certified(const MeshResult& result) {
+  EXPECT_GE(result.checks.size(), 10u);
+  for (const mesh::Check& check : result.checks)
+    EXPECT_TRUE(check.passed) << check.name << ": expected " << check.expected << ", found " << check.found;
+}
+
+/// Same values on rank 0, where both are whole.
+template <class T>
+void expect_gathered(const comm::Communicator& world, const std::vector<T>& part, const std::vector<T>& whole,
+                     const char* what) {
+  const std::vector<T> all = testing::gather_all(world, part);
+  EXPECT_TRUE(!world.is_root() || all == whole)
+      << what << ": " << all.size() << " here, " << whole.size() << " on one rank";
+}
+
+void expect_slab(const comm::Communicator& world, const mesh::Slab& slab, std::size_t size) {
+  EXPECT_EQ(slab.first, world.exclusive_scan(static_cast<std::int64_t>(size)));
+  EXPECT_EQ(slab.total, world.sum(static_cast<std::int64_t>(size)));
+}
+
+/// @param threads_to_try for the run on all ranks; the run on rank 0 alone has one thread
+void expect_same_everywhere(const Case& c, const std::vector<int>& threads_to_try = {2}) {
+  SCOPED_TRACE(c.name);
+  const comm::Communicator world = comm::Communicator::world();
+  MeshResult serial;
+  if (world.is_root()) {
+    const testing::OnThreads one(1);
+    serial = run(comm::Communicator::self(), c);
+    expect_certified(serial);
+  }
+  for (const int threads : threads_to_try) {
+    const testing::OnThreads on(threads);
+    const MeshResult result = run(world, c);
+    expect_certified(result);
+    if (world.is_root()) {
+      EXPECT_EQ(result.mesh.hash, serial.mesh.hash);
+      EXPECT_EQ(result.stop_reason, serial.stop_reason);
+      EXPECT_EQ(result.quality.alpha.mean, serial.quality.alpha.mean);
+      EXPECT_EQ(result.quality.alpha.max, serial.quality.alpha.max);
+      EXPECT_EQ(result.quality.min_angle_degrees, serial.quality.min_angle_degrees);
+      EXPECT_EQ(result.quality.size_std, serial.quality.size_std);
+      EXPECT_EQ(result.history.size(), serial.history.size());
+    }
+    expect_slab(world, result.mesh.point_slab, result.mesh.points.size());
+    expect_slab(world, result.mesh.triangle_slab, result.mesh.triangles.size());
+    expect_slab(world, result.mesh.facet_slab, result.mesh.facets.size());
+    expect_gathered(world, result.mesh.points, serial.mesh.points, "points");
+    expect_gathered(world, result.mesh.boundary, serial.mesh.boundary, "tags of points");
+    expect_gathered(world, result.mesh.size, serial.mesh.size, "sizes");
+    expect_gathered(world, result.mesh.fixed, serial.mesh.fixed, "fixed points");
+    expect_gathered(world, result.mesh.triangles, serial.mesh.triangles, "triangles");
+    expect_gathered(world, result.mesh.alpha, serial.mesh.alpha, "aspect ratios");
+    expect_gathered(world, result.mesh.beta, serial.mesh.beta, "edge ratios");
+    expect_gathered(world, result.mesh.facets, serial.mesh.facets, "boundary edges");
+    expect_gathered(world, result.mesh.facet_tags, serial.mesh.facet_tags, "tags of edges");
+  }
+}
+
+TEST(Mesher, SameBitsOnAnyRanksAndThreadsFromALattice) {
+  expect_same_everywhere({"square", square(), with_points(800, Start::lattice)}, {1, 2, 3});
+  expect_same_everywhere({"disc with hole", disc_with_hole(), with_points(700, Start::lattice)});
+  expect_same_everywhere({"two discs", two_discs(), with_points(600, Start::lattice)});
+  expect_same_everywhere({"container", whole_container(), with_points(400, Start::lattice)});
+}
+
+TEST(Mesher, SameBitsOnAnyRanksAndThreadsFromHilbertQuantiles) {
+  expect_same_everywhere({"square", square(), with_points(800, Start::hilbert)}, {1, 2, 3});
+  expect_same_everywhere({"disc with hole", disc_with_hole(), with_points(700, Start::hilbert)});
+  expect_same_everywhere({"graded", disc_with_hole(), with_points(700), true});
+}
+
+TEST(Mesher, SameBitsWhereOnlySmallTrianglesCount) { // from 2000 points on
+  expect_same_everywhere({"square", square(), with_points(2600, Start::lattice)});
+  expect_same_everywhere({"graded disc", disc_with_hole(), with_points(2600, Start::hilbert), true});
+}
+
+TEST(Mesher, ThinTriangles) {
+  for (const Start start : {Start::lattice, Start::hilbert})
+    expect_same_everywhere({"thin triangle", thin_triangle(), with_points(150, start)});
+}
+
+TEST(Mesher, TinyNumbersOfPoints) {
+  for (const Start start : {Start::lattice, Start::hilbert}) {
+    expect_same_everywhere({"triangle of 3", triangle(), with_points(3, start)});
+    for (const GlobalId points : {4, 5, 10, 20})
+      expect_same_everywhere({"square of " + std::to_string(points), square(), with_points(points, start)});
+    expect_same_everywhere({"hole of 20", disc_with_hole(), with_points(20, start)});
+  }
+}
+
+TEST(Mesher, GivenContainerGrids) {
+  for (const auto& [x, y] : {std::pair{1, 1}, std::pair{3, 50}, std::pair{200, 200}}) {
+    MeshOptions options = with_points(300);
+    options.cells_x = x;
+    options.cells_y = y;
+    expect_same_everywhere({fmt::format("{} x {} cells", x, y), square(), options});
+  }
+}
+
+TEST(Mesher, EdgeLengthInPlaceOfPoints) {
+  MeshOptions options;
+  options.edge_length = 0.06;
+  options.max_sweeps = 12;
+  expect_same_everywhere({"edge length", disc_with_hole(), options});
+  options.edge_length = 3; // larger than the shape: the coarsest mesh that there is
+  expect_same_everywhere({"huge edge length", square(), options});
+}
+
+TEST(Mesher, MeetsTheWishesAndSaysHowItStopped) {
+  const comm::Communicator world = comm::Communicator::world();
+  Case c{"square", square(), with_points(1000)};
+  c.options.max_sweeps = 100;
+  const MeshResult result = run(world, c);
+  EXPECT_NE(result.stop_reason, StopReason::sweep_cap);
+  EXPECT_EQ(result.requested_points, 1000);
+  EXPECT_NEAR(static_cast<double>(result.mesh.point_slab.total), 1000, 20);
+  EXPECT_EQ(result.corners, 4);
+  EXPECT_EQ(result.components, 1);
+  EXPECT_EQ(result.holes, 0);
+  EXPECT_LT(result.quality.alpha.mean, 1.05);
+  EXPECT_GT(result.quality.min_angle_degrees, 20);
+  ASSERT_FALSE(result.history.empty());
+  for (std::size_t k = 0; k < result.history.size(); ++k)
+    EXPECT_EQ(result.history[k].sweep, static_cast<int>(k));
+  for (const int cap : {0, 3}) {
+    c.options.max_sweeps = cap;
+    const MeshResult stopped = run(world, c);
+    EXPECT_EQ(stopped.stop_reason, StopReason::sweep_cap);
+    EXPECT_EQ(static_cast<int>(stopped.history.size()), cap + 1);
+    expect_certified(stopped);
+  }
+}
+
+TEST(Mesher, TooFewPointsAreAnErrorOnAllRanks) {
+  const comm::Communicator world = comm::Communicator::world();
+  try {
+    run(world, {"square", square(), with_points(3)});
+    ADD_FAILURE() << "no error was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_NE(std::string(error.what()).find("points = 3"), std::string::npos);
+  }
+  world.barrier(); // nobody is left behind in a collective
+}
+
+} // namespace
+} // namespace trime::meshing

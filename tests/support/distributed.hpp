@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Help for tests on several ranks: values of all ranks together, and sites shared out.
+#pragma once
+
+#include "support/point_sets.hpp"
+#include "trime/comm/communicator.hpp"
+
+#include <vector>
+
+namespace trime::testing {
+
+/// The values of all ranks one after the other, on every rank. Collective.
+template <class T>
+std::vector<T> gather_all(const comm::Communicator& comm, const std::vector<T>& values) {
+  std::string bytes(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+  std::string all;
+  for (const std::string& part : comm.gather(bytes))
+    all += part;
+  all = comm.broadcast(std::move(all));
+  return comm::from_bytes<T>(std::as_bytes(std::span<const char>(all)));
+}
+
+/// Sites k with k mod size == rank: belongs to nobody's tiles in particular.
+inline std::vector<mesh::Site> dealt(const comm::Communicator& comm, const std::vector<mesh::Site>& sites) {
+  std::vector<mesh::Site> mine;
+  for (std::size_t k = static_cast<std::size_t>(comm.rank()); k < sites.size();
+       k += static_cast<std::size_t>(comm.size()))
+    mine.push_back(sites[k]);
+  return mine;
+}
+
+} // namespace trime::testing
