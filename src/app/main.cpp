@@ -35,12 +35,11 @@ void print_error(const std::string& message) {
   std::fflush(stderr);
 }
 
-/// An error that this rank has alone: others may wait for it for ever. Leaving without MPI_Finalize makes mpirun end
-/// them.
+/// An error that this rank has alone: others may wait for it for ever. The whole job ends.
 [[noreturn]] void leave_alone(const std::string& message, ExitCode code) {
   print_error(message);
   trime::io::remove_temporary_file();
-  std::_Exit(static_cast<int>(code));
+  trime::comm::abort_job(static_cast<int>(code));
 }
 
 /// Errors of the program are the same on all ranks; rank 0 tells them.

@@ -5,6 +5,26 @@
 
 namespace trime::comm {
 
+namespace {
+
+/// The class that belongs to an exit code, so that callers can catch what the documentation names.
+[[noreturn]] void throw_error(ExitCode code, const std::string& message) {
+  switch (code) {
+  case ExitCode::usage:
+    throw ConfigError(message);
+  case ExitCode::geometry:
+    throw GeometryError(message);
+  case ExitCode::file:
+    throw FileError(message);
+  case ExitCode::internal_error:
+    throw InternalError(message);
+  default:
+    throw Error(code, message);
+  }
+}
+
+} // namespace
+
 void agree(const Communicator& comm, const std::optional<Error>& error) {
   const std::int64_t failing = comm.min(std::int64_t{error ? comm.rank() : comm.size()});
   if (failing == comm.size())
@@ -13,7 +33,7 @@ void agree(const Communicator& comm, const std::optional<Error>& error) {
   std::string text = error ? std::string(1, static_cast<char>(error->code())) + error->what() : std::string();
   text = comm.broadcast(std::move(text), root);
   const std::string suffix = root > 0 ? fmt::format(" (rank {})", root) : "";
-  throw Error(static_cast<ExitCode>(text[0]), text.substr(1) + suffix);
+  throw_error(static_cast<ExitCode>(text[0]), text.substr(1) + suffix);
 }
 
 void run_agreed(const Communicator& comm, const std::function<void()>& work) {

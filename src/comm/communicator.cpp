@@ -5,6 +5,7 @@
 #include "trime/core/error.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
 
 namespace trime::comm {
@@ -50,6 +51,11 @@ void reduce_in_place(std::span<T> values, MPI_Datatype type, MPI_Op op, MPI_Comm
 }
 
 } // namespace
+
+void abort_job(int exit_code) {
+  MPI_Abort(MPI_COMM_WORLD, exit_code);
+  std::_Exit(exit_code);
+}
 
 Environment::Environment(int& argc, char**& argv) {
   int provided = MPI_THREAD_SINGLE;

@@ -168,12 +168,4 @@ std::vector<GlobalId> Halo::exchange(const mesh::BinnedPoints& points, std::span
   return concatenate<GlobalId>(incoming);
 }
 
-std::size_t Halo::memory_bytes() const {
-  std::size_t bins = 2 * imported_.capacity();
-  for (const std::vector<Peer>* peers : {&imports_, &exports_})
-    for (const Peer& peer : *peers)
-      bins += peer.bins.capacity();
-  return bins * sizeof(BinRef) + counts_.capacity() * 4 + ghost_renumbering_.capacity() * 4;
-}
-
 } // namespace trime::decomposition

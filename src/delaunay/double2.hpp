@@ -18,9 +18,6 @@ inline Double2 load2(const double* from) {
   std::memcpy(&v, from, sizeof v);
   return v;
 }
-inline void store2(double* to, Double2 v) {
-  std::memcpy(to, &v, sizeof v);
-}
 inline Double2 both(double v) {
   return Double2{v, v};
 }

@@ -146,7 +146,8 @@ private:
   /// For a warm star: sites within the security radius are counted first; if they are as many as the members within it,
   /// the star is right, and nobody's identity needs a look.
   void check_members(double reach) {
-    const double r2 = 4 * kernel_.squared_radius();
+    // Both counts within the window: beyond it (a radius above the cap) members are known and other sites are not.
+    const double r2 = std::min(4 * kernel_.squared_radius(), reach * reach);
     std::ptrdiff_t inside = -1; // the site itself
     const auto miss = [&](mesh::BinRef bin) { missing_.push_back(bin); };
     points_.for_each_near(

@@ -110,12 +110,4 @@ void StarTable::release_work_space() {
   std::vector<std::vector<LocalIndex>>().swap(overflow_back_);
 }
 
-std::size_t StarTable::memory_bytes() const {
-  std::size_t bytes = (rings_.capacity() + rings_back_.capacity()) * sizeof(rings_[0]) + degree_.capacity() +
-                      degree_back_.capacity() + certain_.capacity();
-  for (const auto& ring : overflow_)
-    bytes += sizeof(ring) + ring.capacity() * sizeof(LocalIndex);
-  return bytes;
-}
-
 } // namespace trime::delaunay

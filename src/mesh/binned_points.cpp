@@ -199,12 +199,4 @@ void BinnedPoints::release_work_space() {
     std::vector<LocalIndex>().swap(*list);
 }
 
-std::size_t BinnedPoints::memory_bytes() const {
-  return positions_.capacity() * sizeof(geometry::Vec2) + boundary_.capacity() * 4 + pushes_.capacity() +
-         tile_block_.capacity() * 4 + blocks_.capacity() * sizeof(Block) + bin_begin_.capacity() * 9 +
-         (tile_start_.capacity() + order_.capacity() + sorted_.capacity() + tile_of_.capacity() + kept_.capacity() +
-          key_.capacity()) *
-             4;
-}
-
 } // namespace trime::mesh

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace trime::mesh {
 namespace {
@@ -28,12 +29,15 @@ double aspect_ratio(Vec2 p, Vec2 q, Vec2 r) {
   // With the area A = |cross|/2: abc/(8(s-a)(s-b)(s-c)) = abc s/(8 A^2), which does not cancel for flat triangles.
   const Edges e = edges(p, q, r);
   const double twice_area = geometry::cross(q - p, r - p);
+  if (twice_area == 0)
+    return std::numeric_limits<double>::infinity();
   return std::max(1.0, e.a * e.b * e.c * (e.a + e.b + e.c) / (4 * twice_area * twice_area));
 }
 
 double edge_ratio(Vec2 p, Vec2 q, Vec2 r) {
   const Edges e = edges(p, q, r);
-  return std::max({e.a, e.b, e.c}) / std::min({e.a, e.b, e.c});
+  const double shortest = std::min({e.a, e.b, e.c});
+  return shortest > 0 ? std::max({e.a, e.b, e.c}) / shortest : std::numeric_limits<double>::infinity();
 }
 
 double min_angle_degrees(Vec2 p, Vec2 q, Vec2 r) {
@@ -49,6 +53,8 @@ double min_angle_degrees(Vec2 p, Vec2 q, Vec2 r) {
 RatioStatistics::RatioStatistics() : bins_(fine_bins + coarse_bins + 1, 0) {}
 
 std::size_t RatioStatistics::bin(double ratio) {
+  if (!(ratio > 1))
+    return 0;
   if (ratio < 2)
     return std::min(fine_bins - 1, static_cast<std::size_t>((ratio - 1) / fine_bin));
   if (ratio < 10)

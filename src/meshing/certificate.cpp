@@ -45,19 +45,20 @@ struct ExactArea {
 /// Everything that is counted, mergeable.
 struct Counts {
   std::int64_t points = 0, edges = 0, triangles = 0, facets = 0, listings = 0;
-  std::int64_t hash_of_listings = 0, hash_of_triangles = 0; // mod 2^64
+  std::int64_t hash_of_listings = 0, hash_of_triangles = 0, hash_of_written = 0; // mod 2^64
   std::int64_t not_positive = 0, not_delaunay = 0, incomplete = 0, unused = 0, corners = 0;
   ExactArea area;
 
-  static constexpr std::size_t size = 15;
+  static constexpr std::size_t size = 16;
   std::array<std::int64_t, size> pack() const {
     const auto parts = area.split();
-    return {points,       edges,      triangles, facets,  listings, hash_of_listings, hash_of_triangles, not_positive,
-            not_delaunay, incomplete, unused,    corners, parts[0], parts[1],         parts[2]};
+    return {points,          edges,        triangles,    facets,     listings, hash_of_listings, hash_of_triangles,
+            hash_of_written, not_positive, not_delaunay, incomplete, unused,   corners,          parts[0],
+            parts[1],        parts[2]};
   }
   static Counts unpack(const std::array<std::int64_t, size>& p) {
-    Counts c{p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10], p[11], {}};
-    c.area = ExactArea::join({p[12], p[13], p[14]});
+    Counts c{p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10], p[11], p[12], {}};
+    c.area = ExactArea::join({p[13], p[14], p[15]});
     return c;
   }
   void add(const Counts& other) {
@@ -135,7 +136,7 @@ mesh::Check check(const char* name, std::int64_t expected, std::int64_t found, c
 } // namespace
 
 mesh::Checks certify(const ExtractionContext& context, const decomposition::Numbering& numbering,
-                     const Expectation& expectation) {
+                     const Expectation& expectation, const mesh::DistributedMesh& mesh) {
   const mesh::BinnedPoints& points = context.state.points();
   std::vector<Counts> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
   thread_loop(points.owned(), 4096, [&](std::ptrdiff_t i, int thread) {
@@ -144,6 +145,8 @@ mesh::Checks certify(const ExtractionContext& context, const decomposition::Numb
   Counts counts;
   for (const Counts& c : of_thread)
     counts.add(c);
+  for (const auto& triangle : mesh.triangles)
+    counts.hash_of_written = wrapping_sum(counts.hash_of_written, triangle_hash(triangle[0], triangle[1], triangle[2]));
   auto packed = counts.pack();
   context.state.comm().sum(packed);
   counts = Counts::unpack(packed);
@@ -159,6 +162,10 @@ mesh::Checks certify(const ExtractionContext& context, const decomposition::Numb
       check("star_listings", 3 * counts.triangles, counts.listings, "every triangle is listed by its three stars"));
   checks.push_back(
       check("star_disagreements", 0, hash_of_thrice != counts.hash_of_listings, "and all three list the same one"));
+  checks.push_back(check("written_triangles", counts.triangles,
+                         counts.hash_of_written == counts.hash_of_triangles ? mesh.triangle_slab.total : -1,
+                         "the triangles to be written are these"));
+  checks.push_back(check("written_facets", segments, mesh.facet_slab.total, "boundary edges to be written"));
   checks.push_back(check("not_positive", 0, counts.not_positive, "triangles that are not counter-clockwise"));
   checks.push_back(check("euler_characteristic", expectation.components - expectation.holes,
                          counts.points - counts.edges + counts.triangles, "components minus holes"));
@@ -166,8 +173,8 @@ mesh::Checks certify(const ExtractionContext& context, const decomposition::Numb
                          "inner edges have two triangles, boundary edges one"));
   checks.push_back(check("not_delaunay", 0, counts.not_delaunay, "edges that are not locally Delaunay (exact test)"));
   checks.push_back(check("boundary_segments", segments, counts.facets, "boundary segments that are edges of the mesh"));
-  checks.push_back(
-      check("corners", context.boundary.corners, counts.corners, "corners that are vertices, bit for bit"));
+  checks.push_back(check("corners", context.boundary.corners, counts.corners,
+                         "corners that are vertices, bit for bit on the lattice"));
   checks.push_back(check("unused_points", 0, counts.unused, "points without a triangle"));
   checks.push_back({"area", polygon.value(context.lattice), counts.area.value(context.lattice),
                     polygon.twice == counts.area.twice, "triangles fill the boundary polygon (exact integers)"});

@@ -217,7 +217,7 @@ mesh::QualitySummary measure_quality(const ExtractionContext& context, const dec
       if (numbering.global_ids[at(i)] > numbering.global_ids[at(j)])
         continue;
       const Vec2 q = points.position(j);
-      const double ratio = std::min(1000.0, geometry::length(q - p) / context.size.size(0.5 * (p + q)));
+      const double ratio = std::min(500.0, geometry::length(q - p) / context.size.size(0.5 * (p + q)));
       sums.ratio.add(ratio);
       sums.squared_ratio.add(ratio * ratio);
       ++sums.edges;

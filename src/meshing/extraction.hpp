@@ -21,7 +21,6 @@ struct ExtractionContext {
   const BoundarySites& boundary;
   const sizing::SizeField& size;
   const geometry::Lattice& lattice;
-  const delaunay::StarBuilder& builder;
 };
 
 /// @brief The inside fan of a site: the run of ring entries whose consecutive pairs are the triangles inside the shape.
@@ -53,8 +52,9 @@ struct Expectation {
 };
 
 /// @brief The certificate: manifold, positive, Euler characteristic, area, Delaunay, boundary segments, corners,
-/// agreement of all stars. Exact integers throughout. Collective. O(points)
+/// agreement of all stars with each other and with `mesh`, the arrays that will be written. Exact integers throughout.
+/// Collective. O(points)
 mesh::Checks certify(const ExtractionContext& context, const decomposition::Numbering& numbering,
-                     const Expectation& expectation);
+                     const Expectation& expectation, const mesh::DistributedMesh& mesh);
 
 } // namespace trime::meshing

@@ -79,19 +79,25 @@ private:
     });
   }
 
-  /// The container grid; where its cells are left to the program, only the part of it around the shape.
+  /// The part of the container grid around the shape: what lies beyond holds no site. Cells that were given keep their
+  /// size.
   void make_grid() {
-    geometry::Box box = options_.container;
-    if (!options_.cells_x && !options_.cells_y) {
-      geometry::Box around;
-      for (const BoundarySite& site : layout_.boundary.sites)
-        around.include(site.position);
-      const double h = layout_.edge_length;
-      box = {{std::max(box.min.x, around.min.x - h), std::max(box.min.y, around.min.y - h)},
-             {std::min(box.max.x, around.max.x + h), std::min(box.max.y, around.max.y + h)}};
-    }
-    layout_.state = std::make_unique<SiteState>(
-        context_.comm, box, mesh::GridOptions{options_.cells_x, options_.cells_y, layout_.edge_length});
+    const geometry::Box& container = options_.container;
+    geometry::Box around;
+    for (const BoundarySite& site : layout_.boundary.sites)
+      around.include(site.position);
+    const double h = layout_.edge_length;
+    const geometry::Box box{{std::max(container.min.x, around.min.x - h), std::max(container.min.y, around.min.y - h)},
+                            {std::min(container.max.x, around.max.x + h), std::min(container.max.y, around.max.y + h)}};
+    const auto cells = [](const std::optional<int>& given, double share) -> std::optional<int> {
+      if (!given)
+        return given;
+      return std::max(1, static_cast<int>(std::lround(*given * share)));
+    };
+    layout_.state =
+        std::make_unique<SiteState>(context_.comm, box,
+                                    mesh::GridOptions{cells(options_.cells_x, box.width() / container.width()),
+                                                      cells(options_.cells_y, box.height() / container.height()), h});
   }
 
   /// The tiles that this rank fills with sites: an even share, before anything is known of their number.
@@ -110,11 +116,11 @@ private:
     const TileRange tiles = my_tiles();
     const GlobalId wanted = *options_.points - on_boundary();
     const double none = 4 * (options_.container.width() + options_.container.height()); // no site fits at all
-    double low = 0, high = none, spacing = layout_.edge_length;
+    // The discs of the boundary may leave no room at all, however fine the lattice (thin shapes, few points): nothing
+    // below half the size of the boundary's segments is tried.
+    double low = 0.5 * layout_.edge_length, high = none, spacing = layout_.edge_length;
     GlobalId best = 0;
-    // The discs of a coarse boundary may leave no room at all, however fine the lattice.
-    const double finest = 0.1 * std::sqrt(context_.boundary.area / (row_height * static_cast<double>(wanted + 1)));
-    for (int round = 0; round < spacing_rounds && wanted - best > wanted / 5000 && spacing > finest; ++round) {
+    for (int round = 0; round < spacing_rounds && wanted - best > wanted / 5000; ++round) {
       const GlobalId count = context_.comm.sum(start.count(tiles, spacing));
       if (count > wanted) {
         low = spacing;

@@ -18,6 +18,7 @@ namespace {
 constexpr double cap_in_sizes = 2.5;  // circumradius that counts, in h: a relaxed mesh has 0.6, a start up to 1.5
 constexpr GlobalId few_points = 2000; // below, the cap is the whole container
 constexpr double default_tolerance = 0.04;
+constexpr int cap_doublings = 3;
 constexpr int settle_rounds = 12, settle_pushes = 8;
 
 } // namespace
@@ -140,17 +141,20 @@ private:
 
   // --- the mesh -----------------------------------------------------------------------------------------------------
 
-  ExtractionContext extraction() const { return {state(), layout_.boundary, *layout_.size, lattice_, *builder_}; }
+  ExtractionContext extraction() const { return {state(), layout_.boundary, *layout_.size, lattice_}; }
 
-  /// Stars of all sites. Where a fan is not closed the cap was too low (a void): it is doubled, up to the container.
+  /// Stars of all sites. Where a fan is not complete the cap may have been too low (a void): it is doubled for these
+  /// sites, a few times; the certificate tells of what remains.
   void complete_stars() {
     const double largest = std::max(options_.container.width(), options_.container.height());
     stars(Wanted::all_sites);
-    while (comm_.sum(count_incomplete_fans(extraction())) > 0 && cap_ < largest) { // at most log2(largest / h) times
+    for (int doubling = 0; doubling < cap_doublings && cap_ < largest; ++doubling) {
+      if (comm_.sum(count_incomplete_fans(extraction())) == 0)
+        return;
       cap_ = std::min(largest, 2 * cap_);
       builder_ = std::make_unique<delaunay::StarBuilder>(lattice_, cap_);
       for (LocalIndex i = 0; i < state().points().owned(); ++i)
-        state().stars().set_certain(i, inside_fan(extraction(), i).closed && inside_fan(extraction(), i).complete);
+        state().stars().set_certain(i, inside_fan(extraction(), i).complete);
       stars(Wanted::all_sites);
     }
   }
@@ -164,9 +168,9 @@ private:
     MeshResult result;
     result.components = boundary_.components();
     result.holes = boundary_.holes();
-    result.checks = certify(context, numbering, {result.components, result.holes});
     result.quality = measure_quality(context, numbering);
     result.mesh = extract_mesh(context, numbering);
+    result.checks = certify(context, numbering, {result.components, result.holes}, result.mesh);
     result.history = std::move(history_);
     result.stop_reason = stop_reason_;
     result.requested_points = options_.points.value_or(0);

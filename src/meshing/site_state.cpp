@@ -3,6 +3,9 @@
 
 #include "trime/core/error.hpp"
 
+#include <limits>
+#include <numeric>
+
 namespace trime::meshing {
 namespace {
 
@@ -11,6 +14,19 @@ constexpr int halo_margin = 2;
 /// Rounds of asking for more bins; every round reaches at least one bin farther, two suffice in practice.
 constexpr int max_halo_rounds = 100;
 
+/// Owned sites and ghosts are counted by LocalIndex; one in eight is left for ghosts and growth. Weights are
+/// replicated, so all ranks find the same.
+void check_counts(const std::vector<std::int64_t>& weights, const decomposition::Partition& partition) {
+  constexpr std::int64_t most = std::numeric_limits<LocalIndex>::max() / 8 * 7;
+  for (int rank = 0; rank < partition.ranks(); ++rank) {
+    const std::int64_t sites = std::accumulate(weights.begin() + partition.first_tile(rank),
+                                               weights.begin() + partition.last_tile(rank), std::int64_t{0});
+    if (sites > most)
+      throw ConfigError(
+          fmt::format("rank {} would own {} points, at most {} are possible; start more ranks", rank, sites, most));
+  }
+}
+
 } // namespace
 
 SiteState::SiteState(const comm::Communicator& comm, const geometry::Box& box, const mesh::GridOptions& grid_options)
@@ -18,7 +34,9 @@ SiteState::SiteState(const comm::Communicator& comm, const geometry::Box& box, c
       halo_(comm, grid_) {}
 
 void SiteState::distribute(std::vector<mesh::Site> sites) {
-  partition_ = decomposition::Partition(decomposition::tile_weights(comm_, grid_, sites), comm_.size());
+  const std::vector<std::int64_t> weights = decomposition::tile_weights(comm_, grid_, sites);
+  partition_ = decomposition::Partition(weights, comm_.size());
+  check_counts(weights, partition_);
   decomposition::migrate(comm_, grid_, partition_, sites);
   points_.assign_owned(sites, partition_.first_tile(comm_.rank()), partition_.last_tile(comm_.rank()));
   stars_.reset(points_.owned());
@@ -73,10 +91,6 @@ void SiteState::release_work_space() {
   stars_.release_work_space();
   for (std::vector<LocalIndex>* list : {&stays_, &sorted_, &renumbering_})
     std::vector<LocalIndex>().swap(*list);
-}
-
-std::size_t SiteState::memory_bytes() const {
-  return points_.memory_bytes() + halo_.memory_bytes() + stars_.memory_bytes();
 }
 
 } // namespace trime::meshing

@@ -22,6 +22,7 @@ public:
   SiteState(const comm::Communicator& comm, const geometry::Box& box, const mesh::GridOptions& grid_options);
 
   /// First sites, from any ranks: partitions the tiles by their counts. Collective.
+  /// @throws ConfigError on all ranks if one would own more sites than a local index can count
   void distribute(std::vector<mesh::Site> sites);
   /// @brief The owned sites moved: `sites[i]` is owned site i, or deleted where `deleted[i]`. Migrates, sorts, keeps
   /// the rings. Collective.
@@ -30,8 +31,6 @@ public:
   /// @brief Refreshes the halo and computes the wanted stars, asking for more bins until every one is certain.
   /// Collective.
   delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, Wanted wanted);
-  /// Refreshes the ghosts. Collective among neighbours.
-  void refresh_halo() { halo_.refresh(points_); }
 
   const mesh::TileGrid& grid() const { return grid_; }
   const mesh::BinnedPoints& points() const { return points_; }
@@ -42,7 +41,6 @@ public:
   const comm::Communicator& comm() const { return comm_; }
   /// Frees what only further moves would need.
   void release_work_space();
-  std::size_t memory_bytes() const;
 
 private:
   const comm::Communicator& comm_;

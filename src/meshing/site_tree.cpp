@@ -42,7 +42,7 @@ LocalIndex SiteTree::find_in_disc(Vec2 a, Vec2 b, LocalIndex index_a, LocalIndex
                         1e-15 * (std::fabs(center.x) + std::fabs(center.y)); // rounding must not hide a site
   const auto in_disc = [&](const Item& item) {
     return item.index != index_a && item.index != index_b &&
-           (geometry::diametral_side(a, b, item.position) < 0 || item.position == a || item.position == b);
+           (geometry::diametral_side(a, b, item.position) <= 0 || item.position == a || item.position == b);
   };
   struct Range {
     std::size_t low, high;

@@ -28,6 +28,9 @@ public:
 /// Name and version of the MPI library, one line.
 std::string library_version();
 
+/// Ends all processes of the job at once, with this exit code: for an error that one rank has alone.
+[[noreturn]] void abort_job(int exit_code);
+
 /// Bytes for one peer.
 struct Message {
   int peer;

@@ -40,7 +40,6 @@ public:
 
   /// Bins that this rank imports, ascending.
   std::span<const mesh::BinRef> imported_bins() const { return imported_; }
-  std::size_t memory_bytes() const;
 
 private:
   struct Peer {

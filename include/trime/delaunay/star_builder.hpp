@@ -19,10 +19,10 @@ struct StarPass {
 };
 
 /// @brief The star of a site p is its Voronoi cell, kept as the ring of Delaunay neighbours with the circumcentres
-/// between them. It starts as the square of half-width 2 cap around p (four virtual neighbours) or as the last ring,
-/// and every site within the security radius 2 R_max cuts it (Rycroft 2009 for the cell; Shewchuk 2005 for stars that
-/// agree). All decisions are exact: a float test with an error bound, then geometry::in_circle with its symbolic tie
-/// rule.
+/// between them. It starts as the square of half-width cap around p (four virtual neighbours at 2 cap) or as the last
+/// ring, and every site within the security radius 2 R_max cuts it (Rycroft 2009 for the cell; Shewchuk 2005 for stars
+/// that agree). All decisions are exact: a float test with an error bound, then geometry::in_circle with its symbolic
+/// tie rule.
 ///
 /// Only triangles with circumradius below the cap count; no other site within 2 cap can change them, so the search is
 /// bounded whatever lies around. What does not count becomes a gap of the ring.

@@ -53,7 +53,6 @@ public:
 
   /// Frees the second set of rings that renumber uses.
   void release_work_space();
-  std::size_t memory_bytes() const;
 
 private:
   std::vector<std::array<LocalIndex, slots>> rings_, rings_back_;

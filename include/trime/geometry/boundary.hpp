@@ -13,11 +13,11 @@ namespace trime::geometry {
 struct Piece {
   Vec2 start, end;
   bool circular = false;
-  Vec2 center;          ///< circular pieces only, as the rest
+  Vec2 center; ///< circular pieces only, as the rest
   double radius = 0;
   double start_angle = 0; ///< radians
-  double sweep = 0;     ///< signed angle from start to end, radians, counter-clockwise positive, |sweep| <= 2 pi
-  int part = 0;         ///< index into Boundary::part_names of the part that the piece comes from
+  double sweep = 0;       ///< signed angle from start to end, radians, counter-clockwise positive, |sweep| <= 2 pi
+  int part = 0;           ///< index into Boundary::part_names of the part that the piece comes from
 
   /// Arc length.
   double length() const;

@@ -16,14 +16,26 @@ struct Vec2 {
   friend constexpr Vec2 operator*(double s, Vec2 a) { return {s * a.x, s * a.y}; }
 };
 
-constexpr double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
-constexpr double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-constexpr double squared_length(Vec2 a) { return dot(a, a); }
-inline double length(Vec2 a) { return std::sqrt(dot(a, a)); }
+constexpr double dot(Vec2 a, Vec2 b) {
+  return a.x * b.x + a.y * b.y;
+}
+constexpr double cross(Vec2 a, Vec2 b) {
+  return a.x * b.y - a.y * b.x;
+}
+constexpr double squared_length(Vec2 a) {
+  return dot(a, a);
+}
+inline double length(Vec2 a) {
+  return std::sqrt(dot(a, a));
+}
 /// Turned by +90 degrees: the left normal of a direction.
-constexpr Vec2 left_normal(Vec2 a) { return {-a.y, a.x}; }
+constexpr Vec2 left_normal(Vec2 a) {
+  return {-a.y, a.x};
+}
 /// Lexicographic order of the coordinates, x first: the order behind every tie.
-constexpr bool lexicographically_less(Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
+constexpr bool lexicographically_less(Vec2 a, Vec2 b) {
+  return a.x < b.x || (a.x == b.x && a.y < b.y);
+}
 
 /// Closed rectangle; empty (min > max) by default.
 struct Box {

@@ -73,7 +73,6 @@ public:
 
   /// Frees what the next assign_owned would use again.
   void release_work_space();
-  std::size_t memory_bytes() const;
 
 private:
   struct Block {           // bins of one tile that is owned or partly known

@@ -50,11 +50,10 @@ public:
   int bins_per_side() const { return 1 << bin_bits_; }
   int bins_per_tile() const { return 1 << (2 * bin_bits_); }
 
-  /// 32-bit fixed-point position; monotone in the coordinate, clamped to the container.
+  /// 32-bit fixed-point position; monotone in the coordinate, clamped to the tiles.
   std::uint32_t fixed_x(double x) const { return fixed((x - container_.min.x) * scale_x_, limit_x_); }
   std::uint32_t fixed_y(double y) const { return fixed((y - container_.min.y) * scale_y_, limit_y_); }
-  /// Tile column (or row) and bin column (or row) over the whole grid of a fixed-point position.
-  int tile_of(std::uint32_t position) const { return static_cast<int>(position >> tile_shift_); }
+  /// Bin column (or row) over the whole grid of a fixed-point position.
   int bin_of(std::uint32_t position) const { return static_cast<int>(position >> bin_shift_); }
 
   /// Tile and bin of a point.

@@ -183,6 +183,39 @@ TEST(Mesher, EdgeLengthInPlaceOfPoints) {
   expect_same_everywhere({"huge edge length", square(), options});
 }
 
+/// Boundary sites exactly on the disc of a segment, one on either side: the tie rule may pick the other diagonal, so
+/// such a segment is divided.
+TEST(Mesher, CocircularBoundarySites) {
+  const Shape shape({Part::triangle("hole", {Vec2{0.4, 0.4}, {0.6, 0.6}, {0.4, 0.6}}, unit_frame()),
+                     Part::rectangle("square", {{0.6, 0.2}, {0.8, 0.4}}, unit_frame())},
+                    "difference(domain, hole, square)", unit_frame());
+  MeshOptions options;
+  options.edge_length = 0.29;
+  options.max_sweeps = 12;
+  expect_same_everywhere({"cocircular", shape, options});
+}
+
+/// The discs of the boundary cover all of a thin strip: no site fits inside, and none must be looked for for ever.
+TEST(Mesher, StripWithoutRoomInside) {
+  const Shape strip({Part::rectangle("s", {{0.1, 0.5}, {0.9, 0.5 + 1.28 / 5000}}, unit_frame())}, "s", unit_frame());
+  expect_same_everywhere({"strip", strip, with_points(5000)});
+}
+
+TEST(Mesher, EveryFewPointsOnASquare) {
+  for (GlobalId points = 4; points <= 16; ++points)
+    expect_same_everywhere({"square of " + std::to_string(points), square(), with_points(points)});
+}
+
+/// Cells far larger than the shape, in a container far larger than that.
+TEST(Mesher, RoomyContainerWithGivenCells) {
+  const Frame frame(Box{{0, 0}, {3000, 3000}});
+  const Shape disc({Part::circle("d", {1.5, 1.5}, 1, frame)}, "d", frame);
+  MeshOptions options = with_points(300);
+  options.container = frame.container();
+  options.cells_x = options.cells_y = 10;
+  expect_same_everywhere({"roomy", disc, options});
+}
+
 TEST(Mesher, MeetsTheWishesAndSaysHowItStopped) {
   const comm::Communicator world = comm::Communicator::world();
   Case c{"square", square(), with_points(1000)};

@@ -272,5 +272,34 @@ TEST(Stars, UncertainStarsNameTheMissingBinsAndAreRightOnceTheyAreKnown) {
   }
 }
 
+/// Once a warm ring with a neighbour beyond the window of the search (radius above the cap) was taken for right
+/// although a site had come into one of its discs: the far member balanced the intruder in the count.
+TEST(Stars, WarmRingWithAFarMemberIsNotTrusted) {
+  const geometry::Box box{{0, 0}, {16, 16}};
+  const geometry::Lattice lattice(box);
+  const mesh::TileGrid grid(box, {16, 16, 1.0});
+  const std::vector<Vec2> places{
+      {8.1, 8.1}, {13.6, 8.1}, {7.6, 8.7}, {7.6, 7.5}, {8.5, 8.2}}; // p, A far, B, C, intruder
+  std::vector<Site> sites;
+  for (const Vec2 p : places)
+    sites.push_back({lattice.snap(p)});
+  mesh::BinnedPoints points(grid);
+  std::vector<LocalIndex> index;
+  points.assign_owned(sites, 0, grid.tile_count(), &index);
+  const StarBuilder builder(lattice, 1.0);
+  std::vector<std::uint8_t> wanted(sites.size(), 0);
+  wanted[static_cast<std::size_t>(index[0])] = 1;
+  const auto ring_from = [&](const std::vector<LocalIndex>& last) {
+    StarTable stars;
+    stars.reset(points.owned());
+    stars.store(index[0], last);
+    std::vector<mesh::BinRef> missing;
+    builder.update(points, stars, wanted, missing);
+    const auto ring = stars.ring(index[0]);
+    return std::vector<LocalIndex>(ring.begin(), ring.end());
+  };
+  EXPECT_EQ(ring_from({index[1], index[2], index[3]}), ring_from({}));
+}
+
 } // namespace
 } // namespace trime::delaunay

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -138,6 +140,13 @@ TEST(RatioStatistics, NothingAndInfinityAreDefined) {
   EXPECT_TRUE(std::isfinite(statistics.summary().mean));
   EXPECT_TRUE(std::isfinite(statistics.summary().std));
   EXPECT_TRUE(std::isinf(statistics.summary().max));
+}
+
+TEST(Quality, DegenerateTrianglesAreInfinitelyBad) {
+  const geometry::Vec2 p{0.25, 0.5}, q{0.5, 0.5}, r{0.75, 0.5};
+  EXPECT_EQ(aspect_ratio(p, p, p), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(aspect_ratio(p, q, r), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(edge_ratio(p, p, q), std::numeric_limits<double>::infinity());
 }
 
 } // namespace
