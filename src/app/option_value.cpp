@@ -2,7 +2,7 @@
 #include "app/option_value.hpp"
 
 #include "app/option_table.hpp"
-#include "trime/io/ini.hpp"
+#include "trime/core/nearest_name.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -81,7 +81,7 @@ bool is_supported(const Option& option, const std::string& value) {
 std::string word_suggestion(const Option& option, const std::string& value) {
   for (const std::string& word : split_words(value))
     if (!is_one_of(word, option.choices) && !parse_number(word))
-      return io::suggestion(word, split_words(option.choices));
+      return suggestion(word, split_words(option.choices));
   return "";
 }
 

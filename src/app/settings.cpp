@@ -3,6 +3,7 @@
 
 #include "app/option_value.hpp"
 #include "trime/core/error.hpp"
+#include "trime/core/nearest_name.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -36,7 +37,7 @@ Settings::Settings(const io::IniDocument& document, io::Diagnostics& problems) :
     if (is_known_section(entry.section))
       check_entry(entry, problems);
     else
-      meant_.push_back({io::nearest_name(entry.section, section_names()), entry.key, entry.value, entry.line});
+      meant_.push_back({nearest_name(entry.section, section_names()), entry.key, entry.value, entry.line});
   for (const Option& option : option_table())
     check_default(option, problems);
   for (const std::string& part : parts_)
@@ -54,8 +55,8 @@ void Settings::check_sections(io::Diagnostics& problems) {
   for (const io::IniSection& section : document_.sections) {
     if (!section.name.starts_with(part_prefix)) {
       if (!is_known_section(section.name))
-        problems.add(section.line, fmt::format("unknown section [{}]{}", section.name,
-                                               io::suggestion(section.name, section_names())));
+        problems.add(section.line,
+                     fmt::format("unknown section [{}]{}", section.name, suggestion(section.name, section_names())));
       continue;
     }
     const std::string name = section.name.substr(part_prefix.size());
@@ -73,8 +74,8 @@ void Settings::check_sections(io::Diagnostics& problems) {
 void Settings::check_entry(const io::IniEntry& entry, io::Diagnostics& problems) {
   const Option* option = find_option(entry.section, entry.key);
   if (!option) {
-    const std::string near = io::suggestion(entry.key, key_names(entry.section));
-    meant_.push_back({entry.section, io::nearest_name(entry.key, key_names(entry.section)), entry.value, entry.line});
+    const std::string near = suggestion(entry.key, key_names(entry.section));
+    meant_.push_back({entry.section, nearest_name(entry.key, key_names(entry.section)), entry.value, entry.line});
     problems.add(entry.line, fmt::format("unknown key '{}' in [{}]{}", entry.key, entry.section,
                                          near.empty() ? other_home(entry.section, entry.key) : near));
     return;

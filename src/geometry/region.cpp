@@ -2,50 +2,25 @@
 #include "trime/geometry/region.hpp"
 
 #include "trime/core/error.hpp"
+#include "trime/core/nearest_name.hpp"
+
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
-#include <numeric>
 
 namespace trime::geometry {
 
 namespace {
 
-/// Smallest number of single-letter changes, insertions and deletions from a to b (Levenshtein).
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, diagonal + 1, row[j] + 1});
-    }
-  }
-  return row.back();
-}
-
 bool is_name_character(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
 }
 
-std::string unknown_part_message(const std::string& name, std::span<const std::string> known) {
-  std::string list, nearest;
-  std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
-  const auto consider = [&](std::string_view candidate) {
-    list += fmt::format("{}{}", list.empty() ? "" : ", ", candidate);
-    if (const std::size_t distance = edit_distance(name, candidate); distance < least) {
-      least = distance;
-      nearest = candidate;
-    }
-  };
-  for (const std::string& candidate : known)
-    consider(candidate);
-  consider(domain_name);
-  return fmt::format("unknown part '{}' in region; known: {}{}", name, list,
-                     nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
+std::string unknown_part_message(const std::string& name, std::span<const std::string> part_names) {
+  std::vector<std::string> known(part_names.begin(), part_names.end());
+  known.emplace_back(domain_name);
+  return fmt::format("unknown part '{}' in region; known: {}{}", name, fmt::join(known, ", "), suggestion(name, known));
 }
 
 } // namespace

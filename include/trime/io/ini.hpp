@@ -68,12 +68,4 @@ IniDocument parse_ini(std::string_view text, Diagnostics& problems);
 /// earlier override says: scripts append the wishes of their users to their own.
 void apply_override(IniDocument& document, std::string_view text, Diagnostics& problems);
 
-/// @brief The candidate that differs from `word` by the fewest insertions, deletions, replacements and swaps of
-/// neighbours (Damerau-Levenshtein, optimal string alignment), upper and lower case being equal; empty if none is near
-/// (more than a third of the letters differ). The first wins a tie.
-std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates);
-
-/// `; did you mean 'x'?` for the nearest candidate, or nothing.
-std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
-
 } // namespace trime::io

@@ -95,17 +95,5 @@ TEST(Ini, DiagnosticsAreSortedByPlace) {
   EXPECT_EQ(problems.text(1), "a.ini:4: first\na.ini: 2 more errors");
 }
 
-TEST(NearestName, FindsTyposAndRefusesStrangers) {
-  const std::vector<std::string> names{"gradation", "points", "edge_length", "seed"};
-  EXPECT_EQ(nearest_name("gradaton", names), "gradation");
-  EXPECT_EQ(nearest_name("Points", names), "points");
-  EXPECT_EQ(nearest_name("sede", names), "seed");
-  EXPECT_EQ(nearest_name("edgelength", names), "edge_length");
-  EXPECT_EQ(nearest_name("viscosity", names), "");
-  EXPECT_EQ(nearest_name("", names), "");
-  EXPECT_EQ(suggestion("sede", names), "; did you mean 'seed'?");
-  EXPECT_EQ(suggestion("viscosity", names), "");
-}
-
 } // namespace
 } // namespace trime::io

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// "Did you mean ...?": the known name that is nearest to a misspelt one.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace trime {
+
+/// @brief The candidate that differs from `word` by the fewest insertions, deletions, replacements and swaps of
+/// neighbours (Damerau-Levenshtein, optimal string alignment), upper and lower case being equal; empty if none is near
+/// (more than a third of the letters differ). The first wins a tie. O(letters^2) per candidate.
+std::string nearest_name(std::string_view word, std::span<const std::string> candidates);
+
+/// `; did you mean 'x'?` for the nearest candidate, or nothing.
+std::string suggestion(std::string_view word, std::span<const std::string> candidates);
+
+} // namespace trime
