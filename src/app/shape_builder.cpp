@@ -2,30 +2,10 @@
 #include "app/shape_builder.hpp"
 
 #include "trime/comm/agree.hpp"
-
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
-#include <memory>
-#include <optional>
+#include "trime/core/read_file.hpp"
 
 namespace trime::app {
 namespace {
-
-std::string read_file(const std::string& path) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
-  if (!file)
-    throw FileError(fmt::format("cannot open {}: {}", path, std::strerror(errno)));
-  std::string text;
-  char buffer[1 << 16];
-  std::size_t count = 0;
-  while ((count = std::fread(buffer, 1, sizeof buffer, file.get())) > 0)
-    text.append(buffer, count);
-  if (std::ferror(file.get()))
-    throw FileError(fmt::format("cannot read {}: {}", path, std::strerror(errno)));
-  return text;
-}
 
 /// Contour text on every rank; the reader of the geometry refuses formats that it does not know.
 std::string read_contour(const std::string& path, const comm::Communicator& comm) {

@@ -2,11 +2,10 @@
 #include "trime/geometry/contour.hpp"
 
 #include "trime/core/error.hpp"
+#include "trime/core/read_file.hpp"
 
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <memory>
 
 namespace trime::geometry {
 
@@ -157,18 +156,7 @@ std::string read_contour_text(const std::string& path) {
       throw ConfigError(fmt::format("{}: contours of type '{}' cannot be read by this version; expected an '.xy' file "
                                     "with one 'x y' per line and a blank line between rings",
                                     path, extension));
-  const auto close = [](std::FILE* f) { std::fclose(f); };
-  const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
-  if (!file)
-    throw FileError(fmt::format("{}: cannot open this contour file; check the path and the permissions", path));
-  std::string text;
-  char buffer[1 << 16];
-  std::size_t count = 0;
-  while ((count = std::fread(buffer, 1, sizeof buffer, file.get())) > 0)
-    text.append(buffer, count);
-  if (std::ferror(file.get()) != 0)
-    throw FileError(fmt::format("{}: cannot read this contour file; is it a directory or on a failing disk?", path));
-  return text;
+  return read_file(path);
 }
 
 Contour read_xy(const std::string& path) {
