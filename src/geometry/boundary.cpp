@@ -2,6 +2,7 @@
 #include "trime/geometry/boundary.hpp"
 
 #include "trime/core/angle.hpp"
+#include "trime/geometry/segment.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,16 +21,6 @@ bool faces_arc(const Piece& arc, Vec2 p) {
   if (std::fabs(arc.sweep) <= pi)
     return cross(from, q) >= 0 && cross(q, to) >= 0;
   return !(cross(to, q) > 0 && cross(q, from) > 0);
-}
-
-double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
-  const Vec2 d = b - a, q = p - a;
-  const double along = dot(q, d), whole = squared_length(d);
-  if (along <= 0)
-    return geometry::length(q);
-  if (along >= whole)
-    return geometry::length(p - b);
-  return std::fabs(cross(d, q)) / std::sqrt(whole);
 }
 
 void include_arc(Box& box, const Piece& arc) {
@@ -69,7 +60,7 @@ Vec2 Piece::tangent(double s) const {
 
 double Piece::distance(Vec2 p) const {
   if (!circular)
-    return distance_to_segment(p, start, end);
+    return std::sqrt(squared_distance(p, {start, end}));
   if (faces_arc(*this, p))
     return std::fabs(geometry::length(p - center) - radius);
   return std::sqrt(std::fmin(squared_length(p - start), squared_length(p - end)));

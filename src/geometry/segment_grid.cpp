@@ -55,17 +55,6 @@ double power_of_two_above(double v) {
 
 } // namespace
 
-double squared_distance(Vec2 p, const Segment& segment) {
-  const Vec2 d = segment.b - segment.a, q = p - segment.a;
-  const double along = dot(q, d), whole = squared_length(d);
-  if (along <= 0)
-    return squared_length(q);
-  if (along >= whole)
-    return squared_length(p - segment.b);
-  const double across = cross(d, q);
-  return across * across / whole;
-}
-
 double SegmentGrid::Placed::squared_distance(Vec2 p) const {
   const double dx = std::fmax(0.0, std::fmax(corner.x - p.x, p.x - (corner.x + side)));
   const double dy = std::fmax(0.0, std::fmax(corner.y - p.y, p.y - (corner.y + side)));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "trime/core/types.hpp"
+#include "trime/geometry/segment.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <cstdint>
@@ -11,13 +12,6 @@
 #include <vector>
 
 namespace trime::geometry {
-
-struct Segment {
-  Vec2 a, b;
-};
-
-/// Squared distance from p to the segment.
-double squared_distance(Vec2 p, const Segment& segment);
 
 /// @brief Bins over M segments: a tree of square cells, each split into 4 x 4 while it meets more than a few segments,
 /// so that a smooth curve of many short segments has 1-4 of them in a bin. O(M log M) to build, O(M) memory, immutable

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pieces and loops by themselves.
 #include "trime/core/angle.hpp"
+#include "trime/geometry/segment.hpp"
 #include "unit/geometry/boundary_checks.hpp"
 
 namespace trime::geometry {
@@ -33,6 +34,20 @@ TEST(Piece, DistanceToArcsEqualsThatToManyPoints) {
       ASSERT_NEAR(piece.distance(p), best, 1e-5) << sweep << " " << i;
       ASSERT_LE(piece.distance(p), best + 1e-14);
     }
+}
+
+TEST(Piece, DistanceToASegmentIsThatOfTheSegment) {
+  Piece piece;
+  piece.start = {0.25, 0.5};
+  piece.end = {0.75, 0.5};
+  const std::pair<Vec2, double> cases[] = {{{0.5, 0.75}, 0.25},  {{0.3, 0.5}, 0},    {{0, 0.5}, 0.25},
+                                           {{1, 0.5}, 0.25},     {{1.05, 0.9}, 0.5}, {{0.25, 0.5}, 0},
+                                           {{0.3, 0.375}, 0.125}};
+  for (const auto& [p, expected] : cases) {
+    EXPECT_NEAR(piece.distance(p), expected, 1e-15);
+    EXPECT_NEAR(squared_distance(p, {piece.end, piece.start}), expected * expected, 1e-15);
+  }
+  EXPECT_EQ(squared_distance({3, 4}, {{0, 0}, {0, 0}}), 25);
 }
 
 TEST(Piece, FullTurnIsACircle) {
