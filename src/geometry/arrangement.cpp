@@ -139,10 +139,19 @@ void Arrangement::cross_lines(LocalIndex s, LocalIndex t) {
 
 void Arrangement::cross_polygon_circle(std::size_t a, LocalIndex circle) {
   const Circle& disc = circles_[circle];
-  const double margin = disc.radius + VertexTable::merge_steps * frame_.step();
-  const Box reach{disc.center - Vec2{margin, margin}, disc.center + Vec2{margin, margin}};
-  const LocalIndex count = static_cast<LocalIndex>(parts_[a].part->as_polygon()->grid.segments().size());
-  for (LocalIndex line = first_line_[a]; line < first_line_[a] + count; ++line) {
+  const double merged = VertexTable::merge_steps * frame_.step(); // how far vertices of the grid's segments have moved
+  const auto around = [&](double reach) {
+    return Box{disc.center - Vec2{reach, reach}, disc.center + Vec2{reach, reach}};
+  };
+  std::vector<LocalIndex> near;
+  parts_[a].part->as_polygon()->grid.for_each_near(around(disc.radius + 2 * merged), [&](LocalIndex s) {
+    near.push_back(first_line_[a] + s);
+    return true;
+  });
+  std::sort(near.begin(), near.end()); // vertices are numbered in the order of the lines, not of the bins
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  const Box reach = around(disc.radius + merged);
+  for (const LocalIndex line : near) {
     const Segment s = segment(line);
     if (std::fmax(s.a.x, s.b.x) >= reach.min.x && std::fmin(s.a.x, s.b.x) <= reach.max.x &&
         std::fmax(s.a.y, s.b.y) >= reach.min.y && std::fmin(s.a.y, s.b.y) <= reach.max.y)

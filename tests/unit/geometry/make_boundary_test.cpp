@@ -290,6 +290,36 @@ TEST(MakeBoundary, ContourVerticesStayBitForBit) {
   EXPECT_EQ(whole.boundary().loops[0].pieces.size(), 500u);
 }
 
+TEST(MakeBoundary, DiscsAlongAFineContour) {
+  // Segments much shorter than a disc, which the bins of the contour list several times; one disc holds it all.
+  constexpr int vertices = 20000, discs = 40;
+  std::vector<Vec2> ring;
+  for (int k = 0; k < vertices; ++k) {
+    const SinCos s = sin_cos(2 * pi * k / vertices);
+    ring.push_back({0.5 + 0.3 * s.cos, 0.5 + 0.3 * s.sin});
+  }
+  std::vector<Part> parts{Part::contour("m", make_contour({ring}, "m"), {}, unit_frame), circle("all", 0.5, 0.5, 0.45)};
+  std::string united = "union(all";
+  std::string beads = "union(d0";
+  for (int k = 0; k < discs; ++k) {
+    const SinCos s = sin_cos(2 * pi * (k + random(k, 1) / 2) / discs);
+    parts.push_back(circle(fmt::format("d{}", k).c_str(), 0.5 + 0.3 * s.cos, 0.5 + 0.3 * s.sin, 0.005));
+    united += fmt::format(", d{}", k);
+    beads += k > 0 ? fmt::format(", d{}", k) : "";
+  }
+  beads += ")";
+  const Boundary without = Shape(parts, fmt::format("difference(m, {})", beads), unit_frame).boundary();
+  const Boundary within = Shape(parts, fmt::format("intersection(m, {})", beads), unit_frame).boundary();
+  expect_valid(without);
+  expect_valid(within);
+  EXPECT_EQ(within.components(), discs);
+  EXPECT_EQ(without.components(), 1);
+  const double whole = Shape(parts, "m", unit_frame).boundary().area;
+  EXPECT_NEAR(without.area + within.area, whole, 1e-12);
+  EXPECT_NEAR(within.area, discs * pi * 0.005 * 0.005 / 2, 0.01 * within.area);
+  EXPECT_NEAR(Shape(parts, united + ", m)", unit_frame).boundary().area, pi * 0.45 * 0.45, 1e-12);
+}
+
 TEST(MakeBoundary, ContoursCrossEachOther) {
   const auto wave = [](double phase) {
     std::vector<Vec2> ring;
