@@ -27,6 +27,8 @@ template <Hdf5Close close_function>
 class Hdf5Handle {
 public:
   Hdf5Handle() = default;
+  /// Takes what a function of HDF5 has returned; negative: there is nothing to close.
+  explicit Hdf5Handle(hid_t id) noexcept : id_(id) {}
   /// @throws FileError as `checked`
   Hdf5Handle(hid_t id, const std::string& action) : id_(checked(id, action)) {}
   Hdf5Handle(Hdf5Handle&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
@@ -40,12 +42,8 @@ public:
   }
 
   operator hid_t() const { return id_; }
-  bool is_open() const { return id_ >= 0; }
-  /// Closes now. @throws FileError
-  void close(const std::string& action) {
-    if (id_ >= 0)
-      checked(close_function(std::exchange(id_, -1)), action);
-  }
+  /// Closes now. @return the status, negative for failure
+  herr_t close() noexcept { return id_ < 0 ? 0 : close_function(std::exchange(id_, -1)); }
 
 private:
   hid_t id_ = -1;

@@ -245,8 +245,10 @@ WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedM
   const Metadata of_root = broadcast(metadata, comm);
   const std::string path = comm.broadcast(temporary_name(options.path(".h5")));
   std::optional<TemporaryFile> temporary; // rank 0 removes it if anything fails
-  if (comm.is_root())
-    temporary.emplace(path);
+  comm::run_agreed(comm, [&] {
+    if (comm.is_root())
+      temporary.emplace(path);
+  });
   write_hdf5(path, options, mesh, of_root, comm);
   WrittenFiles written;
   comm::run_agreed(comm, [&] {

@@ -108,6 +108,15 @@ private:
 
 } // namespace
 
+std::string shortened(const std::string& text, std::size_t longest) {
+  if (text.size() <= longest)
+    return text;
+  std::size_t kept = longest - 3;
+  while (kept > 0 && (static_cast<unsigned char>(text[kept]) & 0xc0) == 0x80) // in the middle of a character
+    --kept;
+  return text.substr(0, kept) + "...";
+}
+
 Metadata broadcast(const Metadata& metadata, const comm::Communicator& comm) {
   if (comm.size() == 1)
     return metadata;

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
+#include <type_traits>
 
 namespace trime::io {
 namespace {
@@ -87,24 +89,79 @@ hid_t native_type<double>() {
   return H5T_NATIVE_DOUBLE;
 }
 
-void write_attribute(hid_t file, const std::string& object, const std::string& name, hid_t type, hid_t space,
-                     const void* data) {
-  const Hdf5Attribute attribute(
-      H5Acreate_by_name(file, object.c_str(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-      "make the attribute " + name);
-  checked(H5Awrite(attribute, type, data), "write the attribute " + name);
+/// Values of an attribute or of a small dataset, ready to be written.
+struct SmallValues {
+  Hdf5Type type;
+  Hdf5Space space;
+  std::string bytes;
+};
+
+template <class T>
+SmallValues plain_values(Hdf5Space space, const T* values, std::size_t count) {
+  Hdf5Type type(H5Tcopy(native_type<T>()), "make an HDF5 type");
+  return {std::move(type), std::move(space), std::string(reinterpret_cast<const char*>(values), count * sizeof(T))};
+}
+
+SmallValues text_value(const std::string& text, H5T_cset_t characters) {
+  return {text_type(text.size(), characters), scalar_space(), text};
+}
+
+SmallValues attribute_value(const Attribute& attribute) {
+  return std::visit(
+      [](const auto& value) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>)
+          return text_value(shortened(value, longest_attribute), H5T_CSET_UTF8);
+        else
+          return plain_values(scalar_space(), &value, 1);
+      },
+      attribute.value);
+}
+
+SmallValues text_column(const std::vector<std::string>& texts) {
+  std::size_t longest = 1;
+  for (const std::string& text : texts)
+    longest = std::max(longest, text.size());
+  std::string packed;
+  for (const std::string& text : texts)
+    packed += text + std::string(longest - text.size(), '\0');
+  return {text_type(longest, H5T_CSET_UTF8), array_space(texts.size(), 0), packed};
+}
+
+SmallValues column_values(const Column& column) {
+  return std::visit(
+      [](const auto& values) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(values)>, std::vector<std::string>>)
+          return text_column(values);
+        else
+          return plain_values(array_space(values.size(), 0), values.data(), values.size());
+      },
+      column.values);
 }
 
 } // namespace
 
+/// By reference, since a copy of the lambda might need memory before anybody could agree that there is none.
+template <class Work>
+void SlabFile::agreed(const Work& work) const {
+  comm::run_agreed(comm_, std::cref(work));
+}
+
+void SlabFile::agree_on(hid_t code, const std::string& action) const {
+  agreed([&] { checked(code, action); });
+}
+
 SlabFile::SlabFile(const comm::Communicator& comm, std::string path) : comm_(comm), path_(std::move(path)) {
-  comm::run_agreed(comm_, [&] {
+  Hdf5Properties access, creation;
+  std::string creating;
+  agreed([&] {
     silence_hdf5();
-    const Hdf5Properties access = file_access(comm_);
-    Hdf5Properties creation(H5Pcreate(H5P_FILE_CREATE), "make HDF5 properties");
+    access = file_access(comm_);
+    creation = Hdf5Properties(H5Pcreate(H5P_FILE_CREATE), "make HDF5 properties");
     checked(H5Pset_obj_track_times(creation, false), "set HDF5 properties");
-    file_ = Hdf5File(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, creation, access), "create " + path_);
+    creating = "create " + path_;
   });
+  file_ = Hdf5File(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, creation, access));
+  agree_on(file_, creating);
 }
 
 std::string SlabFile::action(const std::string& verb, const std::string& what) const {
@@ -112,138 +169,143 @@ std::string SlabFile::action(const std::string& verb, const std::string& what) c
 }
 
 void SlabFile::reserve(std::int64_t bytes) {
-  comm::run_agreed(comm_, [&] {
+  agreed([&] {
     if (comm_.is_root())
       reserve_space(path_, bytes);
   });
 }
 
 void SlabFile::group(const std::string& path) {
-  comm::run_agreed(comm_, [&] {
-    Hdf5Properties creation(H5Pcreate(H5P_GROUP_CREATE), "make HDF5 properties");
+  Hdf5Properties creation;
+  std::string making;
+  agreed([&] {
+    creation = Hdf5Properties(H5Pcreate(H5P_GROUP_CREATE), "make HDF5 properties");
     checked(H5Pset_obj_track_times(creation, false), "set HDF5 properties");
-    Hdf5Group made(H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), action("make", path));
+    making = action("make", path);
   });
+  const Hdf5Group made(H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT));
+  agree_on(made, making);
 }
 
 void SlabFile::hard_link(const std::string& existing, const std::string& path) {
-  comm::run_agreed(comm_, [&] {
-    checked(H5Lcreate_hard(file_, existing.c_str(), file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-            action("link", path));
+  std::string linking;
+  agreed([&] { linking = action("link", path); });
+  agree_on(H5Lcreate_hard(file_, existing.c_str(), file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT), linking);
+}
+
+template <class Make>
+void SlabFile::write_attribute(const std::string& object, const std::string& name, const Make& make) {
+  SmallValues values;
+  std::string making, writing;
+  agreed([&] {
+    values = make();
+    making = action("make", "the attribute " + name);
+    writing = action("write", "the attribute " + name);
   });
+  const Hdf5Attribute attribute(H5Acreate_by_name(file_, object.c_str(), name.c_str(), values.type, values.space,
+                                                  H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  agree_on(attribute, making);
+  agree_on(H5Awrite(attribute, values.type, values.bytes.data()), writing);
 }
 
 void SlabFile::attribute(const std::string& object, const Attribute& attribute) {
-  comm::run_agreed(comm_, [&] {
-    const Hdf5Space space = scalar_space();
-    std::visit(
-        [&](const auto& value) {
-          using T = std::decay_t<decltype(value)>;
-          if constexpr (std::is_same_v<T, std::string>) {
-            const Hdf5Type type = text_type(value.size(), H5T_CSET_UTF8);
-            write_attribute(file_, object, attribute.name, type, space, value.c_str());
-          } else {
-            write_attribute(file_, object, attribute.name, native_type<T>(), space, &value);
-          }
-        },
-        attribute.value);
-  });
+  write_attribute(object, attribute.name, [&] { return attribute_value(attribute); });
 }
 
 void SlabFile::attribute(const std::string& object, const std::string& name, std::span<const std::int64_t> values) {
-  comm::run_agreed(comm_, [&] {
-    const Hdf5Space space = array_space(values.size(), 0);
-    write_attribute(file_, object, name, H5T_NATIVE_INT64, space, values.data());
-  });
+  write_attribute(object, name,
+                  [&] { return plain_values(array_space(values.size(), 0), values.data(), values.size()); });
 }
 
 void SlabFile::ascii_attribute(const std::string& object, const std::string& name, const std::string& text) {
-  comm::run_agreed(comm_, [&] {
-    const Hdf5Type type = text_type(text.size(), H5T_CSET_ASCII);
-    const Hdf5Space space = scalar_space();
-    write_attribute(file_, object, name, type, space, text.c_str());
-  });
+  write_attribute(object, name, [&] { return text_value(text, H5T_CSET_ASCII); });
 }
 
-/// Rank 0 writes the data alone: they are few, and no other rank needs to hold them.
-void SlabFile::small_dataset(const std::string& path, hid_t type, hid_t space, const void* data) {
-  comm::run_agreed(comm_, [&] {
-    const Hdf5Properties creation = dataset_properties();
-    const Hdf5Dataset dataset(H5Dcreate2(file_, path.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
-                              action("make", path));
-    if (comm_.is_root() && H5Sget_simple_extent_npoints(space) > 0) {
-      const Hdf5Properties alone = transfer(comm_, false);
-      checked(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, alone, data), action("write", path));
-    }
+/// Rank 0 writes the data alone: they are few, and this is no collective call.
+template <class Make>
+void SlabFile::small_dataset(const std::string& path, const Make& make) {
+  SmallValues values;
+  Hdf5Properties creation;
+  std::string making;
+  agreed([&] {
+    values = make();
+    creation = dataset_properties();
+    making = action("make", path);
+  });
+  const Hdf5Dataset dataset(
+      H5Dcreate2(file_, path.c_str(), values.type, values.space, H5P_DEFAULT, creation, H5P_DEFAULT));
+  agree_on(dataset, making);
+  agreed([&] {
+    if (!comm_.is_root() || H5Sget_simple_extent_npoints(values.space) == 0)
+      return;
+    const Hdf5Properties alone = transfer(comm_, false);
+    checked(H5Dwrite(dataset, values.type, H5S_ALL, H5S_ALL, alone, values.bytes.data()), action("write", path));
   });
 }
 
 void SlabFile::column(const std::string& group, const Column& column) {
-  const std::string path = group + "/" + column.name;
-  std::visit(
-      [&](const auto& values) {
-        using T = typename std::decay_t<decltype(values)>::value_type;
-        const Hdf5Space space = array_space(values.size(), 0);
-        if constexpr (std::is_same_v<T, std::string>) {
-          std::size_t longest = 1;
-          for (const std::string& value : values)
-            longest = std::max(longest, value.size());
-          std::string packed;
-          for (const std::string& value : values)
-            packed += value + std::string(longest - value.size(), '\0');
-          const Hdf5Type type = text_type(longest, H5T_CSET_UTF8);
-          small_dataset(path, type, space, packed.data());
-        } else {
-          small_dataset(path, native_type<T>(), space, values.data());
-        }
-      },
-      column.values);
+  std::string path;
+  agreed([&] { path = group + "/" + column.name; });
+  small_dataset(path, [&] { return column_values(column); });
 }
 
 void SlabFile::text(const std::string& path, const std::string& text) {
-  const Hdf5Type type = text_type(text.size(), H5T_CSET_UTF8);
-  const Hdf5Space space = scalar_space();
-  small_dataset(path, type, space, text.c_str());
+  small_dataset(path, [&] { return text_value(text, H5T_CSET_UTF8); });
 }
 
 void SlabFile::slab(SlabArray array) {
   TRIME_ASSERT(array.slab.first >= 0 && array.slab.first + array.rows <= array.slab.total, "{}: rows {} to {} of {}",
                array.path, array.slab.first, array.slab.first + array.rows, array.slab.total);
-  Hdf5Dataset dataset;
-  comm::run_agreed(comm_, [&] {
-    const Hdf5Properties creation = dataset_properties();
-    const Hdf5Space space = array_space(static_cast<hsize_t>(array.slab.total), array.columns);
-    dataset = Hdf5Dataset(H5Dcreate2(file_, array.path.c_str(), array.type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
-                          action("make", array.path));
+  Hdf5Properties creation;
+  Hdf5Space space;
+  std::string making;
+  agreed([&] {
+    creation = dataset_properties();
+    space = array_space(static_cast<hsize_t>(array.slab.total), array.columns);
+    making = action("make", array.path);
+    arrays_.reserve(arrays_.size() + 1);
   });
+  const Hdf5Dataset dataset(
+      H5Dcreate2(file_, array.path.c_str(), array.type, space, H5P_DEFAULT, creation, H5P_DEFAULT));
+  agree_on(dataset, making);
   write_slices(dataset, array);
   arrays_.push_back(std::move(array));
 }
 
+/// Every rank takes part in every slice, with nothing if it has no rows left.
 void SlabFile::write_slices(hid_t dataset, const SlabArray& array) {
   const std::int64_t longest = comm_.max(array.rows);
-  std::vector<std::byte> buffer(static_cast<std::size_t>(std::min(array.rows, slice_rows)) * array.row_bytes());
+  std::vector<std::byte> buffer;
+  Hdf5Space in_file, in_memory;
+  Hdf5Properties together;
+  std::string writing;
+  agreed([&] {
+    const std::int64_t rows =
+        std::clamp<std::int64_t>(array.rows, 1, slice_rows); // HDF5 wants a buffer for nothing, too
+    buffer.resize(static_cast<std::size_t>(rows) * array.row_bytes());
+    in_file = array_space(static_cast<hsize_t>(array.slab.total), array.columns);
+    in_memory = array_space(static_cast<hsize_t>(rows), array.columns);
+    together = transfer(comm_, true);
+    writing = action("write", array.path);
+  });
   for (std::int64_t first = 0; first < longest; first += slice_rows) {
-    const std::int64_t count = std::clamp<std::int64_t>(array.rows - first, 0, slice_rows);
-    comm::run_agreed(comm_, [&] { // every rank takes part in every slice, with nothing if it has no rows left
+    agreed([&] {
+      const std::int64_t count = std::clamp<std::int64_t>(array.rows - first, 0, slice_rows);
       if (count > 0)
         array.fill(first, count, buffer.data());
-      const Hdf5Space in_file = array_space(static_cast<hsize_t>(array.slab.total), array.columns);
       select_rows(in_file, static_cast<hsize_t>(array.slab.first + first), static_cast<hsize_t>(count), array.columns);
-      const Hdf5Space in_memory = array_space(static_cast<hsize_t>(std::max<std::int64_t>(count, 1)), array.columns);
       select_rows(in_memory, 0, static_cast<hsize_t>(count), array.columns);
-      const Hdf5Properties together = transfer(comm_, true);
-      std::byte nothing{};
-      checked(H5Dwrite(dataset, array.type, in_memory, in_file, together, count > 0 ? buffer.data() : &nothing),
-              action("write", array.path));
     });
+    agree_on(H5Dwrite(dataset, array.type, in_memory, in_file, together, buffer.data()), writing);
   }
 }
 
 void SlabFile::verify() {
-  comm::run_agreed(comm_, [&] { checked(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write " + path_ + " to disk"); });
+  std::string flushing;
+  agreed([&] { flushing = "write " + path_ + " to disk"; });
+  agree_on(H5Fflush(file_, H5F_SCOPE_GLOBAL), flushing);
   comm_.barrier();
-  comm::run_agreed(comm_, [&] {
+  agreed([&] {
     for (const SlabArray& array : arrays_)
       verify_slices(array);
   });
@@ -272,7 +334,9 @@ void SlabFile::verify_slices(const SlabArray& array) {
 }
 
 void SlabFile::close() {
-  comm::run_agreed(comm_, [&] { file_.close("close " + path_); });
+  std::string closing;
+  agreed([&] { closing = "close " + path_; });
+  agree_on(file_.close(), closing);
 }
 
 } // namespace trime::io

@@ -45,7 +45,7 @@ public:
 
   void group(const std::string& path);
   void hard_link(const std::string& existing, const std::string& path);
-  /// `object` is the path of a group or dataset.
+  /// `object` is the path of a group or dataset. Texts are shortened to longest_attribute.
   void attribute(const std::string& object, const Attribute& attribute);
   void attribute(const std::string& object, const std::string& name, std::span<const std::int64_t> values);
   /// Text of exactly its own length, ASCII, no terminator: what readers of VTKHDF ask for.
@@ -59,7 +59,16 @@ public:
   void close();
 
 private:
-  void small_dataset(const std::string& path, hid_t type, hid_t space, const void* data);
+  // A collective call of HDF5 comes in three steps, so that no rank leaves while others wait in it: under agreement all
+  // is made ready that may throw, then all ranks make the call with nothing before it, then they agree on its result.
+  template <class Work>
+  void agreed(const Work& work) const;
+  void agree_on(hid_t code, const std::string& action) const;
+
+  template <class Make>
+  void write_attribute(const std::string& object, const std::string& name, const Make& make);
+  template <class Make>
+  void small_dataset(const std::string& path, const Make& make);
   void write_slices(hid_t dataset, const SlabArray& array);
   void verify_slices(const SlabArray& array);
   std::string action(const std::string& verb, const std::string& what) const;

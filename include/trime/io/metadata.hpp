@@ -5,6 +5,7 @@
 
 #include "trime/comm/communicator.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -12,11 +13,18 @@
 
 namespace trime::io {
 
-/// A named scalar; texts are stored with fixed length and must stay below 64 KiB.
+/// A named scalar. Texts are for short words: those beyond longest_attribute are shortened in the file.
 struct Attribute {
   std::string name;
   std::variant<std::int64_t, std::uint64_t, double, std::string> value;
 };
+
+/// Bytes of a text attribute in the file; HDF5 has an end at 64 KiB. What may be long belongs into a Text.
+inline constexpr std::size_t longest_attribute = 32768;
+
+/// @brief The text itself, or as much of its start as leaves room for "..." in `longest` bytes; no character of UTF-8
+/// is cut in two. @pre longest >= 3
+std::string shortened(const std::string& text, std::size_t longest);
 
 /// A named list of values, one dataset.
 struct Column {

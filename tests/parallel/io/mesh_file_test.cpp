@@ -3,7 +3,7 @@
 // same for any distribution over ranks, empty ranks included.
 #include "trime/io/mesh_file.hpp"
 
-#include "io/hdf5_handle.hpp"
+#include "io/slab_file.hpp"
 #include "support/temporary_directory.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/random.hpp"
@@ -287,6 +287,114 @@ TEST(MeshFile, RefusesToOverwriteAndTellsWhatWasLeft) {
   EXPECT_EQ(check_output(options, comm).size(), comm.is_root() ? 1u : 0u);
   options.directory = options.path(".xdmf"); // a file, not a directory
   EXPECT_THROW(check_output(options, comm), Error);
+}
+
+TEST(Shortened, KeepsShortTextsAndWholeCharacters) {
+  EXPECT_EQ(shortened("abcdef", 6), "abcdef");
+  EXPECT_EQ(shortened("abcdefg", 6), "abc...");
+  EXPECT_EQ(shortened("a\xC3\xA4\xC3\xA4 and more", 6), "a\xC3\xA4...");
+  EXPECT_EQ(shortened("ab\xC3\xA4 and more", 6), "ab...");
+  EXPECT_EQ(shortened("\xE2\x82\xAC\xE2\x82\xAC", 5), "...");
+  EXPECT_EQ(shortened("", 3), "");
+}
+
+TEST(MeshFile, LongTextsAreShortenedAsAttributesAndWholeAsDatasets) {
+  const comm::Communicator comm = comm::Communicator::world();
+  const test::TemporaryDirectory directory(comm);
+  const MeshFileOptions options = options_in(directory.path());
+  check_output(options, comm);
+  const std::string fits(longest_attribute, 'f'), text(300000, 't');
+  Metadata metadata;
+  for (int k = 0; k < 4; ++k) // together more than 64 KiB
+    metadata.attributes.push_back({"fits" + std::to_string(k), fits});
+  metadata.attributes.push_back({"text", text});
+  metadata.texts = {{"text", text}};
+  metadata.groups = {{"group", {{"text", text}}, {}}};
+  write_mesh(options, make_mesh(comm, 7), metadata, comm);
+  if (!comm.is_root())
+    return;
+  const Hdf5File file(H5Fopen(options.path(".h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "open");
+  const Hdf5Group root(H5Gopen2(file, "/trime_mpi", H5P_DEFAULT), "trime_mpi");
+  const Hdf5Group group(H5Gopen2(file, "/trime_mpi/group", H5P_DEFAULT), "group");
+  EXPECT_EQ(read_text(root, "fits3"), fits);
+  EXPECT_EQ(read_text(root, "text"), shortened(text, longest_attribute));
+  EXPECT_EQ(read_text(group, "text"), shortened(text, longest_attribute));
+  const Hdf5Dataset dataset(H5Dopen2(file, "/trime_mpi/text", H5P_DEFAULT), "text");
+  const Hdf5Type type(H5Dget_type(dataset), "type");
+  EXPECT_EQ(H5Tget_size(type), text.size());
+}
+
+/// Rows 0, 1, 2, ... of one byte: `each` of them on every rank.
+SlabArray counting(const comm::Communicator& comm, const char* path, std::int64_t each) {
+  SlabArray array;
+  array.path = path;
+  array.type = H5T_NATIVE_UINT8;
+  array.value_bytes = 1;
+  array.slab = {each * comm.rank(), each * comm.size()};
+  array.rows = each;
+  array.fill = [first_here = array.slab.first](std::int64_t first, std::int64_t count, std::byte* out) {
+    for (std::int64_t k = 0; k < count; ++k)
+      out[k] = static_cast<std::byte>(first_here + first + k);
+  };
+  return array;
+}
+
+/// Several slices, so that one can fail after another was written.
+constexpr std::int64_t many_rows = 700000;
+
+TEST(SlabFile, ARankThatCannotMakeItsRowsStopsAllRanks) {
+  const comm::Communicator comm = comm::Communicator::world();
+  const test::TemporaryDirectory directory(comm);
+  SlabFile file(comm, directory.path() + "/a.h5");
+  for (const std::int64_t failing_slice : {0, 1, 2}) {
+    SlabArray array = counting(comm, failing_slice == 0 ? "/a" : failing_slice == 1 ? "/b" : "/c", many_rows);
+    if (comm.rank() == comm.size() - 1)
+      array.fill = [&, slice = 0](std::int64_t, std::int64_t, std::byte*) mutable {
+        if (slice++ == failing_slice)
+          throw std::bad_alloc();
+      };
+    try {
+      file.slab(std::move(array));
+      ADD_FAILURE() << "no error";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::out_of_memory) << error.what();
+    }
+  }
+  file.slab(counting(comm, "/d", many_rows)); // the file itself is as good as before
+  file.verify();
+  file.close();
+}
+
+TEST(SlabFile, RowsThatAreReadBackOtherwiseAreToldByAllRanks) {
+  const comm::Communicator comm = comm::Communicator::world();
+  const test::TemporaryDirectory directory(comm);
+  SlabFile file(comm, directory.path() + "/a.h5");
+  SlabArray array = counting(comm, "/a", many_rows);
+  if (comm.rank() == comm.size() - 1)
+    array.fill = [right = array.fill, calls = 0](std::int64_t first, std::int64_t count, std::byte* out) mutable {
+      right(first, count, out);
+      if (++calls == 5) // the second slice of the second pass
+        out[count - 1] ^= std::byte{1};
+    };
+  file.slab(std::move(array));
+  EXPECT_THROW(file.verify(), FileError);
+}
+
+TEST(SlabFile, NamesThatAreTakenAreRefusedOnAllRanks) {
+  const comm::Communicator comm = comm::Communicator::world();
+  const test::TemporaryDirectory directory(comm);
+  SlabFile file(comm, directory.path() + "/a.h5");
+  file.group("/g");
+  file.attribute("/g", {"a", std::int64_t{1}});
+  file.text("/g/t", "text");
+  EXPECT_THROW(file.group("/g"), FileError);
+  EXPECT_THROW(file.attribute("/g", {"a", std::int64_t{1}}), FileError);
+  EXPECT_THROW(file.text("/g/t", "text"), FileError);
+  EXPECT_THROW(file.column("/g", {"t", std::vector<double>{1}}), FileError);
+  EXPECT_THROW(file.slab(counting(comm, "/g/t", 1)), FileError);
+  EXPECT_THROW(file.hard_link("/nothing", "/h"), FileError);
+  file.verify();
+  file.close();
 }
 
 TEST(MeshFile, AFailureLeavesNothingAndIsThrownByAllRanks) {
