@@ -31,7 +31,7 @@ std::vector<io::Attribute> attributes(const Provenance& p, const meshing::MeshRe
           {"mpi_library", build.mpi_library},
           {"hdf5_library", build.hdf5_library},
           {"created_utc", utc_time()},
-          {"command_line", p.line.as_given},
+          {"command_line", io::shortened(p.line.as_given, 1000)}, // whole among the texts
           {"host", host_name()},
           {"job_id", std::string(job ? job : "")},
           {"seed", p.options.mesh.seed},
@@ -135,7 +135,7 @@ io::MetadataGroup tags_group(const geometry::Boundary& boundary, const std::stri
 
 io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result, const Measurements& measured) {
   return {attributes(p, result, measured),
-          {{"config_text", p.config_text}, {"config_resolved", p.options.resolved}},
+          {{"command_line", p.line.as_given}, {"config_text", p.config_text}, {"config_resolved", p.options.resolved}},
           {history_group(result.history), quality_group(result.quality), checks_group(result.checks),
            timers_group(measured.times), tags_group(p.boundary, p.options.region)}};
 }

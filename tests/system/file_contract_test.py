@@ -132,6 +132,20 @@ class FileContract(unittest.TestCase):
         self.assertEqual(len({len(timers[name]) for name in ("name", "calls", "min", "avg", "max")}), 1)
         self.assertTrue((timers["min"][:] <= timers["max"][:]).all())
 
+    def test_a_very_long_command_line_is_kept(self):
+        """Longer than HDF5 lets an attribute be."""
+        overrides = ["meshing.corner_angle=30"] * 5000 + ["meshing.points=300", "output.name=long"]
+        done = run(CONFIG, f"output.directory={self.directory}", *overrides, ranks=2)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        with h5py.File(self.directory / "long.h5", "r") as file:
+            start = file["trime_mpi"].attrs["command_line"]
+            start = start.decode() if isinstance(start, bytes) else start
+            whole = file["trime_mpi/command_line"][()].decode()
+            self.assertEqual(len(start), 1000)
+            self.assertTrue(start.endswith("..."))
+            self.assertTrue(whole.startswith(start[:-3]))
+            self.assertTrue(whole.endswith(" ".join(overrides)), whole[-100:])
+
     def test_resolved_config_gives_the_same_mesh(self):
         text = self.file["trime_mpi/config_resolved"][()]
         again = CONFIG.parent / CONFIG.name  # relative paths of the config must still hold
