@@ -15,6 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double most_points = 4e9;
+constexpr double shortest_side = 1e-30,
+                 longest_side = 1e30; // products of four lengths must neither vanish nor overflow
 
 /// Place of the later of two entries: the command line comes after the file.
 int later_line(const Settings& settings, const std::string& section, const std::string& a, const std::string& b) {
@@ -23,15 +25,27 @@ int later_line(const Settings& settings, const std::string& section, const std::
   return overridden ? io::command_line_origin : std::max(first, second);
 }
 
-/// `low < high`, unless one of them was refused already (then both read as absent).
+/// `low < high`, unless one of them was refused already.
 void check_interval(const Settings& settings, const std::string& section, const std::string& axis,
                     io::Diagnostics& problems) {
   const std::string low = axis + "_min", high = axis + "_max";
   const auto from = settings.optional_number(section, low), to = settings.optional_number(section, high);
-  if (!from || !to || *from < *to)
+  if (settings.was_refused(section, low) || settings.was_refused(section, high) || !from || !to || *from < *to)
     return;
   problems.add(later_line(settings, section, low, high),
                fmt::format("[{}] needs {} < {}, found {} and {}", section, low, high, *from, *to));
+}
+
+/// Sides for which the predicates are exact, unless an end of them was refused already.
+void check_side(const Settings& settings, const std::string& axis, io::Diagnostics& problems) {
+  const std::string low = axis + "_min", high = axis + "_max";
+  const double side = settings.number("domain", high) - settings.number("domain", low);
+  if (settings.was_refused("domain", low) || settings.was_refused("domain", high))
+    return;
+  if (side > 0 && (side < shortest_side || side > longest_side))
+    problems.add(later_line(settings, "domain", low, high),
+                 fmt::format("[domain] needs {} - {} from {} to {}, found {}; use another unit of length", high, low,
+                             shortest_side, longest_side, side));
 }
 
 geometry::Box box_of(const Settings& settings, const std::string& section) {
@@ -92,10 +106,9 @@ void read_shape(const Settings& settings, const fs::path& directory, RunOptions&
 void read_domain(const Settings& settings, meshing::MeshOptions& mesh, io::Diagnostics& problems) {
   check_interval(settings, "domain", "x", problems);
   check_interval(settings, "domain", "y", problems);
+  check_side(settings, "x", problems);
+  check_side(settings, "y", problems);
   mesh.container = box_of(settings, "domain");
-  const double longest = std::max(mesh.container.width(), mesh.container.height());
-  if (!std::isfinite(longest * longest))
-    problems.add(io::whole_file, "the container [domain] is too large for double precision");
   if (const auto cells = settings.optional_integer("domain", "cells_x"))
     mesh.cells_x = static_cast<int>(*cells);
   if (const auto cells = settings.optional_integer("domain", "cells_y"))

@@ -9,15 +9,17 @@ namespace {
 constexpr double huge = std::numeric_limits<double>::infinity();
 constexpr Range positive{0, huge, true};
 constexpr Range not_negative{0, huge};
+constexpr Range coordinate{-largest_coordinate, largest_coordinate};
 
 constexpr Option table[] = {
     {.section = "domain",
      .key = "x_min",
      .fallback = "0",
+     .range = coordinate,
      .meaning = "left side of the container, a rectangle a little larger than the shape"},
-    {.section = "domain", .key = "x_max", .fallback = "1", .meaning = "right side"},
-    {.section = "domain", .key = "y_min", .fallback = "0", .meaning = "lower side"},
-    {.section = "domain", .key = "y_max", .fallback = "1", .meaning = "upper side"},
+    {.section = "domain", .key = "x_max", .fallback = "1", .range = coordinate, .meaning = "right side"},
+    {.section = "domain", .key = "y_min", .fallback = "0", .range = coordinate, .meaning = "lower side"},
+    {.section = "domain", .key = "y_max", .fallback = "1", .range = coordinate, .meaning = "upper side"},
     {.section = "domain",
      .key = "periodic_x",
      .kind = Kind::boolean,

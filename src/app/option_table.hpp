@@ -32,6 +32,9 @@ struct Option {
   const char* meaning;
 };
 
+/// Coordinates of the container; beyond, products of four differences could leave the range of a double.
+inline constexpr double largest_coordinate = 1e30;
+
 inline constexpr std::string_view part_section = "shape.NAME";
 
 std::span<const Option> option_table();

@@ -137,6 +137,12 @@ bool Settings::is_set(const std::string& section, const std::string& key) const 
                      [&](const io::IniEntry& entry) { return entry.section == section && entry.key == key; });
 }
 
+bool Settings::was_refused(const std::string& section, const std::string& key) const {
+  return is_set(section, key) && std::none_of(good_.begin(), good_.end(), [&](const io::IniEntry& entry) {
+           return entry.section == section && entry.key == key;
+         });
+}
+
 int Settings::line(const std::string& section, const std::string& key) const {
   const io::IniEntry* entry = document_.find(section, key);
   return entry ? entry->line : io::whole_file;

@@ -25,6 +25,8 @@ public:
 
   /// True if the user set the key, even to a bad value or with a misspelt name: no second error should follow from it.
   bool is_set(const std::string& section, const std::string& key) const;
+  /// True if the key is set, but not to a value that is in force: what text() gives is not what the user wrote.
+  bool was_refused(const std::string& section, const std::string& key) const;
   /// Line of the entry; io::whole_file if it is not set.
   int line(const std::string& section, const std::string& key) const;
   /// The value in force as text: the user's if it is good, else the default of the table.

@@ -130,6 +130,13 @@ class BadInput(unittest.TestCase):
     def test_container_without_inside(self):
         self.refused(GOOD.replace("x_min = 0\n", "x_min = 2\n"), USAGE, [r"case\.ini.*x_m(in|ax)"])
 
+    def test_container_beyond_double_precision(self):
+        for value, expect in (("1e-31", r"x_max - x_min.*1e-30"), ("1e-300", r"x_max - x_min.*1e-30"),
+                              ("1e31", r"x_max.*1e\+30"), ("1e308", r"x_max.*1e\+30")):
+            with self.subTest(x_max=value):
+                self.refused(GOOD.replace("x_min = 0\n", f"x_min = 0\nx_max = {value}\n"), USAGE,
+                             [rf"case\.ini:3:.*{expect}"], ranks_tried=(1,))
+
     def test_unknown_part_in_region(self):
         text = GOOD.replace("region = part", "region = difference(part, hool)")
         self.refused(text, USAGE, [rf"case\.ini:{line_of(text, 'hool')}:.*region.*hool|hool.*region"])

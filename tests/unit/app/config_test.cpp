@@ -155,6 +155,18 @@ TEST(Config, RefusesValuesThatMakeNoSense) {
   expect_refused("parallel.setup_threads=2", "not supported yet");
 }
 
+TEST(Config, TheContainerStaysWithinTheRangeOfThePredicates) {
+  expect_refused("domain.x_max=1e31", "'x_max = 1e31' in [domain]: expected a number from -1e+30 to 1e+30");
+  expect_refused("domain.y_min=-1e300", "'y_min = -1e300' in [domain]: expected a number from -1e+30 to 1e+30");
+  expect_refused("domain.x_max=1e-31", "[domain] needs x_max - x_min from 1e-30 to 1e+30, found 1e-31; use");
+  expect_refused("domain.y_max=1e-300", "[domain] needs y_max - y_min from 1e-30 to 1e+30, found 1e-300; use");
+  EXPECT_NE(errors_of(good, {"domain.x_min=-1e30", "domain.x_max=1e30"}).find("found 2e+30"), std::string::npos);
+  EXPECT_EQ(errors_of(good, {"domain.x_min=5", "domain.x_max=1e31"}).find('\n'), std::string::npos)
+      << "one error, once";
+  for (const char* text : {"domain.x_max=1e30", "domain.x_min=-1e29", "domain.y_max=1e-30"})
+    EXPECT_EQ(errors_of(good, {text}), "") << text;
+}
+
 TEST(Config, AChangedTypeShowsTheKeysThatNoLongerBelong) {
   const std::string message = errors_of(good, {"shape.box.type=triangle"});
   EXPECT_NE(message.find("dir/c.ini:5: 'x_min' in [shape.box] belongs to type rectangle, but the type is triangle"),
