@@ -34,7 +34,6 @@ public:
   /// (interval 0: steps 1, 2, 5, 10, 20, 50, ...) or `force` is printed.
   void progress(long step, const std::string& line, bool force = false);
   void set_progress_interval(int interval) { interval_ = interval; }
-  LogLevel level() const { return level_; }
 
 private:
   void write(LogLevel level, const std::string& message);
