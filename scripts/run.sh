@@ -19,6 +19,12 @@ case "${1:-}" in
   *) config=$1; shift ;;
 esac
 
+ranks=${TRIME_RANKS:-2}
+if ! [[ $ranks =~ ^[1-9][0-9]{0,5}$ ]]; then
+  echo "run.sh: TRIME_RANKS=$ranks: expected a number of ranks, 1 or more, for example TRIME_RANKS=2" >&2
+  exit 2
+fi
+
 trime_need_packages "${trime_run_packages[@]}"
 trime_mpi_environment
 
@@ -31,9 +37,10 @@ trime_quietly build cmake --build "$build" --target trime_mpi
 
 # Where will the mesh go? The program says it itself, and tells of all mistakes in the config.
 resolved=$("$program" "$config" "$@" --print-config)
-output_value() { sed -n '/^\[output\]/,/^\[/s/^ *'"$1"' *= *\([^;#]*[^;# ]\).*/\1/p' <<<"$resolved" | head -n 1; }
+output_value() { sed -n '/^\[output\]/,/^\[/s/^ *'"$1"' *= *//p' <<<"$resolved" | head -n 1; }
 directory=$(output_value directory)
 name=$(output_value name)
+formats=$(output_value formats | tr ',' ' ')
 extra=()
 case " $* " in
   *" output.directory="* | *" output.overwrite="*) ;; # the user decides
@@ -45,9 +52,10 @@ case " $* " in
 esac
 [ -n "$name" ] && [ "$name" != auto ] || name=$(basename "${config%.*}")
 mesh="$directory/$name.h5"
+identity() { stat -L -c '%d %i %s %y' "$mesh" 2>/dev/null || true; } # changes when the file is written anew
+earlier=$(identity)
 
 # Run. All cores are shared out among the ranks; binding is left to the system, which suits a laptop.
-ranks=${TRIME_RANKS:-2}
 cores=$(nproc)
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-$((cores > ranks ? cores / ranks : 1))}
 placement=(--bind-to none)
@@ -55,10 +63,16 @@ placement=(--bind-to none)
 status=0
 mpirun -np "$ranks" "${placement[@]}" "$program" "$config" ${extra[@]+"${extra[@]}"} "$@" || status=$?
 [ "$status" -eq 0 ] || [ "$status" -eq 5 ] || exit "$status" # 5: the mesh is there, but marked
-[ -f "$mesh" ] || exit "$status"                             # --validate and the like write nothing
+if [ "$(identity)" = "$earlier" ]; then                      # --validate and the like; no mesh of an earlier run is shown
+  [ -z "$earlier" ] || echo "This run wrote no mesh; $mesh is that of an earlier run."
+  exit "$status"
+fi
 
 picture="$directory/$name.png"
 /usr/bin/python3 "$root/scripts/plot_mesh.py" "$mesh" -o "$picture"
+paraview='' # only the formats of this run
+case " $formats " in *" vtkhdf "*) paraview+="  ParaView  open ${mesh%.h5}.vtkhdf, colour by alpha"$'\n' ;; esac
+case " $formats " in *" xdmf "*) paraview+="  ParaView  open ${mesh%.h5}.xdmf with the Xdmf3 reader, colour by alpha"$'\n' ;; esac
 cat <<TEXT
 
 Files
@@ -66,8 +80,7 @@ Files
   $picture  a picture of it
 How to look at them
   picture   xdg-open $picture
-  ParaView  open ${mesh%.h5}.vtkhdf (or .xdmf with the Xdmf3 reader), colour by alpha
-  Python    import h5py; f = h5py.File("$mesh"); xy = f["Mesh/mesh/geometry"][:]; tri = f["Mesh/mesh/topology"][:]
+$paraview  Python    import h5py; f = h5py.File("$mesh"); xy = f["Mesh/mesh/geometry"][:]; tri = f["Mesh/mesh/topology"][:]
   numbers   h5dump -A -g /trime_mpi $mesh   (package hdf5-tools)
 TEXT
 exit "$status"

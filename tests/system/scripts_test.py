@@ -85,6 +85,13 @@ class Scripts(unittest.TestCase):
                     self.assertRegex(done.stderr, rf"apt-get install .*\b{package}\b")
                     self.assertEqual(done.stdout, "")
 
+    def test_first_command_refuses_a_senseless_number_of_ranks(self):
+        for ranks in ("zz", "0", "-1", "2.5"):
+            with self.subTest(ranks=ranks):
+                done = call(SCRIPTS / "run.sh", TRIME_RANKS=ranks, TRIME_NO_INSTALL="1")
+                self.assertEqual(done.returncode, 2)
+                self.assertIn(f"TRIME_RANKS={ranks}", done.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()
