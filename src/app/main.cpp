@@ -4,6 +4,8 @@
 #include "app/program.hpp"
 #include "trime/io/mesh_file.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -15,11 +17,24 @@ namespace {
 
 using trime::ExitCode;
 
-/// Leaves no temporary file, then ends as the signal would have ended the program.
+volatile std::sig_atomic_t tells = 0; ///< 1 on the rank whose handler says a word: rank 0
+
+/// Leaves no temporary file, then ends as the signal would have ended the program. Only calls that a handler may make.
 void end_by_signal(int number) {
   trime::io::remove_temporary_file();
+  constexpr char message[] = "trime_mpi: interrupted; no mesh was written\n";
+  if (tells != 0 && write(STDERR_FILENO, message, sizeof message - 1) < 0)
+    tells = 0; // nobody listens, and there is nothing to do about it
   std::signal(number, SIG_DFL);
   std::raise(number);
+}
+
+/// The signals that end a program, but not those that whoever started it told it to ignore (nohup).
+void handle_signals(bool tell) {
+  tells = tell ? 1 : 0;
+  for (const int number : {SIGINT, SIGTERM, SIGHUP})
+    if (std::signal(number, end_by_signal) == SIG_IGN)
+      std::signal(number, SIG_IGN);
 }
 
 /// Every line of the message as one line of error.
@@ -65,7 +80,6 @@ int main(int argc, char** argv) {
   trime::app::avoid_broken_file_writer();
   const trime::comm::Environment environment(argc, argv);
   const trime::comm::Communicator comm = trime::comm::Communicator::world();
-  std::signal(SIGINT, end_by_signal);
-  std::signal(SIGTERM, end_by_signal);
+  handle_signals(comm.is_root());
   return static_cast<int>(run(argc, argv, comm));
 }

@@ -74,6 +74,36 @@ class Interrupted(unittest.TestCase):
                 self.kill_when(directory, SHORT, written, number)
                 self.assert_nothing_or_whole(directory)
 
+    def interrupted(self, number, before):
+        """Sends the signal to a single rank without mpirun; returns its exit code and what it said."""
+        with Workspace() as directory:
+            arguments = [CONFIG, f"meshing.points={LONG}", f"output.directory={directory}", "output.name=mesh"]
+            with subprocess.Popen(command(arguments, 1), env=environment(1), stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.PIPE, text=True, preexec_fn=before) as run:
+                time.sleep(1)
+                run.send_signal(number)
+                try:
+                    run.wait(2)
+                    code = run.returncode
+                except subprocess.TimeoutExpired:
+                    code = None  # it goes on
+                    run.kill()
+                return code, run.stderr.read(), sorted(path.name for path in directory.iterdir())
+
+    def test_a_word_is_said_on_every_signal_that_ends_a_program(self):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            with self.subTest(signal=number):
+                code, told, left = self.interrupted(number, None)
+                self.assertEqual(code, -number)
+                self.assertEqual(told.count("trime_mpi: interrupted; no mesh was written\n"), 1, told)
+                self.assertEqual(left, [])
+
+    def test_a_signal_that_the_caller_ignores_stays_ignored(self):
+        for number in (signal.SIGINT, signal.SIGHUP):
+            with self.subTest(signal=number):
+                code, told, _ = self.interrupted(number, lambda ignored=number: signal.signal(ignored, signal.SIG_IGN))
+                self.assertIsNone(code, told)
+
 
 if __name__ == "__main__":
     unittest.main()
