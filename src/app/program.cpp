@@ -102,7 +102,10 @@ ExitCode make_mesh(const Job& job) {
     files = io::write_mesh(options.output, result.mesh, metadata, comm);
   }
   log.info("{}", run_report(result, gather_measurements(timers, comm), files));
-  return is_complete(result) ? ExitCode::done : ExitCode::incomplete;
+  if (is_complete(result))
+    return ExitCode::done;
+  log.warning("{}", incompleteness(result, options.write_final));
+  return ExitCode::incomplete;
 }
 
 } // namespace

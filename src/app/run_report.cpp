@@ -29,8 +29,9 @@ std::string summary_line(const char* name, const mesh::RatioSummary& s) {
 std::string quality_text(const mesh::QualitySummary& q) {
   std::string text = "Quality    median      mean       max  half-mean      std   (1 is equilateral)\n";
   text += summary_line("alpha", q.alpha) + summary_line("beta", q.beta);
-  text += fmt::format("  smallest angle {:.2f} degrees; edge length over wanted length: mean {:.4f}, std {:.4f}\n",
-                      q.min_angle_degrees, q.size_mean, q.size_std);
+  text += fmt::format("  smallest angle {:.2f} degrees; worst triangle at ({:.6g}, {:.6g})\n", q.min_angle_degrees,
+                      q.worst_place.x, q.worst_place.y);
+  text += fmt::format("  edge length over wanted length: mean {:.4f}, std {:.4f}\n", q.size_mean, q.size_std);
   std::int64_t count = 0;
   for (const std::int64_t bin : q.alpha_histogram)
     count += bin;
@@ -110,11 +111,19 @@ std::string run_report(const meshing::MeshResult& result, const Measurements& me
                         k == 0 ? fmt::format("  ({:.1f} MiB)", static_cast<double>(files.bytes) / 0x1p20) : "");
   if (!files.paths.empty())
     text += "           draw it: scripts/plot_mesh.py " + files.paths[0] + "; or open it in ParaView\n";
-  if (!is_complete(result))
-    text += fmt::format("\nThe mesh is NOT complete ({}): it is marked so in the file, and the exit code is 5.\n",
-                        mesh::all_passed(result.checks) ? "the sweep cap was reached, see meshing.max_sweeps"
-                                                        : "a check failed, see above");
   return text;
+}
+
+std::string incompleteness(const meshing::MeshResult& result, bool written) {
+  std::string reason = "the sweep cap was reached, see meshing.max_sweeps";
+  if (!mesh::all_passed(result.checks)) {
+    reason = "failed checks:";
+    for (const mesh::Check& check : result.checks)
+      if (!check.passed)
+        reason += " " + check.name;
+  }
+  return fmt::format("the mesh is NOT complete ({}){}; exit code 5", reason,
+                     written ? ": it is marked so in the file" : "");
 }
 
 } // namespace trime::app

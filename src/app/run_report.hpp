@@ -50,4 +50,7 @@ struct Provenance {
 io::Metadata describe_run(const Provenance& provenance, const meshing::MeshResult& result,
                           const Measurements& measured);
 
+/// Why the mesh is not complete, one sentence for a warning. @pre !is_complete(result) @param written to a file
+std::string incompleteness(const meshing::MeshResult& result, bool written);
+
 } // namespace trime::app

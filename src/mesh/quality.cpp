@@ -2,6 +2,8 @@
 #include "trime/mesh/quality.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -18,8 +20,17 @@ Edges edges(Vec2 p, Vec2 q, Vec2 r) {
   return {geometry::length(q - r), geometry::length(r - p), geometry::length(p - q)};
 }
 
-constexpr double fine_bin = 1e-4, coarse_bin = 1e-2;
-constexpr std::size_t fine_bins = 10000, coarse_bins = 800; // [1, 2), [2, 10), and one for the rest
+/// Bins of the histogram: [1, 1.01) by 1e-6, [1.01, 2) by 1e-4, [2, 10) by 1e-2, and from there 64 an octave, which are
+/// leading bits of the number itself.
+struct Section {
+  double from, width;
+  std::size_t first, count;
+};
+constexpr std::array<Section, 3> sections{{{1, 1e-6, 0, 10000}, {1.01, 1e-4, 10000, 9900}, {2, 1e-2, 19900, 800}}};
+constexpr double octaves_from = 8;
+constexpr std::size_t first_octave_bin = 20700, octave_bins = 64 * 13 + 1;
+constexpr int octave_shift = 52 - 6; // six bits of the fraction
+constexpr std::size_t all_bins = first_octave_bin + octave_bins;
 constexpr double sum_cap = 65536;
 constexpr double degrees_per_radian = 57.29577951308232;
 
@@ -50,22 +61,26 @@ double min_angle_degrees(Vec2 p, Vec2 q, Vec2 r) {
   return std::asin(std::min(1.0, sine)) * degrees_per_radian;
 }
 
-RatioStatistics::RatioStatistics() : bins_(fine_bins + coarse_bins + 1, 0) {}
+RatioStatistics::RatioStatistics() : bins_(all_bins, 0) {}
 
 std::size_t RatioStatistics::bin(double ratio) {
   if (!(ratio > 1))
     return 0;
-  if (ratio < 2)
-    return std::min(fine_bins - 1, static_cast<std::size_t>((ratio - 1) / fine_bin));
-  if (ratio < 10)
-    return std::min(fine_bins + coarse_bins - 1, fine_bins + static_cast<std::size_t>((ratio - 2) / coarse_bin));
-  return fine_bins + coarse_bins;
+  for (const Section& section : sections)
+    if (ratio < section.from + section.width * static_cast<double>(section.count))
+      return section.first +
+             std::min(section.count - 1, static_cast<std::size_t>(std::max(0.0, ratio - section.from) / section.width));
+  const std::uint64_t above = std::bit_cast<std::uint64_t>(ratio) - std::bit_cast<std::uint64_t>(octaves_from);
+  return first_octave_bin + std::min(octave_bins - 1, static_cast<std::size_t>(above >> octave_shift));
 }
 
 double RatioStatistics::bin_middle(std::size_t bin) {
-  if (bin < fine_bins)
-    return 1 + (static_cast<double>(bin) + 0.5) * fine_bin;
-  return 2 + (static_cast<double>(bin - fine_bins) + 0.5) * coarse_bin;
+  for (const Section& section : sections)
+    if (bin < section.first + section.count)
+      return section.from + (static_cast<double>(bin - section.first) + 0.5) * section.width;
+  const std::uint64_t above =
+      (std::uint64_t{bin - first_octave_bin} << octave_shift) + (std::uint64_t{1} << (octave_shift - 1));
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(octaves_from) + above);
 }
 
 void RatioStatistics::add(double ratio) {

@@ -120,6 +120,7 @@ private:
     // below half the size of the boundary's segments is tried.
     double low = 0.5 * layout_.edge_length, high = none, spacing = layout_.edge_length;
     GlobalId best = 0;
+    double stride = 0.002; // least relative step while no spacing is known that is large enough; doubles each time
     for (int round = 0; round < spacing_rounds && wanted - best > wanted / 5000; ++round) {
       const GlobalId count = context_.comm.sum(start.count(tiles, spacing));
       if (count > wanted) {
@@ -130,9 +131,15 @@ private:
       }
       const double guess =
           spacing * std::sqrt((static_cast<double>(count) + 0.5) / (static_cast<double>(wanted) + 0.25));
-      spacing = guess > low && guess < high ? guess : 0.5 * (low + std::min(high, 2 * low + layout_.edge_length));
+      if (high == none) {
+        spacing = std::max(guess, spacing * (1 + stride));
+        stride *= 2;
+      } else { // not too near an end of the bracket: the count jumps, and a secant alone would creep
+        const double margin = 0.1 * (high - low);
+        spacing = std::clamp(guess, low + margin, high - margin);
+      }
     }
-    return best > 0 ? high : none;
+    return high;
   }
 
   std::vector<mesh::Site> inner_sites(const TileRange& tiles) const {
@@ -157,6 +164,19 @@ private:
         sites.push_back({p, static_cast<std::int32_t>(b)});
     }
     layout_.state->distribute(std::move(sites));
+    warn_of_shortage();
+  }
+
+  /// What a user would want to know before the sweeps begin.
+  void warn_of_shortage() const {
+    const GlobalId placed = context_.comm.sum(std::int64_t{layout_.state->points().owned()});
+    if (options_.points && static_cast<double>(placed) < 0.95 * static_cast<double>(*options_.points) - 10)
+      context_.log.warning(
+          "asked for {} points, only {} fit: the discs of the {} boundary segments leave no room for more",
+          *options_.points, placed, on_boundary());
+    if (layout_.boundary.shortest < 0.1 * layout_.edge_length)
+      context_.log.warning("the boundary has features down to {:.3g}, far below h = {:.3g}: expect small angles there",
+                           layout_.boundary.shortest, layout_.edge_length);
   }
 
   const LayoutContext& context_;

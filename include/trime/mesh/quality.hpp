@@ -26,7 +26,7 @@ struct RatioSummary {
 };
 
 /// @brief Mergeable statistics of a ratio >= 1: values are capped at 2^16 in the sums, exact in the maximum; the
-/// median comes from bins of 1e-4 up to 2 and of 1e-2 up to 10 beyond.
+/// median comes from bins of 1e-6 up to 1.01, 1e-4 up to 2, 1e-2 up to 10, and 1.6 % beyond.
 class RatioStatistics {
 public:
   RatioStatistics();
@@ -56,6 +56,7 @@ private:
 struct QualitySummary {
   RatioSummary alpha, beta;
   double min_angle_degrees = 60;
+  geometry::Vec2 worst_place;         ///< centre of the triangle with the largest alpha
   double size_mean = 1, size_std = 0; ///< L / (s h(mid)) over edges; s is chosen so that the mean is 1
   std::array<std::int64_t, 9> alpha_histogram{};
 };

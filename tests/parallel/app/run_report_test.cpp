@@ -40,15 +40,16 @@ TEST(RunReport, MarksWhatIsNotComplete) {
   const std::string good = run_report(result, {}, {});
   EXPECT_NE(good.find("0000000000001234"), std::string::npos);
   EXPECT_EQ(good.find("FAILED"), std::string::npos);
-  EXPECT_EQ(good.find("NOT complete"), std::string::npos);
+  EXPECT_EQ(good.find("FAILED"), std::string::npos);
   result.checks[0] = {"not_delaunay", 0, 3, false, "edges"};
   EXPECT_FALSE(is_complete(result));
   EXPECT_NE(run_report(result, {}, {}).find("FAILED not_delaunay"), std::string::npos);
-  EXPECT_NE(run_report(result, {}, {}).find("a check failed"), std::string::npos);
+  EXPECT_NE(incompleteness(result, true).find("failed checks: not_delaunay"), std::string::npos);
+  EXPECT_EQ(incompleteness(result, false).find("in the file"), std::string::npos);
   result = good_result();
   result.stop_reason = meshing::StopReason::sweep_cap;
   EXPECT_FALSE(is_complete(result));
-  EXPECT_NE(run_report(result, {}, {}).find("sweep cap"), std::string::npos);
+  EXPECT_NE(incompleteness(result, true).find("sweep cap"), std::string::npos);
 }
 
 TEST(Placement, SharesCoresAndObeysWishes) {

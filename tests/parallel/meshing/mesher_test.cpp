@@ -216,6 +216,27 @@ TEST(Mesher, RoomyContainerWithGivenCells) {
   expect_same_everywhere({"roomy", disc, options});
 }
 
+/// Once the search for the spacing of the lattice crept towards its goal from one side and gave up: 700 points of
+/// 10000, none of them inside, and every check passed. Any number of points must be met to within the sites of a few
+/// rows.
+TEST(Mesher, NearlyAllPointsAreUsed) {
+  const comm::Communicator world = comm::Communicator::world();
+  for (const double slot : {0.0005, 0.001, 0.003}) {
+    const Shape plate({Part::rectangle("plate", {{0.05, 0.05}, {0.95, 0.55}}, unit_frame()),
+                       Part::rectangle("a", {{0.2, 0.15}, {0.25, 0.45}}, unit_frame()),
+                       Part::rectangle("b", {{0.45, 0.15}, {0.5, 0.6}}, unit_frame()),
+                       Part::rectangle("c", {{0.7, 0.15}, {0.7 + slot, 0.45}}, unit_frame())},
+                      "difference(plate, union(a, b, c))", unit_frame());
+    for (const GlobalId points : {3000, 5000, 10000}) {
+      Case c{"plate", plate, with_points(points)};
+      c.options.max_sweeps = 1;
+      const GlobalId found = run(world, c).mesh.point_slab.total;
+      EXPECT_GE(found, points * 98 / 100) << slot;
+      EXPECT_LE(found, points) << slot;
+    }
+  }
+}
+
 TEST(Mesher, MeetsTheWishesAndSaysHowItStopped) {
   const comm::Communicator world = comm::Communicator::world();
   Case c{"square", square(), with_points(1000)};

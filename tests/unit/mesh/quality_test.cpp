@@ -149,5 +149,15 @@ TEST(Quality, DegenerateTrianglesAreInfinitelyBad) {
   EXPECT_EQ(edge_ratio(p, p, q), std::numeric_limits<double>::infinity());
 }
 
+TEST(Quality, MediansFarFromOne) { // the last bin of the histogram was all that lies beyond 10
+  for (const double middle : {1.000002, 1.5, 7.3, 13.6, 900.0}) {
+    RatioStatistics statistics;
+    for (const double factor : {0.9999995, 1.0, 1.0000005})
+      statistics.add(1 + (middle - 1) * factor);
+    EXPECT_NEAR(statistics.summary().median, middle, 0.01 * middle);
+    EXPECT_NEAR((statistics.summary().median - 1) / (middle - 1), 1, 0.3);
+  }
+}
+
 } // namespace
 } // namespace trime::mesh
