@@ -52,6 +52,7 @@ std::vector<io::Attribute> attributes(const Provenance& p, const meshing::MeshRe
           {"peak_memory_bytes", measured.peak_memory},
           {"bytes_per_point", static_cast<double>(measured.memory_sum) / points},
           {"mesh_hash", result.mesh.hash},
+          {"mesh_hash_hex", fmt::format("{:016x}", result.mesh.hash)},
           {"complete", std::int64_t{is_complete(result)}}};
 }
 

@@ -26,6 +26,16 @@ std::string summary_line(const char* name, const mesh::RatioSummary& s) {
                      s.std);
 }
 
+/// Area of the mesh beside that of the shape: they differ by what lies between chords and curve.
+std::string area_text(const meshing::MeshResult& result) {
+  const auto area = std::find_if(result.checks.begin(), result.checks.end(),
+                                 [](const mesh::Check& check) { return check.name == "area"; });
+  if (area == result.checks.end() || result.shape_area <= 0)
+    return "";
+  return fmt::format("Area of the mesh {:.9g}, of the shape {:.9g}: {:+.2e} of it\n\n", area->found, result.shape_area,
+                     area->found / result.shape_area - 1);
+}
+
 std::string quality_text(const mesh::QualitySummary& q) {
   std::string text = "Quality    median      mean       max  half-mean      std   (1 is equilateral)\n";
   text += summary_line("alpha", q.alpha) + summary_line("beta", q.beta);
@@ -98,8 +108,9 @@ std::string run_report(const meshing::MeshResult& result, const Measurements& me
   std::string text = fmt::format("\n{} points, {} triangles, {} boundary edges; target edge length {:.6g}\n",
                                  result.mesh.point_slab.total, result.mesh.triangle_slab.total,
                                  result.mesh.facet_slab.total, result.edge_length);
-  text += fmt::format("Stopped after {} sweeps: {}\n\n", result.history.empty() ? 0 : result.history.back().sweep,
+  text += fmt::format("Stopped after {} sweeps: {}\n", result.history.empty() ? 0 : result.history.back().sweep,
                       meshing::to_string(result.stop_reason));
+  text += area_text(result);
   text += quality_text(result.quality) + "\n" + checks_text(result.checks) + "\n" + times_text(measured);
   text += fmt::format("  {:.0f} points per second\n\n", points / std::max(measured.total, 1e-9));
   text += fmt::format("Memory     at most {:.1f} MiB per rank, {:.0f} bytes per point over all ranks\n",

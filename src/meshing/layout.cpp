@@ -43,8 +43,10 @@ public:
       }
       h = spacing;
     }
-    context_.log.info("boundary: {} loops, {} sites, {} corners, h = {:.6g}", context_.boundary.loops.size(),
-                      layout_.boundary.sites.size(), layout_.boundary.corners, layout_.edge_length);
+    const int components = context_.boundary.components(), holes = context_.boundary.holes();
+    context_.log.info("boundary: {} component{}, {} hole{}, {} sites, {} corners, h = {:.6g}", components,
+                      components == 1 ? "" : "s", holes, holes == 1 ? "" : "s", layout_.boundary.sites.size(),
+                      layout_.boundary.corners, layout_.edge_length);
     place_sites();
     return std::move(layout_);
   }
