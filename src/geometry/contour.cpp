@@ -119,12 +119,23 @@ bool take_number(std::string_view& text, double& value) {
   return text.empty() || is_space(text.front());
 }
 
+/// What people write instead of 'x y', for the message; empty if it is none of that.
+std::string hint_for(std::string_view line) {
+  if (line.find(',') != std::string_view::npos)
+    return "; separate the numbers by blanks, not commas, and write decimals with a point";
+  double number = 0;
+  int numbers = 0;
+  while (numbers < 4 && take_number(line, number))
+    ++numbers;
+  return numbers == 3 && trimmed(line).empty() ? "; found three numbers, but points of the plane have two" : "";
+}
+
 Vec2 parse_vertex(std::string_view line, const std::string& source, int number) {
   Vec2 p;
   std::string_view rest = line;
   if (!take_number(rest, p.x) || !take_number(rest, p.y) || !trimmed(rest).empty())
-    throw GeometryError(
-        fmt::format("{}:{}: expected two numbers 'x y', found '{}'", source, number, line.substr(0, 60)));
+    throw GeometryError(fmt::format("{}:{}: expected two numbers 'x y', found '{}'{}", source, number,
+                                    line.substr(0, 60), hint_for(line)));
   return p;
 }
 
@@ -135,6 +146,8 @@ Contour parse_xy(std::string_view text, const std::string& source) {
   contour.source = source;
   RingBuilder builder(contour);
   int number = 0;
+  if (text.starts_with("\xEF\xBB\xBF")) // byte order mark of some editors
+    text.remove_prefix(3);
   while (!text.empty()) {
     const std::size_t length = text.find('\n');
     const std::string_view line = text.substr(0, length);

@@ -59,6 +59,7 @@ public:
     polygon.rings = std::move(rings_);
     check_meetings(polygon);
     orient(polygon);
+    tell_pieces(polygon, warnings);
     return polygon;
   }
 
@@ -68,6 +69,7 @@ private:
   void add_ring(const ContourRing& ring, std::vector<std::string>& warnings);
   void check_turns(const std::vector<Vec2>& p, const std::vector<int>& lines) const;
   void check_meetings(const Polygon& polygon) const;
+  void tell_pieces(const Polygon& polygon, std::vector<std::string>& warnings) const;
   [[noreturn]] void report(const Polygon& polygon, LocalIndex i, LocalIndex j) const;
   std::string in_file(Vec2 p) const {
     const Vec2 original = normalization_.undo(p);
@@ -175,11 +177,44 @@ void Placement::report(const Polygon& polygon, LocalIndex i, LocalIndex j) const
     return ring;
   };
   const bool same = ring_of(i) == ring_of(j), crossing = meeting_of(s, t) == Meeting::crossing;
-  throw GeometryError(fmt::format("{}:{}: the edge that starts here {} the edge that starts at line {} near {}; {}",
-                                  contour_.source, segment_line_[i], crossing ? "crosses" : "touches", segment_line_[j],
-                                  in_file(meeting_point(s, t)),
-                                  same ? (crossing ? "a ring must not cross itself" : "a ring touches itself")
-                                       : (crossing ? "two rings must not cross" : "two rings touch or overlap")));
+  throw GeometryError(
+      fmt::format("{}:{}: the edge that starts here {} the edge that starts at line {} near {}; {}", contour_.source,
+                  segment_line_[i], crossing ? "crosses" : "touches", segment_line_[j], in_file(meeting_point(s, t)),
+                  same ? (crossing ? "a ring must not cross itself; is a blank line between two rings "
+                                     "missing?"
+                                   : "a ring touches itself; is a blank line between two rings missing?")
+                       : (crossing ? "two rings must not cross" : "two rings touch or overlap")));
+}
+
+/// A warning for every ring that encloses a piece of its own, except the one of the largest area.
+void Placement::tell_pieces(const Polygon& polygon, std::vector<std::string>& warnings) const {
+  constexpr int most_warnings = 5;
+  const std::span<const Segment> segments = polygon.grid.segments();
+  std::vector<LocalIndex> starts; // first segments of the rings that are no holes
+  double largest = 0;
+  std::size_t main = 0;
+  for (const Polygon::Ring& ring : polygon.rings) {
+    const Vec2 origin = segments[ring.first].a;
+    double twice_area = 0;
+    for (const Segment& s : segments.subspan(ring.first, ring.count))
+      twice_area += cross(s.a - origin, s.b - origin);
+    if ((twice_area > 0) == ring.reversed)
+      continue;
+    if (std::fabs(twice_area) > largest) {
+      largest = std::fabs(twice_area);
+      main = starts.size();
+    }
+    starts.push_back(ring.first);
+  }
+  int told = 0;
+  for (std::size_t k = 0; k < starts.size(); ++k)
+    if (k != main && ++told <= most_warnings)
+      warnings.push_back(
+          fmt::format("{}:{}: the ring that starts here lies outside the area of all others and becomes a "
+                      "separate piece",
+                      contour_.source, segment_line_[starts[k]]));
+  if (told > most_warnings)
+    warnings.push_back(fmt::format("{}: {} more rings become separate pieces", contour_.source, told - most_warnings));
 }
 
 void Placement::orient(Polygon& polygon) {

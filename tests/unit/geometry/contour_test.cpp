@@ -62,6 +62,8 @@ TEST(Contour, BadTextIsLocated) {
   expect_error("0 0\n1\n", {"map.xy:2", "two numbers"});
   expect_error("0 0\n1 0 2\n", {"map.xy:2", "two numbers"});
   expect_error("0 0\n1 0\n0,5 1\n", {"map.xy:3", "two numbers"});
+  expect_error("0 0\n1, 0\n0 1\n", {"map.xy:2", "by blanks, not commas"});
+  expect_error("0 0 0\n1 0 0\n0 1 0\n", {"map.xy:1", "found three numbers"});
   expect_error("0 0\n1 0\nnan 0.5\n", {"map.xy:3", "finite", "nan"});
   expect_error("0 0\n1 0\n0.5 -inf\n", {"map.xy:3", "finite", "-inf"});
   expect_error("0 0\n1 0\n0.5 1e999\n", {"map.xy:3", "finite"});
@@ -76,7 +78,7 @@ TEST(Contour, TooSmallRingsAreLocated) {
 }
 
 TEST(Contour, CrossingsAreLocated) {
-  expect_error("0 0\n1 1\n1 0\n0 0.8\n", {"map.xy:1", "crosses", "line 3", "cross itself", "0.444444"});
+  expect_error("0 0\n1 1\n1 0\n0 0.8\n", {"map.xy:1", "crosses", "line 3", "cross itself", "0.444444", "blank line"});
   expect_error("0.1 0.1\n0.5 0.1\n0.5 0.5\n0.1 0.5\n\n0.3 0.3\n0.9 0.3\n0.9 0.4\n0.3 0.4\n",
                {"map.xy:2", "crosses", "line 6", "two rings", "(0.5, 0.3)"});
 }
@@ -150,6 +152,27 @@ TEST(Contour, OrientationFollowsFromNesting) {
       outer += loop.outer ? 1 : 0;
     EXPECT_EQ(outer, 3);
   }
+}
+
+TEST(Contour, SkipsAByteOrderMark) {
+  EXPECT_EQ(parse_xy("\xEF\xBB\xBF"
+                     "0 0\n1 0\n0 1\n",
+                     "map.xy")
+                .rings[0]
+                .points.size(),
+            3u);
+}
+
+TEST(Contour, WarnsOfSeparatePiecesButNotOfHoles) {
+  const std::string ring = "0.1 0.1\n0.8 0.1\n0.8 0.8\n0.1 0.8\n\n", hole = "0.2 0.2\n0.3 0.2\n0.3 0.3\n\n";
+  EXPECT_TRUE(part_of(ring + hole).warnings().empty());
+  const Part beside = part_of("0.9 0.9\n0.95 0.9\n0.95 0.95\n\n" + ring + hole); // the largest is the main one
+  ASSERT_EQ(beside.warnings().size(), 1u);
+  EXPECT_NE(beside.warnings()[0].find("map.xy:1: "), std::string::npos) << beside.warnings()[0];
+  std::string many = ring;
+  for (int k = 0; k < 50; ++k)
+    many += fmt::format("{0} 0.9\n{1} 0.9\n{1} 0.91\n\n", 0.01 * k, 0.01 * k + 0.005);
+  EXPECT_EQ(part_of(many).warnings().size(), 6u);
 }
 
 TEST(Contour, FileErrors) {
