@@ -69,6 +69,7 @@ PartOptions part_of(const Settings& settings, const std::string& name, const fs:
   } else if (part.type == "triangle") {
     part.corners = {settings.pair(section, "p0"), settings.pair(section, "p1"), settings.pair(section, "p2")};
   } else if (part.type == "contour") {
+    part.file_is_relative = fs::path(settings.text(section, "file")).is_relative();
     part.file = (directory / settings.text(section, "file")).lexically_normal().string(); // absolute paths stay
     part.normalize = settings.boolean(section, "normalize");
   }

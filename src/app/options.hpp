@@ -21,7 +21,8 @@ struct PartOptions {
   geometry::Vec2 center;
   double radius = 0;
   std::array<geometry::Vec2, 3> corners;
-  std::string file; ///< path as the program can open it
+  std::string file;              ///< path as the program can open it
+  bool file_is_relative = false; ///< the user wrote it relative to the config file
   bool normalize = false;
 };
 

@@ -21,6 +21,13 @@ bool is_part_name(std::string_view name) {
                      [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; });
 }
 
+/// 'a b.xy' and "a b.xy" mean a b.xy: no path needs quotes, but many people write them.
+std::string without_quotes(const std::string& value) {
+  const std::size_t n = value.size();
+  const bool are = n > 2 && (value[0] == '"' || value[0] == '\'') && value[n - 1] == value[0];
+  return are ? value.substr(1, n - 2) : value;
+}
+
 /// Sections of the table in which a key of this name exists, for "did you mean".
 std::string other_home(const std::string& section, const std::string& key) {
   for (const Option& option : option_table())
@@ -80,9 +87,12 @@ void Settings::check_entry(const io::IniEntry& entry, io::Diagnostics& problems)
                                          near.empty() ? other_home(entry.section, entry.key) : near));
     return;
   }
-  const std::string problem = value_problem(*option, entry.section, entry.value);
+  io::IniEntry meant = entry;
+  if (option->kind == Kind::path)
+    meant.value = without_quotes(entry.value);
+  const std::string problem = value_problem(*option, entry.section, meant.value);
   if (problem.empty())
-    good_.push_back(entry);
+    good_.push_back(std::move(meant));
   else
     problems.add(entry.line, problem);
 }

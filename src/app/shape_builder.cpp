@@ -8,11 +8,12 @@ namespace trime::app {
 namespace {
 
 /// Contour text on every rank; the reader of the geometry refuses formats that it does not know.
-std::string read_contour(const std::string& path, const comm::Communicator& comm) {
+std::string read_contour(const PartOptions& part, const comm::Communicator& comm) {
   std::string text;
   comm::run_agreed(comm, [&] {
     if (comm.is_root())
-      text = geometry::read_contour_text(path);
+      text = geometry::read_contour_text(
+          part.file, part.file_is_relative ? " (relative to the config file, not to the working directory)" : "");
   });
   return comm.broadcast(std::move(text));
 }
@@ -24,7 +25,7 @@ geometry::Part build_part(const PartOptions& part, const geometry::Frame& frame,
     return geometry::Part::circle(part.name, part.center, part.radius, frame);
   if (part.type == "triangle")
     return geometry::Part::triangle(part.name, part.corners, frame);
-  const geometry::Contour contour = geometry::parse_xy(read_contour(part.file, comm), part.file);
+  const geometry::Contour contour = geometry::parse_xy(read_contour(part, comm), part.file);
   const geometry::Normalization place =
       part.normalize ? geometry::fit_to_container(contour, frame.container()) : geometry::Normalization{};
   return geometry::Part::contour(part.name, contour, place, frame);

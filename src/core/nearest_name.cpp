@@ -50,6 +50,10 @@ std::string nearest_name(std::string_view word, std::span<const std::string> can
       best_distance = distance;
     }
   }
+  constexpr std::size_t shortest_beginning = 3; // letters
+  for (const std::string& candidate : candidates)
+    if (best.empty() && word.size() >= shortest_beginning && lower(candidate).starts_with(lower(word)))
+      best = candidate;
   return best;
 }
 

@@ -10,11 +10,12 @@
 
 namespace trime {
 
-std::string read_file(const std::string& path) {
+std::string read_file(const std::string& path, const std::string& hint) {
   const auto close = [](std::FILE* f) { std::fclose(f); };
   const std::unique_ptr<std::FILE, decltype(close)> file(std::fopen(path.c_str(), "rb"), close);
   if (!file)
-    throw FileError(fmt::format("cannot open {}: {}; check the path and the permissions", path, std::strerror(errno)));
+    throw FileError(
+        fmt::format("cannot open {}: {}; check the path and the permissions{}", path, std::strerror(errno), hint));
   std::string text;
   char buffer[1 << 16];
   std::size_t count = 0;

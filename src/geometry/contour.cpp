@@ -163,13 +163,13 @@ Contour parse_xy(std::string_view text, const std::string& source) {
   return contour;
 }
 
-std::string read_contour_text(const std::string& path) {
+std::string read_contour_text(const std::string& path, const std::string& hint) {
   for (const std::string_view extension : {".poly", ".geojson", ".json"})
     if (ends_with_extension(path, extension))
       throw ConfigError(fmt::format("{}: contours of type '{}' cannot be read by this version; expected an '.xy' file "
                                     "with one 'x y' per line and a blank line between rings",
                                     path, extension));
-  return read_file(path);
+  return read_file(path, hint);
 }
 
 Contour read_xy(const std::string& path) {

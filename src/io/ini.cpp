@@ -27,6 +27,14 @@ std::string quoted(std::string_view text) {
   return "'" + shown + (text.size() > longest ? "...'" : "'");
 }
 
+/// The line without its comment: `;` or `#` at the start or after a blank, so that a value may hold either.
+std::string_view without_comment(std::string_view text) {
+  for (std::size_t at = 0; at < text.size(); ++at)
+    if ((text[at] == ';' || text[at] == '#') && (at == 0 || text[at - 1] == ' ' || text[at - 1] == '\t'))
+      return text.substr(0, at);
+  return text;
+}
+
 bool is_name(std::string_view text, bool dots) {
   if (text.empty() || text.front() == '.' || text.back() == '.')
     return false;
@@ -41,11 +49,11 @@ public:
   Reader(IniDocument& document, Diagnostics& problems) : document_(document), problems_(problems) {}
 
   void line(std::string_view text, int number) {
-    text = trim(text.substr(0, text.find_first_of(";#")));
+    text = trim(without_comment(text));
     if (text.empty())
       return;
     if (text.front() == '[')
-      section(text, number);
+      section(trim(text.substr(0, text.find_first_of(";#"))), number); // no name of a section holds them
     else
       entry(text, number);
   }

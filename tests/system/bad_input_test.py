@@ -183,7 +183,7 @@ class BadInput(unittest.TestCase):
                 self.refused(text, code, expect, files={"ring.xy": ring})
 
     def test_missing_contour_file(self):
-        self.refused(GOOD.replace(RECTANGLE, CONTOUR), FILE, [r"ring\.xy"])
+        self.refused(GOOD.replace(RECTANGLE, CONTOUR), FILE, [r"ring\.xy.*relative to the config file"])
 
     # Output
 

@@ -9,8 +9,9 @@
 namespace trime {
 
 /// @brief The candidate that differs from `word` by the fewest insertions, deletions, replacements and swaps of
-/// neighbours (Damerau-Levenshtein, optimal string alignment), upper and lower case being equal; empty if none is near
-/// (more than a third of the letters differ). The first wins a tie. O(letters^2) per candidate.
+/// neighbours (Damerau-Levenshtein, optimal string alignment), upper and lower case being equal; if none is near
+/// (more than a third of the letters differ), the first that begins with `word`; else empty. The first wins a tie.
+/// O(letters^2) per candidate.
 std::string nearest_name(std::string_view word, std::span<const std::string> candidates);
 
 /// `; did you mean 'x'?` for the nearest candidate, or nothing.

@@ -24,9 +24,9 @@ struct Contour {
   std::vector<std::string> warnings; ///< for the user, one sentence each
 };
 
-/// @brief Bytes of a contour file.
+/// @brief Bytes of a contour file. `hint` ends the message if it cannot be opened.
 /// @throws ConfigError for `.poly` and `.geojson`, which this version does not read; FileError if it cannot be read
-std::string read_contour_text(const std::string& path);
+std::string read_contour_text(const std::string& path, const std::string& hint = "");
 
 /// @brief Rings of `.xy` text: one `x y` a line, a blank line ends a ring, `#` and `;` start comments.
 ///

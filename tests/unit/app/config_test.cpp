@@ -91,6 +91,15 @@ TEST(Config, UnderstandsAGoodFile) {
 TEST(Config, AbsoluteContourPathsStay) {
   const RunOptions options = parse_config(good + "[shape.map]\ntype = contour\nfile = /data/b.xy\n", "dir/c.ini", {});
   EXPECT_EQ(options.parts[2].file, "/data/b.xy");
+  EXPECT_FALSE(options.parts[2].file_is_relative);
+}
+
+TEST(Config, QuotesAroundPathsAreDropped) {
+  for (const std::string path : {"\"a b#c.xy\"", "'a b#c.xy'", "a b#c.xy"}) {
+    const RunOptions options = parse_config(good + "[shape.map]\ntype = contour\nfile = " + path + "\n", "c.ini", {});
+    EXPECT_EQ(options.parts[2].file, "a b#c.xy");
+    EXPECT_TRUE(options.parts[2].file_is_relative);
+  }
 }
 
 TEST(Config, ThePrintedConfigReadsBackTheSame) {
@@ -107,6 +116,11 @@ TEST(Config, ThePrintedConfigReadsBackTheSame) {
   const std::string resolved = parse_config(good, "dir/c.ini", {}).resolved;
   for (const Option& option : option_table())
     EXPECT_TRUE(option.section == part_section || resolved.find(option.key) != std::string::npos) << option.key;
+}
+
+TEST(Config, ASectionMayBeMeantByItsBeginning) {
+  const std::string told = errors_of("[mesh]\npoints = 5000\n");
+  EXPECT_NE(told.find("unknown section [mesh]; did you mean 'meshing'?"), std::string::npos) << told;
 }
 
 TEST(Config, TellsAllMistakesAtOnceInTheOrderOfTheFile) {

@@ -16,6 +16,8 @@ TEST(NearestName, FindsTyposAndRefusesStrangers) {
   EXPECT_EQ(nearest_name("Points", names), "points");
   EXPECT_EQ(nearest_name("sede", names), "seed");
   EXPECT_EQ(nearest_name("edgelength", names), "edge_length");
+  EXPECT_EQ(nearest_name("Edge", names), "edge_length"); // its beginning
+  EXPECT_EQ(nearest_name("ed", names), "");
   EXPECT_EQ(nearest_name("viscosity", names), "");
   EXPECT_EQ(nearest_name("", names), "");
   EXPECT_EQ(nearest_name("seed", {}), "");

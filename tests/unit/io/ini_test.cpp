@@ -16,8 +16,8 @@ std::string value_of(const IniDocument& document, const char* section, const cha
 
 TEST(Ini, ReadsSectionsKeysAndCommentsAnywhere) {
   Diagnostics problems("a.ini");
-  const IniDocument document = parse_ini("\xEF\xBB\xBF; a comment\r\n[domain]  # the container\r\n x_min=0 ; left\r\n"
-                                         "x_max =  2.5# right\n\n[shape.hole]\ncenter = 0.5 0.5\nlast = x=y",
+  const IniDocument document = parse_ini("\xEF\xBB\xBF; a comment\r\n[domain]# the container\r\n x_min=0 ; left\r\n"
+                                         "x_max =  2.5\t# right\n\n[shape.hole]\ncenter = 0.5 0.5\nlast = x=y",
                                          problems);
   EXPECT_TRUE(problems.empty()) << problems.text();
   EXPECT_EQ(value_of(document, "domain", "x_min"), "0");
@@ -26,6 +26,14 @@ TEST(Ini, ReadsSectionsKeysAndCommentsAnywhere) {
   EXPECT_EQ(value_of(document, "shape.hole", "last"), "x=y");
   EXPECT_EQ(document.find("shape.hole", "center")->line, 7);
   EXPECT_EQ(document.find("shape", "center"), nullptr);
+}
+
+TEST(Ini, ACommentStartsAfterABlankOnly) {
+  Diagnostics problems("a.ini");
+  const IniDocument document = parse_ini("[a]\nfile = a#b;c.xy ;d\n  # e = 1\n\t; f = 1\n", problems);
+  EXPECT_TRUE(problems.empty()) << problems.text();
+  EXPECT_EQ(value_of(document, "a", "file"), "a#b;c.xy");
+  EXPECT_EQ(document.entries.size(), 1u);
 }
 
 TEST(Ini, TellsEveryMistakeWithItsLine) {
