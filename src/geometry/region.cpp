@@ -13,6 +13,8 @@ namespace trime::geometry {
 
 namespace {
 
+const std::vector<std::string> operation_names{"union", "intersection", "difference"};
+
 bool is_name_character(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
 }
@@ -81,7 +83,9 @@ private:
 
   void operation(int node, const std::string& word, int depth) {
     if (word != "union" && word != "intersection" && word != "difference")
-      fail(fmt::format("expected union(...), intersection(...) or difference(...) instead of '{}(...)'", word));
+      throw ConfigError(fmt::format("region: expected union(...), intersection(...) or difference(...) instead of "
+                                    "'{}(...)' in '{}'{}",
+                                    word, text_, suggestion(word, operation_names)));
     std::vector<int> operands;
     do
       operands.push_back(expression(depth + 1));
