@@ -69,7 +69,13 @@ void report_placement(const Placement& placement, const comm::Communicator& comm
            placement.nodes, placement.nodes == 1 ? "" : "s");
   const std::int64_t crowded = comm.sum(std::int64_t{placement.threads > placement.cores});
   const std::int64_t shared = comm.sum(std::int64_t{placement.threads * placement.sharing > placement.cores});
-  if (crowded > 0)
+  const std::int64_t node_cores = comm.min(std::int64_t{sysconf(_SC_NPROCESSORS_ONLN)}); // of the smallest node
+  if (crowded > 0 && node_cores > 0 && most > node_cores)
+    log.warning("{} of {} ranks have more threads than cores they may use (rank 0: {} threads, {} cores); the node has "
+                "{} core{}: set --threads {} instead",
+                crowded, placement.ranks, placement.threads, placement.cores, node_cores, node_cores == 1 ? "" : "s",
+                node_cores);
+  else if (crowded > 0)
     log.warning("{} of {} ranks have more threads than cores they may use (rank 0: {} threads, {} cores); start with "
                 "mpirun --map-by slot:PE={} or --bind-to none, or set --threads",
                 crowded, placement.ranks, placement.threads, placement.cores, most);
