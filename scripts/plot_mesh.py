@@ -131,8 +131,11 @@ def draw_histogram(axes, alpha):
         bar.set_facecolor(COLOURS(0.12 + 0.88 * min(1.0, (left - ALPHA_RANGE[0]) / (ALPHA_RANGE[1] - ALPHA_RANGE[0]))))
         bar.set_edgecolor("#8a939b")
         bar.set_linewidth(0.3)
-    axes.axvline(np.median(alpha), color=INK, linewidth=0.8, linestyle="--")
-    axes.text(np.median(alpha), counts.max() * 1.3, f"  median {np.median(alpha):.4f}", fontsize=8, color=INK)
+    axes.axvline(min(np.median(alpha), top), color=INK, linewidth=0.8, linestyle="--")
+    middle = float(np.median(alpha))
+    right = middle > (1 + top) / 2  # no room for the text on that side of its line
+    axes.text(min(middle, top), counts.max() * 1.3, f"  median {middle:.4f}  ", fontsize=8, color=INK,
+              horizontalalignment="right" if right else "left")
     axes.set_ylim(0.7, counts.max() * 4)
     axes.set_xlabel("alpha = R / 2r" + ("   (last bar: all beyond)" if np.nanmax(alpha) > top else ""), fontsize=8)
     axes.set_ylabel("triangles", fontsize=8)
@@ -174,6 +177,8 @@ def main():
     parser.add_argument("-o", "--output", type=pathlib.Path, help="picture (default: NAME.png beside the mesh)")
     parser.add_argument("--dpi", type=int, default=130, help="dots per inch (default %(default)s)")
     options = parser.parse_args()
+    if not options.mesh.exists():
+        sys.exit(f"plot_mesh.py: there is no {options.mesh}")
     picture = options.output or options.mesh.with_suffix(".png")
     try:
         mesh = Mesh(options.mesh)

@@ -116,8 +116,9 @@ def command_for(options, case, points, directory):
     else:
         per_node = min(ranks, min(cores_per_node()) // threads)
         command += ["--map-by", f"ppr:{per_node}:node:PE={threads}", "--bind-to", "core"]
-    return command + [str(options.program), str(options.config), f"meshing.points={points}", "output.name=scaling",
-                      f"output.directory={directory}", "output.overwrite=true", "output.formats=vtkhdf",
+    return command + [str(options.program), str(options.config), f"meshing.points={points}",
+                      "meshing.edge_length=",  # takes the length of the config away, if it has one
+                      "output.name=scaling", f"output.directory={directory}", "output.overwrite=true", "output.formats=vtkhdf",
                       "--quiet"] + options.overrides
 
 
@@ -297,12 +298,14 @@ def main():
     options = parse_arguments()
     (options.output / "work").mkdir(parents=True, exist_ok=True)
     machine = machine_block(options.program)
-    rows = measure(options, machine)
+    try:
+        rows = measure(options, machine)
+    finally:  # also when a run failed
+        if not options.keep:
+            shutil.rmtree(options.output / "work", ignore_errors=True)
     text = report(rows, machine, options)
     (options.output / "scaling.md").write_text(text, encoding="utf-8")
     write_csv(options.output / "scaling.csv", rows)
-    if not options.keep:
-        shutil.rmtree(options.output / "work")
     print(text)
     print(f"Written to {options.output}: scaling.md, scaling.csv, runs.jsonl")
     if any(row["same_mesh"] != "OK" for row in rows):

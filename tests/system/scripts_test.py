@@ -39,6 +39,24 @@ class Scripts(unittest.TestCase):
             self.assertIn("not a mesh file", done.stderr)
             self.assertNotIn("Traceback", done.stderr)
 
+    def test_picture_of_nothing(self):
+        with Workspace() as work:
+            done = call(SCRIPTS / "plot_mesh.py", work / "m.h5", MPLCONFIGDIR=str(work))
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(f"there is no {work / 'm.h5'}", done.stderr)
+
+    def test_scaling_of_a_config_with_an_edge_length(self):
+        with Workspace() as work:
+            text = (ROOT / "configs" / "square.ini").read_text(encoding="utf-8")
+            (work / "length.ini").write_text(text.replace("points = 5000", "edge_length = 0.02"), encoding="utf-8")
+            arguments = ["--config", work / "length.ini", "--cases", "1x1", "--points", "1e3", "--repeats", "1",
+                         "--program", PROGRAM, "--output", work / "out"]
+            done = call(SCRIPTS / "scaling.py", *arguments)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            done = call(SCRIPTS / "scaling.py", *arguments, "meshing.seed=x")
+            self.assertEqual(done.returncode, 1)
+            self.assertFalse((work / "out" / "work").exists(), "left behind by a failure")
+
     def test_scaling_table(self):
         with Workspace() as work:
             done = call(SCRIPTS / "scaling.py", "--cases", "1x1,2x1,1x64", "--points", "2e3", "--repeats", "2",
