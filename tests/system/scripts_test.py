@@ -5,7 +5,6 @@ import csv
 import json
 import os
 import subprocess
-import sys
 import unittest
 
 from trime_run import PROGRAM, ROOT, Workspace, environment, run
