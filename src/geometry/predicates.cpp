@@ -38,10 +38,8 @@ int perturbed_side(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
     Vec2 point;
     int coefficient;
   };
-  std::array<Raised, 4> raised{{{a, orient2d(b, c, d)},
-                                {b, orient2d(c, a, d)},
-                                {c, orient2d(a, b, d)},
-                                {d, -orient2d(a, b, c)}}};
+  std::array<Raised, 4> raised{
+      {{a, orient2d(b, c, d)}, {b, orient2d(c, a, d)}, {c, orient2d(a, b, d)}, {d, -orient2d(a, b, c)}}};
   std::sort(raised.begin(), raised.end(),
             [](const Raised& p, const Raised& q) { return lexicographically_less(q.point, p.point); });
   for (const Raised& r : raised)
