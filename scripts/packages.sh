@@ -15,7 +15,7 @@ trime_test_packages=(
   libgtest-dev libbenchmark-dev                   # unit tests, benchmarks
   libcgal-dev libboost-dev                        # their oracles: CGAL, big integers of Boost
   hdf5-tools python3-vtk9 python3-meshio          # h5diff, and two foreign readers of the mesh file
-  clang clang-format libomp-dev                   # second compiler with its OpenMP, house style
+  clang clang-format libomp-dev libclang-rt-14-dev # second compiler with its OpenMP and sanitizers, house style
 )
 
 # Prints those of its arguments that are not installed.
