@@ -38,6 +38,8 @@ public:
     return extract();
   }
 
+  SnapshotObserver observer;
+
 private:
   void set_up() {
     layout_ = lay_out({comm_, boundary_, relative_size_, options_, lattice_, log_, timers_});
@@ -199,6 +201,10 @@ Mesher::Mesher(const comm::Communicator& comm, const geometry::Boundary& boundar
                const MeshOptions& options, Log& log, TimerTable& timers)
     : implementation_(std::make_unique<Implementation>(comm, boundary, size, options, log, timers)) {}
 Mesher::~Mesher() = default;
+
+void Mesher::on_snapshot(SnapshotObserver observer) {
+  implementation_->observer = std::move(observer);
+}
 
 MeshResult Mesher::run() {
   return implementation_->run();

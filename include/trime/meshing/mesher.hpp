@@ -9,9 +9,20 @@
 #include "trime/meshing/options.hpp"
 #include "trime/sizing/size_field.hpp"
 
+#include <functional>
 #include <memory>
 
 namespace trime::meshing {
+
+/// The mesh in the middle of a run; valid during the call of the observer.
+struct Snapshot {
+  int retriangulation; ///< counted from 1
+  double seconds;      ///< since the start of the run
+  const mesh::DistributedMesh& mesh;
+  const mesh::QualitySummary& quality;
+};
+/// Called on all ranks together; may communicate.
+using SnapshotObserver = std::function<void(const Snapshot&)>;
 
 class Mesher {
 public:
@@ -20,6 +31,9 @@ public:
   Mesher(const comm::Communicator& comm, const geometry::Boundary& boundary, const sizing::SizeField& size,
          const MeshOptions& options, Log& log, TimerTable& timers);
   ~Mesher();
+
+  /// Whom to show the triangulations that MeshOptions::snapshot_interval asks for.
+  void on_snapshot(SnapshotObserver observer);
 
   /// @brief Makes the mesh. @note Collective.
   /// @throws GeometryError on all ranks together if the shape cannot be meshed at this resolution

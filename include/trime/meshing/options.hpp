@@ -15,20 +15,32 @@
 
 namespace trime::meshing {
 
-enum class Method { distmesh };
-enum class Start { automatic, lattice, hilbert };
+/// How points move: repulsive bars; centroids of Voronoi cells; bars until the median of alpha stalls, then centroids.
+enum class Method { distmesh, cvd, hybrid };
+/// @brief Where the points come from. Lattice: hexagonal, for uniform sizes. Hilbert: quantiles along the Hilbert
+/// curve. Coarse to fine: a mesh of few points is relaxed, its edges are divided, and again.
+enum class Start { automatic, lattice, hilbert, coarse_to_fine };
 
 struct MeshOptions {
   geometry::Box container{{0, 0}, {1, 1}};
   std::optional<int> cells_x, cells_y; ///< container grid; empty: about 3.3 points a cell
-  Method method = Method::distmesh;
+  Method method = Method::hybrid;
   std::optional<GlobalId> points;    ///< exactly one of points and edge_length is set
   std::optional<double> edge_length; ///< target edge length (uniform size)
   double corner_angle = 30;          ///< degrees
   std::uint64_t seed = 1;
   int max_sweeps = 500;
   std::optional<double> stop_tolerance; ///< empty: the default of the method
-  Start start = Start::automatic;       ///< lattice for a uniform size field, else Hilbert quantiles
+  Start start = Start::automatic;       ///< lattice for a uniform size field, else coarse to fine
+  /// Share of the points placed before the first sweep; the others are inserted in stages where the triangles are
+  /// largest for their place. Empty: all at once, in the way that `start` names.
+  std::optional<double> initial_fraction;
+  std::optional<double> min_size, max_size; ///< absolute bounds on h
+  /// Exponent of 1/h in the weight of the Voronoi cells: 4 keeps the spacing proportional to h (see CvdRule); others
+  /// are for comparisons.
+  int density_exponent = 4;
+  /// 0: none; -2: a snapshot of the first triangulation; n > 0: of the first and of every n-th.
+  int snapshot_interval = 0;
 };
 
 enum class StopReason { converged, quality_stalled, sweep_cap };
@@ -39,7 +51,9 @@ std::string to_string(StopReason reason);
 struct SweepRecord {
   int sweep = 0;
   GlobalId points = 0;
-  double mean_alpha = 1, max_alpha = 1;
+  int stage = 0;        ///< of the point scheme: a level of the coarse-to-fine start, or an insertion
+  bool by_bars = false; ///< the move after this triangulation is that of DistMesh, else of the Voronoi cells
+  double median_alpha = 1, mean_alpha = 1, max_alpha = 1;
   double max_move = 0;     ///< longest move over local h
   double moving_share = 0; ///< share of the sites that moved more than 0.005 h
   GlobalId rebuilt_stars = 0, pushed = 0, deleted = 0;
@@ -53,7 +67,9 @@ struct MeshResult {
   std::vector<SweepRecord> history;
   StopReason stop_reason = StopReason::sweep_cap;
   GlobalId requested_points = 0; ///< 0 if an edge length was asked for
-  double edge_length = 0;        ///< target edge length that was used (mean h)
+  double edge_length = 0;        ///< factor of the relative size; for a uniform size h itself
+  std::string start_reason;      ///< which start was chosen and why, one line
+  std::string count_reason;      ///< why there are fewer points than requested; empty if they are nearly as many
   GlobalId corners = 0;
   int components = 0, holes = 0;
   double shape_area = 0;
