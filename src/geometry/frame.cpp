@@ -3,7 +3,8 @@
 
 namespace trime::geometry {
 
-Frame::Frame(const Box& container) : container_(container), lattice_(container) {
+Frame::Frame(const Box& container, bool periodic_x, bool periodic_y)
+    : container_(container), lattice_(container), periods_(Periods::of(container_, lattice_, periodic_x, periodic_y)) {
   const double step = lattice_.step(), inverse = lattice_.inverse_step();
   inner_.min = {std::ceil(container.min.x * inverse) * step, std::ceil(container.min.y * inverse) * step};
   inner_.max = {std::floor(container.max.x * inverse) * step, std::floor(container.max.y * inverse) * step};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "trime/geometry/lattice.hpp"
+#include "trime/geometry/periods.hpp"
 #include "trime/geometry/vec2.hpp"
 
 namespace trime::geometry {
@@ -11,11 +12,13 @@ namespace trime::geometry {
 class Frame {
 public:
   /// @pre width and height of `container` are positive and finite
-  explicit Frame(const Box& container);
+  explicit Frame(const Box& container, bool periodic_x = false, bool periodic_y = false);
 
   const Box& container() const { return container_; }
   const Lattice& lattice() const { return lattice_; }
   double step() const { return lattice_.step(); }
+  /// Which points of the plane are one point; no periods by default.
+  const Periods& periods() const { return periods_; }
 
   /// Largest lattice rectangle inside the container; the shape `domain`.
   const Box& inner() const { return inner_; }
@@ -33,6 +36,7 @@ private:
 
   Box container_;
   Lattice lattice_;
+  Periods periods_;
   Box inner_, reach_;
 };
 
