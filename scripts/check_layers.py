@@ -14,7 +14,7 @@ ARROWS = {
     "core": [],
     "geometry": ["core"],
     "comm": ["core"],
-    "sizing": ["geometry"],
+    "sizing": ["geometry", "comm"],
     "mesh": ["geometry"],
     "delaunay": ["mesh"],
     "decomposition": ["mesh", "comm"],

@@ -4,6 +4,8 @@
 
 #include "trime/geometry/vec2.hpp"
 
+#include <limits>
+
 namespace trime::sizing {
 
 /// @brief Relative element size, positive; the mesher scales it by one factor to meet the requested number of points.
@@ -27,17 +29,23 @@ private:
   double size_;
 };
 
-/// A size field times a factor.
+/// A size field times a factor, kept within absolute bounds.
 class ScaledSize final : public SizeField {
 public:
-  /// @pre `field` outlives this object
-  ScaledSize(const SizeField& field, double factor) : field_(field), factor_(factor) {}
-  double size(geometry::Vec2 p) const override { return factor_ * field_.size(p); }
+  /// @pre `field` outlives this object; 0 <= min_size <= max_size
+  ScaledSize(const SizeField& field, double factor, double min_size = 0,
+             double max_size = std::numeric_limits<double>::infinity())
+      : field_(field), factor_(factor), min_size_(min_size), max_size_(max_size) {}
+  /// A NaN of the field stays one, for the caller to find.
+  double size(geometry::Vec2 p) const override {
+    const double size = factor_ * field_.size(p);
+    return size < min_size_ ? min_size_ : size > max_size_ ? max_size_ : size;
+  }
   bool is_uniform() const override { return field_.is_uniform(); }
 
 private:
   const SizeField& field_;
-  double factor_;
+  double factor_, min_size_, max_size_;
 };
 
 } // namespace trime::sizing

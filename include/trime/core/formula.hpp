@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A real function of x and y given as text, such as `1 + 3*x + 3*y`: sizes and shapes of a config.
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace trime {
+
+/// @brief Parsed expression in `x` and `y`; constants `pi` and `e`; the operators and functions of muParser: + - * / ^,
+/// comparisons, && ||, `condition ? a : b`, sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp ln
+/// log (natural) log2 log10 sqrt sign rint abs min max sum avg. Move-only.
+///
+/// The same text gives the same bits on every rank and thread of one machine: the only foreign code is the C library's
+/// sin, exp and the like, which may differ in the last bit between C libraries.
+class Formula {
+public:
+  /// @param where what the text belongs to, for messages, such as `config.ini:17: [sizing] expression`
+  /// @throws ConfigError `where: ...` with the position (from 1), the text, and what was expected
+  Formula(const std::string& text, const std::string& where);
+  Formula(Formula&&) noexcept;
+  Formula& operator=(Formula&&) noexcept;
+  ~Formula();
+
+  /// @brief Value at (x, y): may be infinite or NaN (1/0, sqrt(-1)), never throws. Thread-safe: each call takes a
+  /// parser of its own, from a store with as many as the process had threads when the formula was made; no allocation.
+  double evaluate(double x, double y) const;
+
+  const std::string& text() const;
+  const std::string& where() const;
+
+private:
+  struct Store;
+  std::unique_ptr<Store> store_;
+};
+
+} // namespace trime

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bounds of a scaled size, and sizes from formulas: what is refused, what is clamped.
+#include "trime/core/error.hpp"
+#include "trime/sizing/expression_size.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace trime::sizing {
+namespace {
+
+using geometry::Box;
+
+const Box unit_box{{0, 0}, {1, 1}};
+
+TEST(ScaledSize, KeepsWithinItsBounds) {
+  const Formula formula("0.01 + x", "test");
+  const ExpressionSize field(formula, unit_box);
+  const ScaledSize size(field, 2, 0.1, 1.5);
+  EXPECT_EQ(size.size({0, 0}), 0.1);
+  EXPECT_EQ(size.size({0.49, 0}), 1.0);
+  EXPECT_EQ(size.size({0.99, 0}), 1.5);
+  EXPECT_FALSE(size.is_uniform());
+  EXPECT_EQ(ScaledSize(field, 3).size({0.99, 0}), 3.0);
+}
+
+TEST(ExpressionSize, IsTheFormula) {
+  const Formula formula("1+3*x+3*y", "test");
+  const ExpressionSize size(formula, unit_box);
+  EXPECT_EQ(size.size({0, 0}), 1);
+  EXPECT_EQ(size.size({0.5, 1}), 5.5);
+}
+
+TEST(ExpressionSize, NamesThePlaceWhereItIsNotPositive) {
+  for (const auto& [text, found] : {std::pair{"x - 0.5", "found -0.5 at (0, 0)"},
+                                    {"1/(y-1)^2", "at (0, 1)"},
+                                    {"sqrt(0.26 - x)", "nan at (0.265625, 0)"}}) {
+    const Formula formula(text, "config.ini:9");
+    try {
+      const ExpressionSize size(formula, unit_box);
+      ADD_FAILURE() << text;
+    } catch (const ConfigError& error) {
+      EXPECT_NE(std::string(error.what()).find(found), std::string::npos) << error.what();
+      EXPECT_EQ(std::string(error.what()).rfind("config.ini:9: ", 0), 0u) << error.what();
+    }
+  }
+}
+
+TEST(ExpressionSize, StaysPositiveBetweenThePointsOfItsGrid) {
+  const Formula formula("abs(x-0.3) + abs(y-0.3) < 1e-3 ? -1 : x + 2", "test");
+  const ExpressionSize size(formula, unit_box);
+  EXPECT_EQ(size.size({0.3, 0.3}), 3e-6);
+  const Formula infinite("abs(x-0.3) + abs(y-0.3) < 1e-3 ? 1/0 : 1", "test");
+  EXPECT_EQ(ExpressionSize(infinite, unit_box).size({0.3, 0.3}), 1e-6);
+}
+
+} // namespace
+} // namespace trime::sizing
