@@ -165,15 +165,15 @@ void write_metadata(SlabFile& file, const Metadata& metadata) {
   }
 }
 
-/// Groups of the fields: inside /VTKHDF, or beside the plain mesh when that view is not wanted.
-std::string field_group(const MeshFileOptions& options, const char* name) {
-  return std::string(options.vtkhdf ? "/VTKHDF/" : "/Mesh/") + name;
+/// Without any view the file is still a mesh.
+bool has_plain_mesh(const MeshFileOptions& options) {
+  return options.xdmf || !options.vtkhdf;
 }
 
 /// Size of the file, a little too large.
 std::int64_t file_bytes(const MeshFileOptions& options, const mesh::DistributedMesh& mesh, const Metadata& metadata) {
-  const std::int64_t vtkhdf = options.vtkhdf ? 1 : 0, xdmf = options.xdmf ? 1 : 0;
-  const std::int64_t per_point = 9 + 24 * vtkhdf + 16 * xdmf, per_triangle = 12 + 33 * vtkhdf + 24 * xdmf;
+  const std::int64_t vtkhdf = options.vtkhdf ? 1 : 0, plain = has_plain_mesh(options) ? 1 : 0;
+  const std::int64_t per_point = 9 + 24 * vtkhdf + 16 * plain, per_triangle = 12 + 33 * vtkhdf + 24 * plain;
   constexpr std::int64_t headers = 64 << 10, per_facet = 20;
   std::int64_t bytes = headers + per_point * mesh.point_slab.total + per_triangle * mesh.triangle_slab.total +
                        per_facet * mesh.facet_slab.total;
@@ -194,7 +194,7 @@ void write_hdf5(const std::string& path, const MeshFileOptions& options, const m
   if (options.vtkhdf)
     write_vtkhdf(file, mesh);
   write_fields(file, field_group(options, "CellData"), field_group(options, "PointData"), mesh);
-  if (options.xdmf)
+  if (has_plain_mesh(options))
     write_plain_mesh(file, mesh);
   write_facets(file, mesh);
   write_metadata(file, metadata);
@@ -227,7 +227,7 @@ WrittenFiles publish(TemporaryFile& temporary, const MeshFileOptions& options, c
   if (options.xdmf) {
     write_text_file(xdmf,
                     xdmf_text({options.name + ".h5", field_group(options, "CellData"),
-                               field_group(options, "PointData"), mesh.point_slab.total, mesh.triangle_slab.total}));
+                               field_group(options, "PointData"), mesh.point_slab.total, mesh.triangle_slab.total, 0}));
     written.paths.push_back(xdmf);
   }
   if (options.vtkhdf) {
@@ -238,6 +238,10 @@ WrittenFiles publish(TemporaryFile& temporary, const MeshFileOptions& options, c
 }
 
 } // namespace
+
+std::string field_group(const MeshFileOptions& options, const char* name) {
+  return std::string(options.vtkhdf ? "/VTKHDF/" : "/Mesh/") + name;
+}
 
 WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedMesh& mesh, const Metadata& metadata,
                         const comm::Communicator& comm) {

@@ -43,26 +43,41 @@ std::string attribute(const XdmfContent& content, const Field& field) {
                      field.name);
 }
 
-} // namespace
+constexpr const char* header = "<?xml version=\"1.0\"?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n"
+                               "<Xdmf Version=\"3.0\"><Domain>";
 
-/// One Domain with one Grid, sizes equal to the HDF5 shapes, no Time and no Information: meshio and dolfinx refuse
-/// more.
-std::string xdmf_text(const XdmfContent& content) {
+/// A grid of one file; `extra` follows its start.
+std::string grid(const XdmfContent& content, const std::string& extra) {
   const std::string file = escaped(content.file);
   std::string text = fmt::format(
-      "<?xml version=\"1.0\"?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n"
-      "<Xdmf Version=\"3.0\"><Domain><Grid Name=\"mesh\" GridType=\"Uniform\">\n"
+      "<Grid Name=\"mesh\" GridType=\"Uniform\">\n{3}"
       " <Topology TopologyType=\"Triangle\" NumberOfElements=\"{1}\" NodesPerElement=\"3\">\n"
       "  <DataItem Dimensions=\"{1} 3\" NumberType=\"Int\" Precision=\"8\" Format=\"HDF\">{2}:/Mesh/mesh/topology"
       "</DataItem></Topology>\n"
       " <Geometry GeometryType=\"XY\">\n"
       "  <DataItem Dimensions=\"{0} 2\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">{2}:/Mesh/mesh/geometry"
       "</DataItem></Geometry>\n",
-      content.points, content.triangles, file);
+      content.points, content.triangles, file, extra);
   for (const Field& field :
        {Field{"alpha", "Cell", "Float", 4}, Field{"beta", "Cell", "Float", 4}, Field{"region", "Cell", "Int", 4},
         Field{"boundary", "Node", "Int", 4}, Field{"size", "Node", "Float", 4}, Field{"fixed", "Node", "UChar", 1}})
     text += attribute(content, field);
+  return text + "</Grid>";
+}
+
+} // namespace
+
+/// One Domain with one Grid, sizes equal to the HDF5 shapes, no Time and no Information: meshio and dolfinx refuse
+/// more.
+std::string xdmf_text(const XdmfContent& content) {
+  return header + grid(content, "") + "</Domain></Xdmf>\n";
+}
+
+std::string xdmf_series_text(std::span<const XdmfContent> meshes) {
+  std::string text =
+      std::string(header) + "<Grid Name=\"series\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  for (const XdmfContent& mesh : meshes)
+    text += grid(mesh, fmt::format(" <Time Value=\"{}\"/>\n", mesh.time)) + "\n";
   return text + "</Grid></Domain></Xdmf>\n";
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
 namespace trime::io {
@@ -13,8 +14,12 @@ struct XdmfContent {
   std::string cell_data;  ///< group of alpha, beta, region
   std::string point_data; ///< group of boundary, size, fixed
   std::int64_t points = 0, triangles = 0;
+  int time = 0; ///< of a series only
 };
 
+/// One mesh.
 std::string xdmf_text(const XdmfContent& content);
+/// Meshes of several files as a temporal collection.
+std::string xdmf_series_text(std::span<const XdmfContent> meshes);
 
 } // namespace trime::io

@@ -18,11 +18,15 @@ struct MeshFileOptions {
   std::string name = "mesh";     ///< stem of the file names
   bool overwrite = false;
   bool vtkhdf = true; ///< group /VTKHDF and the link NAME.vtkhdf
-  bool xdmf = true;   ///< group /Mesh/mesh and the file NAME.xdmf
+  bool xdmf = true;   ///< group /Mesh/mesh (there in any case without vtkhdf) and the file NAME.xdmf
 
   /// `directory/name` + ending.
   std::string path(const std::string& ending) const { return directory + "/" + name + ending; }
 };
+
+/// Group of the fields of points ("PointData") or triangles ("CellData"): inside /VTKHDF, or beside the plain mesh when
+/// that view is not wanted.
+std::string field_group(const MeshFileOptions& options, const char* name);
 
 /// @brief Makes the directory if it is missing and sees that the files can be written: to be called before work starts
 /// that would be lost. @return warnings, e.g. of files that a killed run has left; on rank 0 only

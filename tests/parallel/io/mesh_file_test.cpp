@@ -4,6 +4,7 @@
 #include "trime/io/mesh_file.hpp"
 
 #include "io/slab_file.hpp"
+#include "support/mesh_slabs.hpp"
 #include "support/temporary_directory.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/random.hpp"
@@ -29,23 +30,7 @@ std::int64_t vertex(std::int64_t i, int k) {
   return (3 * i + k) % n_points;
 }
 
-/// Uneven shares in which about a third of the ranks hold nothing.
-mesh::Slab share(const comm::Communicator& comm, std::int64_t total, std::uint64_t seed, std::int64_t& rows) {
-  std::vector<std::int64_t> weights;
-  for (int rank = 0; rank < comm.size(); ++rank) {
-    const std::uint64_t bits = random_bits(seed, RandomPurpose::test, rank, comm.size());
-    weights.push_back(bits % 3 == 0 ? 0 : static_cast<std::int64_t>(bits % 1000));
-  }
-  weights[static_cast<std::size_t>(seed) % weights.size()] += 1;
-  std::int64_t sum = 0, before = 0;
-  for (std::size_t rank = 0; rank < weights.size(); ++rank) {
-    sum += weights[rank];
-    before += static_cast<int>(rank) < comm.rank() ? weights[rank] : 0;
-  }
-  const std::int64_t first = total * before / sum;
-  rows = total * (before + weights[static_cast<std::size_t>(comm.rank())]) / sum - first;
-  return {first, total};
-}
+using test::share;
 
 mesh::DistributedMesh make_mesh(const comm::Communicator& comm, std::uint64_t seed) {
   mesh::DistributedMesh mesh;

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points of a distributed mesh by their global ids, wherever they lie.
+#pragma once
+
+#include "trime/comm/communicator.hpp"
+#include "trime/mesh/distributed_mesh.hpp"
+
+#include <vector>
+
+namespace trime::io {
+
+/// Place of a point and the target edge length there.
+struct MeshPoint {
+  geometry::Vec2 position;
+  double size = 0;
+};
+
+/// @brief Fetches points from the ranks that hold them, and keeps them. Memory: 32 bytes per different id.
+class PointLookup {
+public:
+  /// @param wanted global ids of points of the mesh, in any order, repeated or not
+  /// @note Collective; two sparse exchanges.
+  PointLookup(const mesh::DistributedMesh& mesh, std::vector<GlobalId> wanted, const comm::Communicator& comm);
+
+  /// @pre `id` was wanted. O(log ids).
+  const MeshPoint& operator[](GlobalId id) const;
+
+private:
+  std::vector<comm::Message> questions(const std::vector<std::int64_t>& firsts) const;
+
+  std::vector<GlobalId> ids_;
+  std::vector<MeshPoint> points_;
+};
+
+} // namespace trime::io

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/io/mesh_series.hpp"
+
+#include "io/output_files.hpp"
+#include "io/temporary_file.hpp"
+#include "io/xdmf.hpp"
+#include "trime/comm/agree.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+
+namespace trime::io {
+namespace {
+
+/// A text in quotes as JSON has it.
+std::string json_text(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      result += '\\';
+    result += c;
+  }
+  return result + "\"";
+}
+
+} // namespace
+
+std::vector<std::string> check_output(const MeshFileOptions& options, const comm::Communicator& comm) {
+  return MeshSeries({options, false, false, {}}, comm).check();
+}
+
+std::vector<std::string> MeshSeries::check() {
+  std::vector<std::string> warnings;
+  comm::run_agreed(comm_, [&] {
+    if (comm_.is_root())
+      warnings = check_files(options_);
+  });
+  return warnings;
+}
+
+void MeshSeries::write_step(const SeriesMesh& mesh) {
+  write(mesh, step_name(options_.file.name, mesh.retriangulation), std::to_string(mesh.retriangulation));
+}
+
+WrittenFiles MeshSeries::write_final(const SeriesMesh& mesh) {
+  write(mesh, options_.file.name, "final");
+  return written_;
+}
+
+void MeshSeries::write(const SeriesMesh& mesh, const std::string& name, const std::string& label) {
+  MeshFileOptions file = options_.file;
+  file.name = name;
+  const WrittenFiles written = write_mesh(file, mesh.mesh, mesh.metadata, comm_);
+  const bool first = members_.empty();
+  members_.push_back(
+      {name, {mesh.retriangulation, mesh.mesh.point_slab.total, mesh.mesh.triangle_slab.total, mesh.quality}});
+  comm::run_agreed(comm_, [&] {
+    if (!comm_.is_root())
+      return;
+    written_.paths.insert(written_.paths.end(), written.paths.begin(), written.paths.end());
+    written_.bytes += written.bytes;
+    if (first && options_.file.overwrite)
+      remove_stale();
+  });
+  if (options_.text)
+    write_text_mesh({options_.file.path(""), options_.file.name, label, options_.period}, mesh.mesh, comm_);
+  comm::run_agreed(comm_, [&] {
+    if (comm_.is_root())
+      write_collections();
+  });
+}
+
+/// What an older run of the same name has left would be taken for part of this one.
+void MeshSeries::remove_stale() const {
+  for (const std::string& path : files_of_series(options_))
+    if (std::find(written_.paths.begin(), written_.paths.end(), path) == written_.paths.end())
+      unlink(path.c_str());
+}
+
+/// Rank 0: what speaks of all meshes of the run, anew after each of them.
+void MeshSeries::write_collections() {
+  const MeshFileOptions& file = options_.file;
+  std::vector<std::string> paths;
+  if (options_.text) {
+    std::vector<TextQuality> lines;
+    for (const Member& member : members_)
+      lines.push_back(member.quality);
+    write_text_file(file.path("") + "/" + file.name + "_tria_quality_stat_overall.txt", overall_quality_text(lines));
+    paths.push_back(file.path("") + "/" + file.name + "_*.txt");
+  }
+  if (options_.steps && file.xdmf) {
+    std::vector<XdmfContent> grids;
+    for (const Member& m : members_)
+      grids.push_back({m.name + ".h5", field_group(file, "CellData"), field_group(file, "PointData"), m.quality.points,
+                       m.quality.triangles, m.quality.retriangulation});
+    write_text_file(xdmf_collection(file), xdmf_series_text(grids));
+    paths.push_back(xdmf_collection(file));
+  }
+  if (options_.steps && file.vtkhdf) {
+    std::string list;
+    for (const Member& m : members_)
+      list += fmt::format("{}    {{ \"name\": {}, \"time\": {} }}", list.empty() ? "" : ",\n",
+                          json_text(m.name + ".vtkhdf"), m.quality.retriangulation);
+    write_text_file(vtkhdf_collection(file),
+                    fmt::format("{{\n  \"file-series-version\": \"1.0\",\n  \"files\": [\n{}\n  ]\n}}\n", list));
+    paths.push_back(vtkhdf_collection(file));
+  }
+  if (members_.back().name == file.name) // the last call
+    written_.paths.insert(written_.paths.end(), paths.begin(), paths.end());
+}
+
+} // namespace trime::io

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The look at the output directory before a run, so that no hour of work ends at a file that may not be written.
+#include "io/output_files.hpp"
+
+#include "io/temporary_file.hpp"
+#include "trime/core/error.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <functional>
+
+namespace trime::io {
+namespace {
+
+constexpr std::array<const char*, 3> view_endings{".h5", ".xdmf", ".vtkhdf"};
+constexpr const char* step_infix = "_step_";
+
+void make_directory(const std::string& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (!std::filesystem::is_directory(directory))
+    throw FileError(fmt::format("cannot make the output directory {}: {}; set output.directory", directory,
+                                error ? error.message() : "a file of this name is in the way"));
+}
+
+/// By really making a file: permissions alone do not tell of read-only and full file systems.
+void check_writable(const std::string& directory, const std::string& name) {
+  const std::string probe = temporary_name(directory + "/" + name + ".h5");
+  const int descriptor = open(probe.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0666);
+  if (descriptor < 0)
+    throw FileError(
+        fmt::format("cannot write into the output directory {}: {}; set output.directory", directory, system_error()));
+  close(descriptor);
+  unlink(probe.c_str());
+}
+
+void check_absent(const std::string& path, bool overwrite) {
+  struct stat status {};
+  if (lstat(path.c_str(), &status) != 0)
+    return;
+  if (S_ISDIR(status.st_mode))
+    throw FileError(fmt::format("{} is a directory; set output.name or output.directory", path));
+  if (!overwrite)
+    throw FileError(fmt::format("{} exists; set output.overwrite = true to replace it, or another output.name", path));
+}
+
+/// "NAME_step_000012.h5" and its views.
+bool is_step_file(const std::string& file, const std::string& name) {
+  const std::string start = name + step_infix;
+  if (!file.starts_with(start))
+    return false;
+  const std::size_t dot = file.find('.', start.size());
+  return dot != std::string::npos && dot > start.size() &&
+         std::all_of(file.begin() + static_cast<std::ptrdiff_t>(start.size()),
+                     file.begin() + static_cast<std::ptrdiff_t>(dot),
+                     [](char c) { return std::isdigit(static_cast<unsigned char>(c)); }) &&
+         std::find(view_endings.begin(), view_endings.end(), file.substr(dot)) != view_endings.end();
+}
+
+/// Paths in a directory, which need not exist, whose file names are of a kind; sorted.
+std::vector<std::string> files_in(const std::string& directory, const std::function<bool(const std::string&)>& is_of) {
+  std::vector<std::string> found;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, error))
+    if (is_of(entry.path().filename().string()))
+      found.push_back(entry.path().string());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<std::string> leftovers(const MeshFileOptions& options) {
+  std::vector<std::string> told;
+  const auto is_left = [&](const std::string& file) {
+    return file.starts_with(options.name) && file.find(".tmp-") != std::string::npos &&
+           (file[options.name.size()] == '.' || file.compare(options.name.size(), 6, step_infix) == 0);
+  };
+  for (const std::string& path : files_in(options.directory, is_left))
+    told.push_back(fmt::format("{} was left by a run that was killed, or belongs to one that still works on the same "
+                               "output; remove it if there is none",
+                               path));
+  return told;
+}
+
+} // namespace
+
+std::string step_name(const std::string& name, int retriangulation) {
+  return fmt::format("{}{}{:06d}", name, step_infix, retriangulation);
+}
+
+std::string xdmf_collection(const MeshFileOptions& options) {
+  return options.path("_series.xdmf");
+}
+
+std::string vtkhdf_collection(const MeshFileOptions& options) {
+  return options.path(".vtkhdf.series");
+}
+
+std::vector<std::string> files_of_series(const SeriesOptions& options) {
+  const MeshFileOptions& file = options.file;
+  std::vector<std::string> found =
+      files_in(file.directory, [&](const std::string& name) { return is_step_file(name, file.name); });
+  for (const std::string& path : {xdmf_collection(file), vtkhdf_collection(file)})
+    if (std::filesystem::exists(path))
+      found.push_back(path);
+  const std::vector<std::string> texts =
+      files_in(file.path(""), [&](const std::string& name) { return is_text_mesh_file(name, file.name); });
+  found.insert(found.end(), texts.begin(), texts.end());
+  return found;
+}
+
+std::vector<std::string> check_files(const SeriesOptions& options) {
+  const MeshFileOptions& file = options.file;
+  make_directory(file.directory);
+  for (const char* ending : view_endings)
+    check_absent(file.path(ending), file.overwrite);
+  if (options.steps || options.text)
+    for (const std::string& path : files_of_series(options))
+      check_absent(path, file.overwrite);
+  if (options.text)
+    make_directory(file.path(""));
+  std::vector<std::string> warnings = leftovers(file);
+  check_writable(file.directory, file.name);
+  return warnings;
+}
+
+} // namespace trime::io

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Names of the files of a run, and the look at what lies under these names already. Serial: rank 0 only.
+#pragma once
+
+#include "trime/io/mesh_series.hpp"
+
+#include <string>
+#include <vector>
+
+namespace trime::io {
+
+/// "NAME_step_000012".
+std::string step_name(const std::string& name, int retriangulation);
+/// The collections of a series.
+std::string xdmf_collection(const MeshFileOptions& options);
+std::string vtkhdf_collection(const MeshFileOptions& options);
+
+/// @brief Files of steps, collections, and text files that lie in the way of a run with these options, or that would
+/// tell of an older run of the same name; sorted. The final mesh and its views are not among them.
+std::vector<std::string> files_of_series(const SeriesOptions& options);
+
+/// What check_output() does on rank 0.
+std::vector<std::string> check_files(const SeriesOptions& options);
+
+} // namespace trime::io
