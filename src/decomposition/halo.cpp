@@ -10,7 +10,7 @@ namespace {
 
 using comm::Message;
 using mesh::BinRef;
-using mesh::Site;
+using mesh::Ghost;
 
 /// Sorted union of two ascending lists, in place.
 void merge_into(std::vector<BinRef>& list, std::span<const BinRef> more) {
@@ -111,7 +111,7 @@ void Halo::refresh(mesh::BinnedPoints& points) {
       const auto [begin, end] = points.bin_range(bin);
       append(counts_out.back().data, static_cast<std::int32_t>(end - begin));
       for (LocalIndex i = begin; i < end; ++i)
-        append(sites_out.back().data, points.site(i));
+        append(sites_out.back().data, points.ghost(i));
     }
   }
   for (const Peer& peer : imports_)
@@ -121,12 +121,12 @@ void Halo::refresh(mesh::BinnedPoints& points) {
     std::size_t sites = 0;
     for (const std::int32_t count : comm::from_bytes<std::int32_t>(message.data))
       sites += static_cast<std::size_t>(count);
-    sites_in.push_back({message.peer, std::vector<std::byte>(sites * sizeof(Site))});
+    sites_in.push_back({message.peer, std::vector<std::byte>(sites * sizeof(Ghost))});
   }
   comm_->exchange_known(sites_out, sites_in);
   const std::vector<std::int32_t> counts = concatenate<std::int32_t>(counts_in);
   note_renumbering(points.owned(), counts);
-  points.assign_ghosts(imported_, counts, concatenate<Site>(sites_in));
+  points.assign_ghosts(imported_, counts, concatenate<Ghost>(sites_in));
   counts_ = counts;
   refreshed_ = imported_;
 }

@@ -40,6 +40,7 @@ LocalIndex BinnedPoints::assign_owned(std::span<const Site> sites, LocalIndex fi
   positions_.resize(static_cast<std::size_t>(owned_));
   boundary_.resize(positions_.size());
   pushes_.resize(positions_.size());
+  leads_.resize(positions_.size());
   if (new_index)
     new_index->assign(sites.size(), -1);
   thread_loop(tiles, 1, [&](std::ptrdiff_t tile, int) {
@@ -55,6 +56,7 @@ LocalIndex BinnedPoints::assign_owned(std::span<const Site> sites, LocalIndex fi
       positions_[static_cast<std::size_t>(k)] = s.position;
       boundary_[static_cast<std::size_t>(k)] = s.boundary;
       pushes_[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(std::min(s.pushes, 255));
+      leads_[static_cast<std::size_t>(k)] = s.lead;
       if (new_index)
         (*new_index)[static_cast<std::size_t>(from)] = k;
     }
@@ -146,7 +148,7 @@ LocalIndex BinnedPoints::sort_tile(std::span<const Site> sites, LocalIndex tile)
 }
 
 void BinnedPoints::assign_ghosts(std::span<const BinRef> bins, std::span<const std::int32_t> counts,
-                                 std::span<const Site> sites) {
+                                 std::span<const Ghost> sites) {
   const std::size_t per_tile = static_cast<std::size_t>(grid_->bins_per_tile());
   for (std::size_t b = static_cast<std::size_t>(owned_blocks_); b < blocks_.size(); ++b)
     blocks_[b].complete = false;
@@ -158,7 +160,7 @@ void BinnedPoints::assign_ghosts(std::span<const BinRef> bins, std::span<const s
   bin_known_.resize(bin_begin_.size());
   positions_.resize(static_cast<std::size_t>(owned_));
   boundary_.resize(positions_.size());
-  for (const Site& s : sites) {
+  for (const Ghost& s : sites) {
     positions_.push_back(s.position);
     boundary_.push_back(s.boundary);
   }

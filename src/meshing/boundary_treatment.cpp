@@ -31,7 +31,7 @@ MoveCounts move_all(SiteState& state, const MoveContext& context, int allowed, c
   std::vector<mesh::Site> sites(static_cast<std::size_t>(points.owned()));
   std::vector<std::uint8_t> deleted(sites.size(), 0);
   std::vector<MoveCounts> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
-  const StarView view(points, state.stars(), context.size);
+  const StarView view(points, state.stars(), context.size, &state.sizes());
   const geometry::Box& container = state.grid().container();
   const LocalIndex first_tile = points.first_tile();
   thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t t, int thread) {
@@ -42,7 +42,7 @@ MoveCounts move_all(SiteState& state, const MoveContext& context, int allowed, c
       if (site.boundary >= 0)
         continue;
       const Vec2 from = site.position;
-      const double h = view.size(from);
+      const double h = view.size(i);
       site.position = context.lattice.snap(into_box(propose(i, from, h), container));
       if (const auto pushed = context.guard.correct(site.position, h, context.lattice)) {
         if (site.pushes >= allowed) {
@@ -74,7 +74,7 @@ MoveCounts move_all(SiteState& state, const MoveContext& context, int allowed, c
 } // namespace
 
 MoveCounts move_by_rule(SiteState& state, const UpdateRule& rule, const MoveContext& context) {
-  const StarView view(state.points(), state.stars(), context.size);
+  const StarView view(state.points(), state.stars(), context.size, &state.sizes());
   return move_all(state, context, pushes_allowed, [&](LocalIndex i, Vec2 from, double h) {
     return from + capped(rule.displacement(view, i), move_cap * h);
   });

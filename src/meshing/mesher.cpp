@@ -79,7 +79,7 @@ private:
 
   delaunay::StarPass stars(Wanted wanted) {
     const auto time = timers_.scope("stars");
-    return state().compute_stars(*builder_, wanted);
+    return state().compute_stars(*builder_, *layout_.size, wanted);
   }
 
   SiteState& state() { return *layout_.state; }
@@ -89,7 +89,7 @@ private:
   /// One packed reduction: quality, sums for the rule, and what the last move did.
   SweepSums record_sweep(const delaunay::StarPass& pass, const MoveCounts& moved) {
     const auto time = timers_.scope("measure");
-    SweepSums sums = measure({state().points(), state().stars(), *layout_.size}, layout_.edge_length);
+    SweepSums sums = measure({state().points(), state().stars(), *layout_.size, &state().sizes()}, layout_.edge_length);
     const auto l = sums.squared_length_ratio.split(), s = sums.squared_size_ratio.split(),
                a = sums.excess_alpha.split();
     std::array<std::int64_t, 12> packed{l.low,        l.high,       s.low,          s.high,

@@ -2,6 +2,7 @@
 #include "meshing/site_state.hpp"
 
 #include "trime/core/error.hpp"
+#include "trime/core/thread_loop.hpp"
 
 #include <limits>
 #include <numeric>
@@ -13,6 +14,7 @@ namespace {
 constexpr int halo_margin = 2;
 /// Rounds of asking for more bins; every round reaches at least one bin farther, two suffice in practice.
 constexpr int max_halo_rounds = 100;
+constexpr int size_chunk = 1024; // sites whose size one thread evaluates in a row
 
 /// Owned sites and ghosts are counted by LocalIndex; one in eight is left for ghosts and growth. Weights are
 /// replicated, so all ranks find the same.
@@ -39,6 +41,7 @@ void SiteState::distribute(std::vector<mesh::Site> sites) {
   check_counts(weights, partition_);
   decomposition::migrate(comm_, grid_, partition_, sites);
   points_.assign_owned(sites, partition_.first_tile(comm_.rank()), partition_.last_tile(comm_.rank()));
+  sizes_.forget();
   stars_.reset(points_.owned());
   halo_.reset(partition_, halo_margin);
 }
@@ -61,11 +64,31 @@ void SiteState::move_sites(std::vector<mesh::Site>& sites, std::span<const std::
   for (LocalIndex& index : renumbering_)
     if (index >= 0)
       index = sorted_[static_cast<std::size_t>(index)];
+  sizes_.forget();
   stars_.renumber(renumbering_, points_.owned());
 }
 
-delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder, Wanted wanted) {
+/// Fetches the ghosts and evaluates h where it is not known: at all sites after a move, at the ghosts alone after the
+/// subscriptions grew.
+void SiteState::refresh_sites(const sizing::SizeField& size) {
   halo_.refresh(points_);
+  if (size.is_uniform()) {
+    sizes_ = mesh::LocalSizes(size.size({}));
+    return;
+  }
+  std::vector<double>& values = sizes_.values();
+  const LocalIndex first = sizes_.known(0) ? points_.owned() : 0;
+  values.resize(static_cast<std::size_t>(points_.size()));
+  thread_loop(points_.size() - first, size_chunk, [&](std::ptrdiff_t k, int) {
+    const LocalIndex i = first + static_cast<LocalIndex>(k);
+    values[static_cast<std::size_t>(i)] = size.size(points_.position(i));
+  });
+}
+
+delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size,
+                                            Wanted wanted) {
+  sizes_.forget(); // the field may be another one now
+  refresh_sites(size);
   wanted_.clear();
   if (wanted == Wanted::inner_sites)
     for (LocalIndex i = 0; i < points_.owned(); ++i)
@@ -80,7 +103,7 @@ delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder
       return all;
     const LocalIndex ghosts_from = points_.owned();
     halo_.subscribe(missing);
-    halo_.refresh(points_);
+    refresh_sites(size);
     stars_.renumber_ghosts(ghosts_from, halo_.ghost_renumbering());
   }
   throw InternalError(fmt::format("the halo still grows after {} rounds", max_halo_rounds));

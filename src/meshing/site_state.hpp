@@ -7,6 +7,8 @@
 #include "trime/decomposition/migration.hpp"
 #include "trime/delaunay/star_builder.hpp"
 #include "trime/mesh/binned_points.hpp"
+#include "trime/mesh/local_sizes.hpp"
+#include "trime/sizing/size_field.hpp"
 
 #include <vector>
 
@@ -28,14 +30,16 @@ public:
   /// the rings. Collective.
   void move_sites(std::vector<mesh::Site>& sites, std::span<const std::uint8_t> deleted);
 
-  /// @brief Refreshes the halo and computes the wanted stars, asking for more bins until every one is certain.
-  /// Collective.
-  delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, Wanted wanted);
+  /// @brief Refreshes the halo and the sizes and computes the wanted stars, asking for more bins until every one is
+  /// certain. Collective.
+  delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size, Wanted wanted);
 
   const mesh::TileGrid& grid() const { return grid_; }
   const mesh::BinnedPoints& points() const { return points_; }
   const delaunay::StarTable& stars() const { return stars_; }
   delaunay::StarTable& stars() { return stars_; }
+  /// h at every known site since the last compute_stars; unknown after a move.
+  const mesh::LocalSizes& sizes() const { return sizes_; }
   const decomposition::Halo& halo() const { return halo_; }
   const decomposition::Partition& partition() const { return partition_; }
   const comm::Communicator& comm() const { return comm_; }
@@ -43,12 +47,15 @@ public:
   void release_work_space();
 
 private:
+  void refresh_sites(const sizing::SizeField& size);
+
   const comm::Communicator& comm_;
   mesh::TileGrid grid_;
   decomposition::Partition partition_;
   mesh::BinnedPoints points_;
   decomposition::Halo halo_;
   delaunay::StarTable stars_;
+  mesh::LocalSizes sizes_;
   std::vector<std::uint8_t> wanted_;
   std::vector<LocalIndex> stays_, sorted_, renumbering_;
 };

@@ -18,6 +18,14 @@ struct Site {
   geometry::Vec2 position;
   std::int32_t boundary = -1; ///< index of the boundary site that it is, or -1 inside
   std::int32_t pushes = 0;    ///< times that it was pushed out of a boundary disc
+  geometry::Vec2 lead{};      ///< the step by which an accelerated update runs ahead of its last iterate
+};
+
+/// What a rank knows of a site of another rank: 24 bytes, as it is sent.
+struct Ghost {
+  geometry::Vec2 position;
+  std::int32_t boundary = -1;
+  std::int32_t unused = 0; ///< no byte of a message is left to chance
 };
 
 /// A bin of a tile.
@@ -44,7 +52,7 @@ public:
 
   /// @brief Replaces the ghosts: `bins` (ascending, of foreign tiles) are known from now on and hold counts[k] sites
   /// each, concatenated in `sites`.
-  void assign_ghosts(std::span<const BinRef> bins, std::span<const std::int32_t> counts, std::span<const Site> sites);
+  void assign_ghosts(std::span<const BinRef> bins, std::span<const std::int32_t> counts, std::span<const Ghost> sites);
 
   LocalIndex owned() const { return owned_; }
   LocalIndex size() const { return static_cast<LocalIndex>(positions_.size()); }
@@ -52,9 +60,12 @@ public:
   geometry::Vec2 position(LocalIndex i) const { return positions_[static_cast<std::size_t>(i)]; }
   /// Index of the boundary site that site i is, or -1.
   std::int32_t boundary(LocalIndex i) const { return boundary_[static_cast<std::size_t>(i)]; }
+  /// @pre site i is owned
   Site site(LocalIndex i) const {
-    return {position(i), boundary(i), i < owned_ ? pushes_[static_cast<std::size_t>(i)] : 0};
+    const std::size_t at = static_cast<std::size_t>(i);
+    return {positions_[at], boundary_[at], pushes_[at], leads_[at]};
   }
+  Ghost ghost(LocalIndex i) const { return {position(i), boundary(i)}; }
 
   LocalIndex first_tile() const { return first_tile_; }
   LocalIndex last_tile() const { return last_tile_; }
@@ -89,6 +100,7 @@ private:
   std::vector<geometry::Vec2> positions_;
   std::vector<std::int32_t> boundary_;
   std::vector<std::uint8_t> pushes_;   // owned only
+  std::vector<geometry::Vec2> leads_;  // owned only
   std::vector<LocalIndex> tile_block_; // by tile number: index into blocks_, -1 unknown; O(tiles of the container)
   std::vector<Block> blocks_;
   std::vector<LocalIndex> bin_begin_, bin_end_;

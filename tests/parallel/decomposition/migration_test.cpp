@@ -20,6 +20,7 @@ std::vector<Site> marked_sites(std::size_t n) {
   for (std::size_t k = 0; k < n; ++k) {
     sites[k].boundary = static_cast<std::int32_t>(k);
     sites[k].pushes = static_cast<std::int32_t>(k % 3);
+    sites[k].lead = {0.5 * static_cast<double>(k), -1};
   }
   return sites;
 }
@@ -59,6 +60,7 @@ TEST(Migration, EverySiteArrivesAtItsOwnerWithAllThatBelongsToIt) {
       EXPECT_EQ(together[k].boundary, static_cast<std::int32_t>(k));
       EXPECT_EQ(together[k].position, all[k].position);
       EXPECT_EQ(together[k].pushes, all[k].pushes);
+      EXPECT_EQ(together[k].lead, all[k].lead);
     }
     const std::vector<Site> settled = sites;
     migrate(comm, grid, partition, sites);

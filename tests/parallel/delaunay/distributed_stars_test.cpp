@@ -56,8 +56,8 @@ void expect_equal_stars(const std::vector<Site>& sites, double spacing, double c
   serial.distribute(sites);
   const StarBuilder builder(unit_lattice(), cap);
   for (std::uint64_t round = 0; round < 4; ++round) {
-    distributed.compute_stars(builder, Wanted::all_sites);
-    serial.compute_stars(builder, Wanted::all_sites);
+    distributed.compute_stars(builder, sizing::UniformSize(), Wanted::all_sites);
+    serial.compute_stars(builder, sizing::UniformSize(), Wanted::all_sites);
     for (LocalIndex i = 0; i < distributed.points().owned(); ++i)
       EXPECT_TRUE(distributed.stars().certain(i));
     EXPECT_EQ(rings(world, distributed), rings(self, serial)) << "round " << round;
@@ -89,13 +89,39 @@ TEST(DistributedStars, EveryTriangleIsInTheStarsOfItsOwnedCorners) {
   const comm::Communicator world = comm::Communicator::world();
   SiteState state(world, square, {{}, {}, 0.036});
   state.distribute(testing::dealt(world, testing::random_sites(800, 5)));
-  state.compute_stars(StarBuilder(unit_lattice(), 0.09), Wanted::all_sites);
+  state.compute_stars(StarBuilder(unit_lattice(), 0.09), sizing::UniformSize(), Wanted::all_sites);
   testing::expect_well_formed(state.points(), state.stars());
   testing::expect_consistent(state.points(), state.stars());
   std::int64_t listings = 0;
   for (LocalIndex i = 0; i < state.points().owned(); ++i)
     testing::for_each_triangle(state.stars(), i, [&](LocalIndex, LocalIndex) { ++listings; });
   EXPECT_EQ(world.sum(listings) % 3, 0);
+}
+
+/// Grows linearly with the distance from the origin.
+class GrowingSize final : public sizing::SizeField {
+public:
+  double size(Vec2 p) const override { return 0.02 + 0.1 * geometry::length(p); }
+};
+
+TEST(DistributedStars, SizesAreKnownAtOwnedSitesAndGhosts) {
+  SiteState state(comm::Communicator::world(), square, {{}, {}, 0.036});
+  state.distribute(testing::dealt(state.comm(), testing::random_sites(800, 5)));
+  EXPECT_FALSE(state.sizes().known(0));
+  const StarBuilder builder(unit_lattice(), 0.09);
+  for (int round = 0; round < 2; ++round) {
+    state.compute_stars(builder, GrowingSize(), Wanted::all_sites);
+    EXPECT_TRUE(state.comm().size() == 1 || state.points().size() > state.points().owned());
+    for (LocalIndex i = 0; i < state.points().size(); ++i) {
+      ASSERT_TRUE(state.sizes().known(i));
+      EXPECT_EQ(state.sizes()[i], GrowingSize().size(state.points().position(i)));
+    }
+    shake(state, 0.01, 0);
+    EXPECT_FALSE(state.sizes().known(0)) << "the sites have moved";
+  }
+  state.compute_stars(builder, sizing::UniformSize(0.25), Wanted::all_sites);
+  EXPECT_TRUE(state.sizes().is_uniform());
+  EXPECT_EQ(state.sizes()[0], 0.25);
 }
 
 TEST(DistributedStars, OnlyInnerSitesHaveStarsIfOnlyTheyAreWanted) {
@@ -106,10 +132,10 @@ TEST(DistributedStars, OnlyInnerSitesHaveStarsIfOnlyTheyAreWanted) {
   SiteState state(world, square, {{}, {}, 0.06});
   state.distribute(testing::dealt(world, sites));
   const StarBuilder builder(unit_lattice(), 0.3);
-  state.compute_stars(builder, Wanted::inner_sites);
+  state.compute_stars(builder, sizing::UniformSize(), Wanted::inner_sites);
   for (LocalIndex i = 0; i < state.points().owned(); ++i)
     EXPECT_EQ(state.stars().ring(i).empty(), state.points().boundary(i) >= 0);
-  state.compute_stars(builder, Wanted::all_sites);
+  state.compute_stars(builder, sizing::UniformSize(), Wanted::all_sites);
   for (LocalIndex i = 0; i < state.points().owned(); ++i)
     EXPECT_FALSE(state.stars().ring(i).empty());
 }

@@ -250,12 +250,12 @@ TEST(Stars, UncertainStarsNameTheMissingBinsAndAreRightOnceTheyAreKnown) {
       EXPECT_TRUE(known.insert(bin).second) << "a known bin";
     }
     std::vector<std::int32_t> counts;
-    std::vector<Site> ghosts;
+    std::vector<mesh::Ghost> ghosts;
     for (const mesh::BinRef& bin : known) {
       const auto [begin, end] = whole.points.bin_range(bin);
       counts.push_back(end - begin);
       for (LocalIndex i = begin; i < end; ++i)
-        ghosts.push_back(whole.points.site(i));
+        ghosts.push_back(whole.points.ghost(i));
     }
     points.assign_ghosts(std::vector<mesh::BinRef>(known.begin(), known.end()), counts, ghosts);
     stars.reset(points.owned()); // the ghosts have new indices

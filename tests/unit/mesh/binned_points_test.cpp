@@ -136,14 +136,14 @@ TEST(BinnedPoints, UnknownBinsAreReportedUntilTheirSitesArrive) {
   ASSERT_FALSE(missing.empty());
   std::vector<BinRef> bins;
   std::vector<std::int32_t> counts;
-  std::vector<Site> ghosts;
+  std::vector<mesh::Ghost> ghosts;
   for (const BinRef& bin : missing) {
     EXPECT_GE(bin.tile, half);
     const auto [begin, end] = all.bin_range(bin);
     bins.push_back(bin);
     counts.push_back(end - begin);
     for (LocalIndex i = begin; i < end; ++i)
-      ghosts.push_back(all.site(i));
+      ghosts.push_back(all.ghost(i));
   }
   for (int round = 0; round < 2; ++round) // the same ghosts again replace the ghosts
     points.assign_ghosts(bins, counts, ghosts);
