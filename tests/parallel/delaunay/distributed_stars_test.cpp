@@ -105,8 +105,9 @@ public:
 };
 
 TEST(DistributedStars, SizesAreKnownAtOwnedSitesAndGhosts) {
-  SiteState state(comm::Communicator::world(), square, {{}, {}, 0.036});
-  state.distribute(testing::dealt(state.comm(), testing::random_sites(800, 5)));
+  const comm::Communicator world = comm::Communicator::world();
+  SiteState state(world, square, {{}, {}, 0.036});
+  state.distribute(testing::dealt(world, testing::random_sites(800, 5)));
   EXPECT_FALSE(state.sizes().known(0));
   const StarBuilder builder(unit_lattice(), 0.09);
   for (int round = 0; round < 2; ++round) {
