@@ -8,7 +8,7 @@
 
 namespace trime::app {
 
-mesh::Checks check_boundary_distance(const mesh::DistributedMesh& mesh, const geometry::Shape& shape,
+mesh::Checks check_boundary_distance(const mesh::DistributedMesh& mesh, const geometry::RegionShape& shape,
                                      const comm::Communicator& comm) {
   std::vector<GlobalId> wanted;
   for (const auto& facet : mesh.facets)

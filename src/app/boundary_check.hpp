@@ -11,7 +11,7 @@ namespace trime::app {
 
 /// @brief Two checks: boundary vertices lie on the shape's boundary; the middles of boundary edges stay near to it.
 /// Both as the largest distance over h there. O(facets log pieces). @note Collective.
-mesh::Checks check_boundary_distance(const mesh::DistributedMesh& mesh, const geometry::Shape& shape,
+mesh::Checks check_boundary_distance(const mesh::DistributedMesh& mesh, const geometry::RegionShape& shape,
                                      const comm::Communicator& comm);
 
 } // namespace trime::app

@@ -74,7 +74,7 @@ ExitCode make_mesh(const Job& job) {
   for (const std::string& warning : options.warnings)
     log.warning("{}", warning);
 
-  const geometry::Shape shape = [&] {
+  const geometry::RegionShape shape = [&] {
     const auto timing = timers.scope("shape");
     return build_shape(options, comm, log);
   }();

@@ -43,7 +43,7 @@ std::string read_shared(const std::string& path, const comm::Communicator& comm)
 }
 
 /// All ranks build the same shape from the same numbers, so they throw the same errors without asking each other.
-geometry::Shape build_shape(const RunOptions& options, const comm::Communicator& comm, Log& log) {
+geometry::RegionShape build_shape(const RunOptions& options, const comm::Communicator& comm, Log& log) {
   const geometry::Frame frame(options.mesh.container);
   std::vector<geometry::Part> parts;
   for (const PartOptions& part : options.parts) {
@@ -51,7 +51,7 @@ geometry::Shape build_shape(const RunOptions& options, const comm::Communicator&
     for (const std::string& warning : parts.back().warnings())
       log.warning("{}", warning);
   }
-  return geometry::Shape(std::move(parts), options.region, frame);
+  return geometry::RegionShape(std::move(parts), options.region, frame);
 }
 
 } // namespace trime::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the sections [shape.NAME] to a Shape on every rank. Files are read by rank 0 only.
+// From the sections [shape.NAME] to a RegionShape on every rank. Files are read by rank 0 only.
 #pragma once
 
 #include "app/options.hpp"
@@ -13,6 +13,6 @@ std::string read_shared(const std::string& path, const comm::Communicator& comm)
 
 /// @throws GeometryError, ConfigError, FileError on all ranks together
 /// @note Collective.
-geometry::Shape build_shape(const RunOptions& options, const comm::Communicator& comm, Log& log);
+geometry::RegionShape build_shape(const RunOptions& options, const comm::Communicator& comm, Log& log);
 
 } // namespace trime::app

@@ -116,14 +116,18 @@ double PieceTree::distance(Vec2 p) const {
   return std::sqrt(best);
 }
 
-Shape::Shape(std::vector<Part> parts, std::string_view region, const Frame& frame)
+RegionShape::RegionShape(std::vector<Part> parts, std::string_view region, const Frame& frame)
     : frame_(frame), parts_(std::move(parts)), region_(Region::parse(region, names_of(parts_))),
       boundary_(make_boundary(region_, parts_, frame)), tree_(boundary_) {
   parts_.push_back(Part::rectangle(std::string(domain_name), frame.inner(), frame));
 }
 
-bool Shape::inside(Vec2 p) const {
+bool RegionShape::inside(Vec2 p) const {
   return region_.contains([&](int part) { return parts_[part].inside(p); });
+}
+
+RegionShape traced(const Shape& shape, const Frame& frame, const std::string& name) {
+  return RegionShape({Part::implicit(name, shape, frame)}, name, frame);
 }
 
 } // namespace trime::geometry

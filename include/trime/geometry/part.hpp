@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The named parts that a region is made of: polygons (rectangle, triangle, contour) and circles, with all numbers on
-// the lattice of the container, so that the inside tests are exact.
+// The named parts that a region is made of: polygons (rectangle, triangle, contour, traced function) and circles, with
+// all numbers on the lattice of the container, so that the inside tests are exact.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
@@ -15,6 +15,8 @@
 #include <vector>
 
 namespace trime::geometry {
+
+class Shape;
 
 /// Centre and radius are multiples of the lattice step.
 struct Circle {
@@ -49,6 +51,16 @@ public:
   /// area, or leave frame.reach()
   static Part contour(const std::string& name, const Contour& contour, const Normalization& normalization,
                       const Frame& frame);
+  /// @brief The inside of a function, `shape` < 0, as polygons that are traced within the container.
+  ///
+  /// Straight sides become one segment each, smooth curves chords that stray by 1e-6 of the container's longer side at
+  /// most; corners that turn by more than 4 degrees are vertices, to within some lattice steps. A part that reaches
+  /// beyond the container goes on a little way outside, so that `domain` may cut it. Features narrower than
+  /// `resolution` may be missed (default: 1/512 of the longer side). About (side/resolution)^2 / 4 evaluations plus
+  /// some thousands per unit of length, by all threads; the function is not kept.
+  /// @throws GeometryError with the place if a value is not finite or pieces of the curve touch, and if the function
+  /// has the same sign everywhere
+  static Part implicit(const std::string& name, const Shape& shape, const Frame& frame, double resolution = 0);
 
   const std::string& name() const { return name_; }
   /// For the user, one sentence each: those of the contour, and vertices that the lattice made equal.

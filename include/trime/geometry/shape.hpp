@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shape that is meshed: parts joined by a region expression, its exact boundary, inside test and distance.
+// The shape that is meshed: parts joined by a region expression, its exact boundary, inside test and distance; and the
+// seam for shapes of a user's own.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
@@ -13,6 +14,16 @@
 #include <vector>
 
 namespace trime::geometry {
+
+/// @brief A shape given by a function: derive from it to mesh a shape of one's own, see Part::implicit and traced().
+/// Called concurrently, and must give the same bits on every rank.
+class Shape {
+public:
+  virtual ~Shape() = default;
+  /// @brief Negative inside, positive outside, finite in the whole container. Only the zero set becomes the shape; near
+  /// it the function should be Lipschitz with about the same constant everywhere, best of all the distance itself.
+  virtual double signed_distance(Vec2 p) const = 0;
+};
 
 /// @brief The boundary of a region: the parts' boundaries, cut at their crossings, and of those the pieces with the
 /// region on one side only.
@@ -46,13 +57,13 @@ private:
   std::vector<Box> boxes_; // heap order: the root is 1, the children of k are 2k and 2k+1; the runs are the leaves
 };
 
-/// Immutable after construction; all queries are thread-safe.
-class Shape {
+/// Parts joined by a region. Immutable after construction; all queries are thread-safe.
+class RegionShape final : public Shape {
 public:
   /// @brief Parses the region and makes the boundary.
   /// @param parts named differently, none of them `domain`; see Region::parse for `region`
   /// @throws ConfigError for the region, or for names; GeometryError see make_boundary
-  Shape(std::vector<Part> parts, std::string_view region, const Frame& frame);
+  RegionShape(std::vector<Part> parts, std::string_view region, const Frame& frame);
 
   const Frame& frame() const { return frame_; }
   const Boundary& boundary() const { return boundary_; }
@@ -65,7 +76,9 @@ public:
   /// @brief Distance to the nearest point of the boundary, to within rounding.
   double distance_to_boundary(Vec2 p) const { return tree_.distance(p); }
   /// Negative inside.
-  double signed_distance(Vec2 p) const { return inside(p) ? -distance_to_boundary(p) : distance_to_boundary(p); }
+  double signed_distance(Vec2 p) const override {
+    return inside(p) ? -distance_to_boundary(p) : distance_to_boundary(p);
+  }
 
 private:
   Frame frame_;
@@ -74,5 +87,8 @@ private:
   Boundary boundary_;
   PieceTree tree_;
 };
+
+/// @brief A shape of one's own, traced: the region that consists of it alone. See Part::implicit for cost and errors.
+RegionShape traced(const Shape& shape, const Frame& frame, const std::string& name = "shape");
 
 } // namespace trime::geometry

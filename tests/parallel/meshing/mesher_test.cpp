@@ -16,7 +16,7 @@ namespace {
 using geometry::Box;
 using geometry::Frame;
 using geometry::Part;
-using geometry::Shape;
+using geometry::RegionShape;
 using geometry::Vec2;
 
 const Frame& unit_frame() {
@@ -24,25 +24,27 @@ const Frame& unit_frame() {
   return frame;
 }
 
-Shape square() {
-  return Shape({Part::rectangle("s", {{0.1, 0.1}, {0.9, 0.9}}, unit_frame())}, "s", unit_frame());
+RegionShape square() {
+  return RegionShape({Part::rectangle("s", {{0.1, 0.1}, {0.9, 0.9}}, unit_frame())}, "s", unit_frame());
 }
-Shape disc_with_hole() {
-  return Shape({Part::circle("d", {0.5, 0.5}, 0.4, unit_frame()), Part::circle("h", {0.55, 0.5}, 0.15, unit_frame())},
-               "difference(d, h)", unit_frame());
+RegionShape disc_with_hole() {
+  return RegionShape(
+      {Part::circle("d", {0.5, 0.5}, 0.4, unit_frame()), Part::circle("h", {0.55, 0.5}, 0.15, unit_frame())},
+      "difference(d, h)", unit_frame());
 }
-Shape thin_triangle() {
-  return Shape({Part::triangle("t", {Vec2{0.1, 0.5}, {0.9, 0.5}, {0.6, 0.54}}, unit_frame())}, "t", unit_frame());
+RegionShape thin_triangle() {
+  return RegionShape({Part::triangle("t", {Vec2{0.1, 0.5}, {0.9, 0.5}, {0.6, 0.54}}, unit_frame())}, "t", unit_frame());
 }
-Shape triangle() {
-  return Shape({Part::triangle("t", {Vec2{0.1, 0.1}, {0.9, 0.2}, {0.4, 0.8}}, unit_frame())}, "t", unit_frame());
+RegionShape triangle() {
+  return RegionShape({Part::triangle("t", {Vec2{0.1, 0.1}, {0.9, 0.2}, {0.4, 0.8}}, unit_frame())}, "t", unit_frame());
 }
-Shape two_discs() {
-  return Shape({Part::circle("a", {0.25, 0.3}, 0.2, unit_frame()), Part::circle("b", {0.7, 0.7}, 0.25, unit_frame())},
-               "union(a, b)", unit_frame());
+RegionShape two_discs() {
+  return RegionShape(
+      {Part::circle("a", {0.25, 0.3}, 0.2, unit_frame()), Part::circle("b", {0.7, 0.7}, 0.25, unit_frame())},
+      "union(a, b)", unit_frame());
 }
-Shape whole_container() {
-  return Shape({}, "domain", unit_frame());
+RegionShape whole_container() {
+  return RegionShape({}, "domain", unit_frame());
 }
 
 /// Finer towards the left side.
@@ -53,7 +55,7 @@ public:
 
 struct Case {
   std::string name;
-  Shape shape;
+  RegionShape shape;
   MeshOptions options;
   bool graded = false;
 };
@@ -186,9 +188,9 @@ TEST(Mesher, EdgeLengthInPlaceOfPoints) {
 /// Boundary sites exactly on the disc of a segment, one on either side: the tie rule may pick the other diagonal, so
 /// such a segment is divided.
 TEST(Mesher, CocircularBoundarySites) {
-  const Shape shape({Part::triangle("hole", {Vec2{0.4, 0.4}, {0.6, 0.6}, {0.4, 0.6}}, unit_frame()),
-                     Part::rectangle("square", {{0.6, 0.2}, {0.8, 0.4}}, unit_frame())},
-                    "difference(domain, hole, square)", unit_frame());
+  const RegionShape shape({Part::triangle("hole", {Vec2{0.4, 0.4}, {0.6, 0.6}, {0.4, 0.6}}, unit_frame()),
+                           Part::rectangle("square", {{0.6, 0.2}, {0.8, 0.4}}, unit_frame())},
+                          "difference(domain, hole, square)", unit_frame());
   MeshOptions options;
   options.edge_length = 0.29;
   options.max_sweeps = 12;
@@ -197,7 +199,8 @@ TEST(Mesher, CocircularBoundarySites) {
 
 /// The discs of the boundary cover all of a thin strip: no site fits inside, and none must be looked for for ever.
 TEST(Mesher, StripWithoutRoomInside) {
-  const Shape strip({Part::rectangle("s", {{0.1, 0.5}, {0.9, 0.5 + 1.28 / 5000}}, unit_frame())}, "s", unit_frame());
+  const RegionShape strip({Part::rectangle("s", {{0.1, 0.5}, {0.9, 0.5 + 1.28 / 5000}}, unit_frame())}, "s",
+                          unit_frame());
   expect_same_everywhere({"strip", strip, with_points(5000)});
 }
 
@@ -209,7 +212,7 @@ TEST(Mesher, EveryFewPointsOnASquare) {
 /// Cells far larger than the shape, in a container far larger than that.
 TEST(Mesher, RoomyContainerWithGivenCells) {
   const Frame frame(Box{{0, 0}, {3000, 3000}});
-  const Shape disc({Part::circle("d", {1.5, 1.5}, 1, frame)}, "d", frame);
+  const RegionShape disc({Part::circle("d", {1.5, 1.5}, 1, frame)}, "d", frame);
   MeshOptions options = with_points(300);
   options.container = frame.container();
   options.cells_x = options.cells_y = 10;
@@ -222,11 +225,11 @@ TEST(Mesher, RoomyContainerWithGivenCells) {
 TEST(Mesher, NearlyAllPointsAreUsed) {
   const comm::Communicator world = comm::Communicator::world();
   for (const double slot : {0.0005, 0.001, 0.003}) {
-    const Shape plate({Part::rectangle("plate", {{0.05, 0.05}, {0.95, 0.55}}, unit_frame()),
-                       Part::rectangle("a", {{0.2, 0.15}, {0.25, 0.45}}, unit_frame()),
-                       Part::rectangle("b", {{0.45, 0.15}, {0.5, 0.6}}, unit_frame()),
-                       Part::rectangle("c", {{0.7, 0.15}, {0.7 + slot, 0.45}}, unit_frame())},
-                      "difference(plate, union(a, b, c))", unit_frame());
+    const RegionShape plate({Part::rectangle("plate", {{0.05, 0.05}, {0.95, 0.55}}, unit_frame()),
+                             Part::rectangle("a", {{0.2, 0.15}, {0.25, 0.45}}, unit_frame()),
+                             Part::rectangle("b", {{0.45, 0.15}, {0.5, 0.6}}, unit_frame()),
+                             Part::rectangle("c", {{0.7, 0.15}, {0.7 + slot, 0.45}}, unit_frame())},
+                            "difference(plate, union(a, b, c))", unit_frame());
     for (const GlobalId points : {3000, 5000, 10000}) {
       Case c{"plate", plate, with_points(points)};
       c.options.max_sweeps = 1;

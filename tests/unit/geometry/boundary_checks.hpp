@@ -51,7 +51,7 @@ inline void expect_valid(const Boundary& boundary) {
 }
 
 /// The region lies on the left of every piece, seen from points next to its middle.
-inline void expect_inside_on_left(const Shape& shape) {
+inline void expect_inside_on_left(const RegionShape& shape) {
   for (const Loop& loop : shape.boundary().loops)
     for (const Piece& piece : loop.pieces) {
       const double s = 0.5 * piece.length(), offset = std::fmin(1e-6, 1e-3 * piece.length());

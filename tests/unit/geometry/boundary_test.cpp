@@ -85,7 +85,7 @@ TEST(Loop, TurnsOfARectangleAndACircle) {
 }
 
 TEST(Boundary, BoundingBoxHasTheBulgesOfArcs) {
-  const Shape shape({Part::circle("c", {0.5, 0.5}, 0.25, unit_frame)}, "c", unit_frame);
+  const RegionShape shape({Part::circle("c", {0.5, 0.5}, 0.25, unit_frame)}, "c", unit_frame);
   const Box box = shape.boundary().bounding_box();
   EXPECT_EQ(box.min, (Vec2{0.25, 0.25}));
   EXPECT_EQ(box.max, (Vec2{0.75, 0.75}));

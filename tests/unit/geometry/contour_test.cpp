@@ -123,7 +123,7 @@ TEST(Contour, NormalizesIntoAShiftedContainer) {
   const Frame frame(Box{{10, -5}, {14, -3}});
   const Contour contour = make_contour({{{100, 100}, {300, 100}, {300, 150}, {100, 150}}}, "map");
   const Part part = Part::contour("m", contour, fit_to_container(contour, frame.container()), frame);
-  const Shape shape({part}, "m", frame);
+  const RegionShape shape({part}, "m", frame);
   const Box box = shape.boundary().bounding_box();
   EXPECT_NEAR(box.width(), 0.8 * 2, 1e-12);
   EXPECT_NEAR(box.height(), 0.4, 1e-12);
@@ -141,7 +141,7 @@ TEST(Contour, OrientationFollowsFromNesting) {
     const auto ccw = [&](int k) { return (bits >> k & 1) != 0; };
     const Contour contour = make_contour(
         {square(0.3, 0.4, ccw(0)), square(0.1, 0.8, ccw(1)), square(0.2, 0.7, ccw(2)), square(0.85, 0.9, ccw(3))}, "s");
-    const Shape shape({Part::contour("s", contour, {}, unit_frame)}, "s", unit_frame);
+    const RegionShape shape({Part::contour("s", contour, {}, unit_frame)}, "s", unit_frame);
     expect_valid(shape.boundary());
     expect_inside_on_left(shape);
     EXPECT_EQ(shape.boundary().components(), 3);

@@ -24,7 +24,7 @@ struct Expected {
 
 void expect_region(const std::vector<Part>& parts, const char* region, const Expected& expected) {
   SCOPED_TRACE(region);
-  const Shape shape(parts, region, unit_frame);
+  const RegionShape shape(parts, region, unit_frame);
   expect_valid(shape.boundary());
   expect_inside_on_left(shape);
   EXPECT_NEAR(shape.boundary().area, expected.area, 1e-11);
@@ -39,14 +39,14 @@ void expect_region(const std::vector<Part>& parts, const char* region, const Exp
 }
 
 std::string error_of(const std::vector<Part>& parts, const char* region) {
-  return message_of<GeometryError>([&] { Shape(parts, region, unit_frame); });
+  return message_of<GeometryError>([&] { RegionShape(parts, region, unit_frame); });
 }
 
 TEST(MakeBoundary, SingleParts) {
   expect_region({rectangle("r", 0.1, 0.2, 0.6, 0.4)}, "r", {0.1, 1, 0, 4});
   expect_region({circle("c", 0.5, 0.5, 0.3)}, "c", {0.09 * pi, 1, 0, 4});
   expect_region({}, "domain", {1, 1, 0, 4});
-  const Boundary domain = Shape({}, "domain", unit_frame).boundary();
+  const Boundary domain = RegionShape({}, "domain", unit_frame).boundary();
   EXPECT_EQ(domain.part_names, std::vector<std::string>{"domain"});
   EXPECT_EQ(domain.loops[0].pieces[0].start, (Vec2{0, 0}));
   EXPECT_EQ(domain.bounding_box().max, (Vec2{1, 1}));
@@ -108,7 +108,7 @@ TEST(MakeBoundary, SquareMinusLeavesAndDisc) {
   }
   const char* region = "difference(square, union(intersection(dl, dr), intersection(dl, ul), intersection(ul, ur), "
                        "intersection(dr, ur), disc))";
-  const Shape shape(parts, region, unit_frame);
+  const RegionShape shape(parts, region, unit_frame);
   expect_valid(shape.boundary());
   expect_inside_on_left(shape);
   EXPECT_NEAR(shape.boundary().area, 0.64 - area, 1e-9);
@@ -208,7 +208,7 @@ TEST(MakeBoundary, RandomRegionsHaveTheAreaThatAGridOfPointsCounts) {
     parts.push_back(Part::triangle(
         "t", {{{number(10, 0, 1), number(11, 0, 1)}, {number(12, 0, 1), number(13, 0, 1)}, {number(14, 0, 1), 0.5}}},
         unit_frame));
-    const Shape shape(parts, regions[seed % 4], unit_frame);
+    const RegionShape shape(parts, regions[seed % 4], unit_frame);
     expect_valid(shape.boundary());
     expect_inside_on_left(shape);
     constexpr int n = 200;
@@ -252,7 +252,7 @@ TEST(MakeBoundary, SpecialPositionsGiveAShapeOrAClearRefusal) {
     }
     const std::string region = random_expression(counter, 3, 4);
     try {
-      const Shape shape(parts, region, unit_frame);
+      const RegionShape shape(parts, region, unit_frame);
       expect_valid(shape.boundary());
       expect_inside_on_left(shape);
       ++made;
@@ -278,10 +278,10 @@ TEST(MakeBoundary, ContourVerticesStayBitForBit) {
   }
   const std::vector<Part> parts{rectangle("r", 0.5, 0.5, 0.99, 0.99), circle("c", 0.5, 0.5, 0.35),
                                 Part::contour("m", make_contour({ring}, "m"), {}, unit_frame)};
-  const Shape shape(parts, "union(difference(m, c), intersection(m, c, r), difference(r, m))", unit_frame);
+  const RegionShape shape(parts, "union(difference(m, c), intersection(m, c, r), difference(r, m))", unit_frame);
   expect_valid(shape.boundary());
   expect_inside_on_left(shape);
-  const Shape whole(parts, "m", unit_frame);
+  const RegionShape whole(parts, "m", unit_frame);
   for (const Vec2 p : ring) {
     const Vec2 q = unit_frame.snap(p);
     const auto& pieces = whole.boundary().loops[0].pieces;
@@ -308,16 +308,16 @@ TEST(MakeBoundary, DiscsAlongAFineContour) {
     beads += k > 0 ? fmt::format(", d{}", k) : "";
   }
   beads += ")";
-  const Boundary without = Shape(parts, fmt::format("difference(m, {})", beads), unit_frame).boundary();
-  const Boundary within = Shape(parts, fmt::format("intersection(m, {})", beads), unit_frame).boundary();
+  const Boundary without = RegionShape(parts, fmt::format("difference(m, {})", beads), unit_frame).boundary();
+  const Boundary within = RegionShape(parts, fmt::format("intersection(m, {})", beads), unit_frame).boundary();
   expect_valid(without);
   expect_valid(within);
   EXPECT_EQ(within.components(), discs);
   EXPECT_EQ(without.components(), 1);
-  const double whole = Shape(parts, "m", unit_frame).boundary().area;
+  const double whole = RegionShape(parts, "m", unit_frame).boundary().area;
   EXPECT_NEAR(without.area + within.area, whole, 1e-12);
   EXPECT_NEAR(within.area, discs * pi * 0.005 * 0.005 / 2, 0.01 * within.area);
-  EXPECT_NEAR(Shape(parts, united + ", m)", unit_frame).boundary().area, pi * 0.45 * 0.45, 1e-12);
+  EXPECT_NEAR(RegionShape(parts, united + ", m)", unit_frame).boundary().area, pi * 0.45 * 0.45, 1e-12);
 }
 
 TEST(MakeBoundary, ContoursCrossEachOther) {
@@ -332,13 +332,14 @@ TEST(MakeBoundary, ContoursCrossEachOther) {
   };
   const std::vector<Part> parts{Part::contour("a", make_contour({wave(0.1)}, "a"), {}, unit_frame),
                                 Part::contour("b", make_contour({wave(0.1 + pi)}, "b"), {}, unit_frame)};
-  const double a = Shape(parts, "a", unit_frame).boundary().area, b = Shape(parts, "b", unit_frame).boundary().area;
-  const double both = Shape(parts, "intersection(a, b)", unit_frame).boundary().area;
-  const Boundary united = Shape(parts, "union(a, b)", unit_frame).boundary();
+  const double a = RegionShape(parts, "a", unit_frame).boundary().area,
+               b = RegionShape(parts, "b", unit_frame).boundary().area;
+  const double both = RegionShape(parts, "intersection(a, b)", unit_frame).boundary().area;
+  const Boundary united = RegionShape(parts, "union(a, b)", unit_frame).boundary();
   expect_valid(united);
   EXPECT_EQ(united.components(), 1);
   EXPECT_NEAR(united.area, a + b - both, 1e-12);
-  EXPECT_EQ(Shape(parts, "difference(a, b)", unit_frame).boundary().components(), 10);
+  EXPECT_EQ(RegionShape(parts, "difference(a, b)", unit_frame).boundary().components(), 10);
 }
 
 } // namespace

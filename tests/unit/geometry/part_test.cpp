@@ -97,7 +97,7 @@ TEST(Part, TrianglesInBothOrientationsAreTheSame) {
   const Vec2 a{0.1, 0.1}, b{0.3, 0.8}, c{0.8, 0.5};
   const std::array<Vec2, 3> orders[] = {{a, b, c}, {a, c, b}, {c, b, a}};
   for (const auto& corners : orders) {
-    const Shape shape({Part::triangle("t", corners, unit_frame)}, "t", unit_frame);
+    const RegionShape shape({Part::triangle("t", corners, unit_frame)}, "t", unit_frame);
     expect_valid(shape.boundary());
     expect_inside_on_left(shape);
     EXPECT_NEAR(shape.boundary().area, 0.5 * (0.7 * 0.7 - 0.2 * 0.4), 1e-12);
@@ -166,7 +166,7 @@ TEST(Frame, RoundingDoesNotLeaveTheContainer) {
   const Box& box = frame.container();
   for (const Vec2 p : {box.min, box.max, Vec2{box.min.x, box.max.y}})
     EXPECT_TRUE(box.contains(frame.snap(p)));
-  const Shape shape({Part::rectangle("r", box, frame)}, "intersection(r, domain)", frame);
+  const RegionShape shape({Part::rectangle("r", box, frame)}, "intersection(r, domain)", frame);
   EXPECT_TRUE(box.contains(shape.boundary().bounding_box().min));
   EXPECT_TRUE(box.contains(shape.boundary().bounding_box().max));
   EXPECT_NEAR(shape.boundary().area, 0.6 * 1.4, 1e-12);

@@ -30,10 +30,11 @@ Part normalized(const std::string& name, const std::string& path) {
 }
 
 TEST(Shape, DistanceAgainstBruteForce) {
-  const Shape shape({Part::rectangle("r", {{0.1, 0.1}, {0.9, 0.9}}, unit_frame),
-                     Part::circle("c", {0.5, 0.5}, 0.2, unit_frame), Part::circle("d", {0.9, 0.9}, 0.3, unit_frame),
-                     Part::triangle("t", {{{0.05, 0.05}, {0.3, 0.1}, {0.1, 0.3}}}, unit_frame)},
-                    "difference(r, c, d, t)", unit_frame);
+  const RegionShape shape({Part::rectangle("r", {{0.1, 0.1}, {0.9, 0.9}}, unit_frame),
+                           Part::circle("c", {0.5, 0.5}, 0.2, unit_frame),
+                           Part::circle("d", {0.9, 0.9}, 0.3, unit_frame),
+                           Part::triangle("t", {{{0.05, 0.05}, {0.3, 0.1}, {0.1, 0.3}}}, unit_frame)},
+                          "difference(r, c, d, t)", unit_frame);
   for (int i = 0; i < 5000; ++i) {
     const Vec2 p = random_point(i, {{-0.5, -0.5}, {1.5, 1.5}}, unit_frame);
     const double expected = distance_by_brute_force(shape.boundary(), p);
@@ -51,8 +52,8 @@ TEST(Shape, DistanceAgainstBruteForce) {
 TEST(Shape, NamesMustDifferAndNotBeDomain) {
   const auto error = [](const char* a, const char* b) {
     return message_of<ConfigError>([&] {
-      Shape({Part::circle(a, {0.5, 0.5}, 0.2, unit_frame), Part::circle(b, {0.5, 0.5}, 0.1, unit_frame)}, a,
-            unit_frame);
+      RegionShape({Part::circle(a, {0.5, 0.5}, 0.2, unit_frame), Part::circle(b, {0.5, 0.5}, 0.1, unit_frame)}, a,
+                  unit_frame);
     });
   };
   EXPECT_NE(error("a", "a").find("'a'"), std::string::npos);
@@ -63,9 +64,9 @@ TEST(Shape, NamesMustDifferAndNotBeDomain) {
 TEST(Shape, ShiftedAndLargeContainers) {
   for (const double origin : {0.0, 1000.0, -1e6}) {
     const Frame frame(Box{{origin, origin}, {origin + 8, origin + 4}});
-    const Shape shape({Part::rectangle("r", {{origin + 1, origin + 1}, {origin + 7, origin + 3}}, frame),
-                       Part::circle("c", {origin + 4, origin + 2}, 1.5, frame)},
-                      "difference(r, c)", frame);
+    const RegionShape shape({Part::rectangle("r", {{origin + 1, origin + 1}, {origin + 7, origin + 3}}, frame),
+                             Part::circle("c", {origin + 4, origin + 2}, 1.5, frame)},
+                            "difference(r, c)", frame);
     expect_inside_on_left(shape);
     EXPECT_EQ(shape.boundary().components(), 2) << origin;
     const double half = std::asin(1 / 1.5);
@@ -78,8 +79,8 @@ TEST(Shape, PokerMinusCircle) {
   const std::string path = shared_data("poker.xy");
   if (path.empty())
     GTEST_SKIP() << "the shared data are not here; set TRIME_SHARED_DATA";
-  const Shape shape({normalized("poker", path), Part::circle("hole", {0.5, 0.7}, 0.1, unit_frame)},
-                    "difference(poker, hole)", unit_frame);
+  const RegionShape shape({normalized("poker", path), Part::circle("hole", {0.5, 0.7}, 0.1, unit_frame)},
+                          "difference(poker, hole)", unit_frame);
   expect_valid(shape.boundary());
   expect_inside_on_left(shape);
   EXPECT_EQ(shape.boundary().components(), 1);
@@ -95,7 +96,7 @@ TEST(Shape, NorthAmerica) {
   const double start = wall_seconds();
   const Contour contour = read_xy(path);
   const Normalization fit = fit_to_container(contour, unit_frame.container());
-  const Shape shape({Part::contour("map", contour, fit, unit_frame)}, "map", unit_frame);
+  const RegionShape shape({Part::contour("map", contour, fit, unit_frame)}, "map", unit_frame);
   EXPECT_LT(wall_seconds() - start, 1);
   expect_valid(shape.boundary());
   expect_inside_on_left(shape);

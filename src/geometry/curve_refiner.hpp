@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a coarse chain on a zero set to a polygon that follows it: chords halved until they are near enough, corners
+// found to full accuracy, and vertices that nothing needs taken out.
+#pragma once
+
+#include "level_function.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace trime::geometry {
+
+/// Lengths behind the accuracy that Part::implicit promises.
+struct TraceTolerances {
+  explicit TraceTolerances(double container_side) : side(container_side) {}
+  double side;                      ///< longer side of the container
+  double chord = 2.5e-7 * side;     ///< stray of a chord while it is refined; twice that when it is thinned
+  double straight = 1e-12 * side;   ///< stray that counts as none
+  double shortest = 0x1p-22 * side; ///< chords are not halved below
+  double corner = 0x1p-24 * side;   ///< where the arms of a corner are looked at last
+  double zero = 0x1p-50 * side;     ///< of a zero on a line
+};
+
+struct CurveVertex {
+  Vec2 place;
+  bool keep = false; ///< a corner, or the end of a straight side
+};
+
+class CurveRefiner {
+public:
+  CurveRefiner(const LevelFunction& function, const TraceTolerances& tolerances)
+      : function_(function), tolerances_(tolerances) {}
+
+  /// @brief Closed polygon along the curve. @param chain closed, interior on the left, at least three vertices
+  std::vector<Vec2> refine(const std::vector<Vec2>& chain) const;
+
+private:
+  std::vector<Vec2> halve_chords(const std::vector<Vec2>& chain) const;
+  void halve(Vec2 a, Vec2 b, int depth, std::vector<Vec2>& to) const;
+  bool is_near(Vec2 a, Vec2 b) const;
+  std::optional<Vec2> curve_beside(Vec2 a, Vec2 b) const;
+
+  std::vector<CurveVertex> insert_corners(const std::vector<Vec2>& polygon) const;
+  std::optional<Vec2> corner_in_chord(Vec2 before, Vec2 a, Vec2 b, Vec2 after) const;
+  std::optional<Vec2> corner_at(Vec2 guess, Vec2 back, Vec2 ahead, double distance) const;
+  std::optional<Vec2> on_arm(Vec2 near, Vec2 along, double distance) const;
+
+  const LevelFunction& function_;
+  const TraceTolerances tolerances_;
+};
+
+/// @brief Takes out vertices of a closed polygon: runs on one line become one segment each, and the rest chords that
+/// stray from the vertices by `chord` at most. Vertices to keep stay.
+std::vector<Vec2> thinned(std::vector<CurveVertex> polygon, double straight, double chord);
+
+} // namespace trime::geometry
