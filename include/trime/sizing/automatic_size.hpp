@@ -20,6 +20,7 @@ struct AutomaticSizeOptions {
   double period_x = 0, period_y = 0; ///< the container's side if it is periodic in that direction, else 0
 };
 
+class Images;
 class SizeQuadtree;
 
 /// @brief s(x) = min over boundary points b of K |x - b| + lfs(b), at most the container's width + height.
@@ -50,6 +51,7 @@ public:
   std::size_t memory_bytes() const;
 
 private:
+  std::unique_ptr<const Images> images_;
   std::unique_ptr<const SizeQuadtree> tree_;
 };
 

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sizing/boundary_features.hpp"
+
+#include "sizing/medial_axis.hpp"
+#include "sizing/piece_locator.hpp"
+#include "sizing/shared_work.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::sizing {
+
+using geometry::Box;
+using geometry::Piece;
+using geometry::Vec2;
+
+namespace {
+
+constexpr double spacing_share = 0.35;  // of the local feature size: largest distance of samples with medial points
+constexpr double envelope_error = 0.02; // of the field between two samples, as a share of it
+constexpr int first_samples = 32;       // along a line as long as the container
+constexpr int most_rounds = 40;
+
+/// All images within reach.
+std::vector<Cone> with_images(const std::vector<Cone>& cones, const Images& images) {
+  std::vector<Cone> all;
+  for (const Vec2 shift : images.shifts())
+    for (const Cone& cone : cones) {
+      const Vec2 apex = cone.apex + shift;
+      if (images.in_reach({apex, apex}))
+        all.push_back({apex, cone.height});
+    }
+  return all;
+}
+
+/// Halves the boundary where the local feature size asks for it, round by round; each round's samples bring new medial
+/// points, which lower the local feature sizes.
+class Sampler {
+public:
+  Sampler(const comm::Communicator& comm, const geometry::Boundary& boundary, const Images& images, double floor,
+          double slope)
+      : comm_(comm), boundary_(boundary), images_(images), floor_(floor), slope_(slope), locator_(boundary, images) {}
+
+  /// Samples with local feature sizes, not yet bounded.
+  std::vector<Cone> run() {
+    place_first();
+    for (int round = 0; round < most_rounds && !rays_.empty(); ++round) {
+      find_medial_points();
+      update_feature_sizes();
+      refine();
+    }
+    fill_in();
+    update_feature_sizes();
+    return std::move(samples_);
+  }
+
+private:
+  /// Part of a piece between two neighbouring samples.
+  struct Interval {
+    const Piece* piece;
+    double from, to; ///< arc lengths
+    LocalIndex first, last;
+  };
+
+  void place_first() {
+    const double longest = std::max(images_.container().width(), images_.container().height()) / first_samples;
+    for (const geometry::Loop& loop : boundary_.loops) {
+      const auto loop_start = static_cast<LocalIndex>(samples_.size());
+      const Piece* before = &loop.pieces.back();
+      for (const Piece& piece : loop.pieces) {
+        LocalIndex first = add_vertex(*before, piece);
+        before = &piece;
+        const double length = piece.length(), parts = std::fmax(1, std::ceil(length / longest));
+        for (double k = 1; k <= parts; ++k) {
+          const double from = length * ((k - 1) / parts), to = length * (k / parts);
+          const LocalIndex last = k < parts                       ? add_sample(piece, to)
+                                  : &piece == &loop.pieces.back() ? loop_start
+                                                                  : static_cast<LocalIndex>(samples_.size());
+          intervals_.push_back({&piece, from, to, first, last});
+          first = last;
+        }
+      }
+    }
+  }
+
+  LocalIndex add_vertex(const Piece& before, const Piece& after) {
+    const Vec2 in = before.tangent(before.length()), out = after.tangent(0);
+    samples_.push_back({after.start, unknown_});
+    append_rays(after.start, in, out, rays_);
+    if (axis_ends_at(in, out))
+      corners_.push_back({images_.wrap(after.start), 0});
+    return static_cast<LocalIndex>(samples_.size()) - 1;
+  }
+  LocalIndex add_sample(const Piece& piece, double along) {
+    const Vec2 p = piece.point(along);
+    samples_.push_back({p, unknown_});
+    append_rays(p, piece.tangent(along), rays_);
+    return static_cast<LocalIndex>(samples_.size()) - 1;
+  }
+
+  void find_medial_points() {
+    struct Found {
+      Vec2 point;
+      bool there;
+    };
+    const std::vector<Found> found = compute_shared<Found>(comm_, rays_.size(), [&](std::size_t k) {
+      const std::optional<Vec2> point = medial_point(rays_[k], locator_, images_);
+      return Found{point.value_or(Vec2{}), point.has_value()};
+    });
+    std::vector<Cone> points = std::move(corners_);
+    corners_.clear();
+    rays_.clear();
+    for (const Found& one : found)
+      if (one.there)
+        points.push_back({one.point, 0});
+    medial_trees_.emplace_back(with_images(points, images_), 1.0);
+  }
+
+  /// Old samples have not seen the newest medial points, new samples none.
+  void update_feature_sizes() {
+    const std::vector<double> sizes = compute_shared<double>(comm_, samples_.size(), [&](std::size_t k) {
+      const Vec2 p = images_.wrap(samples_[k].apex);
+      double size = samples_[k].height;
+      for (std::size_t tree = k < known_ ? medial_trees_.size() - 1 : 0; tree < medial_trees_.size(); ++tree)
+        size = medial_trees_[tree].value(p, size);
+      return size;
+    });
+    for (std::size_t k = 0; k < sizes.size(); ++k)
+      samples_[k].height = sizes[k];
+    known_ = samples_.size();
+  }
+
+  void refine() {
+    std::vector<Interval> next;
+    for (const Interval& interval : intervals_) {
+      const double size = std::fmin(samples_[interval.first].height, samples_[interval.last].height);
+      if (interval.to - interval.from <= spacing_share * std::fmax(size, floor_)) {
+        next.push_back(interval);
+        continue;
+      }
+      const double middle = 0.5 * (interval.from + interval.to);
+      const LocalIndex sample = add_sample(*interval.piece, middle);
+      next.push_back({interval.piece, interval.from, middle, interval.first, sample});
+      next.push_back({interval.piece, middle, interval.to, sample, interval.last});
+    }
+    intervals_ = std::move(next);
+  }
+
+  /// Between two samples at distance d the envelope of their cones is too high by up to slope * d / 2.
+  void fill_in() {
+    for (const Interval& interval : intervals_) {
+      const double size = std::fmax(std::fmin(samples_[interval.first].height, samples_[interval.last].height), floor_);
+      const double length = interval.to - interval.from;
+      const double parts = std::ceil(length * slope_ / (2 * envelope_error * size));
+      for (double k = 1; k < parts; ++k)
+        samples_.push_back({interval.piece->point(interval.from + length * (k / parts)), unknown_});
+    }
+  }
+
+  const comm::Communicator& comm_;
+  const geometry::Boundary& boundary_;
+  const Images& images_;
+  double floor_, slope_;
+  double unknown_ = std::numeric_limits<double>::infinity();
+  PieceLocator locator_;
+  std::vector<Cone> samples_, corners_;
+  std::vector<Interval> intervals_;
+  std::vector<NormalRay> rays_;        // of samples whose balls are not known yet
+  std::vector<ConeTree> medial_trees_; // one for each round
+  std::size_t known_ = 0;              // samples that have a local feature size
+};
+
+} // namespace
+
+std::vector<Cone> boundary_features(const comm::Communicator& comm, const geometry::Boundary& boundary,
+                                    const Images& images, double feature_floor, double gradation) {
+  std::vector<Cone> cones = Sampler(comm, boundary, images, feature_floor, gradation).run();
+  const double largest = images.container().width() + images.container().height();
+  for (Cone& cone : cones)
+    cone = {images.wrap(cone.apex), std::fmin(largest, std::fmax(feature_floor, cone.height))};
+  const ConeTree all(with_images(cones, images), gradation);
+  const std::vector<char> covered = compute_shared<char>(comm, cones.size(), [&](std::size_t k) {
+    return static_cast<char>(all.value(cones[k].apex, cones[k].height) < cones[k].height);
+  });
+  std::vector<Cone> kept;
+  for (std::size_t k = 0; k < cones.size(); ++k)
+    if (covered[k] == 0)
+      kept.push_back(cones[k]);
+  return with_images(kept, images);
+}
+
+} // namespace trime::sizing

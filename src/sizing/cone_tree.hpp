@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The lower envelope of cones of one slope, min over k of slope |x - apex_k| + height_k, by branch and bound: nearest
+// neighbours with additive weights, and plain nearest neighbours (slope 1, heights 0).
+#pragma once
+
+#include "trime/core/types.hpp"
+#include "trime/geometry/vec2.hpp"
+
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace trime::sizing {
+
+struct Cone {
+  geometry::Vec2 apex;
+  double height;
+
+  double value(geometry::Vec2 p, double slope) const { return slope * geometry::length(p - apex) + height; }
+};
+
+/// Immutable; queries are thread-safe.
+class ConeTree {
+public:
+  ConeTree() = default;
+  /// O(n log n), about 35 bytes per cone.
+  ConeTree(std::vector<Cone> cones, double slope);
+
+  /// @brief The least of `bound` and the values of all cones at p. A good bound makes it faster. O(log n) for points
+  /// near a few cones.
+  double value(geometry::Vec2 p, double bound = std::numeric_limits<double>::infinity()) const;
+
+  /// Appends to `found` the indices of all cones whose value at p is at most `bound`, in the order of the tree.
+  void collect(geometry::Vec2 p, double bound, std::vector<LocalIndex>& found) const;
+
+  /// In the order of the tree.
+  std::span<const Cone> cones() const { return cones_; }
+
+private:
+  /// What is known of all cones below a node.
+  struct Node {
+    geometry::Box box; ///< of the apexes
+    double least = std::numeric_limits<double>::infinity();
+
+    double lower_bound(geometry::Vec2 p, double slope) const;
+  };
+  std::size_t first_of(std::size_t leaf) const { return cones_.size() * leaf / leaves_; }
+  void sort(std::size_t node, std::size_t first_leaf, std::size_t last_leaf);
+
+  std::vector<Cone> cones_;
+  std::vector<Node>
+      nodes_; // heap order: the root is 1, the children of k are 2k and 2k+1; the last `leaves_` are leaves
+  std::size_t leaves_ = 0;
+  double slope_ = 1;
+};
+
+} // namespace trime::sizing

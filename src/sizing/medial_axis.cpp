@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sizing/medial_axis.hpp"
+
+#include "trime/core/angle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::sizing {
+
+using geometry::Vec2;
+
+namespace {
+
+constexpr double fan_step = 20 * pi / 180; // between the rays from a vertex
+constexpr double straight = 5 * pi / 180;  // a turn that needs no fan
+constexpr int most_shrinks = 50;
+constexpr double empty_share = 1 - 1e-5;   // of its radius: so far a ball's centre is from the boundary if it is empty
+constexpr double nearly_empty_share = 0.7; // the same for a ball with nothing but noise in it
+
+double signed_turn(Vec2 before, Vec2 after) {
+  return angle_of(cross(before, after), dot(before, after));
+}
+
+Vec2 turned(Vec2 v, double angle) {
+  const SinCos t = sin_cos(angle);
+  return {t.cos * v.x - t.sin * v.y, t.sin * v.x + t.cos * v.y};
+}
+
+} // namespace
+
+void append_rays(Vec2 p, Vec2 tangent, std::vector<NormalRay>& rays) {
+  const Vec2 normal = left_normal(tangent);
+  rays.push_back({p, normal});
+  rays.push_back({p, -1 * normal});
+}
+
+void append_rays(Vec2 p, Vec2 before, Vec2 after, std::vector<NormalRay>& rays) {
+  const double turn = signed_turn(before, after);
+  if (std::fabs(turn) < straight)
+    return append_rays(p, turned(before, 0.5 * turn), rays);
+  const Vec2 normal = turn < 0 ? left_normal(before) : -1 * left_normal(before); // to the side of the fan
+  const int steps = static_cast<int>(std::ceil(std::fabs(turn) / fan_step));
+  for (int k = 0; k <= steps; ++k)
+    rays.push_back({p, turned(normal, turn * k / steps)});
+  rays.push_back({p, turned(-1 * normal, 0.5 * turn)});
+}
+
+bool axis_ends_at(Vec2 before, Vec2 after) {
+  return std::fabs(signed_turn(before, after)) >= separation_degrees * (pi / 180) * (1 - 1e-9);
+}
+
+std::optional<Vec2> medial_point(const NormalRay& ray, const PieceLocator& boundary, const Images& images) {
+  const geometry::Box& container = images.container();
+  double radius = geometry::length(container.max - container.min);
+  const double smallest = 1e-12 * radius;
+  // The ball before the last, unless it sees the boundary at a small angle only.
+  std::optional<Vec2> found;
+  bool touches = false;
+  for (int round = 0; round < most_shrinks; ++round) {
+    const Vec2 center = ray.origin + radius * ray.normal, wrapped = images.wrap(center);
+    const Vec2 near = boundary.nearest(wrapped) + (center - wrapped);
+    const double gap = geometry::length(near - center);
+    if (touches && gap >= nearly_empty_share * radius)
+      found = wrapped;
+    if (gap >= empty_share * radius)
+      break;
+    const Vec2 chord = near - ray.origin;
+    const double along = dot(chord, ray.normal), squared = squared_length(chord);
+    if (!(along > 0) || squared <= smallest * smallest)
+      break;
+    radius = std::min(radius, 0.5 * squared / along);
+    touches = squared >= radius * radius; // a chord as long as the radius is seen at 60 degrees from the centre
+  }
+  return found && images.in_container(*found) ? found : std::nullopt;
+}
+
+} // namespace trime::sizing
