@@ -3,6 +3,7 @@
 
 #include "app/settings.hpp"
 #include "trime/core/error.hpp"
+#include "trime/core/formula.hpp"
 #include "trime/geometry/region.hpp"
 
 #include <algorithm>
@@ -53,6 +54,19 @@ geometry::Box box_of(const Settings& settings, const std::string& section) {
           {settings.number(section, "x_max"), settings.number(section, "y_max")}};
 }
 
+/// The formula must parse; the error knows the position in it.
+void check_formula(const Settings& settings, const std::string& section, const std::string& key,
+                   io::Diagnostics& problems) {
+  const std::string text = settings.text(section, key);
+  if (text.empty())
+    return; // reported as missing
+  try {
+    const Formula formula(text, fmt::format("'{}' in [{}]", key, section));
+  } catch (const ConfigError& error) {
+    problems.add(settings.line(section, key), error.what());
+  }
+}
+
 PartOptions part_of(const Settings& settings, const std::string& name, const fs::path& directory,
                     io::Diagnostics& problems) {
   const std::string section = "shape." + name;
@@ -72,6 +86,9 @@ PartOptions part_of(const Settings& settings, const std::string& name, const fs:
     part.file_is_relative = fs::path(settings.text(section, "file")).is_relative();
     part.file = (directory / settings.text(section, "file")).lexically_normal().string(); // absolute paths stay
     part.normalize = settings.boolean(section, "normalize");
+  } else if (part.type == "expression") {
+    part.sdf = settings.text(section, "sdf");
+    check_formula(settings, section, "sdf", problems);
   }
   return part;
 }

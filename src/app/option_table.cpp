@@ -57,7 +57,6 @@ constexpr Option table[] = {
      .key = "type",
      .kind = Kind::word,
      .choices = "rectangle circle triangle contour expression",
-     .supported = "rectangle circle triangle contour",
      .meaning = "what the part NAME is; one section per part"},
     {.section = "shape.NAME", .key = "x_min", .part_type = "rectangle", .meaning = "left side"},
     {.section = "shape.NAME", .key = "x_max", .part_type = "rectangle", .meaning = "right side"},
@@ -84,7 +83,7 @@ constexpr Option table[] = {
      .key = "sdf",
      .part_type = "expression",
      .kind = Kind::text,
-     .meaning = "signed distance as a formula of x and y, negative inside"},
+     .meaning = "signed distance as a formula of x and y, negative inside, e.g. `sqrt((x-0.5)^2+(y-0.5)^2)-0.3`"},
 
     {.section = "sizing",
      .key = "type",

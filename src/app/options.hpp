@@ -16,7 +16,7 @@ namespace trime::app {
 /// One section [shape.NAME]; the fields of other types keep their defaults.
 struct PartOptions {
   std::string name;
-  std::string type; ///< rectangle, circle, triangle, contour
+  std::string type; ///< rectangle, circle, triangle, contour, expression
   geometry::Box box;
   geometry::Vec2 center;
   double radius = 0;
@@ -24,6 +24,7 @@ struct PartOptions {
   std::string file;              ///< path as the program can open it
   bool file_is_relative = false; ///< the user wrote it relative to the config file
   bool normalize = false;
+  std::string sdf; ///< formula of x and y
 };
 
 struct RunOptions {

@@ -3,6 +3,7 @@
 
 #include "trime/comm/agree.hpp"
 #include "trime/core/read_file.hpp"
+#include "trime/geometry/expression_shape.hpp"
 
 namespace trime::app {
 namespace {
@@ -25,6 +26,10 @@ geometry::Part build_part(const PartOptions& part, const geometry::Frame& frame,
     return geometry::Part::circle(part.name, part.center, part.radius, frame);
   if (part.type == "triangle")
     return geometry::Part::triangle(part.name, part.corners, frame);
+  if (part.type == "expression") {
+    const Formula sdf(part.sdf, fmt::format("'sdf' in [shape.{}]", part.name));
+    return geometry::Part::implicit(part.name, geometry::ExpressionShape(sdf), frame);
+  }
   const geometry::Contour contour = geometry::parse_xy(read_contour(part, comm), part.file);
   const geometry::Normalization place =
       part.normalize ? geometry::fit_to_container(contour, frame.container()) : geometry::Normalization{};

@@ -41,7 +41,8 @@ Vec2 LevelFunction::crossing(Vec2 a, double value_a, Vec2 b, double value_b, dou
 void LevelFunction::report(const NotFinite& found) const {
   throw GeometryError(fmt::format("part '{}': expected a finite value everywhere in the container, found {} at "
                                   "({:.12g}, {:.12g})",
-                                  name_, found.value, found.place.x, found.place.y));
+                                  name_, std::isnan(found.value) ? std::string("NaN") : fmt::format("{}", found.value),
+                                  found.place.x, found.place.y));
 }
 
 } // namespace trime::geometry

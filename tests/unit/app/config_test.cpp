@@ -34,6 +34,18 @@ void expect_refused(const std::string& override_text, const std::string& expecte
   EXPECT_NE(message.find("command line: "), std::string::npos) << message;
 }
 
+TEST(Config, ExpressionShape) {
+  const std::string text = "[shape]\nregion = f\n[shape.f]\ntype = expression\nsdf = x^2 + y^2 - 0.25\n"
+                           "[meshing]\nmethod = distmesh\npoints = 5000\n";
+  const RunOptions options = parse_config(text, "c.ini", {});
+  EXPECT_EQ(options.parts.at(0).type, "expression");
+  EXPECT_EQ(options.parts.at(0).sdf, "x^2 + y^2 - 0.25");
+  const std::string wrong = errors_of(text, {"shape.f.sdf=x^2 + z"});
+  EXPECT_NE(wrong.find("'sdf' in [shape.f]"), std::string::npos) << wrong;
+  const std::string missing = errors_of("[shape]\nregion = f\n[shape.f]\ntype = expression\n[meshing]\npoints = 50\n");
+  EXPECT_NE(missing.find("[shape.f] of type expression needs 'sdf'"), std::string::npos) << missing;
+}
+
 TEST(OptionTable, IsSound) {
   for (const Option& option : option_table()) {
     EXPECT_GT(std::string(option.meaning).size(), 3u) << option.key;
@@ -190,7 +202,6 @@ TEST(Config, AChangedTypeShowsTheKeysThatNoLongerBelong) {
 TEST(Config, RefusesByNameWhatThisVersionCannotDo) {
   expect_refused("domain.periodic_x=true", "'periodic_x = true' in [domain] is not supported yet; leave it false");
   expect_refused("domain.periodic_y=true", "not supported yet; leave it false");
-  expect_refused("shape.hole.type=expression", "not supported yet");
   expect_refused("sizing.type=automatic", "not supported yet; leave it uniform");
   expect_refused("sizing.gradation=0.2", "not supported yet");
   expect_refused("sizing.expression=1+x", "not supported yet; leave it none");
