@@ -55,7 +55,7 @@ void stars_from_scratch(benchmark::State& state) {
   std::vector<mesh::BinRef> missing;
   for (auto _ : state) {
     stars.reset(stage.points.owned());
-    stage.builder.update(stage.points, stars, {}, missing);
+    stage.builder.update(stage.points, stars, {}, {}, missing);
   }
   per_point(state, static_cast<double>(stage.points.owned()));
 }
@@ -67,7 +67,7 @@ void star_update(benchmark::State& state) {
   std::vector<mesh::BinRef> missing;
   std::vector<LocalIndex> new_index;
   stars.reset(stage.points.owned());
-  stage.builder.update(stage.points, stars, {}, missing);
+  stage.builder.update(stage.points, stars, {}, {}, missing);
   std::uint64_t round = 0;
   std::int64_t rebuilt = 0;
   for (auto _ : state) {
@@ -79,7 +79,7 @@ void star_update(benchmark::State& state) {
     for (LocalIndex i = 0; i < stage.points.owned(); ++i)
       stage.sites.push_back(stage.points.site(i));
     state.ResumeTiming();
-    rebuilt += stage.builder.update(stage.points, stars, {}, missing).rebuilt;
+    rebuilt += stage.builder.update(stage.points, stars, {}, {}, missing).rebuilt;
   }
   per_point(state, static_cast<double>(stage.points.owned()));
   state.counters["rebuilt_percent"] = 100.0 * static_cast<double>(rebuilt) / static_cast<double>(state.iterations()) /
@@ -92,7 +92,7 @@ void sort_and_renumber(benchmark::State& state) {
   std::vector<mesh::BinRef> missing;
   std::vector<LocalIndex> new_index;
   stars.reset(stage.points.owned());
-  stage.builder.update(stage.points, stars, {}, missing);
+  stage.builder.update(stage.points, stars, {}, {}, missing);
   stage.shake(0.02, 0);
   for (auto _ : state) {
     stage.points.assign_owned(stage.sites, 0, stage.grid.tile_count(), &new_index);

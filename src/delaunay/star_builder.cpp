@@ -35,12 +35,13 @@ double canonical_squared_radius(Vec2 a, Vec2 b, Vec2 c) {
 /// All that one thread needs to compute stars one after the other.
 class StarWorker {
 public:
-  StarWorker(const mesh::BinnedPoints& points, StarTable& stars, const geometry::Lattice& lattice, double cap)
-      : points_(points), positions_(points.positions().data()), stars_(stars), cap_(cap), slack_(2 * lattice.step()),
-        kernel_(lattice, lattice.snap(2 * cap) + lattice.step()) {}
+  StarWorker(const mesh::BinnedPoints& points, StarTable& stars, const geometry::Lattice& lattice)
+      : points_(points), positions_(points.positions().data()), stars_(stars), lattice_(lattice),
+        slack_(2 * lattice.step()), kernel_(lattice) {}
 
-  void compute(LocalIndex i) {
+  void compute(LocalIndex i, double cap) {
     site_ = i;
+    cap_ = cap;
     center_ = positions_[i];
     changed_ = false;
     const bool warm = start_warm();
@@ -80,7 +81,7 @@ private:
   /// From the virtual square: the last ring first, then the sites nearby (about the first ring of neighbours, in any
   /// order), then all others, most of which lie beyond the security radius by then.
   bool start_cold() {
-    kernel_.start_virtual();
+    kernel_.start_virtual(lattice_.snap(2 * cap_) + lattice_.step());
     for (const LocalIndex neighbour : ring_)
       if (neighbour != gap)
         kernel_.insert(neighbour, offset(neighbour));
@@ -220,7 +221,9 @@ private:
   const mesh::BinnedPoints& points_;
   const Vec2* positions_;
   StarTable& stars_;
-  double cap_, slack_;
+  const geometry::Lattice& lattice_;
+  double cap_ = 0; // of the site
+  double slack_;
   StarKernel kernel_;
   LocalIndex site_ = 0;
   Vec2 center_;
@@ -235,17 +238,15 @@ private:
 
 } // namespace
 
-StarBuilder::StarBuilder(const geometry::Lattice& lattice, double cap) : lattice_(lattice), cap_(cap) {}
-
-bool StarBuilder::counts(Vec2 a, Vec2 b, Vec2 c) const {
-  return canonical_squared_radius(a, b, c) < cap_ * cap_;
+bool StarBuilder::counts(Vec2 a, Vec2 b, Vec2 c, double cap) {
+  return canonical_squared_radius(a, b, c) < cap * cap;
 }
 
-StarPass StarBuilder::update(const mesh::BinnedPoints& points, StarTable& stars, std::span<const std::uint8_t> wanted,
-                             std::vector<mesh::BinRef>& missing) const {
+StarPass StarBuilder::update(const mesh::BinnedPoints& points, StarTable& stars, const mesh::LocalSizes& sizes,
+                             std::span<const std::uint8_t> wanted, std::vector<mesh::BinRef>& missing) const {
   std::vector<StarWorker> workers;
   for (int thread = 0; thread < std::max(1, thread_count()); ++thread)
-    workers.emplace_back(points, stars, lattice_, cap_);
+    workers.emplace_back(points, stars, lattice_);
   const LocalIndex first_tile = points.first_tile();
   thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t tile, int thread) {
     const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(tile));
@@ -254,7 +255,7 @@ StarPass StarBuilder::update(const mesh::BinnedPoints& points, StarTable& stars,
         stars.clear(i);
         stars.set_certain(i, false); // to be computed once it is wanted
       } else if (!stars.certain(i)) {
-        workers[static_cast<std::size_t>(thread)].compute(i);
+        workers[static_cast<std::size_t>(thread)].compute(i, sizes.known(i) ? cap(sizes[i]) : largest_);
       }
     }
   });

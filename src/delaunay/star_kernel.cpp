@@ -42,16 +42,8 @@ inline Vertex circumcenter(double ax, double ay, double bx, double by) {
 
 } // namespace
 
-StarKernel::StarKernel(const geometry::Lattice& lattice, double virtual_distance) : lattice_(lattice) {
+StarKernel::StarKernel(const geometry::Lattice& lattice) : lattice_(lattice) {
   reserve(typical_degree);
-  const double d = virtual_distance;
-  square_ = {Vec2{d, 0}, Vec2{0, d}, Vec2{-d, 0}, Vec2{0, -d}};
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Vertex v = circumcenter(square_[k].x, square_[k].y, square_[(k + 1) % 4].x, square_[(k + 1) % 4].y);
-    square_vertex_[k] = {v.x, v.y};
-    square_error_ = v.error; // the same for all four
-    square_r2_ = v.r2;
-  }
 }
 
 void StarKernel::reserve(std::size_t degree) {
@@ -98,18 +90,21 @@ std::size_t StarKernel::smallest() const {
   return best;
 }
 
-void StarKernel::start_virtual() {
+void StarKernel::start_virtual(double distance) {
+  constexpr std::array<Vec2, 4> direction{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+  const Vertex corner = circumcenter(distance, 0, 0, distance); // the other three are its mirror images
   degree_ = 4;
   squared_radius_ = -1;
   vertices_known_ = true;
   for (std::size_t k = 0; k < 4; ++k) {
+    const Vec2 d = direction[k], next = direction[(k + 1) % 4];
     id_[k] = -2 - static_cast<LocalIndex>(k);
-    x_[k] = square_[k].x;
-    y_[k] = square_[k].y;
-    vertex_x_[k] = square_vertex_[k].x;
-    vertex_y_[k] = square_vertex_[k].y;
-    vertex_error_[k] = square_error_;
-    vertex_r2_[k] = square_r2_;
+    x_[k] = distance * d.x;
+    y_[k] = distance * d.y;
+    vertex_x_[k] = corner.x * (d.x + next.x);
+    vertex_y_[k] = corner.y * (d.y + next.y);
+    vertex_error_[k] = corner.error;
+    vertex_r2_[k] = corner.r2;
   }
 }
 

@@ -20,11 +20,10 @@ namespace trime::delaunay {
 /// goes to geometry::in_circle.
 class StarKernel {
 public:
-  /// @param virtual_distance of the four virtual neighbours, a lattice multiple
-  StarKernel(const geometry::Lattice& lattice, double virtual_distance);
+  explicit StarKernel(const geometry::Lattice& lattice);
 
-  /// Starts with the four virtual neighbours (their ids are negative).
-  void start_virtual();
+  /// Starts with four virtual neighbours at `distance`, a lattice multiple, along the axes (their ids are negative).
+  void start_virtual(double distance);
   /// @brief Starts with a ring of at least 3 real neighbours at `positions`, seen from `center`; false if it is no star
   /// any more: it does not wind once counter-clockwise, or is not locally convex. O(degree).
   bool start_ring(std::span<const LocalIndex> ids, const geometry::Vec2* positions, geometry::Vec2 center);
@@ -73,8 +72,6 @@ private:
   std::size_t previous(std::size_t k) const { return k == 0 ? degree_ - 1 : k - 1; }
 
   geometry::Lattice lattice_;
-  std::array<geometry::Vec2, 4> square_, square_vertex_; // the virtual neighbours and the corners of their cell
-  double square_error_ = 0, square_r2_ = 0;
   double squared_radius_ = -1; // negative: not known
   std::size_t degree_ = 0;
   bool vertices_known_ = false; // a ring that is only checked needs none

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace trime::meshing {
 namespace {
@@ -52,8 +53,8 @@ private:
 
   void make_builder(GlobalId points) {
     const double largest = std::max(options_.container.width(), options_.container.height());
-    cap_ = points < few_points ? largest : std::min(largest, cap_in_sizes * layout_.edge_length);
-    builder_ = std::make_unique<delaunay::StarBuilder>(lattice_, cap_);
+    cap_factor_ = points < few_points ? std::numeric_limits<double>::infinity() : cap_in_sizes;
+    builder_ = std::make_unique<delaunay::StarBuilder>(lattice_, cap_factor_, largest);
   }
 
   // --- sweeps -------------------------------------------------------------------------------------------------------
@@ -150,11 +151,11 @@ private:
   void complete_stars() {
     const double largest = std::max(options_.container.width(), options_.container.height());
     stars(Wanted::all_sites);
-    for (int doubling = 0; doubling < cap_doublings && cap_ < largest; ++doubling) {
+    for (int doubling = 0; doubling < cap_doublings && std::isfinite(cap_factor_); ++doubling) {
       if (comm_.sum(count_incomplete_fans(extraction())) == 0)
         return;
-      cap_ = std::min(largest, 2 * cap_);
-      builder_ = std::make_unique<delaunay::StarBuilder>(lattice_, cap_);
+      cap_factor_ *= 2;
+      builder_ = std::make_unique<delaunay::StarBuilder>(lattice_, cap_factor_, largest);
       for (LocalIndex i = 0; i < state().points().owned(); ++i)
         state().stars().set_certain(i, inside_fan(extraction(), i).complete);
       stars(Wanted::all_sites);
@@ -191,7 +192,7 @@ private:
 
   geometry::Lattice lattice_;
   Layout layout_;
-  double cap_ = 0;
+  double cap_factor_ = 0; // of h
   std::unique_ptr<delaunay::StarBuilder> builder_;
   std::vector<SweepRecord> history_;
   StopReason stop_reason_ = StopReason::sweep_cap;

@@ -97,7 +97,7 @@ delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder
   std::vector<mesh::BinRef> missing;
   for (int round = 0; round < max_halo_rounds; ++round) {
     missing.clear();
-    const delaunay::StarPass pass = builder.update(points_, stars_, wanted_, missing);
+    const delaunay::StarPass pass = builder.update(points_, stars_, sizes_, wanted_, missing);
     all.rebuilt += pass.rebuilt;
     if (comm_.size() == 1 || comm_.sum(pass.uncertain) == 0)
       return all;

@@ -6,7 +6,10 @@
 #include "trime/delaunay/star_table.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/mesh/binned_points.hpp"
+#include "trime/mesh/local_sizes.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -26,27 +29,39 @@ struct StarPass {
 ///
 /// Only triangles with circumradius below the cap count; no other site within 2 cap can change them, so the search is
 /// bounded whatever lies around. What does not count becomes a gap of the ring.
+///
+/// The cap of a star follows the local size, so that windows and halos stay bounded where the size varies. Near or
+/// above the cap a triangle may then count in one of its stars and not in another. A mesh cannot suffer: whatever
+/// counts anywhere is a triangle of the one Delaunay triangulation, so once the fan of every site is without gaps
+/// inside the shape (the mesher raises the caps of the others), the fans hold the same triangles.
 class StarBuilder {
 public:
-  /// @param cap largest circumradius that counts, in domain units
-  StarBuilder(const geometry::Lattice& lattice, double cap);
+  /// @param cap largest circumradius that counts, in domain units, the same for all stars
+  StarBuilder(const geometry::Lattice& lattice, double cap)
+      : StarBuilder(lattice, std::numeric_limits<double>::infinity(), cap) {}
+  /// @param factor the cap of a star is this multiple of the size at its site
+  /// @param largest cap, in domain units
+  StarBuilder(const geometry::Lattice& lattice, double factor, double largest)
+      : lattice_(lattice), factor_(factor), largest_(largest) {}
 
-  double cap() const { return cap_; }
+  /// Largest circumradius that counts at a site of size h.
+  double cap(double h = std::numeric_limits<double>::infinity()) const { return std::min(largest_, factor_ * h); }
 
   /// @brief Computes the star of every owned site that is wanted and not certain yet, from its last ring where it has
   /// one. Threads over tiles. About 200 ns per warm star, 600 ns from scratch.
+  /// @param sizes h at the owned sites; empty: the largest cap everywhere
   /// @param wanted by local index, nonzero: compute; empty: all. The rings of other sites are emptied.
   /// @param missing receives the bins that uncertain stars miss, ascending, each once
-  StarPass update(const mesh::BinnedPoints& points, StarTable& stars, std::span<const std::uint8_t> wanted,
-                  std::vector<mesh::BinRef>& missing) const;
+  StarPass update(const mesh::BinnedPoints& points, StarTable& stars, const mesh::LocalSizes& sizes,
+                  std::span<const std::uint8_t> wanted, std::vector<mesh::BinRef>& missing) const;
 
-  /// @brief True if the triangle a, b, c (any order) counts: circumradius below the cap, computed in canonical order
-  /// of the vertices, so that its three stars agree.
-  bool counts(geometry::Vec2 a, geometry::Vec2 b, geometry::Vec2 c) const;
+  /// @brief True if the triangle a, b, c (any order) counts: circumradius below `cap`, computed in canonical order
+  /// of the vertices, so that stars of the same cap agree.
+  static bool counts(geometry::Vec2 a, geometry::Vec2 b, geometry::Vec2 c, double cap);
 
 private:
   geometry::Lattice lattice_;
-  double cap_;
+  double factor_, largest_;
 };
 
 } // namespace trime::delaunay

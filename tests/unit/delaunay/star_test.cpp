@@ -23,7 +23,7 @@ struct Cloud {
       : grid(geometry::Box{{0, 0}, {1, 1}}, {{}, {}, spacing}), points(grid), builder(unit_lattice(), cap) {
     points.assign_owned(sites, 0, grid.tile_count());
     stars.reset(points.owned());
-    pass = builder.update(points, stars, {}, missing);
+    pass = builder.update(points, stars, {}, {}, missing);
   }
   Cloud(const Cloud&) = delete;
 
@@ -46,7 +46,7 @@ struct Oracle {
     for (auto face = triangulation.finite_faces_begin(); face != triangulation.finite_faces_end(); ++face) {
       const Vec2 a = vec(face->vertex(0)->point()), b = vec(face->vertex(1)->point()),
                  c = vec(face->vertex(2)->point());
-      if (!builder.counts(a, b, c))
+      if (!StarBuilder::counts(a, b, c, builder.cap()))
         continue;
       ++count;
       bool tie = false;
@@ -143,7 +143,8 @@ TEST(Stars, NoTriangleIsLargerThanTheCap) {
     for (const LocalIndex a : cloud.stars.ring(i))
       gaps += a == gap;
     testing::for_each_triangle(cloud.stars, i, [&](LocalIndex a, LocalIndex b) {
-      EXPECT_TRUE(cloud.builder.counts(cloud.points.position(i), cloud.points.position(a), cloud.points.position(b)));
+      EXPECT_TRUE(StarBuilder::counts(cloud.points.position(i), cloud.points.position(a), cloud.points.position(b),
+                                      cloud.builder.cap()));
     });
   }
   EXPECT_GT(gaps, 100u);
@@ -161,11 +162,43 @@ void shake_and_compare(const std::vector<Site>& start, double cap, double step, 
     std::vector<LocalIndex> new_index;
     cloud.points.assign_owned(sites, 0, cloud.grid.tile_count(), &new_index);
     cloud.stars.renumber(new_index, cloud.points.owned());
-    cloud.builder.update(cloud.points, cloud.stars, {}, cloud.missing);
+    cloud.builder.update(cloud.points, cloud.stars, {}, {}, cloud.missing);
     StarTable fresh;
     fresh.reset(cloud.points.owned());
-    cloud.builder.update(cloud.points, fresh, {}, cloud.missing);
+    cloud.builder.update(cloud.points, fresh, {}, {}, cloud.missing);
     testing::expect_same_rings(cloud.stars, fresh);
+  }
+}
+
+TEST(Stars, EachFollowsTheCapOfItsOwnSite) {
+  Cloud cloud(testing::random_sites(600, 8), 1.0);
+  mesh::LocalSizes sizes;
+  for (const Vec2 p : cloud.points.positions())
+    sizes.values().push_back(0.002 + 0.03 * p.x);
+  const StarBuilder builder(unit_lattice(), 2.5, 0.06);
+  EXPECT_EQ(builder.cap(0.002), 0.005);
+  EXPECT_EQ(builder.cap(0.5), 0.06);
+  StarTable graded;
+  graded.reset(cloud.points.owned());
+  for (int round = 0; round < 2; ++round) { // from scratch and warm
+    builder.update(cloud.points, graded, sizes, {}, cloud.missing);
+    testing::expect_well_formed(cloud.points, graded);
+    std::size_t counted = 0, dropped = 0;
+    for (LocalIndex i = 0; i < cloud.points.owned(); ++i) {
+      std::set<std::pair<LocalIndex, LocalIndex>> expected, found;
+      testing::for_each_triangle(graded, i, [&](LocalIndex a, LocalIndex b) { found.emplace(a, b); });
+      testing::for_each_triangle(cloud.stars, i, [&](LocalIndex a, LocalIndex b) {
+        const bool counts = StarBuilder::counts(cloud.points.position(i), cloud.points.position(a),
+                                                cloud.points.position(b), builder.cap(sizes[i]));
+        (counts ? counted : dropped) += 1;
+        if (counts)
+          expected.emplace(a, b);
+      });
+      EXPECT_EQ(found, expected) << "site " << i;
+      graded.set_certain(i, false);
+    }
+    EXPECT_GT(counted, 1000u);
+    EXPECT_GT(dropped, 300u);
   }
 }
 
@@ -183,7 +216,7 @@ TEST(Stars, WarmUpdateIsCheapWhereNothingMoved) {
   for (std::size_t i = 0; i < same.size(); ++i)
     same[i] = static_cast<LocalIndex>(i);
   cloud.stars.renumber(same, cloud.points.owned());
-  const StarPass pass = cloud.builder.update(cloud.points, cloud.stars, {}, cloud.missing);
+  const StarPass pass = cloud.builder.update(cloud.points, cloud.stars, {}, {}, cloud.missing);
   EXPECT_LT(pass.rebuilt, 100) << "only stars at the rim, which have gaps, start anew";
 }
 
@@ -215,10 +248,10 @@ TEST(Stars, OnlyWantedStarsAreComputedAndOthersAreEmptied) {
   std::vector<std::uint8_t> wanted(static_cast<std::size_t>(cloud.points.owned()));
   for (std::size_t i = 0; i < wanted.size(); ++i)
     wanted[i] = i % 3 == 0;
-  cloud.builder.update(cloud.points, cloud.stars, wanted, cloud.missing);
+  cloud.builder.update(cloud.points, cloud.stars, {}, wanted, cloud.missing);
   for (LocalIndex i = 0; i < cloud.points.owned(); ++i)
     EXPECT_EQ(cloud.stars.ring(i).empty(), i % 3 != 0);
-  cloud.builder.update(cloud.points, cloud.stars, {}, cloud.missing);
+  cloud.builder.update(cloud.points, cloud.stars, {}, {}, cloud.missing);
   EXPECT_TRUE(testing::triangles_of(cloud.points, cloud.stars) == all) << "emptied stars come back when wanted";
 }
 
@@ -238,7 +271,7 @@ TEST(Stars, UncertainStarsNameTheMissingBinsAndAreRightOnceTheyAreKnown) {
   for (int round = 0;; ++round) {
     ASSERT_LT(round, 5) << "the stars ask for ever more bins";
     std::vector<mesh::BinRef> missing;
-    const StarPass pass = whole.builder.update(points, stars, {}, missing);
+    const StarPass pass = whole.builder.update(points, stars, {}, {}, missing);
     for (LocalIndex i = 0; i < points.owned(); ++i)
       EXPECT_TRUE(stars.certain(i) || stars.ring(i).empty());
     EXPECT_EQ(missing.empty(), pass.uncertain == 0);
@@ -294,7 +327,7 @@ TEST(Stars, WarmRingWithAFarMemberIsNotTrusted) {
     stars.reset(points.owned());
     stars.store(index[0], last);
     std::vector<mesh::BinRef> missing;
-    builder.update(points, stars, wanted, missing);
+    builder.update(points, stars, {}, wanted, missing);
     const auto ring = stars.ring(index[0]);
     return std::vector<LocalIndex>(ring.begin(), ring.end());
   };

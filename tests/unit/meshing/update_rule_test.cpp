@@ -22,7 +22,7 @@ struct Cloud {
     points.assign_owned(sites, 0, grid.tile_count());
     stars.reset(points.owned());
     std::vector<mesh::BinRef> missing;
-    delaunay::StarBuilder(testing::unit_lattice(), 2.5 * spacing).update(points, stars, {}, missing);
+    delaunay::StarBuilder(testing::unit_lattice(), 2.5 * spacing).update(points, stars, {}, {}, missing);
   }
   StarView view() const { return {points, stars, size}; }
   /// The site nearest to the middle.
