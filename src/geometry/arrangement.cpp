@@ -19,10 +19,11 @@ std::size_t vertex_count(const std::vector<PlacedPart>& parts) {
   return count;
 }
 
-Box inflated_box(const Segment& s, double margin) {
+/// Around the segment moved by -shift.
+Box inflated_box(const Segment& s, Vec2 shift, double margin) {
   Box box;
-  box.include(s.a);
-  box.include(s.b);
+  box.include(s.a - shift);
+  box.include(s.b - shift);
   box.min = box.min - Vec2{margin, margin};
   box.max = box.max + Vec2{margin, margin};
   return box;
@@ -46,38 +47,55 @@ Arrangement::Arrangement(const std::vector<PlacedPart>& parts, const Frame& fram
     for (std::size_t k = 0; k < parts.size(); ++k)
       if (const Polygon* polygon = parts[k].part->as_polygon(); polygon && parts[k].part->is_contour() == contours) {
         first_line_[k] = static_cast<LocalIndex>(lines_.size());
-        add_polygon(*polygon, parts[k].index);
+        add_polygon(k);
       }
-  for (const PlacedPart& placed : parts)
-    if (const Circle* circle = placed.part->as_circle())
-      add_circle(*circle, placed.index);
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (parts[k].part->as_circle() != nullptr)
+      add_circle(k);
 
-  for (std::size_t a = 0; a < parts.size(); ++a)
+  const auto cross_with_circles = [&](std::size_t a) {
+    for (LocalIndex circle = 0; circle < static_cast<LocalIndex>(circles_.size()); ++circle)
+      cross_polygon_circle(a, circle);
+  };
+  const std::size_t last = parts.empty() || parts.back().index >= 0 ? parts.size() : parts.size() - 1;
+  for (std::size_t a = 0; a < last; ++a)
     if (parts[a].part->as_polygon() != nullptr) {
-      for (std::size_t b = a + 1; b < parts.size(); ++b)
+      for (std::size_t b = a + 1; b < last; ++b)
         if (parts[b].part->as_polygon() != nullptr)
           cross_polygons(a, b);
-      for (LocalIndex circle = 0; circle < static_cast<LocalIndex>(circles_.size()); ++circle)
-        cross_polygon_circle(a, circle);
+      cross_with_circles(a);
     }
-  for (LocalIndex a = 0; a < static_cast<LocalIndex>(circles_.size()); ++a)
-    for (LocalIndex b = a + 1; b < static_cast<LocalIndex>(circles_.size()); ++b) {
-      const Crossings crossings = circle_crossings(circles_[a], circles_[b], tolerance_);
-      for (int k = 0; k < crossings.count; ++k) {
-        const LocalIndex v = vertices_.insert(frame.snap(crossings.at[k]), VertexTable::nobody);
-        split_circle(a, v);
-        split_circle(b, v);
-      }
-    }
+  cross_circles();
+  if (last < parts.size()) {
+    for (std::size_t a = 0; a < last; ++a)
+      if (parts[a].part->as_polygon() != nullptr)
+        cross_polygons(a, last);
+    cross_with_circles(last);
+  }
   make_pieces();
   join_twins();
 }
 
-void Arrangement::add_polygon(const Polygon& polygon, int part) {
+void Arrangement::cross_circles() {
+  for (LocalIndex a = 0; a < static_cast<LocalIndex>(circles_.size()); ++a)
+    for (LocalIndex b = a + 1; b < static_cast<LocalIndex>(circles_.size()); ++b) {
+      const Crossings crossings = circle_crossings(circles_[a], circles_[b], tolerance_);
+      for (int k = 0; k < crossings.count; ++k) {
+        const LocalIndex v = vertices_.insert(frame_.snap(crossings.at[k]), VertexTable::nobody);
+        split_circle(a, v);
+        split_circle(b, v);
+      }
+    }
+}
+
+void Arrangement::add_polygon(std::size_t place) {
+  const Polygon& polygon = *parts_[place].part->as_polygon();
+  const Vec2 shift = parts_[place].shift;
+  const int part = static_cast<int>(place);
   for (const Polygon::Ring& ring : polygon.rings) {
     const std::size_t first = lines_.size();
     for (LocalIndex k = 0; k < ring.count; ++k)
-      lines_.push_back({vertices_.insert(polygon.grid.segments()[ring.first + k].a, part), 0, part});
+      lines_.push_back({vertices_.insert(polygon.grid.segments()[ring.first + k].a + shift, part), 0, part});
     for (LocalIndex k = 0; k < ring.count; ++k)
       lines_[first + k].to = lines_[first + (k + 1) % ring.count].from;
     if (ring.reversed)
@@ -86,7 +104,10 @@ void Arrangement::add_polygon(const Polygon& polygon, int part) {
   }
 }
 
-void Arrangement::add_circle(const Circle& circle, int part) {
+void Arrangement::add_circle(std::size_t place) {
+  Circle circle = *parts_[place].part->as_circle();
+  circle.center = circle.center + parts_[place].shift;
+  const int part = static_cast<int>(place);
   for (std::size_t k = 0; k < circles_.size(); ++k)
     if (length(circles_[k].center - circle.center) <= tolerance_ &&
         std::fabs(circles_[k].radius - circle.radius) <= tolerance_) {
@@ -104,7 +125,7 @@ void Arrangement::cross_polygons(std::size_t a, std::size_t b) {
   const SegmentGrid& other = parts_[b].part->as_polygon()->grid;
   const double margin = VertexTable::merge_steps * frame_.step();
   for (LocalIndex s = first_line_[a]; s < first_line_[a] + count; ++s)
-    other.for_each_near(inflated_box(segment(s), margin), [&](LocalIndex t) {
+    other.for_each_near(inflated_box(segment(s), parts_[b].shift, margin), [&](LocalIndex t) {
       cross_lines(s, first_line_[b] + t);
       return true;
     });
@@ -144,7 +165,9 @@ void Arrangement::cross_polygon_circle(std::size_t a, LocalIndex circle) {
     return Box{disc.center - Vec2{reach, reach}, disc.center + Vec2{reach, reach}};
   };
   std::vector<LocalIndex> near;
-  parts_[a].part->as_polygon()->grid.for_each_near(around(disc.radius + 2 * merged), [&](LocalIndex s) {
+  Box search = around(disc.radius + 2 * merged);
+  search = {search.min - parts_[a].shift, search.max - parts_[a].shift};
+  parts_[a].part->as_polygon()->grid.for_each_near(search, [&](LocalIndex s) {
     near.push_back(first_line_[a] + s);
     return true;
   });

@@ -10,16 +10,18 @@
 
 namespace trime::geometry {
 
-/// One part in an arrangement: `index` is its number in the region.
+/// One part in an arrangement, or one of its images in a periodic container.
 struct PlacedPart {
   const Part* part;
-  int index;
+  int index;  ///< its number in the region; -1: a rectangle that only cuts the others
+  Vec2 shift; ///< on the lattice
 };
 
 /// @brief Built once; O(M log M) for M pieces and few crossings.
 ///
 /// Crossings are snapped to the lattice; nearer than VertexTable::merge_steps to a vertex they become that vertex.
-/// Vertices of contours keep their coordinates bit for bit. Pieces that coincide are kept once.
+/// Vertices of contours keep their coordinates bit for bit. Pieces that coincide are kept once. A cutting rectangle
+/// must stand last: it is crossed with what the others have become.
 class Arrangement {
 public:
   /// How near a vertex counts as lying on a curve, in lattice steps.
@@ -29,7 +31,7 @@ public:
   struct Piece {
     LocalIndex from, to;
     int circle;            ///< into circles, -1 for straight ones
-    int part;              ///< the interior of this part lies on the left
+    int part;              ///< the interior of this part (its place in the list) lies on the left
     LocalIndex first_twin; ///< further parts with this piece: twins first_twin .. first_twin + twin_count - 1
     LocalIndex twin_count;
   };
@@ -54,8 +56,9 @@ private:
     LocalIndex curve, vertex; // curve: a line, or lines_.size() + circle
   };
 
-  void add_polygon(const Polygon& polygon, int part);
-  void add_circle(const Circle& circle, int part);
+  void add_polygon(std::size_t place);
+  void add_circle(std::size_t place);
+  void cross_circles();
   void cross_polygons(std::size_t a, std::size_t b);
   void cross_polygon_circle(std::size_t a, LocalIndex circle);
   void cross_lines(LocalIndex s, LocalIndex t);

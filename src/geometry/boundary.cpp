@@ -80,11 +80,21 @@ double Loop::turn_degrees(std::size_t i) const {
 }
 
 int Boundary::components() const {
-  return static_cast<int>(std::count_if(loops.begin(), loops.end(), [](const Loop& loop) { return loop.outer; }));
+  int outer = 0, winding = 0;
+  for (const Loop& loop : loops)
+    (loop.winds() ? winding : outer) += loop.outer ? 1 : 0;
+  return outer + winding / 2 + (covers_torus ? 1 : 0);
 }
 
 int Boundary::holes() const {
-  return static_cast<int>(loops.size()) - components();
+  return static_cast<int>(std::count_if(loops.begin(), loops.end(), [](const Loop& loop) { return !loop.outer; }));
+}
+
+int Boundary::euler_characteristic() const {
+  int sum = 0;
+  for (const Loop& loop : loops)
+    sum += loop.winds() ? 0 : loop.outer ? 1 : -1;
+  return sum;
 }
 
 double Boundary::length() const {

@@ -8,6 +8,10 @@ Frame::Frame(const Box& container, bool periodic_x, bool periodic_y)
   const double step = lattice_.step(), inverse = lattice_.inverse_step();
   inner_.min = {std::ceil(container.min.x * inverse) * step, std::ceil(container.min.y * inverse) * step};
   inner_.max = {std::floor(container.max.x * inverse) * step, std::floor(container.max.y * inverse) * step};
+  if (periods_.x > 0)
+    inner_.max.x = inner_.min.x + periods_.x;
+  if (periods_.y > 0)
+    inner_.max.y = inner_.min.y + periods_.y;
   const double margin = 2 * std::fmax(container.width(), container.height());
   reach_.min = container.min - Vec2{margin, margin};
   reach_.max = container.max + Vec2{margin, margin};

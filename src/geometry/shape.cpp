@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/geometry/shape.hpp"
 
+#include "part_images.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -32,6 +33,15 @@ Box box_of(const Piece& piece) {
   return box;
 }
 
+/// In a periodic container no piece leads out of one image of it: the image that holds the middle becomes canonical.
+Piece wrapped(Piece piece, const Periods& periods) {
+  const Vec2 middle = 0.5 * (piece.start + piece.end), shift = periods.wrap(middle) - middle;
+  piece.start = piece.start + shift;
+  piece.end = piece.end + shift;
+  piece.center = piece.center + shift;
+  return piece;
+}
+
 std::vector<std::string> names_of(const std::vector<Part>& parts) {
   std::vector<std::string> names;
   for (const Part& part : parts) {
@@ -46,10 +56,11 @@ std::vector<std::string> names_of(const std::vector<Part>& parts) {
 
 } // namespace
 
-PieceTree::PieceTree(const Boundary& boundary) {
+PieceTree::PieceTree(const Boundary& boundary) : periods_(boundary.periods) {
   std::vector<Box> runs;
   for (const Loop& loop : boundary.loops)
-    for (const Piece& piece : loop.pieces) {
+    for (const Piece& unrolled : loop.pieces) {
+      const Piece piece = periods_.any() ? wrapped(unrolled, periods_) : unrolled;
       if (items_.size() % run_length == 0)
         runs.emplace_back();
       const Box box = box_of(piece);
@@ -87,17 +98,32 @@ double PieceTree::squared_distance_to_run(std::size_t run, Vec2 p) const {
 }
 
 double PieceTree::distance(Vec2 p) const {
+  double best = std::numeric_limits<double>::infinity();
   if (items_.empty())
-    return std::numeric_limits<double>::infinity();
+    return best;
+  if (!periods_.any()) {
+    search(p, best);
+    return std::sqrt(best);
+  }
+  // Pieces lie in the container, the nearest is at most half a period away: one image to each side is enough.
+  const Vec2 canonical = periods_.wrap(p);
+  for (const int i : {0, -1, 1})
+    for (const int j : {0, -1, 1})
+      if ((i == 0 || periods_.x > 0) && (j == 0 || periods_.y > 0))
+        search(canonical + Vec2{i * periods_.x, j * periods_.y}, best);
+  return std::sqrt(best);
+}
+
+/// Lowers `best` to the squared distance from p if that is less.
+void PieceTree::search(Vec2 p, double& best) const {
   struct Entry {
     std::size_t node;
     double squared_distance;
   };
   std::array<Entry, 64> stack; // deeper than any tree in memory
   const std::size_t leaves = boxes_.size() / 2;
-  double best = std::numeric_limits<double>::infinity();
   std::size_t size = 0;
-  stack[size++] = {1, 0.0};
+  stack[size++] = {1, squared_distance_to_box(p, boxes_[1])};
   while (size > 0) {
     const Entry entry = stack[--size];
     if (entry.squared_distance >= best)
@@ -113,17 +139,25 @@ double PieceTree::distance(Vec2 p) const {
     stack[size++] = far;
     stack[size++] = near;
   }
-  return std::sqrt(best);
 }
 
 RegionShape::RegionShape(std::vector<Part> parts, std::string_view region, const Frame& frame)
     : frame_(frame), parts_(std::move(parts)), region_(Region::parse(region, names_of(parts_))),
       boundary_(make_boundary(region_, parts_, frame)), tree_(boundary_) {
-  parts_.push_back(Part::rectangle(std::string(domain_name), frame.inner(), frame));
+  parts_.push_back(domain_part(frame));
+  shifts_.resize(parts_.size());
+  for (const int part : region_.parts())
+    shifts_[part] = image_shifts(parts_[part], frame);
 }
 
 bool RegionShape::inside(Vec2 p) const {
-  return region_.contains([&](int part) { return parts_[part].inside(p); });
+  const Vec2 canonical = frame_.periods().wrap(p);
+  return region_.contains([&](int part) {
+    for (const Vec2 shift : shifts_[part])
+      if (parts_[part].inside(canonical - shift))
+        return true;
+    return false;
+  });
 }
 
 RegionShape traced(const Shape& shape, const Frame& frame, const std::string& name) {

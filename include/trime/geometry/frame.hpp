@@ -20,7 +20,7 @@ public:
   /// Which points of the plane are one point; no periods by default.
   const Periods& periods() const { return periods_; }
 
-  /// Largest lattice rectangle inside the container; the shape `domain`.
+  /// Largest lattice rectangle inside the container; exactly one period long on periodic axes. The shape `domain`.
   const Box& inner() const { return inner_; }
   /// The container and twice its size around it: where the exact predicates hold, so where parts may lie.
   const Box& reach() const { return reach_; }

@@ -30,9 +30,11 @@ public:
 ///
 /// No grid and no tracing: crossings are computed to a lattice step, everything else is combinatorial. Features smaller
 /// than a few lattice steps vanish. Loops are ordered by their lexicographically smallest start, where each begins;
-/// tags follow that order from 1. Piece::part is an index into part_names: `parts`, then `domain` if the region has it.
+/// tags follow that order from 1. In a periodic container the region is where any image of its parts lies, and loops
+/// are unrolled (see Loop). Piece::part is an index into part_names: `parts`, then `domain` if the region has it.
 /// O(M log M) for M pieces.
-/// @throws GeometryError if the region is empty, leaves the container, or its boundary touches itself
+/// @throws GeometryError if the region is empty, leaves the container, or its boundary touches itself, or if a part
+/// sticks out of a periodic side by more than one period
 Boundary make_boundary(const Region& region, std::span<const Part> parts, const Frame& frame);
 
 /// Nearest piece of a boundary: boxes around runs of consecutive pieces, in a binary hierarchy.
@@ -41,7 +43,8 @@ public:
   PieceTree() = default;
   /// O(M) time, about 60 bytes per piece.
   explicit PieceTree(const Boundary& boundary);
-  /// @brief Distance from p to the nearest piece, infinity without pieces; O(log M) for curves, thread-safe.
+  /// @brief Distance from p to the nearest piece or image of one, infinity without pieces; O(log M) for curves,
+  /// thread-safe.
   double distance(Vec2 p) const;
 
 private:
@@ -51,7 +54,9 @@ private:
     LocalIndex arc; ///< into arcs_, or -1 for a segment
   };
   double squared_distance_to_run(std::size_t run, Vec2 p) const;
+  void search(Vec2 p, double& best) const;
 
+  Periods periods_;
   std::vector<Item> items_;
   std::vector<Piece> arcs_;
   std::vector<Box> boxes_; // heap order: the root is 1, the children of k are 2k and 2k+1; the runs are the leaves
@@ -83,6 +88,7 @@ public:
 private:
   Frame frame_;
   std::vector<Part> parts_;
+  std::vector<std::vector<Vec2>> shifts_; // of the images of each part
   Region region_;
   Boundary boundary_;
   PieceTree tree_;
