@@ -202,7 +202,7 @@ TEST(PeriodicBoundary, APartMoreThanAPeriodAwayIsRefused) {
   });
   EXPECT_NE(message.find("part 'far' reaches from x = 1.7 to 2.1"), std::string::npos) << message;
   EXPECT_NE(message_of<GeometryError>([] {
-              Shape({disc("a", {0.5, 0.95}, 0.2, cylinder)}, "a", cylinder);
+              RegionShape({disc("a", {0.5, 0.95}, 0.2, cylinder)}, "a", cylinder);
             }).find("lies partly outside the container"),
             std::string::npos);
 }
