@@ -24,7 +24,7 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
   app.add_flag("--validate", flags.validate, "check config and shape, estimate the memory, mesh nothing");
   app.add_flag("--dry-run", flags.dry_run, "the same, and say how the work is shared out");
   app.add_flag("--print-config", flags.print_config, "print the config with all defaults, as a complete file");
-  app.add_option("--threads", flags.threads, "threads per rank: parallel.mesh_threads");
+  app.add_option("--threads", flags.threads, "threads per rank: parallel.setup_threads and mesh_threads");
   app.add_option("--log-level", flags.level, "debug, info, warning, error, silent: log.level");
   app.add_flag("--quiet", flags.quiet, "print only warnings and errors");
   app.add_option("--restart", flags.restart, "not supported yet");
@@ -77,7 +77,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   }
   refuse_what_is_missing(line, flags);
   if (flags.threads)
-    line.overrides.push_back("parallel.mesh_threads=" + *flags.threads);
+    for (const char* key : {"parallel.setup_threads=", "parallel.mesh_threads="})
+      line.overrides.push_back(key + *flags.threads);
   if (flags.level)
     line.overrides.push_back("log.level=" + *flags.level);
   if (flags.quiet)

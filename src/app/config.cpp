@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/config.hpp"
 
+#include "app/config_sizing.hpp"
 #include "app/settings.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/formula.hpp"
@@ -19,13 +20,6 @@ constexpr double most_points = 4e9;
 constexpr double shortest_side = 1e-30,
                  longest_side = 1e30; // products of four lengths must neither vanish nor overflow
 
-/// Place of the later of two entries: the command line comes after the file.
-int later_line(const Settings& settings, const std::string& section, const std::string& a, const std::string& b) {
-  const int first = settings.line(section, a), second = settings.line(section, b);
-  const bool overridden = first == io::command_line_origin || second == io::command_line_origin;
-  return overridden ? io::command_line_origin : std::max(first, second);
-}
-
 /// `low < high`, unless one of them was refused already.
 void check_interval(const Settings& settings, const std::string& section, const std::string& axis,
                     io::Diagnostics& problems) {
@@ -33,7 +27,7 @@ void check_interval(const Settings& settings, const std::string& section, const 
   const auto from = settings.optional_number(section, low), to = settings.optional_number(section, high);
   if (settings.was_refused(section, low) || settings.was_refused(section, high) || !from || !to || *from < *to)
     return;
-  problems.add(later_line(settings, section, low, high),
+  problems.add(settings.later_line(section, low, high),
                fmt::format("[{}] needs {} < {}, found {} and {}", section, low, high, *from, *to));
 }
 
@@ -44,7 +38,7 @@ void check_side(const Settings& settings, const std::string& axis, io::Diagnosti
   if (settings.was_refused("domain", low) || settings.was_refused("domain", high))
     return;
   if (side > 0 && (side < shortest_side || side > longest_side))
-    problems.add(later_line(settings, "domain", low, high),
+    problems.add(settings.later_line("domain", low, high),
                  fmt::format("[domain] needs {} - {} from {} to {}, found {}; use another unit of length", high, low,
                              shortest_side, longest_side, side));
 }
@@ -139,7 +133,7 @@ void read_resolution(const Settings& settings, meshing::MeshOptions& mesh, io::D
   mesh.edge_length = settings.optional_number("meshing", "edge_length");
   const bool points = settings.is_set("meshing", "points"), length = settings.is_set("meshing", "edge_length");
   if (points && length)
-    problems.add(later_line(settings, "meshing", "points", "edge_length"),
+    problems.add(settings.later_line("meshing", "points", "edge_length"),
                  "both 'points' and 'edge_length' are set in [meshing]; keep one of them (on the command line, "
                  "'meshing.points=' takes the value of the file away)");
   if (!points && !length)
@@ -154,38 +148,47 @@ void read_resolution(const Settings& settings, meshing::MeshOptions& mesh, io::D
                     *mesh.edge_length, expected, area, most_points));
 }
 
+constexpr std::pair<const char*, meshing::Method> methods[] = {
+    {"distmesh", meshing::Method::distmesh}, {"cvd", meshing::Method::cvd}, {"hybrid", meshing::Method::hybrid}};
+
 void read_meshing(const Settings& settings, meshing::MeshOptions& mesh, io::Diagnostics& problems) {
   read_resolution(settings, mesh, problems);
+  for (const auto& [name, method] : methods)
+    if (settings.text("meshing", "method") == name)
+      mesh.method = method;
+  mesh.initial_fraction = settings.optional_number("meshing", "initial_fraction");
   mesh.corner_angle = settings.number("meshing", "corner_angle");
   mesh.seed = static_cast<std::uint64_t>(settings.integer("meshing", "seed"));
   mesh.max_sweeps = static_cast<int>(settings.integer("meshing", "max_sweeps"));
   mesh.stop_tolerance = settings.optional_number("meshing", "stop_tolerance");
 }
 
-void read_parallel(const Settings& settings, RunOptions& options, io::Diagnostics& problems) {
-  options.threads = static_cast<int>(settings.integer("parallel", "mesh_threads"));
-  const std::int64_t setup = settings.integer("parallel", "setup_threads");
-  if (setup != 0 && setup != options.threads)
-    problems.add(settings.line("parallel", "setup_threads"),
-                 fmt::format("'setup_threads = {}' in [parallel] is not supported yet; leave it 0, or equal to "
-                             "mesh_threads ({})",
-                             setup, options.threads));
+void read_parallel(const Settings& settings, RunOptions& options) {
+  options.setup_threads = static_cast<int>(settings.integer("parallel", "setup_threads"));
+  options.mesh_threads = static_cast<int>(settings.integer("parallel", "mesh_threads"));
 }
 
 void read_output(const Settings& settings, RunOptions& options, io::Diagnostics& problems) {
-  io::MeshFileOptions& output = options.output;
-  output.directory = settings.text("output", "directory");
-  output.name = settings.text("output", "name");
-  output.overwrite = settings.boolean("output", "overwrite");
+  io::MeshFileOptions& file = options.output.file;
+  file.directory = settings.text("output", "directory");
+  file.name = settings.text("output", "name");
+  file.overwrite = settings.boolean("output", "overwrite");
   const std::vector<std::string> formats = split_words(settings.text("output", "formats"));
-  output.vtkhdf = std::find(formats.begin(), formats.end(), "vtkhdf") != formats.end();
-  output.xdmf = std::find(formats.begin(), formats.end(), "xdmf") != formats.end();
-  options.write_final = settings.integer("output", "interval") != 0;
-  if (output.name.find('/') != std::string::npos || output.name == "." || output.name == "..")
+  const auto is_wanted = [&](const char* format) {
+    return std::find(formats.begin(), formats.end(), format) != formats.end();
+  };
+  file.vtkhdf = is_wanted("vtkhdf");
+  file.xdmf = is_wanted("xdmf");
+  options.output.text = is_wanted("text");
+  const std::int64_t interval = settings.integer("output", "interval");
+  options.write = interval != 0;
+  options.mesh.snapshot_interval = interval == -1 ? 0 : static_cast<int>(interval);
+  options.output.steps = options.mesh.snapshot_interval != 0;
+  if (file.name.find('/') != std::string::npos || file.name == "." || file.name == "..")
     problems.add(settings.line("output", "name"),
                  fmt::format("'name = {}' in [output]: expected the stem of a file name, without directory; set "
                              "'directory' for that",
-                             output.name));
+                             file.name));
 }
 
 void read_log(const Settings& settings, RunOptions& options) {
@@ -202,6 +205,13 @@ void read_log(const Settings& settings, RunOptions& options) {
 
 } // namespace
 
+std::string method_name(meshing::Method method) {
+  for (const auto& [name, known] : methods)
+    if (known == method)
+      return name;
+  return "";
+}
+
 RunOptions parse_config(std::string_view text, const std::string& path, const std::vector<std::string>& overrides) {
   io::Diagnostics problems(path);
   io::IniDocument document = io::parse_ini(text, problems);
@@ -215,8 +225,9 @@ RunOptions parse_config(std::string_view text, const std::string& path, const st
   RunOptions options;
   read_domain(settings, options.mesh, problems);
   read_shape(settings, fs::path(path).parent_path(), options, problems);
+  read_sizing(settings, options, problems);
   read_meshing(settings, options.mesh, problems);
-  read_parallel(settings, options, problems);
+  read_parallel(settings, options);
   read_output(settings, options, problems);
   read_log(settings, options);
   problems.throw_if_any();

@@ -17,4 +17,7 @@ namespace trime::app {
 /// @throws ConfigError with one line per mistake, all mistakes at once
 RunOptions parse_config(std::string_view text, const std::string& path, const std::vector<std::string>& overrides);
 
+/// "distmesh", "cvd", "hybrid".
+std::string method_name(meshing::Method method);
+
 } // namespace trime::app

@@ -43,7 +43,7 @@ void avoid_broken_file_writer() {
   setenv("OMPI_MCA_fcoll", "^vulcan", 0);
 }
 
-Placement place_threads(int asked, const comm::Communicator& comm) {
+Placement place_threads(int setup_threads, int mesh_threads, const comm::Communicator& comm) {
   const std::string mask = processor_mask();
   const std::vector<std::int64_t> hosts = comm.all_gather(hash_text(host_name()));
   const std::int64_t mine = hash_text(host_name() + " " + mask);
@@ -54,31 +54,34 @@ Placement place_threads(int asked, const comm::Communicator& comm) {
   placement.cores = std::max(1, static_cast<int>(std::count(mask.begin(), mask.end(), '1')));
   placement.sharing = static_cast<int>(std::count(places.begin(), places.end(), mine));
   const char* given = std::getenv("OMP_NUM_THREADS");
-  placement.threads = asked > 0         ? asked
-                      : given && *given ? thread_count()
-                                        : std::max(1, placement.cores / placement.sharing);
-  set_thread_count(placement.threads);
+  const int all = given && *given ? thread_count() : std::max(1, placement.cores / placement.sharing);
+  placement.threads = mesh_threads > 0 ? mesh_threads : all;
+  placement.setup_threads = setup_threads > 0 ? setup_threads : all;
+  set_thread_count(placement.setup_threads);
   return placement;
 }
 
 void report_placement(const Placement& placement, const comm::Communicator& comm, Log& log) {
   const std::int64_t fewest = comm.min(std::int64_t{placement.threads}),
                      most = comm.max(std::int64_t{placement.threads});
-  log.info("{} rank{} x {} thread{} on {} node{}", placement.ranks, placement.ranks == 1 ? "" : "s",
-           fewest == most ? std::to_string(most) : fmt::format("{} to {}", fewest, most), most == 1 ? "" : "s",
+  const std::string setup =
+      placement.setup_threads == placement.threads ? "" : fmt::format(" ({} for the set-up)", placement.setup_threads);
+  log.info("{} rank{} x {} thread{}{} on {} node{}", placement.ranks, placement.ranks == 1 ? "" : "s",
+           fewest == most ? std::to_string(most) : fmt::format("{} to {}", fewest, most), most == 1 ? "" : "s", setup,
            placement.nodes, placement.nodes == 1 ? "" : "s");
-  const std::int64_t crowded = comm.sum(std::int64_t{placement.threads > placement.cores});
-  const std::int64_t shared = comm.sum(std::int64_t{placement.threads * placement.sharing > placement.cores});
+  const int used = std::max(placement.threads, placement.setup_threads);
+  const std::int64_t crowded = comm.sum(std::int64_t{used > placement.cores}),
+                     shared = comm.sum(std::int64_t{used * placement.sharing > placement.cores}),
+                     most_used = comm.max(std::int64_t{used});
   const std::int64_t node_cores = comm.min(std::int64_t{sysconf(_SC_NPROCESSORS_ONLN)}); // of the smallest node
-  if (crowded > 0 && node_cores > 0 && most > node_cores)
+  if (crowded > 0 && node_cores > 0 && most_used > node_cores)
     log.warning("{} of {} ranks have more threads than cores they may use (rank 0: {} threads, {} cores); the node has "
                 "{} core{}: set --threads {} instead",
-                crowded, placement.ranks, placement.threads, placement.cores, node_cores, node_cores == 1 ? "" : "s",
-                node_cores);
+                crowded, placement.ranks, used, placement.cores, node_cores, node_cores == 1 ? "" : "s", node_cores);
   else if (crowded > 0)
     log.warning("{} of {} ranks have more threads than cores they may use (rank 0: {} threads, {} cores); start with "
                 "mpirun --map-by slot:PE={} or --bind-to none, or set --threads",
-                crowded, placement.ranks, placement.threads, placement.cores, most);
+                crowded, placement.ranks, used, placement.cores, most_used);
   else if (shared > 0)
     log.warning("{} of {} ranks share their cores with others and have more threads than cores together; set --threads "
                 "or start fewer ranks",

@@ -15,16 +15,18 @@ namespace trime::app {
 void avoid_broken_file_writer();
 
 struct Placement {
-  int ranks = 1, threads = 1; ///< threads: of this rank
+  int ranks = 1;
+  int setup_threads = 1, threads = 1; ///< of this rank: while shape and size field are made, and from then on
   int nodes = 1;
   int cores = 1;   ///< processors that this rank may use
   int sharing = 1; ///< ranks of this node with exactly these processors
 };
 
-/// @brief Where the ranks are, and how many threads each uses: `asked` if positive, else OMP_NUM_THREADS, else all
-/// processors that the rank may use, divided among the ranks that share them. Sets the thread count.
+/// @brief Where the ranks are, and how many threads each uses: those asked for if positive, else OMP_NUM_THREADS, else
+/// all processors that the rank may use, divided among the ranks that share them. Sets the thread count to that of the
+/// setup.
 /// @note Collective.
-Placement place_threads(int asked, const comm::Communicator& comm);
+Placement place_threads(int setup_threads, int mesh_threads, const comm::Communicator& comm);
 
 /// Says ranks x threads, and warns where threads outnumber processors. @note Collective.
 void report_placement(const Placement& placement, const comm::Communicator& comm, Log& log);

@@ -4,7 +4,7 @@
 
 #include "trime/core/log.hpp"
 #include "trime/geometry/vec2.hpp"
-#include "trime/io/mesh_file.hpp"
+#include "trime/io/mesh_series.hpp"
 #include "trime/meshing/options.hpp"
 
 #include <array>
@@ -27,13 +27,23 @@ struct PartOptions {
   std::string sdf; ///< formula of x and y
 };
 
+/// Section [sizing]; the absolute bounds are among the options of the mesher.
+struct SizingOptions {
+  std::string type = "uniform"; ///< uniform, automatic, expression
+  double gradation = 0.1;       ///< automatic: 0 makes it uniform
+  std::string expression;       ///< a valid formula if the type is expression
+  std::string expression_place; ///< for messages: "config.ini:17: 'expression' in [sizing]"
+};
+
 struct RunOptions {
   std::vector<PartOptions> parts;
   std::string region;
   meshing::MeshOptions mesh;
-  int threads = 0; ///< per rank; 0: chosen from the machine
-  io::MeshFileOptions output;
-  bool write_final = true; ///< false: nothing is written
+  SizingOptions sizing;
+  int setup_threads = 0; ///< per rank, while shape and size field are made; 0: chosen from the machine
+  int mesh_threads = 0;  ///< per rank, from then on; 0: chosen from the machine
+  io::SeriesOptions output;
+  bool write = true; ///< false: nothing is written
   LogLevel log_level = LogLevel::info;
   int log_interval = 0;
   std::string resolved;              ///< the whole config with all defaults, as a complete ini

@@ -8,8 +8,10 @@
 #include "app/option_table.hpp"
 #include "app/run_report.hpp"
 #include "app/shape_builder.hpp"
+#include "app/size_builder.hpp"
+#include "trime/core/thread_loop.hpp"
+#include "trime/io/mesh_series.hpp"
 #include "trime/meshing/mesher.hpp"
-#include "trime/sizing/size_field.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -50,7 +52,7 @@ std::string estimate(const RunOptions& options, const geometry::Boundary& bounda
   if (with_decomposition)
     text += fmt::format("{} ranks x {} threads: about {:.0f} points per rank, {:.0f} per thread\n", placement.ranks,
                         placement.threads, points / placement.ranks, points / placement.ranks / placement.threads);
-  return text + fmt::format("output: {} (not written)\n", options.output.path(".h5"));
+  return text + fmt::format("output: {} (not written)\n", options.output.file.path(".h5"));
 }
 
 /// Config, shape and what surrounds them, ready to be meshed.
@@ -63,13 +65,28 @@ struct Job {
   TimerTable& timers;
 };
 
+/// The mesher with what is written while it runs; then its checks of the boundary.
+meshing::MeshResult run_mesher(const Job& job, const Provenance& provenance, const geometry::Shape& shape,
+                               const sizing::SizeField& size, io::MeshSeries& series) {
+  meshing::Mesher mesher(job.comm, shape.boundary(), size, job.options.mesh, job.log, job.timers);
+  mesher.on_snapshot([&](const meshing::Snapshot& snapshot) {
+    const auto timing = job.timers.scope("output");
+    series.write_step({snapshot.retriangulation, snapshot.mesh, snapshot.quality, describe_step(provenance, snapshot)});
+  });
+  meshing::MeshResult result = mesher.run();
+  const auto timing = job.timers.scope("boundary check");
+  for (mesh::Check& check : check_boundary_distance(result.mesh, shape, job.comm))
+    result.checks.push_back(std::move(check));
+  return result;
+}
+
 ExitCode make_mesh(const Job& job) {
   const comm::Communicator& comm = job.comm;
   const RunOptions& options = job.options;
-  const Action action = job.line.action;
+  const bool is_run = job.line.action == Action::mesh;
   Log& log = job.log;
   TimerTable& timers = job.timers;
-  const Placement placement = place_threads(options.threads, comm);
+  const Placement placement = place_threads(options.setup_threads, options.mesh_threads, comm);
   report_placement(placement, comm, log);
   for (const std::string& warning : options.warnings)
     log.warning("{}", warning);
@@ -78,33 +95,33 @@ ExitCode make_mesh(const Job& job) {
     const auto timing = timers.scope("shape");
     return build_shape(options, comm, log);
   }();
-  if (action == Action::validate || action == Action::dry_run) {
-    print(comm, estimate(options, shape.boundary(), placement, action == Action::dry_run));
+  io::MeshSeries series(options.output, comm);
+  if (is_run && options.write)
+    for (const std::string& warning : series.check())
+      log.warning("{}", warning);
+  const BuiltSize size = [&] {
+    const auto timing = timers.scope("size field");
+    return build_size(options, shape.boundary(), comm);
+  }();
+  set_thread_count(placement.threads);
+  if (!is_run) {
+    print(comm, estimate(options, shape.boundary(), placement, job.line.action == Action::dry_run));
     return ExitCode::done;
   }
-  if (options.write_final)
-    for (const std::string& warning : io::check_output(options.output, comm))
-      log.warning("{}", warning);
 
-  const sizing::UniformSize size;
-  meshing::MeshResult result = meshing::Mesher(comm, shape.boundary(), size, options.mesh, log, timers).run();
-  {
-    const auto timing = timers.scope("boundary check");
-    for (mesh::Check& check : check_boundary_distance(result.mesh, shape, comm))
-      result.checks.push_back(std::move(check));
-  }
-
+  const Provenance provenance{job.line, options, job.config_text, placement, shape.boundary()};
+  const meshing::MeshResult result = run_mesher(job, provenance, shape, *size.field, series);
+  const SizeSummary sizes = summarize_size(size.description, result.mesh, comm);
   io::WrittenFiles files;
-  if (options.write_final) {
-    const io::Metadata metadata = describe_run({job.line, options, job.config_text, placement, shape.boundary()},
-                                               result, gather_measurements(timers, comm));
+  if (options.write) {
+    const io::Metadata metadata = describe_run(provenance, result, sizes, gather_measurements(timers, comm));
     const auto timing = timers.scope("output");
-    files = io::write_mesh(options.output, result.mesh, metadata, comm);
+    files = series.write_final({final_retriangulation(result), result.mesh, result.quality, metadata});
   }
-  log.info("{}", run_report(result, gather_measurements(timers, comm), files));
+  log.info("{}", run_report(result, sizes, gather_measurements(timers, comm), files));
   if (is_complete(result))
     return ExitCode::done;
-  log.warning("{}", incompleteness(result, options.write_final));
+  log.warning("{}", incompleteness(result, options.write));
   return ExitCode::incomplete;
 }
 

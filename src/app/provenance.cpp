@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "app/config.hpp"
 #include "app/run_report.hpp"
 
 #include <algorithm>
@@ -17,11 +18,12 @@ io::Column column(const std::string& name, const std::vector<Element>& elements,
   return {name, std::move(values)};
 }
 
-std::vector<io::Attribute> attributes(const Provenance& p, const meshing::MeshResult& result,
-                                      const Measurements& measured) {
+using Attributes = std::vector<io::Attribute>;
+
+/// Program, machine and options: known before the run.
+Attributes run_attributes(const Provenance& p) {
   const BuildInfo build = build_info();
   const char* job = std::getenv("SLURM_JOB_ID");
-  const auto points = static_cast<double>(std::max<GlobalId>(result.mesh.point_slab.total, 1));
   return {{"format", std::string("trime_mpi-mesh")},
           {"format_version", std::int64_t{1}},
           {"program_version", build.version},
@@ -35,15 +37,32 @@ std::vector<io::Attribute> attributes(const Provenance& p, const meshing::MeshRe
           {"host", host_name()},
           {"job_id", std::string(job ? job : "")},
           {"seed", p.options.mesh.seed},
+          {"method", method_name(p.options.mesh.method)},
           {"mpi_ranks", std::int64_t{p.placement.ranks}},
           {"omp_threads", std::int64_t{p.placement.threads}},
-          {"nodes", std::int64_t{p.placement.nodes}},
-          {"iterations", std::int64_t{result.history.empty() ? 0 : result.history.back().sweep}},
+          {"setup_threads", std::int64_t{p.placement.setup_threads}},
+          {"nodes", std::int64_t{p.placement.nodes}}};
+}
+
+Attributes mesh_attributes(const mesh::DistributedMesh& mesh, int retriangulation) {
+  return {{"points", mesh.point_slab.total},
+          {"triangles", mesh.triangle_slab.total},
+          {"retriangulation", std::int64_t{retriangulation}},
+          {"mesh_hash", mesh.hash},
+          {"mesh_hash_hex", fmt::format("{:016x}", mesh.hash)}};
+}
+
+Attributes result_attributes(const meshing::MeshResult& result, const SizeSummary& size, const Measurements& measured) {
+  const auto points = static_cast<double>(std::max<GlobalId>(result.mesh.point_slab.total, 1));
+  return {{"iterations", std::int64_t{result.history.empty() ? 0 : result.history.back().sweep}},
           {"stop_reason", meshing::to_string(result.stop_reason)},
-          {"points", result.mesh.point_slab.total},
-          {"triangles", result.mesh.triangle_slab.total},
           {"requested_points", result.requested_points},
+          {"count_reason", result.count_reason},
+          {"start_reason", result.start_reason},
           {"edge_length", result.edge_length},
+          {"sizing", io::shortened(size.description, 1000)},
+          {"smallest_size", size.smallest},
+          {"largest_size", size.largest},
           {"corners", result.corners},
           {"components", std::int64_t{result.components}},
           {"holes", std::int64_t{result.holes}},
@@ -51,9 +70,16 @@ std::vector<io::Attribute> attributes(const Provenance& p, const meshing::MeshRe
           {"seconds_total", measured.total}, // up to the writing of this file
           {"peak_memory_bytes", measured.peak_memory},
           {"bytes_per_point", static_cast<double>(measured.memory_sum) / points},
-          {"mesh_hash", result.mesh.hash},
-          {"mesh_hash_hex", fmt::format("{:016x}", result.mesh.hash)},
           {"complete", std::int64_t{is_complete(result)}}};
+}
+
+Attributes joined(Attributes a, const Attributes& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+std::vector<io::Text> texts(const Provenance& p) {
+  return {{"command_line", p.line.as_given}, {"config_text", p.config_text}, {"config_resolved", p.options.resolved}};
 }
 
 io::MetadataGroup history_group(const std::vector<meshing::SweepRecord>& history) {
@@ -62,6 +88,9 @@ io::MetadataGroup history_group(const std::vector<meshing::SweepRecord>& history
       "history",
       {},
       {column<std::int64_t>("sweep", history, &Record::sweep), column<std::int64_t>("points", history, &Record::points),
+       column<std::int64_t>("stage", history, &Record::stage),
+       column<std::int64_t>("by_bars", history, &Record::by_bars),
+       column<double>("median_alpha", history, &Record::median_alpha),
        column<double>("mean_alpha", history, &Record::mean_alpha),
        column<double>("max_alpha", history, &Record::max_alpha), column<double>("max_move", history, &Record::max_move),
        column<double>("moving_share", history, &Record::moving_share),
@@ -134,11 +163,22 @@ io::MetadataGroup tags_group(const geometry::Boundary& boundary, const std::stri
 
 } // namespace
 
-io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result, const Measurements& measured) {
-  return {attributes(p, result, measured),
-          {{"command_line", p.line.as_given}, {"config_text", p.config_text}, {"config_resolved", p.options.resolved}},
+io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result, const SizeSummary& size,
+                          const Measurements& measured) {
+  return {joined(joined(run_attributes(p), mesh_attributes(result.mesh, final_retriangulation(result))),
+                 result_attributes(result, size, measured)),
+          texts(p),
           {history_group(result.history), quality_group(result.quality), checks_group(result.checks),
            timers_group(measured.times), tags_group(p.boundary, p.options.region)}};
+}
+
+io::Metadata describe_step(const Provenance& p, const meshing::Snapshot& snapshot) {
+  const Attributes step{{"stop_reason", std::string("none: a step of the run")},
+                        {"seconds_total", snapshot.seconds},
+                        {"complete", std::int64_t{0}}};
+  return {joined(joined(run_attributes(p), mesh_attributes(snapshot.mesh, snapshot.retriangulation)), step),
+          texts(p),
+          {quality_group(snapshot.quality), tags_group(p.boundary, p.options.region)}};
 }
 
 } // namespace trime::app

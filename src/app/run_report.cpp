@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace trime::app {
 namespace {
@@ -34,6 +35,23 @@ std::string area_text(const meshing::MeshResult& result) {
     return "";
   return fmt::format("Area of the mesh {:.9g}, of the shape {:.9g}: {:+.2e} of it\n\n", area->found, result.shape_area,
                      area->found / result.shape_area - 1);
+}
+
+/// How many points were asked for, if that is not what was made.
+std::string count_text(const meshing::MeshResult& result) {
+  const GlobalId made = result.mesh.point_slab.total;
+  if (result.requested_points == 0 || (result.requested_points == made && result.count_reason.empty()))
+    return "";
+  return fmt::format("Points: {} asked for, {} made ({:.2f} %){}{}\n", result.requested_points, made,
+                     100 * static_cast<double>(made) / static_cast<double>(result.requested_points),
+                     result.count_reason.empty() ? "" : ": ", result.count_reason);
+}
+
+std::string size_text(const SizeSummary& size) {
+  return size.smallest == size.largest
+             ? fmt::format("Size: {}; target edge length {:.6g}\n", size.description, size.largest)
+             : fmt::format("Size: {}; target edge length from {:.6g} to {:.6g}\n", size.description, size.smallest,
+                           size.largest);
 }
 
 std::string quality_text(const mesh::QualitySummary& q) {
@@ -103,11 +121,29 @@ bool is_complete(const meshing::MeshResult& result) {
   return result.stop_reason != meshing::StopReason::sweep_cap && mesh::all_passed(result.checks);
 }
 
-std::string run_report(const meshing::MeshResult& result, const Measurements& measured, const io::WrittenFiles& files) {
+SizeSummary summarize_size(std::string description, const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
+  SizeSummary summary{std::move(description), std::numeric_limits<double>::infinity(), 0};
+  for (const float size : mesh.size) {
+    summary.smallest = std::min(summary.smallest, static_cast<double>(size));
+    summary.largest = std::max(summary.largest, static_cast<double>(size));
+  }
+  summary.smallest = comm.min(summary.smallest);
+  summary.largest = comm.max(summary.largest);
+  return summary;
+}
+
+int final_retriangulation(const meshing::MeshResult& result) {
+  return static_cast<int>(result.history.size()) + 1;
+}
+
+std::string run_report(const meshing::MeshResult& result, const SizeSummary& size, const Measurements& measured,
+                       const io::WrittenFiles& files) {
   const auto points = static_cast<double>(std::max<GlobalId>(result.mesh.point_slab.total, 1));
-  std::string text = fmt::format("\n{} points, {} triangles, {} boundary edges; target edge length {:.6g}\n",
-                                 result.mesh.point_slab.total, result.mesh.triangle_slab.total,
-                                 result.mesh.facet_slab.total, result.edge_length);
+  std::string text = fmt::format("\n{} points, {} triangles, {} boundary edges\n", result.mesh.point_slab.total,
+                                 result.mesh.triangle_slab.total, result.mesh.facet_slab.total);
+  text += count_text(result) + size_text(size);
+  if (!result.start_reason.empty())
+    text += "Start: " + result.start_reason + "\n";
   text += fmt::format("Stopped after {} sweeps: {}\n", result.history.empty() ? 0 : result.history.back().sweep,
                       meshing::to_string(result.stop_reason));
   text += area_text(result);

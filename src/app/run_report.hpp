@@ -9,7 +9,7 @@
 #include "trime/core/timer.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/io/mesh_file.hpp"
-#include "trime/meshing/options.hpp"
+#include "trime/meshing/mesher.hpp"
 
 #include <string>
 #include <vector>
@@ -30,6 +30,15 @@ struct Measurements {
   std::int64_t peak_memory = 0, memory_sum = 0; ///< bytes: largest of a rank, and of all ranks together
 };
 
+/// What the size field was, and what became of it.
+struct SizeSummary {
+  std::string description;          ///< such as "automatic, gradation 0.1, ..."
+  double smallest = 0, largest = 0; ///< target edge length over the points of the mesh
+};
+
+/// @note Collective.
+SizeSummary summarize_size(std::string description, const mesh::DistributedMesh& mesh, const comm::Communicator& comm);
+
 /// @note Collective.
 Measurements gather_measurements(const TimerTable& timers, const comm::Communicator& comm);
 
@@ -37,7 +46,8 @@ Measurements gather_measurements(const TimerTable& timers, const comm::Communica
 bool is_complete(const meshing::MeshResult& result);
 
 /// @brief The report of a run, several lines. `files` may be empty.
-std::string run_report(const meshing::MeshResult& result, const Measurements& measured, const io::WrittenFiles& files);
+std::string run_report(const meshing::MeshResult& result, const SizeSummary& size, const Measurements& measured,
+                       const io::WrittenFiles& files);
 
 /// Everything that the group /trime_mpi holds. Only that of rank 0 counts.
 struct Provenance {
@@ -47,8 +57,13 @@ struct Provenance {
   const Placement& placement;
   const geometry::Boundary& boundary;
 };
-io::Metadata describe_run(const Provenance& provenance, const meshing::MeshResult& result,
+io::Metadata describe_run(const Provenance& provenance, const meshing::MeshResult& result, const SizeSummary& size,
                           const Measurements& measured);
+/// The same for a mesh in the middle of a run.
+io::Metadata describe_step(const Provenance& provenance, const meshing::Snapshot& snapshot);
+
+/// Number of the triangulation that became the final mesh, from 1: one more than those of the sweeps.
+int final_retriangulation(const meshing::MeshResult& result);
 
 /// Why the mesh is not complete, one sentence for a warning. @pre !is_complete(result) @param written to a file
 std::string incompleteness(const meshing::MeshResult& result, bool written);

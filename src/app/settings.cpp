@@ -158,6 +158,12 @@ int Settings::line(const std::string& section, const std::string& key) const {
   return entry ? entry->line : io::whole_file;
 }
 
+int Settings::later_line(const std::string& section, const std::string& a, const std::string& b) const {
+  const int first = line(section, a), second = line(section, b);
+  const bool overridden = first == io::command_line_origin || second == io::command_line_origin;
+  return overridden ? io::command_line_origin : std::max(first, second);
+}
+
 std::string Settings::text(const std::string& section, const std::string& key) const {
   for (const io::IniEntry& entry : good_)
     if (entry.section == section && entry.key == key)

@@ -29,6 +29,8 @@ public:
   bool was_refused(const std::string& section, const std::string& key) const;
   /// Line of the entry; io::whole_file if it is not set.
   int line(const std::string& section, const std::string& key) const;
+  /// Place of the later of two entries: the command line comes after the file.
+  int later_line(const std::string& section, const std::string& a, const std::string& b) const;
   /// The value in force as text: the user's if it is good, else the default of the table.
   std::string text(const std::string& section, const std::string& key) const;
 

@@ -110,20 +110,21 @@ private:
 
 } // namespace
 
+std::string Diagnostics::place(int line) const {
+  return line == command_line_origin ? "command line" : line == whole_file ? file_ : fmt::format("{}:{}", file_, line);
+}
+
 std::string Diagnostics::text(std::size_t limit) const {
   std::vector<Problem> sorted = problems_;
-  const auto place = [](const Problem& p) { // lines, then the whole file, then the command line
+  const auto order = [](const Problem& p) { // lines, then the whole file, then the command line
     return std::pair(p.line > 0 ? 0 : p.line == whole_file ? 1 : 2, p.line);
   };
   std::stable_sort(sorted.begin(), sorted.end(),
-                   [&](const Problem& a, const Problem& b) { return place(a) < place(b); });
+                   [&](const Problem& a, const Problem& b) { return order(a) < order(b); });
   std::string result;
   for (std::size_t k = 0; k < std::min(limit, sorted.size()); ++k) {
     const auto& [line, message] = sorted[k];
-    const std::string where = line == command_line_origin ? "command line"
-                              : line == whole_file        ? file_
-                                                          : fmt::format("{}:{}", file_, line);
-    result += fmt::format("{}{}: {}", k == 0 ? "" : "\n", where, message);
+    result += fmt::format("{}{}: {}", k == 0 ? "" : "\n", place(line), message);
   }
   if (sorted.size() > limit)
     result += fmt::format("\n{}: {} more errors", file_, sorted.size() - limit);

@@ -96,7 +96,7 @@ class BadInput(unittest.TestCase):
 
     def test_keys_of_later_versions_are_refused_by_name(self):
         for key, extra in (("periodic_x", "domain.periodic_x=true"), ("method", "meshing.method=cvd"),
-                           ("type", "sizing.type=automatic"), ("formats", "output.formats=gmsh"),
+                           ("formats", "output.formats=gmsh"),
                            ("interval", "checkpoint.interval=60")):
             with self.subTest(key=key):
                 self.refused(GOOD, USAGE, [rf"command line: .*{key}"], extra=[extra], ranks_tried=(1,))

@@ -33,6 +33,8 @@ public:
   /// @param file name of the file as it shall stand in the messages
   explicit Diagnostics(std::string file) : file_(std::move(file)) {}
   void add(int line, std::string message) { problems_.push_back({line, std::move(message)}); }
+  /// Place of a line as it stands before messages: "file:17", "command line", or "file" for the whole of it.
+  std::string place(int line) const;
   bool empty() const { return problems_.empty(); }
   std::size_t size() const { return problems_.size(); }
   /// @brief One line per problem: `file:17: ...` in the order of the file, then those of the whole file (`file: ...`),

@@ -37,13 +37,13 @@ TEST(RunReport, TheTimeTableAddsUpOverRanks) {
 TEST(RunReport, MarksWhatIsNotComplete) {
   meshing::MeshResult result = good_result();
   EXPECT_TRUE(is_complete(result));
-  const std::string good = run_report(result, {}, {});
+  const std::string good = run_report(result, {}, {}, {});
   EXPECT_NE(good.find("0000000000001234"), std::string::npos);
   EXPECT_EQ(good.find("FAILED"), std::string::npos);
   EXPECT_EQ(good.find("FAILED"), std::string::npos);
   result.checks[0] = {"not_delaunay", 0, 3, false, "edges"};
   EXPECT_FALSE(is_complete(result));
-  EXPECT_NE(run_report(result, {}, {}).find("FAILED not_delaunay"), std::string::npos);
+  EXPECT_NE(run_report(result, {}, {}, {}).find("FAILED not_delaunay"), std::string::npos);
   EXPECT_NE(incompleteness(result, true).find("failed checks: not_delaunay"), std::string::npos);
   EXPECT_EQ(incompleteness(result, false).find("in the file"), std::string::npos);
   result = good_result();
@@ -52,15 +52,40 @@ TEST(RunReport, MarksWhatIsNotComplete) {
   EXPECT_NE(incompleteness(result, true).find("sweep cap"), std::string::npos);
 }
 
+TEST(RunReport, SaysHowManyPointsWereAskedForAndWhatTheSizesAre) {
+  meshing::MeshResult result = good_result();
+  result.requested_points = 1000;
+  EXPECT_EQ(run_report(result, {}, {}, {}).find("asked for"), std::string::npos);
+  result.requested_points = 2000;
+  result.count_reason = "the sizes have bounds";
+  const std::string text = run_report(result, {"automatic", 0.5, 0.75}, {}, {});
+  EXPECT_NE(text.find("2000 asked for, 1000 made (50.00 %): the sizes have bounds\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("Size: automatic; target edge length from 0.5 to 0.75\n"), std::string::npos) << text;
+  EXPECT_NE(run_report(result, {"uniform", 0.5, 0.5}, {}, {}).find("target edge length 0.5\n"), std::string::npos);
+}
+
+TEST(RunReport, TheSmallestAndLargestSizeAreThoseOfAllRanks) {
+  const comm::Communicator comm = comm::Communicator::world();
+  mesh::DistributedMesh mesh;
+  if (comm.rank() == comm.size() - 1)
+    mesh.size = {0.5F, 0.25F, 2.0F};
+  const SizeSummary summary = summarize_size("uniform", mesh, comm);
+  EXPECT_EQ(summary.smallest, 0.25);
+  EXPECT_EQ(summary.largest, 2);
+}
+
 TEST(Placement, SharesCoresAndObeysWishes) {
   const comm::Communicator comm = comm::Communicator::world();
-  const Placement asked = place_threads(1, comm);
+  const Placement asked = place_threads(2, 1, comm);
   EXPECT_EQ(asked.threads, 1);
+  EXPECT_EQ(asked.setup_threads, 2);
   EXPECT_EQ(asked.ranks, comm.size());
   EXPECT_EQ(asked.nodes, 1);
   EXPECT_GE(asked.cores, 1);
   EXPECT_LE(asked.sharing, comm.size());
-  EXPECT_GE(place_threads(0, comm).threads, 1);
+  const Placement chosen = place_threads(0, 0, comm);
+  EXPECT_GE(chosen.threads, 1);
+  EXPECT_EQ(chosen.setup_threads, chosen.threads);
 }
 
 } // namespace

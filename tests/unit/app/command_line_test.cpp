@@ -18,8 +18,9 @@ TEST(CommandLine, ReadsConfigOverridesAndOptionsInAnyOrder) {
   const CommandLine line = parse({"--threads", "3", "a.ini", "shape.hole.radius=0.2", "--quiet", "log.interval=5"});
   EXPECT_EQ(line.action, Action::mesh);
   EXPECT_EQ(line.config, "a.ini");
-  EXPECT_EQ(line.overrides, (std::vector<std::string>{"shape.hole.radius=0.2", "log.interval=5",
-                                                      "parallel.mesh_threads=3", "log.level=warning"}));
+  EXPECT_EQ(line.overrides,
+            (std::vector<std::string>{"shape.hole.radius=0.2", "log.interval=5", "parallel.setup_threads=3",
+                                      "parallel.mesh_threads=3", "log.level=warning"}));
   EXPECT_EQ(line.as_given.rfind("trime_mpi --threads 3 a.ini", 0), 0u);
 }
 

@@ -91,10 +91,12 @@ TEST(Config, UnderstandsAGoodFile) {
   EXPECT_EQ(options.mesh.points, 5000);
   EXPECT_FALSE(options.mesh.edge_length.has_value());
   EXPECT_EQ(options.mesh.corner_angle, 45);
-  EXPECT_EQ(options.threads, 3);
-  EXPECT_EQ(options.output.name, "c");
-  EXPECT_EQ(options.output.directory, "out");
-  EXPECT_FALSE(options.output.vtkhdf);
+  EXPECT_EQ(options.mesh_threads, 3);
+  EXPECT_EQ(options.setup_threads, 0);
+  EXPECT_EQ(options.output.file.name, "c");
+  EXPECT_EQ(options.output.file.directory, "out");
+  EXPECT_FALSE(options.output.file.vtkhdf);
+  EXPECT_FALSE(options.output.text);
   EXPECT_EQ(options.log_level, LogLevel::debug);
   ASSERT_EQ(options.warnings.size(), 1u); // map does not occur in the region
   EXPECT_NE(options.warnings[0].find("'map'"), std::string::npos);
@@ -122,7 +124,7 @@ TEST(Config, ThePrintedConfigReadsBackTheSame) {
     EXPECT_EQ(first.resolved, second.resolved);
     EXPECT_EQ(first.mesh.points, second.mesh.points);
     EXPECT_EQ(first.mesh.cells_x, second.mesh.cells_x);
-    EXPECT_EQ(first.output.name, second.output.name);
+    EXPECT_EQ(first.output.file.name, second.output.file.name);
     EXPECT_EQ(first.parts.size(), second.parts.size());
   }
   const std::string resolved = parse_config(good, "dir/c.ini", {}).resolved;
@@ -178,7 +180,7 @@ TEST(Config, RefusesValuesThatMakeNoSense) {
   expect_refused("output.formats=vtk", "expected a list of");
   expect_refused("output.name=a/b", "without directory");
   expect_refused("log.level=loud", "expected one of debug, info");
-  expect_refused("parallel.setup_threads=2", "not supported yet");
+  expect_refused("parallel.setup_threads=-1", "expected an integer from 0");
 }
 
 TEST(Config, TheContainerStaysWithinTheRangeOfThePredicates) {
@@ -202,16 +204,13 @@ TEST(Config, AChangedTypeShowsTheKeysThatNoLongerBelong) {
 TEST(Config, RefusesByNameWhatThisVersionCannotDo) {
   expect_refused("domain.periodic_x=true", "'periodic_x = true' in [domain] is not supported yet; leave it false");
   expect_refused("domain.periodic_y=true", "not supported yet; leave it false");
-  expect_refused("sizing.type=automatic", "not supported yet; leave it uniform");
-  expect_refused("sizing.gradation=0.2", "not supported yet");
-  expect_refused("sizing.expression=1+x", "not supported yet; leave it none");
   expect_refused("sizing.min_size=0.1", "not supported yet; leave it none");
   expect_refused("sizing.max_size=0.1", "not supported yet");
   expect_refused("meshing.method=hybrid", "not supported yet; use distmesh");
   expect_refused("meshing.initial_fraction=0.2", "not supported yet; use auto or 1");
   expect_refused("meshing.fixed_points=p.xy", "not supported yet");
   expect_refused("meshing.fixed_points_normalize_with=box", "not supported yet");
-  expect_refused("output.formats=vtkhdf gmsh", "not supported yet; use vtkhdf, xdmf");
+  expect_refused("output.formats=vtkhdf gmsh", "not supported yet; use vtkhdf, xdmf, text");
   expect_refused("output.interval=-2", "not supported yet; use 0 or -1");
   expect_refused("output.interval=10", "not supported yet");
   expect_refused("checkpoint.interval=60", "not supported yet; leave it 0");
@@ -219,14 +218,55 @@ TEST(Config, RefusesByNameWhatThisVersionCannotDo) {
 }
 
 TEST(Config, TakesTheDefaultsWhenTheyAreSpeltOut) {
-  for (const char* text :
-       {"domain.periodic_x=false", "sizing.gradation=0.1", "sizing.gradation=0.0", "meshing.initial_fraction=1",
-        "output.interval=0", "checkpoint.keep=2", "parallel.setup_threads=0", "meshing.points=4e9"})
+  for (const char* text : {"domain.periodic_x=false", "sizing.gradation=0.1", "sizing.gradation=0.0",
+                           "parallel.setup_threads=2", "meshing.initial_fraction=1", "output.interval=0",
+                           "checkpoint.keep=2", "parallel.setup_threads=0", "meshing.points=4e9"})
     EXPECT_EQ(errors_of(good, {text}), "") << text;
 }
 
 TEST(Config, TheUnsupportedDefaultOfMethodIsExplained) {
   EXPECT_NE(errors_of(good, {"meshing.method="}).find("set 'method = distmesh' in [meshing]"), std::string::npos);
+}
+
+TEST(Config, TakesSizes) {
+  const RunOptions options = parse_config(good, "dir/c.ini", {"sizing.type=expression", "sizing.expression=1+3*x+3*y"});
+  EXPECT_EQ(options.sizing.type, "expression");
+  EXPECT_EQ(options.sizing.expression, "1+3*x+3*y");
+  EXPECT_EQ(options.sizing.expression_place, "command line: 'expression' in [sizing]");
+  EXPECT_TRUE(options.warnings.empty());
+  EXPECT_EQ(parse_config(good + "[sizing]\ntype = automatic\ngradation = 0.2\n", "c.ini", {}).sizing.gradation, 0.2);
+}
+
+TEST(Config, AFormulaThatIsNoneIsToldWithItsLine) {
+  const std::string text = good + "[sizing]\ntype = expression\n";
+  const std::string sizing = std::to_string(std::count(text.begin(), text.end(), '\n') + 1);
+  EXPECT_NE(errors_of(text + "expression = 1+3*x+(\n").find("dir/c.ini:" + sizing + ": 'expression' in [sizing]: "),
+            std::string::npos);
+  EXPECT_NE(errors_of(text).find("'type = expression' in [sizing] needs 'expression'"), std::string::npos);
+  EXPECT_EQ(errors_of(text + "expression = 1+x*z\n", {"sizing.type=uniform"}), "") << "not obeyed, so not read";
+}
+
+TEST(Config, KeysWithoutEffectEarnAWarning) {
+  const auto warnings = [](const std::vector<std::string>& overrides) {
+    return parse_config(good, "dir/c.ini", overrides).warnings;
+  };
+  ASSERT_EQ(warnings({"sizing.gradation=0.2"}).size(), 1u);
+  EXPECT_EQ(warnings({"sizing.gradation=0.2"})[0], "'gradation' in [sizing] has no effect: the type is uniform, not "
+                                                   "automatic");
+  EXPECT_EQ(warnings({"sizing.expression=1+x"}).size(), 1u);
+  EXPECT_EQ(warnings({"sizing.expression=1+x", "sizing.type=automatic"}).size(), 1u);
+  EXPECT_TRUE(warnings({"sizing.gradation=0.1", "sizing.expression=none"}).empty()) << "as printed configs have them";
+}
+
+TEST(Config, OutputSaysWhichMeshesAreWritten) {
+  const auto options = [](const std::string& interval) {
+    return parse_config(good, "dir/c.ini", {"output.interval=" + interval, "output.formats=text xdmf"});
+  };
+  EXPECT_TRUE(options("-1").output.text);
+  EXPECT_FALSE(options("0").write);
+  EXPECT_TRUE(options("-1").write);
+  EXPECT_FALSE(options("-1").output.steps);
+  EXPECT_EQ(options("-1").mesh.snapshot_interval, 0);
 }
 
 TEST(Config, ExactlyOneResolution) {

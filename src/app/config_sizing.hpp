@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The section [sizing] of a config.
+#pragma once
+
+#include "app/options.hpp"
+#include "app/settings.hpp"
+#include "trime/io/ini.hpp"
+
+namespace trime::app {
+
+/// Fills `options.sizing` and the bounds of the size; keys that have no effect earn a warning.
+void read_sizing(const Settings& settings, RunOptions& options, io::Diagnostics& problems);
+
+} // namespace trime::app

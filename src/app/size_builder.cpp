@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/size_builder.hpp"
+
+#include "trime/core/error.hpp"
+#include "trime/sizing/automatic_size.hpp"
+#include "trime/sizing/expression_size.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::app {
+namespace {
+
+BuiltSize automatic_size(const RunOptions& options, const geometry::Boundary& boundary,
+                         const comm::Communicator& comm) {
+  sizing::AutomaticSizeOptions automatic;
+  automatic.gradation = options.sizing.gradation;
+  automatic.feature_floor = feature_floor(options.mesh, boundary.area);
+  automatic.container = options.mesh.container;
+  BuiltSize size;
+  size.field = sizing::make_automatic_size(comm, boundary, automatic);
+  size.description = size.field->is_uniform() ? "uniform: the automatic size with gradation 0"
+                                              : fmt::format("automatic, gradation {:.6g}, features of {:.3g} and more",
+                                                            automatic.gradation, automatic.feature_floor);
+  return size;
+}
+
+BuiltSize expression_size(const SizingOptions& sizing, const geometry::Boundary& boundary) {
+  BuiltSize size;
+  size.formula = std::make_unique<const Formula>(sizing.expression, sizing.expression_place);
+  size.field = std::make_unique<const sizing::ExpressionSize>(*size.formula, boundary.bounding_box());
+  size.description = "expression " + sizing.expression;
+  return size;
+}
+
+} // namespace
+
+double feature_floor(const meshing::MeshOptions& mesh, double area) {
+  if (mesh.edge_length)
+    return 0.5 * *mesh.edge_length;
+  const auto points = static_cast<double>(std::max<GlobalId>(mesh.points.value_or(1), 1));
+  return 0.5 * std::sqrt(2 / std::sqrt(3.0) * area / points);
+}
+
+BuiltSize build_size(const RunOptions& options, const geometry::Boundary& boundary, const comm::Communicator& comm) {
+  BuiltSize size;
+  if (options.sizing.type == "automatic") {
+    size = automatic_size(options, boundary, comm);
+  } else if (options.sizing.type == "expression") {
+    size = expression_size(options.sizing, boundary); // the same on all ranks, errors too
+  } else {
+    size.field = std::make_unique<const sizing::UniformSize>();
+    size.description = "uniform";
+  }
+  if (options.mesh.min_size)
+    size.description += fmt::format(", at least {:.6g}", *options.mesh.min_size);
+  if (options.mesh.max_size)
+    size.description += fmt::format(", at most {:.6g}", *options.mesh.max_size);
+  return size;
+}
+
+} // namespace trime::app
