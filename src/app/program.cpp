@@ -66,7 +66,7 @@ struct Job {
 };
 
 /// The mesher with what is written while it runs; then its checks of the boundary.
-meshing::MeshResult run_mesher(const Job& job, const Provenance& provenance, const geometry::Shape& shape,
+meshing::MeshResult run_mesher(const Job& job, const Provenance& provenance, const geometry::RegionShape& shape,
                                const sizing::SizeField& size, io::MeshSeries& series) {
   meshing::Mesher mesher(job.comm, shape.boundary(), size, job.options.mesh, job.log, job.timers);
   mesher.on_snapshot([&](const meshing::Snapshot& snapshot) {
