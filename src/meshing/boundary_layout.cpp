@@ -54,12 +54,12 @@ Arms arms_of(const std::vector<Corner>& corners, std::size_t k, double total) {
 }
 
 /// Sites at equal distances from the corner on both arms, one local size apart, until the arms are that far apart.
-void make_shells(const LoopMetric& metric, const sizing::SizeField& size, const Arms& arms, Corner& corner) {
+void make_shells(const LoopMetric& metric, const Arms& arms, Corner& corner) {
   double radius = 0, ahead = corner.t, behind = corner.t;
   Vec2 ahead_point = corner.position, behind_point = corner.position;
   const double longest = metric.total() + 2; // in local sizes: each turn of the loop covers about one
   for (int shell = 0; shell < longest; ++shell) {
-    radius += 0.5 * (size.size(ahead_point) + size.size(behind_point));
+    radius += 0.5 * (metric.size(ahead_point) + metric.size(behind_point));
     const auto next_ahead = metric.first_at_radius(ahead, arms.ahead_end, corner.position, radius);
     const auto next_behind = metric.first_at_radius(behind, arms.behind_end, corner.position, radius);
     if (!next_ahead || !next_behind || *next_ahead > arms.ahead_limit || *next_behind < arms.behind_limit)
@@ -68,7 +68,7 @@ void make_shells(const LoopMetric& metric, const sizing::SizeField& size, const 
     corner.behind.push_back(behind = *next_behind);
     ahead_point = metric.point(ahead);
     behind_point = metric.point(behind);
-    const double h = std::fmin(size.size(ahead_point), size.size(behind_point));
+    const double h = std::fmin(metric.size(ahead_point), metric.size(behind_point));
     if (geometry::length(ahead_point - behind_point) >= h)
       return;
   }
@@ -124,12 +124,11 @@ void ensure_polygon(std::vector<Stretch>& stretches) {
 
 } // namespace
 
-std::vector<LoopSite> lay_out_loop(const LoopMetric& metric, const sizing::SizeField& size,
-                                   const geometry::Lattice& lattice, double corner_angle) {
+std::vector<LoopSite> lay_out_loop(const LoopMetric& metric, const geometry::Lattice& lattice, double corner_angle) {
   std::vector<Corner> corners = find_corners(metric, corner_angle);
   for (std::size_t k = 0; k < corners.size(); ++k)
     if (corners[k].sharp)
-      make_shells(metric, size, arms_of(corners, k, metric.total()), corners[k]);
+      make_shells(metric, arms_of(corners, k, metric.total()), corners[k]);
   std::vector<Stretch> stretches = stretches_of(metric, corners);
   ensure_polygon(stretches);
   std::vector<LoopSite> sites;
@@ -146,11 +145,11 @@ std::vector<LoopSite> lay_out_loop(const LoopMetric& metric, const sizing::SizeF
       }
       t = t >= metric.total() ? t - metric.total() : t;
       const Vec2 p = metric.point(t);
-      if (size.size(p) < smallest_size_in_steps * lattice.step())
+      if (metric.size(p) < smallest_size_in_steps * lattice.step())
         throw GeometryError(
             fmt::format("element size on the boundary at ({}, {}): expected at least {} (the resolution "
                         "of the container), found {}; use a larger edge length or fewer points",
-                        p.x, p.y, smallest_size_in_steps * lattice.step(), size.size(p)));
+                        p.x, p.y, smallest_size_in_steps * lattice.step(), metric.size(p)));
       sites.push_back({t, lattice.snap(p), SiteKind::plain});
     }
   std::sort(sites.begin(), sites.end(), [](const LoopSite& a, const LoopSite& b) { return a.t < b.t; });

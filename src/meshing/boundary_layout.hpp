@@ -15,14 +15,13 @@ enum class SiteKind : std::uint8_t { plain, corner, sharp_corner };
 
 /// A site of one loop by its place along it.
 struct LoopSite {
-  double t; ///< coordinate of LoopMetric, in [0, total)
-  geometry::Vec2 position;
+  double t;                ///< coordinate of LoopMetric, in [0, total)
+  geometry::Vec2 position; ///< on the unrolled loop
   SiteKind kind;
 };
 
 /// @brief Sites in ascending t, at least 3.
 /// @throws GeometryError if the size is too small for the lattice
-std::vector<LoopSite> lay_out_loop(const LoopMetric& metric, const sizing::SizeField& size,
-                                   const geometry::Lattice& lattice, double corner_angle);
+std::vector<LoopSite> lay_out_loop(const LoopMetric& metric, const geometry::Lattice& lattice, double corner_angle);
 
 } // namespace trime::meshing

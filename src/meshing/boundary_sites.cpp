@@ -36,8 +36,8 @@ public:
       : boundary_(boundary), lattice_(lattice) {
     metrics_.reserve(boundary.loops.size());
     for (const geometry::Loop& loop : boundary.loops) {
-      metrics_.emplace_back(loop, size);
-      add_loop(lay_out_loop(metrics_.back(), size, lattice, corner_angle));
+      metrics_.emplace_back(loop, size, boundary.periods);
+      add_loop(lay_out_loop(metrics_.back(), lattice, corner_angle));
     }
     most_sites_ = std::max<std::size_t>(4000000, 16 * sites_.size());
   }
@@ -70,7 +70,7 @@ public:
 private:
   struct Site {
     double t;
-    Vec2 position;
+    Vec2 position; // on the unrolled loop
     LocalIndex previous, next;
     std::int32_t loop;
     SiteKind kind;
@@ -83,6 +83,7 @@ private:
 
   void add_loop(const std::vector<LoopSite>& loop_sites);
   std::vector<Cut> find_cuts(const std::vector<LocalIndex>& fresh_sites, const std::vector<LocalIndex>& fresh_segments);
+  LocalIndex find_intruder(const SiteTree& tree, LocalIndex segment) const;
   bool curve_offends(LocalIndex segment) const;
   LocalIndex divide(const Cut& cut);
   double cut_place(const Site& a, const Site& b, double end) const;
@@ -94,8 +95,13 @@ private:
     const double t = next(site).t;
     return t > site.t ? t : t + metrics_[site.loop].total();
   }
+  /// End of the segment that starts at `site`, on the unrolled loop.
+  Vec2 end_of(const Site& site) const {
+    const Site& b = next(site);
+    return b.t > site.t ? b.position : b.position + metrics_[site.loop].loop().winding;
+  }
   PartSummary summarize(const Site& a) const {
-    return metrics_[a.loop].summarize(a.t, end_t(a), a.position, next(a).position);
+    return metrics_[a.loop].summarize(a.t, end_t(a), a.position, end_of(a));
   }
 
   const geometry::Boundary& boundary_;
@@ -123,27 +129,43 @@ std::vector<Refiner::Cut> Refiner::find_cuts(const std::vector<LocalIndex>& fres
                                              const std::vector<LocalIndex>& fresh_segments) {
   std::vector<SiteTree::Item> items;
   for (const LocalIndex k : fresh_sites)
-    items.push_back({sites_[k].position, k});
+    items.push_back({boundary_.periods.wrap(sites_[k].position), k});
   trees_.emplace_back(std::move(items));
   std::vector<std::uint8_t> fresh(sites_.size(), 0);
   for (const LocalIndex k : fresh_segments)
     fresh[k] = 1;
   std::vector<Cut> cuts;
   for (LocalIndex k = 0; k < static_cast<LocalIndex>(sites_.size()); ++k) {
-    const Site &a = sites_[k], &b = next(a);
     LocalIndex intruder = -1;
     for (std::size_t tree = fresh[k] ? 0 : trees_.size() - 1; tree < trees_.size() && intruder < 0; ++tree)
-      intruder = trees_[tree].find_in_disc(a.position, b.position, k, a.next);
+      intruder = find_intruder(trees_[tree], k);
     if (intruder >= 0 || (fresh[k] && curve_offends(k)))
       cuts.push_back({k, intruder});
   }
   return cuts;
 }
 
+/// A site, or an image of one, in the disc of a segment; see SiteTree. The tree holds canonical positions.
+LocalIndex Refiner::find_intruder(const SiteTree& tree, LocalIndex segment) const {
+  const Site& site = sites_[segment];
+  const geometry::Periods& periods = boundary_.periods;
+  const Vec2 a = periods.wrap(site.position), b = end_of(site) + (a - site.position);
+  const double reach = geometry::length(b - a);
+  const auto images = [reach](double period) { // to each side that the disc may meet
+    return period > 0 ? static_cast<int>(std::fmin(4.0, 1 + std::floor(reach / period))) : 0;
+  };
+  LocalIndex intruder = tree.find_in_disc(a, b, segment, site.next);
+  for (int i = -images(periods.x); i <= images(periods.x) && intruder < 0; ++i)
+    for (int j = -images(periods.y); j <= images(periods.y) && intruder < 0; ++j)
+      if (const Vec2 shift{i * periods.x, j * periods.y}; i != 0 || j != 0)
+        intruder = tree.find_in_disc(a + shift, b + shift, segment, site.next);
+  return intruder;
+}
+
 bool Refiner::curve_offends(LocalIndex segment) const {
   const Site& a = sites_[segment];
   const PartSummary part = summarize(a);
-  return part.leaves_disc || std::fabs(part.turn) > largest_turn || a.position == next(a).position;
+  return part.leaves_disc || std::fabs(part.turn) > largest_turn || a.position == end_of(a);
 }
 
 /// Where to divide the segment from a to b, as t after a.
@@ -169,18 +191,24 @@ double Refiner::cut_place(const Site& a, const Site& b, double end) const {
 }
 
 LocalIndex Refiner::divide(const Cut& cut) {
-  const Site a = sites_[cut.segment], b = next(a);
+  const Site a = sites_[cut.segment];
+  Site b = next(a);
+  b.position = end_of(a);
   const LoopMetric& metric = metrics_[a.loop];
   const double end = end_t(a);
   if (metric.arc_length(a.t, end) < shortest_in_steps * lattice_.step() ||
-      (cut.intruder >= 0 &&
-       (sites_[cut.intruder].position == a.position || sites_[cut.intruder].position == b.position)))
+      (cut.intruder >= 0 && cut.intruder != cut.segment && cut.intruder != a.next &&
+       (boundary_.periods.same_point(sites_[cut.intruder].position, a.position) ||
+        boundary_.periods.same_point(sites_[cut.intruder].position, b.position))))
     fail(cut);
   double t = cut_place(a, b, end);
-  const Vec2 position = lattice_.snap(metric.point(t));
+  Vec2 position = lattice_.snap(metric.point(t));
   if (position == a.position || position == b.position)
     fail(cut);
-  t = t >= metric.total() ? t - metric.total() : t;
+  if (t >= metric.total()) {
+    t -= metric.total();
+    position = position - metric.loop().winding;
+  }
   const auto index = static_cast<LocalIndex>(sites_.size());
   sites_.push_back({t, position, cut.segment, a.next, a.loop, SiteKind::plain});
   sites_[cut.segment].next = index;
@@ -190,10 +218,10 @@ LocalIndex Refiner::divide(const Cut& cut) {
 
 void Refiner::fail(const Cut& cut) const {
   const Site& a = sites_[cut.segment];
-  const Vec2 from = a.position, to = next(a).position;
+  const Vec2 from = a.position, to = end_of(a);
   std::string cause = "the curve turns back on itself there";
   if (cut.intruder >= 0) {
-    const Vec2 p = sites_[cut.intruder].position;
+    const Vec2 p = boundary_.periods.nearest_image(sites_[cut.intruder].position, from);
     const double gap = std::sqrt(std::fmin(geometry::squared_length(p - from), geometry::squared_length(p - to)));
     cause = fmt::format("another part of the boundary passes at a distance of {:.3g}, at ({:.17g}, {:.17g})", gap, p.x,
                         p.y);
@@ -206,6 +234,7 @@ void Refiner::fail(const Cut& cut) const {
 }
 
 BoundarySites Refiner::result() const {
+  const geometry::Periods& periods = boundary_.periods;
   BoundarySites out;
   out.sites.reserve(sites_.size());
   out.halvings = halvings_;
@@ -218,11 +247,12 @@ BoundarySites Refiner::result() const {
     do {
       const Site& site = sites_[k];
       const auto index = static_cast<LocalIndex>(out.sites.size());
-      out.sites.push_back(
-          {site.position, index - 1, index + 1, boundary_.loops[loop].tag, site.kind != SiteKind::plain});
+      const Vec2 canonical = periods.wrap(site.position), end = end_of(site) + (canonical - site.position);
+      out.sites.push_back({canonical, index - 1, index + 1, boundary_.loops[loop].tag, site.kind != SiteKind::plain,
+                           end - periods.wrap(end)});
       out.corners += site.kind != SiteKind::plain;
       out.sharp_corners += site.kind == SiteKind::sharp_corner;
-      shortest = std::fmin(shortest, geometry::squared_length(next(site).position - site.position));
+      shortest = std::fmin(shortest, geometry::squared_length(end - canonical));
       k = site.next;
     } while (k != loop_first_[loop]);
     out.sites[first].previous = static_cast<LocalIndex>(out.sites.size()) - 1;

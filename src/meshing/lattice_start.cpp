@@ -28,10 +28,7 @@ public:
         // The margin is doubled: rounding in the corners of a bin is far below it.
         const geometry::Box reach{corner - Vec2{2 * margin, 2 * margin},
                                   corner + Vec2{width + 2 * margin, height + 2 * margin}};
-        guard.chords().for_each_near(reach, [&](LocalIndex) {
-          near_[static_cast<std::size_t>(y) * side_ + x] = 1;
-          return false;
-        });
+        near_[static_cast<std::size_t>(y) * side_ + x] = guard.may_meet_chord(reach) ? 1 : 0;
       }
   }
   bool at(int bin) const { return near_[static_cast<std::size_t>(bin)] != 0; }

@@ -16,14 +16,6 @@ namespace {
 
 constexpr std::size_t max_knots = std::size_t{1} << 27;
 
-double checked_size(const sizing::SizeField& size, Vec2 p) {
-  const double h = size.size(p);
-  if (!(h > 0) || !std::isfinite(h))
-    throw GeometryError(
-        fmt::format("element size on the boundary: expected a positive number, found {} at ({}, {})", h, p.x, p.y));
-  return h;
-}
-
 double signed_turn(const Piece& before, const Piece& after) {
   const Vec2 in = before.tangent(before.length()), out = after.tangent(0);
   return angle_of(geometry::cross(in, out), geometry::dot(in, out));
@@ -31,35 +23,44 @@ double signed_turn(const Piece& before, const Piece& after) {
 
 } // namespace
 
-LoopMetric::LoopMetric(const geometry::Loop& loop, const sizing::SizeField& size) : loop_(loop) {
+LoopMetric::LoopMetric(const geometry::Loop& loop, const sizing::SizeField& size, const geometry::Periods& periods)
+    : loop_(loop), size_(size), periods_(periods) {
   const std::size_t n = loop.pieces.size();
   TRIME_ASSERT(n > 0);
   knots_.push_back({0, 0, 0, 0});
   for (std::size_t i = 0; i < n; ++i) {
     piece_t_.push_back(knots_.back().t);
     turn_.push_back(signed_turn(loop.pieces[(i + n - 1) % n], loop.pieces[i]));
-    add_piece(static_cast<LocalIndex>(i), size);
+    add_piece(static_cast<LocalIndex>(i));
   }
   piece_t_.push_back(total());
 }
 
+double LoopMetric::checked_size(Vec2 p) const {
+  const double h = size(p);
+  if (!(h > 0) || !std::isfinite(h))
+    throw GeometryError(
+        fmt::format("element size on the boundary: expected a positive number, found {} at ({}, {})", h, p.x, p.y));
+  return h;
+}
+
 /// Steps of half the local size, Simpson's rule on each; one step does for a uniform size.
-void LoopMetric::add_piece(LocalIndex i, const sizing::SizeField& size) {
+void LoopMetric::add_piece(LocalIndex i) {
   const Piece& piece = loop_.pieces[i];
   const double whole = piece.length();
   if (!(whole > 0))
     throw GeometryError(fmt::format("boundary piece {} at ({}, {}) has no length: expected pieces of positive length; "
                                     "remove the repeated point",
                                     i, piece.start.x, piece.start.y));
-  double s = 0, h = checked_size(size, piece.start);
+  double s = 0, h = checked_size(piece.start);
   knots_.back().piece = i;
   knots_.back().s = 0;
   while (s < whole) {
-    double step = size.is_uniform() ? whole : 0.5 * h;
+    double step = size_.is_uniform() ? whole : 0.5 * h;
     if (s + 1.25 * step >= whole)
       step = whole - s;
     const double end = step == whole - s ? whole : s + step;
-    const double middle = checked_size(size, piece.point(s + 0.5 * step)), last = checked_size(size, piece.point(end));
+    const double middle = checked_size(piece.point(s + 0.5 * step)), last = checked_size(piece.point(end));
     const double integral = step * (1 / h + 4 / middle + 1 / last) / 6;
     knots_.push_back({knots_.back().t + integral, knots_.back().arc + step, i, end});
     if (knots_.size() > max_knots)
@@ -79,12 +80,13 @@ LocalIndex LoopMetric::knot_before(double t) const {
 }
 
 Vec2 LoopMetric::point(double t) const {
-  t = t >= total() ? t - total() : t < 0 ? t + total() : t;
+  const double turns = t >= total() ? 1 : t < 0 ? -1 : 0;
+  t -= turns * total();
   const LocalIndex k = knot_before(t);
   const Knot &low = knots_[k], &high = knots_[k + 1];
   const Piece& piece = loop_.pieces[low.piece];
   const double share = std::clamp((t - low.t) / (high.t - low.t), 0.0, 1.0);
-  return piece.point(low.s + share * (high.arc - low.arc));
+  return piece.point(low.s + share * (high.arc - low.arc)) + turns * loop_.winding;
 }
 
 double LoopMetric::arc(double t) const {
@@ -153,12 +155,13 @@ template <class Visit>
 void LoopMetric::for_each_turn(double t0, double t1, const Visit& visit) const {
   const LocalIndex n = static_cast<LocalIndex>(loop_.pieces.size());
   double shift = t0 >= total() ? total() : 0;
+  Vec2 moved = t0 >= total() ? loop_.winding : Vec2{};
   LocalIndex i = knots_[knot_before(t0 - shift)].piece;
   for (LocalIndex visited = 0; visited <= n && shift + piece_t_[i] < t1; ++visited) {
     const double low = shift + piece_t_[i], high = shift + piece_t_[i + 1];
     const Piece& piece = loop_.pieces[i];
     if (low > t0)
-      visit(Turn{low, piece.start, turn_[i], i});
+      visit(Turn{low, piece.start + moved, turn_[i], i});
     if (piece.circular) {
       const double from = std::fmax(low, t0), to = std::fmin(high, t1);
       const double amount = 0.25 * piece.sweep * arc_length(from, to) / piece.length();
@@ -170,6 +173,7 @@ void LoopMetric::for_each_turn(double t0, double t1, const Visit& visit) const {
     if (++i == n) {
       i = 0;
       shift += total();
+      moved = moved + loop_.winding;
     }
   }
 }

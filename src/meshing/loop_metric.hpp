@@ -4,6 +4,7 @@
 
 #include "trime/core/types.hpp"
 #include "trime/geometry/boundary.hpp"
+#include "trime/geometry/periods.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <optional>
@@ -22,10 +23,12 @@ struct PartSummary {
 
 class LoopMetric {
 public:
-  /// Keeps a reference to `loop`. @throws GeometryError if the size asks for more than 2^27 samples
-  LoopMetric(const geometry::Loop& loop, const sizing::SizeField& size);
+  /// Keeps references to `loop` and `size`. @throws GeometryError if the size asks for more than 2^27 samples
+  LoopMetric(const geometry::Loop& loop, const sizing::SizeField& size, const geometry::Periods& periods);
 
-  /// Length of the whole loop in t; coordinates below are taken modulo it.
+  /// The size at a place of the unrolled loop.
+  double size(geometry::Vec2 p) const { return size_.size(periods_.wrap(p)); }
+  /// Length of the whole loop in t; coordinates below are taken modulo it, points move on by the winding.
   double total() const { return knots_.back().t; }
   /// t of the start of piece i.
   double piece_t(std::size_t i) const { return piece_t_[i]; }
@@ -54,11 +57,14 @@ private:
   };
   template <class Visit>
   void for_each_turn(double t0, double t1, const Visit& visit) const;
-  void add_piece(LocalIndex i, const sizing::SizeField& size);
+  void add_piece(LocalIndex i);
+  double checked_size(geometry::Vec2 p) const;
   double arc(double t) const;
   LocalIndex knot_before(double t) const;
 
   const geometry::Loop& loop_;
+  const sizing::SizeField& size_;
+  geometry::Periods periods_;
   std::vector<Knot> knots_;     // ascending in t; the last closes the loop
   std::vector<double> piece_t_; // pieces + 1
   std::vector<double> turn_;    // signed turn at the start of each piece, radians

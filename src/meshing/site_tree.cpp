@@ -41,7 +41,7 @@ LocalIndex SiteTree::find_in_disc(Vec2 a, Vec2 b, LocalIndex index_a, LocalIndex
   const double radius = 0.5 * geometry::length(b - a) * (1 + 1e-9) +
                         1e-15 * (std::fabs(center.x) + std::fabs(center.y)); // rounding must not hide a site
   const auto in_disc = [&](const Item& item) {
-    return item.index != index_a && item.index != index_b &&
+    return !(item.index == index_a && item.position == a) && !(item.index == index_b && item.position == b) &&
            (geometry::diametral_side(a, b, item.position) <= 0 || item.position == a || item.position == b);
   };
   struct Range {

@@ -20,8 +20,8 @@ public:
   };
   explicit SiteTree(std::vector<Item> items);
 
-  /// A site strictly inside the diametral disc of a-b, or at the place of a or b, other than `index_a` and `index_b`;
-  /// -1 if there is none. Exact.
+  /// A site strictly inside the diametral disc of a-b, or at the place of a or b, other than `index_a` at a and
+  /// `index_b` at b; -1 if there is none. Exact.
   LocalIndex find_in_disc(geometry::Vec2 a, geometry::Vec2 b, LocalIndex index_a, LocalIndex index_b) const;
   std::size_t size() const { return items_.size(); }
 

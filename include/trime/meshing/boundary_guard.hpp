@@ -4,6 +4,7 @@
 #pragma once
 
 #include "trime/geometry/lattice.hpp"
+#include "trime/geometry/periods.hpp"
 #include "trime/geometry/segment_grid.hpp"
 #include "trime/meshing/boundary_sites.hpp"
 
@@ -20,9 +21,13 @@ namespace trime::meshing {
 /// A flat grid of about 64 cells a chord (at most 2^22) says of each cell that it lies inside or outside, clear of all
 /// discs, or lists the discs that reach into it: far from the boundary every query reads one byte. Points must lie on
 /// the lattice of the sites. Immutable and thread-safe; O(B log B) to build.
+///
+/// In a periodic container any image of a point may be asked for, and all images of the chords count. There the chords
+/// and images that meet one image of the container are closed outside of it, so that the even-odd rule holds within up
+/// to a global change of sides, which the inner side of one chord decides. Without sites, all is inside.
 class BoundaryGuard {
 public:
-  BoundaryGuard(const BoundarySites& sites, const geometry::Lattice& lattice);
+  BoundaryGuard(const BoundarySites& sites, const geometry::Lattice& lattice, const geometry::Periods& periods = {});
 
   /// Inside the polygon of chords; exact, with the perturbation of SegmentGrid on the boundary itself.
   bool inside(geometry::Vec2 p) const;
@@ -34,30 +39,56 @@ public:
   /// The chord is the one in whose disc p lies deepest (relative to its radius), or the nearest one if p is outside.
   /// The new place is 0.6 of the chord length from the chord's middle: towards p if that makes at least 30 degrees with
   /// the chord on its inner side and leads to a good place, else along the inner normal. It may be bad itself near
-  /// sharp notches. h only says where the search for the nearest chord begins. A pure function of p and the sites.
+  /// sharp notches. h only says where the search for the nearest chord begins. A pure function of p and the sites;
+  /// of a periodic container it is the image next to p, canonical or not.
   std::optional<geometry::Vec2> correct(geometry::Vec2 p, double h, const geometry::Lattice& lattice) const;
   /// p lies outside, strictly inside some diametral disc, or nearer to a chord than 0.05 of the chord's length.
   bool encroaches(geometry::Vec2 p) const;
 
+  /// May some chord meet the box? Never false if one does.
+  bool may_meet_chord(const geometry::Box& box) const;
+  /// Chord i of each site, in a periodic container that image whose middle is canonical.
   const geometry::SegmentGrid& chords() const { return chords_; }
   std::size_t memory_bytes() const;
 
 private:
   enum class Cell : std::uint8_t { near, inside, outside }; // near: a disc may reach into the cell
 
-  void build_grid();
+  /// A chord or an image of one.
+  struct NearChord {
+    geometry::Segment chord;
+    double squared_distance;
+  };
+
+  geometry::Box choose_cells();
+  void add_images(const geometry::Box& window);
+  void close_chords(const geometry::Box& window, const geometry::Lattice& lattice);
+  void list_discs();
+  // The queries work on canonical points.
+  bool inside_polygon(geometry::Vec2 p) const;
+  std::optional<NearChord> nearest(geometry::Vec2 p, double reach) const;
+  const geometry::Segment& disc(LocalIndex k) const {
+    return k < chord_count() ? chords_.segments()[k] : images_[static_cast<std::size_t>(k - chord_count())];
+  }
+  LocalIndex chord_count() const { return static_cast<LocalIndex>(chords_.segments().size()); }
+  bool is_empty() const { return chords_.segments().empty(); }
+  LocalIndex disc_count() const { return chord_count() + static_cast<LocalIndex>(images_.size()); }
   void classify_clear_cells(const geometry::Lattice& lattice);
   template <class Visit>
-  void for_each_cell_of(LocalIndex chord, const Visit& visit) const;
-  /// Index of the cell of p; -1 outside of the grid, where nothing is inside or near.
+  void for_each_cell_of(const geometry::Segment& chord, const Visit& visit) const;
+  /// Index of the cell of p; -1 outside of the grid, where nothing is near.
   std::int64_t cell_at(geometry::Vec2 p) const;
   Cell state_at(geometry::Vec2 p) const;
-  /// Chords whose discs may hold p.
+  /// Numbers for disc() of the chords whose discs may hold p.
   std::span<const LocalIndex> chords_at(std::int64_t cell) const;
-  /// The chord in whose closed diametral disc p lies deepest, lowest index on ties; -1 if in none.
+  /// The number for disc() of the closed diametral disc in which p lies deepest, lowest on ties; -1 if in none.
   LocalIndex deepest_disc(geometry::Vec2 p) const;
 
-  geometry::SegmentGrid chords_;
+  geometry::Periods periods_;
+  geometry::SegmentGrid chords_;          // each where its middle is canonical
+  std::vector<geometry::Segment> images_; // of chords, whose discs reach into the container
+  geometry::SegmentGrid closed_;          // chords and images, closed outside; periodic containers only
+  bool inverted_ = false;                 // the inside is where closed_ has its outside
   geometry::Vec2 corner_;
   double side_ = 1, inverse_side_ = 1; // of a cell
   int columns_ = 0, rows_ = 0;

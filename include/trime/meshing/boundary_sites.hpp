@@ -7,6 +7,7 @@
 #include "trime/core/types.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
+#include "trime/geometry/segment.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <cstdint>
@@ -15,14 +16,16 @@
 namespace trime::meshing {
 
 struct BoundarySite {
-  geometry::Vec2 position;   ///< on the lattice
+  geometry::Vec2 position;   ///< on the lattice; canonical in a periodic container
   LocalIndex previous, next; ///< along its loop, interior on the left
   std::int32_t tag;          ///< of its loop; also of the chord from here to `next`
   bool corner;               ///< given by the shape, kept bit for bit
+  geometry::Vec2 next_shift; ///< multiple of the periods: the chord ends at the position of `next` moved by it
 };
 
 /// Invariants: sites of one loop are consecutive and in order; at least 3 a loop; no two positions are equal; the open
-/// diametral disc of each chord (site, next) holds no other site, so no two chords cross.
+/// diametral disc of each chord (site, next) holds no other site, so no two chords cross; images of sites and chords in
+/// a periodic container included. The whole torus has no sites at all.
 struct BoundarySites {
   std::vector<BoundarySite> sites;
   std::vector<LocalIndex> loop_start; ///< loops + 1: sites of loop i are loop_start[i] .. loop_start[i+1]-1
@@ -31,6 +34,12 @@ struct BoundarySites {
   LocalIndex halvings = 0;      ///< segments divided after the layout
   int rounds = 0;               ///< of halving
   double shortest = 0;          ///< length of the shortest chord
+
+  /// From site i to its next, or to that image of it where the boundary leads.
+  geometry::Segment chord(LocalIndex i) const {
+    const BoundarySite& site = sites[i];
+    return {site.position, sites[site.next].position + site.next_shift};
+  }
 };
 
 /// @brief Lays out the sites of `boundary` for the absolute element size `size`.
