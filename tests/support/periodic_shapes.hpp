@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shapes in periodic containers for the tests, and a torus that a hexagonal lattice fits exactly.
+#pragma once
+
+#include "trime/geometry/shape.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace trime::testing {
+
+inline const geometry::Frame& unit_torus() {
+  static const geometry::Frame frame(geometry::Box{{0, 0}, {1, 1}}, true, true);
+  return frame;
+}
+/// Periodic along x only.
+inline const geometry::Frame& unit_cylinder() {
+  static const geometry::Frame frame(geometry::Box{{0, 0}, {1, 1}}, true, false);
+  return frame;
+}
+
+inline geometry::RegionShape whole_torus() {
+  return {{}, "domain", unit_torus()};
+}
+/// The torus without a disc across all four corners.
+inline geometry::RegionShape torus_with_hole(double radius = 0.2) {
+  return {{geometry::Part::circle("hole", {0, 0}, radius, unit_torus())}, "difference(domain, hole)", unit_torus()};
+}
+/// A disc across all four corners.
+inline geometry::RegionShape disc_at_corner() {
+  return {{geometry::Part::circle("disc", {1, 1}, 0.3, unit_torus())}, "disc", unit_torus()};
+}
+/// A band around the cylinder between y = 0.25 and y = 0.75.
+inline geometry::RegionShape band() {
+  return {{geometry::Part::rectangle("band", {{0, 0.25}, {1, 0.75}}, unit_cylinder())}, "band", unit_cylinder()};
+}
+/// A band around the cylinder with half a disc on its upper side and half a disc cut out of the lower one.
+inline geometry::RegionShape wavy_band() {
+  return {{geometry::Part::rectangle("band", {{0, 0.25}, {1, 0.75}}, unit_cylinder()),
+           geometry::Part::circle("bump", {0.98, 0.75}, 0.1, unit_cylinder()),
+           geometry::Part::circle("dent", {0.03, 0.25}, 0.15, unit_cylinder())},
+          "difference(union(band, bump), dent)",
+          unit_cylinder()};
+}
+/// A band that winds around the torus both ways, with a tilted triangle cut out across the border.
+inline geometry::RegionShape slanted_band() {
+  const geometry::Contour contour = geometry::make_contour(
+      {{{-0.25, -0.25}, {0.25, -0.25}, {1.25, 0.75}, {1.25, 1.25}, {0.75, 1.25}, {-0.25, 0.25}}}, "slanted");
+  return {{geometry::Part::contour("slanted", contour, {}, unit_torus()),
+           geometry::Part::triangle("cut", {{{-0.05, 0.47}, {0.12, 0.5}, {0.02, 0.62}}}, unit_torus())},
+          "difference(slanted, cut)",
+          unit_torus()};
+}
+
+inline std::vector<geometry::RegionShape> periodic_shapes() {
+  return {whole_torus(), torus_with_hole(), disc_at_corner(), band(), wavy_band(), slanted_band()};
+}
+
+/// Calls visit(shift) for all images of a point up to two periods away, itself first.
+template <class Visit>
+void for_each_image(const geometry::Periods& periods, const Visit& visit) {
+  visit(geometry::Vec2{});
+  for (int i = periods.x > 0 ? -2 : 0; i <= (periods.x > 0 ? 2 : 0); ++i)
+    for (int j = periods.y > 0 ? -2 : 0; j <= (periods.y > 0 ? 2 : 0); ++j)
+      if (i != 0 || j != 0)
+        visit(geometry::Vec2{i * periods.x, j * periods.y});
+}
+
+/// @brief A container that the hexagonal lattice of `columns` x `rows` sites and spacing 1/columns fits exactly, rows
+/// along x. @pre rows is even
+inline geometry::Box hexagonal_container(int columns, int rows) {
+  return {{0, 0}, {1, std::sqrt(0.75) * rows / columns}};
+}
+
+} // namespace trime::testing
