@@ -16,11 +16,11 @@
 namespace trime::meshing {
 
 struct BoundarySite {
-  geometry::Vec2 position;   ///< on the lattice; canonical in a periodic container
-  LocalIndex previous, next; ///< along its loop, interior on the left
-  std::int32_t tag;          ///< of its loop; also of the chord from here to `next`
-  bool corner;               ///< given by the shape, kept bit for bit
-  geometry::Vec2 next_shift; ///< multiple of the periods: the chord ends at the position of `next` moved by it
+  geometry::Vec2 position;     ///< on the lattice; canonical in a periodic container
+  LocalIndex previous, next;   ///< along its loop, interior on the left
+  std::int32_t tag;            ///< of its loop; also of the chord from here to `next`
+  bool corner;                 ///< given by the shape, kept bit for bit
+  geometry::Vec2 next_shift{}; ///< multiple of the periods: the chord ends at the position of `next` moved by it
 };
 
 /// Invariants: sites of one loop are consecutive and in order; at least 3 a loop; no two positions are equal; the open
