@@ -70,7 +70,7 @@ private:
       for (const Piece& piece : loop.pieces) {
         LocalIndex first = add_vertex(*before, piece);
         before = &piece;
-        const double length = piece.length(), parts = std::fmax(1, std::ceil(length / longest));
+        const double length = piece.length(), parts = std::max(1.0, std::ceil(length / longest));
         for (double k = 1; k <= parts; ++k) {
           const double from = length * ((k - 1) / parts), to = length * (k / parts);
           const LocalIndex last = k < parts                       ? add_sample(piece, to)
@@ -133,8 +133,8 @@ private:
   void refine() {
     std::vector<Interval> next;
     for (const Interval& interval : intervals_) {
-      const double size = std::fmin(samples_[interval.first].height, samples_[interval.last].height);
-      if (interval.to - interval.from <= spacing_share * std::fmax(size, floor_)) {
+      const double size = std::min(samples_[interval.first].height, samples_[interval.last].height);
+      if (interval.to - interval.from <= spacing_share * std::max(size, floor_)) {
         next.push_back(interval);
         continue;
       }
@@ -149,7 +149,7 @@ private:
   /// Between two samples at distance d the envelope of their cones is too high by up to slope * d / 2.
   void fill_in() {
     for (const Interval& interval : intervals_) {
-      const double size = std::fmax(std::fmin(samples_[interval.first].height, samples_[interval.last].height), floor_);
+      const double size = std::max(std::min(samples_[interval.first].height, samples_[interval.last].height), floor_);
       const double length = interval.to - interval.from;
       const double parts = std::ceil(length * slope_ / (2 * envelope_error * size));
       for (double k = 1; k < parts; ++k)
@@ -177,7 +177,7 @@ std::vector<Cone> boundary_features(const comm::Communicator& comm, const geomet
   std::vector<Cone> cones = Sampler(comm, boundary, images, feature_floor, gradation).run();
   const double largest = images.container().width() + images.container().height();
   for (Cone& cone : cones)
-    cone = {images.wrap(cone.apex), std::fmin(largest, std::fmax(feature_floor, cone.height))};
+    cone = {images.wrap(cone.apex), std::min(largest, std::max(feature_floor, cone.height))};
   const ConeTree all(with_images(cones, images), gradation);
   const std::vector<char> covered = compute_shared<char>(comm, cones.size(), [&](std::size_t k) {
     return static_cast<char>(all.value(cones[k].apex, cones[k].height) < cones[k].height);

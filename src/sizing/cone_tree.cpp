@@ -21,8 +21,8 @@ bool before(const Cone& a, const Cone& b, bool by_x) {
 } // namespace
 
 double ConeTree::Node::lower_bound(Vec2 p, double slope) const {
-  const double dx = std::fmax(0.0, std::fmax(box.min.x - p.x, p.x - box.max.x));
-  const double dy = std::fmax(0.0, std::fmax(box.min.y - p.y, p.y - box.max.y));
+  const double dx = std::max(0.0, std::max(box.min.x - p.x, p.x - box.max.x));
+  const double dy = std::max(0.0, std::max(box.min.y - p.y, p.y - box.max.y));
   return slope * std::sqrt(dx * dx + dy * dy) + least;
 }
 
@@ -42,7 +42,7 @@ void ConeTree::sort(std::size_t node, std::size_t first_leaf, std::size_t last_l
   Node& here = nodes_[node];
   for (auto cone = first; cone != last; ++cone) {
     here.box.include(cone->apex);
-    here.least = std::fmin(here.least, cone->height);
+    here.least = std::min(here.least, cone->height);
   }
   if (last_leaf - first_leaf == 1)
     return;
@@ -70,7 +70,7 @@ double ConeTree::value(Vec2 p, double bound) const {
     if (entry.node >= leaves_) {
       const std::size_t leaf = entry.node - leaves_, last = first_of(leaf + 1);
       for (std::size_t k = first_of(leaf); k < last; ++k)
-        bound = std::fmin(bound, cones_[k].value(p, slope_));
+        bound = std::min(bound, cones_[k].value(p, slope_));
       continue;
     }
     Entry near{2 * entry.node, nodes_[2 * entry.node].lower_bound(p, slope_)};

@@ -59,13 +59,12 @@ std::optional<Vec2> medial_point(const NormalRay& ray, const PieceLocator& bound
   bool touches = false;
   for (int round = 0; round < most_shrinks; ++round) {
     const Vec2 center = ray.origin + radius * ray.normal, wrapped = images.wrap(center);
-    const Vec2 near = boundary.nearest(wrapped) + (center - wrapped);
-    const double gap = geometry::length(near - center);
-    if (touches && gap >= nearly_empty_share * radius)
+    const std::optional<Vec2> near = boundary.nearest(wrapped, empty_share * radius);
+    if (touches && (!near || length(*near - wrapped) >= nearly_empty_share * radius))
       found = wrapped;
-    if (gap >= empty_share * radius)
+    if (!near)
       break;
-    const Vec2 chord = near - ray.origin;
+    const Vec2 chord = *near + (center - wrapped) - ray.origin;
     const double along = dot(chord, ray.normal), squared = squared_length(chord);
     if (!(along > 0) || squared <= smallest * smallest)
       break;

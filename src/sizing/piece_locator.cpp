@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace trime::sizing {
 
@@ -15,8 +14,8 @@ using geometry::Vec2;
 namespace {
 
 double squared_distance_to_box(Vec2 p, const Box& box) {
-  const double dx = std::fmax(0.0, std::fmax(box.min.x - p.x, p.x - box.max.x));
-  const double dy = std::fmax(0.0, std::fmax(box.min.y - p.y, p.y - box.max.y));
+  const double dx = std::max(0.0, std::max(box.min.x - p.x, p.x - box.max.x));
+  const double dy = std::max(0.0, std::max(box.min.y - p.y, p.y - box.max.y));
   return dx * dx + dy * dy;
 }
 
@@ -96,14 +95,14 @@ void PieceLocator::visit(std::size_t run, Vec2 p, Best& best) const {
   }
 }
 
-Vec2 PieceLocator::nearest(Vec2 p) const {
+std::optional<Vec2> PieceLocator::nearest(Vec2 p, double reach) const {
   struct Entry {
     std::size_t node;
     double squared_distance;
   };
   std::array<Entry, 64> stack; // deeper than any tree in memory
   const std::size_t leaves = boxes_.size() / 2;
-  Best best{{}, std::numeric_limits<double>::infinity()};
+  Best best{{}, reach * reach};
   std::size_t size = 0;
   stack[size++] = {1, 0.0};
   while (size > 0) {
@@ -121,7 +120,7 @@ Vec2 PieceLocator::nearest(Vec2 p) const {
     stack[size++] = far;
     stack[size++] = near;
   }
-  return best.point;
+  return best.squared_distance < reach * reach ? std::optional(best.point) : std::nullopt;
 }
 
 } // namespace trime::sizing

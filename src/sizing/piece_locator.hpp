@@ -6,6 +6,7 @@
 #include "trime/core/types.hpp"
 #include "trime/geometry/boundary.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace trime::sizing {
@@ -15,8 +16,8 @@ class PieceLocator {
 public:
   /// O(M) time for M pieces.
   PieceLocator(const geometry::Boundary& boundary, const Images& images);
-  /// Nearest boundary point to p. O(log M) for curves. @pre the boundary has a piece
-  geometry::Vec2 nearest(geometry::Vec2 p) const;
+  /// Nearest boundary point to p that is nearer than `reach`, if there is any. O(log M) for curves.
+  std::optional<geometry::Vec2> nearest(geometry::Vec2 p, double reach) const;
 
 private:
   static constexpr std::size_t run_length = 4;

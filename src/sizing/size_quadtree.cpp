@@ -59,7 +59,7 @@ private:
   double lowest(std::size_t first, Vec2 p) const {
     double low = source_.cap;
     for (std::size_t k = first; k < cones_.size(); ++k)
-      low = std::fmin(low, cones_[k].value(p, source_.slope));
+      low = std::min(low, cones_[k].value(p, source_.slope));
     return low;
   }
 
@@ -75,7 +75,7 @@ private:
     double low = source_.cap;
     for (std::size_t k = cell.first; k < last; ++k) {
       heights_.push_back(cones_[k].value(center, source_.slope));
-      low = std::fmin(low, heights_.back());
+      low = std::min(low, heights_.back());
     }
     const double bound = (low + 2 * half_diagonal * cell.side * source_.slope) * rounding;
     for (std::size_t k = cell.first; k < last; ++k)
@@ -86,7 +86,7 @@ private:
 
   Node build_cell(const Cell& cell) {
     const auto& [v0, v1, v2, v3] = cell.values;
-    const double least = std::fmin(std::fmin(v0, v1), std::fmin(v2, v3));
+    const double least = std::min(std::min(v0, v1), std::min(v2, v3));
     // No point of the cell is farther from its nearest corner than half the diagonal.
     if (source_.slope * half_diagonal * cell.side <= tolerance * least || cell.side <= source_.least_side ||
         cell.level >= most_levels)
@@ -99,8 +99,10 @@ private:
     const double south = lowest(first, {center.x, below}), north = lowest(first, {center.x, above});
     const double west = lowest(first, {left, center.y}), east = lowest(first, {right, center.y});
     Node node;
-    if (within(middle, 0.25 * (v0 + v1 + v2 + v3)) && within(south, 0.5 * (v0 + v1)) &&
-        within(north, 0.5 * (v2 + v3)) && within(west, 0.5 * (v0 + v2)) && within(east, 0.5 * (v1 + v3))) {
+    const bool smooth = within(middle, 0.25 * (v0 + v1 + v2 + v3)) && within(south, 0.5 * (v0 + v1)) &&
+                        within(north, 0.5 * (v2 + v3)) && within(west, 0.5 * (v0 + v2)) &&
+                        within(east, 0.5 * (v1 + v3)) && (cones_.size() - first < 2 || within_quarters(cell, first));
+    if (smooth) {
       node = leaf(cell);
     } else {
       node = static_cast<Node>(block_.children.size());
@@ -116,6 +118,19 @@ private:
     return node;
   }
 
+  /// A ridge between cones may pass by the middles of edges and cell.
+  bool within_quarters(const Cell& cell, std::size_t first) const {
+    const auto& [v0, v1, v2, v3] = cell.values;
+    for (const double y : {0.25, 0.75})
+      for (const double x : {0.25, 0.75}) {
+        const double below = v0 + x * (v1 - v0), above = v2 + x * (v3 - v2);
+        const double exact = lowest(first, cell.corner + cell.side * Vec2{x, y});
+        if (!within(exact, below + y * (above - below)))
+          return false;
+      }
+    return true;
+  }
+
   const Source& source_;
   Block block_;
   std::vector<Cone> cones_; // a stack: the cones of a cell lie on those of its parents
@@ -123,7 +138,7 @@ private:
 };
 
 SizeQuadtree::SizeQuadtree(const comm::Communicator& comm, const Source& source) : box_(source.box) {
-  side_ = std::fmax(box_.width(), box_.height()) / blocks_along;
+  side_ = std::max(box_.width(), box_.height()) / blocks_along;
   inverse_side_ = 1 / side_;
   nx_ = static_cast<std::size_t>(std::clamp(std::ceil(box_.width() * inverse_side_), 1.0, 1.0 * blocks_along));
   ny_ = static_cast<std::size_t>(std::clamp(std::ceil(box_.height() * inverse_side_), 1.0, 1.0 * blocks_along));
@@ -189,15 +204,15 @@ void SizeQuadtree::assemble(const comm::Communicator& comm, std::vector<Block> m
   largest_ = least_;
   for (const CornerValues& values : leaves_)
     for (const double value : values) {
-      least_ = std::fmin(least_, value);
-      largest_ = std::fmax(largest_, value);
+      least_ = std::min(least_, value);
+      largest_ = std::max(largest_, value);
     }
 }
 
 double SizeQuadtree::value(Vec2 p) const {
   // Block and place in it, 0..1; NaN goes to the first block.
-  double x = std::fmin(std::fmax((p.x - box_.min.x) * inverse_side_, 0.0), box_.width() * inverse_side_);
-  double y = std::fmin(std::fmax((p.y - box_.min.y) * inverse_side_, 0.0), box_.height() * inverse_side_);
+  double x = std::min(std::max((p.x - box_.min.x) * inverse_side_, 0.0), box_.width() * inverse_side_);
+  double y = std::min(std::max((p.y - box_.min.y) * inverse_side_, 0.0), box_.height() * inverse_side_);
   const std::size_t i = std::min(static_cast<std::size_t>(x), nx_ - 1);
   const std::size_t j = std::min(static_cast<std::size_t>(y), ny_ - 1);
   x -= static_cast<double>(i);

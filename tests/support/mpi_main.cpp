@@ -14,10 +14,12 @@ class FailurePrinter : public ::testing::EmptyTestEventListener {
 public:
   explicit FailurePrinter(int rank) : rank_(rank) {}
 
+  void OnTestStart(const ::testing::TestInfo& test) override { test_ = &test; }
+  void OnTestEnd(const ::testing::TestInfo&) override { test_ = nullptr; }
   void OnTestPartResult(const ::testing::TestPartResult& result) override {
     if (!result.failed())
       return;
-    const ::testing::TestInfo* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    const ::testing::TestInfo* test = test_; // asking GoogleTest for it from here would wait for itself for ever
     std::fprintf(stderr, "[rank %d] %s.%s: %s:%d: %s\n", rank_, test ? test->test_suite_name() : "", //
                  test ? test->name() : "", result.file_name() ? result.file_name() : "?", result.line_number(),
                  result.message());
@@ -26,6 +28,7 @@ public:
 
 private:
   int rank_;
+  const ::testing::TestInfo* test_ = nullptr;
 };
 
 void prepare_rank(const trime::comm::Communicator& comm) {
