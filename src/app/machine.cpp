@@ -39,10 +39,6 @@ std::string processor_mask() {
 
 } // namespace
 
-void avoid_broken_file_writer() {
-  setenv("OMPI_MCA_fcoll", "^vulcan", 0);
-}
-
 Placement place_threads(int setup_threads, int mesh_threads, const comm::Communicator& comm) {
   const std::string mask = processor_mask();
   const std::vector<std::int64_t> hosts = comm.all_gather(hash_text(host_name()));

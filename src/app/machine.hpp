@@ -10,10 +10,6 @@
 
 namespace trime::app {
 
-/// @brief Steers Open MPI 4 round its collective file writer `vulcan`, which is known to write wrong data, unless the
-/// user has chosen one. To be called before MPI starts.
-void avoid_broken_file_writer();
-
 struct Placement {
   int ranks = 1;
   int setup_threads = 1, threads = 1; ///< of this rank: while shape and size field are made, and from then on

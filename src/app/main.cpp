@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // trime_mpi: starts and ends MPI, and turns errors into messages and exit codes. The only try of the program.
-#include "app/machine.hpp"
 #include "app/program.hpp"
 #include "trime/io/mesh_file.hpp"
 
@@ -77,7 +76,6 @@ ExitCode run(int argc, char** argv, const trime::comm::Communicator& comm) {
 } // namespace
 
 int main(int argc, char** argv) {
-  trime::app::avoid_broken_file_writer();
   const trime::comm::Environment environment(argc, argv);
   const trime::comm::Communicator comm = trime::comm::Communicator::world();
   handle_signals(comm.is_root());

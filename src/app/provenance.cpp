@@ -2,6 +2,8 @@
 #include "app/config.hpp"
 #include "app/run_report.hpp"
 
+#include "trime/io/describe.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
@@ -100,37 +102,6 @@ io::MetadataGroup history_group(const std::vector<meshing::SweepRecord>& history
        column<double>("seconds", history, &Record::seconds)}};
 }
 
-void add_summary(std::vector<io::Attribute>& to, const std::string& name, const mesh::RatioSummary& s) {
-  to.push_back({name + "_median", s.median});
-  to.push_back({name + "_mean", s.mean});
-  to.push_back({name + "_max", s.max});
-  to.push_back({name + "_half_mean", s.half_mean});
-  to.push_back({name + "_std", s.std});
-}
-
-io::MetadataGroup quality_group(const mesh::QualitySummary& quality) {
-  io::MetadataGroup group{"quality", {}, {}};
-  add_summary(group.attributes, "alpha", quality.alpha);
-  add_summary(group.attributes, "beta", quality.beta);
-  group.attributes.push_back({"min_angle_degrees", quality.min_angle_degrees});
-  group.attributes.push_back({"size_mean", quality.size_mean});
-  group.attributes.push_back({"size_std", quality.size_std});
-  const auto& edges = mesh::RatioStatistics::histogram_edges;
-  const auto& counts = quality.alpha_histogram;
-  group.columns.push_back({"alpha_histogram_from", std::vector<double>(edges.begin(), edges.end())});
-  group.columns.push_back({"alpha_histogram", std::vector<std::int64_t>(counts.begin(), counts.end())});
-  return group;
-}
-
-io::MetadataGroup checks_group(const mesh::Checks& checks) {
-  using mesh::Check;
-  return {"checks",
-          {},
-          {column<std::string>("name", checks, &Check::name), column<double>("expected", checks, &Check::expected),
-           column<double>("found", checks, &Check::found), column<std::int32_t>("passed", checks, &Check::passed),
-           column<std::string>("meaning", checks, &Check::meaning)}};
-}
-
 io::MetadataGroup timers_group(const std::vector<TimeRow>& times) {
   return {"timers",
           {},
@@ -168,7 +139,7 @@ io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result
   return {joined(joined(run_attributes(p), mesh_attributes(result.mesh, final_retriangulation(result))),
                  result_attributes(result, size, measured)),
           texts(p),
-          {history_group(result.history), quality_group(result.quality), checks_group(result.checks),
+          {history_group(result.history), io::quality_group(result.quality), io::checks_group(result.checks),
            timers_group(measured.times), tags_group(p.boundary, p.options.region)}};
 }
 
@@ -178,7 +149,7 @@ io::Metadata describe_step(const Provenance& p, const meshing::Snapshot& snapsho
                         {"complete", std::int64_t{0}}};
   return {joined(joined(run_attributes(p), mesh_attributes(snapshot.mesh, snapshot.retriangulation)), step),
           texts(p),
-          {quality_group(snapshot.quality), tags_group(p.boundary, p.options.region)}};
+          {io::quality_group(snapshot.quality), tags_group(p.boundary, p.options.region)}};
 }
 
 } // namespace trime::app

@@ -117,10 +117,6 @@ Measurements gather_measurements(const TimerTable& timers, const comm::Communica
   return measured;
 }
 
-bool is_complete(const meshing::MeshResult& result) {
-  return result.stop_reason != meshing::StopReason::sweep_cap && mesh::all_passed(result.checks);
-}
-
 SizeSummary summarize_size(std::string description, const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
   SizeSummary summary{std::move(description), std::numeric_limits<double>::infinity(), 0};
   for (const float size : mesh.size) {

@@ -9,6 +9,7 @@
 #include "trime/core/timer.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/io/mesh_file.hpp"
+#include "trime/meshing/make_mesh.hpp"
 #include "trime/meshing/mesher.hpp"
 
 #include <string>
@@ -41,9 +42,6 @@ SizeSummary summarize_size(std::string description, const mesh::DistributedMesh&
 
 /// @note Collective.
 Measurements gather_measurements(const TimerTable& timers, const comm::Communicator& comm);
-
-/// True if the stop rule was met and every check passed.
-bool is_complete(const meshing::MeshResult& result);
 
 /// @brief The report of a run, several lines. `files` may be empty.
 std::string run_report(const meshing::MeshResult& result, const SizeSummary& size, const Measurements& measured,

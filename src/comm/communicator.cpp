@@ -58,6 +58,7 @@ void abort_job(int exit_code) {
 }
 
 Environment::Environment(int& argc, char**& argv) {
+  setenv("OMPI_MCA_fcoll", "^vulcan", 0); // stays if the user has chosen a writer
   int provided = MPI_THREAD_SINGLE;
   check(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided));
   if (provided < MPI_THREAD_FUNNELED) {

@@ -15,7 +15,8 @@
 namespace trime::comm {
 
 /// @brief Initialises MPI (MPI_THREAD_FUNNELED) and finalises it; one object in main.
-/// Works without mpirun. While an exception unwinds the stack it does not finalise: other ranks may sit in a collective
+/// Works without mpirun. Steers Open MPI 4 round its collective file writer `vulcan`, which is known to write wrong
+/// data. While an exception unwinds the stack it does not finalise: other ranks may sit in a collective
 /// for ever, and finalising would wait for them.
 class Environment {
 public:

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The shortest way from a shape and a size field of one's own to a mesh.
+#pragma once
+
+#include "trime/comm/communicator.hpp"
+#include "trime/core/log.hpp"
+#include "trime/geometry/shape.hpp"
+#include "trime/meshing/options.hpp"
+#include "trime/sizing/size_field.hpp"
+
+namespace trime::meshing {
+
+/// @brief Meshes a shape that is made of parts. `shape` and `size` must give the same bits on every rank.
+/// @throws ConfigError, GeometryError on all ranks together, see Mesher::run
+/// @note Collective.
+MeshResult make_mesh(const comm::Communicator& comm, const geometry::RegionShape& shape, const sizing::SizeField& size,
+                     const MeshOptions& options, Log& log);
+
+/// @brief Meshes a shape that is given by a function: traces it in options.container first, see geometry::traced.
+/// @note Collective.
+MeshResult make_mesh(const comm::Communicator& comm, const geometry::Shape& shape, const sizing::SizeField& size,
+                     const MeshOptions& options, Log& log);
+
+/// True if the stop rule was met and every check passed.
+bool is_complete(const MeshResult& result);
+
+} // namespace trime::meshing

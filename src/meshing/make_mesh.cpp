@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/meshing/make_mesh.hpp"
+
+#include "trime/core/timer.hpp"
+#include "trime/meshing/mesher.hpp"
+
+namespace trime::meshing {
+
+MeshResult make_mesh(const comm::Communicator& comm, const geometry::RegionShape& shape, const sizing::SizeField& size,
+                     const MeshOptions& options, Log& log) {
+  TimerTable timers;
+  return Mesher(comm, shape.boundary(), size, options, log, timers).run();
+}
+
+MeshResult make_mesh(const comm::Communicator& comm, const geometry::Shape& shape, const sizing::SizeField& size,
+                     const MeshOptions& options, Log& log) {
+  return make_mesh(comm, geometry::traced(shape, geometry::Frame(options.container)), size, options, log);
+}
+
+bool is_complete(const MeshResult& result) {
+  return result.stop_reason != StopReason::sweep_cap && mesh::all_passed(result.checks);
+}
+
+} // namespace trime::meshing
