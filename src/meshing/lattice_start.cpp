@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/meshing/start.hpp"
 
+#include "row_lattice.hpp"
 #include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
@@ -12,8 +13,7 @@ namespace {
 
 using geometry::Vec2;
 
-constexpr double row_height = 0.8660254037844386; // of the spacing: sqrt(3)/2
-constexpr double clearance = 0.45;                // of the spacing: experiments give 0.4 to 0.55 as best
+constexpr double clearance = 0.45; // of the spacing: experiments give 0.4 to 0.55 as best
 
 /// Which bins of a tile have a chord of the boundary within a margin: only there distances need a look.
 class NearBins {
@@ -60,46 +60,79 @@ std::pair<double, double> clip_line(Vec2 from, Vec2 direction, const geometry::B
 
 LatticeStart::LatticeStart(const geometry::Boundary& boundary, const BoundaryGuard& guard,
                            const geometry::Lattice& lattice)
-    : guard_(guard), lattice_(lattice) {
-  const geometry::Box box = boundary.bounding_box();
-  origin_ = box.min;
+    : guard_(guard), lattice_(lattice), periods_(boundary.periods) {
+  origin_ = periods_.any() ? periods_.min : boundary.bounding_box().min;
   along_ = {1, 0};
   double longest = 0;
   for (const geometry::Loop& loop : boundary.loops)
-    for (const geometry::Piece& piece : loop.pieces)
-      if (!piece.circular && geometry::squared_length(piece.end - piece.start) > longest) {
-        longest = geometry::squared_length(piece.end - piece.start);
-        origin_ = piece.start;
-        along_ = (1 / std::sqrt(longest)) * (piece.end - piece.start);
-      }
+    for (const geometry::Piece& piece : loop.pieces) {
+      const Vec2 side = piece.end - piece.start;
+      if (piece.circular || geometry::squared_length(side) <= longest)
+        continue;
+      const bool along_period = (periods_.x > 0 && side.y == 0) || (periods_.y > 0 && side.x == 0);
+      if (periods_.any() && !along_period)
+        continue;
+      longest = geometry::squared_length(side);
+      origin_ = piece.start;
+      along_ = (1 / std::sqrt(longest)) * side;
+      has_side_ = true;
+    }
+}
+
+RowLattice LatticeStart::rows_of(double spacing) const {
+  if (!periods_.any())
+    return {origin_, along_, spacing, RowLattice::row_height * spacing};
+  RowLattice rows;
+  const Vec2 axis{std::fabs(along_.x), std::fabs(along_.y)};
+  if (periods_.x > 0 && periods_.y > 0)
+    rows = has_side_ ? fit_lattice(periods_, spacing, axis) : fit_lattice(periods_, spacing);
+  else
+    rows = fit_lattice(periods_, spacing, periods_.x > 0 ? Vec2{1, 0} : Vec2{0, 1});
+  // Without a side to start from, no site lies on the border of the container.
+  rows.origin = has_side_ ? origin_
+                          : periods_.min + 0.25 * rows.spacing * rows.along +
+                                0.5 * rows.height * Vec2{rows.along.y, rows.along.x};
+  return rows;
 }
 
 /// Visits the lattice sites of one tile, row by row. A site belongs to the tile of its snapped coordinates; rows and
-/// columns reach a little beyond the tile's box, so rounding cannot lose any.
+/// columns reach a little beyond the tile's box, so rounding cannot lose any. Rows and columns of a periodic lattice
+/// are reduced to the first so many, so that a site has one position from wherever it is seen.
 template <class Visit>
-void LatticeStart::for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile, double spacing,
+void LatticeStart::for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile, const RowLattice& rows, double spacing,
                                     const Visit& visit) const {
   geometry::Box box = grid.tile_box(tile);
   box = {box.min - Vec2{0.1 * spacing, 0.1 * spacing}, box.max + Vec2{0.1 * spacing, 0.1 * spacing}};
-  const Vec2 across = geometry::left_normal(along_);
-  const double height = row_height * spacing, free = clearance * spacing;
-  double low = INFINITY, high = -INFINITY;
+  const Vec2 across = geometry::left_normal(rows.along);
+  const double free = clearance * spacing;
+  double low = INFINITY, high = -INFINITY, begin = INFINITY, end = -INFINITY;
   for (const Vec2 corner : {box.min, Vec2{box.max.x, box.min.y}, box.max, Vec2{box.min.x, box.max.y}}) {
-    low = std::min(low, geometry::dot(corner - origin_, across));
-    high = std::max(high, geometry::dot(corner - origin_, across));
+    low = std::min(low, geometry::dot(corner - rows.origin, across));
+    high = std::max(high, geometry::dot(corner - rows.origin, across));
+    begin = std::min(begin, geometry::dot(corner - rows.origin, rows.along));
+    end = std::max(end, geometry::dot(corner - rows.origin, rows.along));
   }
   const NearBins near(grid, tile, guard_, free);
-  const auto last_row = static_cast<std::int64_t>(std::ceil(high / height));
-  for (auto row = static_cast<std::int64_t>(std::floor(low / height)); row <= last_row; ++row) {
-    const Vec2 start = origin_ + (static_cast<double>(row) * height) * across;
-    const double shift = 0.5 * static_cast<double>(row & 1);
-    const auto [first, last] = clip_line(start, along_, box);
+  const auto last_of = [](std::int64_t first, double limit, std::int64_t period) {
+    const auto last = static_cast<std::int64_t>(std::ceil(limit));
+    return period > 0 ? std::min(last, first + period - 1) : last;
+  };
+  const auto reduced = [](std::int64_t k, std::int64_t period) {
+    return period > 0 ? (k % period + period) % period : k;
+  };
+  const auto first_row = static_cast<std::int64_t>(std::floor(low / rows.height));
+  for (std::int64_t j = first_row; j <= last_of(first_row, high / rows.height, rows.rows); ++j) {
+    const std::int64_t row = reduced(j, rows.rows);
+    const Vec2 start = rows.origin + (static_cast<double>(row) * rows.height) * across;
+    const double shift = rows.shift(row);
+    const auto [first, last] = periods_.any() ? std::pair{begin, end} : clip_line(start, rows.along, box);
     if (!(first <= last))
       continue;
-    const auto last_column = static_cast<std::int64_t>(std::ceil(last / spacing - shift));
-    for (auto column = static_cast<std::int64_t>(std::floor(first / spacing - shift)); column <= last_column;
-         ++column) {
-      const Vec2 p = lattice_.snap(start + ((static_cast<double>(column) + shift) * spacing) * along_);
+    const auto first_column = static_cast<std::int64_t>(std::floor(first / rows.spacing - shift));
+    for (std::int64_t i = first_column; i <= last_of(first_column, last / rows.spacing - shift, rows.columns); ++i) {
+      const std::int64_t column = reduced(i, rows.columns);
+      const Vec2 p =
+          periods_.wrap(lattice_.snap(start + ((static_cast<double>(column) + shift) * rows.spacing) * rows.along));
       if (!grid.container().contains(p))
         continue;
       const mesh::TileGrid::Place place = grid.place(p);
@@ -114,8 +147,11 @@ void LatticeStart::for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile,
 
 std::vector<mesh::Site> LatticeStart::sites(const TileRange& tiles, double spacing) const {
   std::vector<std::vector<mesh::Site>> of_tile(static_cast<std::size_t>(tiles.last - tiles.first));
+  const RowLattice rows = rows_of(spacing);
+  if (!(rows.spacing > 0))
+    return {};
   thread_loop(tiles.last - tiles.first, 1, [&](std::ptrdiff_t t, int) {
-    for_each_in_tile(tiles.grid, tiles.first + static_cast<LocalIndex>(t), spacing,
+    for_each_in_tile(tiles.grid, tiles.first + static_cast<LocalIndex>(t), rows, spacing,
                      [&](Vec2 p) { of_tile[static_cast<std::size_t>(t)].push_back({p}); });
   });
   std::vector<mesh::Site> all;
@@ -126,8 +162,11 @@ std::vector<mesh::Site> LatticeStart::sites(const TileRange& tiles, double spaci
 
 std::int64_t LatticeStart::count(const TileRange& tiles, double spacing) const {
   std::vector<std::int64_t> of_tile(static_cast<std::size_t>(tiles.last - tiles.first), 0);
+  const RowLattice rows = rows_of(spacing);
+  if (!(rows.spacing > 0))
+    return 0;
   thread_loop(tiles.last - tiles.first, 1, [&](std::ptrdiff_t t, int) {
-    for_each_in_tile(tiles.grid, tiles.first + static_cast<LocalIndex>(t), spacing,
+    for_each_in_tile(tiles.grid, tiles.first + static_cast<LocalIndex>(t), rows, spacing,
                      [&](Vec2) { ++of_tile[static_cast<std::size_t>(t)]; });
   });
   std::int64_t all = 0;

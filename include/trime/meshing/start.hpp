@@ -20,8 +20,13 @@ struct TileRange {
   LocalIndex first, last;
 };
 
+struct RowLattice;
+
 /// @brief Hexagonal lattice of a given spacing whose rows run along the longest straight side of the boundary, the
 /// first row one row height from it (axis-parallel if there is no straight side).
+///
+/// In a periodic container its rows run along a periodic axis, and it is stretched a little to fit the periods; see
+/// fit_lattice.
 class LatticeStart {
 public:
   LatticeStart(const geometry::Boundary& boundary, const BoundaryGuard& guard, const geometry::Lattice& lattice);
@@ -32,11 +37,15 @@ public:
   std::int64_t count(const TileRange& tiles, double spacing) const;
 
 private:
+  RowLattice rows_of(double spacing) const;
   template <class Visit>
-  void for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile, double spacing, const Visit& visit) const;
+  void for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile, const RowLattice& rows, double spacing,
+                        const Visit& visit) const;
 
   const BoundaryGuard& guard_;
   geometry::Lattice lattice_;
+  geometry::Periods periods_;
+  bool has_side_ = false; // along_ is the direction of a straight side, in a periodic container of one along an axis
   geometry::Vec2 origin_, along_;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The lattice start: regular, clear of the boundary, and the same set however the tiles are split.
+#include "support/periodic_shapes.hpp"
 #include "support/point_sets.hpp"
 #include "trime/meshing/start.hpp"
 
@@ -99,6 +100,105 @@ TEST(LatticeStart, IsTheSameForEverySplitOfTheTilesAndAnyThreads) {
     ASSERT_EQ(joined.size(), whole.size());
     for (std::size_t k = 0; k < whole.size(); ++k)
       EXPECT_EQ(joined[k].position, whole[k].position);
+  }
+}
+
+/// The same for a shape in a periodic container, with tiles over all of it.
+struct PeriodicStage {
+  PeriodicStage(const geometry::RegionShape& whole, double h)
+      : shape(whole), size(h), sites(make_boundary_sites(shape.boundary(), size, shape.frame().lattice(), 30)),
+        guard(sites, shape.frame().lattice(), shape.frame().periods()), grid(shape.frame().inner(), {{}, {}, h}),
+        start(shape.boundary(), guard, shape.frame().lattice()) {}
+  std::vector<Site> all(double spacing) const { return start.sites({grid, 0, grid.tile_count()}, spacing); }
+  double distance(Vec2 p, Vec2 q) const { return geometry::length(shape.frame().periods().nearest_image(q, p) - p); }
+
+  geometry::RegionShape shape;
+  sizing::UniformSize size;
+  BoundarySites sites;
+  BoundaryGuard guard;
+  mesh::TileGrid grid;
+  LatticeStart start;
+};
+
+geometry::RegionShape hexagonal_torus(int columns, int rows, bool turned = false) {
+  geometry::Box box = testing::hexagonal_container(columns, rows);
+  if (turned)
+    box.max = {box.max.y, box.max.x};
+  return {{}, "domain", geometry::Frame(box, true, true)};
+}
+
+TEST(PeriodicLatticeStart, ATorusThatTheLatticeFitsIsFilledExactly) {
+  for (const auto& [columns, rows] : {std::pair{12, 10}, {7, 8}, {40, 46}, {5, 30}})
+    for (const bool turned : {false, true}) {
+      const double h = 1.0 / columns;
+      const PeriodicStage stage(hexagonal_torus(columns, rows, turned), h);
+      const std::vector<Site> sites = stage.all(h);
+      ASSERT_EQ(sites.size(), static_cast<std::size_t>(columns * rows));
+      for (std::size_t i = 0; i < sites.size(); ++i) {
+        int neighbours = 0;
+        for (std::size_t j = 0; j < sites.size(); ++j)
+          if (j != i) {
+            const double distance = stage.distance(sites[i].position, sites[j].position);
+            ASSERT_GT(distance, h * (1 - 1e-11));
+            neighbours += distance < h * (1 + 1e-11) ? 1 : 0;
+          }
+        EXPECT_EQ(neighbours, 6);
+      }
+    }
+}
+
+TEST(PeriodicLatticeStart, AnyTorusGetsNearlyTheWantedNumberOfNearlyEquilateralTriangles) {
+  for (const double height : {1.0, 0.37, 2.9})
+    for (const int wanted : {100, 999, 5000}) {
+      const double h = std::sqrt(height / (std::sqrt(0.75) * wanted));
+      const PeriodicStage stage({{}, "domain", geometry::Frame({{-0.3, 2}, {0.7, 2 + height}}, true, true)}, h);
+      const std::vector<Site> sites = stage.all(h);
+      EXPECT_LE(std::ssize(sites), wanted);
+      EXPECT_GE(std::ssize(sites), wanted * (wanted > 500 ? 0.985 : 0.95));
+      std::size_t few = std::min<std::size_t>(sites.size(), 300);
+      for (std::size_t i = 0; i < few; ++i) {
+        double nearest = INFINITY;
+        for (std::size_t j = 0; j < sites.size(); ++j)
+          if (j != i)
+            nearest = std::min(nearest, stage.distance(sites[i].position, sites[j].position));
+        ASSERT_GT(nearest, (wanted > 500 ? 0.95 : 0.9) * h);
+        ASSERT_LT(nearest, 1.05 * h);
+      }
+    }
+}
+
+TEST(PeriodicLatticeStart, IsTheSameForEverySplitAndFillsAllShapesUpToTheirBoundary) {
+  for (const geometry::RegionShape& shape : testing::periodic_shapes()) {
+    SCOPED_TRACE(shape.region().text());
+    const double h = 0.03;
+    const PeriodicStage stage(shape, h);
+    const std::vector<Site> whole = stage.all(h);
+    const LocalIndex tiles = stage.grid.tile_count(), cut = tiles / 3;
+    std::vector<Site> joined = stage.start.sites({stage.grid, 0, cut}, h);
+    const std::vector<Site> rest = stage.start.sites({stage.grid, cut, tiles}, h);
+    joined.insert(joined.end(), rest.begin(), rest.end());
+    ASSERT_EQ(joined.size(), whole.size());
+    EXPECT_EQ(stage.start.count({stage.grid, 0, tiles}, h), std::ssize(whole));
+    for (std::size_t k = 0; k < whole.size(); ++k) {
+      ASSERT_EQ(joined[k].position, whole[k].position);
+      EXPECT_TRUE(stage.guard.inside(whole[k].position));
+      EXPECT_FALSE(stage.guard.encroaches(whole[k].position));
+    }
+    for (std::uint64_t key = 0; key < 300; ++key) {
+      const Vec2 p = testing::random_vec2(1, key);
+      if (!stage.guard.inside(p) || stage.guard.distance(p, 2 * h) < 1.1 * h)
+        continue;
+      EXPECT_TRUE(std::any_of(whole.begin(), whole.end(),
+                              [&](const Site& site) { return stage.distance(p, site.position) < 0.62 * h; }))
+          << p.x << ' ' << p.y;
+    }
+  }
+}
+
+TEST(PeriodicLatticeStart, ASpacingLargerThanThePeriodGivesNoSites) {
+  for (const geometry::RegionShape& shape : testing::periodic_shapes()) {
+    const PeriodicStage stage(shape, 0.1);
+    EXPECT_TRUE(stage.all(10).empty());
   }
 }
 
