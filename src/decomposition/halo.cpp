@@ -63,26 +63,37 @@ void Halo::reset(const Partition& partition, int margin) {
   imported_.clear();
   refreshed_.clear();
   counts_.clear();
-  const int side = grid_->bins_per_side(), bits = grid_->bin_bits();
-  const LocalIndex first = partition.first_tile(comm_->rank()), last = partition.last_tile(comm_->rank());
   std::vector<BinRef> wanted;
-  for (LocalIndex tile = first; tile < last; ++tile) {
-    const mesh::GridPosition at = grid_->tile_position(tile);
-    const int x0 = static_cast<int>(at.x) * side, y0 = static_cast<int>(at.y) * side;
-    for (int y = std::max(0, y0 - margin); y < std::min(grid_->tiles_y() * side, y0 + side + margin); ++y)
-      for (int x = std::max(0, x0 - margin); x < std::min(grid_->tiles_x() * side, x0 + side + margin); ++x) {
-        if (x >= x0 && x < x0 + side && y >= y0 && y < y0 + side) {
-          x = x0 + side - 1; // skip the tile itself
-          continue;
-        }
-        const LocalIndex neighbour = grid_->tile_at(x >> bits, y >> bits);
-        if (neighbour < first || neighbour >= last)
-          wanted.push_back({neighbour, ((y & (side - 1)) << bits) | (x & (side - 1))});
-      }
-  }
+  for (LocalIndex tile = partition.first_tile(comm_->rank()); tile < partition.last_tile(comm_->rank()); ++tile)
+    list_bins_around(tile, margin, wanted);
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   subscribe(wanted);
+}
+
+/// Foreign bins within `margin` bins of a tile: its own bins, or those of the other tile where they are smaller.
+void Halo::list_bins_around(LocalIndex tile, int margin, std::vector<BinRef>& wanted) const {
+  const int shift = grid_->tile_shift();
+  const std::int64_t side = std::int64_t{1} << shift;
+  const auto bin_side = [&](LocalIndex of) { return side >> grid_->bin_bits(of); };
+  const mesh::GridPosition at = grid_->tile_position(tile);
+  const std::int64_t x0 = std::int64_t{at.x} << shift, y0 = std::int64_t{at.y} << shift;
+  const int tiles = static_cast<int>((margin * bin_side(tile) + side - 1) >> shift); // that the margin reaches
+  const int column = static_cast<int>(at.x), row = static_cast<int>(at.y);
+  for (int ty = std::max(0, row - tiles); ty <= std::min(grid_->tiles_y() - 1, row + tiles); ++ty)
+    for (int tx = std::max(0, column - tiles); tx <= std::min(grid_->tiles_x() - 1, column + tiles); ++tx) {
+      const LocalIndex other = grid_->tile_at(tx, ty);
+      if (partition_.owner(other) == comm_->rank())
+        continue;
+      const std::int64_t width = bin_side(other), reach = margin * std::min(bin_side(tile), width);
+      const std::int64_t left = std::int64_t{tx} << shift, low = std::int64_t{ty} << shift;
+      const std::int64_t bx0 = std::max<std::int64_t>(0, x0 - reach - left) / width;
+      const std::int64_t by0 = std::max<std::int64_t>(0, y0 - reach - low) / width;
+      const std::int64_t bx1 = std::min(side, x0 + side + reach - left), by1 = std::min(side, y0 + side + reach - low);
+      for (std::int64_t by = by0; by * width < by1; ++by)
+        for (std::int64_t bx = bx0; bx * width < bx1; ++bx)
+          wanted.push_back({other, static_cast<std::int32_t>((by << grid_->bin_bits(other)) | bx)});
+    }
 }
 
 void Halo::subscribe(std::span<const BinRef> bins) {

@@ -7,6 +7,14 @@
 #include <algorithm>
 
 namespace trime::mesh {
+namespace {
+
+using geometry::Vec2;
+
+constexpr double most_in_bin = 7; // mean number of sites in the bin of a site: levels then give 1.7 to 7, mostly 3.3
+constexpr int bins_per_site = 4;  // at most, however the sites of a tile are clustered
+
+} // namespace
 
 BinnedPoints::BinnedPoints(const TileGrid& grid)
     : grid_(&grid), tile_block_(static_cast<std::size_t>(grid.tile_count()), -1) {}
@@ -14,20 +22,9 @@ BinnedPoints::BinnedPoints(const TileGrid& grid)
 LocalIndex BinnedPoints::assign_owned(std::span<const Site> sites, LocalIndex first_tile, LocalIndex last_tile,
                                       std::vector<LocalIndex>* new_index) {
   const LocalIndex tiles = last_tile - first_tile;
-  const std::size_t bins = static_cast<std::size_t>(grid_->bins_per_tile());
   first_tile_ = first_tile;
   last_tile_ = last_tile;
-  std::fill(tile_block_.begin(), tile_block_.end(), -1);
-  blocks_.clear();
-  for (LocalIndex t = 0; t < tiles; ++t) {
-    tile_block_[static_cast<std::size_t>(first_tile + t)] = t;
-    blocks_.push_back({static_cast<std::size_t>(t) * bins, true});
-  }
-  owned_blocks_ = tiles;
-  bin_begin_.resize(static_cast<std::size_t>(tiles) * bins);
-  bin_end_.resize(bin_begin_.size());
-  bin_known_.assign(bin_begin_.size(), 1);
-
+  make_owned_blocks();
   sort_into_tiles(sites);
   kept_.assign(static_cast<std::size_t>(tiles) + 1, 0);
   thread_loop(tiles, 1, [&](std::ptrdiff_t t, int) {
@@ -46,7 +43,8 @@ LocalIndex BinnedPoints::assign_owned(std::span<const Site> sites, LocalIndex fi
   thread_loop(tiles, 1, [&](std::ptrdiff_t tile, int) {
     const std::size_t t = static_cast<std::size_t>(tile);
     const LocalIndex shift = kept_[t] - tile_start_[t]; // dropped sites close up
-    for (std::size_t b = t * bins; b < (t + 1) * bins; ++b) {
+    const std::size_t first_bin = blocks_[t].first_bin, bins = std::size_t{1} << (2 * blocks_[t].bits);
+    for (std::size_t b = first_bin; b < first_bin + bins; ++b) {
       bin_begin_[b] += shift;
       bin_end_[b] += shift;
     }
@@ -62,6 +60,22 @@ LocalIndex BinnedPoints::assign_owned(std::span<const Site> sites, LocalIndex fi
     }
   });
   return static_cast<LocalIndex>(sites.size()) - owned_;
+}
+
+void BinnedPoints::make_owned_blocks() {
+  std::fill(tile_block_.begin(), tile_block_.end(), -1);
+  blocks_.clear();
+  std::size_t bins = 0;
+  for (LocalIndex tile = first_tile_; tile < last_tile_; ++tile) {
+    tile_block_[static_cast<std::size_t>(tile)] = static_cast<LocalIndex>(blocks_.size());
+    blocks_.push_back({bins, grid_->bin_bits(tile), true});
+    bins += static_cast<std::size_t>(grid_->bins_per_tile(tile));
+  }
+  owned_blocks_ = static_cast<LocalIndex>(blocks_.size());
+  owned_bins_ = bins;
+  bin_begin_.resize(bins);
+  bin_end_.resize(bins);
+  bin_known_.assign(bins, 1);
 }
 
 /// Fills order_ with the site indices grouped by tile (tile_start_) and key_ with the bin of each site.
@@ -109,7 +123,8 @@ void BinnedPoints::sort_into_tiles(std::span<const Site> sites) {
 /// Sorts one tile's piece of order_ by bin (counting, then by coordinates inside a bin), drops duplicates, sets the
 /// bins; returns the number of sites kept.
 LocalIndex BinnedPoints::sort_tile(std::span<const Site> sites, LocalIndex tile) {
-  const std::size_t bins = static_cast<std::size_t>(grid_->bins_per_tile()), first_bin = tile * bins;
+  const Block& block = blocks_[static_cast<std::size_t>(tile)];
+  const std::size_t bins = std::size_t{1} << (2 * block.bits), first_bin = block.first_bin;
   const LocalIndex begin = tile_start_[static_cast<std::size_t>(tile)];
   const LocalIndex end = tile_start_[static_cast<std::size_t>(tile) + 1];
   LocalIndex* bin_end = bin_end_.data() + first_bin;
@@ -149,13 +164,12 @@ LocalIndex BinnedPoints::sort_tile(std::span<const Site> sites, LocalIndex tile)
 
 void BinnedPoints::assign_ghosts(std::span<const BinRef> bins, std::span<const std::int32_t> counts,
                                  std::span<const Ghost> sites) {
-  const std::size_t per_tile = static_cast<std::size_t>(grid_->bins_per_tile());
   for (std::size_t b = static_cast<std::size_t>(owned_blocks_); b < blocks_.size(); ++b)
     blocks_[b].complete = false;
   blocks_.resize(static_cast<std::size_t>(owned_blocks_));
   for (LocalIndex& block : tile_block_)
     block = block >= owned_blocks_ ? -1 : block;
-  bin_begin_.resize(static_cast<std::size_t>(owned_blocks_) * per_tile);
+  bin_begin_.resize(owned_bins_);
   bin_end_.resize(bin_begin_.size());
   bin_known_.resize(bin_begin_.size());
   positions_.resize(static_cast<std::size_t>(owned_));
@@ -169,8 +183,8 @@ void BinnedPoints::assign_ghosts(std::span<const BinRef> bins, std::span<const s
     LocalIndex& block = tile_block_[static_cast<std::size_t>(bins[k].tile)];
     if (block < 0) {
       block = static_cast<LocalIndex>(blocks_.size());
-      blocks_.push_back({bin_begin_.size(), false});
-      bin_begin_.resize(bin_begin_.size() + per_tile, 0);
+      blocks_.push_back({bin_begin_.size(), grid_->bin_bits(bins[k].tile), false});
+      bin_begin_.resize(bin_begin_.size() + static_cast<std::size_t>(grid_->bins_per_tile(bins[k].tile)), 0);
       bin_end_.resize(bin_begin_.size(), 0);
       bin_known_.resize(bin_begin_.size(), 0);
     }
@@ -194,6 +208,36 @@ BinnedPoints::Range BinnedPoints::bin_range(BinRef bin) const {
     return {0, 0};
   const std::size_t at = blocks_[static_cast<std::size_t>(block)].first_bin + static_cast<std::size_t>(bin.bin);
   return {bin_begin_[at], bin_end_[at]};
+}
+
+int BinnedPoints::suitable_bin_bits(LocalIndex tile) const {
+  const auto [begin, end] = tile_range(tile);
+  const std::int64_t n = end - begin;
+  int bits = 0;
+  while (bits < grid_->most_bin_bits() && std::int64_t{4} << (2 * bits) <= bins_per_site * n)
+    ++bits;
+  std::vector<std::int64_t> count(std::size_t{1} << (2 * bits), 0);
+  for (LocalIndex i = begin; i < end; ++i) {
+    const Vec2 p = position(i);
+    ++count[static_cast<std::size_t>((grid_->bin_of(grid_->fixed_y(p.y), bits) << bits) |
+                                     grid_->bin_of(grid_->fixed_x(p.x), bits))];
+  }
+  int suitable = bits; // the smallest that will do, coming from the largest
+  for (; bits >= 0; --bits) {
+    std::int64_t pairs = 0;
+    for (const std::int64_t c : count)
+      pairs += c * c;
+    if (static_cast<double>(pairs) > most_in_bin * static_cast<double>(n))
+      break;
+    suitable = bits;
+    if (bits > 0) { // four bins become one
+      std::vector<std::int64_t> coarse(count.size() / 4, 0);
+      for (std::size_t b = 0; b < count.size(); ++b)
+        coarse[((b >> (bits + 1)) << (bits - 1)) | ((b & ((std::size_t{1} << bits) - 1)) >> 1)] += count[b];
+      count = std::move(coarse);
+    }
+  }
+  return suitable;
 }
 
 void BinnedPoints::release_work_space() {

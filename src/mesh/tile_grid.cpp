@@ -10,6 +10,8 @@ namespace {
 
 constexpr double points_per_cell = 3.3;
 constexpr double points_per_tile = 845; // 16 x 16 cells
+constexpr double fewest_per_tile = 53;  // 4 x 4 cells
+constexpr double wanted_tiles = 256, wanted_tiles_graded = 16384;
 constexpr int max_cells = 1 << 28;
 
 /// One step of the curve: the quadrant order is turned and mirrored so that pieces join end to end.
@@ -65,9 +67,11 @@ TileGrid::TileGrid(const geometry::Box& container, const GridOptions& options) :
   const double density = 1 / (0.8660254037844386 * options.point_spacing * options.point_spacing);
   const double in_cell = density * cell_width * cell_height;
 
-  // A tile is a block of 2^k cells a side: about 845 points, fewer where that would leave fewer than 256 tiles.
+  // A tile is a block of 2^k cells a side: about 845 points, fewer where that would leave too few tiles to share out.
+  // With a density that varies, the densest tiles hold up to a hundred times the mean.
   const double all_points = in_cell * cells_x_ * cells_y_;
-  const double wanted = std::clamp(all_points / 256, points_per_cell * 16, points_per_tile);
+  const double tiles_to_have = options.graded ? wanted_tiles_graded : wanted_tiles;
+  const double wanted = std::clamp(all_points / tiles_to_have, fewest_per_tile, points_per_tile);
   int block_bits = 0;
   while (block_bits < 15 && in_cell * std::ldexp(1.0, 2 * (block_bits + 1)) <= 1.5 * wanted)
     ++block_bits;
@@ -77,7 +81,7 @@ TileGrid::TileGrid(const geometry::Box& container, const GridOptions& options) :
   tile_width_ = cell_width * block;
   tile_height_ = cell_height * block;
   const double in_tile = in_cell * block * block;
-  bin_bits_ =
+  typical_bin_bits_ =
       std::clamp(static_cast<int>(std::lround(0.5 * std::log2(std::max(1.0, in_tile / points_per_cell)))), 0, 12);
 
   int level = 0;
@@ -88,8 +92,7 @@ TileGrid::TileGrid(const geometry::Box& container, const GridOptions& options) :
     level = 1;
     tile_shift_ = 31;
   }
-  bin_bits_ = std::min(bin_bits_, tile_shift_);
-  bin_shift_ = tile_shift_ - bin_bits_;
+  typical_bin_bits_ = std::min(typical_bin_bits_, most_bin_bits());
   scale_x_ = std::ldexp(1.0, tile_shift_) / tile_width_;
   scale_y_ = std::ldexp(1.0, tile_shift_) / tile_height_;
   const auto limit = [&](int tiles) {
@@ -112,6 +115,12 @@ TileGrid::TileGrid(const geometry::Box& container, const GridOptions& options) :
     tile_number_[static_cast<std::size_t>(at.y) * tiles_x_ + at.x] = static_cast<LocalIndex>(tile_position_.size());
     tile_position_.push_back(at);
   }
+  bin_bits_.assign(order.size(), static_cast<std::uint8_t>(typical_bin_bits_));
+}
+
+void TileGrid::set_bin_bits(std::vector<std::uint8_t> bits) {
+  TRIME_ASSERT(static_cast<LocalIndex>(bits.size()) == tile_count());
+  bin_bits_ = std::move(bits);
 }
 
 geometry::Box TileGrid::tile_box(LocalIndex tile) const {

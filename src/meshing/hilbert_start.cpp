@@ -21,7 +21,7 @@ constexpr double weight_unit = 0x1p20; // integer weight of one site's share
 class TileSampler {
 public:
   TileSampler(const mesh::TileGrid& grid, LocalIndex tile)
-      : box_(grid.tile_box(tile)), level_(grid.bin_bits() + cells_per_bin_bits), side_(1u << level_) {}
+      : box_(grid.tile_box(tile)), level_(grid.typical_bin_bits() + cells_per_bin_bits), side_(1u << level_) {}
 
   std::uint64_t cells() const { return std::uint64_t{side_} * side_; }
   /// Point of cell `key` at fractions (u, v) of its sides.

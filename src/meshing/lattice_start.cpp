@@ -19,7 +19,7 @@ constexpr double clearance = 0.45; // of the spacing: experiments give 0.4 to 0.
 class NearBins {
 public:
   NearBins(const mesh::TileGrid& grid, LocalIndex tile, const BoundaryGuard& guard, double margin)
-      : side_(grid.bins_per_side()), near_(static_cast<std::size_t>(side_) * side_, 0) {
+      : side_(grid.bins_per_side(tile)), near_(static_cast<std::size_t>(side_) * side_, 0) {
     const geometry::Box box = grid.tile_box(tile);
     const double width = box.width() / side_, height = box.height() / side_;
     for (int y = 0; y < side_; ++y)

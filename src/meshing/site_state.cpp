@@ -40,10 +40,24 @@ void SiteState::distribute(std::vector<mesh::Site> sites) {
   partition_ = decomposition::Partition(weights, comm_.size());
   check_counts(weights, partition_);
   decomposition::migrate(comm_, grid_, partition_, sites);
+  choose_bins(sites);
   points_.assign_owned(sites, partition_.first_tile(comm_.rank()), partition_.last_tile(comm_.rank()));
   sizes_.forget();
   stars_.reset(points_.owned());
   halo_.reset(partition_, halo_margin);
+}
+
+/// Each owner finds what suits its tiles; then all know.
+void SiteState::choose_bins(std::span<const mesh::Site> sites) {
+  const LocalIndex first = partition_.first_tile(comm_.rank()), last = partition_.last_tile(comm_.rank());
+  points_.assign_owned(sites, first, last);
+  std::vector<std::int64_t> bits(static_cast<std::size_t>(grid_.tile_count()), 0);
+  thread_loop(last - first, 1, [&](std::ptrdiff_t t, int) {
+    const LocalIndex tile = first + static_cast<LocalIndex>(t);
+    bits[static_cast<std::size_t>(tile)] = points_.suitable_bin_bits(tile);
+  });
+  comm_.sum(bits);
+  grid_.set_bin_bits({bits.begin(), bits.end()});
 }
 
 void SiteState::move_sites(std::vector<mesh::Site>& sites, std::span<const std::uint8_t> deleted) {

@@ -47,6 +47,7 @@ public:
   void release_work_space();
 
 private:
+  void choose_bins(std::span<const mesh::Site> sites);
   void refresh_sites(const sizing::SizeField& size);
 
   const comm::Communicator& comm_;

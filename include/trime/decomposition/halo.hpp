@@ -46,6 +46,7 @@ private:
     int rank;
     std::vector<mesh::BinRef> bins; // ascending
   };
+  void list_bins_around(LocalIndex tile, int margin, std::vector<mesh::BinRef>& wanted) const;
   void note_renumbering(LocalIndex owned, std::span<const std::int32_t> new_counts);
 
   const comm::Communicator* comm_;

@@ -82,16 +82,22 @@ public:
   template <class Visit, class Missing>
   void for_each_near(geometry::Vec2 center, double reach, const Visit& visit, const Missing& missing) const;
 
+  /// @brief The b for which 2^b x 2^b bins suit the sites of an owned tile: the smallest for which a site shares its
+  /// bin with a few others on average, with at most four bins a site. O(sites of the tile).
+  int suitable_bin_bits(LocalIndex tile) const;
+
   /// Frees what the next assign_owned would use again.
   void release_work_space();
 
 private:
   struct Block {           // bins of one tile that is owned or partly known
-    std::size_t first_bin; // into bin_start_ and bin_known_
+    std::size_t first_bin; // into bin_begin_ and bin_known_
+    int bits;              // 2^bits x 2^bits bins
     bool complete;         // every bin known
   };
   template <class Visit, class Missing>
   void visit_row(BinRef first_bin, int bx0, int bx1, const Visit& visit, const Missing& missing) const;
+  void make_owned_blocks();
   void sort_into_tiles(std::span<const Site> sites);
   LocalIndex sort_tile(std::span<const Site> sites, LocalIndex tile);
 
@@ -106,6 +112,7 @@ private:
   std::vector<LocalIndex> bin_begin_, bin_end_;
   std::vector<std::uint8_t> bin_known_;
   LocalIndex owned_blocks_ = 0;
+  std::size_t owned_bins_ = 0;
   std::vector<LocalIndex> kept_; // first owned site of each owned tile, and the end
   // Work space of assign_owned, kept between calls.
   std::vector<LocalIndex> tile_start_, order_, sorted_, tile_of_;
@@ -116,27 +123,29 @@ template <class Visit, class Missing>
 void BinnedPoints::for_each_near(geometry::Vec2 center, double reach, const Visit& visit,
                                  const Missing& missing) const {
   const TileGrid& grid = *grid_;
-  const int bits = grid.bin_bits(), mask = grid.bins_per_side() - 1;
-  const int x0 = grid.bin_of(grid.fixed_x(center.x - reach)), x1 = grid.bin_of(grid.fixed_x(center.x + reach));
-  const int y0 = grid.bin_of(grid.fixed_y(center.y - reach)), y1 = grid.bin_of(grid.fixed_y(center.y + reach));
-  const int tx0 = x0 >> bits, tx1 = x1 >> bits, ty0 = y0 >> bits, ty1 = y1 >> bits;
+  const std::uint32_t x0 = grid.fixed_x(center.x - reach), x1 = grid.fixed_x(center.x + reach);
+  const std::uint32_t y0 = grid.fixed_y(center.y - reach), y1 = grid.fixed_y(center.y + reach);
+  const int tx0 = grid.tile_of(x0), tx1 = grid.tile_of(x1), ty0 = grid.tile_of(y0), ty1 = grid.tile_of(y1);
   if (tx0 == tx1 && ty0 == ty1) { // most squares lie in one tile
     const LocalIndex block = tile_block_[static_cast<std::size_t>(grid.tile_at(tx0, ty0))];
     if (block >= 0 && blocks_[static_cast<std::size_t>(block)].complete) {
-      const std::size_t first = blocks_[static_cast<std::size_t>(block)].first_bin;
-      const LocalIndex* begin = bin_begin_.data() + first + (x0 & mask);
-      const LocalIndex* end = bin_end_.data() + first + (x1 & mask);
-      for (int row = (y0 & mask) << bits; row <= (y1 & mask) << bits; row += mask + 1)
+      const Block& b = blocks_[static_cast<std::size_t>(block)];
+      const LocalIndex* begin = bin_begin_.data() + b.first_bin + grid.bin_of(x0, b.bits);
+      const LocalIndex* end = bin_end_.data() + b.first_bin + grid.bin_of(x1, b.bits);
+      const int last_row = grid.bin_of(y1, b.bits) << b.bits;
+      for (int row = grid.bin_of(y0, b.bits) << b.bits; row <= last_row; row += 1 << b.bits)
         visit(begin[row], end[row]); // the bins of a row are contiguous in memory
       return;
     }
   }
   for (int ty = ty0; ty <= ty1; ++ty)
     for (int tx = tx0; tx <= tx1; ++tx) {
-      const int bx0 = tx == tx0 ? x0 & mask : 0, bx1 = tx == tx1 ? x1 & mask : mask;
-      const int by0 = ty == ty0 ? y0 & mask : 0, by1 = ty == ty1 ? y1 & mask : mask;
+      const LocalIndex tile = grid.tile_at(tx, ty);
+      const int bits = grid.bin_bits(tile), last = (1 << bits) - 1;
+      const int bx0 = tx == tx0 ? grid.bin_of(x0, bits) : 0, bx1 = tx == tx1 ? grid.bin_of(x1, bits) : last;
+      const int by0 = ty == ty0 ? grid.bin_of(y0, bits) : 0, by1 = ty == ty1 ? grid.bin_of(y1, bits) : last;
       for (int by = by0; by <= by1; ++by)
-        visit_row({grid.tile_at(tx, ty), by << bits}, bx0, bx1, visit, missing);
+        visit_row({tile, by << bits}, bx0, bx1, visit, missing);
     }
 }
 

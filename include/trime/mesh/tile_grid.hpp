@@ -25,11 +25,15 @@ GridPosition hilbert_position(std::uint64_t key, int level);
 struct GridOptions {
   std::optional<int> cells_x, cells_y; ///< container grid; empty: about 3.3 points a cell
   double point_spacing = 0.01;         ///< typical edge length, for the sizes that are not given
+  bool graded = false; ///< the density varies: more and smaller tiles, so that a dense one is no large share of all
 };
 
 /// @brief Tiles are numbered 0..tile_count()-1 in Hilbert order; bins of one tile row by row. Every point of the
 /// container has a 32-bit fixed-point position per axis; tile, bin and Hilbert key are its leading bits, so the
-/// numbering of tiles is a prefix of the order of points. Immutable. O(tiles) memory, replicated on every rank.
+/// numbering of tiles is a prefix of the order of points. O(tiles) memory, replicated on every rank.
+///
+/// Each tile has 2^b x 2^b bins with a b of its own, so that bins hold a few sites where the density varies by orders
+/// of magnitude. Only b ever changes, by set_bin_bits.
 class TileGrid {
 public:
   TileGrid(const geometry::Box& container, const GridOptions& options);
@@ -46,15 +50,29 @@ public:
   GridPosition tile_position(LocalIndex tile) const { return tile_position_[static_cast<std::size_t>(tile)]; }
   geometry::Box tile_box(LocalIndex tile) const;
 
-  /// Bins along one side of every tile, a power of two.
-  int bins_per_side() const { return 1 << bin_bits_; }
-  int bins_per_tile() const { return 1 << (2 * bin_bits_); }
+  /// The b of a tile of the typical density: 2^b x 2^b bins with about 3.3 sites each.
+  int typical_bin_bits() const { return typical_bin_bits_; }
+  /// The b of a tile, its bins along one side, and all of them.
+  int bin_bits(LocalIndex tile) const { return bin_bits_[static_cast<std::size_t>(tile)]; }
+  int bins_per_side(LocalIndex tile) const { return 1 << bin_bits(tile); }
+  int bins_per_tile(LocalIndex tile) const { return 1 << (2 * bin_bits(tile)); }
+  /// Largest b possible.
+  int most_bin_bits() const { return std::min(12, tile_shift_); }
+  /// @brief Sets the b of every tile. Whatever counts in bins (points, subscriptions) must be built anew.
+  /// @pre the same on all ranks; each at most most_bin_bits()
+  void set_bin_bits(std::vector<std::uint8_t> bits);
 
   /// 32-bit fixed-point position; monotone in the coordinate, clamped to the tiles.
   std::uint32_t fixed_x(double x) const { return fixed((x - container_.min.x) * scale_x_, limit_x_); }
   std::uint32_t fixed_y(double y) const { return fixed((y - container_.min.y) * scale_y_, limit_y_); }
-  /// Bin column (or row) over the whole grid of a fixed-point position.
-  int bin_of(std::uint32_t position) const { return static_cast<int>(position >> bin_shift_); }
+  /// Column (or row) in the tile grid of a fixed-point position.
+  int tile_of(std::uint32_t position) const { return static_cast<int>(position >> tile_shift_); }
+  /// Column (or row) of the bin inside its tile, for a tile of 2^bits x 2^bits bins.
+  int bin_of(std::uint32_t position, int bits) const {
+    return static_cast<int>(position >> (tile_shift_ - bits)) & ((1 << bits) - 1);
+  }
+  /// The side of a tile is 2^tile_shift() in fixed-point positions.
+  int tile_shift() const { return tile_shift_; }
 
   /// Tile and bin of a point.
   struct Place {
@@ -62,10 +80,11 @@ public:
     int bin;
   };
   Place place(geometry::Vec2 p) const {
-    const int bx = bin_of(fixed_x(p.x)), by = bin_of(fixed_y(p.y)), mask = bins_per_side() - 1;
-    return {tile_at(bx >> bin_bits_, by >> bin_bits_), ((by & mask) << bin_bits_) | (bx & mask)};
+    const std::uint32_t x = fixed_x(p.x), y = fixed_y(p.y);
+    const LocalIndex tile = tile_at(tile_of(x), tile_of(y));
+    const int bits = bin_bits(tile);
+    return {tile, (bin_of(y, bits) << bits) | bin_of(x, bits)};
   }
-  int bin_bits() const { return bin_bits_; }
   /// Hilbert key of a point to 32 bits per axis: the canonical order of the mesh, ties lexicographic.
   std::uint64_t point_key(geometry::Vec2 p) const { return hilbert_key(fixed_x(p.x), fixed_y(p.y), 32); }
 
@@ -76,12 +95,13 @@ private:
 
   geometry::Box container_;
   int cells_x_ = 1, cells_y_ = 1, tiles_x_ = 1, tiles_y_ = 1;
-  int bin_bits_ = 4, tile_shift_ = 32, bin_shift_ = 28;
+  int typical_bin_bits_ = 4, tile_shift_ = 32;
   double scale_x_ = 1, scale_y_ = 1;
   std::uint32_t limit_x_ = 0, limit_y_ = 0;
   double tile_width_ = 1, tile_height_ = 1;
   std::vector<LocalIndex> tile_number_;     // by row and column
   std::vector<GridPosition> tile_position_; // by tile number
+  std::vector<std::uint8_t> bin_bits_;      // by tile number
 };
 
 } // namespace trime::mesh

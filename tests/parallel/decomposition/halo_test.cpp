@@ -62,7 +62,7 @@ TEST(Halo, GhostsEqualTheSitesOfTheirOwners) {
     stage.expect_true_ghosts();
     EXPECT_TRUE(margin > 0 || stage.points.size() == stage.points.owned());
     int unknown = 0; // within the margin around an owned tile everything is known
-    const double bin = stage.grid.tile_box(0).width() / stage.grid.bins_per_side();
+    const double bin = stage.grid.tile_box(0).width() / stage.grid.bins_per_side(0);
     for (LocalIndex i = 0; i < stage.points.owned() && margin > 0; ++i)
       stage.points.for_each_near(
           stage.points.position(i), 0.99 * margin * bin, [](LocalIndex, LocalIndex) {}, [&](BinRef) { ++unknown; });
@@ -81,7 +81,7 @@ TEST(Halo, SubscriptionsGrowAndOldGhostsKeepTheirIdentity) {
     std::vector<BinRef> more; // every seventh foreign bin, on some ranks only; some are known already
     if (comm::Communicator::world().rank() % 2 == round % 2)
       for (LocalIndex tile = 0; tile < stage.grid.tile_count(); ++tile)
-        for (int bin = round; bin < stage.grid.bins_per_tile(); bin += 7)
+        for (int bin = round; bin < stage.grid.bins_per_tile(tile); bin += 7)
           if (stage.partition.owner(tile) != stage.comm.rank())
             more.push_back({tile, bin});
     stage.halo.subscribe(more);

@@ -293,7 +293,7 @@ TEST(Stars, UncertainStarsNameTheMissingBinsAndAreRightOnceTheyAreKnown) {
     points.assign_ghosts(std::vector<mesh::BinRef>(known.begin(), known.end()), counts, ghosts);
     stars.reset(points.owned()); // the ghosts have new indices
   }
-  EXPECT_LT(static_cast<LocalIndex>(known.size()), (whole.grid.tile_count() - half) * whole.grid.bins_per_tile())
+  EXPECT_LT(static_cast<LocalIndex>(known.size()), (whole.grid.tile_count() - half) * whole.grid.bins_per_tile(0))
       << "far bins are not needed";
   for (LocalIndex i = 0; i < points.owned(); ++i) {
     const std::span<const LocalIndex> ring = stars.ring(i), expected = whole.stars.ring(i);

@@ -44,7 +44,7 @@ TEST(BinnedPoints, EverySiteIsInItsBinAndKnowsItsNewIndex) {
     LocalIndex next = 0;
     for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile) {
       EXPECT_EQ(points.tile_range(tile).begin, next);
-      for (int bin = 0; bin < grid.bins_per_tile(); ++bin) {
+      for (int bin = 0; bin < grid.bins_per_tile(tile); ++bin) {
         const auto [begin, end] = points.bin_range({tile, bin});
         EXPECT_EQ(begin, next);
         for (LocalIndex i = begin; i < end; ++i) {

@@ -91,7 +91,7 @@ TEST(TileGrid, EveryPointHasAPlaceInItsTileBox) {
       const Vec2 p = random_point(grid.container(), k);
       const TileGrid::Place place = grid.place(p);
       ASSERT_TRUE(place.tile >= 0 && place.tile < grid.tile_count());
-      ASSERT_TRUE(place.bin >= 0 && place.bin < grid.bins_per_tile());
+      ASSERT_TRUE(place.bin >= 0 && place.bin < grid.bins_per_tile(place.tile));
       const Box box = grid.tile_box(place.tile);
       EXPECT_TRUE(p.x >= box.min.x - slack && p.x <= box.max.x + slack && p.y >= box.min.y - slack &&
                   p.y <= box.max.y + slack);
@@ -121,7 +121,7 @@ TEST(TileGrid, PointsOutsideAreClampedToTheRim) {
     EXPECT_EQ(grid.place({box.min.x - far, box.min.y - far}).tile, grid.tile_at(0, 0));
     EXPECT_EQ(grid.place({box.max.x + far, box.max.y + far}).tile,
               grid.tile_at(grid.tiles_x() - 1, grid.tiles_y() - 1));
-    EXPECT_EQ(grid.place({box.max.x + far, box.max.y + far}).bin, grid.bins_per_tile() - 1);
+    EXPECT_EQ(grid.place({box.max.x + far, box.max.y + far}).bin, grid.bins_per_tile(grid.tile_count() - 1) - 1);
     EXPECT_EQ(grid.place({box.min.x - far, box.min.y - far}).bin, 0);
     const Vec2 infinite{INFINITY, -INFINITY};
     EXPECT_EQ(grid.place(infinite).tile, grid.tile_at(grid.tiles_x() - 1, 0));
@@ -149,7 +149,7 @@ TEST(TileGrid, ABinHoldsAFewPointsOfTheGivenSpacing) {
   for (const double spacing : {0.3, 0.05, 0.01, 0.001}) {
     const TileGrid grid(Box{{0, 0}, {1, 1}}, GridOptions{{}, {}, spacing});
     const Box tile = grid.tile_box(0);
-    const double points = tile.width() * tile.height() / (0.866 * spacing * spacing) / grid.bins_per_tile();
+    const double points = tile.width() * tile.height() / (0.866 * spacing * spacing) / grid.bins_per_tile(0);
     EXPECT_GT(points, 1) << spacing;
     EXPECT_LT(points, 8) << spacing;
   }
