@@ -2,6 +2,7 @@
 // Point sets of the benchmarks: the unit square filled with n points.
 #pragma once
 
+#include "trime/core/angle.hpp"
 #include "trime/core/random.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/mesh/binned_points.hpp"
@@ -46,6 +47,40 @@ inline std::vector<mesh::Site> random_points(std::int64_t n) {
     sites.push_back({lattice.snap(geometry::Vec2{0.5 + 0.5 * noise(key, 2), 0.5 + 0.5 * noise(key, 3)})});
   }
   return sites;
+}
+
+/// Element size of the graded set: grows with the distance from a point inside; density ratio 900.
+inline double graded_size(geometry::Vec2 p) {
+  return 0.001 + 0.03 * geometry::length(p - geometry::Vec2{0.4, 0.45});
+}
+
+/// Random points with density h^-2 for h in proportion to graded_size: a stratified sample, so that the mean is exact.
+inline std::vector<mesh::Site> graded_points(std::int64_t n) {
+  const geometry::Lattice lattice(unit_square);
+  std::vector<mesh::Site> sites;
+  for (std::uint64_t key = 0; static_cast<std::int64_t>(sites.size()) < n; ++key) {
+    // Log-uniform radius from the centre fits the density h^-2 about: the rest is done by rejection.
+    const double reach = 0.8, core = 0.001 / 0.03;
+    const double r = core * (std::exp(std::log(1 + reach / core) * (0.5 + 0.5 * noise(key, 2))) - 1);
+    const SinCos turn = sin_cos(pi * noise(key, 3));
+    const geometry::Vec2 p = geometry::Vec2{0.4, 0.45} + r * geometry::Vec2{turn.cos, turn.sin};
+    // Radial density of the proposal 1/(core + r), wanted r/(core + r)^2.
+    if (unit_square.contains(p) && 0.5 + 0.5 * noise(key, 4) < r / (core + r))
+      sites.push_back({lattice.snap(p)});
+  }
+  return sites;
+}
+
+/// Factor of graded_size for which n points fill the square: n = integral of 1 / (0.866 h^2).
+inline double graded_factor(std::int64_t n) {
+  double sum = 0;
+  constexpr int cells = 1000;
+  for (int y = 0; y < cells; ++y)
+    for (int x = 0; x < cells; ++x) {
+      const double s = graded_size({(x + 0.5) / cells, (y + 0.5) / cells});
+      sum += 1 / (0.8660254037844386 * s * s * cells * cells);
+    }
+  return std::sqrt(sum / static_cast<double>(n));
 }
 
 } // namespace trime::bench

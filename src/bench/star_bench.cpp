@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stars against CGAL's Delaunay triangulation of the same points in the same run. Argument: number of points.
+// Stars against CGAL's Delaunay triangulation of the same points in the same run. Arguments: number of points; 0 like a
+// relaxed mesh, 1 random, 2 random with density ratio 900.
 #include "bench/bench_points.hpp"
 #include "trime/delaunay/star_builder.hpp"
 
@@ -10,18 +11,38 @@
 namespace trime::bench {
 namespace {
 
-enum PointSet : std::int64_t { relaxed, random_set };
+enum PointSet : std::int64_t { relaxed, random_set, graded_set };
 
 /// Points in tiles and a builder for them.
 struct Stage {
   explicit Stage(const benchmark::State& state)
-      : n(state.range(0)), grid(unit_square, {{}, {}, spacing_of(n)}), points(grid), lattice(unit_square),
-        builder(lattice, 2.5 * spacing_of(n)) {
-    sites = state.range(1) == relaxed ? jittered_lattice(n, 0.15) : random_points(n);
+      : n(state.range(0)), grid(unit_square, {{}, {}, spacing_of(n), state.range(1) == graded_set}), points(grid),
+        lattice(unit_square), builder(lattice, 2.5, 1.0) {
+    sites = state.range(1) == relaxed      ? jittered_lattice(n, 0.15)
+            : state.range(1) == random_set ? random_points(n)
+                                           : graded_points(n);
     points.assign_owned(sites, 0, grid.tile_count());
+    std::vector<std::uint8_t> bits;
+    for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile)
+      bits.push_back(static_cast<std::uint8_t>(points.suitable_bin_bits(tile)));
+    grid.set_bin_bits(bits);
+    points.assign_owned(sites, 0, grid.tile_count());
+    factor = state.range(1) == graded_set ? graded_factor(n) : 0;
+    find_sizes();
     sites.clear();
     for (LocalIndex i = 0; i < points.owned(); ++i)
       sites.push_back(points.site(i)); // in tile order
+  }
+
+  double size(geometry::Vec2 p) const { return factor > 0 ? factor * graded_size(p) : spacing_of(n); }
+  void find_sizes() {
+    if (factor == 0) {
+      sizes = mesh::LocalSizes(spacing_of(n));
+      return;
+    }
+    sizes.forget();
+    for (const geometry::Vec2 p : points.positions())
+      sizes.values().push_back(size(p));
   }
 
   /// Every site moves by `step` spacings in a direction of its own; the order of the sites stays.
@@ -30,7 +51,7 @@ struct Stage {
       const geometry::Vec2 p = sites[i].position;
       const geometry::Vec2 d{noise(i, 4 + 2 * round), noise(i, 5 + 2 * round)};
       const double length = std::max(1e-3, geometry::length(d));
-      const geometry::Vec2 q = lattice.snap(p + (step * spacing_of(n) / length) * d);
+      const geometry::Vec2 q = lattice.snap(p + (step * size(p) / length) * d);
       if (unit_square.contains(q))
         sites[i].position = q;
     }
@@ -42,6 +63,8 @@ struct Stage {
   geometry::Lattice lattice;
   delaunay::StarBuilder builder;
   std::vector<mesh::Site> sites;
+  double factor = 0; // of the graded size; 0: uniform
+  mesh::LocalSizes sizes;
 };
 
 void per_point(benchmark::State& state, double points) {
@@ -55,7 +78,7 @@ void stars_from_scratch(benchmark::State& state) {
   std::vector<mesh::BinRef> missing;
   for (auto _ : state) {
     stars.reset(stage.points.owned());
-    stage.builder.update(stage.points, stars, {}, {}, missing);
+    stage.builder.update(stage.points, stars, stage.sizes, {}, missing);
   }
   per_point(state, static_cast<double>(stage.points.owned()));
 }
@@ -67,7 +90,7 @@ void star_update(benchmark::State& state) {
   std::vector<mesh::BinRef> missing;
   std::vector<LocalIndex> new_index;
   stars.reset(stage.points.owned());
-  stage.builder.update(stage.points, stars, {}, {}, missing);
+  stage.builder.update(stage.points, stars, stage.sizes, {}, missing);
   std::uint64_t round = 0;
   std::int64_t rebuilt = 0;
   for (auto _ : state) {
@@ -75,11 +98,12 @@ void star_update(benchmark::State& state) {
     stage.shake(0.02, round++);
     stage.points.assign_owned(stage.sites, 0, stage.grid.tile_count(), &new_index);
     stars.renumber(new_index, stage.points.owned());
+    stage.find_sizes();
     stage.sites.clear();
     for (LocalIndex i = 0; i < stage.points.owned(); ++i)
       stage.sites.push_back(stage.points.site(i));
     state.ResumeTiming();
-    rebuilt += stage.builder.update(stage.points, stars, {}, {}, missing).rebuilt;
+    rebuilt += stage.builder.update(stage.points, stars, stage.sizes, {}, missing).rebuilt;
   }
   per_point(state, static_cast<double>(stage.points.owned()));
   state.counters["rebuilt_percent"] = 100.0 * static_cast<double>(rebuilt) / static_cast<double>(state.iterations()) /
@@ -92,7 +116,7 @@ void sort_and_renumber(benchmark::State& state) {
   std::vector<mesh::BinRef> missing;
   std::vector<LocalIndex> new_index;
   stars.reset(stage.points.owned());
-  stage.builder.update(stage.points, stars, {}, {}, missing);
+  stage.builder.update(stage.points, stars, stage.sizes, {}, missing);
   stage.shake(0.02, 0);
   for (auto _ : state) {
     stage.points.assign_owned(stage.sites, 0, stage.grid.tile_count(), &new_index);
@@ -115,9 +139,9 @@ void cgal_delaunay(benchmark::State& state) {
 }
 
 void sizes(benchmark::internal::Benchmark* benchmark) {
-  benchmark->ArgNames({"points", "random"})->Unit(benchmark::kMillisecond)->UseRealTime();
+  benchmark->ArgNames({"points", "set"})->Unit(benchmark::kMillisecond)->UseRealTime();
   for (const std::int64_t n : {100000, 1000000})
-    for (const std::int64_t set : {relaxed, random_set})
+    for (const std::int64_t set : {relaxed, random_set, graded_set})
       benchmark->Args({n, set});
 }
 

@@ -99,7 +99,15 @@ private:
     layout_.state =
         std::make_unique<SiteState>(context_.comm, box,
                                     mesh::GridOptions{cells(options_.cells_x, box.width() / container.width()),
-                                                      cells(options_.cells_y, box.height() / container.height()), h});
+                                                      cells(options_.cells_y, box.height() / container.height()),
+                                                      mean_spacing(), !context_.relative_size.is_uniform()});
+  }
+
+  /// Edge length at the mean density.
+  double mean_spacing() const {
+    return options_.points && !context_.relative_size.is_uniform()
+               ? std::sqrt(context_.boundary.area / (row_height * static_cast<double>(*options_.points)))
+               : layout_.edge_length;
   }
 
   /// The tiles that this rank fills with sites: an even share, before anything is known of their number.
