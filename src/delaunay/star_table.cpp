@@ -18,6 +18,7 @@ void StarTable::reset(LocalIndex n) {
   degree_.assign(static_cast<std::size_t>(n), 0);
   certain_.assign(static_cast<std::size_t>(n), 0);
   overflow_.clear();
+  free_overflow_.clear();
 }
 
 std::span<const LocalIndex> StarTable::load(LocalIndex i, std::vector<LocalIndex>& room) const {
@@ -32,6 +33,7 @@ std::span<const LocalIndex> StarTable::load(LocalIndex i, std::vector<LocalIndex
 void StarTable::store(LocalIndex i, std::span<const LocalIndex> ring) {
   const std::size_t at = static_cast<std::size_t>(i);
   if (ring.size() <= slots) {
+    clear(i);
     std::copy(ring.begin(), ring.end(), rings_[at].begin());
     degree_[at] = static_cast<std::uint8_t>(ring.size());
     return;
@@ -39,11 +41,22 @@ void StarTable::store(LocalIndex i, std::span<const LocalIndex> ring) {
   // Rare (degree above 8): the order of the entries depends on the threads, the rings themselves do not.
   const std::lock_guard lock(*overflow_mutex_);
   if (degree_[at] != overflowing) {
-    rings_[at][0] = static_cast<LocalIndex>(overflow_.size());
-    overflow_.emplace_back();
+    if (free_overflow_.empty()) {
+      free_overflow_.push_back(static_cast<LocalIndex>(overflow_.size()));
+      overflow_.emplace_back();
+    }
+    rings_[at][0] = free_overflow_.back();
+    free_overflow_.pop_back();
   }
   overflow_[static_cast<std::size_t>(rings_[at][0])].assign(ring.begin(), ring.end());
   degree_[at] = overflowing;
+}
+
+void StarTable::release_overflow(LocalIndex i) {
+  const std::lock_guard lock(*overflow_mutex_);
+  const LocalIndex entry = rings_[static_cast<std::size_t>(i)][0];
+  overflow_[static_cast<std::size_t>(entry)].clear(); // nothing stale is renumbered
+  free_overflow_.push_back(entry);
 }
 
 void StarTable::renumber(std::span<const LocalIndex> new_index, LocalIndex new_size) {
@@ -90,6 +103,7 @@ void StarTable::renumber(std::span<const LocalIndex> new_index, LocalIndex new_s
   std::swap(rings_, rings_back_);
   std::swap(degree_, degree_back_);
   std::swap(overflow_, overflow_back_);
+  free_overflow_.clear();
 }
 
 void StarTable::renumber_ghosts(LocalIndex first, std::span<const LocalIndex> new_index) {

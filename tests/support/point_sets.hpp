@@ -104,6 +104,20 @@ inline std::vector<mesh::Site> near_duplicates(std::size_t n, std::uint64_t seed
   return sites;
 }
 
+/// Random sites whose density falls from the origin with the square of the distance: ratio 1000 over the unit square.
+inline std::vector<mesh::Site> graded_sites(std::size_t n, std::uint64_t seed) {
+  std::vector<mesh::Site> sites;
+  for (std::uint64_t k = 0; sites.size() < n; ++k) {
+    const geometry::Vec2 u = random_vec2(seed, k);
+    const double r = 0.045 * (std::exp(3.5 * u.x) - 1); // up to 1.45
+    const SinCos turn = sin_cos(0.5 * pi * u.y);
+    const geometry::Vec2 p = unit_lattice().snap(r * geometry::Vec2{turn.cos, turn.sin});
+    if (p.x < 1 && p.y < 1)
+      sites.push_back({p});
+  }
+  return sites;
+}
+
 /// All on one line: no triangles at all.
 inline std::vector<mesh::Site> collinear(int n) {
   std::vector<mesh::Site> sites;

@@ -37,8 +37,12 @@ public:
   std::span<const LocalIndex> load(LocalIndex i, std::vector<LocalIndex>& room) const;
   /// Stores a ring; different sites may be stored concurrently.
   void store(LocalIndex i, std::span<const LocalIndex> ring);
-  /// Empties the ring of site i.
-  void clear(LocalIndex i) { degree_[static_cast<std::size_t>(i)] = 0; }
+  /// Empties the ring of site i; concurrently as store.
+  void clear(LocalIndex i) {
+    if (degree_[static_cast<std::size_t>(i)] > slots)
+      release_overflow(i);
+    degree_[static_cast<std::size_t>(i)] = 0;
+  }
 
   /// True once every bin that the discs of the star meet is known and the star was computed with them.
   bool certain(LocalIndex i) const { return certain_[static_cast<std::size_t>(i)] != 0; }
@@ -55,10 +59,13 @@ public:
   void release_work_space();
 
 private:
+  void release_overflow(LocalIndex i);
+
   std::vector<std::array<LocalIndex, slots>> rings_, rings_back_;
   std::vector<std::uint8_t> degree_, degree_back_; // length of the ring; slots + 1 stands for an overflow entry
   std::vector<std::uint8_t> certain_;
   std::vector<std::vector<LocalIndex>> overflow_, overflow_back_;
+  std::vector<LocalIndex> free_overflow_; // entries of overflow_ without a site
   std::unique_ptr<std::mutex> overflow_mutex_ = std::make_unique<std::mutex>();
 };
 

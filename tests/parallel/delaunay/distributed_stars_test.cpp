@@ -32,6 +32,12 @@ std::vector<Vec2> rings(const comm::Communicator& comm, const SiteState& state) 
   return testing::gather_all(comm, mine);
 }
 
+/// Grows linearly with the distance from the origin.
+class GrowingSize final : public sizing::SizeField {
+public:
+  double size(Vec2 p) const override { return 0.005 + 0.11 * geometry::length(p); }
+};
+
 /// Moves every site by a step that is a function of its position, so that it is the same on any ranks.
 void shake(SiteState& state, double step, std::uint64_t round) {
   std::vector<Site> sites;
@@ -49,21 +55,26 @@ void shake(SiteState& state, double step, std::uint64_t round) {
   state.move_sites(sites, deleted);
 }
 
-void expect_equal_stars(const std::vector<Site>& sites, double spacing, double cap, double step) {
+void expect_equal_stars(const std::vector<Site>& sites, double spacing, const StarBuilder& builder, double step,
+                        const sizing::SizeField& size = sizing::UniformSize()) {
   const comm::Communicator world = comm::Communicator::world(), self = comm::Communicator::self();
-  SiteState distributed(world, square, {{}, {}, spacing}), serial(self, square, {{}, {}, spacing});
+  const mesh::GridOptions options{{}, {}, spacing, !size.is_uniform()};
+  SiteState distributed(world, square, options), serial(self, square, options);
   distributed.distribute(testing::dealt(world, sites));
   serial.distribute(sites);
-  const StarBuilder builder(unit_lattice(), cap);
   for (std::uint64_t round = 0; round < 4; ++round) {
-    distributed.compute_stars(builder, sizing::UniformSize(), Wanted::all_sites);
-    serial.compute_stars(builder, sizing::UniformSize(), Wanted::all_sites);
+    distributed.compute_stars(builder, size, Wanted::all_sites);
+    serial.compute_stars(builder, size, Wanted::all_sites);
     for (LocalIndex i = 0; i < distributed.points().owned(); ++i)
       EXPECT_TRUE(distributed.stars().certain(i));
     EXPECT_EQ(rings(world, distributed), rings(self, serial)) << "round " << round;
     shake(distributed, step, round);
     shake(serial, step, round);
   }
+}
+
+void expect_equal_stars(const std::vector<Site>& sites, double spacing, double cap, double step) {
+  expect_equal_stars(sites, spacing, StarBuilder(unit_lattice(), cap), step);
 }
 
 TEST(DistributedStars, EqualThoseOfOneRank) {
@@ -78,6 +89,20 @@ TEST(DistributedStars, EqualThoseOfOneRankInUglySets) {
   expect_equal_stars(testing::cocircular_rings(), 0.1, 1, 0);
   expect_equal_stars(testing::wheel(40, {0.5, 0.5}, 0.3), 0.1, 1, 1e-3);
   expect_equal_stars(testing::collinear(30), 0.1, 1, 0);
+}
+
+TEST(DistributedStars, EqualThoseOfOneRankWhereTheDensityVariesAThousandfold) {
+  const StarBuilder builder(unit_lattice(), 2.5, 1.0);
+  expect_equal_stars(testing::graded_sites(1500, 5), 0.03, builder, 0.002, GrowingSize());
+  const comm::Communicator world = comm::Communicator::world();
+  SiteState state(world, square, {{}, {}, 0.03, true});
+  state.distribute(testing::dealt(world, testing::graded_sites(1500, 5)));
+  int least = 99, most = 0;
+  for (LocalIndex tile = 0; tile < state.grid().tile_count(); ++tile) {
+    least = std::min(least, state.grid().bin_bits(tile));
+    most = std::max(most, state.grid().bin_bits(tile));
+  }
+  EXPECT_GE(most - least, 3);
 }
 
 TEST(DistributedStars, EqualThoseOfOneRankInTinySets) {
@@ -97,12 +122,6 @@ TEST(DistributedStars, EveryTriangleIsInTheStarsOfItsOwnedCorners) {
     testing::for_each_triangle(state.stars(), i, [&](LocalIndex, LocalIndex) { ++listings; });
   EXPECT_EQ(world.sum(listings) % 3, 0);
 }
-
-/// Grows linearly with the distance from the origin.
-class GrowingSize final : public sizing::SizeField {
-public:
-  double size(Vec2 p) const override { return 0.02 + 0.1 * geometry::length(p); }
-};
 
 TEST(DistributedStars, SizesAreKnownAtOwnedSitesAndGhosts) {
   const comm::Communicator world = comm::Communicator::world();

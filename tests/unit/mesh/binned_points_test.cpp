@@ -59,6 +59,48 @@ TEST(BinnedPoints, EverySiteIsInItsBinAndKnowsItsNewIndex) {
   }
 }
 
+TEST(BinnedPoints, BinsThatSuitTheirTilesHoldAFewSitesEach) {
+  TileGrid grid(geometry::Box{{0, 0}, {1, 1}}, {{}, {}, 0.02, true});
+  const std::vector<Site> sites = testing::graded_sites(3000, 3);
+  BinnedPoints points(grid);
+  const auto mean_in_bin = [&] { // seen from the sites
+    double pairs = 0;
+    for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile)
+      for (int bin = 0; bin < grid.bins_per_tile(tile); ++bin) {
+        const auto [begin, end] = points.bin_range({tile, bin});
+        pairs += static_cast<double>(end - begin) * static_cast<double>(end - begin);
+      }
+    return pairs / static_cast<double>(points.owned());
+  };
+  points.assign_owned(sites, 0, grid.tile_count());
+  EXPECT_GT(mean_in_bin(), 50);
+  std::vector<std::uint8_t> bits;
+  for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile)
+    bits.push_back(static_cast<std::uint8_t>(points.suitable_bin_bits(tile)));
+  grid.set_bin_bits(bits);
+  points.assign_owned(sites, 0, grid.tile_count());
+  EXPECT_LT(mean_in_bin(), 8);
+  int bins = 0;
+  for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile)
+    bins += grid.bins_per_tile(tile);
+  EXPECT_LT(bins, 4 * 3000 + grid.tile_count());
+  for (const double reach : {0.001, 0.02, 0.3}) // tiles of different levels are met
+    for (std::size_t k = 0; k < sites.size(); k += 100) {
+      const Vec2 center = sites[k].position;
+      std::size_t near = 0, expected = 0;
+      points.for_each_near(
+          center, reach,
+          [&](LocalIndex begin, LocalIndex end) {
+            for (LocalIndex i = begin; i < end; ++i)
+              near += geometry::length(points.position(i) - center) <= reach;
+          },
+          [](BinRef) { ADD_FAILURE() << "all bins are known"; });
+      for (const Site& site : sites)
+        expected += geometry::length(site.position - center) <= reach;
+      EXPECT_EQ(near, expected);
+    }
+}
+
 TEST(BinnedPoints, TheOrderOfTheInputDoesNotMatter) {
   const TileGrid grid = small_grid();
   std::vector<Site> sites = testing::random_sites(1000, 2);
