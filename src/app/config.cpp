@@ -121,6 +121,8 @@ void read_domain(const Settings& settings, meshing::MeshOptions& mesh, io::Diagn
   check_side(settings, "x", problems);
   check_side(settings, "y", problems);
   mesh.container = box_of(settings, "domain");
+  mesh.periodic_x = settings.boolean("domain", "periodic_x");
+  mesh.periodic_y = settings.boolean("domain", "periodic_y");
   if (const auto cells = settings.optional_integer("domain", "cells_x"))
     mesh.cells_x = static_cast<int>(*cells);
   if (const auto cells = settings.optional_integer("domain", "cells_y"))

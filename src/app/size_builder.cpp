@@ -25,10 +25,12 @@ BuiltSize automatic_size(const RunOptions& options, const geometry::Boundary& bo
   return size;
 }
 
-BuiltSize expression_size(const SizingOptions& sizing, const geometry::Boundary& boundary) {
+BuiltSize expression_size(const RunOptions& options, const geometry::Boundary& boundary) {
+  const SizingOptions& sizing = options.sizing;
+  const geometry::Box box = boundary.periods.any() ? options.mesh.container : boundary.bounding_box();
   BuiltSize size;
   size.formula = std::make_unique<const Formula>(sizing.expression, sizing.expression_place);
-  size.field = std::make_unique<const sizing::ExpressionSize>(*size.formula, boundary.bounding_box());
+  size.field = std::make_unique<const sizing::ExpressionSize>(*size.formula, box);
   size.description = "expression " + sizing.expression;
   return size;
 }
@@ -47,7 +49,7 @@ BuiltSize build_size(const RunOptions& options, const geometry::Boundary& bounda
   if (options.sizing.type == "automatic") {
     size = automatic_size(options, boundary, comm);
   } else if (options.sizing.type == "expression") {
-    size = expression_size(options.sizing, boundary); // the same on all ranks, errors too
+    size = expression_size(options, boundary); // the same on all ranks, errors too
   } else {
     size.field = std::make_unique<const sizing::UniformSize>();
     size.description = "uniform";

@@ -48,7 +48,8 @@ mesh::QualitySummary measure_quality(const ExtractionContext& context, const dec
 
 /// What the shape promises.
 struct Expectation {
-  int components = 0, holes = 0;
+  int euler_characteristic = 1;
+  geometry::Periods periods{};
 };
 
 /// @brief The certificate: manifold, positive, Euler characteristic, area, Delaunay, boundary segments, corners,

@@ -85,9 +85,9 @@ RowLattice LatticeStart::rows_of(double spacing) const {
   RowLattice rows;
   const Vec2 axis{std::fabs(along_.x), std::fabs(along_.y)};
   if (periods_.x > 0 && periods_.y > 0)
-    rows = has_side_ ? fit_lattice(periods_, spacing, axis) : fit_lattice(periods_, spacing);
+    rows = has_side_ ? fit_to_periods(periods_, spacing, axis) : fit_to_periods(periods_, spacing);
   else
-    rows = fit_lattice(periods_, spacing, periods_.x > 0 ? Vec2{1, 0} : Vec2{0, 1});
+    rows = fit_to_periods(periods_, spacing, periods_.x > 0 ? Vec2{1, 0} : Vec2{0, 1});
   // Without a side to start from, no site lies on the border of the container.
   rows.origin = has_side_ ? origin_
                           : periods_.min + 0.25 * rows.spacing * rows.along +

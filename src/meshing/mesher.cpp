@@ -173,7 +173,7 @@ private:
     result.holes = boundary_.holes();
     result.quality = measure_quality(context, numbering);
     result.mesh = extract_mesh(context, numbering);
-    result.checks = certify(context, numbering, {result.components, result.holes}, result.mesh);
+    result.checks = certify(context, numbering, {boundary_.euler_characteristic(), boundary_.periods}, result.mesh);
     result.history = std::move(history_);
     result.stop_reason = stop_reason_;
     result.requested_points = options_.points.value_or(0);

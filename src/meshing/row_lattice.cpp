@@ -65,7 +65,7 @@ RowLattice make_lattice(const geometry::Periods& periods, const Fit& fit, Vec2 a
 
 } // namespace
 
-RowLattice fit_lattice(const geometry::Periods& periods, double spacing, Vec2 along) {
+RowLattice fit_to_periods(const geometry::Periods& periods, double spacing, Vec2 along) {
   const bool by_x = along.y == 0;
   const double length = by_x ? periods.x : periods.y, width = by_x ? periods.y : periods.x;
   if (width > 0)
@@ -82,7 +82,7 @@ RowLattice fit_lattice(const geometry::Periods& periods, double spacing, Vec2 al
           0};
 }
 
-RowLattice fit_lattice(const geometry::Periods& periods, double spacing) {
+RowLattice fit_to_periods(const geometry::Periods& periods, double spacing) {
   const Fit by_x = best_fit(periods.x, periods.y, spacing), by_y = best_fit(periods.y, periods.x, spacing);
   return by_y.cost < by_x.cost ? make_lattice(periods, by_y, {0, 1}) : make_lattice(periods, by_x, {1, 0});
 }

@@ -32,9 +32,9 @@ struct RowLattice {
 /// and nearly equilateral: 2 % of stretch count like 0.2 % of missing sites. An odd number of rows takes a little
 /// shear. With one period the columns fit and the rows keep the density. No sites (columns = 0 on a periodic axis is
 /// told by spacing = 0) if not even one fits. O(sqrt(sites)).
-RowLattice fit_lattice(const geometry::Periods& periods, double spacing, geometry::Vec2 along);
+RowLattice fit_to_periods(const geometry::Periods& periods, double spacing, geometry::Vec2 along);
 
 /// The better of the fits with rows along x and along y; both axes must be periodic.
-RowLattice fit_lattice(const geometry::Periods& periods, double spacing);
+RowLattice fit_to_periods(const geometry::Periods& periods, double spacing);
 
 } // namespace trime::meshing

@@ -23,6 +23,8 @@ enum class Start { automatic, lattice, hilbert, coarse_to_fine };
 
 struct MeshOptions {
   geometry::Box container{{0, 0}, {1, 1}};
+  /// For the frame in which a shape is made; the mesher itself goes by the periods of the boundary that it is given.
+  bool periodic_x = false, periodic_y = false;
   std::optional<int> cells_x, cells_y; ///< container grid; empty: about 3.3 points a cell
   Method method = Method::hybrid;
   std::optional<GlobalId> points;    ///< exactly one of points and edge_length is set

@@ -26,7 +26,7 @@ struct RowLattice;
 /// first row one row height from it (axis-parallel if there is no straight side).
 ///
 /// In a periodic container its rows run along a periodic axis, and it is stretched a little to fit the periods; see
-/// fit_lattice.
+/// fit_to_periods.
 class LatticeStart {
 public:
   LatticeStart(const geometry::Boundary& boundary, const BoundaryGuard& guard, const geometry::Lattice& lattice);
