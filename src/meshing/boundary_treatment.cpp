@@ -15,23 +15,31 @@ constexpr double move_cap = 0.4; // of h
 constexpr double still = 0.005;  // of h
 constexpr int pushes_allowed = 3;
 
-Vec2 capped(Vec2 move, double limit) {
-  const double squared = geometry::squared_length(move);
-  return squared > limit * limit ? (limit / std::sqrt(squared)) * move : move;
+/// The step of a rule, not longer than `limit`: the lead gives way first.
+Step capped(Step step, double limit) {
+  const auto cap = [limit](Vec2 v) {
+    const double squared = geometry::squared_length(v);
+    return squared > limit * limit ? (limit / std::sqrt(squared)) * v : v;
+  };
+  step.move = cap(step.move);
+  step.lead = cap(step.move + step.lead) - step.move;
+  return step;
 }
 
 Vec2 into_box(Vec2 p, const geometry::Box& box) {
   return {std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y)};
 }
 
-/// Applies `propose` (old site -> wanted position) to all owned inner sites and treats the boundary.
+constexpr double largest_power = 0x1p10; // of one site, keeps FixedSum within its reach
+
+/// Applies `propose` (local index, h -> Step) to all owned inner sites and treats the boundary.
 template <class Propose>
 MoveCounts move_all(SiteState& state, const MoveContext& context, int allowed, const Propose& propose) {
   const mesh::BinnedPoints& points = state.points();
   std::vector<mesh::Site> sites(static_cast<std::size_t>(points.owned()));
   std::vector<std::uint8_t> deleted(sites.size(), 0);
   std::vector<MoveCounts> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
-  const StarView view(points, state.stars(), context.size, &state.sizes());
+  const StarView view = view_of(state, context.size);
   const geometry::Box& container = state.grid().container();
   const LocalIndex first_tile = points.first_tile();
   thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t t, int thread) {
@@ -43,7 +51,10 @@ MoveCounts move_all(SiteState& state, const MoveContext& context, int allowed, c
         continue;
       const Vec2 from = site.position;
       const double h = view.size(i);
-      site.position = context.lattice.snap(into_box(propose(i, from, h), container));
+      const Step step = propose(i, h);
+      site.position = context.lattice.snap(into_box(from + step.move + step.lead, container));
+      site.lead = step.lead;
+      counts.power.add(std::clamp(step.power, -largest_power, largest_power));
       if (const auto pushed = context.guard.correct(site.position, h, context.lattice)) {
         if (site.pushes >= allowed) {
           deleted[static_cast<std::size_t>(i)] = 1;
@@ -51,6 +62,7 @@ MoveCounts move_all(SiteState& state, const MoveContext& context, int allowed, c
           continue;
         }
         site.position = context.lattice.snap(into_box(*pushed, container));
+        site.lead = {};
         ++site.pushes;
         ++counts.pushed;
       }
@@ -58,30 +70,33 @@ MoveCounts move_all(SiteState& state, const MoveContext& context, int allowed, c
       counts.moving += moved > still;
       counts.max_move = std::max(counts.max_move, moved);
     }
-    MoveCounts& sum = of_thread[static_cast<std::size_t>(thread)];
-    sum.moving += counts.moving;
-    sum.pushed += counts.pushed;
-    sum.deleted += counts.deleted;
-    sum.max_move = std::max(sum.max_move, counts.max_move);
+    of_thread[static_cast<std::size_t>(thread)].add(counts);
   });
   MoveCounts all;
-  for (const MoveCounts& c : of_thread)
-    all = {all.moving + c.moving, all.pushed + c.pushed, all.deleted + c.deleted, std::max(all.max_move, c.max_move)};
+  for (const MoveCounts& counts : of_thread)
+    all.add(counts);
   state.move_sites(sites, deleted);
   return all;
 }
 
 } // namespace
 
+void MoveCounts::add(const MoveCounts& other) {
+  moving += other.moving;
+  pushed += other.pushed;
+  deleted += other.deleted;
+  max_move = std::max(max_move, other.max_move);
+  power.add(other.power);
+}
+
 MoveCounts move_by_rule(SiteState& state, const UpdateRule& rule, const MoveContext& context) {
-  const StarView view(state.points(), state.stars(), context.size, &state.sizes());
-  return move_all(state, context, pushes_allowed, [&](LocalIndex i, Vec2 from, double h) {
-    return from + capped(rule.displacement(view, i), move_cap * h);
-  });
+  const StarView view = view_of(state, context.size);
+  return move_all(state, context, pushes_allowed,
+                  [&](LocalIndex i, double h) { return capped(rule.step(view, i), move_cap * h); });
 }
 
 MoveCounts settle_round(SiteState& state, const MoveContext& context, bool delete_all) {
-  return move_all(state, context, delete_all ? 0 : pushes_allowed, [](LocalIndex, Vec2 from, double) { return from; });
+  return move_all(state, context, delete_all ? 0 : pushes_allowed, [](LocalIndex, double) { return Step{}; });
 }
 
 } // namespace trime::meshing

@@ -15,6 +15,9 @@ struct MoveCounts {
   std::int64_t moving = 0; ///< moved by more than 0.005 h
   std::int64_t pushed = 0, deleted = 0;
   double max_move = 0; ///< longest move over h
+  FixedSum power;      ///< of the steps, see SweepSums
+
+  void add(const MoveCounts& other);
 };
 
 /// What a round of moves needs to know.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Set-up of a run: the size of the triangles, the sites on the boundary, the sites inside, and their distribution.
+// What the sweeps of one stage work on: the size of the triangles, the sites on the boundary, the sites inside, and
+// their distribution; and how sites are placed for it.
 #pragma once
 
 #include "meshing/site_state.hpp"
@@ -10,20 +11,13 @@
 #include "trime/meshing/boundary_guard.hpp"
 #include "trime/meshing/boundary_sites.hpp"
 #include "trime/meshing/options.hpp"
+#include "trime/meshing/start.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <memory>
+#include <vector>
 
 namespace trime::meshing {
-
-/// All that the sweeps start from. Only `state` differs from rank to rank.
-struct Layout {
-  double edge_length = 1; ///< factor of the relative size; for a uniform field h itself
-  std::unique_ptr<sizing::ScaledSize> size;
-  BoundarySites boundary;
-  std::unique_ptr<BoundaryGuard> guard;
-  std::unique_ptr<SiteState> state;
-};
 
 /// What the set-up works from; see Mesher.
 struct LayoutContext {
@@ -36,11 +30,31 @@ struct LayoutContext {
   TimerTable& timers;
 };
 
-/// @brief Boundary first, at a size estimated from area and perimeter; then the inner sites that the requested number
-/// of points leaves room for. If their spacing differs from the boundary's by more than 2 % (a boundary full of corners
-/// takes more sites than its length says), the boundary is laid again at that spacing, twice at most. Collective.
-/// @throws ConfigError if the boundary alone needs more than the requested points at any size; GeometryError as
-///         make_boundary_sites; on all ranks together
-Layout lay_out(const LayoutContext& context);
+/// All that the sweeps of a stage start from. Only `state` differs from rank to rank.
+struct Layout {
+  double factor = 1;       ///< of the relative size, in the last stage; for a uniform field h itself
+  double coarsening = 1;   ///< h of this stage over that of the last
+  double typical_size = 1; ///< edge length of as many equal triangles
+  std::unique_ptr<sizing::ScaledSize> final_size, size; ///< of the last stage, and of this one
+  BoundarySites boundary;
+  std::unique_ptr<BoundaryGuard> guard;
+  std::unique_ptr<SiteState> state;
+
+  GlobalId on_boundary() const { return static_cast<GlobalId>(boundary.sites.size()); }
+};
+
+/// Edge length of n nearly equilateral triangles' vertices on area A inside perimeter P: from V = (T + B)/2 + 1 with
+/// T = A / (sqrt(3)/4 h^2) and B = P/h.
+double estimated_size(double area, double perimeter, double n);
+
+/// @brief Boundary sites for a size, and an empty container grid for about `expected` points. Collective.
+/// @throws GeometryError as make_boundary_sites, on all ranks together
+Layout lay_boundary(const LayoutContext& context, double factor, double coarsening, double expected);
+
+/// The tiles that this rank fills with sites: an even share, before anything is known of their number.
+TileRange even_share(const Layout& layout, const comm::Communicator& comm);
+
+/// Adds the boundary sites to the inner ones, which may lie on any rank, and distributes all. Collective.
+void place_sites(const LayoutContext& context, Layout& layout, std::vector<mesh::Site> inner);
 
 } // namespace trime::meshing

@@ -4,8 +4,10 @@
 #include "meshing/boundary_treatment.hpp"
 #include "meshing/extraction.hpp"
 #include "meshing/layout.hpp"
+#include "meshing/point_scheme.hpp"
 #include "meshing/site_state.hpp"
 #include "meshing/stopping.hpp"
+#include "meshing/sweep_record.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/meshing/update_rule.hpp"
 
@@ -18,7 +20,6 @@ namespace {
 
 constexpr double cap_in_sizes = 2.5;  // circumradius that counts, in h: a relaxed mesh has 0.6, a start up to 1.5
 constexpr GlobalId few_points = 2000; // below, the cap is the whole container
-constexpr double default_tolerance = 0.04;
 constexpr int cap_doublings = 3;
 constexpr int settle_rounds = 12, settle_pushes = 8;
 
@@ -32,8 +33,12 @@ public:
         lattice_(options.container) {}
 
   MeshResult run() {
-    set_up();
-    relax();
+    SweepControl control(options_, history_);
+    for (begin();; advance()) {
+      relax(control);
+      if (scheme_->is_last())
+        break;
+    }
     settle();
     complete_stars();
     return extract();
@@ -42,13 +47,49 @@ public:
   SnapshotObserver observer;
 
 private:
-  void set_up() {
-    layout_ = lay_out({comm_, boundary_, relative_size_, options_, lattice_, log_, timers_});
+  LayoutContext layout_context() const { return {comm_, boundary_, relative_size_, options_, lattice_, log_, timers_}; }
+
+  void begin() {
+    context_ = std::make_unique<LayoutContext>(layout_context());
+    scheme_ = std::make_unique<PointScheme>(*context_);
+    log_.info("points: {}", scheme_->reason());
+    set_up(scheme_->first());
+  }
+
+  void advance() {
+    stars(Wanted::all_sites);
+    set_up(scheme_->next(layout_));
+  }
+
+  void set_up(Layout layout) {
+    layout_ = std::move(layout);
     const GlobalId placed = comm_.sum(std::int64_t{state().points().owned()});
     const mesh::TileGrid& grid = state().grid();
     make_builder(placed);
-    log_.info("start: {} points in {} tiles ({} x {} cells)", placed, grid.tile_count(), grid.cells_x(),
-              grid.cells_y());
+    const int components = boundary_.components(), holes = boundary_.holes();
+    log_.info("boundary: {} component{}, {} hole{}, {} sites, {} corners", components, components == 1 ? "" : "s",
+              holes, holes == 1 ? "" : "s", layout_.on_boundary(), layout_.boundary.corners);
+    log_.info("start: {} points in {} tiles ({} x {} cells), mean edge about {:.6g}", placed, grid.tile_count(),
+              grid.cells_x(), grid.cells_y(), layout_.typical_size);
+    warn_of_fine_features();
+  }
+
+  /// What a user would want to know before the sweeps begin.
+  void warn_of_fine_features() {
+    const auto& sites = layout_.boundary.sites;
+    double least = 1, length = 0, size = 0; // chord over local size
+    for (const BoundarySite& site : sites) {
+      const geometry::Vec2 next = sites[static_cast<std::size_t>(site.next)].position;
+      const double chord = geometry::length(next - site.position), h = layout_.size->size(site.position);
+      if (chord < least * h) {
+        least = chord / h;
+        length = chord;
+        size = h;
+      }
+    }
+    if (scheme_->is_last() && least < 0.1)
+      log_.warning("the boundary has features down to {:.3g}, far below the size of {:.3g} there: expect small angles",
+                   length, size);
   }
 
   void make_builder(GlobalId points) {
@@ -59,23 +100,39 @@ private:
 
   // --- sweeps -------------------------------------------------------------------------------------------------------
 
-  void relax() {
-    DistMeshRule rule;
-    const StopRule stop(options_.max_sweeps, options_.stop_tolerance.value_or(default_tolerance));
+  void relax(SweepControl& control) {
+    control.begin_stage(scheme_->inserts(), scheme_->is_last());
     MoveCounts moved;
-    for (std::optional<StopReason> reason; !reason;) { // ends at the sweep cap at the latest
+    for (;;) { // ends at the sweep cap at the latest
       const delaunay::StarPass pass = stars(Wanted::inner_sites);
       const SweepSums sums = record_sweep(pass, moved);
-      reason = stop.decide(history_);
-      log_sweep(reason.has_value());
+      const auto reason = control.decide();
+      history_.back().by_bars = control.by_bars();
+      log_sweep(reason && scheme_->is_last());
+      show_snapshot();
       if (reason) {
         stop_reason_ = *reason;
         return;
       }
       const auto time = timers_.scope("move");
-      rule.begin_sweep(sums);
-      moved = move_by_rule(state(), rule, context());
+      control.rule().begin_sweep(sums);
+      moved = move_by_rule(state(), control.rule(), move_context());
+      ++sweeps_;
     }
+  }
+
+  /// Shows the present triangulation to the observer, if the options ask for it.
+  void show_snapshot() {
+    const int retriangulation = static_cast<int>(history_.size()), interval = options_.snapshot_interval;
+    if (!observer || interval == 0 || !(retriangulation == 1 || (interval > 0 && retriangulation % interval == 0)))
+      return;
+    stars(Wanted::all_sites);
+    const auto time = timers_.scope("snapshots");
+    const decomposition::Numbering numbering =
+        decomposition::canonical_numbering(comm_, state().points(), state().halo());
+    const mesh::QualitySummary quality = measure_quality(extraction(), numbering);
+    const mesh::DistributedMesh mesh = extract_mesh(extraction(), numbering);
+    observer({retriangulation, timers_.total(), mesh, quality});
   }
 
   delaunay::StarPass stars(Wanted wanted) {
@@ -85,58 +142,28 @@ private:
 
   SiteState& state() { return *layout_.state; }
   const SiteState& state() const { return *layout_.state; }
-  MoveContext context() const { return {*layout_.guard, *layout_.size, lattice_}; }
+  MoveContext move_context() const { return {*layout_.guard, *layout_.size, lattice_}; }
 
-  /// One packed reduction: quality, sums for the rule, and what the last move did.
   SweepSums record_sweep(const delaunay::StarPass& pass, const MoveCounts& moved) {
     const auto time = timers_.scope("measure");
-    SweepSums sums = measure({state().points(), state().stars(), *layout_.size, &state().sizes()}, layout_.edge_length);
-    const auto l = sums.squared_length_ratio.split(), s = sums.squared_size_ratio.split(),
-               a = sums.excess_alpha.split();
-    std::array<std::int64_t, 12> packed{l.low,        l.high,       s.low,          s.high,
-                                        a.low,        a.high,       sums.triangles, state().points().owned(),
-                                        pass.rebuilt, moved.moving, moved.pushed,   moved.deleted};
-    comm_.sum(packed);
-    std::array<double, 2> largest{sums.max_alpha, moved.max_move};
-    comm_.max(largest);
-    sums.squared_length_ratio = FixedSum::join({packed[0], packed[1]});
-    sums.squared_size_ratio = FixedSum::join({packed[2], packed[3]});
-    sums.excess_alpha = FixedSum::join({packed[4], packed[5]});
-    sums.triangles = packed[6];
-
-    SweepRecord record;
-    record.sweep = static_cast<int>(history_.size());
-    record.points = packed[7];
-    record.mean_alpha = 1 + (sums.triangles > 0 ? sums.excess_alpha.value() / static_cast<double>(sums.triangles) : 0);
-    record.max_alpha = largest[0];
-    record.max_move = largest[1];
-    const std::int64_t inner = record.points - static_cast<std::int64_t>(layout_.boundary.sites.size());
-    record.moving_share = history_.empty() ? 1
-                          : inner > 0      ? static_cast<double>(packed[9]) / static_cast<double>(inner)
-                                           : 0;
-    record.rebuilt_stars = packed[8];
-    record.pushed = packed[10];
-    record.deleted = packed[11];
-    record.seconds = timers_.total();
-    history_.push_back(record);
-    return sums;
+    SweepSummary summary = summarize_sweep(comm_, layout_, pass, moved);
+    summary.record.sweep = sweeps_;
+    summary.record.stage = scheme_->stage();
+    summary.record.seconds = timers_.total();
+    history_.push_back(summary.record);
+    return summary.sums;
   }
 
   void log_sweep(bool last) {
-    const SweepRecord& r = history_.back();
-    log_.progress(r.sweep,
-                  fmt::format("sweep {:4d}  points {:9d}  mean alpha {:.5f}  max alpha {:8.4f}  moving {:6.2f} %  "
-                              "max move {:.3f} h  rebuilt {:8d}  {:8.2f} s",
-                              r.sweep, r.points, r.mean_alpha, r.max_alpha, 100 * r.moving_share, r.max_move,
-                              r.rebuilt_stars, r.seconds),
-                  last || r.sweep == 0);
+    const SweepRecord& record = history_.back();
+    log_.progress(record.sweep, to_string(record), last || record.sweep == 0);
   }
 
   /// Empties the diametral discs of all boundary segments: pushes first, then deletes.
   void settle() {
     const auto time = timers_.scope("settle");
     for (int round = 0; round < settle_rounds; ++round) {
-      const MoveCounts counts = settle_round(state(), context(), round >= settle_pushes);
+      const MoveCounts counts = settle_round(state(), move_context(), round >= settle_pushes);
       if (comm_.sum(counts.pushed + counts.deleted) == 0)
         return;
     }
@@ -177,10 +204,25 @@ private:
     result.history = std::move(history_);
     result.stop_reason = stop_reason_;
     result.requested_points = options_.points.value_or(0);
-    result.edge_length = layout_.edge_length;
+    result.edge_length = relative_size_.is_uniform() ? layout_.size->size({}) : layout_.typical_size;
+    result.start_reason = scheme_->reason();
+    result.count_reason = count_reason(result.mesh.point_slab.total);
     result.corners = layout_.boundary.corners;
     result.shape_area = boundary_.area;
     return result;
+  }
+
+  /// Why there are fewer points than asked for; empty if there are nearly as many.
+  std::string count_reason(GlobalId points) const {
+    if (!options_.points || static_cast<double>(points) > 0.99 * static_cast<double>(*options_.points) - 3)
+      return {};
+    if (!scheme_->shortage().empty())
+      return scheme_->shortage();
+    GlobalId deleted = 0;
+    for (const SweepRecord& record : history_)
+      deleted += record.deleted;
+    return fmt::format("{} points came too near to the boundary and were deleted; the start left out the rest",
+                       deleted);
   }
 
   const comm::Communicator& comm_;
@@ -194,7 +236,10 @@ private:
   Layout layout_;
   double cap_factor_ = 0; // of h
   std::unique_ptr<delaunay::StarBuilder> builder_;
+  std::unique_ptr<LayoutContext> context_;
+  std::unique_ptr<PointScheme> scheme_;
   std::vector<SweepRecord> history_;
+  int sweeps_ = 0; // moves made
   StopReason stop_reason_ = StopReason::sweep_cap;
 };
 

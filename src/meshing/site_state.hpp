@@ -8,6 +8,7 @@
 #include "trime/delaunay/star_builder.hpp"
 #include "trime/mesh/binned_points.hpp"
 #include "trime/mesh/local_sizes.hpp"
+#include "trime/meshing/update_rule.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <vector>
@@ -60,5 +61,10 @@ private:
   std::vector<std::uint8_t> wanted_;
   std::vector<LocalIndex> stays_, sorted_, renumbering_;
 };
+
+/// Points, stars and sizes, as an update rule sees them. @param size the field of the last compute_stars
+inline StarView view_of(const SiteState& state, const sizing::SizeField& size) {
+  return {state.points(), state.stars(), size, &state.sizes()};
+}
 
 } // namespace trime::meshing

@@ -12,6 +12,8 @@ namespace {
 
 using geometry::Vec2;
 
+constexpr double largest_term = 0x1p17; // keeps FixedSum within its reach
+
 /// A triangle with several inner sites is measured from the lexicographically smallest of them.
 bool is_measured_from(const mesh::BinnedPoints& points, Vec2 p, LocalIndex a, LocalIndex b) {
   return (points.boundary(a) >= 0 || geometry::lexicographically_less(p, points.position(a))) &&
@@ -21,17 +23,20 @@ bool is_measured_from(const mesh::BinnedPoints& points, Vec2 p, LocalIndex a, Lo
 void measure_site(const StarView& view, LocalIndex i, double inverse_reference, SweepSums& sums) {
   const std::span<const LocalIndex> ring = view.stars.ring(i);
   const Vec2 p = view.points.position(i);
+  const double own_size = view.size(i);
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const LocalIndex a = ring[k], b = ring[k + 1 == ring.size() ? 0 : k + 1];
     if (a == delaunay::gap)
       continue;
     const Vec2 q = view.points.position(a);
-    const double h = view.size(0.5 * (p + q)) * inverse_reference;
-    sums.squared_length_ratio.add(geometry::squared_length(q - p) * inverse_reference * inverse_reference);
-    sums.squared_size_ratio.add(h * h);
+    const double h = 0.5 * (own_size + view.size(a)) * inverse_reference;
+    sums.squared_length_ratio.add(
+        std::min(largest_term, geometry::squared_length(q - p) * inverse_reference * inverse_reference));
+    sums.squared_size_ratio.add(std::min(largest_term, h * h));
     if (b != delaunay::gap && is_measured_from(view.points, p, a, b)) {
       const double alpha = mesh::aspect_ratio(p, q, view.points.position(b));
       sums.excess_alpha.add(std::min(alpha - 1, 1000.0));
+      sums.alpha_bins.add(alpha - 1);
       sums.max_alpha = std::max(sums.max_alpha, alpha);
       ++sums.triangles;
     }
@@ -44,8 +49,10 @@ void SweepSums::add(const SweepSums& other) {
   squared_length_ratio.add(other.squared_length_ratio);
   squared_size_ratio.add(other.squared_size_ratio);
   excess_alpha.add(other.excess_alpha);
+  alpha_bins.add(other.alpha_bins);
   triangles += other.triangles;
   max_alpha = std::max(max_alpha, other.max_alpha);
+  power.add(other.power);
 }
 
 SweepSums measure(const StarView& view, double reference_size) {
@@ -53,11 +60,10 @@ SweepSums measure(const StarView& view, double reference_size) {
   const LocalIndex first_tile = view.points.first_tile();
   thread_loop(view.points.last_tile() - first_tile, 1, [&](std::ptrdiff_t t, int thread) {
     const auto [begin, end] = view.points.tile_range(first_tile + static_cast<LocalIndex>(t));
-    SweepSums sums;
+    SweepSums& sums = of_thread[static_cast<std::size_t>(thread)];
     for (LocalIndex i = begin; i < end; ++i)
       if (view.points.boundary(i) < 0)
         measure_site(view, i, 1 / reference_size, sums);
-    of_thread[static_cast<std::size_t>(thread)].add(sums);
   });
   SweepSums all;
   for (const SweepSums& sums : of_thread)
@@ -70,18 +76,19 @@ void DistMeshRule::begin_sweep(const SweepSums& sums) {
   length_scale_ = sizes > 0 ? pressure * std::sqrt(sums.squared_length_ratio.value() / sizes) : pressure;
 }
 
-Vec2 DistMeshRule::displacement(const StarView& view, LocalIndex i) const {
+Step DistMeshRule::step(const StarView& view, LocalIndex i) const {
   const Vec2 p = view.points.position(i);
+  const double own_size = view.size(i);
   Vec2 force;
   for (const LocalIndex neighbour : view.stars.ring(i)) {
     if (neighbour == delaunay::gap)
       continue;
     const Vec2 bar = view.points.position(neighbour) - p;
-    const double rest = length_scale_ * view.size(p + 0.5 * bar), actual = geometry::length(bar);
+    const double rest = length_scale_ * 0.5 * (own_size + view.size(neighbour)), actual = geometry::length(bar);
     if (actual < rest)
       force = force - (rest / actual - 1) * bar;
   }
-  return time_step * force;
+  return {time_step * force, {}, 0};
 }
 
 } // namespace trime::meshing

@@ -69,7 +69,7 @@ struct MeshResult {
   std::vector<SweepRecord> history;
   StopReason stop_reason = StopReason::sweep_cap;
   GlobalId requested_points = 0; ///< 0 if an edge length was asked for
-  double edge_length = 0;        ///< factor of the relative size; for a uniform size h itself
+  double edge_length = 0;        ///< uniform size: h; graded: edge length of as many equal triangles
   std::string start_reason;      ///< which start was chosen and why, one line
   std::string count_reason;      ///< why there are fewer points than requested; empty if they are nearly as many
   GlobalId corners = 0;

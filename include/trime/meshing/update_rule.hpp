@@ -6,6 +6,7 @@
 #include "trime/delaunay/star_table.hpp"
 #include "trime/mesh/binned_points.hpp"
 #include "trime/mesh/local_sizes.hpp"
+#include "trime/meshing/alpha_bins.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <cstdint>
@@ -23,6 +24,7 @@ public:
       : points(all_points), stars(all_stars), size_(field), sizes_(sizes), is_uniform_(field.is_uniform()),
         uniform_size_(is_uniform_ ? field.size({}) : 0) {}
 
+  bool is_uniform() const { return is_uniform_; }
   /// h at any point.
   double size(geometry::Vec2 p) const { return is_uniform_ ? uniform_size_ : size_.size(p); }
   /// h at site i, owned or ghost: a look-up where it is known, the same bits as size(points.position(i)).
@@ -38,19 +40,27 @@ private:
   double uniform_size_;
 };
 
-/// Sums of one sweep over the inner sites of a rank, in fixed point: their order is irrelevant.
+/// Sums of one sweep over the inner sites of a rank, in integers: their order is irrelevant.
 struct SweepSums {
   FixedSum squared_length_ratio; ///< L^2 / h_ref^2 over the bars seen from inner sites
-  FixedSum squared_size_ratio;   ///< h(mid)^2 / h_ref^2 over the same bars
+  FixedSum squared_size_ratio;   ///< h^2 / h_ref^2 over the same bars, h the mean of both ends
   FixedSum excess_alpha;         ///< alpha - 1, each triangle with an inner site once
+  AlphaBins alpha_bins;          ///< of the same triangles
   std::int64_t triangles = 0;
   double max_alpha = 1;
+  FixedSum power; ///< sum of Step::power over the last move
 
   void add(const SweepSums& other);
 };
 
 /// Sums over the inner owned sites. Threads over tiles. @param reference_size h_ref, any typical size
 SweepSums measure(const StarView& view, double reference_size);
+
+/// What a rule wants of a site: a move to its next iterate, and from there a lead along the way that it came.
+struct Step {
+  geometry::Vec2 move, lead;
+  double power = 0; ///< share of this site in SweepSums::power; in units of h^2, so that all sites weigh alike
+};
 
 /// @brief A gather kernel: the new position of a site from its own ring, neighbours in canonical order, old positions
 /// only (Jacobi). The result must be a pure function of these coordinates, of h and of the sums over all ranks.
@@ -59,21 +69,52 @@ public:
   virtual ~UpdateRule() = default;
   /// Sums over all ranks, before the sites move.
   virtual void begin_sweep(const SweepSums& sums) = 0;
-  /// Displacement of site i (not capped). Called concurrently.
-  virtual geometry::Vec2 displacement(const StarView& view, LocalIndex i) const = 0;
+  /// Step of site i (not capped). Called concurrently.
+  virtual Step step(const StarView& view, LocalIndex i) const = 0;
 };
 
 /// @brief DistMesh (Persson and Strang 2004) as in TriMe++: bars repel where they are shorter than
-/// L0 = 1.2 h(mid) sqrt(sum L^2 / sum h^2); explicit Euler with step 0.3. Bars between two boundary sites are not in
-/// the sums, since the boundary is held.
+/// L0 = 1.2 h sqrt(sum L^2 / sum h^2), h the mean of both ends; explicit Euler with step 0.3. Bars between two boundary
+/// sites are not in the sums, since the boundary is held.
 class DistMeshRule final : public UpdateRule {
 public:
   void begin_sweep(const SweepSums& sums) override;
-  geometry::Vec2 displacement(const StarView& view, LocalIndex i) const override;
+  Step step(const StarView& view, LocalIndex i) const override;
 
 private:
   static constexpr double time_step = 0.3, pressure = 1.2;
   double length_scale_ = pressure; // L0 / h
+};
+
+/// @brief Centroidal Voronoi tessellation by accelerated Lloyd steps.
+///
+/// Each site goes to the centroid of its Voronoi cell (exact: the polygon of circumcentres of its star; the discs of
+/// the boundary segments are empty, so no cell of an inner site leaves the shape) under the weight h^-4. Why 4: a
+/// centroidal tessellation minimises the sum over cells of the integral of w |x - site|^2; a cell of spacing d has
+/// about w d^4, and in the limit of many sites all cells have the same share (Gersho 1979; Du, Faber and Gunzburger
+/// 1999), so d grows like w^(-1/4) and w = h^-4 makes it proportional to h. The weight h^-2 of TriMe++ drifts towards d
+/// ~ sqrt(h).
+///
+/// The weight is linear over each triangle (site, circumcentre, circumcentre), its value at a circumcentre from the
+/// mean of h at the three sites: no look into the field, nothing allocated, exact for the uniform weight.
+///
+/// Acceleration (Nesterov 1983): from the iterate x' = centroid(y) the next centroids are taken at
+/// y' = x' + b (x' - x), b = min(0.9, k/(k+3)), and k starts again from 0 when the last moves went uphill
+/// (sum of (y - x').(x' - x) / h^2 > 0; O'Donoghue and Candes 2015), which one sweep later is early enough.
+class CvdRule final : public UpdateRule {
+public:
+  /// @param exponent of 1/h in the weight, 0..8
+  explicit CvdRule(int exponent = 4) : exponent_(exponent) {}
+  void begin_sweep(const SweepSums& sums) override;
+  Step step(const StarView& view, LocalIndex i) const override;
+  /// Centroid of the cell of site i, relative to the site; zero if the star has a gap.
+  geometry::Vec2 centroid(const StarView& view, LocalIndex i) const;
+
+private:
+  static constexpr double largest_momentum = 0.9;
+  int exponent_;
+  int age_ = 0; // sweeps since the last restart
+  double momentum_ = 0;
 };
 
 } // namespace trime::meshing

@@ -63,6 +63,7 @@ struct Case {
 MeshOptions with_points(GlobalId points, Start start = Start::automatic) {
   MeshOptions options;
   options.points = points;
+  options.method = Method::distmesh;
   options.start = start;
   options.max_sweeps = 12;
   return options;
@@ -151,6 +152,93 @@ TEST(Mesher, SameBitsOnAnyRanksAndThreadsFromHilbertQuantiles) {
 TEST(Mesher, SameBitsWhereOnlySmallTrianglesCount) { // from 2000 points on
   expect_same_everywhere({"square", square(), with_points(2600, Start::lattice)});
   expect_same_everywhere({"graded disc", disc_with_hole(), with_points(2600, Start::hilbert), true});
+}
+
+TEST(Mesher, SameBitsWithAllMethodsAndPointSchemes) {
+  for (const Method method : {Method::cvd, Method::hybrid}) {
+    const std::string name = method == Method::cvd ? "cvd" : "hybrid";
+    for (const bool graded : {false, true}) {
+      Case c{name + (graded ? " graded" : " uniform"), disc_with_hole(), with_points(900), graded};
+      c.options.method = method;
+      c.options.max_sweeps = 25;
+      expect_same_everywhere(c);
+      c.options.initial_fraction = 0.3;
+      c.name += ", insertion";
+      expect_same_everywhere(c);
+    }
+  }
+  Case c{"two divisions", disc_with_hole(), with_points(2800, Start::coarse_to_fine), true};
+  c.options.method = Method::hybrid;
+  c.options.points = 3300;
+  c.options.max_sweeps = 60;
+  expect_same_everywhere(c);
+}
+
+TEST(Mesher, TheNumberOfPointsIsMetByEveryScheme) {
+  const comm::Communicator world = comm::Communicator::world();
+  for (const bool graded : {false, true})
+    for (const double fraction : {0.0, 0.1, 0.5, 1.0}) {
+      Case c{"disc", disc_with_hole(), with_points(3500), graded};
+      c.options.max_sweeps = 20;
+      if (fraction > 0)
+        c.options.initial_fraction = fraction;
+      const MeshResult result = run(world, c);
+      EXPECT_LE(result.mesh.point_slab.total, 3500) << fraction;
+      EXPECT_GE(result.mesh.point_slab.total, 3500 * 98 / 100) << fraction << ": " << result.count_reason;
+      expect_certified(result);
+    }
+}
+
+TEST(Mesher, BoundsOnTheSize) {
+  const comm::Communicator world = comm::Communicator::world();
+  for (const bool graded : {false, true}) {
+    Case c{"square", square(), with_points(4000), graded};
+    c.options.max_sweeps = 10;
+    c.options.min_size = 0.03; // 0.64 / (0.866 * 0.03^2) = 820 points at most
+    const MeshResult few = run(world, c);
+    EXPECT_LT(few.mesh.point_slab.total, 1000);
+    EXPECT_NE(few.count_reason.find("min_size"), std::string::npos) << few.count_reason;
+    c.options.min_size.reset();
+    c.options.max_size = 0.01; // 7400 points at least
+    EXPECT_THROW(run(world, c), ConfigError);
+  }
+}
+
+TEST(Mesher, EdgeLengthOfAGradedMeshIsItsMean) {
+  const comm::Communicator world = comm::Communicator::world();
+  Case c{"disc", disc_with_hole(), {}, true};
+  c.options.edge_length = 0.025;
+  c.options.max_sweeps = 30;
+  const MeshResult result = run(world, c);
+  expect_certified(result);
+  // As many points as triangles of that edge would have, a little more because the density varies.
+  const double equal = result.shape_area / (0.866 * 0.025 * 0.025);
+  EXPECT_GT(static_cast<double>(result.mesh.point_slab.total), equal);
+  EXPECT_LT(static_cast<double>(result.mesh.point_slab.total), 1.3 * equal);
+}
+
+TEST(Mesher, SnapshotsComeWhenAskedFor) {
+  const comm::Communicator world = comm::Communicator::world();
+  Log log(LogLevel::silent, false);
+  TimerTable timers;
+  const sizing::UniformSize uniform;
+  const Shape shape = square();
+  for (const auto& [interval, expected] : {std::pair{0, 0}, std::pair{-2, 1}, std::pair{4, 4}}) {
+    MeshOptions options = with_points(500);
+    options.snapshot_interval = interval;
+    Mesher mesher(world, shape.boundary(), uniform, options, log, timers);
+    std::vector<int> seen;
+    mesher.on_snapshot([&](const Snapshot& snapshot) {
+      seen.push_back(snapshot.retriangulation);
+      EXPECT_GT(snapshot.mesh.triangle_slab.total, 900);
+      EXPECT_GE(snapshot.quality.alpha.max, 1);
+    });
+    const MeshResult result = mesher.run(); // 13 triangulations
+    ASSERT_EQ(static_cast<int>(seen.size()), expected);
+    for (std::size_t k = 0; k < seen.size(); ++k)
+      EXPECT_EQ(seen[k], k == 0 ? 1 : 4 * static_cast<int>(k));
+    EXPECT_EQ(result.mesh.hash, run(world, {"square", square(), with_points(500)}).mesh.hash) << "only looked at";
+  }
 }
 
 TEST(Mesher, ThinTriangles) {

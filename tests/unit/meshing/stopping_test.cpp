@@ -2,6 +2,8 @@
 // When the sweeps end, and why.
 #include "meshing/stopping.hpp"
 
+#include <optional>
+
 #include <gtest/gtest.h>
 
 namespace trime::meshing {
@@ -15,6 +17,7 @@ std::vector<SweepRecord> history(int n, double factor, double max_move = 0.1) {
     SweepRecord record;
     record.sweep = k;
     record.mean_alpha = 1 + excess;
+    record.median_alpha = 1 + excess / 2;
     record.max_move = k == 0 ? 0 : max_move;
     records.push_back(record);
   }
@@ -41,6 +44,63 @@ TEST(StopRule, TheSweepCapCountsMoves) {
   EXPECT_EQ(StopRule(0, 0.04).decide(history(1, 0.5)), StopReason::sweep_cap);
   EXPECT_EQ(StopRule(3, 0.04).decide(history(3, 0.5)), std::nullopt);
   EXPECT_EQ(StopRule(3, 0.04).decide(history(4, 0.5)), StopReason::sweep_cap);
+}
+
+TEST(MedianStalled, WhenFiveSweepsBringLessThanATenth) {
+  EXPECT_FALSE(median_stalled(history(5, 1)));
+  EXPECT_TRUE(median_stalled(history(6, 0.99)));
+  EXPECT_FALSE(median_stalled(history(6, 0.97)));
+  EXPECT_TRUE(median_stalled(history(3, 0.05))) << "nothing left to gain";
+}
+
+/// Feeds a history line by line; returns after how many triangulations the stage ended, and notes when bars were left.
+struct StagedRun {
+  StagedRun(Method method, bool inserts, bool is_last, double factor) {
+    MeshOptions options;
+    options.method = method;
+    options.max_sweeps = 60;
+    std::vector<SweepRecord> records;
+    SweepControl control(options, records);
+    control.begin_stage(inserts, is_last);
+    started_with_bars = control.by_bars();
+    for (const SweepRecord& record : history(100, factor)) {
+      records.push_back(record);
+      reason = control.decide();
+      if (!control.by_bars() && left_bars < 0)
+        left_bars = record.sweep;
+      if (reason)
+        break;
+    }
+    triangulations = static_cast<int>(records.size());
+  }
+  bool started_with_bars = false;
+  int left_bars = -1, triangulations = 0;
+  std::optional<StopReason> reason;
+};
+
+TEST(SweepControl, MethodsKeepToTheirRules) {
+  EXPECT_TRUE(StagedRun(Method::distmesh, false, true, 0.98).started_with_bars);
+  EXPECT_EQ(StagedRun(Method::distmesh, false, true, 0.98).left_bars, -1);
+  EXPECT_FALSE(StagedRun(Method::cvd, false, true, 0.98).started_with_bars);
+}
+
+TEST(SweepControl, HybridGoesOverWhenTheMedianStalls) {
+  const StagedRun run(Method::hybrid, false, true, 0.995);
+  EXPECT_TRUE(run.started_with_bars);
+  EXPECT_EQ(run.left_bars, 5);
+  EXPECT_EQ(run.triangulations, 5 + 10) << "ten triangulations of its own before the cells may stall";
+  EXPECT_EQ(run.reason, StopReason::quality_stalled);
+}
+
+TEST(SweepControl, HybridKeepsBarsWhilePointsAreStillInserted) {
+  const StagedRun run(Method::hybrid, true, false, 0.999);
+  EXPECT_EQ(run.left_bars, -1);
+  EXPECT_EQ(run.reason, StopReason::quality_stalled);
+}
+
+TEST(SweepControl, TheCapEndsWhateverRuns) {
+  for (const Method method : {Method::distmesh, Method::cvd, Method::hybrid})
+    EXPECT_EQ(StagedRun(method, false, true, 0.9).reason, StopReason::sweep_cap);
 }
 
 TEST(StopRule, ReasonsHaveNames) {

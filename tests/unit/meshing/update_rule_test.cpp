@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The DistMesh rule and the sums that steer it.
+// The update rules and the sums that steer them.
 #include "support/point_sets.hpp"
 #include "trime/delaunay/star_builder.hpp"
+#include "trime/mesh/quality.hpp"
 #include "trime/meshing/update_rule.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace trime::meshing {
 namespace {
@@ -94,7 +98,7 @@ TEST(DistMeshRule, LeavesAPerfectLatticeAlone) {
   const Cloud cloud(lattice());
   DistMeshRule rule;
   rule.begin_sweep(measure(cloud.view(), spacing));
-  EXPECT_LT(geometry::length(rule.displacement(cloud.view(), cloud.middle())), 1e-8 * spacing);
+  EXPECT_LT(geometry::length(rule.step(cloud.view(), cloud.middle()).move), 1e-8 * spacing);
 }
 
 TEST(DistMeshRule, PushesASiteAwayFromTheNeighbourItCameTooNear) {
@@ -107,7 +111,7 @@ TEST(DistMeshRule, PushesASiteAwayFromTheNeighbourItCameTooNear) {
   const Cloud cloud(sites);
   DistMeshRule rule;
   rule.begin_sweep(measure(cloud.view(), spacing));
-  const Vec2 back = rule.displacement(cloud.view(), cloud.middle());
+  const Vec2 back = rule.step(cloud.view(), cloud.middle()).move;
   EXPECT_LT(back.x, -0.01 * spacing);
   EXPECT_GT(back.x, -0.4 * spacing);
   EXPECT_NEAR(back.y, 0, 0.01 * spacing);
@@ -120,8 +124,8 @@ TEST(DistMeshRule, WhatABarDoesToOneEndItDoesReversedToTheOther) {
   Vec2 sum;
   double lengths = 0;
   for (LocalIndex i = 0; i < cloud.points.owned(); ++i) {
-    sum = sum + rule.displacement(cloud.view(), i);
-    lengths += geometry::length(rule.displacement(cloud.view(), i));
+    sum = sum + rule.step(cloud.view(), i).move;
+    lengths += geometry::length(rule.step(cloud.view(), i).move);
   }
   EXPECT_GT(lengths, spacing);
   EXPECT_LT(geometry::length(sum), 1e-12 * lengths);
@@ -132,7 +136,93 @@ TEST(DistMeshRule, BarsLongerThanTheirRestLengthDoNotPull) {
   DistMeshRule rule;
   rule.begin_sweep({}); // no bars at all: the rest length is 1.2 h
   for (LocalIndex i = 0; i < cloud.points.owned(); ++i)
-    EXPECT_EQ(rule.displacement(cloud.view(), i), (Vec2{0, 0}));
+    EXPECT_EQ(rule.step(cloud.view(), i).move, (Vec2{0, 0}));
+}
+
+TEST(SweepSums, MedianOfAlpha) {
+  const Cloud cloud(lattice(0.5));
+  const SweepSums sums = measure(cloud.view(), spacing);
+  std::vector<double> values;
+  for (LocalIndex i = 0; i < cloud.points.owned(); ++i) {
+    const auto ring = cloud.stars.ring(i);
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const LocalIndex a = ring[k], b = ring[(k + 1) % ring.size()];
+      if (a != delaunay::gap && b != delaunay::gap)
+        values.push_back(
+            mesh::aspect_ratio(cloud.points.position(i), cloud.points.position(a), cloud.points.position(b)));
+    }
+  }
+  std::sort(values.begin(), values.end()); // each triangle three times
+  const double median = values[values.size() / 2] - 1;
+  EXPECT_NEAR(sums.alpha_bins.median(), median, 0.07 * median);
+}
+
+TEST(CvdRule, LeavesAPerfectLatticeAlone) {
+  const Cloud cloud(lattice());
+  EXPECT_LT(geometry::length(CvdRule().centroid(cloud.view(), cloud.middle())), 1e-8 * spacing);
+}
+
+/// The centroid of a polygon by the shoelace formula, from the circumcentres of the star.
+TEST(CvdRule, UniformWeightGivesTheCentroidOfTheCell) {
+  const Cloud cloud(lattice(0.6));
+  for (LocalIndex i = 0; i < cloud.points.owned(); ++i) {
+    const auto ring = cloud.stars.ring(i);
+    const Vec2 p = cloud.points.position(i);
+    if (ring.size() < 3 || std::find(ring.begin(), ring.end(), delaunay::gap) != ring.end())
+      continue;
+    std::vector<Vec2> cell;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Vec2 u = cloud.points.position(ring[k]) - p, v = cloud.points.position(ring[(k + 1) % ring.size()]) - p;
+      const double d = 2 * geometry::cross(u, v);
+      cell.push_back({(geometry::dot(u, u) * v.y - geometry::dot(v, v) * u.y) / d,
+                      (geometry::dot(v, v) * u.x - geometry::dot(u, u) * v.x) / d});
+    }
+    double area = 0;
+    Vec2 first;
+    for (std::size_t k = 0; k < cell.size(); ++k) {
+      const Vec2 a = cell[k], b = cell[(k + 1) % cell.size()];
+      area += geometry::cross(a, b) / 2;
+      first = first + (geometry::cross(a, b) / 6) * (a + b);
+    }
+    EXPECT_LT(geometry::length(CvdRule().centroid(cloud.view(), i) - (1 / area) * first), 1e-10 * spacing);
+  }
+}
+
+/// h = 1 + g (x - p) around the site: the weight h^-n moves the centroid of a cell with second moment m per area by
+/// -n g m to first order.
+TEST(CvdRule, TheWeightMovesTheCentroidTowardsSmallSizes) {
+  class Ramp final : public sizing::SizeField {
+  public:
+    double size(Vec2 p) const override { return spacing * (1 + 0.01 * (p.x - 0.5) / spacing); }
+  };
+  const Cloud cloud(lattice());
+  const Ramp ramp;
+  const StarView view(cloud.points, cloud.stars, ramp);
+  const double second_moment = 5.0 / 72 * spacing * spacing; // of a hexagon, about an axis, over its area
+  for (const int exponent : {2, 4}) {
+    const Vec2 moved = CvdRule(exponent).centroid(view, cloud.middle());
+    const double expected = -exponent * (0.01 / spacing) * second_moment;
+    EXPECT_NEAR(moved.x, expected, 0.05 * std::fabs(expected)) << exponent;
+    EXPECT_NEAR(moved.y, 0, 1e-6 * spacing);
+  }
+}
+
+TEST(CvdRule, MomentumGrowsAndStartsAgainUphill) {
+  std::vector<Site> sites = lattice(0.3);
+  for (Site& site : sites)
+    site.lead = {0.1 * spacing, 0};
+  const Cloud cloud(sites);
+  const LocalIndex i = cloud.middle();
+  CvdRule rule;
+  SweepSums downhill, uphill;
+  uphill.power.add(1);
+  rule.begin_sweep(downhill);
+  EXPECT_EQ(rule.step(cloud.view(), i).lead, (Vec2{0, 0}));
+  rule.begin_sweep(downhill);
+  const Step step = rule.step(cloud.view(), i);
+  EXPECT_EQ(step.lead, 0.25 * (step.move + Vec2{0.1 * spacing, 0}));
+  rule.begin_sweep(uphill);
+  EXPECT_EQ(rule.step(cloud.view(), i).lead, (Vec2{0, 0}));
 }
 
 } // namespace

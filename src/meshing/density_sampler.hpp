@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The wanted density of sites, h^-2 up to a factor, as integer weights of small cells along the Hilbert curve.
+#pragma once
+
+#include "trime/core/sum.hpp"
+#include "trime/meshing/start.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+namespace trime::meshing {
+
+/// @brief Divides a tile into cells in Hilbert order: into quarters while a cell wants more than a quarter of a site,
+/// or a sixteenth where the boundary is near; cells clear of the shape are left out whole. Immutable, thread-safe.
+class DensitySampler {
+public:
+  static constexpr double weight_unit = 0x1p20; ///< integer weight of one site
+  static constexpr double strip = 0.43;         ///< of h along the boundary stays free of sites
+
+  DensitySampler(const mesh::TileGrid& grid, const BoundaryGuard& guard, const sizing::SizeField& size,
+                 const geometry::Lattice& lattice)
+      : grid_(grid), guard_(guard), size_(size), lattice_(lattice) {}
+
+  /// A leaf with a weight; `key` and `level` name it within its tile.
+  struct Cell {
+    geometry::Box box;
+    std::uint64_t key;
+    int level;
+    double size;         ///< h in its middle
+    std::int64_t weight; ///< sites that belong into it, in units of 2^-20
+  };
+  /// Calls visit(cell) for all cells of the tile with a weight, in Hilbert order.
+  template <class Visit>
+  void for_each_cell(LocalIndex tile, const Visit& visit) const {
+    divide(grid_.tile_box(tile), 0, 0, visit);
+  }
+
+private:
+  static constexpr double most_inside = 0.25, most_near = 0.0625; // sites in a leaf
+  static constexpr int most_levels = 24;
+
+  /// Every bin is looked into, wherever its tile's middle lies: sizes may jump.
+  int least_levels() const { return grid_.typical_bin_bits() + 1; }
+
+  template <class Visit>
+  void divide(const geometry::Box& box, std::uint64_t key, int level, const Visit& visit) const {
+    const geometry::Vec2 p = lattice_.snap(0.5 * (box.min + box.max));
+    const double h = size_.size(p), half_diagonal = 0.5 * std::hypot(box.width(), box.height());
+    const double free = strip * h, reach = half_diagonal + free, distance = guard_.distance(p, reach);
+    const bool near = distance < reach;
+    if (!near && !guard_.inside(p))
+      return;
+    const double sites = box.width() * box.height() / (row_height * h * h);
+    if (level < most_levels && (level < least_levels() || sites > (near ? most_near : most_inside))) {
+      for (std::uint64_t quarter = 0; quarter < 4; ++quarter)
+        divide(quarter_of(box, key, level, quarter), 4 * key + quarter, level + 1, visit);
+      return;
+    }
+    if (near && (distance < free || !guard_.inside(p)))
+      return;
+    if (grid_.container().contains(p))
+      visit(Cell{box, key, level, h, std::llround(weight_unit * std::fmin(sites, 0x1p30))});
+  }
+
+  static geometry::Box quarter_of(const geometry::Box& box, std::uint64_t key, int level, std::uint64_t quarter) {
+    const mesh::GridPosition at = mesh::hilbert_position(4 * key + quarter, level + 1);
+    const geometry::Vec2 middle = 0.5 * (box.min + box.max);
+    return {{at.x & 1 ? middle.x : box.min.x, at.y & 1 ? middle.y : box.min.y},
+            {at.x & 1 ? box.max.x : middle.x, at.y & 1 ? box.max.y : middle.y}};
+  }
+
+  static constexpr double row_height = 0.8660254037844386; // of a hexagonal lattice of spacing 1
+
+  const mesh::TileGrid& grid_;
+  const BoundaryGuard& guard_;
+  const sizing::SizeField& size_;
+  const geometry::Lattice& lattice_;
+};
+
+/// Sums over the cells of all tiles.
+struct DensityTotals {
+  double sites = 0;     ///< inner sites that the size field asks for
+  double mean_size = 0; ///< mean of h over these sites
+};
+/// Collective. Threads over the tiles of this rank; integers inside.
+DensityTotals integrate_density(const comm::Communicator& comm, const TileRange& tiles, const BoundaryGuard& guard,
+                                const sizing::SizeField& size, const geometry::Lattice& lattice);
+
+} // namespace trime::meshing

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How the points come into the mesh: all at once, from a coarse mesh that is divided, or in insertions.
+#pragma once
+
+#include "meshing/extraction.hpp"
+#include "meshing/layout.hpp"
+
+#include <string>
+
+namespace trime::meshing {
+
+/// @brief The stages of a run. Lattice: one stage of a hexagonal lattice whose spacing fits the count. Hilbert: one
+/// stage of quantiles along the Hilbert curve. Coarse to fine: 1/4^k of the points, relaxed, then all edges are
+/// divided, k times (the quality of 100 sweeps for the price of 20). Insertion, as TriMe++ does it: a share of the
+/// points first, then stages of 60 % more in the triangles that are largest for their place, h rescaled each time.
+class PointScheme {
+public:
+  explicit PointScheme(const LayoutContext& context);
+
+  /// First stage, sites distributed. Collective.
+  /// @throws ConfigError if the points are too few for the shape, or for max_size; GeometryError; on all ranks together
+  Layout first();
+  /// Next stage from the last one. @pre !is_last(), and the stars of all sites of `previous` are certain. Collective.
+  Layout next(const Layout& previous);
+  /// No further stage comes.
+  bool is_last() const { return stage_ == last_stage_; }
+  int stage() const { return stage_; }
+  /// The stages to come insert points into the mesh of this one.
+  bool inserts() const { return kind_ == Kind::insertion; }
+
+  /// Which scheme was chosen and why, one line.
+  const std::string& reason() const { return reason_; }
+  /// Why the scheme made fewer points than asked for; empty if it did not.
+  const std::string& shortage() const { return shortage_; }
+
+private:
+  enum class Kind { lattice, hilbert, coarse_to_fine, insertion };
+
+  void choose();
+  double expected_points() const;
+
+  const LayoutContext& context_;
+  const MeshOptions& options_;
+  Kind kind_ = Kind::lattice;
+  int stage_ = 0, last_stage_ = 0;
+  double points_now_ = 0; // that the current stage aims at (insertion)
+  std::string reason_, shortage_;
+};
+
+} // namespace trime::meshing

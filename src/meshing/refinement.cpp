@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meshing/refinement.hpp"
+
+#include "meshing/density_sampler.hpp"
+#include "meshing/selection.hpp"
+#include "trime/core/thread_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::meshing {
+namespace {
+
+using geometry::Vec2;
+
+/// Calls make(i, list) for all owned sites, over threads; the lists joined in the order of the sites' tiles.
+template <class Item, class Make>
+std::vector<Item> gather_by_tile(const mesh::BinnedPoints& points, const Make& make) {
+  const LocalIndex first_tile = points.first_tile();
+  std::vector<std::vector<Item>> of_tile(static_cast<std::size_t>(points.last_tile() - first_tile));
+  thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t t, int) {
+    const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
+    for (LocalIndex i = begin; i < end; ++i)
+      make(i, of_tile[static_cast<std::size_t>(t)]);
+  });
+  std::vector<Item> all;
+  for (const std::vector<Item>& list : of_tile)
+    all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
+void add_if_inner(const mesh::BinnedPoints& points, LocalIndex i, std::vector<mesh::Site>& sites) {
+  if (points.boundary(i) < 0)
+    sites.push_back({points.position(i), points.boundary(i)});
+}
+
+/// Keeps the items for which keep[k] is set.
+template <class Item>
+void keep_marked(std::vector<Item>& items, const std::vector<std::uint8_t>& keep) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < items.size(); ++k)
+    if (keep[k])
+      items[kept++] = items[k];
+  items.resize(kept);
+}
+
+bool is_clear(const Layout& next, Vec2 p) {
+  const double free = DensitySampler::strip * next.size->size(p);
+  return next.guard->inside(p) && next.guard->distance(p, free) >= free;
+}
+
+/// A possible new site and its place in the order of urgency.
+struct Candidate {
+  Vec2 place;
+  std::uint64_t key;
+};
+
+/// Key of the triangle p, q, r: the smaller, the larger it is for its place.
+std::uint64_t urgency(Vec2 p, Vec2 q, Vec2 r, Vec2 place, const sizing::SizeField& size) {
+  const Vec2 u = q - p, v = r - p;
+  const double radius = geometry::length(u) * geometry::length(v) * geometry::length(v - u) /
+                        std::fmax(2 * geometry::cross(u, v), 1e-300);
+  return selection_key(1 / (1 + radius / size.size(place)), place);
+}
+
+} // namespace
+
+std::vector<mesh::Site> inner_sites(const SiteState& state) {
+  return gather_by_tile<mesh::Site>(
+      state.points(), [&](LocalIndex i, std::vector<mesh::Site>& sites) { add_if_inner(state.points(), i, sites); });
+}
+
+std::vector<mesh::Site> split_edges(const ExtractionContext& context) {
+  const mesh::BinnedPoints& points = context.state.points();
+  return gather_by_tile<mesh::Site>(points, [&](LocalIndex i, std::vector<mesh::Site>& sites) {
+    add_if_inner(points, i, sites);
+    const Fan fan = inside_fan(context, i);
+    if (!fan.complete)
+      return;
+    const Vec2 p = points.position(i);
+    // The first and the last edge of an open fan are segments of the boundary.
+    for (std::size_t k = fan.closed ? 0 : 1; k < fan.triangles; ++k) {
+      const Vec2 q = points.position(fan.neighbour(k));
+      if (geometry::lexicographically_less(p, q))
+        sites.push_back({context.lattice.snap(p + 0.5 * (q - p))});
+    }
+  });
+}
+
+void insert_in_triangles(const ExtractionContext& context, const Layout& next, std::int64_t count,
+                         std::vector<mesh::Site>& sites) {
+  const mesh::BinnedPoints& points = context.state.points();
+  const auto candidates = gather_by_tile<Candidate>(points, [&](LocalIndex i, std::vector<Candidate>& list) {
+    const Fan fan = inside_fan(context, i);
+    const Vec2 p = points.position(i);
+    for (std::size_t k = 0; k < fan.triangles; ++k) {
+      const Vec2 q = points.position(fan.neighbour(k)), r = points.position(fan.neighbour(k + 1));
+      if (!geometry::lexicographically_less(p, q) || !geometry::lexicographically_less(p, r))
+        continue;
+      const Vec2 middle = context.lattice.snap(p + (1.0 / 3) * ((q - p) + (r - p)));
+      if (is_clear(next, middle))
+        list.push_back({middle, urgency(p, q, r, middle, *next.size)});
+    }
+  });
+  std::vector<std::uint64_t> keys(candidates.size());
+  std::transform(candidates.begin(), candidates.end(), keys.begin(), [](const Candidate& c) { return c.key; });
+  const std::uint64_t threshold = selection_threshold(context.state.comm(), keys, count);
+  for (const Candidate& candidate : candidates)
+    if (candidate.key < threshold)
+      sites.push_back({candidate.place});
+}
+
+void clear_strip(const Layout& next, std::vector<mesh::Site>& sites) {
+  std::vector<std::uint8_t> keep(sites.size());
+  thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 256, [&](std::ptrdiff_t k, int) {
+    const std::size_t at = static_cast<std::size_t>(k);
+    keep[at] = is_clear(next, sites[at].position);
+  });
+  keep_marked(sites, keep);
+}
+
+std::int64_t trim(const comm::Communicator& comm, const Layout& next, std::int64_t most,
+                  std::vector<mesh::Site>& sites) {
+  constexpr double farthest = 4; // h; beyond that only the hash decides
+  const std::int64_t excess = comm.sum(static_cast<std::int64_t>(sites.size())) - most;
+  if (excess <= 0)
+    return 0;
+  std::vector<std::uint64_t> keys(sites.size());
+  thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 256, [&](std::ptrdiff_t k, int) {
+    const std::size_t at = static_cast<std::size_t>(k);
+    const Vec2 p = sites[at].position;
+    const double h = next.size->size(p);
+    keys[at] = selection_key(next.guard->distance(p, farthest * h) / (farthest * h), p);
+  });
+  const std::uint64_t threshold = selection_threshold(comm, keys, excess);
+  std::vector<std::uint8_t> keep(sites.size());
+  for (std::size_t k = 0; k < sites.size(); ++k)
+    keep[k] = keys[k] >= threshold;
+  const std::size_t before = sites.size();
+  keep_marked(sites, keep);
+  return comm.sum(static_cast<std::int64_t>(before - sites.size()));
+}
+
+} // namespace trime::meshing

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meshing/size_fit.hpp"
+
+#include "trime/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::meshing {
+namespace {
+
+constexpr double row_height = 0.8660254037844386;
+constexpr int boundary_rounds = 3, spacing_rounds = 12, density_rounds = 40;
+constexpr double same_spacing = 0.02;
+constexpr double close_enough = 0.004; // of the points asked for
+
+[[noreturn]] void fail_for_few_points(const LayoutContext& context, double fewest) {
+  const GlobalId points = context.options.points.value_or(0);
+  if (context.options.max_size)
+    throw ConfigError(fmt::format("points = {} are too few for max_size = {}: expected at least {:.0f}; ask for more "
+                                  "points or a larger max_size",
+                                  points, *context.options.max_size, fewest));
+  throw ConfigError(
+      fmt::format("points = {} are too few for this shape: its boundary alone needs {:.0f} (every corner, and "
+                  "every place where the boundary comes near itself, takes its own); ask for more",
+                  points, fewest));
+}
+
+// --- uniform size
+// -----------------------------------------------------------------------------------------------------
+
+/// Sites on the boundary at size h, or at the next larger size at which they are not more than the points asked for.
+Layout lay_affordable_boundary(const LayoutContext& context, double h, double expected) {
+  constexpr int growth_rounds = 16;
+  GlobalId fewest = 0;
+  for (int round = 0; round < growth_rounds; ++round, h *= 1.3) {
+    Layout layout = lay_boundary(context, h, 1, expected);
+    fewest = round == 0 ? layout.on_boundary() : std::min(fewest, layout.on_boundary());
+    if (!context.options.points || layout.on_boundary() <= *context.options.points)
+      return layout;
+  }
+  fail_for_few_points(context, static_cast<double>(fewest));
+}
+
+/// @brief The smallest spacing found whose lattice has at most the wanted number of sites. The count falls like the
+/// inverse square of the spacing, in jumps where whole rows go: secant steps inside a bracket. All ranks take the
+/// same steps.
+double fitting_spacing(const LayoutContext& context, const Layout& layout) {
+  const auto time = context.timers.scope("start");
+  const double h = layout.size->size({});
+  const LatticeStart start(context.boundary, *layout.guard, context.lattice);
+  const TileRange tiles = even_share(layout, context.comm);
+  const GlobalId wanted = *context.options.points - layout.on_boundary();
+  const geometry::Box& container = context.options.container;
+  const double none = 4 * (container.width() + container.height()); // no site fits at all
+  // The discs of the boundary may leave no room at all, however fine the lattice (thin shapes, few points): nothing
+  // below half the size of the boundary's segments is tried.
+  double low = 0.5 * h, high = none, spacing = h;
+  GlobalId best = 0;
+  double stride = 0.002; // least relative step while no spacing is known that is large enough; doubles each time
+  for (int round = 0; round < spacing_rounds && wanted - best > wanted / 5000; ++round) {
+    const GlobalId count = context.comm.sum(start.count(tiles, spacing));
+    if (count > wanted) {
+      low = spacing;
+    } else if (count >= best) {
+      high = spacing;
+      best = count;
+    }
+    const double guess = spacing * std::sqrt((static_cast<double>(count) + 0.5) / (static_cast<double>(wanted) + 0.25));
+    if (high == none) {
+      spacing = std::max(guess, spacing * (1 + stride));
+      stride *= 2;
+    } else { // not too near an end of the bracket: the count jumps, and a secant alone would creep
+      const double margin = 0.1 * (high - low);
+      spacing = std::clamp(guess, low + margin, high - margin);
+    }
+  }
+  return high;
+}
+
+// --- any size
+// ---------------------------------------------------------------------------------------------------------
+
+/// Smallest relative size at some places around the shape: on its boundary and on a grid over it.
+double smallest_sampled(const LayoutContext& context) {
+  constexpr int per_side = 33;
+  constexpr std::size_t most_pieces = 4096;
+  double smallest = INFINITY;
+  const auto sample = [&](geometry::Vec2 p) {
+    const double s = context.relative_size.size(p);
+    if (s > 0 && s < smallest)
+      smallest = s;
+  };
+  std::size_t pieces = 0;
+  for (const geometry::Loop& loop : context.boundary.loops)
+    pieces += loop.pieces.size();
+  const std::size_t stride = pieces / most_pieces + 1;
+  for (const geometry::Loop& loop : context.boundary.loops)
+    for (std::size_t k = 0; k < loop.pieces.size(); k += stride) {
+      sample(loop.pieces[k].start);
+      sample(loop.pieces[k].point(0.5 * loop.pieces[k].length()));
+    }
+  const geometry::Box box =
+      context.boundary.loops.empty() ? context.options.container : context.boundary.bounding_box();
+  for (int j = 0; j < per_side; ++j)
+    for (int i = 0; i < per_side; ++i)
+      sample({box.min.x + (i + 0.5) / per_side * box.width(), box.min.y + (j + 0.5) / per_side * box.height()});
+  if (!(smallest < INFINITY))
+    throw GeometryError("the size field is positive nowhere near the shape: expected a positive size everywhere");
+  return smallest;
+}
+
+/// Points after the divisions that follow: n' = inner and inner edges, 4 I + B - 3 x; B' = 2 B.
+double after_divisions(double inner, double on_boundary, int divisions, int euler) {
+  for (; divisions > 0; --divisions) {
+    inner = 4 * inner + on_boundary - 3 * euler;
+    on_boundary *= 2;
+  }
+  return std::max(0.0, inner) + on_boundary;
+}
+
+class DensitySolver {
+public:
+  DensitySolver(const LayoutContext& context, const DensityGoal& goal) : context_(context), goal_(goal) {}
+
+  DensityFit solve() {
+    const geometry::Boundary& boundary = context_.boundary;
+    const double first_points = goal_.points / (goal_.coarsening * goal_.coarsening);
+    const double uniform = context_.options.points ? estimated_size(boundary.area, boundary.length(), first_points)
+                                                   : goal_.coarsening * *context_.options.edge_length;
+    const double start = uniform / (goal_.coarsening * smallest_sampled(context_));
+    if (context_.options.points)
+      return for_points(start);
+    return for_edge_length(start);
+  }
+
+private:
+  struct Trial {
+    DensityFit fit;
+    DensityTotals totals;
+    double points = 0;
+  };
+
+  Trial try_factor(double factor) const {
+    Trial trial;
+    Layout& layout = trial.fit.layout =
+        lay_boundary(context_, factor, goal_.coarsening, goal_.points / (goal_.coarsening * goal_.coarsening));
+    const auto time = context_.timers.scope("start");
+    trial.totals = integrate_density(context_.comm, even_share(layout, context_.comm), *layout.guard, *layout.size,
+                                     context_.lattice);
+    trial.fit.inner = std::floor(trial.totals.sites);
+    const int euler = context_.boundary.components() - context_.boundary.holes();
+    trial.points = after_divisions(trial.fit.inner, static_cast<double>(layout.on_boundary()), goal_.divisions, euler);
+    return trial;
+  }
+
+  /// From above: large factors make few points, so no trial costs more than the result.
+  DensityFit for_points(double factor) const {
+    const geometry::Box& container = context_.options.container;
+    const double largest = 64 * (container.width() + container.height()) * factor;
+    double low = 0, high = INFINITY, fewest = INFINITY, last = 0;
+    Trial best;
+    for (int round = 0; round < density_rounds; ++round) {
+      Trial trial = try_factor(factor);
+      const double points = trial.points;
+      fewest = std::min(fewest, points);
+      const bool saturated = round > 0 && high < INFINITY && low == 0 && std::fabs(points - last) < 1e-3 * last;
+      last = points;
+      if (points > goal_.points) {
+        low = factor;
+      } else if (factor <= high) {
+        high = factor;
+        best = std::move(trial);
+        if (points >= (1 - close_enough) * goal_.points || points > goal_.points - 2)
+          return std::move(best.fit);
+      }
+      if (saturated && high == factor)
+        break; // finer does not help: min_size, or the discs of the boundary fill the shape
+      if (high < INFINITY && low > (1 - 1e-4) * high)
+        break;
+      const double guess = factor * std::sqrt(points / ((1 - 0.4 * close_enough) * goal_.points));
+      if (high == INFINITY) {
+        factor = std::max(guess, 1.02 * factor);
+        if (factor > largest)
+          fail_for_few_points(context_, fewest);
+      } else if (low == 0) {
+        factor = std::min(guess, 0.98 * factor);
+      } else {
+        const double margin = 0.1 * (high - low);
+        factor = std::clamp(guess, low + margin, high - margin);
+      }
+    }
+    if (!(high < INFINITY))
+      fail_for_few_points(context_, fewest);
+    if (best.points < 0.98 * goal_.points)
+      best.fit.shortage = context_.options.min_size
+                              ? fmt::format("min_size = {:g} leaves no room for more", *context_.options.min_size)
+                              : "the discs of the boundary segments leave no room for more";
+    return std::move(best.fit);
+  }
+
+  DensityFit for_edge_length(double factor) const {
+    constexpr int rounds = 12;
+    const double wanted = goal_.coarsening * *context_.options.edge_length;
+    Trial trial = try_factor(factor);
+    for (int round = 0; round < rounds; ++round) {
+      const double ratio = trial.totals.mean_size > 0 ? wanted / trial.totals.mean_size : 1;
+      if (std::fabs(ratio - 1) < close_enough)
+        break;
+      factor *= ratio;
+      trial = try_factor(factor);
+    }
+    return std::move(trial.fit);
+  }
+
+  const LayoutContext& context_;
+  const DensityGoal& goal_;
+};
+
+} // namespace
+
+LatticeFit fit_lattice(const LayoutContext& context) {
+  const MeshOptions& options = context.options;
+  const bool by_points = options.points.has_value();
+  const double relative = context.relative_size.size({});
+  const double expected = by_points ? static_cast<double>(std::max<GlobalId>(3, *options.points)) : 0;
+  double h =
+      by_points ? estimated_size(context.boundary.area, context.boundary.length(), expected) : *options.edge_length;
+  LatticeFit fit;
+  for (int round = 0;; ++round) {
+    if (by_points && options.max_size && h > *options.max_size) {
+      const double most = *options.max_size;
+      fail_for_few_points(context,
+                          context.boundary.area / (row_height * most * most) + 0.5 * context.boundary.length() / most);
+    }
+    const double points = by_points ? expected : context.boundary.area / (row_height * h * h);
+    fit.layout = lay_affordable_boundary(context, h / relative, points);
+    const double laid = fit.spacing = fit.layout.size->size({});
+    if (!by_points)
+      break;
+    if (options.min_size && laid > h) {
+      fit.shortage = fmt::format("min_size = {:g} leaves no room for more", *options.min_size);
+      break;
+    }
+    const double spacing = fitting_spacing(context, fit.layout);
+    const bool comparable = spacing < 2 * laid; // else so few sites are wanted that it means nothing
+    if (round + 1 == boundary_rounds || !comparable || std::abs(spacing / laid - 1) < same_spacing) {
+      fit.spacing = spacing;
+      break;
+    }
+    h = spacing;
+  }
+  return fit;
+}
+
+DensityFit fit_density(const LayoutContext& context, const DensityGoal& goal) {
+  return DensitySolver(context, goal).solve();
+}
+
+} // namespace trime::meshing

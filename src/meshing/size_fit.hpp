@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The factor of the relative size, or the spacing of the lattice, that yields the points or the edge length asked for.
+#pragma once
+
+#include "meshing/density_sampler.hpp"
+#include "meshing/layout.hpp"
+
+#include <string>
+
+namespace trime::meshing {
+
+/// A layout without inner sites, and the lattice spacing that goes with it.
+struct LatticeFit {
+  Layout layout;
+  double spacing = 1;
+  std::string shortage; ///< why there will be fewer points than asked for; empty if not
+};
+
+/// @brief Uniform size. Boundary first, at a size estimated from area and perimeter; then the spacing at which the
+/// lattice has as many sites as the boundary leaves. If it differs from the boundary's by more than 2 % (a boundary
+/// full of corners takes more sites than its length says), the boundary is laid again at that spacing, twice at most.
+/// Collective.
+/// @throws ConfigError if the boundary alone needs more than the requested points at any size, or max_size does
+LatticeFit fit_lattice(const LayoutContext& context);
+
+/// What a graded stage is to be.
+struct DensityGoal {
+  double points = 0;     ///< wanted after all divisions
+  double coarsening = 1; ///< h of this stage over that of the last
+  int divisions = 0;     ///< of all edges that follow
+};
+
+/// A layout without inner sites, and how many there should be.
+struct DensityFit {
+  Layout layout;
+  double inner = 0;
+  std::string shortage;
+};
+
+/// @brief Any size field: the largest number of points that is not above the goal, from the integral of h^-2 over the
+/// shape outside the strip and the sites that the boundary really takes; with an edge length, the factor whose mean
+/// edge has it. Collective. O(cells of the integral), about 10 a site and round, 3 to 6 rounds.
+/// @throws ConfigError as fit_lattice
+DensityFit fit_density(const LayoutContext& context, const DensityGoal& goal);
+
+} // namespace trime::meshing

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meshing/sweep_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace trime::meshing {
+namespace {
+
+/// Integers that travel together.
+class Packer {
+public:
+  void add(std::int64_t value) { values.push_back(value); }
+  void add(const FixedSum& sum) {
+    const auto parts = sum.split();
+    values.push_back(parts.low);
+    values.push_back(parts.high);
+  }
+  std::int64_t take() { return values[next_++]; }
+  FixedSum take_sum() {
+    const std::int64_t low = take(), high = take();
+    return FixedSum::join({low, high});
+  }
+
+  std::vector<std::int64_t> values;
+
+private:
+  std::size_t next_ = 0;
+};
+
+} // namespace
+
+SweepSummary summarize_sweep(const comm::Communicator& comm, const Layout& layout, const delaunay::StarPass& pass,
+                             const MoveCounts& moved) {
+  SweepSummary summary;
+  SweepSums& sums = summary.sums;
+  SweepRecord& record = summary.record;
+  sums = measure(view_of(*layout.state, *layout.size), layout.typical_size);
+  sums.power = moved.power;
+  Packer packer;
+  for (const FixedSum* sum : {&sums.squared_length_ratio, &sums.squared_size_ratio, &sums.excess_alpha, &sums.power})
+    packer.add(*sum);
+  for (const std::int64_t value : {sums.triangles, std::int64_t{layout.state->points().owned()}, pass.rebuilt,
+                                   moved.moving, moved.pushed, moved.deleted})
+    packer.add(value);
+  for (const std::int64_t count : sums.alpha_bins.counts())
+    packer.add(count);
+  comm.sum(packer.values);
+  std::array<double, 2> largest{sums.max_alpha, moved.max_move};
+  comm.max(largest);
+
+  for (FixedSum* sum : {&sums.squared_length_ratio, &sums.squared_size_ratio, &sums.excess_alpha, &sums.power})
+    *sum = packer.take_sum();
+  std::int64_t moving = 0;
+  for (std::int64_t* value :
+       {&sums.triangles, &record.points, &record.rebuilt_stars, &moving, &record.pushed, &record.deleted})
+    *value = packer.take();
+  for (std::int64_t& count : sums.alpha_bins.counts())
+    count = packer.take();
+  record.mean_alpha = 1 + (sums.triangles > 0 ? sums.excess_alpha.value() / static_cast<double>(sums.triangles) : 0);
+  record.median_alpha = 1 + sums.alpha_bins.median();
+  record.max_alpha = sums.max_alpha = largest[0];
+  record.max_move = largest[1];
+  const GlobalId inner = record.points - layout.on_boundary();
+  record.moving_share = inner > 0 ? static_cast<double>(moving) / static_cast<double>(inner) : 0;
+  return summary;
+}
+
+std::string to_string(const SweepRecord& r) {
+  return fmt::format("sweep {:4d}  points {:9d}  alpha median {:.5f} mean {:.5f} max {:8.4f}  moving {:6.2f} %  "
+                     "max move {:.3f} h  rebuilt {:8d}  {:8.2f} s",
+                     r.sweep, r.points, r.median_alpha, r.mean_alpha, r.max_alpha, 100 * r.moving_share, r.max_move,
+                     r.rebuilt_stars, r.seconds);
+}
+
+} // namespace trime::meshing

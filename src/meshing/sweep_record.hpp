@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What one sweep did, summed over all ranks.
+#pragma once
+
+#include "meshing/boundary_treatment.hpp"
+#include "meshing/layout.hpp"
+#include "trime/meshing/options.hpp"
+#include "trime/meshing/update_rule.hpp"
+
+#include <string>
+
+namespace trime::meshing {
+
+/// A line of the history, and the sums that steer the next move.
+struct SweepSummary {
+  SweepRecord record;
+  SweepSums sums;
+};
+
+/// @brief Measures the stars of the inner sites. One packed reduction: quality, sums for the rule, and what the last
+/// move did. Leaves `sweep`, `stage`, `by_bars` and `seconds` of the record to the caller. Collective.
+SweepSummary summarize_sweep(const comm::Communicator& comm, const Layout& layout, const delaunay::StarPass& pass,
+                             const MoveCounts& moved);
+
+/// The line of the log.
+std::string to_string(const SweepRecord& record);
+
+} // namespace trime::meshing
