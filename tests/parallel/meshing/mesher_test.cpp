@@ -222,7 +222,7 @@ TEST(Mesher, SnapshotsComeWhenAskedFor) {
   Log log(LogLevel::silent, false);
   TimerTable timers;
   const sizing::UniformSize uniform;
-  const Shape shape = square();
+  const RegionShape shape = square();
   for (const auto& [interval, expected] : {std::pair{0, 0}, std::pair{-2, 1}, std::pair{4, 4}}) {
     MeshOptions options = with_points(500);
     options.snapshot_interval = interval;
