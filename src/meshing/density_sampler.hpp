@@ -11,15 +11,17 @@
 namespace trime::meshing {
 
 /// @brief Divides a tile into cells in Hilbert order: into quarters while a cell wants more than a quarter of a site,
-/// or a sixteenth where the boundary is near; cells clear of the shape are left out whole. Immutable, thread-safe.
+/// or a sixteenth where the boundary is near; cells clear of the shape are left out whole. For a mere integral the
+/// cells may be larger, `coarsening` times as wide. Immutable, thread-safe.
 class DensitySampler {
 public:
   static constexpr double weight_unit = 0x1p20; ///< integer weight of one site
   static constexpr double strip = 0.43;         ///< of h along the boundary stays free of sites
 
   DensitySampler(const mesh::TileGrid& grid, const BoundaryGuard& guard, const sizing::SizeField& size,
-                 const geometry::Lattice& lattice)
-      : grid_(grid), guard_(guard), size_(size), lattice_(lattice) {}
+                 const geometry::Lattice& lattice, double coarsening = 1)
+      : grid_(grid), guard_(guard), size_(size), lattice_(lattice), most_inside_(0.25 * coarsening * coarsening),
+        most_near_(0.0625 * coarsening * coarsening) {}
 
   /// A leaf with a weight; `key` and `level` name it within its tile.
   struct Cell {
@@ -36,7 +38,6 @@ public:
   }
 
 private:
-  static constexpr double most_inside = 0.25, most_near = 0.0625; // sites in a leaf
   static constexpr int most_levels = 24;
 
   /// Every bin is looked into, wherever its tile's middle lies: sizes may jump.
@@ -51,7 +52,7 @@ private:
     if (!near && !guard_.inside(p))
       return;
     const double sites = box.width() * box.height() / (row_height * h * h);
-    if (level < most_levels && (level < least_levels() || sites > (near ? most_near : most_inside))) {
+    if (level < most_levels && (level < least_levels() || sites > (near ? most_near_ : most_inside_))) {
       for (std::uint64_t quarter = 0; quarter < 4; ++quarter)
         divide(quarter_of(box, key, level, quarter), 4 * key + quarter, level + 1, visit);
       return;
@@ -75,6 +76,7 @@ private:
   const BoundaryGuard& guard_;
   const sizing::SizeField& size_;
   const geometry::Lattice& lattice_;
+  double most_inside_, most_near_; // sites in a leaf
 };
 
 /// Sums over the cells of all tiles.
@@ -83,7 +85,6 @@ struct DensityTotals {
   double mean_size = 0; ///< mean of h over these sites
 };
 /// Collective. Threads over the tiles of this rank; integers inside.
-DensityTotals integrate_density(const comm::Communicator& comm, const TileRange& tiles, const BoundaryGuard& guard,
-                                const sizing::SizeField& size, const geometry::Lattice& lattice);
+DensityTotals integrate_density(const comm::Communicator& comm, const TileRange& tiles, const DensitySampler& sampler);
 
 } // namespace trime::meshing

@@ -28,9 +28,7 @@ std::vector<std::int64_t> weights_before(const TileRange& tiles, const DensitySa
 
 } // namespace
 
-DensityTotals integrate_density(const comm::Communicator& comm, const TileRange& tiles, const BoundaryGuard& guard,
-                                const sizing::SizeField& size, const geometry::Lattice& lattice) {
-  const DensitySampler sampler(tiles.grid, guard, size, lattice);
+DensityTotals integrate_density(const comm::Communicator& comm, const TileRange& tiles, const DensitySampler& sampler) {
   const double unit = std::fmax(tiles.grid.container().width(), tiles.grid.container().height());
   std::vector<std::int64_t> sites(static_cast<std::size_t>(tiles.last - tiles.first), 0);
   std::vector<FixedSum> sizes(sites.size());

@@ -14,13 +14,13 @@ constexpr double row_height = 0.8660254037844386;
 
 /// The part of the container grid around the shape: what lies beyond holds no site. Cells that were given keep their
 /// size.
-std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Layout& layout) {
+std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Layout& layout, double spacing) {
   const MeshOptions& options = context.options;
   const geometry::Box& container = options.container;
   geometry::Box around;
   for (const BoundarySite& site : layout.boundary.sites)
     around.include(site.position);
-  const double h = layout.typical_size;
+  const double h = spacing;
   const geometry::Box box{{std::max(container.min.x, around.min.x - h), std::max(container.min.y, around.min.y - h)},
                           {std::min(container.max.x, around.max.x + h), std::min(container.max.y, around.max.y + h)}};
   const auto cells = [](const std::optional<int>& given, double share) -> std::optional<int> {
@@ -41,7 +41,8 @@ double estimated_size(double area, double perimeter, double n) {
   return (b + std::sqrt(b * b + 4 * a * n)) / (2 * n);
 }
 
-Layout lay_boundary(const LayoutContext& context, double factor, double coarsening, double expected) {
+Layout lay_boundary(const LayoutContext& context, double factor, double coarsening, double expected,
+                    double grid_coarsening) {
   const auto time = context.timers.scope("boundary");
   Layout layout;
   layout.factor = factor;
@@ -57,7 +58,7 @@ Layout lay_boundary(const LayoutContext& context, double factor, double coarseni
         make_boundary_sites(context.boundary, *layout.size, context.lattice, context.options.corner_angle);
     layout.guard = std::make_unique<BoundaryGuard>(layout.boundary, context.lattice);
   });
-  layout.state = make_state(context, layout);
+  layout.state = make_state(context, layout, grid_coarsening * layout.typical_size);
   return layout;
 }
 

@@ -48,8 +48,10 @@ struct Layout {
 double estimated_size(double area, double perimeter, double n);
 
 /// @brief Boundary sites for a size, and an empty container grid for about `expected` points. Collective.
+/// @param grid_coarsening the grid's spacing over that of the points: above 1 for a layout that will hold none
 /// @throws GeometryError as make_boundary_sites, on all ranks together
-Layout lay_boundary(const LayoutContext& context, double factor, double coarsening, double expected);
+Layout lay_boundary(const LayoutContext& context, double factor, double coarsening, double expected,
+                    double grid_coarsening = 1);
 
 /// The tiles that this rank fills with sites: an even share, before anything is known of their number.
 TileRange even_share(const Layout& layout, const comm::Communicator& comm);

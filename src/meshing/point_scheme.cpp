@@ -36,7 +36,6 @@ void PointScheme::choose() {
   const bool uniform = context_.relative_size.is_uniform();
   const Start start = options_.start;
   const double fraction = options_.initial_fraction.value_or(1);
-  const int divisions = divisions_for(expected_points());
   if (options_.initial_fraction && fraction < 1) {
     kind_ = Kind::insertion;
     points_now_ = std::max(3.0, std::ceil(fraction * expected_points()));
@@ -48,72 +47,111 @@ void PointScheme::choose() {
     kind_ = Kind::lattice;
     reason_ = start == Start::lattice ? "hexagonal lattice, all points at once (asked for)"
                                       : "hexagonal lattice, all points at once: the size is uniform";
-  } else if (start == Start::hilbert || options_.initial_fraction || divisions == 0) {
+  } else if (start == Start::hilbert || options_.initial_fraction) {
     kind_ = Kind::hilbert;
-    reason_ = fmt::format("quantiles of the density, all points at once: {}",
-                          start == Start::hilbert || options_.initial_fraction
-                              ? "asked for"
-                              : fmt::format("the size is graded, and fewer than {} points are too few to divide a "
-                                            "coarser mesh",
-                                            one_division));
+    reason_ = "quantiles of the density, all points at once (asked for)";
   } else {
     kind_ = Kind::coarse_to_fine;
-    last_stage_ = divisions;
-    reason_ = fmt::format("coarse to fine, the edges of a mesh of 1/{} of the points are divided {}: {}",
-                          1 << (2 * divisions), divisions == 1 ? "once" : fmt::format("{} times", divisions),
-                          start == Start::coarse_to_fine ? "asked for" : "the size is graded");
+    last_stage_ = divisions_for(expected_points());
   }
 }
 
 Layout PointScheme::first() {
-  if (kind_ == Kind::lattice) {
-    LatticeFit fit = fit_lattice(context_);
-    shortage_ = std::move(fit.shortage);
-    const auto time = context_.timers.scope("start");
-    place_sites(context_, fit.layout,
-                LatticeStart(context_.boundary, *fit.layout.guard, context_.lattice)
-                    .sites(even_share(fit.layout, context_.comm), fit.spacing));
-    return std::move(fit.layout);
-  }
-  DensityGoal goal;
-  goal.points = kind_ == Kind::insertion ? points_now_ : expected_points();
-  goal.divisions = kind_ == Kind::coarse_to_fine ? last_stage_ : 0;
-  goal.coarsening = kind_ == Kind::coarse_to_fine ? std::ldexp(1.0, last_stage_)
-                    : kind_ == Kind::insertion    ? std::sqrt(expected_points() / points_now_)
-                                                  : 1;
-  DensityFit fit = fit_density(context_, goal);
+  return kind_ == Kind::lattice     ? first_of_lattice()
+         : kind_ == Kind::insertion ? first_of_insertion()
+                                    : first_of_divisions();
+}
+
+Layout PointScheme::first_of_lattice() {
+  LatticeFit fit = fit_lattice(context_);
   shortage_ = std::move(fit.shortage);
   const auto time = context_.timers.scope("start");
-  const double inner = goal.divisions > 0 || !options_.points || !shortage_.empty()
-                           ? fit.inner
-                           : goal.points - static_cast<double>(fit.layout.on_boundary());
   place_sites(context_, fit.layout,
-              hilbert_start(context_.comm, even_share(fit.layout, context_.comm), *fit.layout.guard, *fit.layout.size,
-                            context_.lattice, std::max<std::int64_t>(0, std::llround(inner)), options_.seed));
+              LatticeStart(context_.boundary, *fit.layout.guard, context_.lattice)
+                  .sites(even_share(fit.layout, context_.comm), fit.spacing));
   return std::move(fit.layout);
+}
+
+Layout PointScheme::first_of_insertion() {
+  DensityFit fit = fit_density(context_, points_now_, std::sqrt(expected_points() / points_now_), 1);
+  shortage_ = std::move(fit.shortage);
+  place_along_curve(fit.layout, fit.inner);
+  return std::move(fit.layout);
+}
+
+/// The factor is fitted for the final mesh, by a coarse integral. Then the coarsest start is taken that still has as
+/// many sites inside as on the boundary: a boundary full of corners does not become coarser with the size.
+Layout PointScheme::first_of_divisions() {
+  DensityFit fit = fit_density(context_, expected_points(), 1, std::ldexp(1.0, last_stage_));
+  shortage_ = std::move(fit.shortage);
+  const double factor = fit.layout.factor, points = fit.inner + static_cast<double>(fit.layout.on_boundary());
+  Layout layout;
+  double inner = 0;
+  for (;; --last_stage_) {
+    layout = lay_boundary(context_, factor, std::ldexp(1.0, last_stage_), std::ldexp(points, -2 * last_stage_));
+    inner = wanted_inside(context_, layout).sites;
+    if (last_stage_ == 0 || inner >= static_cast<double>(layout.on_boundary()))
+      break;
+  }
+  if (kind_ == Kind::coarse_to_fine)
+    reason_ =
+        last_stage_ == 0
+            ? "quantiles of the density, all points at once: too few of them lie inside to divide a coarser mesh"
+            : fmt::format("coarse to fine, the edges of a mesh of 1/{} of the points are divided {}: {}",
+                          1 << (2 * last_stage_), last_stage_ == 1 ? "once" : fmt::format("{} times", last_stage_),
+                          options_.start == Start::coarse_to_fine ? "asked for" : "the size is graded");
+  if (last_stage_ == 0 && options_.points && shortage_.empty())
+    inner = expected_points() - static_cast<double>(layout.on_boundary());
+  place_along_curve(layout, inner);
+  return layout;
+}
+
+void PointScheme::place_along_curve(Layout& layout, double inner) const {
+  const auto time = context_.timers.scope("start");
+  place_sites(context_, layout,
+              hilbert_start(context_.comm, even_share(layout, context_.comm), *layout.guard, *layout.size,
+                            context_.lattice, std::max<std::int64_t>(0, std::llround(inner)), options_.seed));
 }
 
 Layout PointScheme::next(const Layout& previous) {
   ++stage_;
+  return kind_ == Kind::insertion ? insert(previous) : divide(previous);
+}
+
+Layout PointScheme::divide(const Layout& previous) {
+  constexpr double small_shortage = 0.01; // is not filled up: new sites disturb the order
+  const comm::Communicator& comm = context_.comm;
   const ExtractionContext old{*previous.state, previous.boundary, *previous.size, context_.lattice};
-  const GlobalId before = context_.comm.sum(std::int64_t{previous.state->points().owned()});
-  double coarsening = previous.coarsening / 2, wanted = 4 * static_cast<double>(before);
-  if (kind_ == Kind::insertion) {
-    points_now_ = is_last() ? expected_points() : std::floor(growth * static_cast<double>(before));
-    wanted = points_now_;
-    coarsening = is_last() ? 1 : std::sqrt(expected_points() / points_now_);
-  }
-  Layout layout = lay_boundary(context_, previous.factor, coarsening, wanted);
+  const GlobalId before = comm.sum(std::int64_t{previous.state->points().owned()});
+  Layout layout = lay_boundary(context_, previous.factor, previous.coarsening / 2, 4 * static_cast<double>(before));
   const auto time = context_.timers.scope("start");
-  std::vector<mesh::Site> sites = kind_ == Kind::insertion ? inner_sites(*previous.state) : split_edges(old);
+  std::vector<mesh::Site> sites = split_edges(old);
   clear_strip(layout, sites);
-  if (kind_ == Kind::insertion) {
-    const std::int64_t here = context_.comm.sum(static_cast<std::int64_t>(sites.size()));
-    insert_in_triangles(old, layout, std::llround(wanted) - layout.on_boundary() - here, sites);
+  if (options_.points && is_last()) {
+    const std::int64_t most = std::max<std::int64_t>(0, *options_.points - layout.on_boundary());
+    trim(comm, layout, most, sites);
+    const std::int64_t missing = most - comm.sum(static_cast<std::int64_t>(sites.size()));
+    if (shortage_.empty() && static_cast<double>(missing) > small_shortage * static_cast<double>(*options_.points))
+      insert_in_triangles(old, layout, missing, sites); // narrow parts that the coarse mesh has starved
   }
-  if (options_.points && (is_last() || kind_ == Kind::insertion))
-    trim(context_.comm, layout, std::min<std::int64_t>(std::llround(wanted), *options_.points) - layout.on_boundary(),
-         sites);
+  place_sites(context_, layout, std::move(sites));
+  return layout;
+}
+
+Layout PointScheme::insert(const Layout& previous) {
+  const comm::Communicator& comm = context_.comm;
+  const ExtractionContext old{*previous.state, previous.boundary, *previous.size, context_.lattice};
+  const GlobalId before = comm.sum(std::int64_t{previous.state->points().owned()});
+  points_now_ = is_last() ? expected_points() : std::floor(growth * static_cast<double>(before));
+  const double coarsening = is_last() ? 1 : std::fmax(1, std::sqrt(expected_points() / points_now_));
+  Layout layout = lay_boundary(context_, previous.factor, coarsening, points_now_);
+  const auto time = context_.timers.scope("start");
+  std::vector<mesh::Site> sites = inner_sites(*previous.state);
+  clear_strip(layout, sites);
+  const std::int64_t most = std::max<std::int64_t>(0, std::llround(points_now_) - layout.on_boundary());
+  insert_in_triangles(old, layout, most - comm.sum(static_cast<std::int64_t>(sites.size())), sites);
+  if (options_.points)
+    trim(comm, layout, most, sites);
   place_sites(context_, layout, std::move(sites));
   return layout;
 }

@@ -38,6 +38,13 @@ private:
 
   void choose();
   double expected_points() const;
+  Layout first_of_lattice();
+  Layout first_of_insertion();
+  Layout first_of_divisions();
+  void place_along_curve(Layout& layout, double inner) const;
+  /// The next stages after `previous`.
+  Layout divide(const Layout& previous);
+  Layout insert(const Layout& previous);
 
   const LayoutContext& context_;
   const MeshOptions& options_;

@@ -110,28 +110,17 @@ double smallest_sampled(const LayoutContext& context) {
   return smallest;
 }
 
-/// Points after the divisions that follow: n' = inner and inner edges, 4 I + B - 3 x; B' = 2 B.
-double after_divisions(double inner, double on_boundary, int divisions, int euler) {
-  for (; divisions > 0; --divisions) {
-    inner = 4 * inner + on_boundary - 3 * euler;
-    on_boundary *= 2;
-  }
-  return std::max(0.0, inner) + on_boundary;
-}
-
 class DensitySolver {
 public:
-  DensitySolver(const LayoutContext& context, const DensityGoal& goal) : context_(context), goal_(goal) {}
+  DensitySolver(const LayoutContext& context, double points, double size_factor, double coarsening)
+      : context_(context), points_(points), size_factor_(size_factor), coarsening_(coarsening) {}
 
   DensityFit solve() {
     const geometry::Boundary& boundary = context_.boundary;
-    const double first_points = goal_.points / (goal_.coarsening * goal_.coarsening);
-    const double uniform = context_.options.points ? estimated_size(boundary.area, boundary.length(), first_points)
-                                                   : goal_.coarsening * *context_.options.edge_length;
-    const double start = uniform / (goal_.coarsening * smallest_sampled(context_));
-    if (context_.options.points)
-      return for_points(start);
-    return for_edge_length(start);
+    const double uniform = context_.options.points ? estimated_size(boundary.area, boundary.length(), points_)
+                                                   : size_factor_ * *context_.options.edge_length;
+    const double start = uniform / (size_factor_ * smallest_sampled(context_));
+    return context_.options.points ? for_points(start) : for_edge_length(start);
   }
 
 private:
@@ -143,14 +132,10 @@ private:
 
   Trial try_factor(double factor) const {
     Trial trial;
-    Layout& layout = trial.fit.layout =
-        lay_boundary(context_, factor, goal_.coarsening, goal_.points / (goal_.coarsening * goal_.coarsening));
-    const auto time = context_.timers.scope("start");
-    trial.totals = integrate_density(context_.comm, even_share(layout, context_.comm), *layout.guard, *layout.size,
-                                     context_.lattice);
+    trial.fit.layout = lay_boundary(context_, factor, size_factor_, points_, coarsening_);
+    trial.totals = wanted_inside(context_, trial.fit.layout, coarsening_);
     trial.fit.inner = std::floor(trial.totals.sites);
-    const int euler = context_.boundary.components() - context_.boundary.holes();
-    trial.points = after_divisions(trial.fit.inner, static_cast<double>(layout.on_boundary()), goal_.divisions, euler);
+    trial.points = trial.fit.inner + static_cast<double>(trial.fit.layout.on_boundary());
     return trial;
   }
 
@@ -166,19 +151,19 @@ private:
       fewest = std::min(fewest, points);
       const bool saturated = round > 0 && high < INFINITY && low == 0 && std::fabs(points - last) < 1e-3 * last;
       last = points;
-      if (points > goal_.points) {
+      if (points > points_) {
         low = factor;
       } else if (factor <= high) {
         high = factor;
         best = std::move(trial);
-        if (points >= (1 - close_enough) * goal_.points || points > goal_.points - 2)
+        if (points >= (1 - close_enough) * points_ || points > points_ - 2)
           return std::move(best.fit);
       }
       if (saturated && high == factor)
         break; // finer does not help: min_size, or the discs of the boundary fill the shape
       if (high < INFINITY && low > (1 - 1e-4) * high)
         break;
-      const double guess = factor * std::sqrt(points / ((1 - 0.4 * close_enough) * goal_.points));
+      const double guess = factor * std::sqrt(points / ((1 - 0.4 * close_enough) * points_));
       if (high == INFINITY) {
         factor = std::max(guess, 1.02 * factor);
         if (factor > largest)
@@ -192,7 +177,7 @@ private:
     }
     if (!(high < INFINITY))
       fail_for_few_points(context_, fewest);
-    if (best.points < 0.98 * goal_.points)
+    if (best.points < 0.98 * points_)
       best.fit.shortage = context_.options.min_size
                               ? fmt::format("min_size = {:g} leaves no room for more", *context_.options.min_size)
                               : "the discs of the boundary segments leave no room for more";
@@ -201,7 +186,7 @@ private:
 
   DensityFit for_edge_length(double factor) const {
     constexpr int rounds = 12;
-    const double wanted = goal_.coarsening * *context_.options.edge_length;
+    const double wanted = size_factor_ * *context_.options.edge_length;
     Trial trial = try_factor(factor);
     for (int round = 0; round < rounds; ++round) {
       const double ratio = trial.totals.mean_size > 0 ? wanted / trial.totals.mean_size : 1;
@@ -214,7 +199,7 @@ private:
   }
 
   const LayoutContext& context_;
-  const DensityGoal& goal_;
+  double points_, size_factor_, coarsening_;
 };
 
 } // namespace
@@ -253,8 +238,15 @@ LatticeFit fit_lattice(const LayoutContext& context) {
   return fit;
 }
 
-DensityFit fit_density(const LayoutContext& context, const DensityGoal& goal) {
-  return DensitySolver(context, goal).solve();
+DensityFit fit_density(const LayoutContext& context, double points, double size_factor, double coarsening) {
+  return DensitySolver(context, points, size_factor, coarsening).solve();
+}
+
+DensityTotals wanted_inside(const LayoutContext& context, const Layout& layout, double coarsening) {
+  const auto time = context.timers.scope("start");
+  const TileRange tiles = even_share(layout, context.comm);
+  return integrate_density(context.comm, tiles,
+                           DensitySampler(tiles.grid, *layout.guard, *layout.size, context.lattice, coarsening));
 }
 
 } // namespace trime::meshing

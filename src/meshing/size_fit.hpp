@@ -23,13 +23,6 @@ struct LatticeFit {
 /// @throws ConfigError if the boundary alone needs more than the requested points at any size, or max_size does
 LatticeFit fit_lattice(const LayoutContext& context);
 
-/// What a graded stage is to be.
-struct DensityGoal {
-  double points = 0;     ///< wanted after all divisions
-  double coarsening = 1; ///< h of this stage over that of the last
-  int divisions = 0;     ///< of all edges that follow
-};
-
 /// A layout without inner sites, and how many there should be.
 struct DensityFit {
   Layout layout;
@@ -37,10 +30,16 @@ struct DensityFit {
   std::string shortage;
 };
 
-/// @brief Any size field: the largest number of points that is not above the goal, from the integral of h^-2 over the
-/// shape outside the strip and the sites that the boundary really takes; with an edge length, the factor whose mean
-/// edge has it. Collective. O(cells of the integral), about 10 a site and round, 3 to 6 rounds.
+/// @brief Any size field: the layout at the largest number of points that is not above `points`, from the integral of
+/// h^-2 over the shape outside the strip and the sites that the boundary really takes; with an edge length in the
+/// options, at the factor whose mean edge has it. Collective. O(cells of the integral), about 10 / coarsening^2 a site
+/// and round, 3 to 6 rounds.
+/// @param size_factor h of this stage over that of the last one
+/// @param coarsening of the integral
 /// @throws ConfigError as fit_lattice
-DensityFit fit_density(const LayoutContext& context, const DensityGoal& goal);
+DensityFit fit_density(const LayoutContext& context, double points, double size_factor, double coarsening);
+
+/// Inner sites that the size of a layout asks for. Collective.
+DensityTotals wanted_inside(const LayoutContext& context, const Layout& layout, double coarsening = 1);
 
 } // namespace trime::meshing
