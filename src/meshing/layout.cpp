@@ -53,6 +53,8 @@ Layout lay_boundary(const LayoutContext& context, double factor, double coarseni
       std::make_unique<sizing::ScaledSize>(context.relative_size, factor, options.min_size.value_or(0),
                                            options.max_size.value_or(std::numeric_limits<double>::infinity()));
   layout.size = std::make_unique<sizing::ScaledSize>(*layout.final_size, coarsening);
+  if (layout.size->is_uniform())
+    layout.typical_size = layout.size->size({});
   comm::run_agreed(context.comm, [&] {
     layout.boundary =
         make_boundary_sites(context.boundary, *layout.size, context.lattice, context.options.corner_angle);

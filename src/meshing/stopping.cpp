@@ -19,8 +19,11 @@ std::optional<StopReason> StopRule::decide(std::span<const SweepRecord> records)
   if (n > 1 && last.max_move < still)
     return StopReason::converged;
   if (n >= earliest) {
-    const double before = records[n - 1 - window].mean_alpha - 1;
-    if (last.mean_alpha - 1 >= (1 - tolerance_) * before)
+    const SweepRecord& before = records[n - 1 - window];
+    const bool mean_stalled = last.mean_alpha - 1 >= (1 - tolerance_) * (before.mean_alpha - 1);
+    const bool middle_stalled =
+        last.median_alpha - 1 < good_median || last.median_alpha - 1 >= (1 - tolerance_) * (before.median_alpha - 1);
+    if (mean_stalled && middle_stalled)
       return StopReason::quality_stalled;
   }
   if (last.sweep >= max_sweeps_)
