@@ -66,16 +66,19 @@ private:
     const double longest = std::max(images_.container().width(), images_.container().height()) / first_samples;
     for (const geometry::Loop& loop : boundary_.loops) {
       const auto loop_start = static_cast<LocalIndex>(samples_.size());
-      const Piece* before = &loop.pieces.back();
-      for (const Piece& piece : loop.pieces) {
-        LocalIndex first = add_vertex(*before, piece);
-        before = &piece;
+      const std::vector<bool> kept = kept_vertices(loop);
+      for (std::size_t k = 0; k < loop.pieces.size(); ++k) {
+        const Piece& piece = loop.pieces[k];
+        LocalIndex first = add_vertex(k > 0 ? loop.pieces[k - 1] : loop.pieces.back(), piece, kept[k]);
+        const bool closes = k + 1 == loop.pieces.size();
+        if (!kept[k] || !(closes || kept[k + 1]))
+          continue; // shorter than any interval that is divided
         const double length = piece.length(), parts = std::max(1.0, std::ceil(length / longest));
-        for (double k = 1; k <= parts; ++k) {
-          const double from = length * ((k - 1) / parts), to = length * (k / parts);
-          const LocalIndex last = k < parts                       ? add_sample(piece, to)
-                                  : &piece == &loop.pieces.back() ? loop_start
-                                                                  : static_cast<LocalIndex>(samples_.size());
+        for (double part = 1; part <= parts; ++part) {
+          const double from = length * ((part - 1) / parts), to = length * (part / parts);
+          const LocalIndex last = part < parts ? add_sample(piece, to)
+                                  : closes     ? loop_start
+                                               : static_cast<LocalIndex>(samples_.size());
           intervals_.push_back({&piece, from, to, first, last});
           first = last;
         }
@@ -83,12 +86,28 @@ private:
     }
   }
 
-  LocalIndex add_vertex(const Piece& before, const Piece& after) {
+  /// Which pieces start with a sample: of runs of short pieces only some.
+  std::vector<bool> kept_vertices(const geometry::Loop& loop) const {
+    const double shortest = std::min(spacing_share, 2 * envelope_error / slope_) * floor_;
+    std::vector<bool> kept(loop.pieces.size(), true);
+    double since = loop.pieces.front().length(); // the last that was kept
+    for (std::size_t k = 1; k < kept.size(); ++k) {
+      const double length = loop.pieces[k].length();
+      kept[k] = since + length > shortest;
+      since = kept[k] ? length : since + length;
+    }
+    return kept;
+  }
+
+  /// Returns the sample; a vertex without one may still be the end of an axis.
+  LocalIndex add_vertex(const Piece& before, const Piece& after, bool with_sample) {
     const Vec2 in = before.tangent(before.length()), out = after.tangent(0);
-    samples_.push_back({after.start, unknown_});
-    append_rays(after.start, in, out, rays_);
     if (axis_ends_at(in, out))
       corners_.push_back({images_.wrap(after.start), 0});
+    if (with_sample) {
+      samples_.push_back({after.start, unknown_});
+      append_rays(after.start, in, out, rays_);
+    }
     return static_cast<LocalIndex>(samples_.size()) - 1;
   }
   LocalIndex add_sample(const Piece& piece, double along) {

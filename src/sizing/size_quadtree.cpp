@@ -210,9 +210,9 @@ void SizeQuadtree::assemble(const comm::Communicator& comm, std::vector<Block> m
 }
 
 double SizeQuadtree::value(Vec2 p) const {
-  // Block and place in it, 0..1; NaN goes to the first block.
-  double x = std::min(std::max((p.x - box_.min.x) * inverse_side_, 0.0), box_.width() * inverse_side_);
-  double y = std::min(std::max((p.y - box_.min.y) * inverse_side_, 0.0), box_.height() * inverse_side_);
+  // Block, and place in it, 0..1; the order of the arguments of max sends NaN to the first block.
+  double x = std::min(std::max(0.0, (p.x - box_.min.x) * inverse_side_), box_.width() * inverse_side_);
+  double y = std::min(std::max(0.0, (p.y - box_.min.y) * inverse_side_), box_.height() * inverse_side_);
   const std::size_t i = std::min(static_cast<std::size_t>(x), nx_ - 1);
   const std::size_t j = std::min(static_cast<std::size_t>(y), ny_ - 1);
   x -= static_cast<double>(i);

@@ -138,12 +138,15 @@ TEST(AutomaticSize, KnowsTheAxisOfTwoDiscsJoinedByAChannel) {
 }
 
 TEST(AutomaticSize, IsTheRadiusOnADiscEvenOfManySegments) {
-  std::vector<Vec2> points;
-  for (int k = 0; k < 200; ++k) {
-    const SinCos direction = sin_cos(2 * pi * k / 200);
-    points.push_back(Vec2{0.5, 0.5} + 0.25 * Vec2{direction.cos, direction.sin});
-  }
-  for (const Loop& loop : {circle_loop({0.5, 0.5}, 0.25), polygon_loop(points)}) {
+  const auto polygon = [](int n) {
+    std::vector<Vec2> points;
+    for (int k = 0; k < n; ++k) {
+      const SinCos direction = sin_cos(2 * pi * k / n);
+      points.push_back(Vec2{0.5, 0.5} + 0.25 * Vec2{direction.cos, direction.sin});
+    }
+    return polygon_loop(points);
+  };
+  for (const Loop& loop : {circle_loop({0.5, 0.5}, 0.25), polygon(200), polygon(20000)}) {
     const AutomaticSize field = make(boundary_of({loop}), options(0.2, 0.001));
     EXPECT_NEAR(field.size({0.5, 0.5}), 0.25 + 0.2 * 0.25, 0.05 * 0.3);
     EXPECT_NEAR(field.size({0.75, 0.5}), 0.25, 0.05 * 0.25);

@@ -126,6 +126,7 @@ TEST(SizeQuadtree, HasExactCornersAndMeetsItsBounds) {
   EXPECT_EQ(field.tree.value({-5, 0.25}), field.tree.value({0, 0.25}));
   EXPECT_EQ(field.tree.value({0.25, 7}), field.tree.value({0.25, 1}));
   EXPECT_EQ(field.tree.value({1, 1}), field.tree.value({2, 2}));
+  EXPECT_TRUE(std::isfinite(field.tree.value({std::nan(""), -HUGE_VAL})));
 }
 
 TEST(SizeQuadtree, IsTheSameOnAnyRanksAndThreads) {
