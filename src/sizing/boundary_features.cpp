@@ -18,6 +18,8 @@ namespace {
 
 constexpr double spacing_share = 0.35;  // of the local feature size: largest distance of samples with medial points
 constexpr double envelope_error = 0.02; // of the field between two samples, as a share of it
+constexpr double nearest_slack = 1e-3;  // of local feature sizes: all balls of a polygon like a disc have one centre
+constexpr double thinning_error = 0.01; // of the field, for leaving out samples much like the one before
 constexpr int first_samples = 32;       // along a line as long as the container
 constexpr int most_rounds = 40;
 
@@ -31,6 +33,16 @@ std::vector<Cone> with_images(const std::vector<Cone>& cones, const Images& imag
         all.push_back({apex, cone.height});
     }
   return all;
+}
+
+/// Leaves out cones that the last one kept covers, or misses by a small share only: neighbours on the boundary are
+/// mostly neighbours in the list.
+std::vector<Cone> thinned(const std::vector<Cone>& cones, double slope) {
+  std::vector<Cone> kept;
+  for (const Cone& cone : cones)
+    if (kept.empty() || kept.back().value(cone.apex, slope) > (1 + thinning_error) * cone.height)
+      kept.push_back(cone);
+  return kept;
 }
 
 /// Halves the boundary where the local feature size asks for it, round by round; each round's samples bring new medial
@@ -141,7 +153,7 @@ private:
       const Vec2 p = images_.wrap(samples_[k].apex);
       double size = samples_[k].height;
       for (std::size_t tree = k < known_ ? medial_trees_.size() - 1 : 0; tree < medial_trees_.size(); ++tree)
-        size = medial_trees_[tree].value(p, size);
+        size = medial_trees_[tree].value(p, size, nearest_slack);
       return size;
     });
     for (std::size_t k = 0; k < sizes.size(); ++k)
@@ -197,6 +209,7 @@ std::vector<Cone> boundary_features(const comm::Communicator& comm, const geomet
   const double largest = images.container().width() + images.container().height();
   for (Cone& cone : cones)
     cone = {images.wrap(cone.apex), std::min(largest, std::max(feature_floor, cone.height))};
+  cones = thinned(cones, gradation);
   const ConeTree all(with_images(cones, images), gradation);
   const std::vector<char> covered = compute_shared<char>(comm, cones.size(), [&](std::size_t k) {
     return static_cast<char>(all.value(cones[k].apex, cones[k].height) < cones[k].height);

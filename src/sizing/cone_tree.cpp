@@ -53,7 +53,7 @@ void ConeTree::sort(std::size_t node, std::size_t first_leaf, std::size_t last_l
   sort(2 * node + 1, middle, last_leaf);
 }
 
-double ConeTree::value(Vec2 p, double bound) const {
+double ConeTree::value(Vec2 p, double bound, double slack) const {
   if (cones_.empty())
     return bound;
   struct Entry {
@@ -65,7 +65,7 @@ double ConeTree::value(Vec2 p, double bound) const {
   stack[size++] = {1, nodes_[1].lower_bound(p, slope_)};
   while (size > 0) {
     const Entry entry = stack[--size];
-    if (entry.lower_bound >= bound)
+    if (entry.lower_bound * (1 + slack) >= bound)
       continue;
     if (entry.node >= leaves_) {
       const std::size_t leaf = entry.node - leaves_, last = first_of(leaf + 1);

@@ -28,7 +28,8 @@ public:
 
   /// @brief The least of `bound` and the values of all cones at p. A good bound makes it faster. O(log n) for points
   /// near a few cones.
-  double value(geometry::Vec2 p, double bound = std::numeric_limits<double>::infinity()) const;
+  /// @param slack share by which the answer may be too high, for points that are nearly as near to many cones
+  double value(geometry::Vec2 p, double bound = std::numeric_limits<double>::infinity(), double slack = 0) const;
 
   /// Appends to `found` the indices of all cones whose value at p is at most `bound`, in the order of the tree.
   void collect(geometry::Vec2 p, double bound, std::vector<LocalIndex>& found) const;

@@ -15,7 +15,7 @@ namespace {
 constexpr double fan_step = 20 * pi / 180; // between the rays from a vertex
 constexpr double straight = 5 * pi / 180;  // a turn that needs no fan
 constexpr int most_shrinks = 50;
-constexpr double empty_share = 1 - 1e-5;   // of its radius: so far a ball's centre is from the boundary if it is empty
+constexpr double empty_share = 1 - 1e-3;   // of its radius: so far a ball's centre is from the boundary if it is empty
 constexpr double nearly_empty_share = 0.7; // the same for a ball with nothing but noise in it
 
 double signed_turn(Vec2 before, Vec2 after) {

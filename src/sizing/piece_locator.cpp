@@ -107,7 +107,7 @@ std::optional<Vec2> PieceLocator::nearest(Vec2 p, double reach) const {
   stack[size++] = {1, 0.0};
   while (size > 0) {
     const Entry entry = stack[--size];
-    if (entry.squared_distance >= best.squared_distance)
+    if (entry.squared_distance * (1 + 2 * slack) >= best.squared_distance)
       continue;
     if (entry.node >= leaves) {
       visit(entry.node - leaves, p, best);

@@ -16,6 +16,9 @@ class PieceLocator {
 public:
   /// O(M) time for M pieces.
   PieceLocator(const geometry::Boundary& boundary, const Images& images);
+  /// Share by which a point that is taken for the nearest may be farther: from the centre of a circle of many segments
+  /// all are nearly as near, and to look at each would take for ever.
+  static constexpr double slack = 5e-4;
   /// Nearest boundary point to p that is nearer than `reach`, if there is any. O(log M) for curves.
   std::optional<geometry::Vec2> nearest(geometry::Vec2 p, double reach) const;
 
