@@ -106,14 +106,12 @@ constexpr Option table[] = {
      .fallback = "none",
      .choices = "none",
      .range = positive,
-     .supported = "none",
      .meaning = "no element is asked to be smaller"},
     {.section = "sizing",
      .key = "max_size",
      .fallback = "none",
      .choices = "none",
      .range = positive,
-     .supported = "none",
      .meaning = "no element is asked to be larger"},
 
     {.section = "meshing",
@@ -121,7 +119,6 @@ constexpr Option table[] = {
      .kind = Kind::word,
      .fallback = "hybrid",
      .choices = "distmesh cvd hybrid",
-     .supported = "distmesh",
      .meaning = "how points move: repulsive bars, centroidal Voronoi cells, or one after the other"},
     {.section = "meshing",
      .key = "points",
@@ -137,8 +134,9 @@ constexpr Option table[] = {
      .fallback = "auto",
      .choices = "auto",
      .range = {0, 1, true},
-     .supported = "auto 1",
-     .meaning = "share of the points placed before the first sweep"},
+     .meaning = "share of the points placed before the first sweep, the others are inserted where triangles are large; "
+                "auto: the "
+                "program chooses and says why"},
     {.section = "meshing",
      .key = "fixed_points",
      .kind = Kind::path,
@@ -216,8 +214,8 @@ constexpr Option table[] = {
      .kind = Kind::integer,
      .fallback = "-1",
      .range = {-2, 1e9},
-     .supported = "0 -1",
-     .meaning = "0: no mesh; -1: the final mesh; -2: the first and the final one; n: every n-th retriangulation"},
+     .meaning = "0: no mesh; -1: the final mesh; -2: the first and the final one; n: also the first and every n-th "
+                "retriangulation, one file each"},
 
     {.section = "checkpoint",
      .key = "interval",

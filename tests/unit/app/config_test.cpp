@@ -139,7 +139,7 @@ TEST(Config, ASectionMayBeMeantByItsBeginning) {
 
 TEST(Config, TellsAllMistakesAtOnceInTheOrderOfTheFile) {
   EXPECT_EQ(errors_of("[domain]\nx_min = 1\nx_max = 1\n[sizing]\ngradaton = 0.2\n[meshin]\nseed = 1\n[shape]\n"
-                      "region = hole\n[shape.hole]\ntype = circle\ncenter = 0.5\nradus = 1\n[meshing]\nmethod = cvd\n"
+                      "region = hole\n[shape.hole]\ntype = circle\ncenter = 0.5\nradus = 1\n[meshing]\nmethod = cdv\n"
                       "points = 0\n",
                       {"log.levle=info"}),
             "dir/c.ini:3: [domain] needs x_min < x_max, found 1 and 1\n"
@@ -147,7 +147,7 @@ TEST(Config, TellsAllMistakesAtOnceInTheOrderOfTheFile) {
             "dir/c.ini:6: unknown section [meshin]; did you mean 'meshing'?\n"
             "dir/c.ini:12: 'center = 0.5' in [shape.hole]: expected two numbers X Y separated by a blank\n"
             "dir/c.ini:13: unknown key 'radus' in [shape.hole]; did you mean 'radius'?\n"
-            "dir/c.ini:15: 'method = cvd' in [meshing] is not supported yet; use distmesh\n"
+            "dir/c.ini:15: 'method = cdv' in [meshing]: expected one of distmesh, cvd, hybrid; did you mean 'cvd'?\n"
             "dir/c.ini:16: 'points = 0' in [meshing]: expected an integer from 3 to 4000000000\n"
             "command line: unknown key 'levle' in [log]; did you mean 'level'?");
 }
@@ -204,15 +204,9 @@ TEST(Config, AChangedTypeShowsTheKeysThatNoLongerBelong) {
 TEST(Config, RefusesByNameWhatThisVersionCannotDo) {
   expect_refused("domain.periodic_x=true", "'periodic_x = true' in [domain] is not supported yet; leave it false");
   expect_refused("domain.periodic_y=true", "not supported yet; leave it false");
-  expect_refused("sizing.min_size=0.1", "not supported yet; leave it none");
-  expect_refused("sizing.max_size=0.1", "not supported yet");
-  expect_refused("meshing.method=hybrid", "not supported yet; use distmesh");
-  expect_refused("meshing.initial_fraction=0.2", "not supported yet; use auto or 1");
   expect_refused("meshing.fixed_points=p.xy", "not supported yet");
   expect_refused("meshing.fixed_points_normalize_with=box", "not supported yet");
   expect_refused("output.formats=vtkhdf gmsh", "not supported yet; use vtkhdf, xdmf, text");
-  expect_refused("output.interval=-2", "not supported yet; use 0 or -1");
-  expect_refused("output.interval=10", "not supported yet");
   expect_refused("checkpoint.interval=60", "not supported yet; leave it 0");
   expect_refused("checkpoint.keep=3", "not supported yet; leave it 2");
 }
@@ -224,8 +218,23 @@ TEST(Config, TakesTheDefaultsWhenTheyAreSpeltOut) {
     EXPECT_EQ(errors_of(good, {text}), "") << text;
 }
 
-TEST(Config, TheUnsupportedDefaultOfMethodIsExplained) {
-  EXPECT_NE(errors_of(good, {"meshing.method="}).find("set 'method = distmesh' in [meshing]"), std::string::npos);
+TEST(Config, TakesMethodsAndPointSchemes) {
+  EXPECT_EQ(parse_config(good, "c.ini", {"meshing.method="}).mesh.method, meshing::Method::hybrid);
+  for (const char* method : {"distmesh", "cvd", "hybrid"})
+    EXPECT_EQ(method_name(parse_config(good, "c.ini", {std::string("meshing.method=") + method}).mesh.method), method);
+  EXPECT_FALSE(parse_config(good, "c.ini", {}).mesh.initial_fraction.has_value());
+  EXPECT_EQ(parse_config(good, "c.ini", {"meshing.initial_fraction=0.2"}).mesh.initial_fraction, 0.2);
+}
+
+TEST(Config, BoundsOfTheSizeAreInOrder) {
+  const auto mesh = parse_config(good, "c.ini", {"sizing.min_size=0.1", "sizing.max_size=0.1"}).mesh;
+  EXPECT_EQ(mesh.min_size, 0.1);
+  EXPECT_EQ(mesh.max_size, 0.1);
+  EXPECT_FALSE(parse_config(good, "c.ini", {}).mesh.max_size.has_value());
+  EXPECT_NE(errors_of(good, {"sizing.min_size=0.2", "sizing.max_size=0.1"})
+                .find("command line: [sizing] needs min_size <= max_size, found 0.2 and 0.1"),
+            std::string::npos);
+  expect_refused("sizing.min_size=0", "none or a number > 0");
 }
 
 TEST(Config, TakesSizes) {
@@ -267,6 +276,10 @@ TEST(Config, OutputSaysWhichMeshesAreWritten) {
   EXPECT_TRUE(options("-1").write);
   EXPECT_FALSE(options("-1").output.steps);
   EXPECT_EQ(options("-1").mesh.snapshot_interval, 0);
+  EXPECT_EQ(options("-2").mesh.snapshot_interval, -2);
+  EXPECT_TRUE(options("-2").output.steps);
+  EXPECT_EQ(options("7").mesh.snapshot_interval, 7);
+  EXPECT_TRUE(options("7").write);
 }
 
 TEST(Config, ExactlyOneResolution) {
@@ -279,7 +292,6 @@ TEST(Config, AnEmptyFileSaysWhatIsMissing) {
   const std::string message = errors_of("");
   EXPECT_NE(message.find("no shape is given"), std::string::npos);
   EXPECT_NE(message.find("set 'points'"), std::string::npos);
-  EXPECT_NE(message.find("method = distmesh"), std::string::npos);
 }
 
 TEST(Config, APartNeedsItsTypeAndKeys) {
