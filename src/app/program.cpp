@@ -69,8 +69,7 @@ struct Job {
 meshing::MeshResult run_mesher(const Job& job, const Provenance& provenance, const geometry::RegionShape& shape,
                                const sizing::SizeField& size, io::MeshSeries& series) {
   meshing::Mesher mesher(job.comm, shape.boundary(), size, job.options.mesh, job.log, job.timers);
-  mesher.on_snapshot([&](const meshing::Snapshot& snapshot) {
-    const auto timing = job.timers.scope("output");
+  mesher.on_snapshot([&](const meshing::Snapshot& snapshot) { // timed by the mesher
     series.write_step({snapshot.retriangulation, snapshot.mesh, snapshot.quality, describe_step(provenance, snapshot)});
   });
   meshing::MeshResult result = mesher.run();
