@@ -106,13 +106,13 @@ constexpr Option table[] = {
      .fallback = "none",
      .choices = "none",
      .range = positive,
-     .meaning = "no element is asked to be smaller"},
+     .meaning = "no edge is asked to be shorter; a length, as `edge_length`"},
     {.section = "sizing",
      .key = "max_size",
      .fallback = "none",
      .choices = "none",
      .range = positive,
-     .meaning = "no element is asked to be larger"},
+     .meaning = "no edge is asked to be longer"},
 
     {.section = "meshing",
      .key = "method",
@@ -128,7 +128,7 @@ constexpr Option table[] = {
     {.section = "meshing",
      .key = "edge_length",
      .range = positive,
-     .meaning = "target edge length; exactly one of `points` and `edge_length`"},
+     .meaning = "edge length, the mean one if sizes differ; exactly one of `points` and `edge_length`"},
     {.section = "meshing",
      .key = "initial_fraction",
      .fallback = "auto",
@@ -172,7 +172,8 @@ constexpr Option table[] = {
      .choices = "auto",
      .range = positive,
      .meaning =
-         "the sweeps end once five of them lower the mean of alpha - 1 by less than this share of it; auto: 0.04"},
+         "the sweeps end once five of them lower the mean of alpha - 1 by less than this share of it; auto: 0.04 "
+         "(0.02 on coarse meshes, 0.1 before points are inserted)"},
 
     {.section = "parallel",
      .key = "setup_threads",
