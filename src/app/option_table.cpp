@@ -135,8 +135,7 @@ constexpr Option table[] = {
      .choices = "auto",
      .range = {0, 1, true},
      .meaning = "share of the points placed before the first sweep, the others are inserted where triangles are large; "
-                "auto: the "
-                "program chooses and says why"},
+                "auto: the program chooses and says why"},
     {.section = "meshing",
      .key = "fixed_points",
      .kind = Kind::path,

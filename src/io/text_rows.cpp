@@ -19,7 +19,7 @@
 namespace trime::io {
 namespace {
 
-constexpr std::int64_t rows_at_once = 1 << 19; // over all ranks: about 50 MB of text
+constexpr std::int64_t rows_at_once = 1 << 17; // over all ranks: about 15 MB of text
 constexpr std::int64_t rows_of_thread = 1 << 11;
 
 /// Rank 0's end of the file.

@@ -24,7 +24,7 @@ void append_number(std::string& text, double number);
 void append_number(std::string& text, std::int64_t number);
 
 /// @brief Writes all rows of the first array, then those of the second, ..., under a temporary name; then gives the
-/// file its name. Each rank makes its lines twice on several ranks: first to count bytes. Memory: some 50 MB on rank 0,
+/// file its name. Each rank makes its lines twice on several ranks: first to count bytes. Memory: some 30 MB on rank 0,
 /// its share of it elsewhere.
 /// @throws FileError on all ranks together
 /// @note Collective.
