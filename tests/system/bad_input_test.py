@@ -95,7 +95,7 @@ class BadInput(unittest.TestCase):
             rf"case\.ini:{line_of(text, 'siizing')}:.*siizing.*sizing"])
 
     def test_keys_of_later_versions_are_refused_by_name(self):
-        for key, extra in (("periodic_x", "domain.periodic_x=true"), ("method", "meshing.method=cvd"),
+        for key, extra in (("periodic_x", "domain.periodic_x=true"), 
                            ("formats", "output.formats=gmsh"),
                            ("interval", "checkpoint.interval=60")):
             with self.subTest(key=key):
@@ -144,6 +144,21 @@ class BadInput(unittest.TestCase):
             with self.subTest(region=formula):
                 self.refused(GOOD.replace("region = part", f"region = {formula}"), USAGE, [r"case\.ini:4:"],
                              ranks_tried=(1,))
+
+    def test_bad_size_formulas(self):
+        start = GOOD + "[sizing]\ntype = expression\n"
+        line = len(start.splitlines()) + 1
+        for formula in ("1+3*x+", "1+z", "(1+x", "x = 2", "1, 2"):
+            with self.subTest(formula=formula):
+                self.refused(start + f"expression = {formula}\n", USAGE, [rf"case\.ini:{line}: 'expression' in \[sizing\]: "],
+                             ranks_tried=(1,))
+        for formula in ("x-0.5", "1/(x-x)", "sqrt(-1-x)", "0"):
+            with self.subTest(formula=formula):
+                self.refused(start + f"expression = {formula}\n", USAGE,
+                             [rf"case\.ini:{line}: 'expression' in \[sizing\]: .*positive"])
+        self.refused(start, USAGE, [rf"case\.ini:{line - 1}: .*needs 'expression'"], ranks_tried=(1,))
+        self.refused(GOOD, USAGE, [r"command line: .*min_size <= max_size"],
+                     extra=["sizing.min_size=0.2", "sizing.max_size=0.1"], ranks_tried=(1,))
 
     # Shapes
 
