@@ -182,6 +182,9 @@ void read_output(const Settings& settings, RunOptions& options, io::Diagnostics&
   file.vtkhdf = is_wanted("vtkhdf");
   file.xdmf = is_wanted("xdmf");
   options.output.text = is_wanted("text");
+  const geometry::Box& container = options.mesh.container;
+  options.output.period = {settings.boolean("domain", "periodic_x") ? container.width() : 0,
+                           settings.boolean("domain", "periodic_y") ? container.height() : 0};
   const std::int64_t interval = settings.integer("output", "interval");
   options.write = interval != 0;
   options.mesh.snapshot_interval = interval == -1 ? 0 : static_cast<int>(interval);

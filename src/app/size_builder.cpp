@@ -17,6 +17,8 @@ BuiltSize automatic_size(const RunOptions& options, const geometry::Boundary& bo
   automatic.gradation = options.sizing.gradation;
   automatic.feature_floor = feature_floor(options.mesh, boundary.area);
   automatic.container = options.mesh.container;
+  automatic.period_x = options.output.period.x;
+  automatic.period_y = options.output.period.y;
   BuiltSize size;
   size.field = sizing::make_automatic_size(comm, boundary, automatic);
   size.description = size.field->is_uniform() ? "uniform: the automatic size with gradation 0"
