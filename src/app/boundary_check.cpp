@@ -17,10 +17,11 @@ mesh::Checks check_boundary_distance(const mesh::DistributedMesh& mesh, const ge
   double at_vertices = 0, at_middles = 0, smallest = std::numeric_limits<double>::infinity();
   for (const auto& [first, second] : mesh.facets) {
     const io::MeshPoint &a = points[first], &b = points[second];
+    const geometry::Vec2 end = shape.frame().periods().nearest_image(b.position, a.position);
     const double size = 0.5 * (a.size + b.size);
     smallest = std::min(smallest, a.size);
     at_vertices = std::max(at_vertices, shape.distance_to_boundary(a.position) / a.size);
-    at_middles = std::max(at_middles, shape.distance_to_boundary(0.5 * (a.position + b.position)) / size);
+    at_middles = std::max(at_middles, shape.distance_to_boundary(0.5 * (a.position + end)) / size);
   }
   at_vertices = comm.max(at_vertices);
   at_middles = comm.max(at_middles);
