@@ -22,12 +22,12 @@ constexpr double cells_per_chord = 64;
 constexpr double most_cells = 0x1p22;
 constexpr double most_entries = 0x1p25; // of all cell lists together
 
-std::vector<Segment> chords_of(const BoundarySites& sites, const geometry::Periods& periods) {
+std::vector<Segment> chords_of(const BoundarySites& sites) {
   std::vector<Segment> chords;
   chords.reserve(sites.sites.size());
   for (std::size_t k = 0; k < sites.sites.size(); ++k) {
     const Segment chord = sites.chord(static_cast<LocalIndex>(k));
-    const Vec2 middle = 0.5 * (chord.a + chord.b), shift = periods.wrap(middle) - middle;
+    const Vec2 middle = 0.5 * (chord.a + chord.b), shift = sites.periods.wrap(middle) - middle;
     chords.push_back({chord.a + shift, chord.b + shift});
   }
   return chords;
@@ -49,14 +49,13 @@ double reach_of(const Segment& chord) {
 
 } // namespace
 
-BoundaryGuard::BoundaryGuard(const BoundarySites& sites, const geometry::Lattice& lattice,
-                             const geometry::Periods& periods)
-    : periods_(periods), chords_(chords_of(sites, periods)) {
-  TRIME_ASSERT(!is_empty() || periods.any());
+BoundaryGuard::BoundaryGuard(const BoundarySites& sites, const geometry::Lattice& lattice)
+    : periods_(sites.periods), chords_(chords_of(sites)) {
+  TRIME_ASSERT(!is_empty() || periods_.any());
   if (is_empty())
     return;
   const geometry::Box window = choose_cells();
-  if (periods.any()) {
+  if (periods_.any()) {
     add_images(window);
     close_chords(window, lattice);
   }

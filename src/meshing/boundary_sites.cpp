@@ -236,6 +236,7 @@ void Refiner::fail(const Cut& cut) const {
 BoundarySites Refiner::result() const {
   const geometry::Periods& periods = boundary_.periods;
   BoundarySites out;
+  out.periods = periods;
   out.sites.reserve(sites_.size());
   out.halvings = halvings_;
   out.rounds = rounds_;

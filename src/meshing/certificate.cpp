@@ -121,8 +121,8 @@ void count_site(const ExtractionContext& context, const std::vector<GlobalId>& i
 
 /// @brief Area on the left of all chords. Each loop is unrolled and counts with the area between it and the line from
 /// the first image of its start to the last; in a periodic container the sum is right but for whole images of it.
-ExactArea polygon_area(const BoundarySites& boundary, const geometry::Periods& periods,
-                       const geometry::Lattice& lattice) {
+ExactArea polygon_area(const BoundarySites& boundary, const geometry::Lattice& lattice) {
+  const geometry::Periods& periods = boundary.periods;
   ExactArea area;
   for (std::size_t loop = 0; loop + 1 < boundary.loop_start.size(); ++loop) {
     const Vec2 origin = boundary.sites[at(boundary.loop_start[loop])].position;
@@ -170,7 +170,7 @@ mesh::Checks certify(const ExtractionContext& context, const decomposition::Numb
   counts = Counts::unpack(packed);
 
   const std::int64_t segments = static_cast<std::int64_t>(context.boundary.sites.size());
-  const ExactArea polygon = polygon_area(context.boundary, expectation.periods, context.lattice);
+  const ExactArea polygon = polygon_area(context.boundary, context.lattice);
   const std::int64_t hash_of_thrice =
       wrapping_sum(counts.hash_of_triangles, wrapping_sum(counts.hash_of_triangles, counts.hash_of_triangles));
   mesh::Checks checks;

@@ -49,7 +49,6 @@ mesh::QualitySummary measure_quality(const ExtractionContext& context, const dec
 /// What the shape promises.
 struct Expectation {
   int euler_characteristic = 1;
-  geometry::Periods periods{};
 };
 
 /// @brief The certificate: manifold, positive, Euler characteristic, area, Delaunay, boundary segments, corners,

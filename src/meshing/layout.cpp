@@ -12,8 +12,8 @@ namespace {
 
 constexpr double row_height = 0.8660254037844386;
 
-/// The part of the container grid around the shape: what lies beyond holds no site. Cells that were given keep their
-/// size.
+/// The part of the container grid around the shape: what lies beyond holds no site. One whole period along periodic
+/// axes. Cells that were given keep their size.
 std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Layout& layout, double spacing) {
   const MeshOptions& options = context.options;
   const geometry::Box& container = options.container;
@@ -21,8 +21,17 @@ std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Layout
   for (const BoundarySite& site : layout.boundary.sites)
     around.include(site.position);
   const double h = spacing;
-  const geometry::Box box{{std::max(container.min.x, around.min.x - h), std::max(container.min.y, around.min.y - h)},
-                          {std::min(container.max.x, around.max.x + h), std::min(container.max.y, around.max.y + h)}};
+  geometry::Box box{{std::max(container.min.x, around.min.x - h), std::max(container.min.y, around.min.y - h)},
+                    {std::min(container.max.x, around.max.x + h), std::min(container.max.y, around.max.y + h)}};
+  const geometry::Periods& periods = context.boundary.periods;
+  if (periods.x > 0) {
+    box.min.x = periods.min.x;
+    box.max.x = periods.min.x + periods.x;
+  }
+  if (periods.y > 0) {
+    box.min.y = periods.min.y;
+    box.max.y = periods.min.y + periods.y;
+  }
   const auto cells = [](const std::optional<int>& given, double share) -> std::optional<int> {
     if (!given)
       return given;
@@ -72,6 +81,8 @@ TileRange even_share(const Layout& layout, const comm::Communicator& comm) {
 
 void place_sites(const LayoutContext& context, Layout& layout, std::vector<mesh::Site> inner) {
   const TileRange tiles = even_share(layout, context.comm);
+  for (mesh::Site& site : inner)
+    site.position = context.boundary.periods.wrap(site.position);
   for (std::size_t b = 0; b < layout.boundary.sites.size(); ++b) {
     const geometry::Vec2 p = layout.boundary.sites[b].position;
     const LocalIndex tile = tiles.grid.place(p).tile;

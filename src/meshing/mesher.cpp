@@ -78,9 +78,9 @@ private:
   void warn_of_fine_features() {
     const auto& sites = layout_.boundary.sites;
     double least = 1, length = 0, size = 0; // chord over local size
-    for (const BoundarySite& site : sites) {
-      const geometry::Vec2 next = sites[static_cast<std::size_t>(site.next)].position;
-      const double chord = geometry::length(next - site.position), h = layout_.size->size(site.position);
+    for (std::size_t k = 0; k < sites.size(); ++k) {
+      const geometry::Segment segment = layout_.boundary.chord(static_cast<LocalIndex>(k));
+      const double chord = geometry::length(segment.b - segment.a), h = layout_.size->size(segment.a);
       if (chord < least * h) {
         least = chord / h;
         length = chord;
@@ -200,7 +200,7 @@ private:
     result.holes = boundary_.holes();
     result.quality = measure_quality(context, numbering);
     result.mesh = extract_mesh(context, numbering);
-    result.checks = certify(context, numbering, {boundary_.euler_characteristic(), boundary_.periods}, result.mesh);
+    result.checks = certify(context, numbering, {boundary_.euler_characteristic()}, result.mesh);
     result.history = std::move(history_);
     result.stop_reason = stop_reason_;
     result.requested_points = options_.points.value_or(0);

@@ -72,6 +72,7 @@ std::vector<mesh::Site> inner_sites(const SiteState& state) {
 
 std::vector<mesh::Site> split_edges(const ExtractionContext& context) {
   const mesh::BinnedPoints& points = context.state.points();
+  const geometry::Periods& periods = context.boundary.periods;
   return gather_by_tile<mesh::Site>(points, [&](LocalIndex i, std::vector<mesh::Site>& sites) {
     add_if_inner(points, i, sites);
     const Fan fan = inside_fan(context, i);
@@ -81,8 +82,8 @@ std::vector<mesh::Site> split_edges(const ExtractionContext& context) {
     // The first and the last edge of an open fan are segments of the boundary.
     for (std::size_t k = fan.closed ? 0 : 1; k < fan.triangles; ++k) {
       const Vec2 q = points.position(fan.neighbour(k));
-      if (geometry::lexicographically_less(p, q))
-        sites.push_back({context.lattice.snap(p + 0.5 * (q - p))});
+      if (periods.less(p, q))
+        sites.push_back({periods.wrap(context.lattice.snap(p + 0.5 * (q - p)))});
     }
   });
 }
@@ -90,14 +91,15 @@ std::vector<mesh::Site> split_edges(const ExtractionContext& context) {
 void insert_in_triangles(const ExtractionContext& context, const Layout& next, std::int64_t count,
                          std::vector<mesh::Site>& sites) {
   const mesh::BinnedPoints& points = context.state.points();
+  const geometry::Periods& periods = context.boundary.periods;
   const auto candidates = gather_by_tile<Candidate>(points, [&](LocalIndex i, std::vector<Candidate>& list) {
     const Fan fan = inside_fan(context, i);
     const Vec2 p = points.position(i);
     for (std::size_t k = 0; k < fan.triangles; ++k) {
       const Vec2 q = points.position(fan.neighbour(k)), r = points.position(fan.neighbour(k + 1));
-      if (!geometry::lexicographically_less(p, q) || !geometry::lexicographically_less(p, r))
+      if (!periods.less(p, q) || !periods.less(p, r))
         continue;
-      const Vec2 middle = context.lattice.snap(p + (1.0 / 3) * ((q - p) + (r - p)));
+      const Vec2 middle = periods.wrap(context.lattice.snap(p + (1.0 / 3) * ((q - p) + (r - p))));
       if (is_clear(next, middle))
         list.push_back({middle, urgency(p, q, r, middle, *next.size)});
     }

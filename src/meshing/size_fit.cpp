@@ -87,7 +87,7 @@ double smallest_sampled(const LayoutContext& context) {
   constexpr std::size_t most_pieces = 4096;
   double smallest = INFINITY;
   const auto sample = [&](geometry::Vec2 p) {
-    const double s = context.relative_size.size(p);
+    const double s = context.relative_size.size(context.boundary.periods.wrap(p));
     if (s > 0 && s < smallest)
       smallest = s;
   };
@@ -101,7 +101,7 @@ double smallest_sampled(const LayoutContext& context) {
       sample(loop.pieces[k].point(0.5 * loop.pieces[k].length()));
     }
   const geometry::Box box =
-      context.boundary.loops.empty() ? context.options.container : context.boundary.bounding_box();
+      context.boundary.periods.any() ? context.options.container : context.boundary.bounding_box();
   for (int j = 0; j < per_side; ++j)
     for (int i = 0; i < per_side; ++i)
       sample({box.min.x + (i + 0.5) / per_side * box.width(), box.min.y + (j + 0.5) / per_side * box.height()});

@@ -27,7 +27,7 @@ namespace trime::meshing {
 /// to a global change of sides, which the inner side of one chord decides. Without sites, all is inside.
 class BoundaryGuard {
 public:
-  BoundaryGuard(const BoundarySites& sites, const geometry::Lattice& lattice, const geometry::Periods& periods = {});
+  BoundaryGuard(const BoundarySites& sites, const geometry::Lattice& lattice);
 
   /// Inside the polygon of chords; exact, with the perturbation of SegmentGrid on the boundary itself.
   bool inside(geometry::Vec2 p) const;

@@ -7,6 +7,7 @@
 #include "trime/core/types.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
+#include "trime/geometry/periods.hpp"
 #include "trime/geometry/segment.hpp"
 #include "trime/sizing/size_field.hpp"
 
@@ -28,6 +29,7 @@ struct BoundarySite {
 /// a periodic container included. The whole torus has no sites at all.
 struct BoundarySites {
   std::vector<BoundarySite> sites;
+  geometry::Periods periods{};        ///< of the container
   std::vector<LocalIndex> loop_start; ///< loops + 1: sites of loop i are loop_start[i] .. loop_start[i+1]-1
   LocalIndex corners = 0;
   LocalIndex sharp_corners = 0; ///< corners with an angle below 60 degrees on either side

@@ -90,7 +90,7 @@ TEST(PeriodicBoundarySites, TheWholeTorusHasNone) {
   EXPECT_TRUE(result.sites.empty());
   EXPECT_EQ(result.loop_start, std::vector<LocalIndex>{0});
   const geometry::Frame& frame = testing::unit_torus();
-  const BoundaryGuard guard(result, frame.lattice(), frame.periods());
+  const BoundaryGuard guard(result, frame.lattice());
   for (const Vec2 p : {Vec2{0, 0}, Vec2{0.5, 0.25}, Vec2{-3, 7}}) {
     EXPECT_TRUE(guard.inside(p));
     EXPECT_FALSE(guard.encroaches(p));
@@ -126,7 +126,7 @@ TEST(PeriodicBoundaryGuard, AgreesWithTheDefinitionsForAllImages) {
       const geometry::Lattice& lattice = shape.frame().lattice();
       const geometry::Periods& periods = shape.frame().periods();
       const BoundarySites sites = sites_of(shape, h);
-      const BoundaryGuard guard(sites, lattice, periods);
+      const BoundaryGuard guard(sites, lattice);
       const std::vector<Segment> chords = chords_of(sites);
       for (const Vec2 p : queries_for(shape, chords)) {
         bool strictly = false, closed = false, close = false;
@@ -166,7 +166,7 @@ TEST(PeriodicBoundaryGuard, TheSidesOfEachChordAreInAndOut) {
   for (const RegionShape& shape : testing::periodic_shapes())
     for (const double h : {0.3, 0.02}) {
       const BoundarySites sites = sites_of(shape, h);
-      const BoundaryGuard guard(sites, shape.frame().lattice(), shape.frame().periods());
+      const BoundaryGuard guard(sites, shape.frame().lattice());
       for (const Segment& chord : chords_of(sites)) {
         const Vec2 middle = 0.5 * (chord.a + chord.b), normal = geometry::left_normal(chord.b - chord.a);
         for (const double across : {1e-3, 0.1, 0.45}) {

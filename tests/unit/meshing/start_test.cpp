@@ -107,7 +107,7 @@ TEST(LatticeStart, IsTheSameForEverySplitOfTheTilesAndAnyThreads) {
 struct PeriodicStage {
   PeriodicStage(const geometry::RegionShape& whole, double h)
       : shape(whole), size(h), sites(make_boundary_sites(shape.boundary(), size, shape.frame().lattice(), 30)),
-        guard(sites, shape.frame().lattice(), shape.frame().periods()), grid(shape.frame().inner(), {{}, {}, h}),
+        guard(sites, shape.frame().lattice()), grid(shape.frame().inner(), {{}, {}, h}),
         start(shape.boundary(), guard, shape.frame().lattice()) {}
   std::vector<Site> all(double spacing) const { return start.sites({grid, 0, grid.tile_count()}, spacing); }
   double distance(Vec2 p, Vec2 q) const { return geometry::length(shape.frame().periods().nearest_image(q, p) - p); }
