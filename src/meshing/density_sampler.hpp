@@ -34,7 +34,7 @@ public:
   /// Calls visit(cell) for all cells of the tile with a weight, in Hilbert order.
   template <class Visit>
   void for_each_cell(LocalIndex tile, const Visit& visit) const {
-    divide(grid_.tile_box(tile), 0, 0, visit);
+    divide({grid_.tile_box(tile), 0, 0, false}, visit);
   }
 
 private:
@@ -43,24 +43,37 @@ private:
   /// Every bin is looked into, wherever its tile's middle lies: sizes may jump.
   int least_levels() const { return grid_.typical_bin_bits() + 1; }
 
+  struct Part {
+    geometry::Box box;
+    std::uint64_t key;
+    int level;
+    bool clear; ///< a larger part around it is clear of the boundary and its strip, and inside
+  };
+
   template <class Visit>
-  void divide(const geometry::Box& box, std::uint64_t key, int level, const Visit& visit) const {
+  void divide(const Part& part, const Visit& visit) const {
+    const geometry::Box& box = part.box;
     const geometry::Vec2 p = lattice_.snap(0.5 * (box.min + box.max));
-    const double h = size_.size(p), half_diagonal = 0.5 * std::hypot(box.width(), box.height());
-    const double free = strip * h, reach = half_diagonal + free, distance = guard_.distance(p, reach);
-    const bool near = distance < reach;
-    if (!near && !guard_.inside(p))
-      return;
+    const double h = size_.size(p), free = strip * h;
+    double distance = INFINITY;
+    bool clear = part.clear;
+    if (!clear) {
+      const double reach = 0.5 * std::hypot(box.width(), box.height()) + free;
+      distance = guard_.distance(p, reach);
+      clear = distance >= reach;
+      if (clear && !guard_.inside(p))
+        return;
+    }
     const double sites = box.width() * box.height() / (row_height * h * h);
-    if (level < most_levels && (level < least_levels() || sites > (near ? most_near_ : most_inside_))) {
+    if (part.level < most_levels && (part.level < least_levels() || sites > (clear ? most_inside_ : most_near_))) {
       for (std::uint64_t quarter = 0; quarter < 4; ++quarter)
-        divide(quarter_of(box, key, level, quarter), 4 * key + quarter, level + 1, visit);
+        divide({quarter_of(box, part.key, part.level, quarter), 4 * part.key + quarter, part.level + 1, clear}, visit);
       return;
     }
-    if (near && (distance < free || !guard_.inside(p)))
+    if (!clear && (distance < free || !guard_.inside(p)))
       return;
     if (grid_.container().contains(p))
-      visit(Cell{box, key, level, h, std::llround(weight_unit * std::fmin(sites, 0x1p30))});
+      visit(Cell{box, part.key, part.level, h, std::llround(weight_unit * std::fmin(sites, 0x1p30))});
   }
 
   static geometry::Box quarter_of(const geometry::Box& box, std::uint64_t key, int level, std::uint64_t quarter) {
