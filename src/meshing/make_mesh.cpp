@@ -14,7 +14,9 @@ MeshResult make_mesh(const comm::Communicator& comm, const geometry::RegionShape
 
 MeshResult make_mesh(const comm::Communicator& comm, const geometry::Shape& shape, const sizing::SizeField& size,
                      const MeshOptions& options, Log& log) {
-  return make_mesh(comm, geometry::traced(shape, geometry::Frame(options.container, options.periodic_x, options.periodic_y)), size, options, log);
+  return make_mesh(comm,
+                   geometry::traced(shape, geometry::Frame(options.container, options.periodic_x, options.periodic_y)),
+                   size, options, log);
 }
 
 bool is_complete(const MeshResult& result) {

@@ -2,6 +2,7 @@
 #include "trime/meshing/mesher.hpp"
 
 #include "meshing/boundary_treatment.hpp"
+#include "meshing/cleanup.hpp"
 #include "meshing/extraction.hpp"
 #include "meshing/layout.hpp"
 #include "meshing/point_scheme.hpp"
@@ -21,6 +22,8 @@ namespace {
 constexpr double cap_in_sizes = 2.5;  // circumradius that counts, in h: a relaxed mesh has 0.6, a start up to 1.5
 constexpr GlobalId few_points = 2000; // below, the cap is the whole container
 constexpr int cap_doublings = 3;
+constexpr int cleanup_rounds = 15;
+constexpr double worst_share = 0.01, least_excess = 0.05; // of the triangles; of alpha - 1
 constexpr int settle_rounds = 12, settle_pushes = 8;
 
 } // namespace
@@ -40,6 +43,7 @@ public:
         break;
     }
     settle();
+    clean_up();
     complete_stars();
     return extract();
   }
@@ -151,6 +155,7 @@ private:
     summary.record.stage = scheme_->stage();
     summary.record.seconds = timers_.total();
     history_.push_back(summary.record);
+    alpha_bins_ = summary.sums.alpha_bins;
     return summary.sums;
   }
 
@@ -167,6 +172,25 @@ private:
       if (comm_.sum(counts.pushed + counts.deleted) == 0)
         return;
     }
+  }
+
+  /// Max-min moves around the worst triangles: they lower the largest alpha of a relaxed mesh from 1.4 to 1.2.
+  void clean_up() {
+    if (!options_.cleanup || history_.empty())
+      return;
+    const double threshold = 1 + std::max(least_excess, alpha_bins_.quantile(1 - worst_share));
+    CleanupCounts all;
+    for (int round = 0; round < cleanup_rounds; ++round) {
+      stars(Wanted::inner_sites);
+      const auto time = timers_.scope("clean-up");
+      const CleanupCounts counts = cleanup_round(comm_, layout_, lattice_, threshold, round);
+      all.candidates = std::max(all.candidates, counts.candidates);
+      all.moved += counts.moved;
+      if (counts.moved == 0)
+        break;
+    }
+    log_.info("clean-up: {} sites around triangles with alpha above {:.3f}, {} moves", all.candidates, threshold,
+              all.moved);
   }
 
   // --- the mesh -----------------------------------------------------------------------------------------------------
@@ -239,7 +263,8 @@ private:
   std::unique_ptr<LayoutContext> context_;
   std::unique_ptr<PointScheme> scheme_;
   std::vector<SweepRecord> history_;
-  int sweeps_ = 0; // moves made
+  AlphaBins alpha_bins_; // of the last sweep
+  int sweeps_ = 0;       // moves made
   StopReason stop_reason_ = StopReason::sweep_cap;
 };
 

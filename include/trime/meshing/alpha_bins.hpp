@@ -24,16 +24,18 @@ public:
   const std::array<std::int64_t, size>& counts() const { return counts_; }
   std::array<std::int64_t, size>& counts() { return counts_; }
 
-  /// Median of alpha - 1, linear inside its bin; 0 without values.
-  double median() const {
+  /// Median of alpha - 1; 0 without values.
+  double median() const { return quantile(0.5); }
+  /// Value below which a share of all values lies, linear inside its bin; 0 without values.
+  double quantile(double share) const {
     std::int64_t all = 0;
     for (const std::int64_t count : counts_)
       all += count;
     double before = 0;
     for (std::size_t k = 0; k < size; ++k) {
-      const double here = static_cast<double>(counts_[k]), half = 0.5 * static_cast<double>(all);
-      if (here > 0 && before + here >= half)
-        return edge(k) + (edge(k + 1) - edge(k)) * (half - before) / here;
+      const double here = static_cast<double>(counts_[k]), wanted = share * static_cast<double>(all);
+      if (here > 0 && before + here >= wanted)
+        return edge(k) + (edge(k + 1) - edge(k)) * (wanted - before) / here;
       before += here;
     }
     return 0;

@@ -41,6 +41,7 @@ struct MeshOptions {
   /// Exponent of 1/h in the weight of the Voronoi cells: 4 keeps the spacing proportional to h (see CvdRule); others
   /// are for comparisons.
   int density_exponent = 4;
+  bool cleanup = true; ///< max-min moves around the worst triangles after the sweeps
   /// 0: none; -2: a snapshot of the first triangulation; n > 0: of the first and of every n-th.
   int snapshot_interval = 0;
 };
