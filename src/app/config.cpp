@@ -162,6 +162,7 @@ void read_meshing(const Settings& settings, meshing::MeshOptions& mesh, io::Diag
   mesh.corner_angle = settings.number("meshing", "corner_angle");
   mesh.seed = static_cast<std::uint64_t>(settings.integer("meshing", "seed"));
   mesh.max_sweeps = static_cast<int>(settings.integer("meshing", "max_sweeps"));
+  mesh.cleanup = settings.boolean("meshing", "cleanup");
   mesh.stop_tolerance = settings.optional_number("meshing", "stop_tolerance");
 }
 

@@ -174,6 +174,12 @@ constexpr Option table[] = {
          "the sweeps end once five of them lower the mean of alpha - 1 by less than this share of it; auto: 0.04 "
          "(0.02 on coarse meshes, 0.1 before points are inserted)"},
 
+    {.section = "meshing",
+     .key = "cleanup",
+     .kind = Kind::boolean,
+     .fallback = "true",
+     .meaning = "after the sweeps, move single points around the worst triangles"},
+
     {.section = "parallel",
      .key = "setup_threads",
      .kind = Kind::integer,

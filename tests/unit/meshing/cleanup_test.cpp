@@ -16,7 +16,7 @@ using geometry::Vec2;
 std::vector<Vec2> hexagon() {
   std::vector<Vec2> ring;
   for (int k = 0; k < 6; ++k) {
-    const UnitVector direction = unit_vector(k * pi / 3);
+    const SinCos direction = sin_cos(k * pi / 3);
     ring.push_back({direction.cos, direction.sin});
   }
   return ring;
