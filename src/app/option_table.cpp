@@ -172,7 +172,7 @@ constexpr Option table[] = {
      .range = positive,
      .meaning =
          "the sweeps end once five of them lower the mean of alpha - 1 by less than this share of it; auto: 0.04 "
-         "(0.02 on coarse meshes, 0.1 before points are inserted)"},
+         "(0.02 on coarse meshes, 0.1 before points are inserted, 0.4 of these for `distmesh`)"},
 
     {.section = "meshing",
      .key = "cleanup",

@@ -10,6 +10,7 @@ constexpr double median_gain = 0.1, good_median = 0.001;
 /// What five sweeps must gain. A coarse mesh costs little and decides over the order of the finer ones; before an
 /// insertion the order is about to be disturbed anyway.
 constexpr double tolerance_last = 0.04, tolerance_coarse = 0.02, tolerance_before_insertion = 0.1;
+constexpr double patience_of_bars = 0.4; // bars settle more slowly than accelerated Voronoi cells
 
 } // namespace
 
@@ -72,7 +73,9 @@ std::span<const SweepRecord> SweepControl::records() const {
 }
 
 std::optional<StopReason> SweepControl::decide() {
-  const auto reason = StopRule(options_.max_sweeps, tolerance_).decide(records());
+  const bool patient = options_.method == Method::distmesh && !options_.stop_tolerance &&
+                       records().back().median_alpha - 1 >= good_median;
+  const auto reason = StopRule(options_.max_sweeps, (patient ? patience_of_bars : 1) * tolerance_).decide(records());
   if (!by_bars_ || !may_switch_ || reason == StopReason::sweep_cap)
     return reason;
   if (reason || median_stalled(records())) {
