@@ -2,6 +2,7 @@
 #include "trime/geometry/part.hpp"
 
 #include "contour_polygon.hpp"
+#include "periodic_clip.hpp"
 #include "trace.hpp"
 #include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"
@@ -85,15 +86,19 @@ Part Part::contour(const std::string& name, const Contour& contour, const Normal
 
 Part Part::implicit(const std::string& name, const Shape& shape, const Frame& frame, double resolution) {
   const Contour contour = make_contour(trace_zero_set(name, shape, frame, resolution), name);
-  std::vector<std::string> unused; // of vertices that the lattice made equal, and of pieces: both are fine here
-  try {
-    return Part(name, make_contour_polygon(contour, {}, frame, unused));
-  } catch (const GeometryError& error) {
-    throw GeometryError(fmt::format("part '{}': its traced boundary is not a set of simple curves; expected curves "
-                                    "that stay apart by more than 1e-6 of the container (vertex numbers stand in place "
-                                    "of lines: {})",
-                                    name, error.what()));
-  }
+  const auto polygon_of = [&](const Contour& rings) {
+    std::vector<std::string> unused; // of vertices that the lattice made equal, and of pieces: both are fine here
+    try {
+      return make_contour_polygon(rings, {}, frame, unused);
+    } catch (const GeometryError& error) {
+      throw GeometryError(fmt::format("part '{}': its traced boundary is not a set of simple curves; expected curves "
+                                      "that stay apart by more than 1e-6 of the container (vertex numbers stand in "
+                                      "place of lines: {})",
+                                      name, error.what()));
+    }
+  };
+  Part part(name, polygon_of(contour));
+  return frame.periods().any() ? Part(name, polygon_of(clip_to_periods(part, frame))) : part;
 }
 
 std::vector<Loop> Part::boundary() const {

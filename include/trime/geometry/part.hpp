@@ -55,7 +55,8 @@ public:
   ///
   /// Straight sides become one segment each, smooth curves chords that stray by 1e-6 of the container's longer side at
   /// most; corners that turn by more than 4 degrees are vertices, to within some lattice steps. A part that reaches
-  /// beyond the container goes on a little way outside, so that `domain` may cut it. Features narrower than
+  /// beyond the container goes on a little way outside, so that `domain` may cut it; across a periodic side it goes on
+  /// in its image, so the function must have the period of the container. Features narrower than
   /// `resolution` may be missed (default: 1/512 of the longer side). About (side/resolution)^2 / 4 evaluations plus
   /// some thousands per unit of length, by all threads; the function is not kept.
   /// @throws GeometryError with the place if a value is not finite or pieces of the curve touch, and if the function

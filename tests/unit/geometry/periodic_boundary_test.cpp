@@ -196,6 +196,48 @@ TEST(PeriodicBoundary, RandomTrianglesKeepTheirAreaAndCloseUp) {
   }
 }
 
+class Formula final : public Shape {
+public:
+  explicit Formula(double (*f)(Vec2)) : f_(f) {}
+  double signed_distance(Vec2 p) const override { return f_(p); }
+
+private:
+  double (*f_)(Vec2);
+};
+
+TEST(PeriodicBoundary, AFunctionWithThePeriodOfTheContainerGoesOnAcrossTheBorder) {
+  // Waves around the cylinder and the torus: the area is what straight bands have.
+  const auto wave = [](Vec2 p) { return std::fabs(p.y - 0.5 - 0.1 * std::sin(2 * pi * p.x)) - 0.2; };
+  for (const Frame& frame : {cylinder, torus}) {
+    const RegionShape shape = traced(Formula(wave), frame);
+    EXPECT_EQ(shape.boundary().loops.size(), 2u);
+    EXPECT_EQ(shape.boundary().components(), 1);
+    EXPECT_EQ(shape.boundary().euler_characteristic(), 0);
+    EXPECT_NEAR(shape.boundary().area, 0.4, 1e-5);
+    for (const Loop& loop : shape.boundary().loops)
+      for (std::size_t k = 0; k < loop.pieces.size(); ++k)
+        EXPECT_LT(loop.turn_degrees(k), 5);
+  }
+  // Discs of |cos| around the corners and the middle: a checkerboard of two on the torus.
+  const auto checker = [](Vec2 p) { return 1 - std::cos(2 * pi * p.x) * std::cos(2 * pi * p.y) - 0.5; };
+  const RegionShape shape = traced(Formula(checker), torus);
+  EXPECT_EQ(shape.boundary().loops.size(), 2u);
+  EXPECT_EQ(shape.boundary().components(), 2);
+  EXPECT_EQ(shape.boundary().euler_characteristic(), 2);
+  EXPECT_NEAR(shape.boundary().loops[0].length(), shape.boundary().loops[1].length(), 1e-5);
+  for (const Loop& loop : shape.boundary().loops)
+    for (std::size_t k = 0; k < loop.pieces.size(); ++k)
+      EXPECT_LT(loop.turn_degrees(k), 5) << loop.pieces[k].start.x << " " << loop.pieces[k].start.y;
+}
+
+TEST(PeriodicBoundary, AFunctionThatIsNotPeriodicIsRefused) {
+  const auto tilted = [](Vec2 p) { return std::fabs(p.y - 0.5 - 0.1 * p.x) - 0.2; };
+  const std::string message = message_of<GeometryError>([&] { traced(Formula(tilted), cylinder); });
+  EXPECT_NE(message.find("expected a function with the period of the container in x"), std::string::npos) << message;
+  const auto inner = [](Vec2 p) { return length(p - Vec2{0.5, 0.5}) - 0.3; };
+  EXPECT_NEAR(traced(Formula(inner), torus).boundary().area, pi * 0.09, 1e-5);
+}
+
 TEST(PeriodicBoundary, APartMoreThanAPeriodAwayIsRefused) {
   const std::string message = message_of<GeometryError>([] {
     RegionShape({disc("far", {1.9, 0.5}, 0.2)}, "far", torus);
