@@ -21,7 +21,7 @@ volatile std::sig_atomic_t tells = 0; ///< 1 on the rank whose handler says a wo
 /// Leaves no temporary file, then ends as the signal would have ended the program. Only calls that a handler may make.
 void end_by_signal(int number) {
   trime::io::remove_temporary_file();
-  constexpr char message[] = "trime_mpi: interrupted; no mesh was written\n";
+  constexpr char message[] = "trime_mpi: interrupted; the final mesh was not written\n";
   if (tells != 0 && write(STDERR_FILENO, message, sizeof message - 1) < 0)
     tells = 0; // nobody listens, and there is nothing to do about it
   std::signal(number, SIG_DFL);

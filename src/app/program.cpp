@@ -96,7 +96,7 @@ ExitCode make_mesh(const Job& job) {
   }();
   io::MeshSeries series(options.output, comm);
   if (is_run && options.write)
-    for (const std::string& warning : series.check())
+    for (const std::string& warning : series.check(expected_points(options, shape.boundary())))
       log.warning("{}", warning);
   const BuiltSize size = [&] {
     const auto timing = timers.scope("size field");

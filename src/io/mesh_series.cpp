@@ -27,14 +27,14 @@ std::string json_text(const std::string& text) {
 } // namespace
 
 std::vector<std::string> check_output(const MeshFileOptions& options, const comm::Communicator& comm) {
-  return MeshSeries({options, false, false, {}}, comm).check();
+  return MeshSeries({options, false, false, {}}, comm).check(0);
 }
 
-std::vector<std::string> MeshSeries::check() {
+std::vector<std::string> MeshSeries::check(double expected_points) {
   std::vector<std::string> warnings;
   comm::run_agreed(comm_, [&] {
     if (comm_.is_root())
-      warnings = check_files(options_);
+      warnings = check_files(options_, expected_points);
   });
   return warnings;
 }
@@ -44,11 +44,17 @@ void MeshSeries::write_step(const SeriesMesh& mesh) {
 }
 
 WrittenFiles MeshSeries::write_final(const SeriesMesh& mesh) {
-  write(mesh, options_.file.name, "final");
-  return written_;
+  const std::size_t steps = members_.size();
+  WrittenFiles written = write(mesh, options_.file.name, "final");
+  if (!comm_.is_root())
+    return written;
+  if (steps > 0)
+    written.paths.push_back(fmt::format("{} ({} of them)", options_.file.path("_step_*.h5"), steps));
+  written.paths.insert(written.paths.end(), collections_.begin(), collections_.end());
+  return written;
 }
 
-void MeshSeries::write(const SeriesMesh& mesh, const std::string& name, const std::string& label) {
+WrittenFiles MeshSeries::write(const SeriesMesh& mesh, const std::string& name, const std::string& label) {
   MeshFileOptions file = options_.file;
   file.name = name;
   const WrittenFiles written = write_mesh(file, mesh.mesh, mesh.metadata, comm_);
@@ -56,30 +62,27 @@ void MeshSeries::write(const SeriesMesh& mesh, const std::string& name, const st
   members_.push_back(
       {name, {mesh.retriangulation, mesh.mesh.point_slab.total, mesh.mesh.triangle_slab.total, mesh.quality}});
   comm::run_agreed(comm_, [&] {
-    if (!comm_.is_root())
-      return;
-    written_.paths.insert(written_.paths.end(), written.paths.begin(), written.paths.end());
-    written_.bytes += written.bytes;
-    if (first && options_.file.overwrite)
-      remove_stale();
+    if (comm_.is_root() && first && options_.file.overwrite)
+      remove_stale(written.paths);
   });
   if (options_.text)
     write_text_mesh({options_.file.path(""), options_.file.name, label, options_.period}, mesh.mesh, comm_);
   comm::run_agreed(comm_, [&] {
     if (comm_.is_root())
-      write_collections();
+      collections_ = write_collections();
   });
+  return written;
 }
 
 /// What an older run of the same name has left would be taken for part of this one.
-void MeshSeries::remove_stale() const {
+void MeshSeries::remove_stale(const std::vector<std::string>& written) const {
   for (const std::string& path : files_of_series(options_))
-    if (std::find(written_.paths.begin(), written_.paths.end(), path) == written_.paths.end())
+    if (std::find(written.begin(), written.end(), path) == written.end())
       unlink(path.c_str());
 }
 
 /// Rank 0: what speaks of all meshes of the run, anew after each of them.
-void MeshSeries::write_collections() {
+std::vector<std::string> MeshSeries::write_collections() const {
   const MeshFileOptions& file = options_.file;
   std::vector<std::string> paths;
   if (options_.text) {
@@ -106,8 +109,7 @@ void MeshSeries::write_collections() {
                     fmt::format("{{\n  \"file-series-version\": \"1.0\",\n  \"files\": [\n{}\n  ]\n}}\n", list));
     paths.push_back(vtkhdf_collection(file));
   }
-  if (members_.back().name == file.name) // the last call
-    written_.paths.insert(written_.paths.end(), paths.begin(), paths.end());
+  return paths;
 }
 
 } // namespace trime::io

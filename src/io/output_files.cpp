@@ -7,6 +7,7 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -87,6 +88,22 @@ std::vector<std::string> leftovers(const MeshFileOptions& options) {
   return told;
 }
 
+/// A word if the disk has less room than the run is known to need; how many steps there will be is not.
+std::string space_warning(const SeriesOptions& options, double points) {
+  constexpr double h5_bytes = 190, text_bytes = 700; // of a point with its two triangles
+  const double bytes = points * (h5_bytes + (options.text ? text_bytes : 0)) * (options.steps ? 2 : 1);
+  struct statvfs space {};
+  if (statvfs(options.file.directory.c_str(), &space) != 0 || space.f_blocks == 0) // some file systems tell nothing
+    return "";
+  const double available = static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize);
+  return available >= bytes
+             ? ""
+             : fmt::format("the files of this run need {} {:.0f} MiB, but only {:.0f} MiB are free in {}; free some "
+                           "space, or set output.directory",
+                           options.steps ? "at least" : "about", bytes / 0x1p20, available / 0x1p20,
+                           options.file.directory);
+}
+
 } // namespace
 
 std::string step_name(const std::string& name, int retriangulation) {
@@ -114,7 +131,7 @@ std::vector<std::string> files_of_series(const SeriesOptions& options) {
   return found;
 }
 
-std::vector<std::string> check_files(const SeriesOptions& options) {
+std::vector<std::string> check_files(const SeriesOptions& options, double expected_points) {
   const MeshFileOptions& file = options.file;
   make_directory(file.directory);
   for (const char* ending : view_endings)
@@ -126,6 +143,8 @@ std::vector<std::string> check_files(const SeriesOptions& options) {
     make_directory(file.path(""));
   std::vector<std::string> warnings = leftovers(file);
   check_writable(file.directory, file.name);
+  if (const std::string warning = space_warning(options, expected_points); !warning.empty())
+    warnings.push_back(warning);
   return warnings;
 }
 

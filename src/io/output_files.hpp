@@ -19,7 +19,7 @@ std::string vtkhdf_collection(const MeshFileOptions& options);
 /// tell of an older run of the same name; sorted. The final mesh and its views are not among them.
 std::vector<std::string> files_of_series(const SeriesOptions& options);
 
-/// What check_output() does on rank 0.
-std::vector<std::string> check_files(const SeriesOptions& options);
+/// What MeshSeries::check() does on rank 0.
+std::vector<std::string> check_files(const SeriesOptions& options, double expected_points);
 
 } // namespace trime::io

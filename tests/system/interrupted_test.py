@@ -103,7 +103,7 @@ class Interrupted(unittest.TestCase):
             with self.subTest(signal=number):
                 code, told, left = self.interrupted(number, None)
                 self.assertEqual(code, -number)
-                self.assertEqual(told.count("trime_mpi: interrupted; no mesh was written\n"), 1, told)
+                self.assertEqual(told.count("trime_mpi: interrupted; the final mesh was not written\n"), 1, told)
                 self.assertEqual(left, [])
 
     def test_a_signal_that_the_caller_ignores_stays_ignored(self):

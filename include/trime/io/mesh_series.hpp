@@ -37,17 +37,19 @@ public:
   MeshSeries(SeriesOptions options, const comm::Communicator& comm) : options_(std::move(options)), comm_(comm) {}
 
   /// @brief Makes the directories and sees that all files can be written, also those of steps, whose numbers are not
-  /// known yet: to be called before work starts that would be lost. @return warnings; on rank 0 only
+  /// known yet: to be called before work starts that would be lost. @return warnings, also of a disk that seems too
+  /// small for `expected_points`; on rank 0 only
   /// @throws FileError on all ranks if not, or if a file of these names exists and may not be overwritten
   /// @note Collective.
-  std::vector<std::string> check();
+  std::vector<std::string> check(double expected_points);
 
   /// @brief Writes NAME_step_000012.h5 (12: the retriangulation) with its views, and the collections anew.
   /// @throws FileError on all ranks together
   /// @note Collective.
   void write_step(const SeriesMesh& mesh);
 
-  /// As write_step(), under the plain name. The last mesh of the run. @return all files of the run, on rank 0 only
+  /// As write_step(), under the plain name. The last mesh of the run. @return the files of the run, those of the final
+  /// mesh first, on rank 0 only
   WrittenFiles write_final(const SeriesMesh& mesh);
 
 private:
@@ -57,14 +59,14 @@ private:
     TextQuality quality;
   };
 
-  void write(const SeriesMesh& mesh, const std::string& name, const std::string& label);
-  void remove_stale() const;
-  void write_collections();
+  WrittenFiles write(const SeriesMesh& mesh, const std::string& name, const std::string& label);
+  void remove_stale(const std::vector<std::string>& written) const;
+  std::vector<std::string> write_collections() const;
 
   SeriesOptions options_;
   const comm::Communicator& comm_;
   std::vector<Member> members_;
-  WrittenFiles written_;
+  std::vector<std::string> collections_; ///< files that speak of all members
 };
 
 } // namespace trime::io

@@ -154,7 +154,7 @@ TEST(MeshSeries, WritesStepsFinalMeshAndCollections) {
   const comm::Communicator comm = comm::Communicator::world();
   const test::TemporaryDirectory directory(comm);
   MeshSeries series(options_in(directory.path()), comm);
-  EXPECT_TRUE(series.check().empty());
+  EXPECT_TRUE(series.check(1000).empty());
   const mesh::DistributedMesh small = test::slabs_of(test::holed_square(3), comm, 1),
                               large = test::slabs_of(test::holed_square(cells), comm, 2);
   const mesh::QualitySummary quality;
@@ -164,7 +164,10 @@ TEST(MeshSeries, WritesStepsFinalMeshAndCollections) {
   const WrittenFiles written = series.write_final({17, large, quality, metadata});
   if (!comm.is_root())
     return;
-  EXPECT_EQ(written.paths.size(), 12u);
+  const std::string stem = directory.path() + "/mesh";
+  EXPECT_EQ(written.paths,
+            (std::vector<std::string>{stem + ".h5", stem + ".xdmf", stem + ".vtkhdf", stem + "_step_*.h5 (2 of them)",
+                                      stem + "/mesh_*.txt", stem + "_series.xdmf", stem + ".vtkhdf.series"}));
   auto texts = texts_in(directory.path());
   for (const char* name :
        {"mesh_step_000001.h5", "mesh_step_000012.h5", "mesh.h5", "mesh_step_000012.xdmf", "mesh_series.xdmf",
@@ -196,9 +199,19 @@ TEST(MeshSeries, RefusesWhatLiesInTheWay) {
       touch(directory.path() + "/" + file);
     comm.barrier();
     SeriesOptions options = options_in(directory.path());
-    EXPECT_THROW(MeshSeries(options, comm).check(), Error) << file;
+    EXPECT_THROW(MeshSeries(options, comm).check(1000), Error) << file;
     options.file.overwrite = true;
-    EXPECT_NO_THROW(MeshSeries(options, comm).check()) << file;
+    EXPECT_NO_THROW(MeshSeries(options, comm).check(1000)) << file;
+  }
+}
+
+TEST(MeshSeries, WarnsOfADiskThatIsTooSmall) {
+  const comm::Communicator comm = comm::Communicator::world();
+  const test::TemporaryDirectory directory(comm);
+  const std::vector<std::string> warnings = MeshSeries(options_in(directory.path()), comm).check(1e15);
+  ASSERT_EQ(warnings.size(), comm.is_root() ? 1u : 0u);
+  if (comm.is_root()) {
+    EXPECT_NE(warnings[0].find("need at least"), std::string::npos) << warnings[0];
   }
 }
 
@@ -218,7 +231,7 @@ TEST(MeshSeries, ReplacesAllOfAnOlderRunAndNothingElse) {
   options.steps = false;
   options.text = false;
   MeshSeries series(options, comm);
-  EXPECT_TRUE(series.check().empty());
+  EXPECT_TRUE(series.check(1000).empty());
   for (const std::string& file : stale)
     EXPECT_TRUE(fs::exists(directory.path() + file)) << file << " may go only when a new mesh is there";
   comm.barrier();
