@@ -56,8 +56,9 @@ private:
   void begin() {
     context_ = std::make_unique<LayoutContext>(layout_context());
     scheme_ = std::make_unique<PointScheme>(*context_);
+    Layout first = scheme_->first(); // decides, so that the reason is known
     log_.info("points: {}", scheme_->reason());
-    set_up(scheme_->first());
+    set_up(std::move(first));
   }
 
   void advance() {
