@@ -5,6 +5,7 @@
 #include "app/settings.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/formula.hpp"
+#include "trime/core/nearest_name.hpp"
 #include "trime/geometry/region.hpp"
 
 #include <algorithm>
@@ -166,6 +167,32 @@ void read_meshing(const Settings& settings, meshing::MeshOptions& mesh, io::Diag
   mesh.stop_tolerance = settings.optional_number("meshing", "stop_tolerance");
 }
 
+/// The file, and a part that is a normalised contour.
+void read_fixed_points(const Settings& settings, const fs::path& directory, RunOptions& options,
+                       io::Diagnostics& problems) {
+  const std::string file = settings.text("meshing", "fixed_points");
+  const std::string name = settings.text("meshing", "fixed_points_normalize_with");
+  if (file != "none") {
+    options.fixed_points.file = (directory / file).lexically_normal().string();
+    options.fixed_points.file_is_relative = fs::path(file).is_relative();
+  }
+  if (name == "none")
+    return;
+  const int line = settings.line("meshing", "fixed_points_normalize_with");
+  const auto part = std::find_if(options.parts.begin(), options.parts.end(),
+                                 [&](const PartOptions& candidate) { return candidate.name == name; });
+  if (file == "none")
+    problems.add(line, "'fixed_points_normalize_with' in [meshing] means nothing without 'fixed_points'");
+  else if (part == options.parts.end())
+    problems.add(line, fmt::format("'fixed_points_normalize_with = {}' in [meshing]: no part has this name{}", name,
+                                   suggestion(name, settings.parts())));
+  else if (part->type != "contour" || !part->normalize)
+    problems.add(line, fmt::format("'fixed_points_normalize_with = {}' in [meshing]: expected a part of type contour "
+                                   "with 'normalize = true'; without it the points need no normalisation",
+                                   name));
+  options.fixed_points.normalize_with = name;
+}
+
 void read_parallel(const Settings& settings, RunOptions& options) {
   options.setup_threads = static_cast<int>(settings.integer("parallel", "setup_threads"));
   options.mesh_threads = static_cast<int>(settings.integer("parallel", "mesh_threads"));
@@ -233,6 +260,7 @@ RunOptions parse_config(std::string_view text, const std::string& path, const st
   read_shape(settings, fs::path(path).parent_path(), options, problems);
   read_sizing(settings, options, problems);
   read_meshing(settings, options.mesh, problems);
+  read_fixed_points(settings, fs::path(path).parent_path(), options, problems);
   read_parallel(settings, options);
   read_output(settings, options, problems);
   read_log(settings, options);

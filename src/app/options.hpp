@@ -35,10 +35,18 @@ struct SizingOptions {
   std::string expression_place; ///< for messages: "config.ini:17: 'expression' in [sizing]"
 };
 
+/// The file of [meshing] fixed_points.
+struct FixedPointsFile {
+  std::string file; ///< path as the program can open it; empty: none
+  bool file_is_relative = false;
+  std::string normalize_with; ///< name of the contour whose normalisation they undergo; empty: none
+};
+
 struct RunOptions {
   std::vector<PartOptions> parts;
   std::string region;
-  meshing::MeshOptions mesh;
+  meshing::MeshOptions mesh; ///< without the fixed points, which are read when the shape is
+  FixedPointsFile fixed_points;
   SizingOptions sizing;
   int setup_threads = 0; ///< per rank, while shape and size field are made; 0: chosen from the machine
   int mesh_threads = 0;  ///< per rank, from then on; 0: chosen from the machine

@@ -67,8 +67,9 @@ struct Job {
 
 /// The mesher with what is written while it runs; then its checks of the boundary.
 meshing::MeshResult run_mesher(const Job& job, const Provenance& provenance, const geometry::RegionShape& shape,
-                               const sizing::SizeField& size, io::MeshSeries& series) {
-  meshing::Mesher mesher(job.comm, shape.boundary(), size, job.options.mesh, job.log, job.timers);
+                               const sizing::SizeField& size, const meshing::MeshOptions& options,
+                               io::MeshSeries& series) {
+  meshing::Mesher mesher(job.comm, shape.boundary(), size, options, job.log, job.timers);
   mesher.on_snapshot([&](const meshing::Snapshot& snapshot) { // timed by the mesher
     series.write_step({snapshot.retriangulation, snapshot.mesh, snapshot.quality, describe_step(provenance, snapshot)});
   });
@@ -94,6 +95,8 @@ ExitCode make_mesh(const Job& job) {
     const auto timing = timers.scope("shape");
     return build_shape(options, comm, log);
   }();
+  meshing::MeshOptions mesh_options = options.mesh;
+  mesh_options.fixed_points = read_fixed_points(options, comm);
   io::MeshSeries series(options.output, comm);
   if (is_run && options.write)
     for (const std::string& warning : series.check(expected_points(options, shape.boundary())))
@@ -109,7 +112,7 @@ ExitCode make_mesh(const Job& job) {
   }
 
   const Provenance provenance{job.line, options, job.config_text, placement, shape.boundary()};
-  const meshing::MeshResult result = run_mesher(job, provenance, shape, *size.field, series);
+  const meshing::MeshResult result = run_mesher(job, provenance, shape, *size.field, mesh_options, series);
   const SizeSummary sizes = summarize_size(size.description, result.mesh, comm);
   io::WrittenFiles files;
   if (options.write) {

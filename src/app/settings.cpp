@@ -207,7 +207,8 @@ std::string Settings::resolved(const std::string& directory) const {
       if (option.section != table_section(section) || (*option.part_type != '\0' && option.part_type != type))
         continue;
       std::string value = text(section, option.key);
-      if (option.kind == Kind::path && table_section(section) == part_section)
+      const bool from_config = table_section(section) == part_section || option.section == std::string_view("meshing");
+      if (option.kind == Kind::path && from_config && value != option.fallback)
         value = fs::absolute(fs::path(directory) / value).lexically_normal().string();
       result +=
           value.empty() ? fmt::format("; {} is not set\n", option.key) : fmt::format("{} = {}\n", option.key, value);

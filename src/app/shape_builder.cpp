@@ -8,15 +8,19 @@
 namespace trime::app {
 namespace {
 
-/// Contour text on every rank; the reader of the geometry refuses formats that it does not know.
-std::string read_contour(const PartOptions& part, const comm::Communicator& comm) {
+/// Text of a contour or of points on every rank; the reader of the geometry refuses formats that it does not know.
+std::string read_text(const std::string& file, bool is_relative, const comm::Communicator& comm) {
   std::string text;
   comm::run_agreed(comm, [&] {
     if (comm.is_root())
       text = geometry::read_contour_text(
-          part.file, part.file_is_relative ? " (relative to the config file, not to the working directory)" : "");
+          file, is_relative ? " (relative to the config file, not to the working directory)" : "");
   });
   return comm.broadcast(std::move(text));
+}
+
+geometry::Contour read_contour(const PartOptions& part, const comm::Communicator& comm) {
+  return geometry::parse_xy(read_text(part.file, part.file_is_relative, comm), part.file);
 }
 
 geometry::Part build_part(const PartOptions& part, const geometry::Frame& frame, const comm::Communicator& comm) {
@@ -30,7 +34,7 @@ geometry::Part build_part(const PartOptions& part, const geometry::Frame& frame,
     const Formula sdf(part.sdf, fmt::format("'sdf' in [shape.{}]", part.name));
     return geometry::Part::implicit(part.name, geometry::ExpressionShape(sdf), frame);
   }
-  const geometry::Contour contour = geometry::parse_xy(read_contour(part, comm), part.file);
+  const geometry::Contour contour = read_contour(part, comm);
   const geometry::Normalization place =
       part.normalize ? geometry::fit_to_container(contour, frame.container()) : geometry::Normalization{};
   return geometry::Part::contour(part.name, contour, place, frame);
@@ -57,6 +61,21 @@ geometry::RegionShape build_shape(const RunOptions& options, const comm::Communi
       log.warning("{}", warning);
   }
   return geometry::RegionShape(std::move(parts), options.region, frame);
+}
+
+std::vector<meshing::FixedPoint> read_fixed_points(const RunOptions& options, const comm::Communicator& comm) {
+  const FixedPointsFile& source = options.fixed_points;
+  if (source.file.empty())
+    return {};
+  geometry::Normalization place;
+  for (const PartOptions& part : options.parts)
+    if (part.name == source.normalize_with)
+      place = geometry::fit_to_container(read_contour(part, comm), options.mesh.container);
+  std::vector<meshing::FixedPoint> points;
+  const std::string text = read_text(source.file, source.file_is_relative, comm);
+  for (const geometry::FilePoint& point : geometry::parse_points(text, source.file))
+    points.push_back({place.apply(point.position), fmt::format("{}:{}", source.file, point.line)});
+  return points;
 }
 
 } // namespace trime::app

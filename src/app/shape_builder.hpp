@@ -6,6 +6,8 @@
 #include "trime/comm/communicator.hpp"
 #include "trime/geometry/shape.hpp"
 
+#include <vector>
+
 namespace trime::app {
 
 /// Bytes of a file on every rank; rank 0 reads. @throws FileError on all ranks. @note Collective.
@@ -14,5 +16,10 @@ std::string read_shared(const std::string& path, const comm::Communicator& comm)
 /// @throws GeometryError, ConfigError, FileError on all ranks together
 /// @note Collective.
 geometry::RegionShape build_shape(const RunOptions& options, const comm::Communicator& comm, Log& log);
+
+/// @brief The fixed points with labels `file:line`, normalised; none if the options name no file.
+/// @throws GeometryError, ConfigError, FileError on all ranks together
+/// @note Collective.
+std::vector<meshing::FixedPoint> read_fixed_points(const RunOptions& options, const comm::Communicator& comm);
 
 } // namespace trime::app

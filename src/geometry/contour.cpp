@@ -139,12 +139,9 @@ Vec2 parse_vertex(std::string_view line, const std::string& source, int number) 
   return p;
 }
 
-} // namespace
-
-Contour parse_xy(std::string_view text, const std::string& source) {
-  Contour contour;
-  contour.source = source;
-  RingBuilder builder(contour);
+/// Calls visit(content without comment, number, is the whole line blank?) for every line.
+template <class Visit>
+void for_each_line(std::string_view text, const Visit& visit) {
   int number = 0;
   if (text.starts_with("\xEF\xBB\xBF")) // byte order mark of some editors
     text.remove_prefix(3);
@@ -152,15 +149,39 @@ Contour parse_xy(std::string_view text, const std::string& source) {
     const std::size_t length = text.find('\n');
     const std::string_view line = text.substr(0, length);
     text.remove_prefix(length == std::string_view::npos ? text.size() : length + 1);
-    ++number;
-    const std::string_view content = trimmed(line.substr(0, line.find_first_of("#;")));
+    visit(trimmed(line.substr(0, line.find_first_of("#;"))), ++number, trimmed(line).empty());
+  }
+}
+
+} // namespace
+
+Contour parse_xy(std::string_view text, const std::string& source) {
+  Contour contour;
+  contour.source = source;
+  RingBuilder builder(contour);
+  for_each_line(text, [&](std::string_view content, int number, bool blank) {
     if (!content.empty())
       builder.add(parse_vertex(content, source, number), number);
-    else if (trimmed(line).empty())
+    else if (blank)
       builder.end_ring();
-  }
+  });
   builder.finish();
   return contour;
+}
+
+std::vector<FilePoint> parse_points(std::string_view text, const std::string& source) {
+  std::vector<FilePoint> points;
+  for_each_line(text, [&](std::string_view content, int number, bool) {
+    if (content.empty())
+      return;
+    const Vec2 p = parse_vertex(content, source, number);
+    if (!std::isfinite(p.x) || !std::isfinite(p.y))
+      throw GeometryError(fmt::format("{}:{}: expected finite coordinates, found ({}, {})", source, number, p.x, p.y));
+    points.push_back({p, number});
+  });
+  if (points.empty())
+    throw GeometryError(fmt::format("{}: expected points, one 'x y' a line, found none", source));
+  return points;
 }
 
 std::string read_contour_text(const std::string& path, const std::string& hint) {

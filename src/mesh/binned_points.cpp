@@ -133,7 +133,9 @@ LocalIndex BinnedPoints::sort_tile(std::span<const Site> sites, LocalIndex tile)
     const Site &a = site(i), &b = site(j);
     if (!(a.position == b.position))
       return geometry::lexicographically_less(a.position, b.position);
-    // Of equal sites the first is kept: the boundary site, else the one pushed most often.
+    // Of equal sites the first is kept: the boundary site or the fixed one, else the one pushed most often.
+    if ((a.boundary == free_site) != (b.boundary == free_site))
+      return b.boundary == free_site;
     return a.boundary != b.boundary ? a.boundary > b.boundary : a.pushes > b.pushes;
   };
   std::fill(bin_end, bin_end + bins, 0);

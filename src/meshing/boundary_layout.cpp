@@ -29,7 +29,7 @@ std::vector<Corner> find_corners(const LoopMetric& metric, double corner_angle) 
   const auto& pieces = metric.loop().pieces;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const double turn = metric.loop().turn_degrees(i);
-    if (turn > corner_angle)
+    if (turn > corner_angle || pieces[i].corner)
       corners.push_back({metric.piece_t(i), pieces[i].start, turn > sharp_turn, {}, {}});
   }
   return corners;

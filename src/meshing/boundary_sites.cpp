@@ -32,8 +32,8 @@ double nearest_power_of_two(double v) {
 class Refiner {
 public:
   Refiner(const geometry::Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
-          double corner_angle)
-      : boundary_(boundary), lattice_(lattice) {
+          double corner_angle, std::span<const Vec2> inside)
+      : boundary_(boundary), lattice_(lattice), inside_(inside), inside_tree_(tree_of(inside)) {
     metrics_.reserve(boundary.loops.size());
     for (const geometry::Loop& loop : boundary.loops) {
       metrics_.emplace_back(loop, size, boundary.periods);
@@ -78,12 +78,14 @@ private:
   /// Segment to divide and why.
   struct Cut {
     LocalIndex segment;
-    LocalIndex intruder; // site in its disc, -1: because of the curve itself
+    LocalIndex intruder;   // site in its disc, -1: because of the curve itself or of a point inside
+    LocalIndex point = -1; // point inside the shape that lies in its disc
   };
 
   void add_loop(const std::vector<LoopSite>& loop_sites);
   std::vector<Cut> find_cuts(const std::vector<LocalIndex>& fresh_sites, const std::vector<LocalIndex>& fresh_segments);
-  LocalIndex find_intruder(const SiteTree& tree, LocalIndex segment) const;
+  LocalIndex find_intruder(const SiteTree& tree, LocalIndex segment, bool foreign = false) const;
+  SiteTree tree_of(std::span<const Vec2> points) const;
   bool curve_offends(LocalIndex segment) const;
   LocalIndex divide(const Cut& cut);
   double cut_place(const Site& a, const Site& b, double end) const;
@@ -106,6 +108,8 @@ private:
 
   const geometry::Boundary& boundary_;
   const geometry::Lattice& lattice_;
+  const std::span<const Vec2> inside_;
+  const SiteTree inside_tree_;
   std::vector<LoopMetric> metrics_;
   std::vector<Site> sites_;
   std::vector<LocalIndex> loop_first_; // some site of each loop that stays its first
@@ -139,14 +143,16 @@ std::vector<Refiner::Cut> Refiner::find_cuts(const std::vector<LocalIndex>& fres
     LocalIndex intruder = -1;
     for (std::size_t tree = fresh[k] ? 0 : trees_.size() - 1; tree < trees_.size() && intruder < 0; ++tree)
       intruder = find_intruder(trees_[tree], k);
-    if (intruder >= 0 || (fresh[k] && curve_offends(k)))
-      cuts.push_back({k, intruder});
+    const LocalIndex point = fresh[k] && intruder < 0 ? find_intruder(inside_tree_, k, true) : -1;
+    if (intruder >= 0 || point >= 0 || (fresh[k] && curve_offends(k)))
+      cuts.push_back({k, intruder, point});
   }
   return cuts;
 }
 
 /// A site, or an image of one, in the disc of a segment; see SiteTree. The tree holds canonical positions.
-LocalIndex Refiner::find_intruder(const SiteTree& tree, LocalIndex segment) const {
+/// Numbers of foreign items are not those of sites.
+LocalIndex Refiner::find_intruder(const SiteTree& tree, LocalIndex segment, bool foreign) const {
   const Site& site = sites_[segment];
   const geometry::Periods& periods = boundary_.periods;
   const Vec2 a = periods.wrap(site.position), b = end_of(site) + (a - site.position);
@@ -154,12 +160,20 @@ LocalIndex Refiner::find_intruder(const SiteTree& tree, LocalIndex segment) cons
   const auto images = [reach](double period) { // to each side that the disc may meet
     return period > 0 ? static_cast<int>(std::fmin(4.0, 1 + std::floor(reach / period))) : 0;
   };
-  LocalIndex intruder = tree.find_in_disc(a, b, segment, site.next);
+  const LocalIndex own = foreign ? -1 : segment, end = foreign ? -1 : site.next;
+  LocalIndex intruder = tree.find_in_disc(a, b, own, end);
   for (int i = -images(periods.x); i <= images(periods.x) && intruder < 0; ++i)
     for (int j = -images(periods.y); j <= images(periods.y) && intruder < 0; ++j)
       if (const Vec2 shift{i * periods.x, j * periods.y}; i != 0 || j != 0)
-        intruder = tree.find_in_disc(a + shift, b + shift, segment, site.next);
+        intruder = tree.find_in_disc(a + shift, b + shift, own, end);
   return intruder;
+}
+
+SiteTree Refiner::tree_of(std::span<const Vec2> points) const {
+  std::vector<SiteTree::Item> items;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    items.push_back({boundary_.periods.wrap(points[k]), static_cast<LocalIndex>(k)});
+  return SiteTree(std::move(items));
 }
 
 bool Refiner::curve_offends(LocalIndex segment) const {
@@ -226,6 +240,10 @@ void Refiner::fail(const Cut& cut) const {
     cause = fmt::format("another part of the boundary passes at a distance of {:.3g}, at ({:.17g}, {:.17g})", gap, p.x,
                         p.y);
   }
+  if (cut.point >= 0) {
+    const Vec2 p = inside_[static_cast<std::size_t>(cut.point)];
+    cause = fmt::format("the fixed point ({:.17g}, {:.17g}) lies too near to it, but not on it", p.x, p.y);
+  }
   throw GeometryError(fmt::format(
       "the boundary is too narrow near ({:.17g}, {:.17g}): {}; expected parts that are at least {:.3g} apart (the "
       "resolution of the container), divided {} times down to a segment of {:.3g}. More points are not the cure: "
@@ -267,8 +285,8 @@ BoundarySites Refiner::result() const {
 } // namespace
 
 BoundarySites make_boundary_sites(const geometry::Boundary& boundary, const sizing::SizeField& size,
-                                  const geometry::Lattice& lattice, double corner_angle) {
-  Refiner refiner(boundary, size, lattice, corner_angle);
+                                  const geometry::Lattice& lattice, double corner_angle, std::span<const Vec2> inside) {
+  Refiner refiner(boundary, size, lattice, corner_angle, inside);
   refiner.run();
   return refiner.result();
 }

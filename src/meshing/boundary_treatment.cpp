@@ -47,7 +47,7 @@ MoveCounts move_all(SiteState& state, const MoveContext& context, int allowed, c
     MoveCounts counts;
     for (LocalIndex i = begin; i < end; ++i) {
       mesh::Site& site = sites[static_cast<std::size_t>(i)] = points.site(i);
-      if (site.boundary >= 0)
+      if (site.boundary != mesh::free_site)
         continue;
       const Vec2 from = site.position;
       const double h = view.size(i);

@@ -147,6 +147,19 @@ ExactArea polygon_area(const BoundarySites& boundary, const geometry::Lattice& l
   return area;
 }
 
+/// Owned sites that are fixed points, where they were asked for. Collective.
+std::int64_t count_fixed(const ExtractionContext& context) {
+  const mesh::BinnedPoints& points = context.state.points();
+  std::int64_t found = 0;
+  for (LocalIndex i = 0; i < points.owned(); ++i) {
+    const std::int32_t b = points.boundary(i);
+    if (b == mesh::fixed_site || (b >= 0 && context.boundary.sites[at(b)].corner))
+      found += std::binary_search(context.fixed.begin(), context.fixed.end(), points.position(i),
+                                  geometry::lexicographically_less);
+  }
+  return context.state.comm().sum(found);
+}
+
 mesh::Check check(const char* name, std::int64_t expected, std::int64_t found, const char* meaning) {
   return {name, static_cast<double>(expected), static_cast<double>(found), expected == found, meaning};
 }
@@ -194,6 +207,9 @@ mesh::Checks certify(const ExtractionContext& context, const decomposition::Numb
   checks.push_back(check("boundary_segments", segments, counts.facets, "boundary segments that are edges of the mesh"));
   checks.push_back(check("corners", context.boundary.corners, counts.corners,
                          "corners that are vertices, bit for bit on the lattice"));
+  if (!context.fixed.empty())
+    checks.push_back(check("fixed_points", static_cast<std::int64_t>(context.fixed.size()), count_fixed(context),
+                           "fixed points that are vertices, bit for bit on the lattice"));
   checks.push_back(check("unused_points", 0, counts.unused, "points without a triangle"));
   checks.push_back({"area", polygon.value(context.lattice), counts.area.value(context.lattice),
                     polygon.twice == counts.area.twice, "triangles fill the boundary polygon (exact integers)"});

@@ -57,7 +57,7 @@ std::vector<GlobalId> candidates(const StarView& view, double threshold, int rou
   std::vector<GlobalId> hashes(at(view.points.owned()), 0);
   thread_loop(view.points.owned(), 1024, [&](std::ptrdiff_t item, int) {
     const auto i = static_cast<LocalIndex>(item);
-    if (view.points.boundary(i) != -1 || has_gap(view.stars.ring(i)))
+    if (view.points.boundary(i) != mesh::free_site || has_gap(view.stars.ring(i)))
       return;
     const Vec2 p = view.points.position(i);
     const auto ring = view.stars.ring(i);

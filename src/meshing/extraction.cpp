@@ -82,7 +82,7 @@ void fill_points(const ExtractionContext& context, const decomposition::Numberin
     mesh.points[k] = points.position(i);
     mesh.boundary[k] = b < 0 ? 0 : context.boundary.sites[at(b)].tag;
     mesh.size[k] = static_cast<float>(context.size.size(points.position(i)));
-    mesh.fixed[k] = b >= 0 && context.boundary.sites[at(b)].corner;
+    mesh.fixed[k] = b >= 0 ? context.boundary.sites[at(b)].corner : b == mesh::fixed_site;
   });
   mesh.point_slab = {numbering.first, numbering.total};
 }

@@ -21,6 +21,7 @@ struct ExtractionContext {
   const BoundarySites& boundary;
   const sizing::SizeField& size;
   const geometry::Lattice& lattice;
+  std::span<const geometry::Vec2> fixed = {}; ///< points that must be vertices, in lexicographic order
 };
 
 /// @brief The inside fan of a site: the run of ring entries whose consecutive pairs are the triangles inside the shape.
@@ -52,6 +53,7 @@ struct Expectation {
 };
 
 /// @brief The certificate: manifold, positive, Euler characteristic, area, Delaunay, boundary segments, corners,
+/// fixed points,
 /// agreement of all stars with each other and with `mesh`, the arrays that will be written. Exact integers throughout.
 /// Collective. O(points)
 mesh::Checks certify(const ExtractionContext& context, const decomposition::Numbering& numbering,

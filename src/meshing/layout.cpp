@@ -65,10 +65,12 @@ Layout lay_boundary(const LayoutContext& context, double factor, double coarseni
   if (layout.size->is_uniform())
     layout.typical_size = layout.size->size({});
   comm::run_agreed(context.comm, [&] {
-    layout.boundary =
-        make_boundary_sites(context.boundary, *layout.size, context.lattice, context.options.corner_angle);
+    layout.boundary = make_boundary_sites(context.fixed.boundary(), *layout.size, context.lattice,
+                                          context.options.corner_angle, context.fixed.inside());
     layout.guard = std::make_unique<BoundaryGuard>(layout.boundary, context.lattice);
+    context.fixed.check_inside(*layout.guard);
   });
+  layout.fixed_inside = static_cast<GlobalId>(context.fixed.inside().size());
   layout.state = make_state(context, layout, grid_coarsening * layout.typical_size);
   return layout;
 }
@@ -89,6 +91,7 @@ void place_sites(const LayoutContext& context, Layout& layout, std::vector<mesh:
     if (tile >= tiles.first && tile < tiles.last)
       inner.push_back({p, static_cast<std::int32_t>(b)});
   }
+  context.fixed.place_among(inner, tiles, *layout.size);
   layout.state->distribute(std::move(inner));
 }
 

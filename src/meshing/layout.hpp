@@ -3,6 +3,7 @@
 // their distribution; and how sites are placed for it.
 #pragma once
 
+#include "meshing/fixed_points.hpp"
 #include "meshing/site_state.hpp"
 #include "trime/core/log.hpp"
 #include "trime/core/timer.hpp"
@@ -28,6 +29,7 @@ struct LayoutContext {
   const geometry::Lattice& lattice;
   Log& log;
   TimerTable& timers;
+  const FixedPoints& fixed;
 };
 
 /// All that the sweeps of a stage start from. Only `state` differs from rank to rank.
@@ -40,7 +42,10 @@ struct Layout {
   std::unique_ptr<BoundaryGuard> guard;
   std::unique_ptr<SiteState> state;
 
-  GlobalId on_boundary() const { return static_cast<GlobalId>(boundary.sites.size()); }
+  GlobalId fixed_inside = 0; ///< fixed points that are not on the boundary
+
+  /// Sites that have their place before all others: those on the boundary, and the fixed ones inside.
+  GlobalId on_boundary() const { return static_cast<GlobalId>(boundary.sites.size()) + fixed_inside; }
 };
 
 /// Edge length of n nearly equilateral triangles' vertices on area A inside perimeter P: from V = (T + B)/2 + 1 with
@@ -56,7 +61,8 @@ Layout lay_boundary(const LayoutContext& context, double factor, double coarseni
 /// The tiles that this rank fills with sites: an even share, before anything is known of their number.
 TileRange even_share(const Layout& layout, const comm::Communicator& comm);
 
-/// Adds the boundary sites to the inner ones, which may lie on any rank, and distributes all. Collective.
+/// Adds the boundary sites and the fixed ones to the inner ones, which may lie on any rank, takes out those too near to
+/// a fixed one, and distributes all. Collective.
 void place_sites(const LayoutContext& context, Layout& layout, std::vector<mesh::Site> inner);
 
 } // namespace trime::meshing

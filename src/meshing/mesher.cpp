@@ -51,9 +51,12 @@ public:
   SnapshotObserver observer;
 
 private:
-  LayoutContext layout_context() const { return {comm_, boundary_, relative_size_, options_, lattice_, log_, timers_}; }
+  LayoutContext layout_context() const {
+    return {comm_, boundary_, relative_size_, options_, lattice_, log_, timers_, *fixed_};
+  }
 
   void begin() {
+    fixed_ = std::make_unique<FixedPoints>(boundary_, options_, lattice_, log_);
     context_ = std::make_unique<LayoutContext>(layout_context());
     scheme_ = std::make_unique<PointScheme>(*context_);
     Layout first = scheme_->first(); // decides, so that the reason is known
@@ -73,10 +76,12 @@ private:
     make_builder(placed);
     const int components = boundary_.components(), holes = boundary_.holes();
     log_.info("boundary: {} component{}, {} hole{}, {} sites, {} corners", components, components == 1 ? "" : "s",
-              holes, holes == 1 ? "" : "s", layout_.on_boundary(), layout_.boundary.corners);
+              holes, holes == 1 ? "" : "s", layout_.boundary.sites.size(), layout_.boundary.corners);
     log_.info("start: {} points in {} tiles ({} x {} cells), mean edge about {:.6g}", placed, grid.tile_count(),
               grid.cells_x(), grid.cells_y(), layout_.typical_size);
     warn_of_fine_features();
+    if (scheme_->is_last())
+      fixed_->warn_of_close_ones(*layout_.guard, *layout_.size, log_);
   }
 
   /// What a user would want to know before the sweeps begin.
@@ -196,7 +201,7 @@ private:
 
   // --- the mesh -----------------------------------------------------------------------------------------------------
 
-  ExtractionContext extraction() const { return {state(), layout_.boundary, *layout_.size, lattice_}; }
+  ExtractionContext extraction() const { return {state(), layout_.boundary, *layout_.size, lattice_, fixed_->all()}; }
 
   /// Stars of all sites. Where a fan is not complete the cap may have been too low (a void): it is doubled for these
   /// sites, a few times; the certificate tells of what remains.
@@ -258,6 +263,7 @@ private:
   TimerTable& timers_;
 
   geometry::Lattice lattice_;
+  std::unique_ptr<FixedPoints> fixed_;
   Layout layout_;
   double cap_factor_ = 0; // of h
   std::unique_ptr<delaunay::StarBuilder> builder_;

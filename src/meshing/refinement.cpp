@@ -30,7 +30,7 @@ std::vector<Item> gather_by_tile(const mesh::BinnedPoints& points, const Make& m
 }
 
 void add_if_inner(const mesh::BinnedPoints& points, LocalIndex i, std::vector<mesh::Site>& sites) {
-  if (points.boundary(i) < 0)
+  if (points.boundary(i) == mesh::free_site)
     sites.push_back({points.position(i), points.boundary(i)});
 }
 

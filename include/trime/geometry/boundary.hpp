@@ -18,6 +18,7 @@ struct Piece {
   double radius = 0;
   double start_angle = 0; ///< radians
   double sweep = 0;       ///< signed angle from start to end, radians, counter-clockwise positive, |sweep| <= 2 pi
+  bool corner = false;    ///< the start is to be kept as a corner, however little the curve turns there
   int part = 0;           ///< index into Boundary::part_names of the part that the piece comes from
 
   /// Arc length.

@@ -35,6 +35,16 @@ std::string read_contour_text(const std::string& path, const std::string& hint =
 /// distinct vertices, a text without vertices
 Contour parse_xy(std::string_view text, const std::string& source);
 
+/// A point with its line in the file.
+struct FilePoint {
+  Vec2 position;
+  int line;
+};
+
+/// @brief Points of `.xy` text: one `x y` a line; blank lines mean nothing, `#` and `;` start comments.
+/// @throws GeometryError `source:line: ...` for a line that is not two finite numbers, or without any point
+std::vector<FilePoint> parse_points(std::string_view text, const std::string& source);
+
 /// read_contour_text and parse_xy.
 Contour read_xy(const std::string& path);
 

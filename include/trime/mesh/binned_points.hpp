@@ -13,12 +13,15 @@
 
 namespace trime::mesh {
 
+/// Values of Site::boundary for sites inside: those that move, and those that stay where a user wants them.
+inline constexpr std::int32_t free_site = -1, fixed_site = -2;
+
 /// A site with all that travels with it when it changes its owner.
 struct Site {
   geometry::Vec2 position;
-  std::int32_t boundary = -1; ///< index of the boundary site that it is, or -1 inside
-  std::int32_t pushes = 0;    ///< times that it was pushed out of a boundary disc
-  geometry::Vec2 lead{};      ///< the step by which an accelerated update runs ahead of its last iterate
+  std::int32_t boundary = free_site; ///< index of the boundary site that it is; inside free_site or fixed_site
+  std::int32_t pushes = 0;           ///< times that it was pushed out of a boundary disc
+  geometry::Vec2 lead{};             ///< the step by which an accelerated update runs ahead of its last iterate
 };
 
 /// What a rank knows of a site of another rank: 24 bytes, as it is sent.

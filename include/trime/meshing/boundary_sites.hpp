@@ -12,6 +12,7 @@
 #include "trime/sizing/size_field.hpp"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace trime::meshing {
@@ -51,10 +52,12 @@ struct BoundarySites {
 /// degrees both get sites at equal distances from the corner until their gap reaches h (shells; Ruppert 1995). A
 /// segment is then divided while another site lies in its diametral disc, or the curve between its ends leaves that
 /// disc or turns by more than 60 degrees: in the middle, or next to a sharp corner on a power-of-two radius
-/// (concentric shells), so that the process ends for any angle. Deterministic; O(B log B) for B sites and pieces.
+/// (concentric shells), so that the process ends for any angle. The discs are kept free of the points of `inside`, too.
+/// Deterministic; O(B log B) for B sites and pieces.
 /// @throws GeometryError with the place, if two parts of the boundary are too close to be told apart, or if the size
 ///         asks for more than 2^27 sites
 BoundarySites make_boundary_sites(const geometry::Boundary& boundary, const sizing::SizeField& size,
-                                  const geometry::Lattice& lattice, double corner_angle);
+                                  const geometry::Lattice& lattice, double corner_angle,
+                                  std::span<const geometry::Vec2> inside = {});
 
 } // namespace trime::meshing

@@ -21,6 +21,12 @@ enum class Method { distmesh, cvd, hybrid };
 /// curve. Coarse to fine: a mesh of few points is relaxed, its edges are divided, and again.
 enum class Start { automatic, lattice, hilbert, coarse_to_fine };
 
+/// A point that is to be a vertex of the mesh.
+struct FixedPoint {
+  geometry::Vec2 position;
+  std::string label; ///< for messages: where it comes from, such as `points.xy:7`
+};
+
 struct MeshOptions {
   geometry::Box container{{0, 0}, {1, 1}};
   /// For the frame in which a shape is made; the mesher itself goes by the periods of the boundary that it is given.
@@ -42,6 +48,9 @@ struct MeshOptions {
   /// are for comparisons.
   int density_exponent = 4;
   bool cleanup = true; ///< max-min moves around the worst triangles after the sweeps
+  /// @brief Kept bit for bit (on the lattice) and never moved. On the boundary (to within 1e-10 of the container) they
+  /// become corners; outside of the shape they are a GeometryError.
+  std::vector<FixedPoint> fixed_points;
   /// 0: none; -2: a snapshot of the first triangulation; n > 0: of the first and of every n-th.
   int snapshot_interval = 0;
 };

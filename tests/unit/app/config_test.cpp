@@ -46,6 +46,22 @@ TEST(Config, ExpressionShape) {
   EXPECT_NE(missing.find("[shape.f] of type expression needs 'sdf'"), std::string::npos) << missing;
 }
 
+TEST(Config, FixedPoints) {
+  const std::string text = "[shape]\nregion = map\n[shape.map]\ntype = contour\nfile = map.xy\nnormalize = true\n"
+                           "[meshing]\nmethod = distmesh\npoints = 5000\nfixed_points = p.xy\n";
+  const RunOptions plain = parse_config(text, "dir/c.ini", {});
+  EXPECT_EQ(plain.fixed_points.file, "dir/p.xy");
+  EXPECT_TRUE(plain.fixed_points.file_is_relative);
+  EXPECT_EQ(plain.fixed_points.normalize_with, "");
+  EXPECT_EQ(parse_config(text, "dir/c.ini", {"meshing.fixed_points_normalize_with=map"}).fixed_points.normalize_with,
+            "map");
+  const std::string unknown = errors_of(text, {"meshing.fixed_points_normalize_with=mop"});
+  EXPECT_NE(unknown.find("no part has this name; did you mean 'map'?"), std::string::npos) << unknown;
+  const std::string unneeded =
+      errors_of(text, {"meshing.fixed_points_normalize_with=map", "shape.map.normalize=false"});
+  EXPECT_NE(unneeded.find("with 'normalize = true'"), std::string::npos) << unneeded;
+}
+
 TEST(OptionTable, IsSound) {
   for (const Option& option : option_table()) {
     EXPECT_GT(std::string(option.meaning).size(), 3u) << option.key;
@@ -204,8 +220,7 @@ TEST(Config, AChangedTypeShowsTheKeysThatNoLongerBelong) {
 TEST(Config, RefusesByNameWhatThisVersionCannotDo) {
   expect_refused("domain.periodic_x=true", "'periodic_x = true' in [domain] is not supported yet; leave it false");
   expect_refused("domain.periodic_y=true", "not supported yet; leave it false");
-  expect_refused("meshing.fixed_points=p.xy", "not supported yet");
-  expect_refused("meshing.fixed_points_normalize_with=box", "not supported yet");
+  expect_refused("meshing.fixed_points_normalize_with=box", "means nothing without 'fixed_points'");
   expect_refused("output.formats=vtkhdf gmsh", "not supported yet; use vtkhdf, xdmf, text");
   expect_refused("checkpoint.interval=60", "not supported yet; leave it 0");
   expect_refused("checkpoint.keep=3", "not supported yet; leave it 2");

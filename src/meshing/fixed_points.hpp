@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The points that a user wants to keep: those on the boundary become corners of it, those inside become sites that
+// never move. Knows where they lie, what is too near to them, and what to say about it.
+#pragma once
+
+#include "meshing/site_tree.hpp"
+#include "trime/core/log.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/mesh/binned_points.hpp"
+#include "trime/meshing/boundary_guard.hpp"
+#include "trime/meshing/options.hpp"
+#include "trime/meshing/start.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <span>
+#include <vector>
+
+namespace trime::meshing {
+
+/// @brief Replicated: the same on every rank. Positions are canonical lattice points. Immutable; `boundary` and
+/// `options` must outlive it.
+class FixedPoints {
+public:
+  /// Free sites start no nearer to a fixed one, in h.
+  static constexpr double clearance = 0.6;
+
+  /// @brief Points that the lattice makes equal are kept once, with a warning. O(points x log(pieces)).
+  /// @throws GeometryError if a point is not finite or lies outside of the container
+  FixedPoints(const geometry::Boundary& boundary, const MeshOptions& options, const geometry::Lattice& lattice,
+              Log& log);
+
+  bool empty() const { return all_.empty(); }
+  /// All of them, in lexicographic order.
+  std::span<const geometry::Vec2> all() const { return all_; }
+  /// Those not on the boundary.
+  std::span<const geometry::Vec2> inside() const { return inside_; }
+  /// The boundary with a corner at each point that lies on it.
+  const geometry::Boundary& boundary() const { return boundary_; }
+
+  /// @throws GeometryError for the first point that the boundary leaves outside: its label, and how far outside
+  void check_inside(const BoundaryGuard& guard) const;
+  /// @brief Takes out free sites that are too near to a fixed one, then adds the fixed sites of these tiles.
+  void place_among(std::vector<mesh::Site>& sites, const TileRange& tiles, const sizing::SizeField& size) const;
+  /// One warning about points nearer than the local size to each other or to the boundary.
+  void warn_of_close_ones(const BoundaryGuard& guard, const sizing::SizeField& size, Log& log) const;
+
+private:
+  void add_corner(geometry::Vec2 p);
+  bool is_near(geometry::Vec2 p, double distance) const;
+  const std::string& label(geometry::Vec2 p) const;
+
+  const MeshOptions& options_;
+  const geometry::Lattice lattice_;
+  geometry::Boundary boundary_;
+  double tolerance_; ///< how near to a curve counts as on it
+  std::vector<geometry::Vec2> all_, inside_;
+  std::vector<std::size_t> source_; ///< of each point of all_: its number in the options
+  SiteTree tree_;                   ///< of inside_
+};
+
+} // namespace trime::meshing

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fixed points before any mesh: where they lie, what becomes of the boundary, what is refused, what is taken out.
+#include "meshing/fixed_points.hpp"
+
+#include "trime/core/error.hpp"
+#include "trime/geometry/shape.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trime::meshing {
+namespace {
+
+using geometry::Part;
+using geometry::RegionShape;
+using geometry::Vec2;
+
+const geometry::Frame unit_frame(geometry::Box{{0, 0}, {1, 1}});
+const RegionShape shape({Part::rectangle("r", {{0.25, 0.25}, {0.75, 0.75}}, unit_frame),
+                         Part::circle("c", {0.5, 0.5}, 0.125, unit_frame)},
+                        "difference(r, c)", unit_frame);
+
+MeshOptions with_points(const std::vector<Vec2>& points) {
+  MeshOptions options;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    options.fixed_points.push_back({points[k], fmt::format("p.xy:{}", k + 1)});
+  return options;
+}
+
+FixedPoints make(const MeshOptions& options) {
+  Log log(LogLevel::silent, false);
+  return FixedPoints(shape.boundary(), options, unit_frame.lattice(), log);
+}
+
+template <class Work>
+std::string error_of(const Work& work) {
+  try {
+    work();
+  } catch (const GeometryError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+BoundarySites sites_for(const FixedPoints& fixed, double h) {
+  return make_boundary_sites(fixed.boundary(), sizing::UniformSize(h), unit_frame.lattice(), 30, fixed.inside());
+}
+
+std::vector<Vec2> corners_of(const BoundarySites& sites) {
+  std::vector<Vec2> corners;
+  for (const BoundarySite& site : sites.sites)
+    if (site.corner)
+      corners.push_back(site.position);
+  return corners;
+}
+
+TEST(FixedPoints, OnTheBoundaryTheyAreCorners) {
+  const double step = unit_frame.step();
+  const Vec2 on_circle = unit_frame.lattice().snap({0.5 + 0.125 * 0.6, 0.5 - 0.125 * 0.8});
+  const Vec2 off_side{0.25 + step, 0.4}, vertex{0.75, 0.25 + step}, quadrant{0.5, 0.625};
+  const MeshOptions options = with_points({off_side, vertex, on_circle, quadrant, {0.375, 0.375}});
+  const FixedPoints fixed = make(options);
+  EXPECT_EQ(fixed.all().size(), 5u);
+  EXPECT_EQ(fixed.inside().size(), 1u);
+  EXPECT_NEAR(fixed.boundary().length(), shape.boundary().length(), 1e-12);
+  for (const geometry::Loop& loop : fixed.boundary().loops)
+    for (std::size_t k = 0; k < loop.pieces.size(); ++k)
+      EXPECT_EQ(loop.pieces[k].end, loop.pieces[(k + 1) % loop.pieces.size()].start);
+  const std::vector<Vec2> corners = corners_of(sites_for(fixed, 0.03));
+  EXPECT_EQ(corners.size(), 7u); // the vertex was one before
+  for (const Vec2 p : {unit_frame.lattice().snap(off_side), vertex, on_circle, quadrant})
+    EXPECT_NE(std::find(corners.begin(), corners.end(), p), corners.end()) << p.x << " " << p.y;
+}
+
+TEST(FixedPoints, NoDiscOfASegmentHoldsOne) {
+  const MeshOptions options = with_points({{0.325, 0.2501}, {0.425, 0.252}, {0.51, 0.6251}, {0.625, 0.7499999}});
+  const FixedPoints fixed = make(options);
+  const BoundarySites sites = sites_for(fixed, 0.05);
+  for (LocalIndex i = 0; i < static_cast<LocalIndex>(sites.sites.size()); ++i)
+    for (const Vec2 p : fixed.inside()) {
+      const geometry::Segment chord = sites.chord(i);
+      EXPECT_GT(dot(chord.a - p, chord.b - p), 0);
+    }
+  EXPECT_GT(sites.sites.size(), sites_for(make(MeshOptions{}), 0.05).sites.size());
+}
+
+TEST(FixedPoints, WhatIsOutsideIsRefused) {
+  const MeshOptions in_hole = with_points({{0.3, 0.3}, {0.5, 0.5}});
+  const FixedPoints fixed = make(in_hole);
+  const BoundarySites sites = sites_for(fixed, 0.05);
+  const std::string message = error_of([&] { fixed.check_inside(BoundaryGuard(sites, unit_frame.lattice())); });
+  EXPECT_NE(message.find("p.xy:2: the fixed point (0.5, 0.5) lies outside the shape, 0.125 from"), std::string::npos)
+      << message;
+  const std::string beyond = error_of([] { make(with_points({{0.3, 1.5}})); });
+  EXPECT_NE(beyond.find("p.xy:1"), std::string::npos) << beyond;
+  EXPECT_NE(beyond.find("outside the container"), std::string::npos) << beyond;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(error_of([&] { make(with_points({{nan, 0.5}})); }).find("finite"), std::string::npos);
+}
+
+TEST(FixedPoints, CoincidentOnesAreKeptOnce) {
+  const MeshOptions options = with_points({{0.3, 0.3}, {0.3, 0.4}, {0.3, 0.3 + 1e-15}});
+  EXPECT_EQ(make(options).all().size(), 2u);
+}
+
+TEST(FixedPoints, FreeSitesKeepAway) {
+  const MeshOptions options = with_points({{0.375, 0.375}, {0.25, 0.5}});
+  const FixedPoints fixed = make(options);
+  const double h = 0.02;
+  std::vector<mesh::Site> sites;
+  for (int k = 0; k < 100; ++k)
+    sites.push_back({unit_frame.lattice().snap({0.3 + 0.0015 * k, 0.376})});
+  const mesh::TileGrid grid({{0, 0}, {1, 1}}, {{}, {}, h});
+  fixed.place_among(sites, {grid, 0, grid.tile_count()}, sizing::UniformSize(h));
+  std::vector<Vec2> fixed_ones;
+  for (const mesh::Site& site : sites)
+    if (site.boundary == mesh::fixed_site)
+      fixed_ones.push_back(site.position);
+    else
+      EXPECT_GE(length(site.position - Vec2{0.375, 0.375}), FixedPoints::clearance * h * (1 - 1e-9));
+  EXPECT_EQ(fixed_ones, std::vector<Vec2>{(Vec2{0.375, 0.375})}); // the other one is a corner of the boundary
+  EXPECT_EQ(sites.size(), 101u - 15u);
+}
+
+} // namespace
+} // namespace trime::meshing
