@@ -89,7 +89,7 @@ Layout PointScheme::first_of_divisions() {
   double inner = 0;
   for (;; --last_stage_) {
     layout = lay_boundary(context_, factor, std::ldexp(1.0, last_stage_), std::ldexp(points, -2 * last_stage_));
-    inner = wanted_inside(context_, layout).sites;
+    inner = wanted_inside(context_, layout, 2).sites;
     if (last_stage_ == 0 || inner >= static_cast<double>(layout.on_boundary()))
       break;
   }
