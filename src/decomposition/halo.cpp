@@ -71,7 +71,8 @@ void Halo::reset(const Partition& partition, int margin) {
   subscribe(wanted);
 }
 
-/// Foreign bins within `margin` bins of a tile: its own bins, or those of the other tile where they are smaller.
+/// Bins of foreign tiles, and of images of any, within `margin` bins of a tile: its own bins, or those of the other
+/// tile where they are smaller.
 void Halo::list_bins_around(LocalIndex tile, int margin, std::vector<BinRef>& wanted) const {
   const int shift = grid_->tile_shift();
   const std::int64_t side = std::int64_t{1} << shift;
@@ -80,19 +81,24 @@ void Halo::list_bins_around(LocalIndex tile, int margin, std::vector<BinRef>& wa
   const std::int64_t x0 = std::int64_t{at.x} << shift, y0 = std::int64_t{at.y} << shift;
   const int tiles = static_cast<int>((margin * bin_side(tile) + side - 1) >> shift); // that the margin reaches
   const int column = static_cast<int>(at.x), row = static_cast<int>(at.y);
-  for (int ty = std::max(0, row - tiles); ty <= std::min(grid_->tiles_y() - 1, row + tiles); ++ty)
-    for (int tx = std::max(0, column - tiles); tx <= std::min(grid_->tiles_x() - 1, column + tiles); ++tx) {
-      const LocalIndex other = grid_->tile_at(tx, ty);
-      if (partition_.owner(other) == comm_->rank())
+  // Along periodic axes the images beside the container belong to it.
+  const int x_images = grid_->periods().x > 0 ? grid_->tiles_x() : 0,
+            y_images = grid_->periods().y > 0 ? grid_->tiles_y() : 0;
+  const int last_x = std::min(grid_->tiles_x() + x_images - 1, column + tiles);
+  const int last_y = std::min(grid_->tiles_y() + y_images - 1, row + tiles);
+  for (int ty = std::max(-y_images, row - tiles); ty <= last_y; ++ty)
+    for (int tx = std::max(-x_images, column - tiles); tx <= last_x; ++tx) {
+      const auto [other, image] = grid_->tile_image_at(tx, ty);
+      if (image == 0 && partition_.owner(other) == comm_->rank())
         continue;
       const std::int64_t width = bin_side(other), reach = margin * std::min(bin_side(tile), width);
-      const std::int64_t left = std::int64_t{tx} << shift, low = std::int64_t{ty} << shift;
+      const std::int64_t left = tx * side, low = ty * side;
       const std::int64_t bx0 = std::max<std::int64_t>(0, x0 - reach - left) / width;
       const std::int64_t by0 = std::max<std::int64_t>(0, y0 - reach - low) / width;
       const std::int64_t bx1 = std::min(side, x0 + side + reach - left), by1 = std::min(side, y0 + side + reach - low);
       for (std::int64_t by = by0; by * width < by1; ++by)
         for (std::int64_t bx = bx0; bx * width < bx1; ++bx)
-          wanted.push_back({other, static_cast<std::int32_t>((by << grid_->bin_bits(other)) | bx)});
+          wanted.push_back({other, static_cast<std::int32_t>((by << grid_->bin_bits(other)) | bx), image});
     }
 }
 
@@ -102,7 +108,8 @@ void Halo::subscribe(std::span<const BinRef> bins) {
     entry(requests, partition_.owner(bin.tile)).bins.push_back(bin);
   std::vector<Message> outgoing;
   for (const Peer& request : requests) {
-    TRIME_ASSERT(request.rank != comm_->rank(), "rank {} asks for its own bins", request.rank);
+    for (const BinRef& bin : request.bins)
+      TRIME_ASSERT(request.rank != comm_->rank() || bin.image != 0, "rank {} asks for its own bins", request.rank);
     merge_into(entry(imports_, request.rank).bins, request.bins);
     outgoing.push_back({request.rank, comm::to_bytes(std::span<const BinRef>(request.bins))});
   }
@@ -119,7 +126,7 @@ void Halo::refresh(mesh::BinnedPoints& points) {
     counts_out.push_back({peer.rank, {}});
     sites_out.push_back({peer.rank, {}});
     for (const BinRef& bin : peer.bins) {
-      const auto [begin, end] = points.bin_range(bin);
+      const auto [begin, end] = points.bin_range({bin.tile, bin.bin}); // whatever image of it was asked for
       append(counts_out.back().data, static_cast<std::int32_t>(end - begin));
       for (LocalIndex i = begin; i < end; ++i)
         append(sites_out.back().data, points.ghost(i));
@@ -162,7 +169,7 @@ std::vector<GlobalId> Halo::exchange(const mesh::BinnedPoints& points, std::span
   for (const Peer& peer : exports_) {
     outgoing.push_back({peer.rank, {}});
     for (const BinRef& bin : peer.bins) {
-      const auto [begin, end] = points.bin_range(bin);
+      const auto [begin, end] = points.bin_range({bin.tile, bin.bin});
       for (LocalIndex i = begin; i < end; ++i)
         append(outgoing.back().data, owned_values[static_cast<std::size_t>(i)]);
     }

@@ -18,13 +18,14 @@ using geometry::Vec2;
 /// a site.
 constexpr double inflation = 1 + 1e-9;
 
-/// Squared circumradius from the vertices in lexicographic order: the same bits from each of the three stars.
-double canonical_squared_radius(Vec2 a, Vec2 b, Vec2 c) {
-  if (geometry::lexicographically_less(b, a))
+/// Squared circumradius from the vertices in lexicographic order of their canonical images: the same bits from each of
+/// the three stars.
+double canonical_squared_radius(Vec2 a, Vec2 b, Vec2 c, const geometry::Periods& periods) {
+  if (periods.less(b, a))
     std::swap(a, b);
-  if (geometry::lexicographically_less(c, b)) {
+  if (periods.less(c, b)) {
     std::swap(b, c);
-    if (geometry::lexicographically_less(b, a))
+    if (periods.less(b, a))
       std::swap(a, b);
   }
   const Vec2 u = b - a, v = c - a;
@@ -37,7 +38,7 @@ class StarWorker {
 public:
   StarWorker(const mesh::BinnedPoints& points, StarTable& stars, const geometry::Lattice& lattice)
       : points_(points), positions_(points.positions().data()), stars_(stars), lattice_(lattice),
-        slack_(2 * lattice.step()), kernel_(lattice) {}
+        periods_(points.grid().periods()), slack_(2 * lattice.step()), kernel_(lattice, periods_) {}
 
   void compute(LocalIndex i, double cap) {
     site_ = i;
@@ -81,7 +82,7 @@ private:
   /// From the virtual square: the last ring first, then the sites nearby (about the first ring of neighbours, in any
   /// order), then all others, most of which lie beyond the security radius by then.
   bool start_cold() {
-    kernel_.start_virtual(lattice_.snap(2 * cap_) + lattice_.step());
+    kernel_.start_virtual(center_, lattice_.snap(2 * cap_) + lattice_.step());
     for (const LocalIndex neighbour : ring_)
       if (neighbour != gap)
         kernel_.insert(neighbour, offset(neighbour));
@@ -184,8 +185,8 @@ private:
     const double r2 = kernel_.squared_radius(k);
     if (r2 < 0.99 * cap_ * cap_)
       return true; // r2 is an upper bound
-    return canonical_squared_radius(center_, points_.position(kernel_.id(k)), points_.position(kernel_.id(next))) <
-           cap_ * cap_;
+    return canonical_squared_radius(center_, points_.position(kernel_.id(k)), points_.position(kernel_.id(next)),
+                                    periods_) < cap_ * cap_;
   }
 
   /// Writes the ring from its lexicographically smallest neighbour on, with gaps where triangles do not count.
@@ -222,6 +223,7 @@ private:
   const Vec2* positions_;
   StarTable& stars_;
   const geometry::Lattice& lattice_;
+  geometry::Periods periods_;
   double cap_ = 0; // of the site
   double slack_;
   StarKernel kernel_;
@@ -238,8 +240,13 @@ private:
 
 } // namespace
 
-bool StarBuilder::counts(Vec2 a, Vec2 b, Vec2 c, double cap) {
-  return canonical_squared_radius(a, b, c) < cap * cap;
+bool StarBuilder::counts(Vec2 a, Vec2 b, Vec2 c, double cap, const geometry::Periods& periods) {
+  return canonical_squared_radius(a, b, c, periods) < cap * cap;
+}
+
+double StarBuilder::largest_cap(const geometry::Periods& periods) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return 0.2499 * std::min(periods.x > 0 ? periods.x : infinity, periods.y > 0 ? periods.y : infinity);
 }
 
 StarPass StarBuilder::update(const mesh::BinnedPoints& points, StarTable& stars, const mesh::LocalSizes& sizes,
@@ -248,6 +255,7 @@ StarPass StarBuilder::update(const mesh::BinnedPoints& points, StarTable& stars,
   for (int thread = 0; thread < std::max(1, thread_count()); ++thread)
     workers.emplace_back(points, stars, lattice_);
   const LocalIndex first_tile = points.first_tile();
+  const double limit = largest_cap(points.grid().periods());
   thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t tile, int thread) {
     const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(tile));
     for (LocalIndex i = begin; i < end; ++i) {
@@ -255,7 +263,8 @@ StarPass StarBuilder::update(const mesh::BinnedPoints& points, StarTable& stars,
         stars.clear(i);
         stars.set_certain(i, false); // to be computed once it is wanted
       } else if (!stars.certain(i)) {
-        workers[static_cast<std::size_t>(thread)].compute(i, sizes.known(i) ? cap(sizes[i]) : largest_);
+        workers[static_cast<std::size_t>(thread)].compute(i,
+                                                          std::min(limit, sizes.known(i) ? cap(sizes[i]) : largest_));
       }
     }
   });

@@ -2,7 +2,6 @@
 #include "delaunay/star_kernel.hpp"
 
 #include "delaunay/double2.hpp"
-#include "trime/geometry/predicates.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -42,7 +41,8 @@ inline Vertex circumcenter(double ax, double ay, double bx, double by) {
 
 } // namespace
 
-StarKernel::StarKernel(const geometry::Lattice& lattice) : lattice_(lattice) {
+StarKernel::StarKernel(const geometry::Lattice& lattice, const geometry::Periods& periods)
+    : lattice_(lattice), periods_(periods) {
   reserve(typical_degree);
 }
 
@@ -69,7 +69,7 @@ bool StarKernel::is_cut(std::size_t k, Vec2 q) const {
     return true;
   if (depth_[k] < -tolerance_[k])
     return false;
-  return geometry::in_circle(Vec2{}, offset(k), offset(next(k)), q, lattice_) > 0;
+  return in_disc(offset(k), offset(next(k)), q);
 }
 
 double StarKernel::squared_radius() {
@@ -90,7 +90,8 @@ std::size_t StarKernel::smallest() const {
   return best;
 }
 
-void StarKernel::start_virtual(double distance) {
+void StarKernel::start_virtual(Vec2 center, double distance) {
+  center_ = center;
   constexpr std::array<Vec2, 4> direction{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
   const Vertex corner = circumcenter(distance, 0, 0, distance); // the other three are its mirror images
   degree_ = 4;
@@ -110,6 +111,7 @@ void StarKernel::start_virtual(double distance) {
 
 bool StarKernel::start_ring(std::span<const LocalIndex> ids, const Vec2* positions, Vec2 center) {
   const std::size_t n = ids.size();
+  center_ = center;
   reserve(n);
   degree_ = n;
   for (std::size_t k = 0; k < n; ++k) {
@@ -157,7 +159,7 @@ bool StarKernel::is_locally_convex() {
   squared_radius_ = std::max(largest[0], largest[1]) * (1 + 1e-7);
   if (any(undecided))
     for (std::size_t k = 0; k < n; ++k)
-      if (geometry::in_circle(Vec2{}, offset(k), offset(next(k)), {x_[k + 2], y_[k + 2]}, lattice_) > 0)
+      if (in_disc(offset(k), offset(next(k)), {x_[k + 2], y_[k + 2]}))
         return false;
   return true;
 }

@@ -4,6 +4,7 @@
 
 #include "trime/delaunay/star_table.hpp"
 #include "trime/geometry/lattice.hpp"
+#include "trime/geometry/predicates.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <array>
@@ -20,10 +21,11 @@ namespace trime::delaunay {
 /// goes to geometry::in_circle.
 class StarKernel {
 public:
-  explicit StarKernel(const geometry::Lattice& lattice);
+  explicit StarKernel(const geometry::Lattice& lattice, const geometry::Periods& periods = {});
 
-  /// Starts with four virtual neighbours at `distance`, a lattice multiple, along the axes (their ids are negative).
-  void start_virtual(double distance);
+  /// @brief Starts around `center` with four virtual neighbours at `distance`, a lattice multiple, along the axes
+  /// (their ids are negative).
+  void start_virtual(geometry::Vec2 center, double distance);
   /// @brief Starts with a ring of at least 3 real neighbours at `positions`, seen from `center`; false if it is no star
   /// any more: it does not wind once counter-clockwise, or is not locally convex. O(degree).
   bool start_ring(std::span<const LocalIndex> ids, const geometry::Vec2* positions, geometry::Vec2 center);
@@ -64,6 +66,12 @@ private:
   void set_vertex(std::size_t k, std::size_t next);
   /// Does the site at q, of which depth_ and tolerance_ speak, lie in the disc of vertex k? Exact.
   bool is_cut(std::size_t k, geometry::Vec2 q) const;
+  /// Is q in the disc through the origin, a and b? Exact; all are offsets.
+  bool in_disc(geometry::Vec2 a, geometry::Vec2 b, geometry::Vec2 q) const {
+    if (!periods_.any())
+      return geometry::in_circle(geometry::Vec2{}, a, b, q, lattice_) > 0;
+    return geometry::in_circle(center_, center_ + a, center_ + b, center_ + q, lattice_, periods_) > 0;
+  }
   bool is_locally_convex();
   void find_vertices();
   void replace(std::size_t first_cut, std::size_t cuts, LocalIndex id, geometry::Vec2 q);
@@ -72,6 +80,8 @@ private:
   std::size_t previous(std::size_t k) const { return k == 0 ? degree_ - 1 : k - 1; }
 
   geometry::Lattice lattice_;
+  geometry::Periods periods_; // only they need to know where the center is
+  geometry::Vec2 center_;
   double squared_radius_ = -1; // negative: not known
   std::size_t degree_ = 0;
   bool vertices_known_ = false; // a ring that is only checked needs none

@@ -33,33 +33,32 @@ int sign_of_sum(const std::array<Int128, 3>& factors, const std::array<Int128, 3
 
 /// Side of d for four cocircular points: the point latest in lexicographic order is raised most, so the first
 /// coefficient of a raised height that is not zero, from the latest point down, decides.
-int perturbed_side(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+template <class Less>
+int perturbed_side(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Less& less) {
   struct Raised {
     Vec2 point;
     int coefficient;
   };
   std::array<Raised, 4> raised{
       {{a, orient2d(b, c, d)}, {b, orient2d(c, a, d)}, {c, orient2d(a, b, d)}, {d, -orient2d(a, b, c)}}};
-  std::sort(raised.begin(), raised.end(),
-            [](const Raised& p, const Raised& q) { return lexicographically_less(q.point, p.point); });
+  std::sort(raised.begin(), raised.end(), [&](const Raised& p, const Raised& q) { return less(q.point, p.point); });
   for (const Raised& r : raised)
     if (r.coefficient != 0)
       return r.coefficient;
   return 0;
 }
 
-} // namespace
-
-int in_circle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
+/// Sign of the determinant, 0 for cocircular points.
+int exact_side(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
   const Int128 ax = lattice.steps(a.x - d.x), ay = lattice.steps(a.y - d.y);
   const Int128 bx = lattice.steps(b.x - d.x), by = lattice.steps(b.y - d.y);
   const Int128 cx = lattice.steps(c.x - d.x), cy = lattice.steps(c.y - d.y);
-  const int sign = sign_of_sum({bx * cy - cx * by, cx * ay - ax * cy, ax * by - bx * ay},
-                               {ax * ax + ay * ay, bx * bx + by * by, cx * cx + cy * cy});
-  return sign != 0 ? sign : perturbed_side(a, b, c, d);
+  return sign_of_sum({bx * cy - cx * by, cx * ay - ax * cy, ax * by - bx * ay},
+                     {ax * ax + ay * ay, bx * bx + by * by, cx * cx + cy * cy});
 }
 
-int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
+/// The sign where the float filter is sure of it, else 0.
+int filtered_side(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   const double ax = a.x - d.x, ay = a.y - d.y, bx = b.x - d.x, by = b.y - d.y, cx = c.x - d.x, cy = c.y - d.y;
   const double bxcy = bx * cy, cxby = cx * by, cxay = cx * ay, axcy = ax * cy, axby = ax * by, bxay = bx * ay;
   const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
@@ -68,11 +67,31 @@ int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
                            c2 * (std::fabs(axby) + std::fabs(bxay));
   constexpr double epsilon = 0x1p-53;
   constexpr double error_bound = (10 + 96 * epsilon) * epsilon;
-  if (determinant > error_bound * permanent)
-    return 1;
-  if (determinant < -error_bound * permanent)
-    return -1;
-  return in_circle_exact(a, b, c, d, lattice);
+  return (determinant > error_bound * permanent) - (determinant < -error_bound * permanent);
+}
+
+} // namespace
+
+int in_circle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
+  const int sign = exact_side(a, b, c, d, lattice);
+  return sign != 0 ? sign : perturbed_side(a, b, c, d, lexicographically_less);
+}
+
+int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
+  const int sign = filtered_side(a, b, c, d);
+  return sign != 0 ? sign : in_circle_exact(a, b, c, d, lattice);
+}
+
+int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice, const Periods& periods) {
+  int sign = filtered_side(a, b, c, d);
+  if (sign == 0)
+    sign = exact_side(a, b, c, d, lattice);
+  if (sign != 0)
+    return sign;
+  return perturbed_side(a, b, c, d, [&](Vec2 p, Vec2 q) {
+    // Images of one point: any order will do, since no triangle that counts is that large.
+    return periods.same_point(p, q) ? lexicographically_less(p, q) : periods.less(p, q);
+  });
 }
 
 } // namespace trime::geometry

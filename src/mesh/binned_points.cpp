@@ -5,6 +5,7 @@
 #include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace trime::mesh {
 namespace {
@@ -17,7 +18,8 @@ constexpr int bins_per_site = 4;  // at most, however the sites of a tile are cl
 } // namespace
 
 BinnedPoints::BinnedPoints(const TileGrid& grid)
-    : grid_(&grid), tile_block_(static_cast<std::size_t>(grid.tile_count()), -1) {}
+    : grid_(&grid), images_(grid.images()),
+      tile_block_(static_cast<std::size_t>(grid.tile_count()) * static_cast<std::size_t>(images_), -1) {}
 
 LocalIndex BinnedPoints::assign_owned(std::span<const Site> sites, LocalIndex first_tile, LocalIndex last_tile,
                                       std::vector<LocalIndex>* new_index) {
@@ -67,7 +69,7 @@ void BinnedPoints::make_owned_blocks() {
   blocks_.clear();
   std::size_t bins = 0;
   for (LocalIndex tile = first_tile_; tile < last_tile_; ++tile) {
-    tile_block_[static_cast<std::size_t>(tile)] = static_cast<LocalIndex>(blocks_.size());
+    tile_block_[block_slot(tile, 0)] = static_cast<LocalIndex>(blocks_.size());
     blocks_.push_back({bins, grid_->bin_bits(tile), true});
     bins += static_cast<std::size_t>(grid_->bins_per_tile(tile));
   }
@@ -166,6 +168,9 @@ LocalIndex BinnedPoints::sort_tile(std::span<const Site> sites, LocalIndex tile)
 
 void BinnedPoints::assign_ghosts(std::span<const BinRef> bins, std::span<const std::int32_t> counts,
                                  std::span<const Ghost> sites) {
+  const std::int64_t announced = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+  TRIME_ASSERT(announced == static_cast<std::int64_t>(sites.size()), "{} ghosts announced, {} received", announced,
+               sites.size());
   for (std::size_t b = static_cast<std::size_t>(owned_blocks_); b < blocks_.size(); ++b)
     blocks_[b].complete = false;
   blocks_.resize(static_cast<std::size_t>(owned_blocks_));
@@ -176,13 +181,17 @@ void BinnedPoints::assign_ghosts(std::span<const BinRef> bins, std::span<const s
   bin_known_.resize(bin_begin_.size());
   positions_.resize(static_cast<std::size_t>(owned_));
   boundary_.resize(positions_.size());
-  for (const Ghost& s : sites) {
-    positions_.push_back(s.position);
-    boundary_.push_back(s.boundary);
-  }
+  positions_.reserve(positions_.size() + sites.size());
+  boundary_.reserve(positions_.capacity());
   LocalIndex next = owned_;
   for (std::size_t k = 0; k < bins.size(); ++k) {
-    LocalIndex& block = tile_block_[static_cast<std::size_t>(bins[k].tile)];
+    const geometry::Vec2 shift = grid_->shift(bins[k].image);
+    for (LocalIndex s = next - owned_; s < next - owned_ + counts[k]; ++s) {
+      const Ghost& ghost = sites[static_cast<std::size_t>(s)];
+      positions_.push_back(ghost.position + shift);
+      boundary_.push_back(ghost.boundary);
+    }
+    LocalIndex& block = tile_block_[block_slot(bins[k].tile, bins[k].image)];
     if (block < 0) {
       block = static_cast<LocalIndex>(blocks_.size());
       blocks_.push_back({bin_begin_.size(), grid_->bin_bits(bins[k].tile), false});
@@ -196,7 +205,6 @@ void BinnedPoints::assign_ghosts(std::span<const BinRef> bins, std::span<const s
     bin_end_[bin] = next;
     bin_known_[bin] = 1;
   }
-  TRIME_ASSERT(next == size(), "{} ghosts announced, {} received", next - owned_, size() - owned_);
 }
 
 BinnedPoints::Range BinnedPoints::tile_range(LocalIndex tile) const {
@@ -205,7 +213,7 @@ BinnedPoints::Range BinnedPoints::tile_range(LocalIndex tile) const {
 }
 
 BinnedPoints::Range BinnedPoints::bin_range(BinRef bin) const {
-  const LocalIndex block = tile_block_[static_cast<std::size_t>(bin.tile)];
+  const LocalIndex block = tile_block_[block_slot(bin.tile, bin.image)];
   if (block < 0)
     return {0, 0};
   const std::size_t at = blocks_[static_cast<std::size_t>(block)].first_bin + static_cast<std::size_t>(bin.bin);

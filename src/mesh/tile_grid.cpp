@@ -59,7 +59,8 @@ GridPosition hilbert_position(std::uint64_t key, int level) {
   return {x, y};
 }
 
-TileGrid::TileGrid(const geometry::Box& container, const GridOptions& options) : container_(container) {
+TileGrid::TileGrid(const geometry::Box& container, const GridOptions& options)
+    : container_(container), periods_(options.periods) {
   TRIME_ASSERT(container.width() > 0 && container.height() > 0);
   cells_x_ = options.cells_x.value_or(auto_cells(container.width(), options.point_spacing));
   cells_y_ = options.cells_y.value_or(auto_cells(container.height(), options.point_spacing));
@@ -78,8 +79,8 @@ TileGrid::TileGrid(const geometry::Box& container, const GridOptions& options) :
   const int block = 1 << block_bits;
   tiles_x_ = (cells_x_ + block - 1) / block;
   tiles_y_ = (cells_y_ + block - 1) / block;
-  tile_width_ = cell_width * block;
-  tile_height_ = cell_height * block;
+  tile_width_ = periods_.x > 0 ? periods_.x / tiles_x_ : cell_width * block;
+  tile_height_ = periods_.y > 0 ? periods_.y / tiles_y_ : cell_height * block;
   const double in_tile = in_cell * block * block;
   typical_bin_bits_ =
       std::clamp(static_cast<int>(std::lround(0.5 * std::log2(std::max(1.0, in_tile / points_per_cell)))), 0, 12);

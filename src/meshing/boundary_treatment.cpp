@@ -26,8 +26,11 @@ Step capped(Step step, double limit) {
   return step;
 }
 
-Vec2 into_box(Vec2 p, const geometry::Box& box) {
-  return {std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y)};
+/// Not across a border; along periodic axes there is none.
+Vec2 into_box(Vec2 p, const mesh::TileGrid& grid) {
+  const geometry::Box& box = grid.container();
+  return {grid.periods().x > 0 ? p.x : std::clamp(p.x, box.min.x, box.max.x),
+          grid.periods().y > 0 ? p.y : std::clamp(p.y, box.min.y, box.max.y)};
 }
 
 constexpr double largest_power = 0x1p10; // of one site, keeps FixedSum within its reach
@@ -40,7 +43,6 @@ MoveCounts move_all(SiteState& state, const MoveContext& context, int allowed, c
   std::vector<std::uint8_t> deleted(sites.size(), 0);
   std::vector<MoveCounts> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
   const StarView view = view_of(state, context.size);
-  const geometry::Box& container = state.grid().container();
   const LocalIndex first_tile = points.first_tile();
   thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t t, int thread) {
     const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
@@ -52,7 +54,7 @@ MoveCounts move_all(SiteState& state, const MoveContext& context, int allowed, c
       const Vec2 from = site.position;
       const double h = view.size(i);
       const Step step = propose(i, h);
-      site.position = context.lattice.snap(into_box(from + step.move + step.lead, container));
+      site.position = context.lattice.snap(into_box(from + step.move + step.lead, state.grid()));
       site.lead = step.lead;
       counts.power.add(std::clamp(step.power, -largest_power, largest_power));
       if (const auto pushed = context.guard.correct(site.position, h, context.lattice)) {
@@ -61,7 +63,7 @@ MoveCounts move_all(SiteState& state, const MoveContext& context, int allowed, c
           ++counts.deleted;
           continue;
         }
-        site.position = context.lattice.snap(into_box(*pushed, container));
+        site.position = context.lattice.snap(into_box(*pushed, state.grid()));
         site.lead = {};
         ++site.pushes;
         ++counts.pushed;

@@ -112,7 +112,7 @@ void count_site(const ExtractionContext& context, const std::vector<GlobalId>& i
     }
     if (k + 1 < fan.triangles || fan.closed) { // the edge to v lies between two triangles
       const Vec2 s = points.position(fan.neighbour(k + 2));
-      counts.not_delaunay += geometry::in_circle(p, q, r, s, context.lattice) > 0;
+      counts.not_delaunay += geometry::in_circle(p, q, r, s, context.lattice, points.grid().periods()) > 0;
     }
   }
   for (std::size_t k = 0; fan.complete && k < fan.edges(); ++k)

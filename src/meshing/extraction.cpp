@@ -151,15 +151,24 @@ Fan inside_fan(const ExtractionContext& context, LocalIndex i) {
     return fan;
   }
   const BoundarySite& site = context.boundary.sites[at(b)];
+  // Positions tell the images of a boundary site from each other.
+  const geometry::Vec2 before =
+      context.boundary.chord(site.previous).a - context.boundary.sites[at(site.previous)].next_shift;
+  const auto is_next = [&](LocalIndex j) {
+    return points.boundary(j) == site.next && points.position(j) == context.boundary.chord(b).b;
+  };
+  const auto is_previous = [&](LocalIndex j) {
+    return points.boundary(j) == site.previous && points.position(j) == before;
+  };
   std::size_t first = 0;
-  while (first < n && (fan.ring[first] == delaunay::gap || points.boundary(fan.ring[first]) != site.next))
+  while (first < n && (fan.ring[first] == delaunay::gap || !is_next(fan.ring[first])))
     ++first;
   fan.first = first;
   for (std::size_t k = 1; first < n && k < n; ++k) {
     const LocalIndex neighbour = fan.neighbour(k);
     if (neighbour == delaunay::gap)
       break;
-    if (points.boundary(neighbour) == site.previous) {
+    if (is_previous(neighbour)) {
       fan.triangles = k;
       fan.complete = true;
       break;

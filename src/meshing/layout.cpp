@@ -40,7 +40,7 @@ std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Layout
   return std::make_unique<SiteState>(context.comm, box,
                                      mesh::GridOptions{cells(options.cells_x, box.width() / container.width()),
                                                        cells(options.cells_y, box.height() / container.height()), h,
-                                                       !context.relative_size.is_uniform()});
+                                                       !context.relative_size.is_uniform(), periods});
 }
 
 } // namespace

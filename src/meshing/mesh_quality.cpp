@@ -26,12 +26,12 @@ struct QualitySums {
   FixedSum ratio, squared_ratio; ///< L / h over edges
   std::int64_t edges = 0;
 
-  void add_triangle(Vec2 p, Vec2 q, Vec2 r) {
+  void add_triangle(Vec2 p, Vec2 q, Vec2 r, const geometry::Periods& periods) {
     const double a = mesh::aspect_ratio(p, q, r);
     alpha.add(a);
     beta.add(mesh::edge_ratio(p, q, r));
     min_angle = std::min(min_angle, mesh::min_angle_degrees(p, q, r));
-    note_worst(a, (1.0 / 3) * (p + q + r));
+    note_worst(a, periods.wrap((1.0 / 3) * (p + q + r)));
   }
   void note_worst(double a, Vec2 place) {
     if (a > worst_alpha || (a == worst_alpha && geometry::lexicographically_less(place, worst_place))) {
@@ -58,18 +58,19 @@ struct QualitySums {
 
 void measure_site(const ExtractionContext& context, const std::vector<GlobalId>& ids, LocalIndex i, QualitySums& sums) {
   const mesh::BinnedPoints& points = context.state.points();
+  const geometry::Periods& periods = points.grid().periods();
   const Fan fan = inside_fan(context, i);
   const Vec2 p = points.position(i);
   for (std::size_t k = 0; k < fan.triangles; ++k) {
     const LocalIndex a = fan.neighbour(k), b = fan.neighbour(k + 1);
     if (ids[at(i)] < ids[at(a)] && ids[at(i)] < ids[at(b)])
-      sums.add_triangle(p, points.position(a), points.position(b));
+      sums.add_triangle(p, points.position(a), points.position(b), periods);
   }
   for (std::size_t k = 0; fan.complete && k < fan.edges(); ++k) {
     const LocalIndex j = fan.neighbour(k);
     const Vec2 q = points.position(j);
     if (ids[at(i)] < ids[at(j)])
-      sums.add_edge(geometry::length(q - p) / context.size.size(0.5 * (p + q)));
+      sums.add_edge(geometry::length(q - p) / context.size.size(periods.wrap(0.5 * (p + q))));
   }
 }
 

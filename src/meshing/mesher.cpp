@@ -9,6 +9,7 @@
 #include "meshing/site_state.hpp"
 #include "meshing/stopping.hpp"
 #include "meshing/sweep_record.hpp"
+#include "trime/core/error.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/meshing/update_rule.hpp"
 
@@ -203,6 +204,19 @@ private:
 
   ExtractionContext extraction() const { return {state(), layout_.boundary, *layout_.size, lattice_, fixed_->all()}; }
 
+  /// Throws if triangles of a periodic container reach around it: then their ids do not tell them apart.
+  void check_periods() {
+    const geometry::Periods& periods = boundary_.periods;
+    const double limit = delaunay::StarBuilder::largest_cap(periods);
+    if (builder_->cap(layout_.typical_size) < limit || comm_.sum(count_incomplete_fans(extraction())) == 0)
+      return;
+    const double size = limit / 1.5; // circumradii stay below 1.5 h
+    throw GeometryError(fmt::format("the periodic container needs triangles smaller than a quarter of its period, "
+                                    "found an element size of {:.3g} in a period of {:.3g}; ask for about {} points",
+                                    layout_.typical_size, 4 * limit,
+                                    static_cast<GlobalId>(std::ceil(boundary_.area / (0.866 * size * size)))));
+  }
+
   /// Stars of all sites. Where a fan is not complete the cap may have been too low (a void): it is doubled for these
   /// sites, a few times; the certificate tells of what remains.
   void complete_stars() {
@@ -217,6 +231,8 @@ private:
         state().stars().set_certain(i, inside_fan(extraction(), i).complete);
       stars(Wanted::all_sites);
     }
+    if (boundary_.periods.any())
+      check_periods();
   }
 
   MeshResult extract() {

@@ -35,7 +35,16 @@ SiteState::SiteState(const comm::Communicator& comm, const geometry::Box& box, c
     : comm_(comm), grid_(box, grid_options), partition_(grid_.tile_count(), comm.size()), points_(grid_),
       halo_(comm, grid_) {}
 
+/// Into the container, where it is periodic.
+void SiteState::wrap(std::vector<mesh::Site>& sites) const {
+  const geometry::Periods& periods = grid_.periods();
+  if (periods.any())
+    for (mesh::Site& site : sites)
+      site.position = periods.wrap(site.position);
+}
+
 void SiteState::distribute(std::vector<mesh::Site> sites) {
+  wrap(sites);
   const std::vector<std::int64_t> weights = decomposition::tile_weights(comm_, grid_, sites);
   partition_ = decomposition::Partition(weights, comm_.size());
   check_counts(weights, partition_);
@@ -62,6 +71,7 @@ void SiteState::choose_bins(std::span<const mesh::Site> sites) {
 
 void SiteState::move_sites(std::vector<mesh::Site>& sites, std::span<const std::uint8_t> deleted) {
   const std::size_t before = sites.size();
+  wrap(sites);
   renumbering_.assign(before, -1);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < before; ++i)
@@ -90,12 +100,13 @@ void SiteState::refresh_sites(const sizing::SizeField& size) {
     sizes_ = mesh::LocalSizes(size.size({}));
     return;
   }
+  const geometry::Periods& periods = grid_.periods();
   std::vector<double>& values = sizes_.values();
   const LocalIndex first = sizes_.known(0) ? points_.owned() : 0;
   values.resize(static_cast<std::size_t>(points_.size()));
   thread_loop(points_.size() - first, size_chunk, [&](std::ptrdiff_t k, int) {
     const LocalIndex i = first + static_cast<LocalIndex>(k);
-    values[static_cast<std::size_t>(i)] = size.size(points_.position(i));
+    values[static_cast<std::size_t>(i)] = size.size(periods.wrap(points_.position(i)));
   });
 }
 
@@ -113,7 +124,7 @@ delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder
     missing.clear();
     const delaunay::StarPass pass = builder.update(points_, stars_, sizes_, wanted_, missing);
     all.rebuilt += pass.rebuilt;
-    if (comm_.size() == 1 || comm_.sum(pass.uncertain) == 0)
+    if (comm_.sum(pass.uncertain) == 0)
       return all;
     const LocalIndex ghosts_from = points_.owned();
     halo_.subscribe(missing);

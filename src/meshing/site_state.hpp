@@ -48,6 +48,7 @@ public:
   void release_work_space();
 
 private:
+  void wrap(std::vector<mesh::Site>& sites) const;
   void choose_bins(std::span<const mesh::Site> sites);
   void refresh_sites(const sizing::SizeField& size);
 

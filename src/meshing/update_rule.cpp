@@ -16,8 +16,9 @@ constexpr double largest_term = 0x1p17; // keeps FixedSum within its reach
 
 /// A triangle with several inner sites is measured from the lexicographically smallest of them.
 bool is_measured_from(const mesh::BinnedPoints& points, Vec2 p, LocalIndex a, LocalIndex b) {
-  return (points.boundary(a) >= 0 || geometry::lexicographically_less(p, points.position(a))) &&
-         (points.boundary(b) >= 0 || geometry::lexicographically_less(p, points.position(b)));
+  const geometry::Periods& periods = points.grid().periods();
+  return (points.boundary(a) >= 0 || periods.less(p, points.position(a))) &&
+         (points.boundary(b) >= 0 || periods.less(p, points.position(b)));
 }
 
 void measure_site(const StarView& view, LocalIndex i, double inverse_reference, SweepSums& sums) {

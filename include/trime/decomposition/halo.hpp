@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ghost sites: each rank subscribes to bins of foreign tiles; their owners send the sites of these bins at every
-// refresh. Subscriptions persist and grow on request. Knows nothing of triangles.
+// Ghost sites: each rank subscribes to bins of foreign tiles, and in a periodic container to images of bins, its own
+// among them; their owners send the sites of these bins at every refresh, the receivers move them to their images.
+// Subscriptions persist and grow on request. Knows nothing of triangles.
 //
 // Words, seen from this rank: it *imports* the bins that it subscribes to and *exports* those that others subscribe to;
 // an owned site in an exported bin is a *mirror*, its copy elsewhere a *ghost*.
@@ -19,11 +20,12 @@ public:
   /// @pre both outlive this object
   Halo(const comm::Communicator& comm, const mesh::TileGrid& grid);
 
-  /// @brief Starts anew for a partition: subscribes to all foreign bins within `margin` bins of an owned tile.
-  /// Collective.
+  /// @brief Starts anew for a partition: subscribes to all foreign bins and images within `margin` bins of an owned
+  /// tile. Collective.
   void reset(const Partition& partition, int margin);
 
-  /// @brief Adds `bins` (of foreign tiles) to the subscriptions of this rank. Collective; ranks may ask for nothing.
+  /// @brief Adds `bins` (of foreign tiles or of images) to the subscriptions of this rank. Collective; ranks may ask
+  /// for nothing.
   void subscribe(std::span<const mesh::BinRef> bins);
 
   /// @brief Fetches the sites of all subscribed bins and puts them into `points` as ghosts. Collective among neighbours

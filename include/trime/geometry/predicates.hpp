@@ -3,6 +3,7 @@
 #pragma once
 
 #include "trime/geometry/lattice.hpp"
+#include "trime/geometry/periods.hpp"
 #include "trime/geometry/vec2.hpp"
 
 namespace trime::geometry {
@@ -33,5 +34,9 @@ int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice);
 
 /// The same without filter: for tests and as the slow path.
 int in_circle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice);
+
+/// @brief The same in a periodic container, for the four points and their images alike: the order behind a tie is that
+/// of the canonical images, so that all views of four points agree. Without periods equal to the above.
+int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice, const Periods& periods);
 
 } // namespace trime::geometry

@@ -31,10 +31,11 @@ struct Ghost {
   std::int32_t unused = 0; ///< no byte of a message is left to chance
 };
 
-/// A bin of a tile.
+/// A bin of a tile, or of an image of a tile (see TileGrid).
 struct BinRef {
   LocalIndex tile;
   std::int32_t bin;
+  std::int32_t image = 0;
   friend auto operator<=>(const BinRef&, const BinRef&) = default;
 };
 
@@ -53,8 +54,9 @@ public:
   LocalIndex assign_owned(std::span<const Site> sites, LocalIndex first_tile, LocalIndex last_tile,
                           std::vector<LocalIndex>* new_index = nullptr);
 
-  /// @brief Replaces the ghosts: `bins` (ascending, of foreign tiles) are known from now on and hold counts[k] sites
-  /// each, concatenated in `sites`.
+  /// @brief Replaces the ghosts: `bins` (ascending, of foreign tiles or of images of any) are known from now on and
+  /// hold counts[k] sites each, concatenated in `sites` at their canonical positions; here they are moved to their
+  /// images.
   void assign_ghosts(std::span<const BinRef> bins, std::span<const std::int32_t> counts, std::span<const Ghost> sites);
 
   LocalIndex owned() const { return owned_; }
@@ -82,6 +84,7 @@ public:
 
   /// @brief Calls visit(begin, end) for runs of local indices that together hold every known site of all bins that
   /// meet the square of half-width `reach` around `center`, and missing(BinRef) for each such bin that is unknown.
+  /// @pre in a periodic container: `center` canonical, reach below the period
   template <class Visit, class Missing>
   void for_each_near(geometry::Vec2 center, double reach, const Visit& visit, const Missing& missing) const;
 
@@ -101,6 +104,9 @@ private:
   template <class Visit, class Missing>
   void visit_row(BinRef first_bin, int bx0, int bx1, const Visit& visit, const Missing& missing) const;
   void make_owned_blocks();
+  std::size_t block_slot(LocalIndex tile, std::int32_t image) const {
+    return static_cast<std::size_t>(tile) * static_cast<std::size_t>(images_) + static_cast<std::size_t>(image);
+  }
   void sort_into_tiles(std::span<const Site> sites);
   LocalIndex sort_tile(std::span<const Site> sites, LocalIndex tile);
 
@@ -110,7 +116,8 @@ private:
   std::vector<std::int32_t> boundary_;
   std::vector<std::uint8_t> pushes_;   // owned only
   std::vector<geometry::Vec2> leads_;  // owned only
-  std::vector<LocalIndex> tile_block_; // by tile number: index into blocks_, -1 unknown; O(tiles of the container)
+  int images_;                         // of a tile
+  std::vector<LocalIndex> tile_block_; // by tile and image: index into blocks_, -1 unknown; O(tiles of the container)
   std::vector<Block> blocks_;
   std::vector<LocalIndex> bin_begin_, bin_end_;
   std::vector<std::uint8_t> bin_known_;
@@ -126,11 +133,12 @@ template <class Visit, class Missing>
 void BinnedPoints::for_each_near(geometry::Vec2 center, double reach, const Visit& visit,
                                  const Missing& missing) const {
   const TileGrid& grid = *grid_;
-  const std::uint32_t x0 = grid.fixed_x(center.x - reach), x1 = grid.fixed_x(center.x + reach);
-  const std::uint32_t y0 = grid.fixed_y(center.y - reach), y1 = grid.fixed_y(center.y + reach);
+  const std::int64_t x0 = grid.unrolled_x(center.x - reach), x1 = grid.unrolled_x(center.x + reach);
+  const std::int64_t y0 = grid.unrolled_y(center.y - reach), y1 = grid.unrolled_y(center.y + reach);
   const int tx0 = grid.tile_of(x0), tx1 = grid.tile_of(x1), ty0 = grid.tile_of(y0), ty1 = grid.tile_of(y1);
   if (tx0 == tx1 && ty0 == ty1) { // most squares lie in one tile
-    const LocalIndex block = tile_block_[static_cast<std::size_t>(grid.tile_at(tx0, ty0))];
+    const TileGrid::TileImage at = grid.tile_image_at(tx0, ty0);
+    const LocalIndex block = tile_block_[block_slot(at.tile, at.image)];
     if (block >= 0 && blocks_[static_cast<std::size_t>(block)].complete) {
       const Block& b = blocks_[static_cast<std::size_t>(block)];
       const LocalIndex* begin = bin_begin_.data() + b.first_bin + grid.bin_of(x0, b.bits);
@@ -143,22 +151,22 @@ void BinnedPoints::for_each_near(geometry::Vec2 center, double reach, const Visi
   }
   for (int ty = ty0; ty <= ty1; ++ty)
     for (int tx = tx0; tx <= tx1; ++tx) {
-      const LocalIndex tile = grid.tile_at(tx, ty);
-      const int bits = grid.bin_bits(tile), last = (1 << bits) - 1;
+      const TileGrid::TileImage at = grid.tile_image_at(tx, ty);
+      const int bits = grid.bin_bits(at.tile), last = (1 << bits) - 1;
       const int bx0 = tx == tx0 ? grid.bin_of(x0, bits) : 0, bx1 = tx == tx1 ? grid.bin_of(x1, bits) : last;
       const int by0 = ty == ty0 ? grid.bin_of(y0, bits) : 0, by1 = ty == ty1 ? grid.bin_of(y1, bits) : last;
       for (int by = by0; by <= by1; ++by)
-        visit_row({tile, by << bits}, bx0, bx1, visit, missing);
+        visit_row({at.tile, by << bits, at.image}, bx0, bx1, visit, missing);
     }
 }
 
 /// Bins first_bin.bin + bx0 .. first_bin.bin + bx1 of one row of one tile.
 template <class Visit, class Missing>
 void BinnedPoints::visit_row(BinRef first_bin, int bx0, int bx1, const Visit& visit, const Missing& missing) const {
-  const LocalIndex block = tile_block_[static_cast<std::size_t>(first_bin.tile)];
+  const LocalIndex block = tile_block_[block_slot(first_bin.tile, first_bin.image)];
   if (block < 0) {
     for (int bx = bx0; bx <= bx1; ++bx)
-      missing(BinRef{first_bin.tile, first_bin.bin | bx});
+      missing(BinRef{first_bin.tile, first_bin.bin | bx, first_bin.image});
     return;
   }
   const Block& b = blocks_[static_cast<std::size_t>(block)];
@@ -171,7 +179,7 @@ void BinnedPoints::visit_row(BinRef first_bin, int bx0, int bx1, const Visit& vi
     if (bin_known_[first + bx])
       visit(bin_begin_[first + bx], bin_end_[first + bx]);
     else
-      missing(BinRef{first_bin.tile, first_bin.bin | bx});
+      missing(BinRef{first_bin.tile, first_bin.bin | bx, first_bin.image});
   }
 }
 

@@ -4,9 +4,11 @@
 #pragma once
 
 #include "trime/core/types.hpp"
+#include "trime/geometry/periods.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -26,11 +28,15 @@ struct GridOptions {
   std::optional<int> cells_x, cells_y; ///< container grid; empty: about 3.3 points a cell
   double point_spacing = 0.01;         ///< typical edge length, for the sizes that are not given
   bool graded = false; ///< the density varies: more and smaller tiles, so that a dense one is no large share of all
+  geometry::Periods periods{}; ///< of the container, which is one period long along periodic axes
 };
 
 /// @brief Tiles are numbered 0..tile_count()-1 in Hilbert order; bins of one tile row by row. Every point of the
 /// container has a 32-bit fixed-point position per axis; tile, bin and Hilbert key are its leading bits, so the
 /// numbering of tiles is a prefix of the order of points. O(tiles) memory, replicated on every rank.
+///
+/// Along a periodic axis the tiles divide the period, and each tile has images beside the container, one period away on
+/// either side: an image is one of 9 shifts by (-1, 0, 1) periods along each axis, 0 being none.
 ///
 /// Each tile has 2^b x 2^b bins with a b of its own, so that bins hold a few sites where the density varies by orders
 /// of magnitude. Only b ever changes, by set_bin_bits.
@@ -66,13 +72,36 @@ public:
   std::uint32_t fixed_x(double x) const { return fixed((x - container_.min.x) * scale_x_, limit_x_); }
   std::uint32_t fixed_y(double y) const { return fixed((y - container_.min.y) * scale_y_, limit_y_); }
   /// Column (or row) in the tile grid of a fixed-point position.
-  int tile_of(std::uint32_t position) const { return static_cast<int>(position >> tile_shift_); }
+  int tile_of(std::int64_t position) const { return static_cast<int>(position >> tile_shift_); }
   /// Column (or row) of the bin inside its tile, for a tile of 2^bits x 2^bits bins.
-  int bin_of(std::uint32_t position, int bits) const {
+  int bin_of(std::int64_t position, int bits) const {
     return static_cast<int>(position >> (tile_shift_ - bits)) & ((1 << bits) - 1);
   }
   /// The side of a tile is 2^tile_shift() in fixed-point positions.
   int tile_shift() const { return tile_shift_; }
+
+  /// The same without clamping along periodic axes: images of the container follow each other.
+  std::int64_t unrolled_x(double x) const {
+    return periods_.x > 0 ? static_cast<std::int64_t>(std::floor((x - container_.min.x) * scale_x_)) : fixed_x(x);
+  }
+  std::int64_t unrolled_y(double y) const {
+    return periods_.y > 0 ? static_cast<std::int64_t>(std::floor((y - container_.min.y) * scale_y_)) : fixed_y(y);
+  }
+
+  const geometry::Periods& periods() const { return periods_; }
+  /// Images of a tile that may be told apart: 9, or 1 in a container without periods.
+  int images() const { return periods_.any() ? 9 : 1; }
+  /// By how much an image is moved; exact for lattice points.
+  geometry::Vec2 shift(int image) const { return {step_of(image % 3) * periods_.x, step_of(image / 3) * periods_.y}; }
+  /// Tile at an unrolled column and row, at most one period out of the container, and the image of it that lies there.
+  struct TileImage {
+    LocalIndex tile;
+    std::int32_t image;
+  };
+  TileImage tile_image_at(int x, int y) const {
+    const int ix = x < 0 ? 2 : x >= tiles_x_ ? 1 : 0, iy = y < 0 ? 2 : y >= tiles_y_ ? 1 : 0;
+    return {tile_at(x - step_of(ix) * tiles_x_, y - step_of(iy) * tiles_y_), ix + 3 * iy};
+  }
 
   /// Tile and bin of a point.
   struct Place {
@@ -89,11 +118,13 @@ public:
   std::uint64_t point_key(geometry::Vec2 p) const { return hilbert_key(fixed_x(p.x), fixed_y(p.y), 32); }
 
 private:
+  static constexpr int step_of(int third) { return third == 2 ? -1 : third; }
   static std::uint32_t fixed(double v, std::uint32_t limit) {
     return v <= 0 ? 0 : v >= static_cast<double>(limit) ? limit : static_cast<std::uint32_t>(v);
   }
 
   geometry::Box container_;
+  geometry::Periods periods_;
   int cells_x_ = 1, cells_y_ = 1, tiles_x_ = 1, tiles_y_ = 1;
   int typical_bin_bits_ = 4, tile_shift_ = 32;
   double scale_x_ = 1, scale_y_ = 1;

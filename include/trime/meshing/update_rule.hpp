@@ -25,8 +25,10 @@ public:
         uniform_size_(is_uniform_ ? field.size({}) : 0) {}
 
   bool is_uniform() const { return is_uniform_; }
-  /// h at any point.
-  double size(geometry::Vec2 p) const { return is_uniform_ ? uniform_size_ : size_.size(p); }
+  /// h at any point, or image of one.
+  double size(geometry::Vec2 p) const {
+    return is_uniform_ ? uniform_size_ : size_.size(points.grid().periods().wrap(p));
+  }
   /// h at site i, owned or ghost: a look-up where it is known, the same bits as size(points.position(i)).
   double size(LocalIndex i) const { return sizes_ && sizes_->known(i) ? (*sizes_)[i] : size(points.position(i)); }
 

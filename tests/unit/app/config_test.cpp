@@ -218,8 +218,6 @@ TEST(Config, AChangedTypeShowsTheKeysThatNoLongerBelong) {
 }
 
 TEST(Config, RefusesByNameWhatThisVersionCannotDo) {
-  expect_refused("domain.periodic_x=true", "'periodic_x = true' in [domain] is not supported yet; leave it false");
-  expect_refused("domain.periodic_y=true", "not supported yet; leave it false");
   expect_refused("meshing.fixed_points_normalize_with=box", "means nothing without 'fixed_points'");
   expect_refused("output.formats=vtkhdf gmsh", "not supported yet; use vtkhdf, xdmf, text");
   expect_refused("checkpoint.interval=60", "not supported yet; leave it 0");
@@ -227,7 +225,7 @@ TEST(Config, RefusesByNameWhatThisVersionCannotDo) {
 }
 
 TEST(Config, TakesTheDefaultsWhenTheyAreSpeltOut) {
-  for (const char* text : {"domain.periodic_x=false", "sizing.gradation=0.1", "sizing.gradation=0.0",
+  for (const char* text : {"domain.periodic_x=false", "domain.periodic_y=true", "sizing.gradation=0.1", "sizing.gradation=0.0",
                            "parallel.setup_threads=2", "meshing.initial_fraction=1", "output.interval=0",
                            "checkpoint.keep=2", "parallel.setup_threads=0", "meshing.points=4e9"})
     EXPECT_EQ(errors_of(good, {text}), "") << text;
