@@ -44,20 +44,6 @@ bool lies_on(const std::vector<Vec2>& chain, const std::vector<Vec2>& ring, doub
   });
 }
 
-/// In a periodic container the function ends at the border: a curve that crosses it would not be continued there.
-void check_periods(const std::string& name, const std::vector<std::vector<Vec2>>& rings, const Frame& frame) {
-  const Box& box = frame.inner();
-  const double allowed = 4 * frame.step();
-  for (const std::vector<Vec2>& ring : rings)
-    for (const Vec2 p : ring)
-      if ((frame.periods().x > 0 && (p.x < box.min.x - allowed || p.x > box.max.x + allowed)) ||
-          (frame.periods().y > 0 && (p.y < box.min.y - allowed || p.y > box.max.y + allowed)))
-        throw GeometryError(fmt::format("part '{}': the function is negative on the periodic border of the container, "
-                                        "near ({:.9g}, {:.9g}); expected a part that does not cross it: move the part "
-                                        "or [domain], or unite two parts",
-                                        name, p.x, p.y));
-}
-
 double resolution_of(const std::string& name, double given, double side) {
   if (!std::isfinite(given) || given < 0)
     throw GeometryError(
@@ -90,7 +76,6 @@ std::vector<std::vector<Vec2>> trace_zero_set(const std::string& name, const Sha
     if (ring.size() >= 3)
       rings.push_back(std::move(ring));
   }
-  check_periods(name, rings, frame);
   return rings;
 }
 
