@@ -93,7 +93,13 @@ std::size_t StarKernel::smallest() const {
 void StarKernel::start_virtual(Vec2 center, double distance) {
   center_ = center;
   constexpr std::array<Vec2, 4> direction{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-  const Vertex corner = circumcenter(distance, 0, 0, distance); // the other three are its mirror images
+  if (distance != virtual_distance_) {
+    const Vertex corner = circumcenter(distance, 0, 0, distance); // the other three are its mirror images
+    virtual_distance_ = distance;
+    corner_ = {corner.x, corner.y};
+    corner_error_ = corner.error;
+    corner_r2_ = corner.r2;
+  }
   degree_ = 4;
   squared_radius_ = -1;
   vertices_known_ = true;
@@ -102,10 +108,10 @@ void StarKernel::start_virtual(Vec2 center, double distance) {
     id_[k] = -2 - static_cast<LocalIndex>(k);
     x_[k] = distance * d.x;
     y_[k] = distance * d.y;
-    vertex_x_[k] = corner.x * (d.x + next.x);
-    vertex_y_[k] = corner.y * (d.y + next.y);
-    vertex_error_[k] = corner.error;
-    vertex_r2_[k] = corner.r2;
+    vertex_x_[k] = corner_.x * (d.x + next.x);
+    vertex_y_[k] = corner_.y * (d.y + next.y);
+    vertex_error_[k] = corner_error_;
+    vertex_r2_[k] = corner_r2_;
   }
 }
 

@@ -82,6 +82,9 @@ private:
   geometry::Lattice lattice_;
   geometry::Periods periods_; // only they need to know where the center is
   geometry::Vec2 center_;
+  double virtual_distance_ = 0; // of the last start, and a corner of its cell
+  geometry::Vec2 corner_;
+  double corner_error_ = 0, corner_r2_ = 0;
   double squared_radius_ = -1; // negative: not known
   std::size_t degree_ = 0;
   bool vertices_known_ = false; // a ring that is only checked needs none
