@@ -249,7 +249,7 @@ TEST(Implicit, SameBitsForAnyThreads) {
   EXPECT_EQ(places[0], places[1]);
 }
 
-TEST(Implicit, RefusesToCrossAPeriodicBorder) {
+TEST(Implicit, RefusesToCrossAPeriodicBorderWithoutItsPeriod) {
   const Frame frame(Box{{0, 0}, {1, 1}}, true, false);
   EXPECT_THROW(trace([](Vec2 p) { return disc(p, {0.95, 0.5}, 0.2); }, frame), GeometryError);
   EXPECT_NEAR(trace([](Vec2 p) { return disc(p, {0.75, 0.5}, 0.2); }, frame).boundary().area, pi * 0.04, 3e-6);
