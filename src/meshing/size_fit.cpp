@@ -10,7 +10,7 @@ namespace trime::meshing {
 namespace {
 
 constexpr double row_height = 0.8660254037844386;
-constexpr int boundary_rounds = 3, spacing_rounds = 12, density_rounds = 40;
+constexpr int boundary_rounds = 3, spacing_rounds = 12, density_rounds = 40, saturated_rounds = 8;
 constexpr double same_spacing = 0.02;
 constexpr double close_enough = 0.004; // of the points asked for
 
@@ -144,12 +144,14 @@ private:
     const geometry::Box& container = context_.options.container;
     const double largest = 64 * (container.width() + container.height()) * factor;
     double low = 0, high = INFINITY, fewest = INFINITY, last = 0, last_factor = 0;
+    int saturated = 0; // rounds in a row that changed nothing; the first ones may be too coarse for a site inside
     Trial best;
     for (int round = 0; round < density_rounds; ++round) {
       Trial trial = try_factor(factor);
       const double points = trial.points;
       fewest = std::min(fewest, points);
-      const bool saturated = round > 0 && high < INFINITY && low == 0 && std::fabs(points - last) < 1e-3 * last;
+      const bool same = high < INFINITY && low == 0 && std::fabs(points - last) < 1e-3 * last;
+      saturated = same ? saturated + 1 : 0;
       const double guess = next_factor(factor, points, last_factor, last);
       last = points;
       last_factor = factor;
@@ -161,7 +163,7 @@ private:
         if (points >= (1 - close_enough) * points_ || points > points_ - 2)
           return std::move(best.fit);
       }
-      if (saturated && high == factor)
+      if (saturated == saturated_rounds)
         break; // finer does not help: min_size, or the discs of the boundary fill the shape
       if (high < INFINITY && low > (1 - 1e-4) * high)
         break;

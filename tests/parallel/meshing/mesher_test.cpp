@@ -189,6 +189,26 @@ TEST(Mesher, TheNumberOfPointsIsMetByEveryScheme) {
     }
 }
 
+/// The first trials of the fit are far too coarse for any site inside, so the next ones find the same few points: once
+/// taken for a limit.
+TEST(Mesher, TheNumberOfPointsIsMetWhereTheSizeVariesAThousandfold) {
+  class Spike final : public sizing::SizeField {
+  public:
+    double size(Vec2 p) const override { return 0.0005 + geometry::length(p - Vec2{0.3, 0.4}); }
+  };
+  const comm::Communicator world = comm::Communicator::world();
+  Log log(LogLevel::silent, false);
+  TimerTable timers;
+  const Spike spike;
+  const RegionShape shape = square();
+  MeshOptions options = with_points(4000);
+  options.max_sweeps = 20;
+  const MeshResult result = Mesher(world, shape.boundary(), spike, options, log, timers).run();
+  EXPECT_GE(result.mesh.point_slab.total, 3900) << result.count_reason;
+  EXPECT_LE(result.mesh.point_slab.total, 4000);
+  expect_certified(result);
+}
+
 TEST(Mesher, BoundsOnTheSize) {
   const comm::Communicator world = comm::Communicator::world();
   for (const bool graded : {false, true}) {
