@@ -72,13 +72,13 @@ private:
 
   void set_up(Layout layout) {
     layout_ = std::move(layout);
-    const GlobalId placed = comm_.sum(std::int64_t{state().points().owned()});
+    placed_ = comm_.sum(std::int64_t{state().points().owned()});
     const mesh::TileGrid& grid = state().grid();
-    make_builder(placed);
+    make_builder(placed_);
     const int components = boundary_.components(), holes = boundary_.holes();
     log_.info("boundary: {} component{}, {} hole{}, {} sites, {} corners", components, components == 1 ? "" : "s",
               holes, holes == 1 ? "" : "s", layout_.boundary.sites.size(), layout_.boundary.corners);
-    log_.info("start: {} points in {} tiles ({} x {} cells), mean edge about {:.6g}", placed, grid.tile_count(),
+    log_.info("start: {} points in {} tiles ({} x {} cells), mean edge about {:.6g}", placed_, grid.tile_count(),
               grid.cells_x(), grid.cells_y(), layout_.typical_size);
     warn_of_fine_features();
     if (scheme_->is_last())
@@ -264,11 +264,9 @@ private:
       return {};
     if (!scheme_->shortage().empty())
       return scheme_->shortage();
-    GlobalId deleted = 0;
-    for (const SweepRecord& record : history_)
-      deleted += record.deleted;
-    return fmt::format("{} points came too near to the boundary and were deleted; the start left out the rest",
-                       deleted);
+    return fmt::format("{} points came too near to the boundary or to each other and were taken out; the start left "
+                       "out the rest",
+                       placed_ - points);
   }
 
   const comm::Communicator& comm_;
@@ -287,6 +285,7 @@ private:
   std::unique_ptr<PointScheme> scheme_;
   std::vector<SweepRecord> history_;
   AlphaBins alpha_bins_; // of the last sweep
+  GlobalId placed_ = 0;  // points at the beginning of the stage
   int sweeps_ = 0;       // moves made
   StopReason stop_reason_ = StopReason::sweep_cap;
 };

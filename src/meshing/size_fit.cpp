@@ -14,8 +14,13 @@ constexpr int boundary_rounds = 3, spacing_rounds = 12, density_rounds = 40, sat
 constexpr double same_spacing = 0.02;
 constexpr double close_enough = 0.004; // of the points asked for
 
-[[noreturn]] void fail_for_few_points(const LayoutContext& context, double fewest) {
+/// @param asked for in this stage
+[[noreturn]] void fail_for_few_points(const LayoutContext& context, double asked, double fewest) {
   const GlobalId points = context.options.points.value_or(0);
+  if (asked < static_cast<double>(points))
+    throw ConfigError(fmt::format("initial_fraction = {:g} leaves {:.0f} of {} points for the first stage, too few for "
+                                  "this shape and size: expected at least {:.0f}; use a larger initial_fraction",
+                                  context.options.initial_fraction.value_or(1), asked, points, fewest));
   if (context.options.max_size)
     throw ConfigError(fmt::format("points = {} are too few for max_size = {}: expected at least {:.0f}; ask for more "
                                   "points or a larger max_size",
@@ -39,7 +44,7 @@ Layout lay_affordable_boundary(const LayoutContext& context, double h, double ex
     if (!context.options.points || layout.on_boundary() <= *context.options.points)
       return layout;
   }
-  fail_for_few_points(context, static_cast<double>(fewest));
+  fail_for_few_points(context, expected, static_cast<double>(fewest));
 }
 
 /// @brief The smallest spacing found whose lattice has at most the wanted number of sites. The count falls like the
@@ -119,8 +124,8 @@ public:
     const geometry::Boundary& boundary = context_.boundary;
     const double uniform = context_.options.points ? estimated_size(boundary.area, boundary.length(), points_)
                                                    : size_factor_ * *context_.options.edge_length;
-    const double start = uniform / (size_factor_ * smallest_sampled(context_));
-    return context_.options.points ? for_points(start) : for_edge_length(start);
+    const double smallest = size_factor_ * smallest_sampled(context_);
+    return context_.options.points ? for_points(uniform / smallest, smallest) : for_edge_length(uniform / smallest);
   }
 
 private:
@@ -140,9 +145,10 @@ private:
   }
 
   /// From above: large factors make few points, so no trial costs more than the result.
-  DensityFit for_points(double factor) const {
+  /// @param smallest size for a factor of 1: where even that is far larger than the container, nothing will change
+  DensityFit for_points(double factor, double smallest) const {
     const geometry::Box& container = context_.options.container;
-    const double largest = 64 * (container.width() + container.height()) * factor;
+    const double largest = 64 * (container.width() + container.height()) / smallest;
     double low = 0, high = INFINITY, fewest = INFINITY, last = 0, last_factor = 0;
     int saturated = 0; // rounds in a row that changed nothing; the first ones may be too coarse for a site inside
     Trial best;
@@ -170,7 +176,7 @@ private:
       if (high == INFINITY) {
         factor = std::max(guess, 1.02 * factor);
         if (factor > largest)
-          fail_for_few_points(context_, fewest);
+          fail_for_few_points(context_, points_, fewest);
       } else if (low == 0) {
         factor = std::min(guess, 0.98 * factor);
       } else {
@@ -179,7 +185,7 @@ private:
       }
     }
     if (!(high < INFINITY))
-      fail_for_few_points(context_, fewest);
+      fail_for_few_points(context_, points_, fewest);
     if (best.points < 0.98 * points_)
       best.fit.shortage = context_.options.min_size
                               ? fmt::format("min_size = {:g} leaves no room for more", *context_.options.min_size)
@@ -228,7 +234,7 @@ LatticeFit fit_lattice(const LayoutContext& context) {
   for (int round = 0;; ++round) {
     if (by_points && options.max_size && h > *options.max_size) {
       const double most = *options.max_size;
-      fail_for_few_points(context,
+      fail_for_few_points(context, expected,
                           context.boundary.area / (row_height * most * most) + 0.5 * context.boundary.length() / most);
     }
     const double points = by_points ? expected : context.boundary.area / (row_height * h * h);

@@ -385,5 +385,18 @@ TEST(Mesher, TooFewPointsAreAnErrorOnAllRanks) {
   world.barrier(); // nobody is left behind in a collective
 }
 
+TEST(Mesher, AFractionTooSmallForTheShapeIsNamedAsTheCause) {
+  const comm::Communicator world = comm::Communicator::world();
+  Case c{"square", square(), with_points(1000)};
+  c.options.initial_fraction = 0.001;
+  try {
+    run(world, c);
+    ADD_FAILURE() << "no error was thrown";
+  } catch (const ConfigError& error) {
+    EXPECT_NE(std::string(error.what()).find("initial_fraction = 0.001"), std::string::npos) << error.what();
+  }
+  world.barrier();
+}
+
 } // namespace
 } // namespace trime::meshing
