@@ -29,24 +29,40 @@ INK = "#26323d"
 
 
 class Mesh:
-    """Arrays of a mesh file: xy [N,2], triangles [M,3], alpha [M], facets [B,2], hash (text)."""
+    """Arrays of a mesh file: xy [N,2], corners [M,3,2] of the triangles, alpha [M], facets [B,2,2] (ends), hash (text).
+
+    In a periodic container the corners of a triangle are images that lie together, around its first corner.
+    """
 
     def __init__(self, path):
         with h5py.File(path, "r") as file:
             if "Mesh/mesh" in file:
                 self.xy = file["Mesh/mesh/geometry"][:]
-                self.triangles = file["Mesh/mesh/topology"][:]
+                triangles = file["Mesh/mesh/topology"][:]
             else:  # written for ParaView only
                 self.xy = file["VTKHDF/Points"][:, :2]
-                self.triangles = file["VTKHDF/Connectivity"][:].reshape(-1, 3)
-            self.facets = file["Mesh/facets/topology"][:]
-            stored = file["trime_mpi"].attrs.get("mesh_hash", "unknown")
+                triangles = file["VTKHDF/Connectivity"][:].reshape(-1, 3)
+            facets = file["Mesh/facets/topology"][:]
+            attributes = file["trime_mpi"].attrs
+            stored = attributes.get("mesh_hash", "unknown")
+            periods = [float(attributes.get(name, 0)) for name in ("period_x", "period_y")]
         self.hash = hash_text(stored)
-        self.alpha, self.min_angle = shape_numbers(self.xy, self.triangles)
+        self.corners = brought_together(self.xy[triangles], periods)
+        self.facets = brought_together(self.xy[facets], periods)
+        self.alpha, self.min_angle = shape_numbers(self.corners)
 
     def middles(self):
         """Centroids, [M,2]."""
-        return self.xy[self.triangles].mean(axis=1)
+        return self.corners.mean(axis=1)
+
+
+def brought_together(places, periods):
+    """The images of places [..., k, 2] that are nearest to the first of each k."""
+    for axis, period in enumerate(periods):
+        if period > 0:
+            first = places[:, :1, axis]
+            places[:, :, axis] -= period * np.round((places[:, :, axis] - first) / period)
+    return places
 
 
 def hash_text(stored):
@@ -56,11 +72,11 @@ def hash_text(stored):
     return stored if isinstance(stored, str) else f"{int(stored) & 0xffffffffffffffff:016x}"
 
 
-def shape_numbers(xy, triangles):
-    """alpha per triangle [M], and the smallest angle of all in degrees."""
-    if len(triangles) == 0:
+def shape_numbers(corners):
+    """alpha per triangle [M] of corners [M,3,2], and the smallest angle of all in degrees."""
+    if len(corners) == 0:
         return np.zeros(0), 0.0
-    corner = [xy[triangles[:, k]] for k in range(3)]
+    corner = [corners[:, k] for k in range(3)]
     a, b, c = (np.hypot(*(corner[(k + 1) % 3] - corner[(k + 2) % 3]).T) for k in range(3))
     with np.errstate(divide="ignore", invalid="ignore"):
         half = (a + b + c) / 2
@@ -73,9 +89,9 @@ def shape_numbers(xy, triangles):
 def draw_triangles(axes, mesh, chosen, line_width):
     """Triangles `chosen` (an index) as polygons coloured by alpha, the boundary on top."""
     axes.add_collection(PolyCollection(
-        mesh.xy[mesh.triangles[chosen]], array=mesh.alpha[chosen], cmap=COLOURS, clim=ALPHA_RANGE,
+        mesh.corners[chosen], array=mesh.alpha[chosen], cmap=COLOURS, clim=ALPHA_RANGE,
         edgecolors=INK, linewidths=line_width, rasterized=True))
-    axes.add_collection(LineCollection(mesh.xy[mesh.facets], colors=INK, linewidths=max(3 * line_width, 0.6)))
+    axes.add_collection(LineCollection(mesh.facets, colors=INK, linewidths=max(3 * line_width, 0.6)))
 
 
 def draw_raster(axes, mesh, pixels=1000):
@@ -90,7 +106,7 @@ def draw_raster(axes, mesh, pixels=1000):
         mean = total / count
     axes.imshow(mean.T, origin="lower", extent=[low[0], high[0], low[1], high[1]], cmap=COLOURS,
                 vmin=ALPHA_RANGE[0], vmax=ALPHA_RANGE[1], interpolation="nearest")
-    axes.add_collection(LineCollection(mesh.xy[mesh.facets], colors=INK, linewidths=0.6))
+    axes.add_collection(LineCollection(mesh.facets, colors=INK, linewidths=0.6))
 
 
 def frame(axes, low, high):
@@ -150,13 +166,13 @@ def draw(mesh, name):
     grid = figure.add_gridspec(2, 2, width_ratios=[1.75, 1], height_ratios=[1, 1.45], left=0.04, right=0.985,
                                top=0.89, bottom=0.06, wspace=0.1, hspace=0.28)
     main = figure.add_subplot(grid[:, 0])
-    if len(mesh.triangles) > RASTER_ABOVE:
+    if len(mesh.corners) > RASTER_ABOVE:
         draw_raster(main, mesh)
     else:
-        draw_triangles(main, mesh, slice(None), float(np.clip(22 / np.sqrt(len(mesh.triangles)), 0.03, 0.5)))
+        draw_triangles(main, mesh, slice(None), float(np.clip(22 / np.sqrt(len(mesh.corners)), 0.03, 0.5)))
     frame(main, mesh.xy.min(axis=0), mesh.xy.max(axis=0))
     draw_histogram(figure.add_subplot(grid[0, 1]), mesh.alpha)
-    if len(mesh.triangles) > 4 * ZOOM_TRIANGLES:
+    if len(mesh.corners) > 4 * ZOOM_TRIANGLES:
         middle, reach = draw_zoom(figure.add_subplot(grid[1, 1]), mesh)
         main.add_patch(plt.Rectangle(middle - reach, 2 * reach, 2 * reach, fill=False, color="#0b6e99", linewidth=1.4,
                                      zorder=5))
@@ -165,7 +181,7 @@ def draw(mesh, name):
     bar.ax.tick_params(labelsize=7)
     bar.set_label("alpha", fontsize=8)
     figure.text(0.04, 0.955, name, fontsize=16, fontweight="bold", color=INK)
-    figure.text(0.04, 0.92, f"{len(mesh.xy):,} points   {len(mesh.triangles):,} triangles   "
+    figure.text(0.04, 0.92, f"{len(mesh.xy):,} points   {len(mesh.corners):,} triangles   "
                 f"alpha mean {mesh.alpha.mean():.4f}, max {mesh.alpha.max():.3f}   "
                 f"smallest angle {mesh.min_angle:.1f}°   mesh_hash {mesh.hash}", fontsize=10, color=INK)
     return figure
@@ -184,10 +200,10 @@ def main():
         mesh = Mesh(options.mesh)
     except (OSError, KeyError) as error:
         sys.exit(f"plot_mesh.py: {options.mesh} is not a mesh file of trime_mpi: {error}")
-    if len(mesh.triangles) == 0:
+    if len(mesh.corners) == 0:
         sys.exit(f"plot_mesh.py: {options.mesh} holds no triangles")
     draw(mesh, options.mesh.stem).savefig(picture, dpi=options.dpi)
-    print(f"{picture}: {len(mesh.xy)} points, {len(mesh.triangles)} triangles")
+    print(f"{picture}: {len(mesh.xy)} points, {len(mesh.corners)} triangles")
 
 
 if __name__ == "__main__":

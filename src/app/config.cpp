@@ -6,6 +6,7 @@
 #include "trime/core/error.hpp"
 #include "trime/core/formula.hpp"
 #include "trime/core/nearest_name.hpp"
+#include "trime/geometry/frame.hpp"
 #include "trime/geometry/region.hpp"
 
 #include <algorithm>
@@ -211,8 +212,10 @@ void read_output(const Settings& settings, RunOptions& options, io::Diagnostics&
   file.xdmf = is_wanted("xdmf");
   options.output.text = is_wanted("text");
   const geometry::Box& container = options.mesh.container;
-  options.output.period = {settings.boolean("domain", "periodic_x") ? container.width() : 0,
-                           settings.boolean("domain", "periodic_y") ? container.height() : 0};
+  if (container.width() > 0 && container.height() > 0) { // else a problem was noted already
+    const geometry::Frame frame(container, options.mesh.periodic_x, options.mesh.periodic_y); // its periods are exact
+    options.output.period = {frame.periods().x, frame.periods().y};
+  }
   const std::int64_t interval = settings.integer("output", "interval");
   options.write = interval != 0;
   options.mesh.snapshot_interval = interval == -1 ? 0 : static_cast<int>(interval);
