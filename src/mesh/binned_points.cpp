@@ -138,7 +138,9 @@ LocalIndex BinnedPoints::sort_tile(std::span<const Site> sites, LocalIndex tile)
     // Of equal sites the first is kept: the boundary site or the fixed one, else the one pushed most often.
     if ((a.boundary == free_site) != (b.boundary == free_site))
       return b.boundary == free_site;
-    return a.boundary != b.boundary ? a.boundary > b.boundary : a.pushes > b.pushes;
+    if (a.boundary != b.boundary)
+      return a.boundary > b.boundary;
+    return a.pushes != b.pushes ? a.pushes > b.pushes : geometry::lexicographically_less(a.lead, b.lead);
   };
   std::fill(bin_end, bin_end + bins, 0);
   for (LocalIndex k = begin; k < end; ++k)

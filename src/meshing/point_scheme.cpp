@@ -12,6 +12,7 @@ namespace {
 
 constexpr double row_height = 0.8660254037844386;
 constexpr double growth = 1.6; // of the number of points by one insertion
+constexpr int most_insertions = 64;
 /// Points from which on the mesh starts from 1/4, 1/16, 1/64 of them; with fewer the coarse mesh starves narrow parts.
 constexpr double one_division = 3000, two_divisions = 20000, three_divisions = 400000;
 
@@ -41,8 +42,8 @@ void PointScheme::choose() {
     points_now_ = std::max(3.0, std::ceil(fraction * expected_points()));
     for (double points = points_now_; points < expected_points(); points *= growth)
       ++last_stage_;
-    reason_ = fmt::format("{:g} of the points first, the others in {} insertions (initial_fraction is given)", fraction,
-                          last_stage_);
+    reason_ = fmt::format("{:g} of the points first, the others in {} insertions or more (initial_fraction is given)",
+                          fraction, last_stage_);
   } else if (start == Start::lattice || (start == Start::automatic && uniform)) {
     kind_ = Kind::lattice;
     reason_ = start == Start::lattice ? "hexagonal lattice, all points at once (asked for)"
@@ -142,7 +143,10 @@ Layout PointScheme::insert(const Layout& previous) {
   const comm::Communicator& comm = context_.comm;
   const ExtractionContext old{*previous.state, previous.boundary, *previous.size, context_.lattice};
   const GlobalId before = comm.sum(std::int64_t{previous.state->points().owned()});
-  points_now_ = is_last() ? expected_points() : std::floor(growth * static_cast<double>(before));
+  const double grown = std::floor(growth * static_cast<double>(before)), all = expected_points();
+  if (is_last() && 2 * grown < all && stage_ < most_insertions)
+    ++last_stage_; // too few triangles for the rest: the boundary took the points of the first stages
+  points_now_ = is_last() ? all : std::min(all, std::max(grown, std::floor(growth * points_now_)));
   const double coarsening = is_last() ? 1 : std::fmax(1, std::sqrt(expected_points() / points_now_));
   Layout layout = lay_boundary(context_, previous.factor, coarsening, points_now_);
   const auto time = context_.timers.scope("start");

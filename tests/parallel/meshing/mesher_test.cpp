@@ -385,6 +385,20 @@ TEST(Mesher, TooFewPointsAreAnErrorOnAllRanks) {
   world.barrier(); // nobody is left behind in a collective
 }
 
+TEST(Mesher, ATinyFractionYieldsAllPointsAndNoMore) {
+  const comm::Communicator world = comm::Communicator::world();
+  Case c{"square", square(), with_points(400)};
+  c.options.initial_fraction = 0.01;
+  EXPECT_GE(run(world, c).mesh.point_slab.total, 390);
+  EXPECT_LE(run(world, c).mesh.point_slab.total, 400);
+  c.options.points.reset();
+  c.options.edge_length = 0.05;
+  c.options.initial_fraction = 1;
+  const auto expected = static_cast<double>(run(world, c).mesh.point_slab.total);
+  c.options.initial_fraction = 0.001;
+  EXPECT_NEAR(static_cast<double>(run(world, c).mesh.point_slab.total), expected, 0.1 * expected);
+}
+
 TEST(Mesher, AFractionTooSmallForTheShapeIsNamedAsTheCause) {
   const comm::Communicator world = comm::Communicator::world();
   Case c{"square", square(), with_points(1000)};
