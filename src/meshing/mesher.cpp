@@ -99,7 +99,7 @@ private:
       }
     }
     if (scheme_->is_last() && least < 0.1)
-      log_.warning("the boundary has features down to {:.3g}, far below the size of {:.3g} there: expect small angles",
+      log_.warning("the boundary has segments of {:.3g} where edges of {:.3g} are asked for: expect small angles there",
                    length, size);
   }
 
@@ -253,6 +253,9 @@ private:
     result.edge_length = relative_size_.is_uniform() ? layout_.size->size({}) : layout_.typical_size;
     result.start_reason = scheme_->reason();
     result.count_reason = count_reason(result.mesh.point_slab.total);
+    if (static_cast<double>(result.mesh.point_slab.total) < 0.9 * static_cast<double>(result.requested_points))
+      log_.warning("{} points were asked for, {} made: {}", result.requested_points, result.mesh.point_slab.total,
+                   result.count_reason);
     result.corners = layout_.boundary.corners;
     result.shape_area = boundary_.area;
     return result;

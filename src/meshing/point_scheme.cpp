@@ -74,10 +74,13 @@ Layout PointScheme::first_of_lattice() {
 }
 
 Layout PointScheme::first_of_insertion() {
-  DensityFit fit = fit_density(context_, points_now_, std::sqrt(expected_points() / points_now_), 1);
+  constexpr double coarsest_integral = 8;
+  const double coarsening = std::sqrt(expected_points() / points_now_);
+  DensityFit fit = fit_density(context_, expected_points(), 1, std::fmin(coarsening, coarsest_integral));
   shortage_ = std::move(fit.shortage);
-  place_along_curve(fit.layout, fit.inner);
-  return std::move(fit.layout);
+  Layout layout = lay_boundary(context_, fit.layout.factor, coarsening, points_now_);
+  place_along_curve(layout, points_now_ - static_cast<double>(layout.on_boundary()));
+  return layout;
 }
 
 /// The factor is fitted for the final mesh, by a coarse integral. Then the coarsest start is taken that still has as

@@ -399,18 +399,5 @@ TEST(Mesher, ATinyFractionYieldsAllPointsAndNoMore) {
   EXPECT_NEAR(static_cast<double>(run(world, c).mesh.point_slab.total), expected, 0.1 * expected);
 }
 
-TEST(Mesher, AFractionTooSmallForTheShapeIsNamedAsTheCause) {
-  const comm::Communicator world = comm::Communicator::world();
-  Case c{"square", square(), with_points(1000)};
-  c.options.initial_fraction = 0.001;
-  try {
-    run(world, c);
-    ADD_FAILURE() << "no error was thrown";
-  } catch (const ConfigError& error) {
-    EXPECT_NE(std::string(error.what()).find("initial_fraction = 0.001"), std::string::npos) << error.what();
-  }
-  world.barrier();
-}
-
 } // namespace
 } // namespace trime::meshing
