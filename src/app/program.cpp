@@ -42,16 +42,17 @@ double expected_points(const RunOptions& options, const geometry::Boundary& boun
 /// What --validate and --dry-run say in place of a mesh.
 std::string estimate(const RunOptions& options, const geometry::Boundary& boundary, const Placement& placement,
                      bool with_decomposition) {
-  constexpr double bytes_per_point = 300;
+  constexpr double bytes_per_point = 300, bytes_per_process = 28 * 0x1p20;
   const double points = expected_points(options, boundary);
   std::string text = fmt::format(
       "shape: area {:.6g}, boundary length {:.6g}, {} component{}, {} hole{}\n", boundary.area, boundary.length(),
       boundary.components(), boundary.components() == 1 ? "" : "s", boundary.holes(), boundary.holes() == 1 ? "" : "s");
   text += fmt::format("about {:.0f} points, {:.0f} triangles, {:.1f} MiB of memory over all ranks\n", points,
-                      2 * points, points * bytes_per_point / 0x1p20);
+                      2 * points, (points * bytes_per_point + placement.ranks * bytes_per_process) / 0x1p20);
   if (with_decomposition)
-    text += fmt::format("{} ranks x {} threads: about {:.0f} points per rank, {:.0f} per thread\n", placement.ranks,
-                        placement.threads, points / placement.ranks, points / placement.ranks / placement.threads);
+    text += fmt::format("{} rank{} x {} threads: about {:.0f} points per rank, {:.0f} per thread\n", placement.ranks,
+                        placement.ranks == 1 ? "" : "s", placement.threads, points / placement.ranks,
+                        points / placement.ranks / placement.threads);
   return text + fmt::format("output: {} (not written)\n", options.output.file.path(".h5"));
 }
 

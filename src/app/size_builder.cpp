@@ -2,6 +2,7 @@
 #include "app/size_builder.hpp"
 
 #include "trime/core/error.hpp"
+#include "trime/core/formula.hpp"
 #include "trime/sizing/automatic_size.hpp"
 #include "trime/sizing/expression_size.hpp"
 
@@ -27,6 +28,30 @@ BuiltSize automatic_size(const RunOptions& options, const geometry::Boundary& bo
   return size;
 }
 
+/// A formula of a periodic container must have its periods: compares both ends of some lines across it.
+void check_periods(const Formula& formula, const RunOptions& options) {
+  constexpr int lines = 64;
+  constexpr double same = 1e-6; // relative
+  const geometry::Box& box = options.mesh.container;
+  const geometry::Vec2 period = options.output.period;
+  const auto compare = [&](geometry::Vec2 p, geometry::Vec2 shift) {
+    const geometry::Vec2 q = p + shift;
+    const double at_p = formula.evaluate(p.x, p.y), at_q = formula.evaluate(q.x, q.y);
+    if (!(std::fabs(at_p - at_q) <= same * std::fabs(at_p)))
+      throw ConfigError(fmt::format("{} = {}: expected the same size on both sides of the periodic "
+                                    "container, found {:.6g} at ({:.6g}, {:.6g}) and {:.6g} at ({:.6g}, {:.6g})",
+                                    options.sizing.expression_place, options.sizing.expression, at_p, p.x, p.y, at_q,
+                                    q.x, q.y));
+  };
+  for (int k = 0; k < lines; ++k) {
+    const double share = (k + 0.5) / lines;
+    if (period.x > 0)
+      compare({box.min.x, box.min.y + share * box.height()}, {period.x, 0});
+    if (period.y > 0)
+      compare({box.min.x + share * box.width(), box.min.y}, {0, period.y});
+  }
+}
+
 BuiltSize expression_size(const RunOptions& options, const geometry::Boundary& boundary) {
   const SizingOptions& sizing = options.sizing;
   const geometry::Box box = boundary.periods.any() ? options.mesh.container : boundary.bounding_box();
@@ -34,6 +59,7 @@ BuiltSize expression_size(const RunOptions& options, const geometry::Boundary& b
   size.formula = std::make_unique<const Formula>(sizing.expression, sizing.expression_place);
   size.field = std::make_unique<const sizing::ExpressionSize>(*size.formula, box);
   size.description = "expression " + sizing.expression;
+  check_periods(*size.formula, options);
   return size;
 }
 

@@ -13,6 +13,7 @@ using geometry::Vec2;
 
 namespace {
 
+constexpr double always_a_corner = 120;           // degrees; no chord can stand for such a turn
 constexpr double sharp_turn = 120;                // degrees; the arms then meet at less than 60
 constexpr double largest_turn = pi / 3 + 1e-9;    // of the curve within one interval
 constexpr double smallest_size_in_steps = 0x1p11; // of the lattice, for h
@@ -29,7 +30,7 @@ std::vector<Corner> find_corners(const LoopMetric& metric, double corner_angle) 
   const auto& pieces = metric.loop().pieces;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const double turn = metric.loop().turn_degrees(i);
-    if (turn > corner_angle || pieces[i].corner)
+    if (turn > std::fmin(corner_angle, always_a_corner) || pieces[i].corner)
       corners.push_back({metric.piece_t(i), pieces[i].start, turn > sharp_turn, {}, {}});
   }
   return corners;

@@ -173,6 +173,15 @@ bool FixedPoints::is_near(Vec2 p, double distance) const {
   return false;
 }
 
+std::int64_t FixedPoints::count_clear(std::span<const mesh::Site> sites, const sizing::SizeField& size) const {
+  std::vector<std::uint8_t> clear(sites.size());
+  thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 256, [&](std::ptrdiff_t item, int) {
+    const auto k = static_cast<std::size_t>(item);
+    clear[k] = !is_near(sites[k].position, clearance * size.size(sites[k].position));
+  });
+  return std::count(clear.begin(), clear.end(), std::uint8_t{1});
+}
+
 void FixedPoints::place_among(std::vector<mesh::Site>& sites, const TileRange& tiles,
                               const sizing::SizeField& size) const {
   if (inside_.empty())

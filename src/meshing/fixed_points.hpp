@@ -13,6 +13,7 @@
 #include "trime/meshing/start.hpp"
 #include "trime/sizing/size_field.hpp"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -40,6 +41,8 @@ public:
 
   /// @throws GeometryError for the first point that the boundary leaves outside: its label, and how far outside
   void check_inside(const BoundaryGuard& guard) const;
+  /// Number of free sites that place_among would leave.
+  std::int64_t count_clear(std::span<const mesh::Site> sites, const sizing::SizeField& size) const;
   /// @brief Takes out free sites that are too near to a fixed one, then adds the fixed sites of these tiles.
   void place_among(std::vector<mesh::Site>& sites, const TileRange& tiles, const sizing::SizeField& size) const;
   /// One warning about points nearer than the local size to each other or to the boundary.

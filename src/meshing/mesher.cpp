@@ -22,7 +22,7 @@ namespace {
 
 constexpr double cap_in_sizes = 2.5;  // circumradius that counts, in h: a relaxed mesh has 0.6, a start up to 1.5
 constexpr GlobalId few_points = 2000; // below, the cap is the whole container
-constexpr int cap_doublings = 3;
+constexpr int cap_doublings = 10;     // to 2500 h: a void that no start can leave
 constexpr int cleanup_rounds = 15;
 constexpr double worst_share = 0.01, least_excess = 0.05; // of the triangles; of alpha - 1
 constexpr int settle_rounds = 12, settle_pushes = 8;
@@ -66,7 +66,7 @@ private:
   }
 
   void advance() {
-    stars(Wanted::all_sites);
+    complete_stars();
     set_up(scheme_->next(layout_));
   }
 

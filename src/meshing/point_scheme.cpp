@@ -79,6 +79,12 @@ Layout PointScheme::first_of_insertion() {
   DensityFit fit = fit_density(context_, expected_points(), 1, std::fmin(coarsening, coarsest_integral));
   shortage_ = std::move(fit.shortage);
   Layout layout = lay_boundary(context_, fit.layout.factor, coarsening, points_now_);
+  if (const double held = static_cast<double>(layout.on_boundary()); points_now_ < 2 * held) {
+    points_now_ = std::min(expected_points(), 2 * held); // a stage of boundary alone has no order to pass on
+    layout = lay_boundary(context_, fit.layout.factor, std::sqrt(expected_points() / points_now_), points_now_);
+    reason_ += fmt::format("; the first share was raised to {:.3g}, since the boundary alone takes half of it",
+                           points_now_ / expected_points());
+  }
   place_along_curve(layout, points_now_ - static_cast<double>(layout.on_boundary()));
   return layout;
 }
@@ -112,9 +118,24 @@ Layout PointScheme::first_of_divisions() {
 
 void PointScheme::place_along_curve(Layout& layout, double inner) const {
   const auto time = context_.timers.scope("start");
-  place_sites(context_, layout,
-              hilbert_start(context_.comm, even_share(layout, context_.comm), *layout.guard, *layout.size,
-                            context_.lattice, std::max<std::int64_t>(0, std::llround(inner)), options_.seed));
+  const auto wanted = std::max<std::int64_t>(0, std::llround(inner));
+  const auto sites = [&](std::int64_t n) {
+    return hilbert_start(context_.comm, even_share(layout, context_.comm), *layout.guard, *layout.size,
+                         context_.lattice, n, options_.seed);
+  };
+  std::vector<mesh::Site> placed = sites(wanted);
+  if (!context_.fixed.inside().empty()) { // those too near to a fixed point will go: so many more are placed
+    const std::int64_t clear = context_.comm.sum(context_.fixed.count_clear(placed, *layout.size));
+    if (clear > 0 && clear < wanted) {
+      placed = sites(std::llround(static_cast<double>(wanted) *
+                                  std::fmin(4, static_cast<double>(wanted) / static_cast<double>(clear))));
+      std::erase_if(placed, [&](const mesh::Site& site) {
+        return context_.fixed.count_clear(std::span(&site, 1), *layout.size) == 0;
+      });
+      trim(context_.comm, layout, wanted, placed);
+    }
+  }
+  place_sites(context_, layout, std::move(placed));
 }
 
 Layout PointScheme::next(const Layout& previous) {

@@ -64,7 +64,10 @@ double fitting_spacing(const LayoutContext& context, const Layout& layout) {
   GlobalId best = 0;
   double stride = 0.002; // least relative step while no spacing is known that is large enough; doubles each time
   for (int round = 0; round < spacing_rounds && wanted - best > wanted / 5000; ++round) {
-    const GlobalId count = context.comm.sum(start.count(tiles, spacing));
+    const GlobalId count =
+        context.comm.sum(context.fixed.inside().empty()
+                             ? start.count(tiles, spacing)
+                             : context.fixed.count_clear(start.sites(tiles, spacing), sizing::UniformSize(h)));
     if (count > wanted) {
       low = spacing;
     } else if (count >= best) {

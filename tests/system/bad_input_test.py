@@ -156,6 +156,10 @@ class BadInput(unittest.TestCase):
                 self.refused(start + f"expression = {formula}\n", USAGE,
                              [rf"case\.ini:{line}: 'expression' in \[sizing\]: .*positive"])
         self.refused(start, USAGE, [rf"case\.ini:{line - 1}: .*needs 'expression'"], ranks_tried=(1,))
+        self.refused(start + "expression = 1+x\n", USAGE, [rf"case\.ini:{line}: .*both sides of the periodic"],
+                     extra=["domain.periodic_x=true"])
+        self.refused(GOOD, USAGE, [r"gradation.*from 0 to 2"],
+                     extra=["sizing.type=automatic", "sizing.gradation=10"], ranks_tried=(1,))
         self.refused(GOOD, USAGE, [r"command line: .*min_size <= max_size"],
                      extra=["sizing.min_size=0.2", "sizing.max_size=0.1"], ranks_tried=(1,))
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fixed points on all ranks: every one is a vertex bit for bit, the mesh is certified and does not depend on the ranks.
 #include "support/distributed.hpp"
+#include "trime/core/random.hpp"
 #include "trime/geometry/shape.hpp"
 #include "trime/meshing/mesher.hpp"
 
@@ -66,7 +67,7 @@ void expect_fixed_points(const sizing::SizeField& size) {
     return check.name == "fixed_points" && check.found == static_cast<double>(wanted_points().size());
   }));
   EXPECT_LE(result.mesh.point_slab.total, 1500);
-  EXPECT_GE(result.mesh.point_slab.total, 1350);
+  EXPECT_GE(result.mesh.point_slab.total, 1470);
   EXPECT_EQ(result.corners, 3); // those on the boundary
   for (const Vec2 p : wanted_points()) {
     std::int64_t found = 0;
@@ -86,6 +87,30 @@ TEST(FixedPointsInMesh, UniformSize) {
 
 TEST(FixedPointsInMesh, GradedSize) {
   expect_fixed_points(GradedSize());
+}
+
+/// Free points that would be too near to fixed ones are placed elsewhere: once a quarter of all was missing.
+TEST(FixedPointsInMesh, ManyOfThemLeaveRoomForAllPoints) {
+  const comm::Communicator world = comm::Communicator::world();
+  MeshOptions options;
+  options.points = 2000;
+  options.max_sweeps = 10;
+  for (std::uint64_t k = 0; k < 500; ++k) {
+    const Vec2 p{random_unit(7, RandomPurpose::test, k, 0), random_unit(7, RandomPurpose::test, k, 1)};
+    const double radius = geometry::length(p - Vec2{0.5, 0.5});
+    if (radius > 0.12 && radius < 0.38)
+      options.fixed_points.push_back({p, "test"});
+  }
+  Log log(LogLevel::silent, false);
+  TimerTable timers;
+  for (const bool graded : {false, true}) {
+    const sizing::UniformSize uniform;
+    const GradedSize slope;
+    const sizing::SizeField& size = graded ? static_cast<const sizing::SizeField&>(slope) : uniform;
+    const MeshResult result = Mesher(world, ring().boundary(), size, options, log, timers).run();
+    EXPECT_LE(result.mesh.point_slab.total, 2000);
+    EXPECT_GE(result.mesh.point_slab.total, 1960) << graded;
+  }
 }
 
 TEST(FixedPointsInMesh, FarFromOthersTrianglesStayGood) {
