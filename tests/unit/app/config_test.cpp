@@ -225,9 +225,9 @@ TEST(Config, RefusesByNameWhatThisVersionCannotDo) {
 }
 
 TEST(Config, TakesTheDefaultsWhenTheyAreSpeltOut) {
-  for (const char* text : {"domain.periodic_x=false", "domain.periodic_y=true", "sizing.gradation=0.1", "sizing.gradation=0.0",
-                           "parallel.setup_threads=2", "meshing.initial_fraction=1", "output.interval=0",
-                           "checkpoint.keep=2", "parallel.setup_threads=0", "meshing.points=4e9"})
+  for (const char* text : {"domain.periodic_x=false", "domain.periodic_y=true", "sizing.gradation=0.1",
+                           "sizing.gradation=0.0", "parallel.setup_threads=2", "meshing.initial_fraction=1",
+                           "output.interval=0", "checkpoint.keep=2", "parallel.setup_threads=0", "meshing.points=4e9"})
     EXPECT_EQ(errors_of(good, {text}), "") << text;
 }
 
