@@ -152,11 +152,27 @@ void read_resolution(const Settings& settings, meshing::MeshOptions& mesh, io::D
                     *mesh.edge_length, expected, area, most_points));
 }
 
+/// The edge length is within the bounds of the size, which were read before.
+void check_bounds_of_edge_length(const Settings& settings, const meshing::MeshOptions& mesh,
+                                 io::Diagnostics& problems) {
+  if (mesh.edge_length && mesh.min_size && *mesh.min_size > *mesh.edge_length)
+    problems.add(settings.line("meshing", "edge_length"),
+                 fmt::format("'edge_length = {}' in [meshing] is below 'min_size = {}' in [sizing]: expected at least "
+                             "min_size",
+                             *mesh.edge_length, *mesh.min_size));
+  if (mesh.edge_length && mesh.max_size && *mesh.max_size < *mesh.edge_length)
+    problems.add(settings.line("meshing", "edge_length"),
+                 fmt::format("'edge_length = {}' in [meshing] is above 'max_size = {}' in [sizing]: expected at most "
+                             "max_size",
+                             *mesh.edge_length, *mesh.max_size));
+}
+
 constexpr std::pair<const char*, meshing::Method> methods[] = {
     {"distmesh", meshing::Method::distmesh}, {"cvd", meshing::Method::cvd}, {"hybrid", meshing::Method::hybrid}};
 
 void read_meshing(const Settings& settings, meshing::MeshOptions& mesh, io::Diagnostics& problems) {
   read_resolution(settings, mesh, problems);
+  check_bounds_of_edge_length(settings, mesh, problems);
   for (const auto& [name, method] : methods)
     if (settings.text("meshing", "method") == name)
       mesh.method = method;

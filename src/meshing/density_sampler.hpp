@@ -2,6 +2,7 @@
 // The wanted density of sites, h^-2 up to a factor, as integer weights of small cells along the Hilbert curve.
 #pragma once
 
+#include "trime/core/error.hpp"
 #include "trime/core/sum.hpp"
 #include "trime/meshing/start.hpp"
 
@@ -32,13 +33,18 @@ public:
     std::int64_t weight; ///< sites that belong into it, in units of 2^-20
   };
   /// Calls visit(cell) for all cells of the tile with a weight, in Hilbert order.
+  /// @throws GeometryError on this rank alone: at a place in the shape the size is not positive and finite, or so small
+  /// that the tile would get more than 2^27 cells
   template <class Visit>
   void for_each_cell(LocalIndex tile, const Visit& visit) const {
-    divide({grid_.tile_box(tile), 0, 0, false}, visit);
+    std::int64_t cells = 0;
+    divide({grid_.tile_box(tile), 0, 0, false}, visit, cells);
   }
 
 private:
   static constexpr int most_levels = 24;
+  static constexpr double most_in_smallest = 64; // sites
+  static constexpr std::int64_t most_cells = 1 << 27;
 
   /// Every bin is looked into, wherever its tile's middle lies: sizes may jump.
   int least_levels() const { return grid_.typical_bin_bits() + 1; }
@@ -51,10 +57,14 @@ private:
   };
 
   template <class Visit>
-  void divide(const Part& part, const Visit& visit) const {
+  void divide(const Part& part, const Visit& visit, std::int64_t& cells) const {
     const geometry::Box& box = part.box;
     const geometry::Vec2 p = lattice_.snap(0.5 * (box.min + box.max));
-    const double h = size_.size(p), free = strip * h;
+    const double h = size_.size(p);
+    const bool valid = sizing::is_valid_size(h);
+    if (!valid && (part.clear || guard_.inside(p)) && grid_.container().contains(p))
+      sizing::fail_for_size(p, h);
+    const double free = valid ? strip * h : 0; // outside the shape any value will do
     double distance = INFINITY;
     bool clear = part.clear;
     if (!clear) {
@@ -64,16 +74,25 @@ private:
       if (clear && !guard_.inside(p))
         return;
     }
-    const double sites = box.width() * box.height() / (row_height * h * h);
+    const double sites = valid ? box.width() * box.height() / (row_height * h * h) : 0;
+    if (++cells > most_cells || (part.level == most_levels && sites > most_in_smallest))
+      fail_for_small_size(p, h);
     if (part.level < most_levels && (part.level < least_levels() || sites > (clear ? most_inside_ : most_near_))) {
       for (std::uint64_t quarter = 0; quarter < 4; ++quarter)
-        divide({quarter_of(box, part.key, part.level, quarter), 4 * part.key + quarter, part.level + 1, clear}, visit);
+        divide({quarter_of(box, part.key, part.level, quarter), 4 * part.key + quarter, part.level + 1, clear}, visit,
+               cells);
       return;
     }
     if (!clear && (distance < free || !guard_.inside(p)))
       return;
     if (grid_.container().contains(p))
-      visit(Cell{box, part.key, part.level, h, std::llround(weight_unit * std::fmin(sites, 0x1p30))});
+      visit(Cell{box, part.key, part.level, h, std::llround(weight_unit * sites)});
+  }
+
+  [[noreturn]] static void fail_for_small_size(geometry::Vec2 p, double h) {
+    throw GeometryError(fmt::format("the size near ({}, {}) is {}: so small a size asks for far more points than there "
+                                    "can be; give the size field a larger least value, or set min_size",
+                                    p.x, p.y, h));
   }
 
   static geometry::Box quarter_of(const geometry::Box& box, std::uint64_t key, int level, std::uint64_t quarter) {
@@ -98,6 +117,7 @@ struct DensityTotals {
   double mean_size = 0; ///< mean of h over these sites
 };
 /// Collective. Threads over the tiles of this rank; integers inside.
+/// @throws GeometryError as DensitySampler::for_each_cell, on all ranks together
 DensityTotals integrate_density(const comm::Communicator& comm, const TileRange& tiles, const DensitySampler& sampler);
 
 } // namespace trime::meshing

@@ -2,6 +2,7 @@
 #include "trime/meshing/start.hpp"
 
 #include "meshing/density_sampler.hpp"
+#include "trime/comm/agree.hpp"
 #include "trime/core/random.hpp"
 #include "trime/core/thread_loop.hpp"
 
@@ -13,10 +14,17 @@ namespace {
 using geometry::Vec2;
 __extension__ using Int128 = __int128;
 
+/// Calls body(item) for all items, over threads. What a size field throws becomes an error of all ranks. Collective.
+template <class Body>
+void agreed_loop(const comm::Communicator& comm, std::ptrdiff_t n, const Body& body) {
+  comm::run_agreed(comm, [&] { thread_loop(n, 1, [&](std::ptrdiff_t item, int) { body(item); }); });
+}
+
 /// Weights of the tiles of this rank before each, and the total at the end.
-std::vector<std::int64_t> weights_before(const TileRange& tiles, const DensitySampler& sampler) {
+std::vector<std::int64_t> weights_before(const comm::Communicator& comm, const TileRange& tiles,
+                                         const DensitySampler& sampler) {
   std::vector<std::int64_t> before(static_cast<std::size_t>(tiles.last - tiles.first) + 1, 0);
-  thread_loop(tiles.last - tiles.first, 1, [&](std::ptrdiff_t t, int) {
+  agreed_loop(comm, tiles.last - tiles.first, [&](std::ptrdiff_t t) {
     std::int64_t& weight = before[static_cast<std::size_t>(t) + 1];
     sampler.for_each_cell(tiles.first + static_cast<LocalIndex>(t),
                           [&](const DensitySampler::Cell& cell) { weight += cell.weight; });
@@ -32,7 +40,7 @@ DensityTotals integrate_density(const comm::Communicator& comm, const TileRange&
   const double unit = std::fmax(tiles.grid.container().width(), tiles.grid.container().height());
   std::vector<std::int64_t> sites(static_cast<std::size_t>(tiles.last - tiles.first), 0);
   std::vector<FixedSum> sizes(sites.size());
-  thread_loop(tiles.last - tiles.first, 1, [&](std::ptrdiff_t t, int) {
+  agreed_loop(comm, tiles.last - tiles.first, [&](std::ptrdiff_t t) {
     const std::size_t at = static_cast<std::size_t>(t);
     sampler.for_each_cell(tiles.first + static_cast<LocalIndex>(t), [&](const DensitySampler::Cell& cell) {
       sites[at] += cell.weight;
@@ -58,7 +66,7 @@ std::vector<mesh::Site> hilbert_start(const comm::Communicator& comm, const Tile
                                       const BoundaryGuard& guard, const sizing::SizeField& size,
                                       const geometry::Lattice& lattice, std::int64_t n, std::uint64_t seed) {
   const DensitySampler sampler(tiles.grid, guard, size, lattice);
-  const std::vector<std::int64_t> before = weights_before(tiles, sampler);
+  const std::vector<std::int64_t> before = weights_before(comm, tiles, sampler);
   const std::int64_t total = comm.sum(before.back()), first = comm.exclusive_scan(before.back());
   if (total == 0 || n <= 0)
     return {};
@@ -66,7 +74,7 @@ std::vector<mesh::Site> hilbert_start(const comm::Communicator& comm, const Tile
   // Site j sits where the running weight passes (2j + 1) total / (2n).
   const std::size_t count = before.size() - 1;
   std::vector<std::vector<mesh::Site>> of_tile(count);
-  thread_loop(static_cast<std::ptrdiff_t>(count), 1, [&](std::ptrdiff_t t, int) {
+  agreed_loop(comm, static_cast<std::ptrdiff_t>(count), [&](std::ptrdiff_t t) {
     const LocalIndex tile = tiles.first + static_cast<LocalIndex>(t);
     std::int64_t running = first + before[static_cast<std::size_t>(t)];
     std::int64_t j = static_cast<std::int64_t>((Int128{2} * running * n + total - 1) / (Int128{2} * total));

@@ -62,9 +62,9 @@ Layout lay_boundary(const LayoutContext& context, double factor, double coarseni
       std::make_unique<sizing::ScaledSize>(context.relative_size, factor, options.min_size.value_or(0),
                                            options.max_size.value_or(std::numeric_limits<double>::infinity()));
   layout.size = std::make_unique<sizing::ScaledSize>(*layout.final_size, coarsening);
-  if (layout.size->is_uniform())
-    layout.typical_size = layout.size->size({});
   comm::run_agreed(context.comm, [&] {
+    if (layout.size->is_uniform())
+      layout.typical_size = sizing::checked_size(*layout.size, {});
     layout.boundary = make_boundary_sites(context.fixed.boundary(), *layout.size, context.lattice,
                                           context.options.corner_angle, context.fixed.inside());
     layout.guard = std::make_unique<BoundaryGuard>(layout.boundary, context.lattice);
@@ -91,7 +91,7 @@ void place_sites(const LayoutContext& context, Layout& layout, std::vector<mesh:
     if (tile >= tiles.first && tile < tiles.last)
       inner.push_back({p, static_cast<std::int32_t>(b)});
   }
-  context.fixed.place_among(inner, tiles, *layout.size);
+  comm::run_agreed(context.comm, [&] { context.fixed.place_among(inner, tiles, *layout.size); });
   layout.state->distribute(std::move(inner));
 }
 

@@ -36,14 +36,6 @@ LoopMetric::LoopMetric(const geometry::Loop& loop, const sizing::SizeField& size
   piece_t_.push_back(total());
 }
 
-double LoopMetric::checked_size(Vec2 p) const {
-  const double h = size(p);
-  if (!(h > 0) || !std::isfinite(h))
-    throw GeometryError(
-        fmt::format("element size on the boundary: expected a positive number, found {} at ({}, {})", h, p.x, p.y));
-  return h;
-}
-
 /// Steps of half the local size, Simpson's rule on each; one step does for a uniform size.
 void LoopMetric::add_piece(LocalIndex i) {
   const Piece& piece = loop_.pieces[i];
@@ -52,7 +44,7 @@ void LoopMetric::add_piece(LocalIndex i) {
     throw GeometryError(fmt::format("boundary piece {} at ({}, {}) has no length: expected pieces of positive length; "
                                     "remove the repeated point",
                                     i, piece.start.x, piece.start.y));
-  double s = 0, h = checked_size(piece.start);
+  double s = 0, h = size(piece.start);
   knots_.back().piece = i;
   knots_.back().s = 0;
   while (s < whole) {
@@ -60,7 +52,7 @@ void LoopMetric::add_piece(LocalIndex i) {
     if (s + 1.25 * step >= whole)
       step = whole - s;
     const double end = step == whole - s ? whole : s + step;
-    const double middle = checked_size(piece.point(s + 0.5 * step)), last = checked_size(piece.point(end));
+    const double middle = size(piece.point(s + 0.5 * step)), last = size(piece.point(end));
     const double integral = step * (1 / h + 4 / middle + 1 / last) / 6;
     knots_.push_back({knots_.back().t + integral, knots_.back().arc + step, i, end});
     if (knots_.size() > max_knots)

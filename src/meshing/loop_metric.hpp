@@ -26,8 +26,8 @@ public:
   /// Keeps references to `loop` and `size`. @throws GeometryError if the size asks for more than 2^27 samples
   LoopMetric(const geometry::Loop& loop, const sizing::SizeField& size, const geometry::Periods& periods);
 
-  /// The size at a place of the unrolled loop.
-  double size(geometry::Vec2 p) const { return size_.size(periods_.wrap(p)); }
+  /// The size at a place of the unrolled loop. @throws GeometryError if it is not positive and finite
+  double size(geometry::Vec2 p) const { return sizing::checked_size(size_, periods_.wrap(p)); }
   /// Length of the whole loop in t; coordinates below are taken modulo it, points move on by the winding.
   double total() const { return knots_.back().t; }
   /// t of the start of piece i.
@@ -58,7 +58,6 @@ private:
   template <class Visit>
   void for_each_turn(double t0, double t1, const Visit& visit) const;
   void add_piece(LocalIndex i);
-  double checked_size(geometry::Vec2 p) const;
   double arc(double t) const;
   LocalIndex knot_before(double t) const;
 

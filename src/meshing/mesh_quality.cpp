@@ -2,6 +2,7 @@
 // Quality of the finished mesh, from the certified stars: every triangle and every edge once, over all ranks.
 #include "meshing/extraction.hpp"
 
+#include "trime/comm/agree.hpp"
 #include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ void measure_site(const ExtractionContext& context, const std::vector<GlobalId>&
     const LocalIndex j = fan.neighbour(k);
     const Vec2 q = points.position(j);
     if (ids[at(i)] < ids[at(j)])
-      sums.add_edge(geometry::length(q - p) / context.size.size(periods.wrap(0.5 * (p + q))));
+      sums.add_edge(geometry::length(q - p) / sizing::checked_size(context.size, periods.wrap(0.5 * (p + q))));
   }
 }
 
@@ -101,9 +102,11 @@ void reduce(const comm::Communicator& comm, QualitySums& sums) {
 
 mesh::QualitySummary measure_quality(const ExtractionContext& context, const decomposition::Numbering& numbering) {
   std::vector<QualitySums> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
-  thread_loop(context.state.points().owned(), 4096, [&](std::ptrdiff_t i, int thread) {
-    measure_site(context, numbering.global_ids, static_cast<LocalIndex>(i),
-                 of_thread[static_cast<std::size_t>(thread)]);
+  comm::run_agreed(context.state.comm(), [&] { // the size field is the user's
+    thread_loop(context.state.points().owned(), 4096, [&](std::ptrdiff_t i, int thread) {
+      measure_site(context, numbering.global_ids, static_cast<LocalIndex>(i),
+                   of_thread[static_cast<std::size_t>(thread)]);
+    });
   });
   QualitySums all;
   for (const QualitySums& sums : of_thread)

@@ -3,6 +3,7 @@
 
 #include "meshing/density_sampler.hpp"
 #include "meshing/selection.hpp"
+#include "trime/comm/agree.hpp"
 #include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
@@ -45,8 +46,10 @@ void keep_marked(std::vector<Item>& items, const std::vector<std::uint8_t>& keep
 }
 
 bool is_clear(const Layout& next, Vec2 p) {
-  const double free = DensitySampler::strip * next.size->size(p);
-  return next.guard->inside(p) && next.guard->distance(p, free) >= free;
+  if (!next.guard->inside(p))
+    return false;
+  const double free = DensitySampler::strip * sizing::checked_size(*next.size, p);
+  return next.guard->distance(p, free) >= free;
 }
 
 /// A possible new site and its place in the order of urgency.
@@ -92,7 +95,7 @@ void insert_in_triangles(const ExtractionContext& context, const Layout& next, s
                          std::vector<mesh::Site>& sites) {
   const mesh::BinnedPoints& points = context.state.points();
   const geometry::Periods& periods = context.boundary.periods;
-  const auto candidates = gather_by_tile<Candidate>(points, [&](LocalIndex i, std::vector<Candidate>& list) {
+  const auto add_candidates = [&](LocalIndex i, std::vector<Candidate>& list) {
     const Fan fan = inside_fan(context, i);
     const Vec2 p = points.position(i);
     for (std::size_t k = 0; k < fan.triangles; ++k) {
@@ -103,7 +106,9 @@ void insert_in_triangles(const ExtractionContext& context, const Layout& next, s
       if (is_clear(next, middle))
         list.push_back({middle, urgency(p, q, r, middle, *next.size)});
     }
-  });
+  };
+  std::vector<Candidate> candidates;
+  comm::run_agreed(context.state.comm(), [&] { candidates = gather_by_tile<Candidate>(points, add_candidates); });
   std::vector<std::uint64_t> keys(candidates.size());
   std::transform(candidates.begin(), candidates.end(), keys.begin(), [](const Candidate& c) { return c.key; });
   const std::uint64_t threshold = selection_threshold(context.state.comm(), keys, count);
@@ -114,9 +119,11 @@ void insert_in_triangles(const ExtractionContext& context, const Layout& next, s
 
 void clear_strip(const Layout& next, std::vector<mesh::Site>& sites) {
   std::vector<std::uint8_t> keep(sites.size());
-  thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 256, [&](std::ptrdiff_t k, int) {
-    const std::size_t at = static_cast<std::size_t>(k);
-    keep[at] = is_clear(next, sites[at].position);
+  comm::run_agreed(next.state->comm(), [&] {
+    thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 256, [&](std::ptrdiff_t k, int) {
+      const std::size_t at = static_cast<std::size_t>(k);
+      keep[at] = is_clear(next, sites[at].position);
+    });
   });
   keep_marked(sites, keep);
 }
@@ -128,11 +135,13 @@ std::int64_t trim(const comm::Communicator& comm, const Layout& next, std::int64
   if (excess <= 0)
     return 0;
   std::vector<std::uint64_t> keys(sites.size());
-  thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 256, [&](std::ptrdiff_t k, int) {
-    const std::size_t at = static_cast<std::size_t>(k);
-    const Vec2 p = sites[at].position;
-    const double h = next.size->size(p);
-    keys[at] = selection_key(next.guard->distance(p, farthest * h) / (farthest * h), p);
+  comm::run_agreed(comm, [&] {
+    thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 256, [&](std::ptrdiff_t k, int) {
+      const std::size_t at = static_cast<std::size_t>(k);
+      const Vec2 p = sites[at].position;
+      const double h = sizing::checked_size(*next.size, p);
+      keys[at] = selection_key(next.guard->distance(p, farthest * h) / (farthest * h), p);
+    });
   });
   const std::uint64_t threshold = selection_threshold(comm, keys, excess);
   std::vector<std::uint8_t> keep(sites.size());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/site_state.hpp"
 
+#include "trime/comm/agree.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/thread_loop.hpp"
 
@@ -96,8 +97,14 @@ void SiteState::move_sites(std::vector<mesh::Site>& sites, std::span<const std::
 /// subscriptions grew.
 void SiteState::refresh_sites(const sizing::SizeField& size) {
   halo_.refresh(points_);
+  comm::run_agreed(comm_, [&] { evaluate_sizes(size); });
+}
+
+/// Owned sites are checked in the order of the curve, so that the first bad one does not depend on the ranks; ghosts
+/// are checked by their owners.
+void SiteState::evaluate_sizes(const sizing::SizeField& size) {
   if (size.is_uniform()) {
-    sizes_ = mesh::LocalSizes(size.size({}));
+    sizes_ = mesh::LocalSizes(sizing::checked_size(size, {}));
     return;
   }
   const geometry::Periods& periods = grid_.periods();
@@ -108,6 +115,9 @@ void SiteState::refresh_sites(const sizing::SizeField& size) {
     const LocalIndex i = first + static_cast<LocalIndex>(k);
     values[static_cast<std::size_t>(i)] = size.size(periods.wrap(points_.position(i)));
   });
+  for (LocalIndex i = first; i < points_.owned(); ++i)
+    if (const double h = values[static_cast<std::size_t>(i)]; !sizing::is_valid_size(h))
+      sizing::fail_for_size(periods.wrap(points_.position(i)), h);
 }
 
 delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size,

@@ -33,6 +33,7 @@ public:
 
   /// @brief Refreshes the halo and the sizes and computes the wanted stars, asking for more bins until every one is
   /// certain. Collective.
+  /// @throws GeometryError on all ranks together if h at a site is not positive and finite
   delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size, Wanted wanted);
 
   const mesh::TileGrid& grid() const { return grid_; }
@@ -51,6 +52,7 @@ private:
   void wrap(std::vector<mesh::Site>& sites) const;
   void choose_bins(std::span<const mesh::Site> sites);
   void refresh_sites(const sizing::SizeField& size);
+  void evaluate_sizes(const sizing::SizeField& size);
 
   const comm::Communicator& comm_;
   mesh::TileGrid grid_;

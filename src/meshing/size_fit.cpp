@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/size_fit.hpp"
 
+#include "trime/comm/agree.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -29,6 +30,19 @@ constexpr double close_enough = 0.004; // of the points asked for
       fmt::format("points = {} are too few for this shape: its boundary alone needs {:.0f} (every corner, and "
                   "every place where the boundary comes near itself, takes its own); ask for more",
                   points, fewest));
+}
+
+/// Bounds that the edge length itself breaks cannot be met.
+void check_edge_length(const MeshOptions& options) {
+  if (!options.edge_length)
+    return;
+  const auto check = [&](const std::optional<double>& bound, bool broken, const char* name, const char* relation) {
+    if (broken)
+      throw ConfigError(fmt::format("edge_length = {} and {} = {}: expected an edge_length of at {} {}",
+                                    *options.edge_length, name, *bound, relation, name));
+  };
+  check(options.min_size, options.min_size && *options.min_size > *options.edge_length, "min_size", "least");
+  check(options.max_size, options.max_size && *options.max_size < *options.edge_length, "max_size", "most");
 }
 
 // --- uniform size
@@ -89,14 +103,15 @@ double fitting_spacing(const LayoutContext& context, const Layout& layout) {
 // --- any size
 // ---------------------------------------------------------------------------------------------------------
 
-/// Smallest relative size at some places around the shape: on its boundary and on a grid over it.
+/// Smallest relative size at some places around the shape: on its boundary and on a grid over it. Bad values are found
+/// elsewhere: the grid covers places outside the shape.
 double smallest_sampled(const LayoutContext& context) {
   constexpr int per_side = 33;
   constexpr std::size_t most_pieces = 4096;
   double smallest = INFINITY;
   const auto sample = [&](geometry::Vec2 p) {
     const double s = context.relative_size.size(context.boundary.periods.wrap(p));
-    if (s > 0 && s < smallest)
+    if (sizing::is_valid_size(s) && s < smallest)
       smallest = s;
   };
   std::size_t pieces = 0;
@@ -127,7 +142,8 @@ public:
     const geometry::Boundary& boundary = context_.boundary;
     const double uniform = context_.options.points ? estimated_size(boundary.area, boundary.length(), points_)
                                                    : size_factor_ * *context_.options.edge_length;
-    const double smallest = size_factor_ * smallest_sampled(context_);
+    double smallest = 0;
+    comm::run_agreed(context_.comm, [&] { smallest = size_factor_ * smallest_sampled(context_); });
     return context_.options.points ? for_points(uniform / smallest, smallest) : for_edge_length(uniform / smallest);
   }
 
@@ -210,10 +226,17 @@ private:
     constexpr int rounds = 12;
     const double wanted = size_factor_ * *context_.options.edge_length;
     Trial trial = try_factor(factor);
-    for (int round = 0; round < rounds; ++round) {
+    for (int round = 0;; ++round) {
       const double ratio = trial.totals.mean_size > 0 ? wanted / trial.totals.mean_size : 1;
       if (std::fabs(ratio - 1) < close_enough)
         break;
+      if (round == rounds) {
+        context_.log.warning(
+            "edge_length = {} is not met: the mean size of the fitted field is {:.6g}; bounds near the "
+            "edge length, or jumps of the size, leave no better factor",
+            *context_.options.edge_length, trial.totals.mean_size / size_factor_);
+        break;
+      }
       factor *= ratio;
       trial = try_factor(factor);
     }
@@ -229,7 +252,9 @@ private:
 LatticeFit fit_lattice(const LayoutContext& context) {
   const MeshOptions& options = context.options;
   const bool by_points = options.points.has_value();
-  const double relative = context.relative_size.size({});
+  check_edge_length(options);
+  double relative = 0;
+  comm::run_agreed(context.comm, [&] { relative = sizing::checked_size(context.relative_size, {}); });
   const double expected = by_points ? static_cast<double>(std::max<GlobalId>(3, *options.points)) : 0;
   double h =
       by_points ? estimated_size(context.boundary.area, context.boundary.length(), expected) : *options.edge_length;
@@ -261,6 +286,7 @@ LatticeFit fit_lattice(const LayoutContext& context) {
 }
 
 DensityFit fit_density(const LayoutContext& context, double points, double size_factor, double coarsening) {
+  check_edge_length(context.options);
   return DensitySolver(context, points, size_factor, coarsening).solve();
 }
 

@@ -20,7 +20,8 @@ struct LatticeFit {
 /// lattice has as many sites as the boundary leaves. If it differs from the boundary's by more than 2 % (a boundary
 /// full of corners takes more sites than its length says), the boundary is laid again at that spacing, twice at most.
 /// Collective.
-/// @throws ConfigError if the boundary alone needs more than the requested points at any size, or max_size does
+/// @throws ConfigError if the boundary alone needs more than the requested points at any size, or max_size does; if the
+/// edge length is outside the bounds of the size
 LatticeFit fit_lattice(const LayoutContext& context);
 
 /// A layout without inner sites, and how many there should be.
@@ -36,7 +37,7 @@ struct DensityFit {
 /// and round, 3 to 6 rounds.
 /// @param size_factor h of this stage over that of the last one
 /// @param coarsening of the integral
-/// @throws ConfigError as fit_lattice
+/// @throws ConfigError as fit_lattice; GeometryError if the size field is not positive and finite
 DensityFit fit_density(const LayoutContext& context, double points, double size_factor, double coarsening);
 
 /// Inner sites that the size of a layout asks for. Collective.

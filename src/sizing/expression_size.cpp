@@ -3,11 +3,12 @@
 
 #include "trime/core/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace trime::sizing {
 
-ExpressionSize::ExpressionSize(const Formula& formula, const geometry::Box& box) : formula_(formula) {
+ExpressionSize::ExpressionSize(const Formula& formula, const geometry::Box& box) : formula_(formula), box_(box) {
   double largest = 0;
   for (int j = 0; j < check_points; ++j)
     for (int i = 0; i < check_points; ++i) {
@@ -25,8 +26,9 @@ ExpressionSize::ExpressionSize(const Formula& formula, const geometry::Box& box)
 }
 
 double ExpressionSize::size(geometry::Vec2 p) const {
-  const double value = formula_.evaluate(p.x, p.y);
-  return value >= smallest_ && std::isfinite(value) ? value : smallest_;
+  const double value =
+      formula_.evaluate(std::clamp(p.x, box_.min.x, box_.max.x), std::clamp(p.y, box_.min.y, box_.max.y));
+  return value > 0 && value < smallest_ ? smallest_ : value;
 }
 
 } // namespace trime::sizing

@@ -11,7 +11,7 @@
 namespace trime::sizing {
 
 struct AutomaticSizeOptions {
-  double gradation = 0.1; ///< K >= 0, the bound on the gradient of the field; 0 makes it uniform
+  double gradation = 0.1; ///< K >= 0, the growth of the size per length; see AutomaticSize. 0 makes it uniform
   /// Length below which features are not resolved, > 0: the local feature size is never taken smaller. It has to be
   /// there because at a corner of a polygon the medial axis meets the boundary and the local feature size is 0. About
   /// half the mean edge length of the mesh is right.
@@ -33,8 +33,10 @@ class SizeQuadtree;
 /// corners; samples are as dense as the local feature size asks.
 ///
 /// The field is kept in a quadtree: exact values at the corners of a cell, bilinear inside, cells split until the
-/// interpolant is within 1 % at the middles of edges and cells. Values at corners obey |s(a) - s(b)| <= K |a - b|.
-/// Where cells of different size meet the field may jump, by that 1 % twice.
+/// interpolant is within 1 % at the middles of edges and cells. K is the exact bound of s, and of the values at
+/// corners: |s(a) - s(b)| <= K |a - b|. It is not one of the interpolant: inside a cell either component of its
+/// gradient is at most K, so that the gradient can be up to sqrt(2) K long, along a diagonal (in practice a little
+/// above K), and where cells of different size meet the field may jump, by that 1 % twice.
 class AutomaticSize final : public SizeField {
 public:
   /// @brief O(n log n + cells) for n boundary samples; work is shared by ranks and threads, the result is the same bits

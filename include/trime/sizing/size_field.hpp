@@ -9,7 +9,9 @@
 namespace trime::sizing {
 
 /// @brief Relative element size, positive; the mesher scales it by one factor to meet the requested number of points.
-/// Called concurrently: implementations must be thread-safe and give the same bits on every rank.
+/// Called concurrently: implementations must be thread-safe and give the same bits on every rank. Where the mesher
+/// meets a value in the shape that is not positive and finite, all ranks throw a GeometryError with the place and the
+/// value.
 class SizeField {
 public:
   virtual ~SizeField() = default;
@@ -17,6 +19,22 @@ public:
   /// True if the size is the same everywhere (allows the lattice start).
   virtual bool is_uniform() const { return false; }
 };
+
+/// What the mesher expects of a size.
+inline bool is_valid_size(double size) {
+  return size > 0 && size <= std::numeric_limits<double>::max();
+}
+
+/// @throws GeometryError that names the place and the value
+[[noreturn]] void fail_for_size(geometry::Vec2 p, double size);
+
+/// The size at p. @throws GeometryError unless it is positive and finite, on this rank alone
+inline double checked_size(const SizeField& field, geometry::Vec2 p) {
+  const double size = field.size(p);
+  if (!is_valid_size(size))
+    fail_for_size(p, size);
+  return size;
+}
 
 /// The same size everywhere.
 class UniformSize final : public SizeField {
@@ -36,9 +54,12 @@ public:
   ScaledSize(const SizeField& field, double factor, double min_size = 0,
              double max_size = std::numeric_limits<double>::infinity())
       : field_(field), factor_(factor), min_size_(min_size), max_size_(max_size) {}
-  /// A NaN of the field stays one, for the caller to find.
+  /// What is no valid size comes through as it is, for the caller to find.
   double size(geometry::Vec2 p) const override {
-    const double size = factor_ * field_.size(p);
+    const double relative = field_.size(p);
+    if (!is_valid_size(relative))
+      return relative;
+    const double size = factor_ * relative;
     return size < min_size_ ? min_size_ : size > max_size_ ? max_size_ : size;
   }
   bool is_uniform() const override { return field_.is_uniform(); }

@@ -250,6 +250,19 @@ TEST(Config, BoundsOfTheSizeAreInOrder) {
   expect_refused("sizing.min_size=0", "none or a number > 0");
 }
 
+TEST(Config, TheEdgeLengthIsWithinTheBoundsOfTheSize) {
+  const auto errors = [](const char* bound) {
+    return errors_of("[domain]\nx_min = 0\nx_max = 1\ny_min = 0\ny_max = 1\n[shape]\nregion = domain\n"
+                     "[meshing]\nedge_length = 0.03\n",
+                     {bound});
+  };
+  EXPECT_NE(errors("sizing.min_size=0.1").find(":9: 'edge_length = 0.03' in [meshing] is below 'min_size = 0.1'"),
+            std::string::npos)
+      << errors("sizing.min_size=0.1");
+  EXPECT_NE(errors("sizing.max_size=0.01").find(":9: 'edge_length = 0.03' in [meshing] is above 'max_size = 0.01'"),
+            std::string::npos);
+}
+
 TEST(Config, TakesSizes) {
   const RunOptions options = parse_config(good, "dir/c.ini", {"sizing.type=expression", "sizing.expression=1+3*x+3*y"});
   EXPECT_EQ(options.sizing.type, "expression");

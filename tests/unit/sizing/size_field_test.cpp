@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace trime::sizing {
 namespace {
@@ -47,12 +48,27 @@ TEST(ExpressionSize, NamesThePlaceWhereItIsNotPositive) {
   }
 }
 
-TEST(ExpressionSize, StaysPositiveBetweenThePointsOfItsGrid) {
-  const Formula formula("abs(x-0.3) + abs(y-0.3) < 1e-3 ? -1 : x + 2", "test");
-  const ExpressionSize size(formula, unit_box);
-  EXPECT_EQ(size.size({0.3, 0.3}), 3e-6);
-  const Formula infinite("abs(x-0.3) + abs(y-0.3) < 1e-3 ? 1/0 : 1", "test");
-  EXPECT_EQ(ExpressionSize(infinite, unit_box).size({0.3, 0.3}), 1e-6);
+TEST(ExpressionSize, WhatFailsBetweenThePointsOfItsGridComesThroughForTheMesherToName) {
+  const Formula negative("abs(x-0.3) + abs(y-0.3) < 1e-3 ? -1 : x + 2", "test");
+  const ExpressionSize size(negative, unit_box);
+  EXPECT_EQ(size.size({0.3, 0.3}), -1);
+  EXPECT_EQ(ScaledSize(size, 2, 0.1, 1.5).size({0.3, 0.3}), -1) << "a bound must not hide it";
+  const Formula tiny("abs(x-0.3) + abs(y-0.3) < 1e-3 ? 1e-9 : x + 2", "test");
+  EXPECT_EQ(ExpressionSize(tiny, unit_box).size({0.3, 0.3}), 3e-6);
+}
+
+TEST(ExpressionSize, IsThatOfTheNearestPointOutsideItsBox) {
+  const Formula formula("0.1 + sqrt(x)", "test");
+  EXPECT_EQ(ExpressionSize(formula, unit_box).size({-1e-17, 0.5}), 0.1);
+}
+
+TEST(ScaledSize, WhatIsNoSizeComesThrough) {
+  for (const double bad : {0.0, -2.0, std::numeric_limits<double>::infinity()}) {
+    const UniformSize field(bad);
+    EXPECT_EQ(ScaledSize(field, 3, 0.1, 1).size({}), bad);
+    EXPECT_THROW(checked_size(ScaledSize(field, 3, 0.1, 1), {}), GeometryError);
+  }
+  EXPECT_TRUE(std::isnan(ScaledSize(UniformSize(std::nan("")), 3, 0.1, 1).size({})));
 }
 
 } // namespace

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/sizing/size_field.hpp"
+
+#include "trime/core/error.hpp"
+
+namespace trime::sizing {
+
+void fail_for_size(geometry::Vec2 p, double size) {
+  throw GeometryError(fmt::format("the size field at ({}, {}): expected a positive finite size, found {}; the field "
+                                  "must be positive in the whole shape",
+                                  p.x, p.y, size));
+}
+
+} // namespace trime::sizing
