@@ -23,7 +23,7 @@ std::vector<mesh::Site> split_edges(const ExtractionContext& context);
 void insert_in_triangles(const ExtractionContext& context, const Layout& next, std::int64_t count,
                          std::vector<mesh::Site>& sites);
 
-/// Removes sites outside of the shape or within 0.43 h of its boundary, as the next stage has it.
+/// Removes sites outside of the shape or within 0.43 h of its boundary, as the next stage has it. Collective.
 void clear_strip(const Layout& next, std::vector<mesh::Site>& sites);
 
 /// @brief Removes sites until at most `most` are left over all ranks: those nearest to the boundary relative to h,
