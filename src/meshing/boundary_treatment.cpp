@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/boundary_treatment.hpp"
 
+#include "trime/comm/agree.hpp"
 #include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
@@ -44,35 +45,37 @@ MoveCounts move_all(SiteState& state, const MoveContext& context, int allowed, c
   std::vector<MoveCounts> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
   const StarView view = view_of(state, context.size);
   const LocalIndex first_tile = points.first_tile();
-  thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t t, int thread) {
-    const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
-    MoveCounts counts;
-    for (LocalIndex i = begin; i < end; ++i) {
-      mesh::Site& site = sites[static_cast<std::size_t>(i)] = points.site(i);
-      if (site.boundary != mesh::free_site)
-        continue;
-      const Vec2 from = site.position;
-      const double h = view.size(i);
-      const Step step = propose(i, h);
-      site.position = context.lattice.snap(into_box(from + step.move + step.lead, state.grid()));
-      site.lead = step.lead;
-      counts.power.add(std::clamp(step.power, -largest_power, largest_power));
-      if (const auto pushed = context.guard.correct(site.position, h, context.lattice)) {
-        if (site.pushes >= allowed) {
-          deleted[static_cast<std::size_t>(i)] = 1;
-          ++counts.deleted;
+  comm::run_agreed(state.comm(), [&] { // the rule and the size field may be a user's
+    thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t t, int thread) {
+      const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
+      MoveCounts counts;
+      for (LocalIndex i = begin; i < end; ++i) {
+        mesh::Site& site = sites[static_cast<std::size_t>(i)] = points.site(i);
+        if (site.boundary != mesh::free_site)
           continue;
+        const Vec2 from = site.position;
+        const double h = view.size(i);
+        const Step step = propose(i, h);
+        site.position = context.lattice.snap(into_box(from + step.move + step.lead, state.grid()));
+        site.lead = step.lead;
+        counts.power.add(std::clamp(step.power, -largest_power, largest_power));
+        if (const auto pushed = context.guard.correct(site.position, h, context.lattice)) {
+          if (site.pushes >= allowed) {
+            deleted[static_cast<std::size_t>(i)] = 1;
+            ++counts.deleted;
+            continue;
+          }
+          site.position = context.lattice.snap(into_box(*pushed, state.grid()));
+          site.lead = {};
+          ++site.pushes;
+          ++counts.pushed;
         }
-        site.position = context.lattice.snap(into_box(*pushed, state.grid()));
-        site.lead = {};
-        ++site.pushes;
-        ++counts.pushed;
+        const double moved = geometry::length(site.position - from) / h;
+        counts.moving += moved > still;
+        counts.max_move = std::max(counts.max_move, moved);
       }
-      const double moved = geometry::length(site.position - from) / h;
-      counts.moving += moved > still;
-      counts.max_move = std::max(counts.max_move, moved);
-    }
-    of_thread[static_cast<std::size_t>(thread)].add(counts);
+      of_thread[static_cast<std::size_t>(thread)].add(counts);
+    });
   });
   MoveCounts all;
   for (const MoveCounts& counts : of_thread)

@@ -9,6 +9,7 @@
 #include "meshing/site_state.hpp"
 #include "meshing/stopping.hpp"
 #include "meshing/sweep_record.hpp"
+#include "trime/comm/agree.hpp"
 #include "trime/core/error.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/meshing/update_rule.hpp"
@@ -80,9 +81,45 @@ private:
               holes, holes == 1 ? "" : "s", layout_.boundary.sites.size(), layout_.boundary.corners);
     log_.info("start: {} points in {} tiles ({} x {} cells), mean edge about {:.6g}", placed_, grid.tile_count(),
               grid.cells_x(), grid.cells_y(), layout_.typical_size);
-    warn_of_fine_features();
     if (scheme_->is_last())
-      fixed_->warn_of_close_ones(*layout_.guard, *layout_.size, log_);
+      comm::run_agreed(comm_, [this] { // they ask the size field, which may be a user's
+        warn_of_fine_features();
+        warn_of_steep_sizes();
+        if (!fixed_->empty())
+          fixed_->warn_of_close_ones(*layout_.guard, *layout_.size, log_);
+      });
+  }
+
+  /// A size that changes by more than the way that it takes cannot be followed by triangles.
+  void warn_of_steep_sizes() {
+    constexpr int per_side = 64;
+    constexpr double steep = 1;
+    if (layout_.size->is_uniform() || boundary_.loops.empty())
+      return;
+    const geometry::Box box = boundary_.bounding_box();
+    const geometry::Vec2 stride{box.width() / per_side, box.height() / per_side};
+    double steepest = 0;
+    geometry::Vec2 place;
+    const auto look = [&](geometry::Vec2 p, geometry::Vec2 to_next) {
+      if (!layout_.guard->inside(lattice_.snap(p)) || !layout_.guard->inside(lattice_.snap(p + to_next)))
+        return;
+      const double slope =
+          std::fabs(layout_.size->size(p + to_next) - layout_.size->size(p)) / geometry::length(to_next);
+      if (slope > steepest) {
+        steepest = slope;
+        place = p;
+      }
+    };
+    for (int j = 0; j < per_side; ++j)
+      for (int i = 0; i < per_side; ++i) {
+        const geometry::Vec2 p{box.min.x + (i + 0.5) * stride.x, box.min.y + (j + 0.5) * stride.y};
+        look(p, {stride.x, 0});
+        look(p, {0, stride.y});
+      }
+    if (steepest > steep)
+      log_.warning("the edge length that is asked for changes by {:.3g} times the way near ({:.4g}, {:.4g}); triangles "
+                   "can follow about 0.5: expect fewer points and small angles, or take more points or a gentler size",
+                   steepest, place.x, place.y);
   }
 
   /// What a user would want to know before the sweeps begin.
@@ -98,7 +135,7 @@ private:
         size = h;
       }
     }
-    if (scheme_->is_last() && least < 0.1)
+    if (least < 0.1)
       log_.warning("the boundary has segments of {:.3g} where edges of {:.3g} are asked for: expect small angles there",
                    length, size);
   }
