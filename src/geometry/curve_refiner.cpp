@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace trime::geometry {
 
@@ -11,7 +12,8 @@ namespace {
 
 constexpr double smallest_turn = 0.07; // radians, about 4 degrees: corners that are looked for
 constexpr int deepest = 48;            // halvings of a chord
-constexpr double share = 0.02;         // stray of a chord over its length: turns of 9 degrees
+constexpr std::size_t most_in_chord = 4096, most_vertices = std::size_t{1} << 23; // vertices, before thinning
+constexpr double share = 0.02; // stray of a chord over its length: turns of 9 degrees
 
 Vec2 unit(Vec2 v) {
   return (1 / length(v)) * v;
@@ -33,32 +35,53 @@ std::optional<Vec2> meeting(Vec2 p, Vec2 u, Vec2 q, Vec2 v) {
 
 } // namespace
 
-std::vector<Vec2> CurveRefiner::refine(const std::vector<Vec2>& chain) const {
+std::vector<Vec2> CurveRefiner::refine(const std::vector<Vec2>& chain) {
   return thinned(insert_corners(halve_chords(chain)), tolerances_.straight, 2 * tolerances_.chord);
 }
 
-std::vector<Vec2> CurveRefiner::halve_chords(const std::vector<Vec2>& chain) const {
-  std::vector<std::vector<Vec2>> parts(chain.size());
-  function_.for_all(chain.size(), 1, [&](std::size_t k) {
-    parts[k].push_back(chain[k]);
-    halve(chain[k], chain[(k + 1) % chain.size()], 0, parts[k]);
-  });
+/// In batches of a fixed size, so that a curve that cannot be followed ends soon, and at the same chord for any number
+/// of threads.
+std::vector<Vec2> CurveRefiner::halve_chords(const std::vector<Vec2>& chain) {
+  constexpr std::size_t batch = 64;
   std::vector<Vec2> all;
-  for (const std::vector<Vec2>& part : parts)
-    all.insert(all.end(), part.begin(), part.end());
+  for (std::size_t first = 0; first < chain.size(); first += batch) {
+    std::vector<std::vector<Vec2>> parts(std::min(batch, chain.size() - first));
+    std::vector<std::uint8_t> followed(parts.size());
+    function_.for_all(parts.size(), 1, [&](std::size_t k) {
+      const Vec2 a = chain[first + k], b = chain[(first + k + 1) % chain.size()];
+      parts[k].push_back(a);
+      followed[k] = halve(a, b, 0, parts[k]);
+    });
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      vertices_ += parts[k].size();
+      if (!followed[k] || vertices_ > most_vertices)
+        fail_for_oscillation(chain[first + k], !followed[k] ? most_in_chord : most_vertices);
+      all.insert(all.end(), parts[k].begin(), parts[k].end());
+    }
+  }
   return all;
 }
 
-/// Appends the vertices strictly between a and b.
-void CurveRefiner::halve(Vec2 a, Vec2 b, int depth, std::vector<Vec2>& to) const {
-  if (depth == deepest || length(b - a) < tolerances_.shortest || is_near(a, b))
-    return;
+/// Appends the vertices strictly between a and b. False if they would be too many, or come no nearer to the curve.
+bool CurveRefiner::halve(Vec2 a, Vec2 b, int depth, std::vector<Vec2>& to) const {
+  if (length(b - a) < tolerances_.shortest || is_near(a, b))
+    return true;
+  if (depth == deepest || to.size() >= most_in_chord)
+    return false;
   const std::optional<Vec2> middle = curve_beside(a, b);
   if (!middle)
-    return;
-  halve(a, *middle, depth + 1, to);
+    return true;
+  if (!halve(a, *middle, depth + 1, to))
+    return false;
   to.push_back(*middle);
-  halve(*middle, b, depth + 1, to);
+  return halve(*middle, b, depth + 1, to);
+}
+
+void CurveRefiner::fail_for_oscillation(Vec2 place, std::size_t vertices) const {
+  throw GeometryError(fmt::format(
+      "part '{}': the function oscillates below the resolution of {:.3g} near ({:.9g}, {:.9g}): its zeros could not be "
+      "followed with {} vertices; leave out the details of the formula that are smaller than the resolution",
+      function_.name(), resolution_, place.x, place.y, vertices));
 }
 
 /// Does the curve pass the chord within the tolerance, at three places?

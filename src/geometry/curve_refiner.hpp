@@ -28,15 +28,18 @@ struct CurveVertex {
 
 class CurveRefiner {
 public:
-  CurveRefiner(const LevelFunction& function, const TraceTolerances& tolerances)
-      : function_(function), tolerances_(tolerances) {}
+  /// @param resolution of the chains, for messages
+  CurveRefiner(const LevelFunction& function, const TraceTolerances& tolerances, double resolution)
+      : function_(function), tolerances_(tolerances), resolution_(resolution) {}
 
   /// @brief Closed polygon along the curve. @param chain closed, interior on the left, at least three vertices
-  std::vector<Vec2> refine(const std::vector<Vec2>& chain) const;
+  /// @throws GeometryError with the place where a chord, or all chains so far, would need too many vertices
+  std::vector<Vec2> refine(const std::vector<Vec2>& chain);
 
 private:
-  std::vector<Vec2> halve_chords(const std::vector<Vec2>& chain) const;
-  void halve(Vec2 a, Vec2 b, int depth, std::vector<Vec2>& to) const;
+  std::vector<Vec2> halve_chords(const std::vector<Vec2>& chain);
+  bool halve(Vec2 a, Vec2 b, int depth, std::vector<Vec2>& to) const;
+  [[noreturn]] void fail_for_oscillation(Vec2 place, std::size_t vertices) const;
   bool is_near(Vec2 a, Vec2 b) const;
   std::optional<Vec2> curve_beside(Vec2 a, Vec2 b) const;
 
@@ -47,6 +50,8 @@ private:
 
   const LevelFunction& function_;
   const TraceTolerances tolerances_;
+  const double resolution_;
+  std::size_t vertices_ = 0; // of all chains so far, before thinning
 };
 
 /// @brief Takes out vertices of a closed polygon: runs on one line become one segment each, and the rest chords that

@@ -7,6 +7,7 @@
 #include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"
 #include "trime/geometry/predicates.hpp"
+#include "zero_chains.hpp"
 
 #include <cmath>
 
@@ -98,7 +99,14 @@ Part Part::implicit(const std::string& name, const Shape& shape, const Frame& fr
     }
   };
   Part part(name, polygon_of(contour));
-  return frame.periods().any() ? Part(name, polygon_of(clip_to_periods(part, frame))) : part;
+  if (frame.periods().any())
+    part = Part(name, polygon_of(clip_to_periods(part, frame)));
+  const double finest = finest_resolution(std::fmax(frame.inner().width(), frame.inner().height()));
+  if (resolution > 0 && resolution < finest)
+    part.warnings_.push_back(fmt::format("part '{}': a resolution of {:g} is finer than {:g}, the finest there is for "
+                                         "this container, which is used instead",
+                                         name, resolution, finest));
+  return part;
 }
 
 std::vector<Loop> Part::boundary() const {

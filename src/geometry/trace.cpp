@@ -2,7 +2,7 @@
 #include "trace.hpp"
 
 #include "curve_refiner.hpp"
-#include "trime/geometry/segment.hpp"
+#include "trime/geometry/segment_grid.hpp"
 #include "zero_chains.hpp"
 
 #include <algorithm>
@@ -26,22 +26,60 @@ std::vector<Vec2> without_repeats(const std::vector<Vec2>& chain, double distanc
   return result;
 }
 
-/// Is every vertex of the chain on the ring? In a tip narrower than a cell the grid sees islands, of which the refined
-/// ring of the whole has the curve already.
-bool lies_on(const std::vector<Vec2>& chain, const std::vector<Vec2>& ring, double distance) {
-  Box box;
-  for (const Vec2 p : ring)
-    box.include(p);
-  const Vec2 margin{distance, distance};
-  box = {box.min - margin, box.max + margin};
-  return std::all_of(chain.begin(), chain.end(), [&](Vec2 p) {
-    if (!box.contains(p))
-      return false;
-    for (std::size_t k = 0; k < ring.size(); ++k)
-      if (squared_distance(p, {ring[k], ring[(k + 1) % ring.size()]}) <= distance * distance)
+/// The rings found so far, to tell what they have already: in a tip narrower than a cell the grid sees islands, of
+/// which the refined ring of the whole has the curve.
+class FoundRings {
+public:
+  explicit FoundRings(double distance) : distance_(distance) {}
+
+  void add(const std::vector<Vec2>& ring) {
+    Box box;
+    std::vector<Segment> segments;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      box.include(ring[k]);
+      segments.push_back({ring[k], ring[(k + 1) % ring.size()]});
+    }
+    const Vec2 margin{distance_, distance_};
+    boxes_.push_back({box.min - margin, box.max + margin});
+    grids_.emplace_back(std::move(segments));
+  }
+
+  /// Is every vertex of the chain on one of the rings? O(rings), and O(log) for each that may hold a vertex.
+  bool hold(const std::vector<Vec2>& chain) const {
+    for (std::size_t ring = 0; ring < boxes_.size(); ++ring)
+      if (std::all_of(chain.begin(), chain.end(), [&](Vec2 p) {
+            return boxes_[ring].contains(p) && grids_[ring].nearest(p, distance_).has_value();
+          }))
         return true;
     return false;
-  });
+  }
+
+private:
+  double distance_;
+  std::vector<Box> boxes_;
+  std::vector<SegmentGrid> grids_;
+};
+
+/// With fewer vertices a chain is what rounding makes around a node, smaller than the resolution by far.
+constexpr std::size_t fewest_vertices = 3;
+constexpr std::size_t most_chains = 1 << 14;
+
+/// Chains worth refining, the longest first.
+std::vector<std::vector<Vec2>> without_specks(const ZeroChains& coarse, const std::string& name) {
+  std::vector<std::vector<Vec2>> chains;
+  for (const std::vector<Vec2>& chain : coarse.chains) {
+    std::vector<Vec2> clean = without_repeats(chain, nearly_equal * coarse.cell);
+    if (clean.size() >= fewest_vertices)
+      chains.push_back(std::move(clean));
+  }
+  if (chains.size() > most_chains)
+    throw GeometryError(fmt::format("part '{}': the function oscillates below the resolution of {:.3g} near ({:.9g}, "
+                                    "{:.9g}), or has too many pieces: found {} closed curves, expected at most {}; "
+                                    "leave out the smallest ones",
+                                    name, 2 * coarse.cell, chains[most_chains][0].x, chains[most_chains][0].y,
+                                    chains.size(), most_chains));
+  std::stable_sort(chains.begin(), chains.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  return chains;
 }
 
 double resolution_of(const std::string& name, double given, double side) {
@@ -60,21 +98,17 @@ std::vector<std::vector<Vec2>> trace_zero_set(const std::string& name, const Sha
   LevelFunction function(name, shape, box);
   const ZeroChains coarse = march(function, box, resolution_of(name, resolution, side));
   const TraceTolerances tolerances(side);
-  const CurveRefiner refiner(function, tolerances);
-  std::vector<std::vector<Vec2>> chains;
-  for (const std::vector<Vec2>& chain : coarse.chains)
-    chains.push_back(without_repeats(chain, nearly_equal * coarse.cell));
-  std::stable_sort(chains.begin(), chains.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  CurveRefiner refiner(function, tolerances, 2 * coarse.cell);
+  FoundRings found(4 * tolerances.chord);
   std::vector<std::vector<Vec2>> rings;
-  for (const std::vector<Vec2>& chain : chains) {
-    // With fewer vertices it is what rounding makes around a node, smaller than the resolution by far.
-    if (chain.size() < 3 || std::any_of(rings.begin(), rings.end(), [&](const std::vector<Vec2>& ring) {
-          return lies_on(chain, ring, 4 * tolerances.chord);
-        }))
+  for (const std::vector<Vec2>& chain : without_specks(coarse, name)) {
+    if (found.hold(chain))
       continue;
     std::vector<Vec2> ring = refiner.refine(chain);
-    if (ring.size() >= 3)
-      rings.push_back(std::move(ring));
+    if (ring.size() < 3)
+      continue;
+    found.add(ring);
+    rings.push_back(std::move(ring));
   }
   return rings;
 }

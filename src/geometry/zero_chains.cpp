@@ -13,7 +13,8 @@ namespace {
 
 constexpr int levels = 2; // halvings from the coarse to the fine grid
 constexpr int refinement = 1 << levels;
-constexpr int fewest_cells = 16, most_cells = 4096; // coarse, along a side
+constexpr int fewest_cells = 16, most_cells = 4096;          // coarse, along a side
+constexpr std::size_t most_near_zero = std::size_t{1} << 25; // fine cells that the zero set may meet
 
 using Key = std::int64_t;
 
@@ -38,7 +39,9 @@ public:
     sample(cells, 0);
     measure_slopes();
     for (int level = 1; level <= levels; ++level) {
-      cells = children(candidates(cells, level - 1));
+      cells = candidates(cells, level - 1);
+      check_number(cells, level - 1);
+      cells = children(cells);
       sample(cells, level);
     }
     function_.build_wall(steepest_, lowest_, std::fmin(width_, height_));
@@ -98,6 +101,7 @@ private:
   void sample(const std::vector<Index>& cells, int level);
   void measure_slopes();
   std::vector<Index> candidates(const std::vector<Index>& cells, int level) const;
+  void check_number(const std::vector<Index>& cells, int level) const;
   static std::vector<Index> children(const std::vector<Index>& cells);
   void add_rim(std::vector<Index>& cells);
   void add_missing(std::vector<Index>& cells);
@@ -200,6 +204,18 @@ std::vector<Index> Marcher::candidates(const std::vector<Index>& cells, int leve
       result.push_back(cell);
   }
   return result;
+}
+
+void Marcher::check_number(const std::vector<Index>& cells, int level) const {
+  const std::size_t most = most_near_zero >> (2 * (levels - level));
+  if (cells.size() <= most)
+    return;
+  const Vec2 p = place(corners(cells[most], level)[0]);
+  throw GeometryError(fmt::format("part '{}': the function oscillates below the resolution of {:.3g} near ({:.9g}, "
+                                  "{:.9g}): {} cells of that size may hold zeros, expected at most {}; leave out the "
+                                  "details that are smaller, or use a coarser resolution",
+                                  function_.name(), 2 * std::fmax(width_, height_), p.x, p.y,
+                                  cells.size() << (2 * (levels - level)), most_near_zero));
 }
 
 std::vector<Index> Marcher::children(const std::vector<Index>& cells) {
@@ -320,6 +336,10 @@ std::vector<std::vector<Vec2>> Marcher::chains(const std::vector<Index>& cells) 
 }
 
 } // namespace
+
+double finest_resolution(double side) {
+  return 2 * side / (most_cells * refinement);
+}
 
 ZeroChains march(LevelFunction& function, const Box& container, double resolution) {
   return Marcher(function, container, resolution).march();

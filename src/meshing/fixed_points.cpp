@@ -104,12 +104,31 @@ FixedPoints::FixedPoints(const geometry::Boundary& boundary, const MeshOptions& 
   for (const Vec2 p : all_) {
     const bool on_curve =
         std::any_of(images.begin(), images.end(), [&](Vec2 s) { return pieces.distance(p + s) <= tolerance_; });
-    if (on_curve)
+    if (on_curve) {
+      check_apart(p);
       add_corner(p);
-    else
+      on_curve_.push_back(p);
+    } else {
       inside_.push_back(p);
+    }
   }
   tree_ = tree_of(inside_);
+}
+
+/// Where two points on the boundary are nearer than what counts as on it, only one of them could be a corner.
+void FixedPoints::check_apart(Vec2 p) const {
+  // The earlier ones stand in the order of x, but images may be anywhere.
+  for (const Vec2 shift : images_of(boundary_.periods)) {
+    const double from = p.x + shift.x - tolerance_;
+    for (auto q = std::lower_bound(on_curve_.begin(), on_curve_.end(), Vec2{from, -INFINITY},
+                                   geometry::lexicographically_less);
+         q != on_curve_.end() && q->x <= p.x + shift.x + tolerance_; ++q)
+      if (const double distance = geometry::length(*q - (p + shift)); distance <= tolerance_)
+        throw GeometryError(fmt::format(
+            "{}: the fixed point ({:.12g}, {:.12g}) on the boundary is {:.2g} from that of {}: expected the same point "
+            "or a distance above {:.2g}; take out one of them",
+            label(p), p.x, p.y, distance, label(*q), tolerance_));
+  }
 }
 
 /// The nearest piece of all is divided at p, or its end moved there if that is as near.

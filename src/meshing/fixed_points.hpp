@@ -27,7 +27,8 @@ public:
   static constexpr double clearance = 0.6;
 
   /// @brief Points that the lattice makes equal are kept once, with a warning. O(points x log(pieces)).
-  /// @throws GeometryError if a point is not finite or lies outside of the container
+  /// @throws GeometryError if a point is not finite or lies outside of the container, and if two on the boundary
+  /// differ but are nearer to each other than what counts as on it
   FixedPoints(const geometry::Boundary& boundary, const MeshOptions& options, const geometry::Lattice& lattice,
               Log& log);
 
@@ -49,6 +50,7 @@ public:
   void warn_of_close_ones(const BoundaryGuard& guard, const sizing::SizeField& size, Log& log) const;
 
 private:
+  void check_apart(geometry::Vec2 p) const;
   void add_corner(geometry::Vec2 p);
   bool is_near(geometry::Vec2 p, double distance) const;
   const std::string& label(geometry::Vec2 p) const;
@@ -56,10 +58,10 @@ private:
   const MeshOptions& options_;
   const geometry::Lattice lattice_;
   geometry::Boundary boundary_;
-  double tolerance_; ///< how near to a curve counts as on it
-  std::vector<geometry::Vec2> all_, inside_;
-  std::vector<std::size_t> source_; ///< of each point of all_: its number in the options
-  SiteTree tree_;                   ///< of inside_
+  double tolerance_;                                    ///< how near to a curve counts as on it
+  std::vector<geometry::Vec2> all_, inside_, on_curve_; ///< in lexicographic order
+  std::vector<std::size_t> source_;                     ///< of each point of all_: its number in the options
+  SiteTree tree_;                                       ///< of inside_
 };
 
 } // namespace trime::meshing

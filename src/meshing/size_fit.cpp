@@ -26,6 +26,12 @@ constexpr double close_enough = 0.004; // of the points asked for
     throw ConfigError(fmt::format("points = {} are too few for max_size = {}: expected at least {:.0f}; ask for more "
                                   "points or a larger max_size",
                                   points, *context.options.max_size, fewest));
+  if (const std::size_t inside = context.fixed.inside().size(); inside > 0)
+    throw ConfigError(
+        fmt::format("points = {} are too few for this shape: the {} fixed points inside and {:.0f} on its "
+                    "boundary (every corner, and every place where the boundary comes near itself, takes "
+                    "its own) make {:.0f}; ask for more, or for fewer fixed points",
+                    points, inside, fewest - static_cast<double>(inside), fewest));
   throw ConfigError(
       fmt::format("points = {} are too few for this shape: its boundary alone needs {:.0f} (every corner, and "
                   "every place where the boundary comes near itself, takes its own); ask for more",

@@ -56,6 +56,13 @@ class FixedPoints(unittest.TestCase):
             self.assertRegex(done.stdout, r"points.xy:2: the fixed point \(0.3, 0.3\) is the same as .*points.xy:1")
             self.expect_vertices(directory, [(0.3, 0.3)])
 
+    def test_more_than_the_points_asked_for(self):
+        with Workspace() as directory:
+            points = "".join(f"{1 + 0.08 * (k % 25)} {1 + 0.08 * (k // 25)}\n" for k in range(600))
+            done = self.mesh(directory, points, "meshing.points=500")
+            self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+            self.assertRegex(done.stderr, r"points = 500 are too few .* the 600 fixed points inside and \d+ on its")
+
     def test_mistakes(self):
         for points, code, message in (("1 1\n5 1\n", 3, r"points.xy:2: the fixed point .* lies outside"),
                                       ("1 1\n1\n", 3, r"points.xy:2: expected two numbers"),

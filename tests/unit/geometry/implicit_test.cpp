@@ -255,6 +255,44 @@ TEST(Implicit, RefusesToCrossAPeriodicBorderWithoutItsPeriod) {
   EXPECT_NEAR(trace([](Vec2 p) { return disc(p, {0.75, 0.5}, 0.2); }, frame).boundary().area, pi * 0.04, 3e-6);
 }
 
+TEST(Implicit, RefusesWhatOscillatesBelowTheResolution) {
+  const int threads = thread_count();
+  const std::vector<std::function<double(Vec2)>> wild{
+      [](Vec2 p) { return p.y - 0.5 + 0.1 * std::sin(100000 * p.x); },
+      [](Vec2 p) { return std::sin(1000 * p.x) * std::sin(1000 * p.y) + 0.01; },
+      [](Vec2 p) {
+        return disc(p, {0.5, 0.5}, 0.3) + 0.01 * std::sin(1e7 * p.x * p.y);
+      }};
+  for (const std::function<double(Vec2)>& f : wild) {
+    set_thread_count(1);
+    const std::string alone = message_of(f);
+    set_thread_count(3);
+    const std::string together = message_of(f);
+    set_thread_count(threads);
+    EXPECT_NE(alone.find("oscillates below the resolution of 0.00195 near ("), std::string::npos) << alone;
+    EXPECT_EQ(alone, together);
+  }
+}
+
+TEST(Implicit, FollowsWhatOscillatesAboveTheResolution) {
+  const RegionShape wave = trace([](Vec2 p) { return std::fabs(p.y - 0.5 + 0.1 * std::sin(300 * p.x)) - 0.3; });
+  EXPECT_EQ(wave.boundary().components(), 1);
+  const RegionShape plate = trace([](Vec2 p) { // 50 x 50 holes
+    const Vec2 q{50 * p.x - std::floor(50 * p.x), 50 * p.y - std::floor(50 * p.y)};
+    return std::fmax(box_distance(p, {0.5, 0.5}, {0.5, 0.5}), -disc(q, {0.5, 0.5}, 0.3) / 50);
+  });
+  EXPECT_EQ(plate.boundary().holes(), 2500);
+}
+
+TEST(Implicit, SaysThatAResolutionIsTooFine) {
+  const Frame frame(Box{{0, 0}, {1, 1. / 64}}); // few cells
+  const Formula strip([](Vec2 p) { return std::fabs(p.y - 1. / 128) - 1. / 256; });
+  EXPECT_TRUE(Part::implicit("strip", strip, frame, 1. / 8192).warnings().empty());
+  const Part part = Part::implicit("strip", strip, frame, 1e-4);
+  ASSERT_EQ(part.warnings().size(), 1);
+  EXPECT_NE(part.warnings()[0].find("0.0001 is finer than 0.00012207"), std::string::npos) << part.warnings()[0];
+}
+
 TEST(Implicit, RefusesWhatHasNoBoundary) {
   const std::string positive = message_of([](Vec2 p) { return 0.25 + squared_length(p - Vec2{0.5, 0.25}); });
   EXPECT_NE(positive.find("negative nowhere"), std::string::npos) << positive;

@@ -75,6 +75,17 @@ TEST(FixedPoints, OnTheBoundaryTheyAreCorners) {
     EXPECT_NE(std::find(corners.begin(), corners.end(), p), corners.end()) << p.x << " " << p.y;
 }
 
+TEST(FixedPoints, TwoOnTheBoundaryThatAreOneToItAreRefused) {
+  const MeshOptions options = with_points({{0.25, 0.30000000005}, {0.4, 0.4}, {0.25, 0.3}});
+  const std::string error = error_of([&] { make(options); });
+  EXPECT_NE(error.find("p.xy:1: the fixed point (0.25, 0.30000000005"), std::string::npos) << error;
+  EXPECT_NE(error.find("is 5e-11 from that of p.xy:3"), std::string::npos) << error;
+  const MeshOptions apart = with_points({{0.25, 0.3000000002}, {0.25, 0.3}}),
+                    inside = with_points({{0.3, 0.3}, {0.3, 0.30000000005}});
+  EXPECT_EQ(corners_of(sites_for(make(apart), 0.03)).size(), 6u);
+  EXPECT_EQ(make(inside).inside().size(), 2u);
+}
+
 TEST(FixedPoints, NoDiscOfASegmentHoldsOne) {
   const MeshOptions options = with_points({{0.325, 0.2501}, {0.425, 0.252}, {0.51, 0.6251}, {0.625, 0.7499999}});
   const FixedPoints fixed = make(options);
