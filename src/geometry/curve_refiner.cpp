@@ -62,11 +62,12 @@ std::vector<Vec2> CurveRefiner::halve_chords(const std::vector<Vec2>& chain) {
   return all;
 }
 
-/// Appends the vertices strictly between a and b. False if they would be too many, or come no nearer to the curve.
+/// Appends the vertices strictly between a and b. False if they would be too many; stops where they come no nearer, as
+/// in the tip of a wedge, whose curve may lie many chords away.
 bool CurveRefiner::halve(Vec2 a, Vec2 b, int depth, std::vector<Vec2>& to) const {
-  if (length(b - a) < tolerances_.shortest || is_near(a, b))
+  if (depth == deepest || length(b - a) < tolerances_.shortest || is_near(a, b))
     return true;
-  if (depth == deepest || to.size() >= most_in_chord)
+  if (to.size() >= most_in_chord)
     return false;
   const std::optional<Vec2> middle = curve_beside(a, b);
   if (!middle)
