@@ -76,7 +76,7 @@ Layout PointScheme::first_of_lattice() {
 Layout PointScheme::first_of_insertion() {
   constexpr double coarsest_integral = 8;
   const double coarsening = std::sqrt(expected_points() / points_now_);
-  DensityFit fit = fit_density(context_, expected_points(), 1, std::fmin(coarsening, coarsest_integral));
+  DensityFit fit = fit_density(context_, expected_points(), std::fmin(coarsening, coarsest_integral));
   shortage_ = std::move(fit.shortage);
   Layout layout = lay_boundary(context_, fit.layout.factor, coarsening, points_now_);
   if (const double held = static_cast<double>(layout.on_boundary()); points_now_ < 2 * held) {
@@ -92,7 +92,7 @@ Layout PointScheme::first_of_insertion() {
 /// The factor is fitted for the final mesh, by a coarse integral. Then the coarsest start is taken that still has as
 /// many sites inside as on the boundary: a boundary full of corners does not become coarser with the size.
 Layout PointScheme::first_of_divisions() {
-  DensityFit fit = fit_density(context_, expected_points(), 1, std::ldexp(1.0, last_stage_));
+  DensityFit fit = fit_density(context_, expected_points(), std::ldexp(1.0, last_stage_));
   shortage_ = std::move(fit.shortage);
   const double factor = fit.layout.factor, points = fit.inner + static_cast<double>(fit.layout.on_boundary());
   Layout layout;

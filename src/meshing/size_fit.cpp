@@ -15,13 +15,8 @@ constexpr int boundary_rounds = 3, spacing_rounds = 12, density_rounds = 40, sat
 constexpr double same_spacing = 0.02;
 constexpr double close_enough = 0.004; // of the points asked for
 
-/// @param asked for in this stage
-[[noreturn]] void fail_for_few_points(const LayoutContext& context, double asked, double fewest) {
+[[noreturn]] void fail_for_few_points(const LayoutContext& context, double fewest) {
   const GlobalId points = context.options.points.value_or(0);
-  if (asked < static_cast<double>(points))
-    throw ConfigError(fmt::format("initial_fraction = {:g} leaves {:.0f} of {} points for the first stage, too few for "
-                                  "this shape and size: expected at least {:.0f}; use a larger initial_fraction",
-                                  context.options.initial_fraction.value_or(1), asked, points, fewest));
   if (context.options.max_size)
     throw ConfigError(fmt::format("points = {} are too few for max_size = {}: expected at least {:.0f}; ask for more "
                                   "points or a larger max_size",
@@ -64,7 +59,7 @@ Layout lay_affordable_boundary(const LayoutContext& context, double h, double ex
     if (!context.options.points || layout.on_boundary() <= *context.options.points)
       return layout;
   }
-  fail_for_few_points(context, expected, static_cast<double>(fewest));
+  fail_for_few_points(context, static_cast<double>(fewest));
 }
 
 /// @brief The smallest spacing found whose lattice has at most the wanted number of sites. The count falls like the
@@ -141,15 +136,15 @@ double smallest_sampled(const LayoutContext& context) {
 
 class DensitySolver {
 public:
-  DensitySolver(const LayoutContext& context, double points, double size_factor, double coarsening)
-      : context_(context), points_(points), size_factor_(size_factor), coarsening_(coarsening) {}
+  DensitySolver(const LayoutContext& context, double points, double coarsening)
+      : context_(context), points_(points), coarsening_(coarsening) {}
 
   DensityFit solve() {
     const geometry::Boundary& boundary = context_.boundary;
     const double uniform = context_.options.points ? estimated_size(boundary.area, boundary.length(), points_)
-                                                   : size_factor_ * *context_.options.edge_length;
+                                                   : *context_.options.edge_length;
     double smallest = 0;
-    comm::run_agreed(context_.comm, [&] { smallest = size_factor_ * smallest_sampled(context_); });
+    comm::run_agreed(context_.comm, [&] { smallest = smallest_sampled(context_); });
     return context_.options.points ? for_points(uniform / smallest, smallest) : for_edge_length(uniform / smallest);
   }
 
@@ -162,7 +157,7 @@ private:
 
   Trial try_factor(double factor) const {
     Trial trial;
-    trial.fit.layout = lay_boundary(context_, factor, size_factor_, points_, coarsening_);
+    trial.fit.layout = lay_boundary(context_, factor, 1, points_, coarsening_);
     trial.totals = wanted_inside(context_, trial.fit.layout, coarsening_);
     trial.fit.inner = std::floor(trial.totals.sites);
     trial.points = trial.fit.inner + static_cast<double>(trial.fit.layout.on_boundary());
@@ -201,7 +196,7 @@ private:
       if (high == INFINITY) {
         factor = std::max(guess, 1.02 * factor);
         if (factor > largest)
-          fail_for_few_points(context_, points_, fewest);
+          fail_for_few_points(context_, fewest);
       } else if (low == 0) {
         factor = std::min(guess, 0.98 * factor);
       } else {
@@ -210,7 +205,7 @@ private:
       }
     }
     if (!(high < INFINITY))
-      fail_for_few_points(context_, points_, fewest);
+      fail_for_few_points(context_, fewest);
     if (best.points < 0.98 * points_)
       best.fit.shortage = context_.options.min_size
                               ? fmt::format("min_size = {:g} leaves no room for more", *context_.options.min_size)
@@ -230,7 +225,7 @@ private:
 
   DensityFit for_edge_length(double factor) const {
     constexpr int rounds = 12;
-    const double wanted = size_factor_ * *context_.options.edge_length;
+    const double wanted = *context_.options.edge_length;
     Trial trial = try_factor(factor);
     for (int round = 0;; ++round) {
       const double ratio = trial.totals.mean_size > 0 ? wanted / trial.totals.mean_size : 1;
@@ -240,7 +235,7 @@ private:
         context_.log.warning(
             "edge_length = {} is not met: the mean size of the fitted field is {:.6g}; bounds near the "
             "edge length, or jumps of the size, leave no better factor",
-            *context_.options.edge_length, trial.totals.mean_size / size_factor_);
+            *context_.options.edge_length, trial.totals.mean_size);
         break;
       }
       factor *= ratio;
@@ -250,7 +245,7 @@ private:
   }
 
   const LayoutContext& context_;
-  double points_, size_factor_, coarsening_;
+  double points_, coarsening_;
 };
 
 } // namespace
@@ -268,7 +263,7 @@ LatticeFit fit_lattice(const LayoutContext& context) {
   for (int round = 0;; ++round) {
     if (by_points && options.max_size && h > *options.max_size) {
       const double most = *options.max_size;
-      fail_for_few_points(context, expected,
+      fail_for_few_points(context,
                           context.boundary.area / (row_height * most * most) + 0.5 * context.boundary.length() / most);
     }
     const double points = by_points ? expected : context.boundary.area / (row_height * h * h);
@@ -291,9 +286,9 @@ LatticeFit fit_lattice(const LayoutContext& context) {
   return fit;
 }
 
-DensityFit fit_density(const LayoutContext& context, double points, double size_factor, double coarsening) {
+DensityFit fit_density(const LayoutContext& context, double points, double coarsening) {
   check_edge_length(context.options);
-  return DensitySolver(context, points, size_factor, coarsening).solve();
+  return DensitySolver(context, points, coarsening).solve();
 }
 
 DensityTotals wanted_inside(const LayoutContext& context, const Layout& layout, double coarsening) {

@@ -35,10 +35,9 @@ struct DensityFit {
 /// h^-2 over the shape outside the strip and the sites that the boundary really takes; with an edge length in the
 /// options, at the factor whose mean edge has it. Collective. O(cells of the integral), about 10 / coarsening^2 a site
 /// and round, 3 to 6 rounds.
-/// @param size_factor h of this stage over that of the last one
 /// @param coarsening of the integral
 /// @throws ConfigError as fit_lattice; GeometryError if the size field is not positive and finite
-DensityFit fit_density(const LayoutContext& context, double points, double size_factor, double coarsening);
+DensityFit fit_density(const LayoutContext& context, double points, double coarsening);
 
 /// Inner sites that the size of a layout asks for. Collective.
 DensityTotals wanted_inside(const LayoutContext& context, const Layout& layout, double coarsening = 1);
