@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/program.hpp"
 
-#include "app/boundary_check.hpp"
 #include "app/command_line.hpp"
 #include "app/config.hpp"
 #include "app/machine.hpp"
@@ -66,7 +65,7 @@ struct Job {
   TimerTable& timers;
 };
 
-/// The mesher with what is written while it runs; then its checks of the boundary.
+/// The mesher with what is written while it runs.
 meshing::MeshResult run_mesher(const Job& job, const Provenance& provenance, const geometry::RegionShape& shape,
                                const sizing::SizeField& size, const meshing::MeshOptions& options,
                                io::MeshSeries& series) {
@@ -74,11 +73,7 @@ meshing::MeshResult run_mesher(const Job& job, const Provenance& provenance, con
   mesher.on_snapshot([&](const meshing::Snapshot& snapshot) { // timed by the mesher
     series.write_step({snapshot.retriangulation, snapshot.mesh, snapshot.quality, describe_step(provenance, snapshot)});
   });
-  meshing::MeshResult result = mesher.run();
-  const auto timing = job.timers.scope("boundary check");
-  for (mesh::Check& check : check_boundary_distance(result.mesh, shape, job.comm))
-    result.checks.push_back(std::move(check));
-  return result;
+  return mesher.run();
 }
 
 ExitCode make_mesh(const Job& job) {

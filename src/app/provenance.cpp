@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
+#include <numeric>
 
 namespace trime::app {
 namespace {
@@ -113,23 +114,33 @@ io::MetadataGroup timers_group(const std::vector<TimeRow>& times) {
 }
 
 /// Names of the parts along a loop, in order, each once: "square" or "square+disc".
-std::string loop_name(const geometry::Boundary& boundary, const geometry::Loop& loop) {
-  std::vector<int> parts;
+std::string loop_name(const geometry::Boundary& boundary, const meshing::LoopSummary& loop) {
   std::string name;
-  for (const geometry::Piece& piece : loop.pieces)
-    if (std::find(parts.begin(), parts.end(), piece.part) == parts.end()) {
-      parts.push_back(piece.part);
-      name += (name.empty() ? "" : "+") + boundary.part_names.at(static_cast<std::size_t>(piece.part));
-    }
+  for (const std::int32_t part : loop.parts)
+    name += (name.empty() ? "" : "+") + boundary.part_names.at(static_cast<std::size_t>(part));
   return name;
 }
 
-io::MetadataGroup tags_group(const geometry::Boundary& boundary, const std::string& region) {
+std::string kind_name(const meshing::LoopSummary& loop) {
+  using Kind = meshing::LoopSummary::Kind;
+  return loop.kind == Kind::outer ? "outer" : loop.kind == Kind::hole ? "hole" : "band";
+}
+
+/// What the numbers in /Mesh/facets mean: `values` are edge_id, `parts` are part_id.
+io::MetadataGroup tags_group(const geometry::Boundary& boundary, const std::vector<meshing::LoopSummary>& loops,
+                             const std::string& region) {
+  using meshing::LoopSummary;
+  std::vector<std::int32_t> part_ids(boundary.part_names.size());
+  std::iota(part_ids.begin(), part_ids.end(), 0);
   return {"tags",
           {},
-          {column<std::int32_t>("edge_id", boundary.loops, &geometry::Loop::tag),
-           column<std::string>("edge_name", boundary.loops,
-                               [&](const geometry::Loop& loop) { return loop_name(boundary, loop); }),
+          {column<std::int32_t>("edge_id", loops, &LoopSummary::tag),
+           column<std::string>("edge_name", loops, [&](const LoopSummary& loop) { return loop_name(boundary, loop); }),
+           column<std::string>("edge_kind", loops, kind_name),
+           column<std::int64_t>("edge_count", loops, &LoopSummary::edges),
+           column<double>("edge_length_sum", loops, &LoopSummary::length),
+           {"part_id", part_ids},
+           {"part_name", boundary.part_names},
            {"region_id", std::vector<std::int32_t>{1}},
            {"region_name", std::vector<std::string>{region}}}};
 }
@@ -142,7 +153,7 @@ io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result
                  result_attributes(result, size, measured)),
           texts(p),
           {history_group(result.history), io::quality_group(result.quality), io::checks_group(result.checks),
-           timers_group(measured.times), tags_group(p.boundary, p.options.region)}};
+           timers_group(measured.times), tags_group(p.boundary, result.loops, p.options.region)}};
 }
 
 io::Metadata describe_step(const Provenance& p, const meshing::Snapshot& snapshot) {
@@ -151,7 +162,7 @@ io::Metadata describe_step(const Provenance& p, const meshing::Snapshot& snapsho
                         {"complete", std::int64_t{0}}};
   return {joined(joined(run_attributes(p), mesh_attributes(snapshot.mesh, snapshot.retriangulation)), step),
           texts(p),
-          {io::quality_group(snapshot.quality), tags_group(p.boundary, p.options.region)}};
+          {io::quality_group(snapshot.quality), tags_group(p.boundary, snapshot.loops, p.options.region)}};
 }
 
 } // namespace trime::app

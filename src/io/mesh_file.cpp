@@ -143,10 +143,13 @@ void write_plain_mesh(SlabFile& file, const mesh::DistributedMesh& mesh) {
   file.hard_link("/Mesh/mesh/topology", "/viz/topology/cells");
 }
 
+/// Tags of boundary edges: `values` by loop, `parts` by part of the shape. The markers of formats that give every
+/// segment one (.poly) are to lie beside them as /Mesh/facets/markers, int32 [B], where a shape has any.
 void write_facets(SlabFile& file, const mesh::DistributedMesh& mesh) {
   file.group("/Mesh/facets");
   file.slab(stored<std::int64_t>("/Mesh/facets/topology", mesh.facet_slab, 2, mesh.facets));
   file.slab(stored<std::int32_t>("/Mesh/facets/values", mesh.facet_slab, 0, mesh.facet_tags));
+  file.slab(stored<std::int32_t>("/Mesh/facets/parts", mesh.facet_slab, 0, mesh.facet_parts));
 }
 
 void write_metadata(SlabFile& file, const Metadata& metadata) {
@@ -174,7 +177,7 @@ bool has_plain_mesh(const MeshFileOptions& options) {
 std::int64_t file_bytes(const MeshFileOptions& options, const mesh::DistributedMesh& mesh, const Metadata& metadata) {
   const std::int64_t vtkhdf = options.vtkhdf ? 1 : 0, plain = has_plain_mesh(options) ? 1 : 0;
   const std::int64_t per_point = 9 + 24 * vtkhdf + 16 * plain, per_triangle = 12 + 33 * vtkhdf + 24 * plain;
-  constexpr std::int64_t headers = 64 << 10, per_facet = 20;
+  constexpr std::int64_t headers = 64 << 10, per_facet = 24;
   std::int64_t bytes = headers + per_point * mesh.point_slab.total + per_triangle * mesh.triangle_slab.total +
                        per_facet * mesh.facet_slab.total;
   for (const Text& text : metadata.texts)
@@ -210,7 +213,8 @@ void check_shapes(const mesh::DistributedMesh& mesh) {
   TRIME_ASSERT(mesh.alpha.size() == triangles && mesh.beta.size() == triangles && mesh.region.size() == triangles,
                "{} triangles, {} alpha, {} beta, {} region", triangles, mesh.alpha.size(), mesh.beta.size(),
                mesh.region.size());
-  TRIME_ASSERT(mesh.facet_tags.size() == facets, "{} facets, {} tags", facets, mesh.facet_tags.size());
+  TRIME_ASSERT(mesh.facet_tags.size() == facets && mesh.facet_parts.size() == facets, "{} facets, {} tags, {} parts",
+               facets, mesh.facet_tags.size(), mesh.facet_parts.size());
 }
 
 /// Rank 0: final names, and the views that belong to them.

@@ -3,6 +3,7 @@
 #include "trime/meshing/boundary_sites.hpp"
 
 #include "boundary_layout.hpp"
+#include "chord_curve.hpp"
 #include "loop_metric.hpp"
 #include "site_tree.hpp"
 
@@ -267,8 +268,9 @@ BoundarySites Refiner::result() const {
       const Site& site = sites_[k];
       const auto index = static_cast<LocalIndex>(out.sites.size());
       const Vec2 canonical = periods.wrap(site.position), end = end_of(site) + (canonical - site.position);
+      const auto [piece, along] = metrics_[loop].place(site.t);
       out.sites.push_back({canonical, index - 1, index + 1, boundary_.loops[loop].tag, site.kind != SiteKind::plain,
-                           end - periods.wrap(end)});
+                           end - periods.wrap(end), piece, along});
       out.corners += site.kind != SiteKind::plain;
       out.sharp_corners += site.kind == SiteKind::sharp_corner;
       shortest = std::fmin(shortest, geometry::squared_length(end - canonical));
@@ -279,6 +281,7 @@ BoundarySites Refiner::result() const {
   }
   out.loop_start.push_back(static_cast<LocalIndex>(out.sites.size()));
   out.shortest = std::sqrt(shortest);
+  name_parts(boundary_, out);
   return out;
 }
 

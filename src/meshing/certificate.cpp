@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The proof that ends every run. What is counted here comes from the stars and the boundary anew, not from the way in
 // which the mesh was made.
+#include "meshing/boundary_proof.hpp"
 #include "meshing/extraction.hpp"
 
 #include "trime/core/random.hpp"
@@ -46,19 +47,35 @@ struct ExactArea {
 struct Counts {
   std::int64_t points = 0, edges = 0, triangles = 0, facets = 0, listings = 0;
   std::int64_t hash_of_listings = 0, hash_of_triangles = 0, hash_of_written = 0; // mod 2^64
+  std::int64_t hash_of_facets = 0, hash_of_written_facets = 0;
   std::int64_t not_positive = 0, not_delaunay = 0, incomplete = 0, unused = 0, corners = 0;
   ExactArea area;
 
-  static constexpr std::size_t size = 16;
+  static constexpr std::size_t size = 18;
   std::array<std::int64_t, size> pack() const {
     const auto parts = area.split();
-    return {points,          edges,        triangles,    facets,     listings, hash_of_listings, hash_of_triangles,
-            hash_of_written, not_positive, not_delaunay, incomplete, unused,   corners,          parts[0],
-            parts[1],        parts[2]};
+    return {points,
+            edges,
+            triangles,
+            facets,
+            listings,
+            hash_of_listings,
+            hash_of_triangles,
+            hash_of_written,
+            hash_of_facets,
+            hash_of_written_facets,
+            not_positive,
+            not_delaunay,
+            incomplete,
+            unused,
+            corners,
+            parts[0],
+            parts[1],
+            parts[2]};
   }
   static Counts unpack(const std::array<std::int64_t, size>& p) {
-    Counts c{p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10], p[11], p[12], {}};
-    c.area = ExactArea::join({p[13], p[14], p[15]});
+    Counts c{p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10], p[11], p[12], p[13], p[14], {}};
+    c.area = ExactArea::join({p[15], p[16], p[17]});
     return c;
   }
   void add(const Counts& other) {
@@ -84,6 +101,12 @@ std::int64_t triangle_hash(GlobalId a, GlobalId b, GlobalId c) {
                static_cast<std::uint64_t>(c)));
 }
 
+std::int64_t facet_hash(GlobalId first, GlobalId second, std::int32_t tag, std::int32_t part) {
+  const auto labels = static_cast<std::uint64_t>((std::int64_t{tag} << 32) + part);
+  return static_cast<std::int64_t>(
+      mix_bits(mix_bits(mix_bits(static_cast<std::uint64_t>(first)) ^ static_cast<std::uint64_t>(second)) ^ labels));
+}
+
 std::int64_t wrapping_sum(std::int64_t a, std::int64_t b) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
 }
@@ -96,8 +119,15 @@ void count_site(const ExtractionContext& context, const std::vector<GlobalId>& i
   ++counts.points;
   counts.incomplete += !fan.complete;
   counts.unused += fan.triangles == 0;
-  counts.corners += b >= 0 && context.boundary.sites[at(b)].corner && p == context.boundary.sites[at(b)].position;
-  counts.facets += b >= 0 && fan.complete; // the segment to the next boundary site
+  if (b >= 0) {
+    const BoundarySite& site = context.boundary.sites[at(b)];
+    counts.corners += site.corner && p == site.position;
+    if (fan.complete && p == site.position) { // the segment to the next boundary site
+      ++counts.facets;
+      counts.hash_of_facets =
+          wrapping_sum(counts.hash_of_facets, facet_hash(ids[at(i)], ids[at(fan.neighbour(0))], site.tag, site.part));
+    }
+  }
   for (std::size_t k = 0; k < fan.triangles; ++k) {
     const LocalIndex u = fan.neighbour(k), v = fan.neighbour(k + 1);
     const Vec2 q = points.position(u), r = points.position(v);
@@ -178,6 +208,10 @@ mesh::Checks certify(const ExtractionContext& context, const decomposition::Numb
     counts.add(c);
   for (const auto& triangle : mesh.triangles)
     counts.hash_of_written = wrapping_sum(counts.hash_of_written, triangle_hash(triangle[0], triangle[1], triangle[2]));
+  for (std::size_t k = 0; k < mesh.facets.size(); ++k)
+    counts.hash_of_written_facets =
+        wrapping_sum(counts.hash_of_written_facets,
+                     facet_hash(mesh.facets[k][0], mesh.facets[k][1], mesh.facet_tags[k], mesh.facet_parts[k]));
   auto packed = counts.pack();
   context.state.comm().sum(packed);
   counts = Counts::unpack(packed);
@@ -196,9 +230,11 @@ mesh::Checks certify(const ExtractionContext& context, const decomposition::Numb
   checks.push_back(check("written_triangles", counts.triangles,
                          counts.hash_of_written == counts.hash_of_triangles ? mesh.triangle_slab.total : -1,
                          "the triangles to be written are these"));
-  checks.push_back(check("written_facets", segments, mesh.facet_slab.total, "boundary edges to be written"));
+  checks.push_back(check("written_facets", segments,
+                         counts.hash_of_written_facets == counts.hash_of_facets ? mesh.facet_slab.total : -1,
+                         "the boundary edges to be written are these, with their tags"));
   checks.push_back(check("not_positive", 0, counts.not_positive, "triangles that are not counter-clockwise"));
-  checks.push_back(check("euler_characteristic", expectation.euler_characteristic,
+  checks.push_back(check("euler_characteristic", expectation.meshed.euler_characteristic(),
                          counts.points - counts.edges + counts.triangles,
                          "of the shape; in the plane components minus holes"));
   checks.push_back(check("edge_count", (3 * counts.triangles + segments) / 2, counts.edges,
@@ -213,6 +249,10 @@ mesh::Checks certify(const ExtractionContext& context, const decomposition::Numb
   checks.push_back(check("unused_points", 0, counts.unused, "points without a triangle"));
   checks.push_back({"area", polygon.value(context.lattice), counts.area.value(context.lattice),
                     polygon.twice == counts.area.twice, "triangles fill the boundary polygon (exact integers)"});
+  const BoundaryTruth truth{expectation.shape, expectation.meshed, context.boundary, context.size, context.lattice,
+                            expectation.side, counts.area.value(context.lattice)};
+  for (mesh::Check& proof : prove_boundary(truth, mesh, context.state.comm()))
+    checks.push_back(std::move(proof));
   return checks;
 }
 

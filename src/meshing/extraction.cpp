@@ -32,18 +32,22 @@ struct Emitter {
     }
   }
 
-  /// Boundary edges (first, second), interior on the left.
+  /// Boundary edges (first, second, site from which the edge leads to the next), interior on the left.
   template <class Visit>
   void facets(LocalIndex i, const Visit& visit) const {
-    if (context.state.points().boundary(i) < 0)
+    const std::int32_t b = context.state.points().boundary(i);
+    if (b < 0)
       return;
     const Fan fan = inside_fan(context, i);
     if (!fan.complete)
       return;
     const LocalIndex next = fan.neighbour(0), previous = fan.neighbour(fan.triangles);
     const bool with_next = ids[at(i)] < ids[at(next)], with_previous = ids[at(i)] < ids[at(previous)];
-    const auto to_next = [&] { visit(ids[at(i)], ids[at(next)]); };
-    const auto from_previous = [&] { visit(ids[at(previous)], ids[at(i)]); };
+    const BoundarySite& site = context.boundary.sites[at(b)];
+    const auto to_next = [&] { visit(ids[at(i)], ids[at(next)], site); };
+    const auto from_previous = [&] {
+      visit(ids[at(previous)], ids[at(i)], context.boundary.sites[at(site.previous)]);
+    };
     if (with_next && with_previous && ids[at(previous)] < ids[at(next)]) {
       from_previous();
       to_next();
@@ -125,9 +129,10 @@ void fill_triangles(const ExtractionContext& context, const decomposition::Numbe
 void fill_facets(const ExtractionContext& context, const decomposition::Numbering& numbering, DistributedMesh& mesh) {
   const Emitter emitter{context, numbering.global_ids};
   for (const LocalIndex i : numbering.order)
-    emitter.facets(i, [&](GlobalId first, GlobalId second) {
+    emitter.facets(i, [&](GlobalId first, GlobalId second, const BoundarySite& site) {
       mesh.facets.push_back({first, second});
-      mesh.facet_tags.push_back(context.boundary.sites[at(context.state.points().boundary(i))].tag);
+      mesh.facet_tags.push_back(site.tag);
+      mesh.facet_parts.push_back(site.part);
     });
 }
 

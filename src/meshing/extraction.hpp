@@ -4,6 +4,7 @@
 
 #include "meshing/site_state.hpp"
 #include "trime/decomposition/numbering.hpp"
+#include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
 #include "trime/mesh/quality.hpp"
@@ -47,15 +48,17 @@ mesh::DistributedMesh extract_mesh(const ExtractionContext& context, const decom
 /// Quality over all ranks. Collective.
 mesh::QualitySummary measure_quality(const ExtractionContext& context, const decomposition::Numbering& numbering);
 
-/// What the shape promises.
+/// What the mesh is to be a mesh of.
 struct Expectation {
-  int euler_characteristic = 1;
+  const geometry::Boundary& shape;  ///< as it was given
+  const geometry::Boundary& meshed; ///< as it was laid out: with fixed points as corners
+  double side;                      ///< longer side of the container
 };
 
-/// @brief The certificate: manifold, positive, Euler characteristic, area, Delaunay, boundary segments, corners,
-/// fixed points,
-/// agreement of all stars with each other and with `mesh`, the arrays that will be written. Exact integers throughout.
-/// Collective. O(points)
+/// @brief The certificate: manifold, positive, Euler characteristic, area, Delaunay, boundary segments, corners, fixed
+/// points, agreement of all stars with each other and with `mesh`, the arrays that will be written: exact integers
+/// throughout. Then the boundary of the mesh against that of the shape, see prove_boundary. Collective.
+/// O(points + pieces log(pieces))
 mesh::Checks certify(const ExtractionContext& context, const decomposition::Numbering& numbering,
                      const Expectation& expectation, const mesh::DistributedMesh& mesh);
 

@@ -45,7 +45,7 @@ struct Layout {
   GlobalId fixed_inside = 0; ///< fixed points that are not on the boundary
 
   /// Sites that have their place before all others: those on the boundary, and the fixed ones inside.
-  GlobalId on_boundary() const { return static_cast<GlobalId>(boundary.sites.size()) + fixed_inside; }
+  GlobalId placed_first() const { return static_cast<GlobalId>(boundary.sites.size()) + fixed_inside; }
 };
 
 /// Edge length of n nearly equilateral triangles' vertices on area A inside perimeter P: from V = (T + B)/2 + 1 with

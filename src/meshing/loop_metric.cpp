@@ -71,14 +71,17 @@ LocalIndex LoopMetric::knot_before(double t) const {
   return static_cast<LocalIndex>(index);
 }
 
-Vec2 LoopMetric::point(double t) const {
-  const double turns = t >= total() ? 1 : t < 0 ? -1 : 0;
-  t -= turns * total();
+LoopPlace LoopMetric::place(double t) const {
   const LocalIndex k = knot_before(t);
   const Knot &low = knots_[k], &high = knots_[k + 1];
-  const Piece& piece = loop_.pieces[low.piece];
   const double share = std::clamp((t - low.t) / (high.t - low.t), 0.0, 1.0);
-  return piece.point(low.s + share * (high.arc - low.arc)) + turns * loop_.winding;
+  return {low.piece, low.s + share * (high.arc - low.arc)};
+}
+
+Vec2 LoopMetric::point(double t) const {
+  const double turns = t >= total() ? 1 : t < 0 ? -1 : 0;
+  const LoopPlace at = place(t - turns * total());
+  return loop_.pieces[at.piece].point(at.along) + turns * loop_.winding;
 }
 
 double LoopMetric::arc(double t) const {

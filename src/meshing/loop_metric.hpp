@@ -21,6 +21,12 @@ struct PartSummary {
   bool leaves_disc = false; ///< a piece end or arc point strictly between lies outside the chord's diametral disc
 };
 
+/// A place on a loop: arc length from the start of one of its pieces.
+struct LoopPlace {
+  LocalIndex piece;
+  double along;
+};
+
 class LoopMetric {
 public:
   /// Keeps references to `loop` and `size`. @throws GeometryError if the size asks for more than 2^27 samples
@@ -34,6 +40,8 @@ public:
   double piece_t(std::size_t i) const { return piece_t_[i]; }
   const geometry::Loop& loop() const { return loop_; }
   geometry::Vec2 point(double t) const;
+  /// Where point(t) lies; the start of a piece belongs to that piece. @pre 0 <= t < total()
+  LoopPlace place(double t) const;
   /// Arc length between t0 <= t1 <= t0 + total().
   double arc_length(double t0, double t1) const { return arc(t1) - arc(t0); }
   /// The first t on the way from t0 to t1 (either direction) at which the distance from `center` reaches `radius`.

@@ -2,6 +2,7 @@
 #include "trime/meshing/mesher.hpp"
 
 #include "meshing/boundary_treatment.hpp"
+#include "meshing/chord_curve.hpp"
 #include "meshing/cleanup.hpp"
 #include "meshing/extraction.hpp"
 #include "meshing/layout.hpp"
@@ -76,7 +77,7 @@ private:
     placed_ = comm_.sum(std::int64_t{state().points().owned()});
     const mesh::TileGrid& grid = state().grid();
     make_builder(placed_);
-    const int components = boundary_.components(), holes = boundary_.holes();
+    const int components = meshed_boundary().components(), holes = meshed_boundary().holes();
     log_.info("boundary: {} component{}, {} hole{}, {} sites, {} corners", components, components == 1 ? "" : "s",
               holes, holes == 1 ? "" : "s", layout_.boundary.sites.size(), layout_.boundary.corners);
     log_.info("start: {} points in {} tiles ({} x {} cells), mean edge about {:.6g}", placed_, grid.tile_count(),
@@ -180,7 +181,8 @@ private:
         decomposition::canonical_numbering(comm_, state().points(), state().halo());
     const mesh::QualitySummary quality = measure_quality(extraction(), numbering);
     const mesh::DistributedMesh mesh = extract_mesh(extraction(), numbering);
-    observer({retriangulation, timers_.total(), mesh, quality});
+    const std::vector<LoopSummary> loops = summarize_loops(meshed_boundary(), layout_.boundary);
+    observer({retriangulation, timers_.total(), mesh, quality, loops});
   }
 
   delaunay::StarPass stars(Wanted wanted) {
@@ -188,6 +190,8 @@ private:
     return state().compute_stars(*builder_, *layout_.size, wanted);
   }
 
+  /// What the sites are laid on: the shape's boundary with fixed points as corners.
+  const geometry::Boundary& meshed_boundary() const { return fixed_->boundary(); }
   SiteState& state() { return *layout_.state; }
   const SiteState& state() const { return *layout_.state; }
   MoveContext move_context() const { return {*layout_.guard, *layout_.size, lattice_}; }
@@ -279,11 +283,13 @@ private:
     const decomposition::Numbering numbering =
         decomposition::canonical_numbering(comm_, state().points(), state().halo());
     MeshResult result;
-    result.components = boundary_.components();
-    result.holes = boundary_.holes();
+    result.components = meshed_boundary().components();
+    result.holes = meshed_boundary().holes();
+    result.loops = summarize_loops(meshed_boundary(), layout_.boundary);
     result.quality = measure_quality(context, numbering);
     result.mesh = extract_mesh(context, numbering);
-    result.checks = certify(context, numbering, {boundary_.euler_characteristic()}, result.mesh);
+    const double side = std::max(options_.container.width(), options_.container.height());
+    result.checks = certify(context, numbering, {boundary_, meshed_boundary(), side}, result.mesh);
     result.history = std::move(history_);
     result.stop_reason = stop_reason_;
     result.requested_points = options_.points.value_or(0);

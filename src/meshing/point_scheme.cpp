@@ -79,13 +79,13 @@ Layout PointScheme::first_of_insertion() {
   DensityFit fit = fit_density(context_, expected_points(), std::fmin(coarsening, coarsest_integral));
   shortage_ = std::move(fit.shortage);
   Layout layout = lay_boundary(context_, fit.layout.factor, coarsening, points_now_);
-  if (const double held = static_cast<double>(layout.on_boundary()); points_now_ < 2 * held) {
+  if (const double held = static_cast<double>(layout.placed_first()); points_now_ < 2 * held) {
     points_now_ = std::min(expected_points(), 2 * held); // a stage of boundary alone has no order to pass on
     layout = lay_boundary(context_, fit.layout.factor, std::sqrt(expected_points() / points_now_), points_now_);
     reason_ += fmt::format("; the first share was raised to {:.3g}, since the boundary alone takes half of it",
                            points_now_ / expected_points());
   }
-  place_along_curve(layout, points_now_ - static_cast<double>(layout.on_boundary()));
+  place_along_curve(layout, points_now_ - static_cast<double>(layout.placed_first()));
   return layout;
 }
 
@@ -94,13 +94,13 @@ Layout PointScheme::first_of_insertion() {
 Layout PointScheme::first_of_divisions() {
   DensityFit fit = fit_density(context_, expected_points(), std::ldexp(1.0, last_stage_));
   shortage_ = std::move(fit.shortage);
-  const double factor = fit.layout.factor, points = fit.inner + static_cast<double>(fit.layout.on_boundary());
+  const double factor = fit.layout.factor, points = fit.inner + static_cast<double>(fit.layout.placed_first());
   Layout layout;
   double inner = 0;
   for (;; --last_stage_) {
     layout = lay_boundary(context_, factor, std::ldexp(1.0, last_stage_), std::ldexp(points, -2 * last_stage_));
     inner = wanted_inside(context_, layout, 2).sites;
-    if (last_stage_ == 0 || inner >= static_cast<double>(layout.on_boundary()))
+    if (last_stage_ == 0 || inner >= static_cast<double>(layout.placed_first()))
       break;
   }
   if (kind_ == Kind::coarse_to_fine)
@@ -111,7 +111,7 @@ Layout PointScheme::first_of_divisions() {
                           1 << (2 * last_stage_), last_stage_ == 1 ? "once" : fmt::format("{} times", last_stage_),
                           options_.start == Start::coarse_to_fine ? "asked for" : "the size is graded");
   if (last_stage_ == 0 && options_.points && shortage_.empty())
-    inner = expected_points() - static_cast<double>(layout.on_boundary());
+    inner = expected_points() - static_cast<double>(layout.placed_first());
   place_along_curve(layout, inner);
   return layout;
 }
@@ -153,7 +153,7 @@ Layout PointScheme::divide(const Layout& previous) {
   std::vector<mesh::Site> sites = split_edges(old);
   clear_strip(layout, sites);
   if (options_.points && is_last()) {
-    const std::int64_t most = std::max<std::int64_t>(0, *options_.points - layout.on_boundary());
+    const std::int64_t most = std::max<std::int64_t>(0, *options_.points - layout.placed_first());
     trim(comm, layout, most, sites);
     const std::int64_t missing = most - comm.sum(static_cast<std::int64_t>(sites.size()));
     if (shortage_.empty() && static_cast<double>(missing) > small_shortage * static_cast<double>(*options_.points))
@@ -176,7 +176,7 @@ Layout PointScheme::insert(const Layout& previous) {
   const auto time = context_.timers.scope("start");
   std::vector<mesh::Site> sites = inner_sites(*previous.state);
   clear_strip(layout, sites);
-  const std::int64_t most = std::max<std::int64_t>(0, std::llround(points_now_) - layout.on_boundary());
+  const std::int64_t most = std::max<std::int64_t>(0, std::llround(points_now_) - layout.placed_first());
   insert_in_triangles(old, layout, most - comm.sum(static_cast<std::int64_t>(sites.size())), sites);
   if (options_.points)
     trim(comm, layout, most, sites);

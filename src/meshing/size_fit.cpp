@@ -55,8 +55,8 @@ Layout lay_affordable_boundary(const LayoutContext& context, double h, double ex
   GlobalId fewest = 0;
   for (int round = 0; round < growth_rounds; ++round, h *= 1.3) {
     Layout layout = lay_boundary(context, h, 1, expected);
-    fewest = round == 0 ? layout.on_boundary() : std::min(fewest, layout.on_boundary());
-    if (!context.options.points || layout.on_boundary() <= *context.options.points)
+    fewest = round == 0 ? layout.placed_first() : std::min(fewest, layout.placed_first());
+    if (!context.options.points || layout.placed_first() <= *context.options.points)
       return layout;
   }
   fail_for_few_points(context, static_cast<double>(fewest));
@@ -70,7 +70,7 @@ double fitting_spacing(const LayoutContext& context, const Layout& layout) {
   const double h = layout.size->size({});
   const LatticeStart start(context.boundary, *layout.guard, context.lattice);
   const TileRange tiles = even_share(layout, context.comm);
-  const GlobalId wanted = *context.options.points - layout.on_boundary();
+  const GlobalId wanted = *context.options.points - layout.placed_first();
   const geometry::Box& container = context.options.container;
   const double none = 4 * (container.width() + container.height()); // no site fits at all
   // The discs of the boundary may leave no room at all, however fine the lattice (thin shapes, few points): nothing
@@ -160,7 +160,7 @@ private:
     trial.fit.layout = lay_boundary(context_, factor, 1, points_, coarsening_);
     trial.totals = wanted_inside(context_, trial.fit.layout, coarsening_);
     trial.fit.inner = std::floor(trial.totals.sites);
-    trial.points = trial.fit.inner + static_cast<double>(trial.fit.layout.on_boundary());
+    trial.points = trial.fit.inner + static_cast<double>(trial.fit.layout.placed_first());
     return trial;
   }
 

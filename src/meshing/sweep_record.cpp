@@ -64,7 +64,7 @@ SweepSummary summarize_sweep(const comm::Communicator& comm, const Layout& layou
   record.median_alpha = 1 + sums.alpha_bins.median();
   record.max_alpha = sums.max_alpha = largest[0];
   record.max_move = largest[1];
-  const GlobalId inner = record.points - layout.on_boundary();
+  const GlobalId inner = record.points - layout.placed_first();
   record.moving_share = inner > 0 ? static_cast<double>(moving) / static_cast<double>(inner) : 0;
   return summary;
 }

@@ -65,6 +65,7 @@ inline mesh::DistributedMesh holed_square(int n) {
     if (!edges.contains({edge.second, edge.first})) {
       mesh.facets.push_back({edge.first, edge.second});
       mesh.facet_tags.push_back(is_outer(edge.first) ? 1 : 2);
+      mesh.facet_parts.push_back(is_outer(edge.first) ? 1 : 0);
     }
   mesh.boundary.resize(mesh.points.size());
   for (std::size_t k = 0; k < mesh.facets.size(); ++k)
@@ -96,6 +97,7 @@ inline mesh::DistributedMesh slabs_of(const mesh::DistributedMesh& whole, const 
   mesh.region = cut(whole.region, mesh.triangle_slab, triangles);
   mesh.facets = cut(whole.facets, mesh.facet_slab, facets);
   mesh.facet_tags = cut(whole.facet_tags, mesh.facet_slab, facets);
+  mesh.facet_parts = cut(whole.facet_parts, mesh.facet_slab, facets);
   return mesh;
 }
 

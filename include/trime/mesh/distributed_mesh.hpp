@@ -35,7 +35,8 @@ struct DistributedMesh {
 
   // Per boundary edge, interior on the left of first -> second.
   std::vector<std::array<GlobalId, 2>> facets;
-  std::vector<std::int32_t> facet_tags;
+  std::vector<std::int32_t> facet_tags;  ///< of its loop
+  std::vector<std::int32_t> facet_parts; ///< which part of the shape it follows: index into Boundary::part_names
 
   /// Hash of points and triangles over all ranks, independent of how they are distributed.
   std::uint64_t hash = 0;

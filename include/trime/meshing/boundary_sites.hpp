@@ -23,6 +23,9 @@ struct BoundarySite {
   std::int32_t tag;            ///< of its loop; also of the chord from here to `next`
   bool corner;                 ///< given by the shape, kept bit for bit
   geometry::Vec2 next_shift{}; ///< multiple of the periods: the chord ends at the position of `next` moved by it
+  LocalIndex piece = 0;        ///< of its loop, on which the site lies
+  double along = 0;            ///< arc length from the start of that piece
+  std::int32_t part = 0;       ///< index into Boundary::part_names: of the curve in the middle of the chord to `next`
 };
 
 /// Invariants: sites of one loop are consecutive and in order; at least 3 a loop; no two positions are equal; the open

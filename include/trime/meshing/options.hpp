@@ -72,6 +72,16 @@ struct SweepRecord {
   double seconds = 0; ///< since the start of the run; differs from run to run
 };
 
+/// A loop of the boundary as the mesh has it.
+struct LoopSummary {
+  enum class Kind { outer, hole, band };
+  std::int32_t tag = 0;            ///< DistributedMesh::facet_tags of its edges
+  Kind kind = Kind::outer;         ///< around a component, around a hole, or all around a periodic container
+  std::int64_t edges = 0;          ///< of the mesh
+  double length = 0;               ///< sum of the lengths of these edges
+  std::vector<std::int32_t> parts; ///< DistributedMesh::facet_parts of its edges: each once, in order along the loop
+};
+
 struct MeshResult {
   mesh::DistributedMesh mesh;
   mesh::QualitySummary quality;
@@ -82,6 +92,7 @@ struct MeshResult {
   double edge_length = 0;        ///< uniform size: h; graded: edge length of as many equal triangles
   std::string start_reason;      ///< which start was chosen and why, one line
   std::string count_reason;      ///< why there are fewer points than requested; empty if they are nearly as many
+  std::vector<LoopSummary> loops; ///< by tag
   GlobalId corners = 0;
   int components = 0, holes = 0;
   double shape_area = 0;

@@ -53,6 +53,7 @@ mesh::DistributedMesh make_mesh(const comm::Communicator& comm, std::uint64_t se
   for (std::int64_t k = 0, i = mesh.facet_slab.first; k < facets; ++k, ++i) {
     mesh.facets.push_back({i, (i + 1) % n_facets});
     mesh.facet_tags.push_back(static_cast<std::int32_t>(1 + i % 3));
+    mesh.facet_parts.push_back(static_cast<std::int32_t>(i % 5));
   }
   return mesh;
 }

@@ -133,6 +133,7 @@ void expect_same_everywhere(const Case& c, const std::vector<int>& threads_to_tr
     expect_gathered(world, result.mesh.beta, serial.mesh.beta, "edge ratios");
     expect_gathered(world, result.mesh.facets, serial.mesh.facets, "boundary edges");
     expect_gathered(world, result.mesh.facet_tags, serial.mesh.facet_tags, "tags of edges");
+    expect_gathered(world, result.mesh.facet_parts, serial.mesh.facet_parts, "parts of edges");
   }
 }
 
