@@ -66,10 +66,9 @@ struct Job {
 };
 
 /// The mesher with what is written while it runs.
-meshing::MeshResult run_mesher(const Job& job, const Provenance& provenance, const geometry::RegionShape& shape,
-                               const sizing::SizeField& size, const meshing::MeshOptions& options,
-                               io::MeshSeries& series) {
-  meshing::Mesher mesher(job.comm, shape.boundary(), size, options, job.log, job.timers);
+meshing::MeshResult run_mesher(const Job& job, const Provenance& provenance, const sizing::SizeField& size,
+                               const meshing::MeshOptions& options, io::MeshSeries& series) {
+  meshing::Mesher mesher(job.comm, provenance.boundary, size, options, job.log, job.timers);
   mesher.on_snapshot([&](const meshing::Snapshot& snapshot) { // timed by the mesher
     series.write_step({snapshot.retriangulation, snapshot.mesh, snapshot.quality, describe_step(provenance, snapshot)});
   });
@@ -108,7 +107,7 @@ ExitCode make_mesh(const Job& job) {
   }
 
   const Provenance provenance{job.line, options, job.config_text, placement, shape.boundary()};
-  const meshing::MeshResult result = run_mesher(job, provenance, shape, *size.field, mesh_options, series);
+  const meshing::MeshResult result = run_mesher(job, provenance, *size.field, mesh_options, series);
   const SizeSummary sizes = summarize_size(size.description, result.mesh, comm);
   io::WrittenFiles files;
   if (options.write) {
@@ -117,10 +116,9 @@ ExitCode make_mesh(const Job& job) {
     files = series.write_final({final_retriangulation(result), result.mesh, result.quality, metadata});
   }
   log.info("{}", run_report(result, sizes, gather_measurements(timers, comm), files));
-  if (is_complete(result))
-    return ExitCode::done;
-  log.warning("{}", incompleteness(result, options.write));
-  return ExitCode::incomplete;
+  if (!is_complete(result))
+    log.warning("{}", incompleteness(result, options.write));
+  return exit_code(result);
 }
 
 } // namespace

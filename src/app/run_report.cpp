@@ -157,6 +157,10 @@ std::string run_report(const meshing::MeshResult& result, const SizeSummary& siz
   return text;
 }
 
+ExitCode exit_code(const meshing::MeshResult& result) {
+  return is_complete(result) ? ExitCode::done : ExitCode::incomplete;
+}
+
 std::string incompleteness(const meshing::MeshResult& result, bool written) {
   std::string reason = "the sweep cap was reached, see meshing.max_sweeps";
   if (!mesh::all_passed(result.checks)) {

@@ -6,6 +6,7 @@
 #include "app/machine.hpp"
 #include "app/options.hpp"
 #include "trime/comm/communicator.hpp"
+#include "trime/core/error.hpp"
 #include "trime/core/timer.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/io/mesh_file.hpp"
@@ -62,6 +63,9 @@ io::Metadata describe_step(const Provenance& provenance, const meshing::Snapshot
 
 /// Number of the triangulation that became the final mesh, from 1: one more than those of the sweeps.
 int final_retriangulation(const meshing::MeshResult& result);
+
+/// Of a run that came to its end: done, or incomplete if the stop rule was not met or a check failed.
+ExitCode exit_code(const meshing::MeshResult& result);
 
 /// Why the mesh is not complete, one sentence for a warning. @pre !is_complete(result) @param written to a file
 std::string incompleteness(const meshing::MeshResult& result, bool written);

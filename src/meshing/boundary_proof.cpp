@@ -14,9 +14,9 @@ namespace {
 
 using geometry::Vec2;
 
-constexpr double vertex_limit = 1e-9;  // of the container's longer side
-constexpr double chord_limit = 0.75;   // of h: an arc of length h strays from its chord by h/2 at most, and sites may lie
-                                       // a little more than h apart
+constexpr double vertex_limit = 1e-9; // of the container's longer side
+constexpr double chord_limit = 0.75; // of h: an arc of length h strays from its chord by h/2 at most, and sites may lie
+                                     // a little more than h apart
 constexpr double arc_tolerance = 1.08; // sagitta of 60 degrees over l^2 / 8R: 1.072
 constexpr double arc_slack = 1e-3;     // of h
 constexpr double area_limit = 1e-10;   // of the shape's area
@@ -25,8 +25,8 @@ std::size_t at(LocalIndex i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Largest distance of a boundary vertex from the curve: of those written, from the nearest piece of the shape; of those
-/// laid out, from their places on it. Collective.
+/// Largest distance of a boundary vertex from the curve: of those written, from the nearest piece of the shape; of
+/// those laid out, from their places on it. Collective.
 double vertex_distance(const BoundaryTruth& truth, const std::vector<ChordCurve>& chords,
                        const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
   const geometry::PieceTree pieces(truth.shape);

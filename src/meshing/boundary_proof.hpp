@@ -43,7 +43,7 @@ struct TaggedEdge {
 struct CycleCounts {
   std::int64_t irregular = 0; ///< ends of edges that are not the start of exactly one and the end of exactly one
   std::int64_t cycles = 0;    ///< closed ones
-  std::int64_t foreign = 0;   ///< edges with another tag than the first edge of their cycle, or in a second one of a tag
+  std::int64_t foreign = 0; ///< edges with another tag than the first edge of their cycle, or in a second one of a tag
 };
 /// Serial, O(edges log edges).
 CycleCounts count_cycles(std::vector<TaggedEdge> edges);

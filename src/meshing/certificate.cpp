@@ -249,8 +249,13 @@ mesh::Checks certify(const ExtractionContext& context, const decomposition::Numb
   checks.push_back(check("unused_points", 0, counts.unused, "points without a triangle"));
   checks.push_back({"area", polygon.value(context.lattice), counts.area.value(context.lattice),
                     polygon.twice == counts.area.twice, "triangles fill the boundary polygon (exact integers)"});
-  const BoundaryTruth truth{expectation.shape, expectation.meshed, context.boundary, context.size, context.lattice,
-                            expectation.side, counts.area.value(context.lattice)};
+  const BoundaryTruth truth{expectation.shape,
+                            expectation.meshed,
+                            context.boundary,
+                            context.size,
+                            context.lattice,
+                            expectation.side,
+                            counts.area.value(context.lattice)};
   for (mesh::Check& proof : prove_boundary(truth, mesh, context.state.comm()))
     checks.push_back(std::move(proof));
   return checks;

@@ -45,9 +45,7 @@ struct Emitter {
     const bool with_next = ids[at(i)] < ids[at(next)], with_previous = ids[at(i)] < ids[at(previous)];
     const BoundarySite& site = context.boundary.sites[at(b)];
     const auto to_next = [&] { visit(ids[at(i)], ids[at(next)], site); };
-    const auto from_previous = [&] {
-      visit(ids[at(previous)], ids[at(i)], context.boundary.sites[at(site.previous)]);
-    };
+    const auto from_previous = [&] { visit(ids[at(previous)], ids[at(i)], context.boundary.sites[at(site.previous)]); };
     if (with_next && with_previous && ids[at(previous)] < ids[at(next)]) {
       from_previous();
       to_next();

@@ -5,6 +5,8 @@
 Looked for in $TRIME_SHARED_DATA, else beside the source tree in shared/data; skipped where they are missing."""
 import os
 import pathlib
+import subprocess
+import sys
 import unittest
 
 import h5py
@@ -58,6 +60,16 @@ class Contours(unittest.TestCase):
         with h5py.File(work / "c.h5", "r") as file:
             size = file["Mesh/mesh/geometry"].shape[0]
             return checks_of(work / "c.h5"), size, str(file["trime_mpi"].attrs["mesh_hash"])
+
+    def test_their_boundaries_are_exact(self):
+        """See boundary_test.py."""
+        for text, points in ((POKER, 6000), (NORTH_AMERICA, 8000)):
+            with self.subTest(points=points), Workspace() as work:
+                (work / "c.ini").write_text(text.format(data=DATA), encoding="utf-8")
+                test = pathlib.Path(__file__).with_name("boundary_test.py")
+                done = subprocess.run([sys.executable, test, work / "c.ini", str(points)], capture_output=True,
+                                      text=True, timeout=280, check=False)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_poker_minus_disc(self):
         with Workspace() as work:

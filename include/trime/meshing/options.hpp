@@ -88,10 +88,10 @@ struct MeshResult {
   mesh::Checks checks;
   std::vector<SweepRecord> history;
   StopReason stop_reason = StopReason::sweep_cap;
-  GlobalId requested_points = 0; ///< 0 if an edge length was asked for
-  double edge_length = 0;        ///< uniform size: h; graded: edge length of as many equal triangles
-  std::string start_reason;      ///< which start was chosen and why, one line
-  std::string count_reason;      ///< why there are fewer points than requested; empty if they are nearly as many
+  GlobalId requested_points = 0;  ///< 0 if an edge length was asked for
+  double edge_length = 0;         ///< uniform size: h; graded: edge length of as many equal triangles
+  std::string start_reason;       ///< which start was chosen and why, one line
+  std::string count_reason;       ///< why there are fewer points than requested; empty if they are nearly as many
   std::vector<LoopSummary> loops; ///< by tag
   GlobalId corners = 0;
   int components = 0, holes = 0;

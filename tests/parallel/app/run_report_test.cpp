@@ -52,6 +52,65 @@ TEST(RunReport, MarksWhatIsNotComplete) {
   EXPECT_NE(incompleteness(result, true).find("sweep cap"), std::string::npos);
 }
 
+/// Value of an attribute of the file.
+std::int64_t number(const io::Metadata& metadata, const std::string& name) {
+  for (const io::Attribute& attribute : metadata.attributes)
+    if (attribute.name == name)
+      return std::get<std::int64_t>(attribute.value);
+  ADD_FAILURE() << "no attribute " << name;
+  return -1;
+}
+
+template <class T>
+std::vector<T> column(const io::Metadata& metadata, const std::string& group, const std::string& name) {
+  for (const io::MetadataGroup& g : metadata.groups)
+    for (const io::Column& c : g.columns)
+      if (g.name == group && c.name == name)
+        return std::get<std::vector<T>>(c.values);
+  ADD_FAILURE() << "no column " << group << "/" << name;
+  return {};
+}
+
+TEST(RunReport, AFailedCheckMarksTheFile) {
+  const CommandLine line;
+  const RunOptions options;
+  const std::string text;
+  const Placement placement;
+  const geometry::Boundary boundary;
+  const Provenance provenance{line, options, text, placement, boundary};
+  meshing::MeshResult result = good_result();
+  EXPECT_EQ(number(describe_run(provenance, result, {}, {}), "complete"), 1);
+  result.checks.push_back({"vertex_distance", 1e-9, 1e-7, false, "boundary vertices"});
+  const io::Metadata metadata = describe_run(provenance, result, {}, {});
+  EXPECT_EQ(number(metadata, "complete"), 0);
+  EXPECT_EQ(column<std::int32_t>(metadata, "checks", "passed"), (std::vector<std::int32_t>{1, 0}));
+  EXPECT_EQ(column<double>(metadata, "checks", "found").back(), 1e-7);
+  EXPECT_EQ(exit_code(result), ExitCode::incomplete);
+  EXPECT_EQ(exit_code(good_result()), ExitCode::done);
+}
+
+TEST(RunReport, TheTableOfTagsNamesLoopsAndParts) {
+  const CommandLine line;
+  const RunOptions options;
+  const std::string text;
+  const Placement placement;
+  geometry::Boundary boundary;
+  boundary.part_names = {"square", "unused", "disc"};
+  const Provenance provenance{line, options, text, placement, boundary};
+  meshing::MeshResult result = good_result();
+  using Kind = meshing::LoopSummary::Kind;
+  result.loops = {{1, Kind::outer, 40, 3.25, {0, 2}}, {2, Kind::hole, 7, 0.5, {2}}, {3, Kind::band, 9, 1, {0}}};
+  const io::Metadata metadata = describe_run(provenance, result, {}, {});
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(column<std::int32_t>(metadata, "tags", "edge_id"), (std::vector<std::int32_t>{1, 2, 3}));
+  EXPECT_EQ(column<std::string>(metadata, "tags", "edge_name"), (Names{"square+disc", "disc", "square"}));
+  EXPECT_EQ(column<std::string>(metadata, "tags", "edge_kind"), (Names{"outer", "hole", "band"}));
+  EXPECT_EQ(column<std::int64_t>(metadata, "tags", "edge_count"), (std::vector<std::int64_t>{40, 7, 9}));
+  EXPECT_EQ(column<double>(metadata, "tags", "edge_length_sum"), (std::vector<double>{3.25, 0.5, 1}));
+  EXPECT_EQ(column<std::int32_t>(metadata, "tags", "part_id"), (std::vector<std::int32_t>{0, 1, 2}));
+  EXPECT_EQ(column<std::string>(metadata, "tags", "part_name"), boundary.part_names);
+}
+
 TEST(RunReport, SaysHowManyPointsWereAskedForAndWhatTheSizesAre) {
   meshing::MeshResult result = good_result();
   result.requested_points = 1000;

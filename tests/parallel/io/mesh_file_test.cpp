@@ -172,6 +172,8 @@ void expect_plain_mesh(hid_t file) {
                 [](std::int64_t i) { return (i / 2 + i % 2) % n_facets; });
   expect_values(read<std::int32_t>(file, "/Mesh/facets/values", H5T_NATIVE_INT32, {n_facets}), n_facets,
                 [](std::int64_t i) { return 1 + i % 3; });
+  expect_values(read<std::int32_t>(file, "/Mesh/facets/parts", H5T_NATIVE_INT32, {n_facets}), n_facets,
+                [](std::int64_t i) { return i % 5; });
 }
 
 void expect_metadata(hid_t file) {
