@@ -43,6 +43,18 @@ double vertex_distance(const BoundaryTruth& truth, const std::vector<ChordCurve>
   return comm.max(largest);
 }
 
+/// Corner sites that are a vertex of the shape, bit for bit.
+std::int64_t corners_in_place(const BoundaryTruth& truth) {
+  std::int64_t count = 0;
+  for (std::size_t loop = 0; loop < truth.meshed.loops.size(); ++loop)
+    for (LocalIndex k = truth.sites.loop_start[loop]; k < truth.sites.loop_start[loop + 1]; ++k) {
+      const BoundarySite& site = truth.sites.sites[at(k)];
+      const Vec2 vertex = truth.meshed.loops[loop].pieces[at(site.piece)].start;
+      count += site.corner && site.along == 0 && site.position == truth.meshed.periods.wrap(vertex);
+    }
+  return count;
+}
+
 /// The chords against their curves.
 struct ChordExtremes {
   double deviation = 0; ///< largest, over h
@@ -157,6 +169,8 @@ mesh::Checks prove_boundary(const BoundaryTruth& truth, const mesh::DistributedM
           count_check("boundary_cycles", std::ssize(truth.meshed.loops), cycles.cycles,
                       "loops of the shape; closed cycles of boundary edges"),
           count_check("foreign_tags", 0, cycles.foreign, "boundary edges with another tag than their cycle"),
+          count_check("corner_places", truth.sites.corners, corners_in_place(truth),
+                      "corners that are vertices of the shape, bit for bit"),
           limit_check("vertex_distance", std::max(vertex_limit, step / truth.side), distance,
                       "boundary vertices from the shape's boundary, over the longer side of the container (at most)"),
           limit_check("chord_deviation", chord_limit, extremes.deviation,

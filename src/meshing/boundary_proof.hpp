@@ -28,7 +28,7 @@ struct BoundaryTruth {
   double mesh_area; ///< of all triangles
 };
 
-/// @brief Seven checks, all from the arrays of the mesh that will be written, the shape, and what it was laid out as.
+/// @brief Eight checks, all from the arrays of the mesh that will be written, the shape, and what it was laid out as.
 /// O((sites + pieces) log(pieces)) on each rank; rank 0 holds all boundary edges, 24 bytes each. @note Collective.
 mesh::Checks prove_boundary(const BoundaryTruth& truth, const mesh::DistributedMesh& mesh,
                             const comm::Communicator& comm);

@@ -175,8 +175,9 @@ class Boundary(unittest.TestCase):
 
     def test_the_certificate_says_so_too(self):
         self.assertTrue(all(self.checks.values()), self.checks)
-        for name in (b"boundary_segments", b"corners", b"boundary_cycles", b"irregular_boundary_points",
-                     b"foreign_tags", b"vertex_distance", b"chord_deviation", b"arc_deviation", b"area_residual"):
+        for name in (b"boundary_segments", b"corners", b"corner_places", b"boundary_cycles",
+                     b"irregular_boundary_points", b"foreign_tags", b"vertex_distance", b"chord_deviation",
+                     b"arc_deviation", b"area_residual"):
             self.assertIn(name, self.checks)
 
 

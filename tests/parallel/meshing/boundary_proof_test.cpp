@@ -110,11 +110,11 @@ protected:
 
 TEST_F(BoundaryProof, PassesWhatIsRight) {
   const mesh::Checks checks = prove_boundary(truth(), mesh_of_sites(), comm);
-  ASSERT_EQ(checks.size(), 7u);
+  ASSERT_EQ(checks.size(), 8u);
   for (const mesh::Check& check : checks)
     EXPECT_TRUE(check.passed) << check.name << " " << check.found;
-  EXPECT_LT(checks[6].found, 1e-13) << "the area, but for rounding";
-  EXPECT_GT(checks[4].found, 0.04) << "the hole strays from its edges";
+  EXPECT_LT(checks[7].found, 1e-13) << "the area, but for rounding";
+  EXPECT_GT(checks[5].found, 0.04) << "the hole strays from its edges";
 }
 
 TEST_F(BoundaryProof, FindsWrongEdges) {
@@ -145,6 +145,17 @@ TEST_F(BoundaryProof, FindsVerticesBesideTheCurve) {
   EXPECT_EQ(failures(truth(), mesh), Names{"vertex_distance"}) << "a site that is not at its place";
   const BoundaryTruth larger{other.boundary(), boundary, sites, size, frame.lattice(), 1, area()};
   EXPECT_EQ(failures(larger, mesh), Names{"vertex_distance"}) << "the shape is another one";
+}
+
+TEST_F(BoundaryProof, FindsACornerThatMovedByOneStep) {
+  const RegionShape triangle({Part::triangle("t", {Vec2{0.1, 0.1}, {0.9, 0.2}, {0.4, 0.8}}, frame)}, "t", frame);
+  sites = make_boundary_sites(triangle.boundary(), size, frame.lattice(), 30);
+  BoundaryTruth truth{triangle.boundary(), triangle.boundary(), sites, size, frame.lattice(), 1, area()};
+  EXPECT_EQ(failures(truth, mesh_of_sites()), Names{});
+  const auto corner = std::find_if(sites.sites.begin() + 1, sites.sites.end(), [](const auto& s) { return s.corner; });
+  corner->position.x += frame.step();
+  truth.mesh_area = area();
+  EXPECT_EQ(failures(truth, mesh_of_sites()), Names{"corner_places"});
 }
 
 TEST_F(BoundaryProof, FindsChordsThatLeaveTheCurve) {
