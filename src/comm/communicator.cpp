@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
+#include <limits>
 
 namespace trime::comm {
 namespace {
@@ -156,6 +157,22 @@ std::vector<std::int64_t> Communicator::all_gather(std::int64_t value) const {
 std::vector<double> Communicator::all_gather(double value) const {
   std::vector<double> all(static_cast<std::size_t>(size_));
   check(MPI_Allgather(&value, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, native_->comm));
+  return all;
+}
+
+std::vector<std::byte> Communicator::all_gather(std::span<const std::byte> bytes) const {
+  const std::vector<std::int64_t> sizes = all_gather(static_cast<std::int64_t>(bytes.size()));
+  std::vector<int> counts, starts;
+  std::int64_t total = 0;
+  for (const std::int64_t size : sizes) {
+    counts.push_back(static_cast<int>(size));
+    starts.push_back(static_cast<int>(total));
+    total += size;
+  }
+  TRIME_ASSERT(total <= std::numeric_limits<int>::max(), "{} bytes for every rank", total);
+  std::vector<std::byte> all(static_cast<std::size_t>(total));
+  check(MPI_Allgatherv(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, all.data(), counts.data(), starts.data(),
+                       MPI_BYTE, native_->comm));
   return all;
 }
 

@@ -250,7 +250,7 @@ double StarBuilder::largest_cap(const geometry::Periods& periods) {
 }
 
 StarPass StarBuilder::update(const mesh::BinnedPoints& points, StarTable& stars, const mesh::LocalSizes& sizes,
-                             std::span<const std::uint8_t> wanted, std::vector<mesh::BinRef>& missing) const {
+                             std::span<const StarWish> wanted, std::vector<mesh::BinRef>& missing) const {
   std::vector<StarWorker> workers;
   for (int thread = 0; thread < std::max(1, thread_count()); ++thread)
     workers.emplace_back(points, stars, lattice_);
@@ -259,8 +259,10 @@ StarPass StarBuilder::update(const mesh::BinnedPoints& points, StarTable& stars,
   thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t tile, int thread) {
     const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(tile));
     for (LocalIndex i = begin; i < end; ++i) {
-      if (!wanted.empty() && !wanted[static_cast<std::size_t>(i)]) {
-        stars.clear(i);
+      const StarWish wish = wanted.empty() ? StarWish::compute : wanted[static_cast<std::size_t>(i)];
+      if (wish != StarWish::compute) {
+        if (wish == StarWish::none)
+          stars.clear(i);
         stars.set_certain(i, false); // to be computed once it is wanted
       } else if (!stars.certain(i)) {
         workers[static_cast<std::size_t>(thread)].compute(i,

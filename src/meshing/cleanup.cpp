@@ -1,149 +1,377 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/cleanup.hpp"
 
+#include "meshing/extraction.hpp"
+#include "trime/comm/agree.hpp"
 #include "trime/core/random.hpp"
 #include "trime/core/thread_loop.hpp"
 #include "trime/mesh/quality.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
+#include <map>
 
 namespace trime::meshing {
 namespace {
 
 using geometry::Vec2;
 
-constexpr double first_step = 0.1, last_step = 0.004; // of h
-constexpr int most_trials = 200;
+constexpr int hash_bits = 44;
+constexpr int classes_per_octave = 8;
+constexpr int passes_of_choice = 5;
+constexpr double around_bad_site = 3, around_patch = 3; // h: how far stars are computed anew, beyond its reach
 
 std::size_t at(LocalIndex i) {
   return static_cast<std::size_t>(i);
 }
 
-double worst_alpha_around(Vec2 p, std::span<const Vec2> ring, double stop_at) {
-  double worst = 1;
-  for (std::size_t k = 0; k < ring.size() && worst < stop_at; ++k) {
-    const Vec2 a = ring[k], b = ring[k + 1 == ring.size() ? 0 : k + 1];
-    if (!(geometry::cross(a - p, b - p) > 0))
-      return INFINITY;
-    worst = std::max(worst, mesh::aspect_ratio(p, a, b));
+std::uint64_t hash_of(Vec2 p, int salt) {
+  return mix_bits(mix_bits(std::bit_cast<std::uint64_t>(p.x) + static_cast<std::uint64_t>(salt)) ^
+                  std::bit_cast<std::uint64_t>(p.y));
+}
+
+/// A class of sizes, eight to an octave, and its upper end.
+struct SizeClass {
+  std::int64_t number;
+  double upper;
+};
+
+SizeClass class_of(double h) {
+  int exponent = 0;
+  const double mantissa = std::frexp(h, &exponent);
+  const int part = static_cast<int>((mantissa - 0.5) * (2 * classes_per_octave));
+  return {std::int64_t{classes_per_octave} * (exponent + 1100) + part,
+          std::ldexp(0.5 + (part + 1) / (2.0 * classes_per_octave), exponent)};
+}
+
+/// Sends each rank its list; what arrives, own items first.
+template <class T>
+std::vector<T> send(const comm::Communicator& comm, const std::map<int, std::vector<T>>& by_rank) {
+  std::vector<comm::Message> outgoing;
+  std::vector<T> all;
+  for (const auto& [rank, list] : by_rank)
+    if (rank == comm.rank())
+      all = list;
+    else
+      outgoing.push_back({rank, comm::to_bytes(std::span<const T>(list))});
+  for (const comm::Message& message : comm.exchange_any(outgoing)) {
+    const std::vector<T> arrived = comm::from_bytes<T>(message.data);
+    all.insert(all.end(), arrived.begin(), arrived.end());
   }
-  return worst;
+  return all;
 }
 
-bool has_gap(std::span<const LocalIndex> ring) {
-  return ring.size() < 3 || std::find(ring.begin(), ring.end(), delaunay::gap) != ring.end();
-}
-
-/// Positive, so that 0 can stand for "no candidate".
-GlobalId hash_of(Vec2 p, int round) {
-  const std::uint64_t bits = mix_bits(mix_bits(std::bit_cast<std::uint64_t>(p.x) + static_cast<std::uint64_t>(round)) ^
-                                      std::bit_cast<std::uint64_t>(p.y));
-  return static_cast<GlobalId>((bits >> 1) | 1);
-}
-
-/// The places of a ring around site i.
-void collect_ring(const StarView& view, LocalIndex i, std::vector<Vec2>& places) {
-  places.clear();
-  for (const LocalIndex neighbour : view.stars.ring(i))
-    places.push_back(view.points.position(neighbour));
-}
-
-/// Hash of each owned site that has a triangle above the threshold, else 0.
-std::vector<GlobalId> candidates(const StarView& view, double threshold, int round) {
-  std::vector<GlobalId> hashes(at(view.points.owned()), 0);
-  thread_loop(view.points.owned(), 1024, [&](std::ptrdiff_t item, int) {
-    const auto i = static_cast<LocalIndex>(item);
-    if (view.points.boundary(i) != mesh::free_site || has_gap(view.stars.ring(i)))
-      return;
-    const Vec2 p = view.points.position(i);
-    const auto ring = view.stars.ring(i);
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      const Vec2 a = view.points.position(ring[k]), b = view.points.position(ring[k + 1 == ring.size() ? 0 : k + 1]);
-      if (mesh::aspect_ratio(p, a, b) > threshold) {
-        hashes[at(i)] = hash_of(p, round);
-        return;
-      }
-    }
-  });
-  return hashes;
+/// Positive doubles compare like the integers with their bits.
+GlobalId key_of(double alpha) {
+  return std::bit_cast<std::int64_t>(alpha);
 }
 
 } // namespace
 
-Vec2 max_min_place(Vec2 from, std::span<const Vec2> ring, double h) {
-  constexpr double diagonal = 0.7071067811865476;
-  constexpr std::array<Vec2, 8> directions{{{1, 0},
-                                            {diagonal, diagonal},
-                                            {0, 1},
-                                            {-diagonal, diagonal},
-                                            {-1, 0},
-                                            {-diagonal, -diagonal},
-                                            {0, -1},
-                                            {diagonal, -diagonal}}};
-  Vec2 best = from;
-  double least = worst_alpha_around(from, ring, INFINITY);
-  int trials = 0;
-  for (double step = first_step * h; step >= last_step * h && trials < most_trials;) {
-    Vec2 next = best;
-    for (const Vec2 direction : directions) {
-      const Vec2 trial = best + step * direction;
-      const double worst = worst_alpha_around(trial, ring, least);
-      ++trials;
-      if (worst < least) {
-        least = worst;
-        next = trial;
-      }
-    }
-    if (next == best)
-      step *= 0.5;
-    best = next;
-  }
-  return best;
+void CleanupCounts::add(const CleanupCounts& other) {
+  bad += other.bad;
+  patches += other.patches;
+  better += other.better;
+  moved += other.moved;
+  inserted += other.inserted;
+  deleted += other.deleted;
+  on_boundary += other.on_boundary;
 }
 
-CleanupCounts cleanup_round(const comm::Communicator& comm, Layout& layout, const geometry::Lattice& lattice,
-                            double worst_alpha, int round) {
-  SiteState& state = *layout.state;
-  const StarView view = view_of(state, *layout.size);
-  const mesh::BinnedPoints& points = state.points();
-  const LocalIndex owned = points.owned();
-  std::vector<GlobalId> hashes = candidates(view, worst_alpha, round);
-  const std::vector<GlobalId> of_ghosts = state.halo().exchange(points, hashes);
-  hashes.insert(hashes.end(), of_ghosts.begin(), of_ghosts.end());
+Cleanup::Cleanup(const comm::Communicator& comm, Layout& layout, const geometry::Boundary& boundary,
+                 const geometry::Lattice& lattice, const delaunay::StarBuilder& builder, const PatchOptions& options,
+                 double threshold)
+    : comm_(comm), layout_(layout), state_(*layout.state), curve_(boundary), lattice_(lattice), builder_(builder),
+      options_(options), threshold_(threshold) {}
 
-  std::vector<mesh::Site> sites(at(owned));
-  const std::vector<std::uint8_t> deleted(sites.size(), 0);
-  std::vector<CleanupCounts> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
-  thread_loop(owned, 1024, [&](std::ptrdiff_t item, int thread) {
-    const auto i = static_cast<LocalIndex>(item);
-    mesh::Site& site = sites[at(i)] = points.site(i);
-    site.lead = {};
-    if (hashes[at(i)] == 0)
-      return;
-    CleanupCounts& counts = of_thread[static_cast<std::size_t>(thread)];
-    ++counts.candidates;
-    for (const LocalIndex neighbour : view.stars.ring(i))
-      if (hashes[at(neighbour)] != 0 && hashes[at(neighbour)] < hashes[at(i)])
-        return;
-    std::vector<Vec2> ring;
-    collect_ring(view, i, ring);
-    const Vec2 place = lattice.snap(max_min_place(site.position, ring, view.size(i)));
-    if (place == site.position || layout.guard->correct(place, view.size(i), lattice))
-      return;
-    site.position = place;
-    ++counts.moved;
-  });
-  CleanupCounts all;
-  for (const CleanupCounts& counts : of_thread) {
-    all.candidates += counts.candidates;
-    all.moved += counts.moved;
+/// What a star of one of these places may look at, sent to the owners of all tiles there.
+std::vector<Disc> Cleanup::share_places() const {
+  const mesh::TileGrid& grid = state_.grid();
+  std::map<int, std::vector<Disc>> by_rank;
+  for (const Disc& disc : places_) {
+    const geometry::Vec2 reach{disc.radius, disc.radius}, low = disc.center - reach, high = disc.center + reach;
+    const int x1 = grid.tile_of(grid.fixed_x(high.x)), y1 = grid.tile_of(grid.fixed_y(high.y));
+    std::vector<int> ranks;
+    for (int y = grid.tile_of(grid.fixed_y(low.y)); y <= y1; ++y)
+      for (int x = grid.tile_of(grid.fixed_x(low.x)); x <= x1; ++x)
+        ranks.push_back(state_.partition().owner(grid.tile_at(x, y)));
+    std::sort(ranks.begin(), ranks.end());
+    ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+    for (const int rank : ranks)
+      by_rank[rank].push_back(disc);
   }
-  state.move_sites(sites, deleted);
-  return {comm.sum(all.candidates), comm.sum(all.moved)};
+  return send(comm_, by_rank);
+}
+
+/// In the first round, and in a periodic container, all stars; else those at the places of the last round: elsewhere
+/// there is nothing bad, and nothing has changed.
+void Cleanup::compute_stars() {
+  if (round_ == 0 || state_.grid().periods().any()) {
+    state_.compute_stars(builder_, *layout_.size, Wanted::all_sites);
+    return;
+  }
+  const mesh::BinnedPoints& points = state_.points();
+  std::vector<delaunay::StarWish> wanted(at(points.owned()), delaunay::StarWish::leave);
+  for (const Disc& disc : share_places())
+    points.for_each_near(
+        disc.center, disc.radius,
+        [&](LocalIndex begin, LocalIndex end) {
+          for (LocalIndex j = begin; j < std::min(end, points.owned()); ++j)
+            if (geometry::squared_length(points.position(j) - disc.center) < disc.radius * disc.radius)
+              wanted[at(j)] = delaunay::StarWish::compute;
+        },
+        [](mesh::BinRef) {});
+  state_.compute_stars(builder_, *layout_.size, wanted);
+}
+
+/// Bad sites and those around them are looked at again.
+void Cleanup::remember_places(const std::vector<GlobalId>& keys) {
+  const StarView view = view_of(state_, *layout_.size);
+  places_.clear();
+  for (LocalIndex i = 0; i < state_.points().owned(); ++i)
+    if (keys[at(i)] != 0)
+      places_.push_back({state_.points().position(i), around_bad_site * view.size(i)});
+}
+
+/// Key of the worst triangle of each owned site, 0 below the threshold or where nothing helps.
+std::vector<GlobalId> Cleanup::worst_alphas() const {
+  const ExtractionContext context{state_, layout_.boundary, *layout_.size, lattice_};
+  const mesh::BinnedPoints& points = state_.points();
+  std::vector<GlobalId> keys(at(points.owned()), 0);
+  thread_loop(points.owned(), 1024, [&](std::ptrdiff_t item, int) {
+    const auto i = static_cast<LocalIndex>(item);
+    if (!state_.stars().certain(i))
+      return;
+    const Fan fan = inside_fan(context, i);
+    if (!fan.complete)
+      return;
+    const Vec2 p = points.position(i);
+    double worst = 1;
+    for (std::size_t k = 0; k < fan.triangles; ++k)
+      worst = std::max(
+          worst, mesh::aspect_ratio(p, points.position(fan.neighbour(k)), points.position(fan.neighbour(k + 1))));
+    if (worst > threshold_ && std::isfinite(worst) && !hopeless_.contains(hash_of(p, 0)))
+      keys[at(i)] = key_of(worst);
+  });
+  return keys;
+}
+
+/// Local maxima of badness; `order` receives their rank among candidates, 0 for all other sites, ghosts included.
+std::vector<Cleanup::Candidate> Cleanup::find_candidates(std::vector<GlobalId>& order) {
+  const mesh::BinnedPoints& points = state_.points();
+  const StarView view = view_of(state_, *layout_.size);
+  std::vector<GlobalId> keys = worst_alphas();
+  remember_places(keys);
+  const std::vector<GlobalId> of_ghosts = state_.halo().exchange(points, keys);
+  keys.insert(keys.end(), of_ghosts.begin(), of_ghosts.end());
+  const geometry::Periods& periods = points.grid().periods();
+  std::vector<Candidate> candidates;
+  std::vector<double> reaches;
+  order.assign(at(points.owned()), 0);
+  const double limit = 0.45 * std::min(periods.x > 0 ? periods.x : INFINITY, periods.y > 0 ? periods.y : INFINITY);
+  for (LocalIndex i = 0; i < points.owned(); ++i) {
+    if (keys[at(i)] == 0)
+      continue;
+    const auto is_worse = [&](LocalIndex j) {
+      return j != delaunay::gap && (keys[at(j)] > keys[at(i)] || (keys[at(j)] == keys[at(i)] &&
+                                                                  periods.less(points.position(j), points.position(i))));
+    };
+    const auto ring = state_.stars().ring(i);
+    if (std::any_of(ring.begin(), ring.end(), is_worse))
+      continue;
+    const SizeClass its_class = class_of(view.size(i));
+    const double separation = (2 * options_.reach - 2) * its_class.upper;
+    if (separation > limit)
+      continue;
+    candidates.push_back({i, separation});
+    order[at(i)] = (its_class.number << hash_bits) |
+                   static_cast<GlobalId>(hash_of(points.position(i), 1 + round_) >> (64 - hash_bits));
+  }
+  return candidates;
+}
+
+/// @brief Leaves a set of candidates that keep their separations, as large as a few rounds make it (Luby 1986): who is
+/// the first of its surroundings stays, whoever is near it leaves, and again.
+///
+/// Those of a smaller class come first, so that of two the one that has to leave looks far enough.
+void Cleanup::choose_apart(std::vector<Candidate>& candidates, std::vector<GlobalId> order) const {
+  const mesh::BinnedPoints& points = state_.points();
+  const LocalIndex owned = points.owned();
+  std::vector<Candidate> chosen;
+  for (int pass = 0; pass < passes_of_choice; ++pass) {
+    const std::vector<GlobalId> of_ghosts = state_.halo().exchange(points, order); // 0: none, negative: chosen
+    std::vector<GlobalId> all = order;
+    all.insert(all.end(), of_ghosts.begin(), of_ghosts.end());
+    std::erase_if(candidates, [&](const Candidate& candidate) {
+      const Vec2 p = points.position(candidate.site);
+      const GlobalId own = all[at(candidate.site)];
+      bool first = true, leaves = false;
+      const auto look = [&](LocalIndex begin, LocalIndex end) {
+        for (LocalIndex j = begin; j < end; ++j)
+          if (all[at(j)] != 0 && j != candidate.site &&
+              geometry::squared_length(points.position(j) - p) < candidate.separation * candidate.separation) {
+            leaves |= all[at(j)] < 0;
+            first &= all[at(j)] > own;
+          }
+      };
+      points.for_each_near(p, candidate.separation, look, [](mesh::BinRef) {});
+      if (leaves)
+        order[at(candidate.site)] = 0;
+      else if (first) {
+        order[at(candidate.site)] = -1;
+        chosen.push_back(candidate);
+      }
+      return leaves || first;
+    });
+    TRIME_ASSERT(order.size() == at(owned));
+  }
+  candidates = std::move(chosen);
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.site < b.site; });
+}
+
+std::vector<PatchSite> Cleanup::sites_around(LocalIndex site, double reach) const {
+  const mesh::BinnedPoints& points = state_.points();
+  const StarView view = view_of(state_, *layout_.size);
+  const Vec2 center = points.position(site);
+  std::vector<PatchSite> sites;
+  points.for_each_near(
+      center, reach,
+      [&](LocalIndex begin, LocalIndex end) {
+        for (LocalIndex j = begin; j < end; ++j)
+          if (geometry::squared_length(points.position(j) - center) < reach * reach)
+            sites.push_back({points.position(j), view.size(j), points.boundary(j)});
+      },
+      [](mesh::BinRef) {});
+  std::sort(sites.begin(), sites.end(), [](const PatchSite& a, const PatchSite& b) {
+    return geometry::lexicographically_less(a.position, b.position);
+  });
+  return sites;
+}
+
+std::vector<SiteEdit> Cleanup::try_patches(const std::vector<Candidate>& chosen, CleanupCounts& counts) {
+  const mesh::BinnedPoints& points = state_.points();
+  const StarView view = view_of(state_, *layout_.size);
+  std::vector<std::vector<SiteEdit>> edits(chosen.size());
+  thread_loop(thread_count(), 1, [&](std::ptrdiff_t first, int) { // one optimizer for each thread
+    PatchOptimizer optimizer(layout_.boundary, curve_, *layout_.guard, lattice_, options_);
+    for (std::size_t k = static_cast<std::size_t>(first); k < chosen.size();
+         k += static_cast<std::size_t>(thread_count())) {
+      const LocalIndex i = chosen[k].site;
+      const double h = view.size(i);
+      optimizer.improve(points.position(i), h, sites_around(i, options_.reach * h), edits[k]);
+    }
+  });
+  const geometry::Periods& periods = points.grid().periods();
+  std::vector<SiteEdit> all;
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const Vec2 place = points.position(chosen[k].site);
+    if (edits[k].empty())
+      hopeless_.insert(hash_of(place, 0));
+    else
+      places_.push_back({place, (options_.reach + around_patch) * view.size(chosen[k].site)});
+    counts.better += !edits[k].empty();
+    for (SiteEdit& edit : edits[k]) {
+      edit.from = periods.wrap(edit.from);
+      edit.to = periods.wrap(edit.to);
+      counts.moved += edit.kind == SiteEdit::Kind::move;
+      counts.inserted += edit.kind == SiteEdit::Kind::insert;
+      counts.deleted += edit.kind == SiteEdit::Kind::remove;
+      counts.on_boundary += edit.boundary >= 0;
+    }
+    all.insert(all.end(), edits[k].begin(), edits[k].end());
+  }
+  return all;
+}
+
+/// What the owned sites have to do, in their canonical places.
+std::vector<SiteEdit> Cleanup::send_to_owners(const std::vector<SiteEdit>& edits) const {
+  const mesh::TileGrid& grid = state_.grid();
+  std::map<int, std::vector<SiteEdit>> by_rank;
+  for (const SiteEdit& edit : edits)
+    by_rank[state_.partition().owner(grid.place(edit.from).tile)].push_back(edit);
+  return send(comm_, by_rank);
+}
+
+/// All ranks learn what happens on the boundary, of which each has a copy.
+void Cleanup::edit_the_boundary(const std::vector<SiteEdit>& edits) {
+  std::vector<BoundaryEdit> own;
+  for (const SiteEdit& edit : edits)
+    if (edit.boundary >= 0) {
+      const BoundaryEdit::Kind kind = edit.kind == SiteEdit::Kind::move     ? BoundaryEdit::Kind::slide
+                                      : edit.kind == SiteEdit::Kind::remove ? BoundaryEdit::Kind::remove
+                                                                            : BoundaryEdit::Kind::insert;
+      own.push_back({edit.boundary, kind, edit.arc, edit.to});
+    }
+  boundary_edits_ =
+      comm::from_bytes<BoundaryEdit>(comm_.all_gather(std::as_bytes(std::span<const BoundaryEdit>(own))));
+  new_index_.clear();
+  if (boundary_edits_.empty())
+    return;
+  new_index_ = edit_boundary(layout_.boundary, curve_, boundary_edits_, inserted_);
+  layout_.guard = std::make_unique<BoundaryGuard>(layout_.boundary, lattice_);
+}
+
+std::int32_t Cleanup::new_boundary_index(const SiteEdit& insertion) const {
+  for (std::size_t k = 0; k < boundary_edits_.size(); ++k)
+    if (boundary_edits_[k].kind == BoundaryEdit::Kind::insert && boundary_edits_[k].position == insertion.to)
+      return inserted_[k];
+  throw InternalError(fmt::format("no boundary site at ({}, {})", insertion.to.x, insertion.to.y));
+}
+
+void Cleanup::apply(const std::vector<SiteEdit>& edits) {
+  const mesh::BinnedPoints& points = state_.points();
+  std::vector<mesh::Site> sites;
+  sites.reserve(at(points.owned()));
+  for (LocalIndex i = 0; i < points.owned(); ++i) {
+    sites.push_back(points.site(i));
+    sites.back().lead = {};
+    if (!new_index_.empty() && sites.back().boundary >= 0)
+      sites.back().boundary = new_index_[at(sites.back().boundary)];
+  }
+  std::vector<std::uint8_t> deleted(sites.size(), 0);
+  for (const SiteEdit& edit : edits) {
+    if (edit.kind == SiteEdit::Kind::insert) {
+      sites.push_back({edit.to, edit.boundary >= 0 ? new_boundary_index(edit) : mesh::free_site});
+      deleted.push_back(0);
+      continue;
+    }
+    LocalIndex found = -1;
+    points.for_each_near(
+        edit.from, 0,
+        [&](LocalIndex begin, LocalIndex end) {
+          for (LocalIndex j = begin; j < end && j < points.owned(); ++j)
+            if (points.position(j) == edit.from)
+              found = j;
+        },
+        [](mesh::BinRef) {});
+    TRIME_ASSERT(found >= 0, "no site at ({}, {})", edit.from.x, edit.from.y);
+    sites[at(found)].position = edit.to;
+    deleted[at(found)] = edit.kind == SiteEdit::Kind::remove;
+  }
+  state_.move_sites(sites, deleted);
+}
+
+CleanupCounts Cleanup::round() {
+  compute_stars();
+  std::vector<GlobalId> order;
+  std::vector<Candidate> candidates = find_candidates(order);
+  CleanupCounts counts;
+  counts.bad = static_cast<std::int64_t>(candidates.size());
+  std::vector<Disc> discs;
+  for (const Candidate& candidate : candidates)
+    discs.push_back({state_.points().position(candidate.site), candidate.separation});
+  state_.reveal(discs, *layout_.size);
+  choose_apart(candidates, std::move(order));
+  counts.patches = static_cast<std::int64_t>(candidates.size());
+  const std::vector<SiteEdit> edits = try_patches(candidates, counts);
+  edit_the_boundary(edits);
+  apply(send_to_owners(edits));
+  ++round_;
+  std::array<std::int64_t, 7> all{counts.bad,      counts.patches, counts.better,     counts.moved,
+                                  counts.inserted, counts.deleted, counts.on_boundary};
+  comm_.sum(all);
+  return {all[0], all[1], all[2], all[3], all[4], all[5], all[6]};
 }
 
 } // namespace trime::meshing

@@ -1,29 +1,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tail of the quality: moves single sites where the worst triangles are, after all sweeps.
+// The tail of the quality: what the sweeps leave of bad triangles is mended patch by patch, after all sweeps.
 #pragma once
 
 #include "meshing/layout.hpp"
+#include "meshing/patch.hpp"
 
 #include <cstdint>
-#include <span>
+#include <unordered_set>
+#include <vector>
 
 namespace trime::meshing {
 
-/// @brief Place near `from` at which the largest alpha of the triangles (place, ring[k], ring[k+1]) is smallest, by a
-/// search in eight directions with steps from 0.1 h down to 0.004 h. A pure function. @return `from` if none is better
-geometry::Vec2 max_min_place(geometry::Vec2 from, std::span<const geometry::Vec2> ring, double h);
-
 /// What a round did, over all ranks.
 struct CleanupCounts {
-  std::int64_t candidates = 0, moved = 0;
+  std::int64_t bad = 0;     ///< places with a triangle above the threshold
+  std::int64_t patches = 0; ///< tried
+  std::int64_t better = 0;  ///< kept
+  std::int64_t moved = 0, inserted = 0, deleted = 0;
+  std::int64_t on_boundary = 0; ///< of these, sites on the boundary
+
+  void add(const CleanupCounts& other);
 };
 
-/// @brief One round: of the inner sites with a triangle above `worst_alpha` those move that have the least hash of
-/// place and round among such neighbours, each to the place where its own worst triangle is best (Freitag and
-/// Ollivier-Gooch 1997); nobody moves into the disc of a boundary segment. Independent sets by a hash are the same for
-/// any partition, and nobody can block a ring for ever, as a choice by quality would. Stars are to be computed anew
-/// afterwards. Collective. @pre stars of the inner sites are certain
-CleanupCounts cleanup_round(const comm::Communicator& comm, Layout& layout, const geometry::Lattice& lattice,
-                            double worst_alpha, int round);
+/// @brief Rounds of try and keep. A site is a candidate if it has a triangle above the threshold and no neighbour has
+/// a worse one. Of the candidates those act that are the first of their surroundings in an order of size class and hash
+/// of place and round: their patches (PatchOptimizer) do not overlap, and the choice is the same for any partition.
+/// The owner of a candidate computes its patch and sends the changes to the owners of the sites.
+class Cleanup {
+public:
+  /// References must outlive the object.
+  Cleanup(const comm::Communicator& comm, Layout& layout, const geometry::Boundary& boundary,
+          const geometry::Lattice& lattice, const delaunay::StarBuilder& builder, const PatchOptions& options,
+          double threshold);
+
+  /// @brief One round. From the second on only stars near bad triangles and changes are computed. Collective.
+  CleanupCounts round();
+
+private:
+  struct Candidate {
+    LocalIndex site;
+    double separation; // no other patch may begin within
+  };
+  void compute_stars();
+  std::vector<Disc> share_places() const;
+  void remember_places(const std::vector<GlobalId>& keys);
+  std::vector<GlobalId> worst_alphas() const;
+  std::vector<Candidate> find_candidates(std::vector<GlobalId>& order);
+  void choose_apart(std::vector<Candidate>& candidates, std::vector<GlobalId> order) const;
+  std::vector<SiteEdit> try_patches(const std::vector<Candidate>& chosen, CleanupCounts& counts);
+  std::vector<PatchSite> sites_around(LocalIndex site, double reach) const;
+  std::vector<SiteEdit> send_to_owners(const std::vector<SiteEdit>& edits) const;
+  void edit_the_boundary(const std::vector<SiteEdit>& edits);
+  std::int32_t new_boundary_index(const SiteEdit& insertion) const;
+  void apply(const std::vector<SiteEdit>& edits);
+
+  const comm::Communicator& comm_;
+  Layout& layout_;
+  SiteState& state_;
+  BoundaryCurve curve_;
+  geometry::Lattice lattice_;
+  const delaunay::StarBuilder& builder_;
+  PatchOptions options_;
+  double threshold_;
+  int round_ = 0;
+  std::vector<Disc> places_; // where this rank saw bad triangles, or changed something, in the last round
+  // The boundary's changes of this round, sorted, and what became of its sites; empty: none.
+  std::vector<BoundaryEdit> boundary_edits_;
+  std::vector<LocalIndex> inserted_, new_index_;
+  std::unordered_set<std::uint64_t> hopeless_; // hashes of owned places where nothing helped
+};
 
 } // namespace trime::meshing

@@ -222,23 +222,28 @@ private:
     }
   }
 
-  /// Max-min moves around the worst triangles: they lower the largest alpha of a relaxed mesh from 1.4 to 1.2.
+  /// Mends the worst triangles, patch by patch.
   void clean_up() {
     if (!options_.cleanup || history_.empty())
       return;
-    const double threshold = 1 + std::max(least_excess, alpha_bins_.quantile(1 - worst_share));
+    PatchOptions patch_options;
+    if (const char* e = std::getenv("TM_REACH")) patch_options.reach = std::atof(e);
+    if (const char* e = std::getenv("TM_BAD")) patch_options.bad_alpha = std::atof(e);
+    if (const char* e = std::getenv("TM_SWEEPS")) patch_options.trial_sweeps = std::atoi(e);
+    if (const char* e = std::getenv("TM_OPS")) patch_options.operations = std::atoi(e);
+    double threshold = 1.1; int rounds = 20;
+    if (const char* e = std::getenv("TM_THR")) threshold = std::atof(e);
+    if (const char* e = std::getenv("TM_ROUNDS")) rounds = std::atoi(e);
+    Cleanup cleanup(comm_, layout_, fixed_->boundary(), lattice_, *builder_, patch_options, threshold);
     CleanupCounts all;
-    for (int round = 0; round < cleanup_rounds; ++round) {
-      stars(Wanted::inner_sites);
+    for (int round = 0; round < rounds; ++round) {
       const auto time = timers_.scope("clean-up");
-      const CleanupCounts counts = cleanup_round(comm_, layout_, lattice_, threshold, round);
-      all.candidates = std::max(all.candidates, counts.candidates);
-      all.moved += counts.moved;
-      if (counts.moved == 0)
+      const CleanupCounts counts = cleanup.round();
+      all.add(counts);
+      log_.info("clean-up round {}: bad {} patches {} better {} moved {} +{} -{} b {}", round, counts.bad, counts.patches, counts.better, counts.moved, counts.inserted, counts.deleted, counts.on_boundary);
+      if (counts.patches == 0)
         break;
     }
-    log_.info("clean-up: {} sites around triangles with alpha above {:.3f}, {} moves", all.candidates, threshold,
-              all.moved);
   }
 
   // --- the mesh -----------------------------------------------------------------------------------------------------

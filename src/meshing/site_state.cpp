@@ -5,6 +5,7 @@
 #include "trime/core/error.hpp"
 #include "trime/core/thread_loop.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -71,7 +72,7 @@ void SiteState::choose_bins(std::span<const mesh::Site> sites) {
 }
 
 void SiteState::move_sites(std::vector<mesh::Site>& sites, std::span<const std::uint8_t> deleted) {
-  const std::size_t before = sites.size();
+  const std::size_t before = sites.size(), old = static_cast<std::size_t>(points_.owned());
   wrap(sites);
   renumbering_.assign(before, -1);
   std::size_t kept = 0;
@@ -90,6 +91,7 @@ void SiteState::move_sites(std::vector<mesh::Site>& sites, std::span<const std::
     if (index >= 0)
       index = sorted_[static_cast<std::size_t>(index)];
   sizes_.forget();
+  renumbering_.resize(old);
   stars_.renumber(renumbering_, points_.owned());
 }
 
@@ -122,26 +124,47 @@ void SiteState::evaluate_sizes(const sizing::SizeField& size) {
 
 delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size,
                                             Wanted wanted) {
-  sizes_.forget(); // the field may be another one now
-  refresh_sites(size);
   wanted_.clear();
   if (wanted == Wanted::inner_sites)
     for (LocalIndex i = 0; i < points_.owned(); ++i)
-      wanted_.push_back(points_.boundary(i) < 0);
+      wanted_.push_back(points_.boundary(i) < 0 ? delaunay::StarWish::compute : delaunay::StarWish::none);
+  return compute_stars(builder, size, wanted_);
+}
+
+delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size,
+                                            std::span<const delaunay::StarWish> wanted) {
+  sizes_.forget(); // the field may be another one now
+  refresh_sites(size);
   delaunay::StarPass all;
   std::vector<mesh::BinRef> missing;
   for (int round = 0; round < max_halo_rounds; ++round) {
     missing.clear();
-    const delaunay::StarPass pass = builder.update(points_, stars_, sizes_, wanted_, missing);
+    const delaunay::StarPass pass = builder.update(points_, stars_, sizes_, wanted, missing);
     all.rebuilt += pass.rebuilt;
     if (comm_.sum(pass.uncertain) == 0)
       return all;
-    const LocalIndex ghosts_from = points_.owned();
-    halo_.subscribe(missing);
-    refresh_sites(size);
-    stars_.renumber_ghosts(ghosts_from, halo_.ghost_renumbering());
+    subscribe(missing, size);
   }
   throw InternalError(fmt::format("the halo still grows after {} rounds", max_halo_rounds));
+}
+
+/// Fetches more bins; the sites stay as they are.
+void SiteState::subscribe(std::span<const mesh::BinRef> missing, const sizing::SizeField& size) {
+  halo_.subscribe(missing);
+  refresh_sites(size);
+  stars_.renumber_ghosts(points_.owned(), halo_.ghost_renumbering());
+}
+
+void SiteState::reveal(std::span<const Disc> discs, const sizing::SizeField& size) {
+  std::vector<mesh::BinRef> missing;
+  for (const Disc& disc : discs)
+    points_.for_each_near(
+        disc.center, disc.radius, [](LocalIndex, LocalIndex) {},
+        [&](mesh::BinRef bin) { missing.push_back(bin); });
+  std::sort(missing.begin(), missing.end());
+  missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
+  if (comm_.sum(static_cast<std::int64_t>(missing.size())) > 0)
+    subscribe(missing, size);
 }
 
 void SiteState::release_work_space() {

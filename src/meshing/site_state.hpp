@@ -18,6 +18,12 @@ namespace trime::meshing {
 /// Which stars are to be computed.
 enum class Wanted { inner_sites, all_sites };
 
+/// A place and how far around it sites must be known.
+struct Disc {
+  geometry::Vec2 center;
+  double radius;
+};
+
 /// @brief Owned and ghost sites with their stars. After each change of sites: set_sites, then compute_stars.
 class SiteState {
 public:
@@ -27,14 +33,21 @@ public:
   /// First sites, from any ranks: partitions the tiles by their counts. Collective.
   /// @throws ConfigError on all ranks if one would own more sites than a local index can count
   void distribute(std::vector<mesh::Site> sites);
-  /// @brief The owned sites moved: `sites[i]` is owned site i, or deleted where `deleted[i]`. Migrates, sorts, keeps
-  /// the rings. Collective.
+  /// @brief The owned sites moved: `sites[i]` is owned site i, or deleted where `deleted[i]`; more sites than are owned
+  /// are new. Migrates, sorts, keeps the rings. Collective.
   void move_sites(std::vector<mesh::Site>& sites, std::span<const std::uint8_t> deleted);
 
   /// @brief Refreshes the halo and the sizes and computes the wanted stars, asking for more bins until every one is
   /// certain. Collective.
   /// @throws GeometryError on all ranks together if h at a site is not positive and finite
   delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size, Wanted wanted);
+
+  /// The same for some stars: `wanted` by local index of the owned sites.
+  delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size,
+                                   std::span<const delaunay::StarWish> wanted);
+  /// @brief Makes all sites in the discs known, with their sizes; local indices of ghosts may change. Collective.
+  /// @pre in a periodic container radii below half a period
+  void reveal(std::span<const Disc> discs, const sizing::SizeField& size);
 
   const mesh::TileGrid& grid() const { return grid_; }
   const mesh::BinnedPoints& points() const { return points_; }
@@ -52,6 +65,7 @@ private:
   void wrap(std::vector<mesh::Site>& sites) const;
   void choose_bins(std::span<const mesh::Site> sites);
   void refresh_sites(const sizing::SizeField& size);
+  void subscribe(std::span<const mesh::BinRef> missing, const sizing::SizeField& size);
   void evaluate_sizes(const sizing::SizeField& size);
 
   const comm::Communicator& comm_;
@@ -61,7 +75,7 @@ private:
   decomposition::Halo halo_;
   delaunay::StarTable stars_;
   mesh::LocalSizes sizes_;
-  std::vector<std::uint8_t> wanted_;
+  std::vector<delaunay::StarWish> wanted_;
   std::vector<LocalIndex> stays_, sorted_, renumbering_;
 };
 

@@ -70,6 +70,8 @@ public:
   /// The value of each rank, by rank. O(ranks) memory. Collective.
   std::vector<std::int64_t> all_gather(std::int64_t value) const;
   std::vector<double> all_gather(double value) const;
+  /// The bytes of all ranks on every rank, by rank. O(all bytes) memory; at most 2 GiB together. Collective.
+  std::vector<std::byte> all_gather(std::span<const std::byte> bytes) const;
   /// The text of `root` on every rank. Collective.
   std::string broadcast(std::string text, int root = 0) const;
   /// The text of each rank on rank 0 (empty elsewhere). Collective.

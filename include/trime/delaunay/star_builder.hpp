@@ -15,6 +15,9 @@
 
 namespace trime::delaunay {
 
+/// What a pass does with the star of a site: empty its ring, compute it, or leave the ring as it is, right or not.
+enum class StarWish : std::uint8_t { none, compute, leave };
+
 /// Counts of one pass.
 struct StarPass {
   std::int64_t rebuilt = 0;   ///< stars whose last ring was not right any more
@@ -55,10 +58,10 @@ public:
   /// @brief Computes the star of every owned site that is wanted and not certain yet, from its last ring where it has
   /// one. Threads over tiles. About 200 ns per warm star, 600 ns from scratch.
   /// @param sizes h at the owned sites; empty: the largest cap everywhere
-  /// @param wanted by local index, nonzero: compute; empty: all. The rings of other sites are emptied.
+  /// @param wanted what becomes of each site, by local index; empty: all are computed
   /// @param missing receives the bins that uncertain stars miss, ascending, each once
   StarPass update(const mesh::BinnedPoints& points, StarTable& stars, const mesh::LocalSizes& sizes,
-                  std::span<const std::uint8_t> wanted, std::vector<mesh::BinRef>& missing) const;
+                  std::span<const StarWish> wanted, std::vector<mesh::BinRef>& missing) const;
 
   /// @brief True if the triangle a, b, c (any order) counts: circumradius below `cap`, computed in canonical order
   /// of the vertices, so that stars of the same cap agree.

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meshing/boundary_curve.hpp"
+
+#include "trime/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trime::meshing {
+
+using geometry::Vec2;
+
+namespace {
+
+std::size_t at(LocalIndex i) {
+  return static_cast<std::size_t>(i);
+}
+
+} // namespace
+
+BoundaryCurve::BoundaryCurve(const geometry::Boundary& boundary) : boundary_(boundary) {
+  for (const geometry::Loop& loop : boundary.loops) {
+    std::vector<double> starts{0};
+    for (const geometry::Piece& piece : loop.pieces)
+      starts.push_back(starts.back() + piece.length());
+    starts_.push_back(std::move(starts));
+  }
+}
+
+BoundaryCurve::Place BoundaryCurve::place(LocalIndex loop, double arc) const {
+  const std::vector<double>& starts = starts_[at(loop)];
+  const geometry::Loop& curve = boundary_.loops[at(loop)];
+  const double turns = arc >= starts.back() ? 1 : arc < 0 ? -1 : 0;
+  arc -= turns * starts.back();
+  const auto above = std::upper_bound(starts.begin(), starts.end(), arc);
+  const auto piece = std::clamp<std::ptrdiff_t>(above - starts.begin() - 1, 0, std::ssize(starts) - 2);
+  const double along = arc - starts[static_cast<std::size_t>(piece)];
+  const geometry::Piece& on = curve.pieces[static_cast<std::size_t>(piece)];
+  return {static_cast<LocalIndex>(piece), along, on.point(along) + turns * curve.winding, on.tangent(along)};
+}
+
+LocalIndex loop_of(const BoundarySites& boundary, LocalIndex site) {
+  const auto above = std::upper_bound(boundary.loop_start.begin(), boundary.loop_start.end(), site);
+  return static_cast<LocalIndex>(above - boundary.loop_start.begin()) - 1;
+}
+
+std::vector<LocalIndex> edit_boundary(BoundarySites& boundary, const BoundaryCurve& curve,
+                                      std::vector<BoundaryEdit>& edits, std::vector<LocalIndex>& inserted) {
+  std::sort(edits.begin(), edits.end(), [](const BoundaryEdit& a, const BoundaryEdit& b) {
+    return a.site != b.site ? a.site < b.site : a.kind < b.kind;
+  });
+  inserted.assign(edits.size(), -1);
+  const BoundarySites old = std::move(boundary);
+  boundary = old;
+  boundary.sites.clear();
+  boundary.loop_start.assign(1, 0);
+  std::vector<LocalIndex> new_index(old.sites.size(), -1);
+  std::size_t next = 0;
+  const auto put = [&](BoundarySite site, const BoundaryEdit& edit, const BoundaryCurve::Place& place) {
+    site.position = edit.position;
+    site.piece = place.piece;
+    site.along = place.along;
+    boundary.sites.push_back(site);
+    return static_cast<LocalIndex>(boundary.sites.size()) - 1;
+  };
+  for (std::size_t loop = 0; loop + 1 < old.loop_start.size(); ++loop) {
+    const auto number = static_cast<LocalIndex>(loop);
+    const LocalIndex first = boundary.loop_start.back();
+    for (LocalIndex k = old.loop_start[loop]; k < old.loop_start[loop + 1]; ++k) {
+      const BoundarySite& site = old.sites[at(k)];
+      if (next < edits.size() && edits[next].site == k && edits[next].kind != BoundaryEdit::Kind::insert) {
+        const BoundaryEdit& edit = edits[next++];
+        if (edit.kind == BoundaryEdit::Kind::slide)
+          new_index[at(k)] = put(site, edit, curve.place(number, edit.arc));
+      } else {
+        new_index[at(k)] = static_cast<LocalIndex>(boundary.sites.size());
+        boundary.sites.push_back(site);
+      }
+      for (; next < edits.size() && edits[next].site == k; ++next) {
+        inserted[next] = put(site, edits[next], curve.place(number, edits[next].arc));
+        boundary.sites.back().corner = false;
+      }
+    }
+    const auto end = static_cast<LocalIndex>(boundary.sites.size());
+    for (LocalIndex k = first; k < end; ++k) {
+      BoundarySite& site = boundary.sites[at(k)];
+      site.previous = k == first ? end - 1 : k - 1;
+      site.next = k + 1 == end ? first : k + 1;
+    }
+    boundary.loop_start.push_back(end);
+  }
+  TRIME_ASSERT(next == edits.size(), "edits of boundary sites that do not exist");
+  boundary.shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < boundary.sites.size(); ++k) {
+    BoundarySite& site = boundary.sites[k];
+    const Vec2 end = boundary.sites[at(site.next)].position, image = boundary.periods.nearest_image(end, site.position);
+    site.next_shift = image - end;
+    boundary.shortest = std::fmin(boundary.shortest, geometry::length(image - site.position));
+  }
+  return new_index;
+}
+
+} // namespace trime::meshing

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The boundary as curves by arc length, on which sites slide, come and go after the layout.
+#pragma once
+
+#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/meshing/boundary_sites.hpp"
+
+#include <span>
+#include <vector>
+
+namespace trime::meshing {
+
+/// @brief Places on the loops of a boundary by arc length. Immutable, thread-safe; keeps a reference to the boundary.
+/// O(pieces) memory.
+class BoundaryCurve {
+public:
+  explicit BoundaryCurve(const geometry::Boundary& boundary);
+
+  double length(LocalIndex loop) const { return starts_[static_cast<std::size_t>(loop)].back(); }
+  /// Arc length from the start of the loop to a site.
+  double arc(LocalIndex loop, const BoundarySite& site) const {
+    return starts_[static_cast<std::size_t>(loop)][static_cast<std::size_t>(site.piece)] + site.along;
+  }
+  /// A place within one length of the loop before its start or behind its end. O(log pieces)
+  struct Place {
+    LocalIndex piece;
+    double along;
+    geometry::Vec2 point;   ///< on the unrolled loop
+    geometry::Vec2 tangent; ///< unit
+  };
+  Place place(LocalIndex loop, double arc) const;
+
+private:
+  const geometry::Boundary& boundary_;
+  std::vector<std::vector<double>> starts_; // of each loop: arc at the start of each piece, and the length
+};
+
+/// One change of the boundary sites. Sites keep their order along the loop.
+struct BoundaryEdit {
+  enum class Kind : std::int32_t { slide, remove, insert };
+  LocalIndex site = -1; ///< that slides or goes; for an insertion the one before
+  Kind kind = Kind::slide;
+  double arc = 0;          ///< of the new place
+  geometry::Vec2 position; ///< of the new place, canonical
+  friend bool operator==(const BoundaryEdit&, const BoundaryEdit&) = default;
+};
+
+/// The loop of a boundary site. O(log loops)
+LocalIndex loop_of(const BoundarySites& boundary, LocalIndex site);
+
+/// @brief Carries out edits, at most one insertion a chord. O(sites + edits log edits).
+/// @param edits are sorted here, by site; the same on every rank
+/// @param inserted receives the new index of each inserted site, in the order of the sorted edits
+/// @return by old index of a site its new one, -1 if it is gone
+/// @pre neighbouring sites lie within half a period of each other; a loop keeps 3 sites
+std::vector<LocalIndex> edit_boundary(BoundarySites& boundary, const BoundaryCurve& curve,
+                                      std::vector<BoundaryEdit>& edits, std::vector<LocalIndex>& inserted);
+
+} // namespace trime::meshing

@@ -1,0 +1,468 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meshing/patch.hpp"
+
+#include "trime/geometry/diametral.hpp"
+#include "trime/mesh/quality.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::meshing {
+namespace {
+
+using geometry::Vec2;
+
+constexpr double clearance_of_score = 1.5, clearance_of_moves = 2.8; // h, from the rim of what is read
+constexpr double weight_of_bad = 10;
+constexpr double least_gain = 0.02, tolerated_rise = 0.0;
+constexpr double longest_step = 0.25; // h, of one Newton step
+constexpr int halvings = 3;
+constexpr double longest_slide = 0.2;     // h, of one step
+constexpr double nearest_share = 0.4;     // of the way to a neighbour along the boundary, at most, in one step
+constexpr double largest_arc_share = 1.05; // arc over chord: a turn by 60 degrees
+
+/// Value, gradient and second derivatives of a function of one vertex.
+struct Model {
+  double value = 0;
+  Vec2 gradient;
+  double xx = 0, xy = 0, yy = 0;
+};
+
+/// eta of the triangle p, a, b: (sum of squared edges) / (4 sqrt(3) area); negative if turned over.
+double eta(Vec2 p, Vec2 a, Vec2 b) {
+  constexpr double c = 0.28867513459481287; // 1 / (2 sqrt 3)
+  const double sum = geometry::squared_length(p - a) + geometry::squared_length(p - b) + geometry::squared_length(a - b);
+  return c * sum / geometry::cross(a - p, b - p);
+}
+
+double power_of_excess(double value) {
+  const double excess = value - 1;
+  return excess * excess * (excess * excess);
+}
+
+/// Sum of (eta - 1)^4 over the star of p; infinity if a triangle is turned over. `ring` is a closed ring, or the open
+/// fan of a boundary vertex.
+double star_value(Vec2 p, std::span<const Vec2> ring, bool closed = true) {
+  double sum = 0;
+  for (std::size_t k = 0; k < ring.size() - !closed; ++k) {
+    const double value = eta(p, ring[k], ring[k + 1 == ring.size() ? 0 : k + 1]);
+    if (!(value >= 1 - 1e-9))
+      return INFINITY;
+    sum += power_of_excess(value);
+  }
+  return sum;
+}
+
+Model star_model(Vec2 p, std::span<const Vec2> ring, bool closed = true) {
+  constexpr double c = 0.28867513459481287;
+  Model model;
+  for (std::size_t k = 0; k < ring.size() - !closed; ++k) {
+    const Vec2 a = ring[k], b = ring[k + 1 == ring.size() ? 0 : k + 1];
+    const double inverse = 1 / geometry::cross(a - p, b - p);
+    const double sum =
+        geometry::squared_length(p - a) + geometry::squared_length(p - b) + geometry::squared_length(a - b);
+    const Vec2 of_sum = 2 * ((p - a) + (p - b)), of_area{a.y - b.y, b.x - a.x};
+    const double value = c * sum * inverse, excess = value - 1;
+    const Vec2 g = c * inverse * (of_sum - (sum * inverse) * of_area);
+    const double w = c * inverse * inverse, v = 2 * sum * inverse;
+    const double hxx = 4 * c * inverse + w * (v * of_area.x * of_area.x - 2 * of_sum.x * of_area.x);
+    const double hyy = 4 * c * inverse + w * (v * of_area.y * of_area.y - 2 * of_sum.y * of_area.y);
+    const double hxy = w * (v * of_area.x * of_area.y - of_sum.x * of_area.y - of_sum.y * of_area.x);
+    const double first = 4 * excess * excess * excess, second = 12 * excess * excess;
+    model.value += power_of_excess(value);
+    model.gradient = model.gradient + first * g;
+    model.xx += second * g.x * g.x + first * hxx;
+    model.xy += second * g.x * g.y + first * hxy;
+    model.yy += second * g.y * g.y + first * hyy;
+  }
+  return model;
+}
+
+/// Newton's step where the model is convex, else down the gradient; not longer than `limit`.
+Vec2 descent(const Model& model, double limit) {
+  const double determinant = model.xx * model.yy - model.xy * model.xy;
+  Vec2 step;
+  if (determinant > 1e-6 * (model.xx * model.xx + model.yy * model.yy) && model.xx > 0)
+    step = (-1 / determinant) * Vec2{model.yy * model.gradient.x - model.xy * model.gradient.y,
+                                     model.xx * model.gradient.y - model.xy * model.gradient.x};
+  else
+    step = -1e300 * model.gradient;
+  const double length = geometry::length(step);
+  if (!(length > limit))
+    return step;
+  const double steepness = geometry::length(model.gradient);
+  if (!std::isfinite(length))
+    return steepness > 0 ? (-limit / steepness) * model.gradient : Vec2{};
+  return (limit / length) * step;
+}
+
+} // namespace
+
+LocalIndex PatchOptimizer::Patch::add(Vec2 p, double h, const BoundaryVertex& on_boundary, Role its_role) {
+  const LocalIndex v = mesh.insert(p);
+  if (v < 0)
+    return v;
+  role.push_back(its_role);
+  size.push_back(h);
+  boundary.push_back(on_boundary);
+  return v;
+}
+
+/// The triangulation of the sites. @return false if there is nothing to be done
+bool PatchOptimizer::build(Vec2 center, double size, std::span<const PatchSite> sites) {
+  center_ = center;
+  size_ = size;
+  const double reach = options_.reach * size;
+  base_.broken = false;
+  base_.mesh.start(center, lattice_.snap(3 * reach));
+  base_.role.assign(PatchMesh::frame, Role::held);
+  base_.size.assign(PatchMesh::frame, size);
+  base_.boundary.assign(PatchMesh::frame, {});
+  for (const PatchSite& site : sites) {
+    const double distance = geometry::length(site.position - center);
+    Role role = Role::held;
+    if (distance + clearance_of_moves * site.size < reach && site.boundary != mesh::fixed_site)
+      role = Role::free;
+    else if (distance + clearance_of_score * site.size < reach)
+      role = Role::scored;
+    BoundaryVertex on_boundary;
+    if (site.boundary >= 0) {
+      const BoundarySite& its = boundary_.sites[at(site.boundary)];
+      on_boundary.site = site.boundary;
+      on_boundary.loop = loop_of(boundary_, site.boundary);
+      on_boundary.arc = curve_.arc(on_boundary.loop, its);
+      if (its.corner)
+        role = std::min(role, Role::scored);
+    }
+    base_.add(site.position, site.size, on_boundary, role);
+  }
+  link_boundary();
+  return std::find(base_.role.begin(), base_.role.end(), Role::free) != base_.role.end();
+}
+
+/// Joins neighbours along the boundary. Who has none in the patch is held.
+void PatchOptimizer::link_boundary() {
+  for (LocalIndex v = PatchMesh::frame; v < base_.mesh.vertices(); ++v) {
+    BoundaryVertex& own = base_.boundary[at(v)];
+    if (own.site < 0)
+      continue;
+    const geometry::Segment chord = boundary_.chord(own.site);
+    const Vec2 end = base_.mesh.position(v) + (chord.b - chord.a);
+    for (LocalIndex u = PatchMesh::frame; u < base_.mesh.vertices(); ++u)
+      if (base_.boundary[at(u)].site == boundary_.sites[at(own.site)].next && base_.mesh.position(u) == end) {
+        own.next = u;
+        base_.boundary[at(u)].previous = v;
+      }
+  }
+  for (LocalIndex v = PatchMesh::frame; v < base_.mesh.vertices(); ++v) {
+    const BoundaryVertex& own = base_.boundary[at(v)];
+    if (own.site >= 0 && (own.next < 0 || own.previous < 0))
+      base_.role[at(v)] = std::min(base_.role[at(v)], Role::scored);
+  }
+}
+
+/// Inside the shape, and with a vertex whose triangles count.
+bool PatchOptimizer::counts(const Patch& patch, const PatchMesh::Triangle& triangle) const {
+  if (triangle.vertex[0] < 0)
+    return false;
+  bool near = false;
+  for (const LocalIndex v : triangle.vertex) {
+    if (v < PatchMesh::frame)
+      return false;
+    near |= patch.role[at(v)] >= Role::scored;
+  }
+  return near && lies_inside(patch, triangle);
+}
+
+/// Who has a vertex inside lies inside; else an edge on the boundary tells, or the place.
+bool PatchOptimizer::lies_inside(const Patch& patch, const PatchMesh::Triangle& triangle) const {
+  for (const LocalIndex v : triangle.vertex)
+    if (patch.boundary[at(v)].site < 0)
+      return true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const LocalIndex from = triangle.vertex[k], to = triangle.vertex[(k + 1) % 3];
+    if (patch.boundary[at(from)].next == to)
+      return true;
+    if (patch.boundary[at(from)].previous == to)
+      return false;
+  }
+  const Vec2 middle = (1.0 / 3) * (patch.mesh.position(triangle.vertex[0]) + patch.mesh.position(triangle.vertex[1]) +
+                                   patch.mesh.position(triangle.vertex[2]));
+  return guard_.inside(lattice_.snap(middle));
+}
+
+PatchOptimizer::Score PatchOptimizer::score(const Patch& patch) const {
+  Score score;
+  for (const PatchMesh::Triangle& triangle : patch.mesh.triangles()) {
+    if (!counts(patch, triangle))
+      continue;
+    const double alpha =
+        mesh::aspect_ratio(patch.mesh.position(triangle.vertex[0]), patch.mesh.position(triangle.vertex[1]),
+                           patch.mesh.position(triangle.vertex[2]));
+    const double excess = alpha - 1, bad = std::fmax(0, alpha - options_.bad_alpha);
+    score.sum += excess * excess + weight_of_bad * bad * bad;
+    score.max = std::fmax(score.max, alpha);
+  }
+  return score;
+}
+
+/// Of the triangles that count, nearest to the middle: the one that made this patch.
+const PatchMesh::Triangle* PatchOptimizer::worst_triangle() const {
+  const PatchMesh::Triangle* worst = nullptr;
+  double largest = 1;
+  for (const PatchMesh::Triangle& triangle : base_.mesh.triangles()) {
+    if (!counts(base_, triangle))
+      continue;
+    const Vec2 a = base_.mesh.position(triangle.vertex[0]), b = base_.mesh.position(triangle.vertex[1]),
+               c = base_.mesh.position(triangle.vertex[2]);
+    if (a != center_ && b != center_ && c != center_)
+      continue;
+    const double alpha = mesh::aspect_ratio(a, b, c);
+    if (alpha > largest) {
+      worst = &triangle;
+      largest = alpha;
+    }
+  }
+  return worst;
+}
+
+/// What may help the worst triangle.
+void PatchOptimizer::list_operations() {
+  operations_.clear();
+  const PatchMesh::Triangle* worst = worst_triangle();
+  if (!worst)
+    return;
+  using Kind = SiteEdit::Kind;
+  const auto place = [&](std::size_t k) { return base_.mesh.position(worst->vertex[k % 3]); };
+  std::size_t longest = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (geometry::squared_length(place(k + 2) - place(k + 1)) >
+        geometry::squared_length(place(longest + 2) - place(longest + 1)))
+      longest = k; // the edge opposite of vertex k
+  operations_.push_back({Kind::insert, -1, 0.5 * (place(longest + 1) + place(longest + 2))});
+  for (const LocalIndex v : worst->vertex)
+    if (base_.role[at(v)] == Role::free)
+      operations_.push_back({Kind::remove, v, {}});
+  for (std::size_t k = 0; k < 3; ++k)
+    if (base_.boundary[at(worst->vertex[k])].next == worst->vertex[(k + 1) % 3])
+      operations_.push_back({Kind::insert, worst->vertex[k], {}});
+  for (std::size_t k = 0; k < 3; ++k) { // a corner with one triangle: a vertex inside must come nearer
+    const BoundaryVertex& corner = base_.boundary[at(worst->vertex[k])];
+    const LocalIndex next = worst->vertex[(k + 1) % 3], previous = worst->vertex[(k + 2) % 3];
+    if (corner.next == next && corner.previous == previous && base_.role[at(next)] == Role::free &&
+        base_.role[at(previous)] == Role::free)
+      operations_.push_back({Kind::remove, next, {}, previous});
+  }
+  operations_.push_back({Kind::insert, -1, (1.0 / 3) * (place(0) + place(1) + place(2))});
+  std::vector<LocalIndex> neighbours;
+  for (const LocalIndex v : worst->vertex) {
+    base_.mesh.collect_ring(v, neighbours);
+    if (base_.role[at(v)] == Role::free && base_.boundary[at(v)].site < 0 && neighbours.size() >= 7)
+      for (std::size_t k = 0; k < neighbours.size(); k += 2)
+        operations_.push_back({Kind::insert, -1, 0.5 * (base_.mesh.position(v) + base_.mesh.position(neighbours[k]))});
+    for (const LocalIndex u : neighbours)
+      if (u >= PatchMesh::frame && base_.role[at(u)] == Role::free &&
+          (base_.boundary[at(u)].site >= 0 || base_.mesh.degree(u) != 6) &&
+          std::find(worst->vertex.begin(), worst->vertex.end(), u) == worst->vertex.end())
+        operations_.push_back({Kind::remove, u, {}});
+  }
+}
+
+/// Carries it out on the trial. @return false if it cannot be done
+bool PatchOptimizer::apply(const Operation& operation) {
+  const LocalIndex v = operation.vertex;
+  if (operation.kind == SiteEdit::Kind::insert && v >= 0)
+    return insert_on_boundary(v);
+  if (operation.kind == SiteEdit::Kind::remove)
+    return remove(v) && (operation.second < 0 || remove(operation.second));
+  Vec2 p = lattice_.snap(operation.place);
+  if (const auto pushed = guard_.correct(p, size_, lattice_)) { // such as in the corner of a square
+    p = lattice_.snap(*pushed);
+    if (guard_.correct(p, size_, lattice_))
+      return false;
+  }
+  return trial_.add(p, size_, {}, Role::free) >= 0;
+}
+
+bool PatchOptimizer::remove(LocalIndex v) {
+  const BoundaryVertex& own = trial_.boundary[at(v)];
+  if (own.site >= 0) {
+    if (own.previous < 0 || own.next < 0 ||
+        boundary_.loop_start[at(own.loop) + 1] - boundary_.loop_start[at(own.loop)] < 8)
+      return false;
+    trial_.boundary[at(own.previous)].next = own.next;
+    trial_.boundary[at(own.previous)].changed = true;
+    trial_.boundary[at(own.next)].previous = own.previous;
+  }
+  trial_.role[at(v)] = Role::gone;
+  return trial_.mesh.remove(v);
+}
+
+bool PatchOptimizer::insert_on_boundary(LocalIndex before) {
+  const BoundaryVertex own = trial_.boundary[at(before)];
+  const LocalIndex after = own.next;
+  if (after < 0)
+    return false;
+  double end = trial_.boundary[at(after)].arc;
+  if (end <= own.arc)
+    end += curve_.length(own.loop);
+  BoundaryVertex made{own.site, before, after, own.loop, 0.5 * (own.arc + end), true};
+  const Vec2 p = boundary_.periods.nearest_image(lattice_.snap(curve_.place(own.loop, made.arc).point), center_);
+  if (made.arc >= curve_.length(own.loop))
+    made.arc -= curve_.length(own.loop);
+  const double h = 0.5 * (trial_.size[at(before)] + trial_.size[at(after)]);
+  const LocalIndex v = trial_.add(p, h, made, Role::free);
+  if (v < 0)
+    return false;
+  trial_.boundary[at(before)].next = v;
+  trial_.boundary[at(before)].changed = true;
+  trial_.boundary[at(after)].previous = v;
+  return true;
+}
+
+void PatchOptimizer::relax_vertex(Patch& patch, LocalIndex v) {
+  patch.mesh.collect_ring(v, ring_);
+  around_.clear();
+  for (const LocalIndex u : ring_) {
+    if (u < PatchMesh::frame)
+      return;
+    around_.push_back(patch.mesh.position(u));
+  }
+  const Vec2 from = patch.mesh.position(v);
+  const double h = patch.size[at(v)];
+  const Model model = star_model(from, around_);
+  Vec2 step = descent(model, longest_step * h);
+  for (int halving = 0; halving <= halvings; ++halving, step = 0.5 * step) {
+    const Vec2 to = lattice_.snap(from + step);
+    if (to == from)
+      return;
+    if (star_value(to, around_) < model.value && !guard_.correct(to, h, lattice_)) {
+      patch.mesh.move(v, to);
+      return;
+    }
+  }
+}
+
+/// Along the boundary, its neighbours there stay where they are.
+void PatchOptimizer::slide_vertex(Patch& patch, LocalIndex v) {
+  BoundaryVertex& own = patch.boundary[at(v)];
+  patch.mesh.collect_ring(v, ring_);
+  const auto first = std::find(ring_.begin(), ring_.end(), own.next);
+  if (first == ring_.end())
+    return;
+  std::rotate(ring_.begin(), first, ring_.end());
+  const auto last = std::find(ring_.begin(), ring_.end(), own.previous);
+  if (last == ring_.end())
+    return;
+  around_.clear();
+  for (auto u = ring_.begin(); u <= last; ++u)
+    around_.push_back(patch.mesh.position(*u));
+  const Vec2 from = patch.mesh.position(v);
+  const Model model = star_model(from, around_, false);
+  const Vec2 along = curve_.place(own.loop, own.arc).tangent;
+  const double slope = geometry::dot(model.gradient, along);
+  const double bend = model.xx * along.x * along.x + 2 * model.xy * along.x * along.y + model.yy * along.y * along.y;
+  const double limit = std::fmin(longest_slide * patch.size[at(v)],
+                                 nearest_share * std::fmin(geometry::length(around_.front() - from),
+                                                           geometry::length(around_.back() - from)));
+  double step = bend > 0 ? -slope / bend : slope < 0 ? limit : -limit;
+  step = std::clamp(step, -limit, limit);
+  const double length = curve_.length(own.loop);
+  for (int halving = 0; halving <= halvings; ++halving, step *= 0.5) {
+    double arc = own.arc + step;
+    const Vec2 to = boundary_.periods.nearest_image(lattice_.snap(curve_.place(own.loop, arc).point), from);
+    if (to == from)
+      return;
+    if (!(star_value(to, around_, false) < model.value))
+      continue;
+    if (!patch.mesh.move(v, to) && !patch.mesh.replace(v, to)) {
+      patch.broken = true;
+      return;
+    }
+    arc = arc >= length ? arc - length : arc < 0 ? arc + length : arc;
+    own.arc = arc;
+    own.changed = patch.boundary[at(own.previous)].changed = true;
+    return;
+  }
+}
+
+void PatchOptimizer::relax(Patch& patch, int sweeps) {
+  for (int sweep = 0; sweep < sweeps && !patch.broken; ++sweep)
+    for (LocalIndex v = PatchMesh::frame; v < patch.mesh.vertices() && !patch.broken; ++v)
+      if (patch.role[at(v)] == Role::free) {
+        if (patch.boundary[at(v)].site >= 0)
+          slide_vertex(patch, v);
+        else
+          relax_vertex(patch, v);
+      }
+}
+
+/// Is the closed diametral disc of each chord that has changed free, and its curve no longer than it may be?
+bool PatchOptimizer::chords_hold(const Patch& patch) const {
+  for (LocalIndex v = PatchMesh::frame; v < patch.mesh.vertices(); ++v) {
+    const BoundaryVertex& own = patch.boundary[at(v)];
+    if (patch.role[at(v)] == Role::gone || own.site < 0 || !own.changed)
+      continue;
+    const Vec2 a = patch.mesh.position(v), b = patch.mesh.position(own.next);
+    double arc = patch.boundary[at(own.next)].arc - own.arc;
+    if (arc < 0)
+      arc += curve_.length(own.loop);
+    if (arc > largest_arc_share * geometry::length(b - a))
+      return false;
+    for (LocalIndex u = PatchMesh::frame; u < patch.mesh.vertices(); ++u)
+      if (u != v && u != own.next && patch.role[at(u)] != Role::gone &&
+          geometry::diametral_side(a, b, patch.mesh.position(u)) <= 0)
+        return false;
+  }
+  return true;
+}
+
+/// The difference between the sites and the best trial.
+void PatchOptimizer::collect_edits(std::vector<SiteEdit>& edits) const {
+  for (LocalIndex v = PatchMesh::frame; v < best_.mesh.vertices(); ++v) {
+    const bool is_new = v >= base_.mesh.vertices();
+    const Vec2 to = best_.mesh.position(v), from = is_new ? to : base_.mesh.position(v);
+    const BoundaryVertex& on_boundary = best_.boundary[at(v)];
+    if (is_new)
+      edits.push_back({to, to, SiteEdit::Kind::insert, on_boundary.site, on_boundary.arc});
+    else if (best_.role[at(v)] == Role::gone)
+      edits.push_back({from, from, SiteEdit::Kind::remove, on_boundary.site, on_boundary.arc});
+    else if (to != from)
+      edits.push_back({from, to, SiteEdit::Kind::move, on_boundary.site, on_boundary.arc});
+  }
+}
+
+bool PatchOptimizer::improve(Vec2 center, double size, std::span<const PatchSite> sites, std::vector<SiteEdit>& edits) {
+  if (!build(center, size, sites))
+    return false;
+  const Score before = score(base_);
+  Score least = before;
+  least.sum *= 1 - least_gain;
+  bool better = false;
+  const auto try_trial = [&] {
+    relax(trial_, options_.trial_sweeps);
+    if (trial_.broken)
+      return;
+    const Score after = score(trial_);
+    if (!(after.sum < least.sum) || after.max > before.max + tolerated_rise || !chords_hold(trial_))
+      return;
+    least = after;
+    std::swap(best_, trial_);
+    better = true;
+  };
+  trial_ = base_;
+  try_trial();
+  if (options_.operations && !(better && least.max < options_.bad_alpha)) {
+    list_operations();
+    for (const Operation& operation : operations_) {
+      trial_ = base_;
+      if (apply(operation))
+        try_trial();
+    }
+  }
+  if (better)
+    collect_edits(edits);
+  return better;
+}
+
+} // namespace trime::meshing

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The surroundings of a bad triangle and the changes that are tried there. One thread; knows nothing of ranks.
+#pragma once
+
+#include "meshing/boundary_curve.hpp"
+#include "meshing/patch_mesh.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/geometry/periods.hpp"
+#include "trime/mesh/binned_points.hpp"
+#include "trime/meshing/boundary_guard.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace trime::meshing {
+
+/// A site near the bad triangle, at that image of it which lies there.
+struct PatchSite {
+  geometry::Vec2 position;
+  double size;           ///< h there
+  std::int32_t boundary; ///< see mesh::Site
+};
+
+/// What becomes of a site: where it goes, or that it is deleted; or a new site (`from` says nothing then).
+struct SiteEdit {
+  enum class Kind : std::int32_t { move, remove, insert };
+  geometry::Vec2 from, to;
+  Kind kind = Kind::move;
+  std::int32_t boundary = mesh::free_site; ///< index of the boundary site; for a new one, of the site before it
+  double arc = 0;                          ///< of the new place on the boundary
+};
+
+/// What is tried, and when it is kept.
+struct PatchOptions {
+  double reach = 6;        ///< sites within this many h of the middle are read
+  double bad_alpha = 1.1;  ///< triangles above it weigh more
+  int trial_sweeps = 5;    ///< over the free sites after an operation
+  bool operations = true;  ///< insert and delete sites, too; else only move them
+};
+
+/// @brief Improves the triangles around a place by moving the free sites near it, and by single insertions and
+/// deletions followed by such moves (experiments: try and keep).
+///
+/// A trial counts as better if the sum over the triangles of (alpha - 1)^2, those above `bad_alpha` weighing more,
+/// falls by 2 % at least and the largest alpha does not rise. Moves lower the sum over the star of (eta - 1)^4 by
+/// Newton steps, eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area) being 1 for an equilateral triangle (Bank and Smith 1997);
+/// nobody enters the disc of a boundary segment. Only + - * / sqrt and exact predicates: a pure function of the sites.
+class PatchOptimizer {
+public:
+  PatchOptimizer(const BoundarySites& boundary, const BoundaryCurve& curve, const BoundaryGuard& guard,
+                 const geometry::Lattice& lattice, const PatchOptions& options)
+      : boundary_(boundary), curve_(curve), guard_(guard), lattice_(lattice), options_(options),
+        base_(lattice, boundary.periods), trial_(lattice, boundary.periods), best_(lattice, boundary.periods) {}
+
+  /// @brief Tries everything once.
+  /// @param sites in lexicographic order; all that lie within `options.reach` times `size` of `center`
+  /// @param edits receives the changes, if one was better
+  /// @return whether one was
+  bool improve(geometry::Vec2 center, double size, std::span<const PatchSite> sites, std::vector<SiteEdit>& edits);
+
+private:
+  enum class Role : std::uint8_t { gone, held, scored, free }; // scored: held, but its triangles count
+  struct Score {
+    double sum = 0, max = 1;
+  };
+  struct Operation {
+    SiteEdit::Kind kind;
+    LocalIndex vertex;      // to be removed; of an insertion on the boundary the one before
+    geometry::Vec2 place{}; // of an insertion inside
+    LocalIndex second = -1; // to be removed, too
+  };
+  /// A vertex on the boundary: its neighbours along the loop, -1 beyond the patch, and its place.
+  struct BoundaryVertex {
+    std::int32_t site = mesh::free_site; // its index, or that of the last one before it that had one; -1: inside
+    LocalIndex previous = -1, next = -1;
+    LocalIndex loop = -1;
+    double arc = 0;
+    bool changed = false; // the chord to the next is not what it was
+  };
+  /// A triangulation and what is known of its vertices.
+  struct Patch {
+    Patch(const geometry::Lattice& lattice, const geometry::Periods& periods) : mesh(lattice, periods) {}
+    LocalIndex add(geometry::Vec2 p, double h, const BoundaryVertex& on_boundary, Role its_role);
+
+    PatchMesh mesh;
+    std::vector<Role> role;
+    std::vector<double> size;
+    std::vector<BoundaryVertex> boundary;
+    bool broken = false;
+  };
+  static std::size_t at(LocalIndex v) { return static_cast<std::size_t>(v); }
+
+  bool build(geometry::Vec2 center, double size, std::span<const PatchSite> sites);
+  void link_boundary();
+  bool counts(const Patch& patch, const PatchMesh::Triangle& triangle) const;
+  bool lies_inside(const Patch& patch, const PatchMesh::Triangle& triangle) const;
+  Score score(const Patch& patch) const;
+  const PatchMesh::Triangle* worst_triangle() const;
+  void list_operations();
+  bool apply(const Operation& operation);
+  bool remove(LocalIndex v);
+  bool insert_on_boundary(LocalIndex before);
+  void relax(Patch& patch, int sweeps);
+  void relax_vertex(Patch& patch, LocalIndex v);
+  void slide_vertex(Patch& patch, LocalIndex v);
+  bool chords_hold(const Patch& patch) const;
+  void collect_edits(std::vector<SiteEdit>& edits) const;
+
+  const BoundarySites& boundary_;
+  const BoundaryCurve& curve_;
+  const BoundaryGuard& guard_;
+  geometry::Lattice lattice_;
+  PatchOptions options_;
+  Patch base_, trial_, best_;
+  geometry::Vec2 center_;
+  double size_ = 1;
+  std::vector<Operation> operations_;
+  std::vector<LocalIndex> ring_;
+  std::vector<geometry::Vec2> around_;
+};
+
+} // namespace trime::meshing

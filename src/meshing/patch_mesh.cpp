@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meshing/patch_mesh.hpp"
+
+#include "trime/core/error.hpp"
+#include "trime/geometry/predicates.hpp"
+
+#include <algorithm>
+
+namespace trime::meshing {
+namespace {
+
+using geometry::Vec2;
+
+constexpr int next(int k) {
+  return k == 2 ? 0 : k + 1;
+}
+constexpr int previous(int k) {
+  return k == 0 ? 2 : k - 1;
+}
+
+} // namespace
+
+void PatchMesh::start(Vec2 center, double half_width) {
+  const double w = half_width;
+  positions_ = {center + Vec2{-w, -w}, center + Vec2{w, -w}, center + Vec2{w, w}, center + Vec2{-w, w}};
+  triangles_ = {{{0, 1, 2}, {-1, 1, -1}}, {{0, 2, 3}, {-1, -1, 0}}};
+  corner_of_ = {0, 0, 0, 1};
+  unused_.clear();
+  last_ = 0;
+}
+
+int PatchMesh::place_in(LocalIndex t, LocalIndex v) const {
+  const auto& vertex = triangle(t).vertex;
+  return vertex[0] == v ? 0 : vertex[1] == v ? 1 : 2;
+}
+
+/// A visibility walk: ends in a Delaunay triangulation.
+LocalIndex PatchMesh::locate(Vec2 p) const {
+  LocalIndex t = last_;
+  for (std::size_t steps = 0; steps <= 2 * triangles_.size(); ++steps) {
+    const Triangle& at = triangle(t);
+    int k = 0;
+    while (k < 3 && geometry::orient2d(position(at.vertex[static_cast<std::size_t>(next(k))]),
+                                       position(at.vertex[static_cast<std::size_t>(previous(k))]), p) >= 0)
+      ++k;
+    if (k == 3)
+      return t;
+    t = at.neighbour[static_cast<std::size_t>(k)];
+    if (t < 0)
+      break;
+  }
+  throw InternalError("a point of a patch lies outside of its frame");
+}
+
+bool PatchMesh::disc_holds(LocalIndex t, Vec2 p) const {
+  const auto& v = triangle(t).vertex;
+  return geometry::in_circle(position(v[0]), position(v[1]), position(v[2]), p, lattice_, periods_) > 0;
+}
+
+/// Lists the triangles whose discs hold p, and the rim around them.
+void PatchMesh::open_cavity(LocalIndex t, Vec2 p) {
+  cavity_.assign(1, t);
+  rim_.clear();
+  for (std::size_t i = 0; i < cavity_.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      const Triangle& at = triangle(cavity_[i]);
+      const LocalIndex beyond = at.neighbour[static_cast<std::size_t>(k)];
+      if (beyond >= 0 && std::find(cavity_.begin(), cavity_.end(), beyond) != cavity_.end())
+        continue;
+      if (beyond >= 0 && disc_holds(beyond, p))
+        cavity_.push_back(beyond);
+      else
+        rim_.push_back({at.vertex[static_cast<std::size_t>(next(k))], at.vertex[static_cast<std::size_t>(previous(k))],
+                        beyond, -1});
+    }
+}
+
+LocalIndex PatchMesh::new_triangle() {
+  if (!unused_.empty()) {
+    const LocalIndex t = unused_.back();
+    unused_.pop_back();
+    return t;
+  }
+  triangles_.push_back({});
+  return static_cast<LocalIndex>(triangles_.size()) - 1;
+}
+
+/// Triangle t gets `other` as its neighbour k; `other` had `old` there.
+void PatchMesh::link(LocalIndex t, int k, LocalIndex other, LocalIndex old) {
+  triangle(t).neighbour[static_cast<std::size_t>(k)] = other;
+  if (other >= 0)
+    for (LocalIndex& back : triangle(other).neighbour)
+      if (back == old) {
+        back = t;
+        return;
+      }
+}
+
+/// A fan around v instead of the cavity.
+void PatchMesh::close_cavity(LocalIndex v) {
+  const std::size_t reused = cavity_.size();
+  for (std::size_t i = 0; i < rim_.size(); ++i) {
+    Rim& edge = rim_[i];
+    edge.created = i < reused ? cavity_[i] : new_triangle();
+    triangle(edge.created) = {{v, edge.from, edge.to}, {edge.outside, -1, -1}};
+    corner_of(edge.from) = edge.created;
+    if (edge.outside < 0)
+      continue;
+    Triangle& beyond = triangle(edge.outside);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (beyond.vertex[(k + 1) % 3] == edge.to && beyond.vertex[(k + 2) % 3] == edge.from)
+        beyond.neighbour[k] = edge.created;
+  }
+  for (const Rim& edge : rim_)
+    for (const Rim& other : rim_)
+      if (other.from == edge.to) {
+        triangle(edge.created).neighbour[1] = other.created;
+        triangle(other.created).neighbour[2] = edge.created;
+      }
+  corner_of(v) = last_ = rim_.front().created;
+}
+
+LocalIndex PatchMesh::insert(Vec2 p) {
+  positions_.push_back(p);
+  corner_of_.push_back(-1);
+  if (place(vertices() - 1))
+    return vertices() - 1;
+  positions_.pop_back();
+  corner_of_.pop_back();
+  return -1;
+}
+
+/// Connects a vertex that has no triangles. @return false if another one lies there
+bool PatchMesh::place(LocalIndex v) {
+  const LocalIndex t = locate(position(v));
+  for (const LocalIndex other : triangle(t).vertex)
+    if (position(other) == position(v))
+      return false;
+  open_cavity(t, position(v));
+  close_cavity(v);
+  return true;
+}
+
+bool PatchMesh::replace(LocalIndex v, Vec2 to) {
+  if (!remove(v))
+    return false;
+  positions_[static_cast<std::size_t>(v)] = to;
+  return place(v);
+}
+
+void PatchMesh::collect_ring(LocalIndex v, std::vector<LocalIndex>& ring) const {
+  ring.clear();
+  const LocalIndex first = corner_of_[static_cast<std::size_t>(v)];
+  LocalIndex t = first;
+  do {
+    const int k = place_in(t, v);
+    ring.push_back(triangle(t).vertex[static_cast<std::size_t>(next(k))]);
+    t = triangle(t).neighbour[static_cast<std::size_t>(next(k))];
+  } while (t != first && t >= 0);
+}
+
+LocalIndex PatchMesh::degree(LocalIndex v) const {
+  collect_ring(v, ring_);
+  return static_cast<LocalIndex>(ring_.size());
+}
+
+/// The edge of triangle t opposite of its vertex k, between the triangles (a, b, c) and (d, c, b), becomes a-d.
+void PatchMesh::flip(LocalIndex t, int k) {
+  const LocalIndex u = triangle(t).neighbour[static_cast<std::size_t>(k)];
+  const Triangle one = triangle(t), two = triangle(u);
+  const auto at = [](const Triangle& triangle, int place) {
+    return std::pair{triangle.vertex[static_cast<std::size_t>(place)],
+                     triangle.neighbour[static_cast<std::size_t>(place)]};
+  };
+  const auto [a, across] = at(one, k);
+  const auto [b, beyond_b] = at(one, next(k));     // beyond_b: across the edge c-a
+  const auto [c, beyond_c] = at(one, previous(k)); // across a-b
+  int m = 0;
+  while (two.neighbour[static_cast<std::size_t>(m)] != t || two.vertex[static_cast<std::size_t>(next(m))] != c)
+    ++m;
+  const auto [d, back] = at(two, m);
+  const LocalIndex beyond_cd = two.neighbour[static_cast<std::size_t>(previous(m))]; // two is (d, c, b): across d-c
+  const LocalIndex beyond_bd = two.neighbour[static_cast<std::size_t>(next(m))];     // across b-d
+  triangle(t) = {{a, b, d}, {-1, u, -1}};
+  triangle(u) = {{a, d, c}, {-1, -1, t}};
+  link(t, 0, beyond_bd, u);
+  link(t, 2, beyond_c, t);
+  link(u, 0, beyond_cd, u);
+  link(u, 1, beyond_b, t);
+  corner_of(a) = corner_of(b) = corner_of(d) = t;
+  corner_of(c) = u;
+}
+
+/// All edges of the triangles around v.
+void PatchMesh::push_star(LocalIndex v) {
+  const LocalIndex first = corner_of(v);
+  LocalIndex t = first;
+  do {
+    const int k = place_in(t, v);
+    suspects_.push_back({t, k});
+    suspects_.push_back({t, next(k)});
+    t = triangle(t).neighbour[static_cast<std::size_t>(next(k))];
+  } while (t != first && t >= 0);
+}
+
+/// Flips until no suspect, and no edge around a flip, has a vertex in its discs. Exact tests: it ends.
+void PatchMesh::legalize() {
+  while (!suspects_.empty()) {
+    const auto [t, k] = suspects_.back();
+    suspects_.pop_back();
+    const Triangle& at = triangle(t);
+    const LocalIndex u = at.neighbour[static_cast<std::size_t>(k)];
+    if (at.vertex[0] < 0 || u < 0)
+      continue;
+    const LocalIndex from = at.vertex[static_cast<std::size_t>(next(k))];
+    const Triangle& other = triangle(u);
+    int m = 0;
+    while (other.neighbour[static_cast<std::size_t>(m)] != t ||
+           other.vertex[static_cast<std::size_t>(previous(m))] != from)
+      ++m;
+    if (!disc_holds(t, position(other.vertex[static_cast<std::size_t>(m)])))
+      continue;
+    flip(t, k);
+    for (const LocalIndex changed : {t, u})
+      for (int side = 0; side < 3; ++side)
+        suspects_.push_back({changed, side});
+  }
+}
+
+bool PatchMesh::move(LocalIndex v, Vec2 to) {
+  collect_ring(v, ring_);
+  for (std::size_t k = 0; k < ring_.size(); ++k)
+    if (geometry::orient2d(to, position(ring_[k]), position(ring_[k + 1 == ring_.size() ? 0 : k + 1])) <= 0)
+      return false;
+  positions_[static_cast<std::size_t>(v)] = to;
+  push_star(v);
+  legalize();
+  return true;
+}
+
+bool PatchMesh::remove(LocalIndex v) {
+  LocalIndex left = degree(v);
+  for (LocalIndex tries = left * left; left > 3; --tries) {
+    if (tries == 0)
+      return false;
+    bool flipped = false;
+    const LocalIndex first = corner_of(v);
+    LocalIndex t = first;
+    for (LocalIndex k = 0; k < left && !flipped; ++k) { // the spoke between this triangle and the next one
+      const int at = place_in(t, v);
+      const LocalIndex u = triangle(t).neighbour[static_cast<std::size_t>(next(at))];
+      const LocalIndex a = triangle(t).vertex[static_cast<std::size_t>(next(at))];
+      const LocalIndex b = triangle(t).vertex[static_cast<std::size_t>(previous(at))];
+      const LocalIndex c = triangle(u).vertex[static_cast<std::size_t>(previous(place_in(u, v)))];
+      if (geometry::orient2d(position(a), position(b), position(c)) > 0 &&
+          geometry::orient2d(position(v), position(a), position(c)) > 0) {
+        flip(t, next(at));
+        flipped = true;
+      } else
+        t = u;
+    }
+    if (!flipped)
+      return false;
+    --left;
+  }
+  const LocalIndex t = corner_of(v);
+  const int k = place_in(t, v);
+  const LocalIndex u = triangle(t).neighbour[static_cast<std::size_t>(next(k))];
+  const LocalIndex w = triangle(t).neighbour[static_cast<std::size_t>(previous(k))];
+  const LocalIndex a = triangle(t).vertex[static_cast<std::size_t>(next(k))];
+  const LocalIndex b = triangle(t).vertex[static_cast<std::size_t>(previous(k))];
+  const LocalIndex c = triangle(u).vertex[static_cast<std::size_t>(previous(place_in(u, v)))];
+  const LocalIndex beyond_t = triangle(t).neighbour[static_cast<std::size_t>(k)];
+  const LocalIndex beyond_u = triangle(u).neighbour[static_cast<std::size_t>(place_in(u, v))];
+  const LocalIndex beyond_w = triangle(w).neighbour[static_cast<std::size_t>(place_in(w, v))];
+  triangle(t) = {{a, b, c}, {-1, -1, -1}};
+  link(t, 0, beyond_u, u);
+  link(t, 1, beyond_w, w);
+  link(t, 2, beyond_t, t);
+  for (const LocalIndex gone : {u, w}) {
+    triangle(gone).vertex[0] = -1;
+    unused_.push_back(gone);
+  }
+  corner_of(a) = corner_of(b) = corner_of(c) = last_ = t;
+  corner_of(v) = -1;
+  for (int side = 0; side < 3; ++side)
+    suspects_.push_back({t, side});
+  legalize();
+  return true;
+}
+
+} // namespace trime::meshing
