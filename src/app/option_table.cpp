@@ -176,7 +176,7 @@ constexpr Option table[] = {
      .key = "cleanup",
      .kind = Kind::boolean,
      .fallback = "true",
-     .meaning = "after the sweeps, move single points around the worst triangles"},
+     .meaning = "after the sweeps, mend the worst triangles: move, insert and delete points around them"},
 
     {.section = "parallel",
      .key = "setup_threads",

@@ -72,6 +72,13 @@ Attributes result_attributes(const meshing::MeshResult& result, const SizeSummar
           {"components", std::int64_t{result.components}},
           {"holes", std::int64_t{result.holes}},
           {"shape_area", result.shape_area},
+          {"cleanup_patches", result.cleanup.patches},
+          {"cleanup_better", result.cleanup.better},
+          {"cleanup_moved", result.cleanup.moved},
+          {"cleanup_inserted", result.cleanup.inserted},
+          {"cleanup_deleted", result.cleanup.deleted},
+          {"cleanup_on_boundary", result.cleanup.on_boundary},
+          {"cleanup_left", result.cleanup.left},
           {"seconds_total", measured.total}, // up to the writing of this file
           {"peak_memory_bytes", measured.peak_memory},
           {"bytes_per_point", static_cast<double>(measured.memory_sum) / points},

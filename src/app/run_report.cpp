@@ -71,6 +71,15 @@ std::string quality_text(const mesh::QualitySummary& q) {
   return text;
 }
 
+std::string cleanup_text(const meshing::CleanupCounts& cleanup) {
+  if (cleanup.patches == 0)
+    return {};
+  return fmt::format("Clean-up: {} of {} patches better; {} points moved, {} inserted, {} deleted ({} of all these on "
+                     "the boundary); {} places where nothing helped\n",
+                     cleanup.better, cleanup.patches, cleanup.moved, cleanup.inserted, cleanup.deleted,
+                     cleanup.on_boundary, cleanup.left);
+}
+
 std::string checks_text(const mesh::Checks& checks) {
   std::string text = "Checks\n";
   for (const mesh::Check& check : checks)
@@ -142,7 +151,7 @@ std::string run_report(const meshing::MeshResult& result, const SizeSummary& siz
     text += "Start: " + result.start_reason + "\n";
   text += fmt::format("Stopped after {} sweeps: {}\n", result.history.empty() ? 0 : result.history.back().sweep,
                       meshing::to_string(result.stop_reason));
-  text += area_text(result);
+  text += area_text(result) + cleanup_text(result.cleanup);
   text += quality_text(result.quality) + "\n" + checks_text(result.checks) + "\n" + times_text(measured);
   text += fmt::format("  {:.0f} points per second\n\n", points / std::max(measured.total, 1e-9));
   text += fmt::format("Memory     at most {:.1f} MiB per rank, {:.0f} bytes per point over all ranks\n",

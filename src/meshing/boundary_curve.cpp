@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/boundary_curve.hpp"
 
+#include "meshing/chord_curve.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -98,6 +99,7 @@ std::vector<LocalIndex> edit_boundary(BoundarySites& boundary, const BoundaryCur
     site.next_shift = image - end;
     boundary.shortest = std::fmin(boundary.shortest, geometry::length(image - site.position));
   }
+  name_parts(curve.boundary(), boundary);
   return new_index;
 }
 

@@ -17,6 +17,7 @@ class BoundaryCurve {
 public:
   explicit BoundaryCurve(const geometry::Boundary& boundary);
 
+  const geometry::Boundary& boundary() const { return boundary_; }
   double length(LocalIndex loop) const { return starts_[static_cast<std::size_t>(loop)].back(); }
   /// Arc length from the start of the loop to a site.
   double arc(LocalIndex loop, const BoundarySite& site) const {
@@ -49,7 +50,7 @@ struct BoundaryEdit {
 /// The loop of a boundary site. O(log loops)
 LocalIndex loop_of(const BoundarySites& boundary, LocalIndex site);
 
-/// @brief Carries out edits, at most one insertion a chord. O(sites + edits log edits).
+/// @brief Carries out edits, at most one insertion a chord. O(sites + pieces + edits log edits).
 /// @param edits are sorted here, by site; the same on every rank
 /// @param inserted receives the new index of each inserted site, in the order of the sorted edits
 /// @return by old index of a site its new one, -1 if it is gone

@@ -8,6 +8,7 @@
 #include "trime/mesh/quality.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -20,6 +21,8 @@ using geometry::Vec2;
 constexpr int hash_bits = 44;
 constexpr int classes_per_octave = 8;
 constexpr int passes_of_choice = 5;
+/// h: what two patches may share, since nothing moves near the rim of what is read.
+constexpr double overlap = 2;
 constexpr double around_bad_site = 3, around_patch = 3; // h: how far stars are computed anew, beyond its reach
 
 std::size_t at(LocalIndex i) {
@@ -70,20 +73,19 @@ GlobalId key_of(double alpha) {
 } // namespace
 
 void CleanupCounts::add(const CleanupCounts& other) {
-  bad += other.bad;
   patches += other.patches;
   better += other.better;
   moved += other.moved;
   inserted += other.inserted;
   deleted += other.deleted;
   on_boundary += other.on_boundary;
+  left += other.left;
 }
 
 Cleanup::Cleanup(const comm::Communicator& comm, Layout& layout, const geometry::Boundary& boundary,
-                 const geometry::Lattice& lattice, const delaunay::StarBuilder& builder, const PatchOptions& options,
-                 double threshold)
+                 const geometry::Lattice& lattice, const delaunay::StarBuilder& builder, const PatchOptions& options)
     : comm_(comm), layout_(layout), state_(*layout.state), curve_(boundary), lattice_(lattice), builder_(builder),
-      options_(options), threshold_(threshold) {}
+      options_(options) {}
 
 /// What a star of one of these places may look at, sent to the owners of all tiles there.
 std::vector<Disc> Cleanup::share_places() const {
@@ -149,9 +151,9 @@ std::vector<GlobalId> Cleanup::worst_alphas() const {
     const Vec2 p = points.position(i);
     double worst = 1;
     for (std::size_t k = 0; k < fan.triangles; ++k)
-      worst = std::max(
-          worst, mesh::aspect_ratio(p, points.position(fan.neighbour(k)), points.position(fan.neighbour(k + 1))));
-    if (worst > threshold_ && std::isfinite(worst) && !hopeless_.contains(hash_of(p, 0)))
+      worst = std::max(worst,
+                       mesh::aspect_ratio(p, points.position(fan.neighbour(k)), points.position(fan.neighbour(k + 1))));
+    if (worst > options_.bad_alpha && std::isfinite(worst) && !hopeless_.contains(hash_of(p, 0)))
       keys[at(i)] = key_of(worst);
   });
   return keys;
@@ -174,14 +176,15 @@ std::vector<Cleanup::Candidate> Cleanup::find_candidates(std::vector<GlobalId>& 
     if (keys[at(i)] == 0)
       continue;
     const auto is_worse = [&](LocalIndex j) {
-      return j != delaunay::gap && (keys[at(j)] > keys[at(i)] || (keys[at(j)] == keys[at(i)] &&
-                                                                  periods.less(points.position(j), points.position(i))));
+      return j != delaunay::gap &&
+             (keys[at(j)] > keys[at(i)] ||
+              (keys[at(j)] == keys[at(i)] && periods.less(points.position(j), points.position(i))));
     };
     const auto ring = state_.stars().ring(i);
     if (std::any_of(ring.begin(), ring.end(), is_worse))
       continue;
     const SizeClass its_class = class_of(view.size(i));
-    const double separation = (2 * options_.reach - 2) * its_class.upper;
+    const double separation = (2 * options_.reach - overlap) * its_class.upper;
     if (separation > limit)
       continue;
     candidates.push_back({i, separation});
@@ -227,7 +230,8 @@ void Cleanup::choose_apart(std::vector<Candidate>& candidates, std::vector<Globa
     TRIME_ASSERT(order.size() == at(owned));
   }
   candidates = std::move(chosen);
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.site < b.site; });
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.site < b.site; });
 }
 
 std::vector<PatchSite> Cleanup::sites_around(LocalIndex site, double reach) const {
@@ -267,7 +271,7 @@ std::vector<SiteEdit> Cleanup::try_patches(const std::vector<Candidate>& chosen,
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const Vec2 place = points.position(chosen[k].site);
     if (edits[k].empty())
-      hopeless_.insert(hash_of(place, 0));
+      counts.left += hopeless_.insert(hash_of(place, 0)).second;
     else
       places_.push_back({place, (options_.reach + around_patch) * view.size(chosen[k].site)});
     counts.better += !edits[k].empty();
@@ -303,8 +307,7 @@ void Cleanup::edit_the_boundary(const std::vector<SiteEdit>& edits) {
                                                                             : BoundaryEdit::Kind::insert;
       own.push_back({edit.boundary, kind, edit.arc, edit.to});
     }
-  boundary_edits_ =
-      comm::from_bytes<BoundaryEdit>(comm_.all_gather(std::as_bytes(std::span<const BoundaryEdit>(own))));
+  boundary_edits_ = comm::from_bytes<BoundaryEdit>(comm_.all_gather(std::as_bytes(std::span<const BoundaryEdit>(own))));
   new_index_.clear();
   if (boundary_edits_.empty())
     return;
@@ -352,26 +355,40 @@ void Cleanup::apply(const std::vector<SiteEdit>& edits) {
   state_.move_sites(sites, deleted);
 }
 
+CleanupCounts Cleanup::sum_over_ranks(const CleanupCounts& own) const {
+  std::array<std::int64_t, 7> all{own.patches, own.better,      own.moved, own.inserted,
+                                  own.deleted, own.on_boundary, own.left};
+  comm_.sum(all);
+  return {all[0], all[1], all[2], all[3], all[4], all[5], all[6]};
+}
+
 CleanupCounts Cleanup::round() {
   compute_stars();
   std::vector<GlobalId> order;
   std::vector<Candidate> candidates = find_candidates(order);
-  CleanupCounts counts;
-  counts.bad = static_cast<std::int64_t>(candidates.size());
   std::vector<Disc> discs;
   for (const Candidate& candidate : candidates)
     discs.push_back({state_.points().position(candidate.site), candidate.separation});
   state_.reveal(discs, *layout_.size);
   choose_apart(candidates, std::move(order));
+  CleanupCounts counts;
   counts.patches = static_cast<std::int64_t>(candidates.size());
   const std::vector<SiteEdit> edits = try_patches(candidates, counts);
   edit_the_boundary(edits);
   apply(send_to_owners(edits));
   ++round_;
-  std::array<std::int64_t, 7> all{counts.bad,      counts.patches, counts.better,     counts.moved,
-                                  counts.inserted, counts.deleted, counts.on_boundary};
-  comm_.sum(all);
-  return {all[0], all[1], all[2], all[3], all[4], all[5], all[6]};
+  return sum_over_ranks(counts);
+}
+
+CleanupCounts Cleanup::run() {
+  CleanupCounts all;
+  for (int k = 0; k < most_rounds; ++k) {
+    const CleanupCounts counts = round();
+    all.add(counts);
+    if (counts.patches == 0)
+      break;
+  }
+  return all;
 }
 
 } // namespace trime::meshing

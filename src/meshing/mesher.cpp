@@ -25,8 +25,6 @@ namespace {
 constexpr double cap_in_sizes = 2.5;  // circumradius that counts, in h: a relaxed mesh has 0.6, a start up to 1.5
 constexpr GlobalId few_points = 2000; // below, the cap is the whole container
 constexpr int cap_doublings = 10;     // to 2500 h: a void that no start can leave
-constexpr int cleanup_rounds = 15;
-constexpr double worst_share = 0.01, least_excess = 0.05; // of the triangles; of alpha - 1
 constexpr int settle_rounds = 12, settle_pushes = 8;
 
 } // namespace
@@ -203,7 +201,6 @@ private:
     summary.record.stage = scheme_->stage();
     summary.record.seconds = timers_.total();
     history_.push_back(summary.record);
-    alpha_bins_ = summary.sums.alpha_bins;
     return summary.sums;
   }
 
@@ -226,24 +223,12 @@ private:
   void clean_up() {
     if (!options_.cleanup || history_.empty())
       return;
-    PatchOptions patch_options;
-    if (const char* e = std::getenv("TM_REACH")) patch_options.reach = std::atof(e);
-    if (const char* e = std::getenv("TM_BAD")) patch_options.bad_alpha = std::atof(e);
-    if (const char* e = std::getenv("TM_SWEEPS")) patch_options.trial_sweeps = std::atoi(e);
-    if (const char* e = std::getenv("TM_OPS")) patch_options.operations = std::atoi(e);
-    double threshold = 1.1; int rounds = 20;
-    if (const char* e = std::getenv("TM_THR")) threshold = std::atof(e);
-    if (const char* e = std::getenv("TM_ROUNDS")) rounds = std::atoi(e);
-    Cleanup cleanup(comm_, layout_, fixed_->boundary(), lattice_, *builder_, patch_options, threshold);
-    CleanupCounts all;
-    for (int round = 0; round < rounds; ++round) {
-      const auto time = timers_.scope("clean-up");
-      const CleanupCounts counts = cleanup.round();
-      all.add(counts);
-      log_.info("clean-up round {}: bad {} patches {} better {} moved {} +{} -{} b {}", round, counts.bad, counts.patches, counts.better, counts.moved, counts.inserted, counts.deleted, counts.on_boundary);
-      if (counts.patches == 0)
-        break;
-    }
+    const auto time = timers_.scope("clean-up");
+    cleanup_ = Cleanup(comm_, layout_, fixed_->boundary(), lattice_, *builder_).run();
+    log_.info("clean-up: {} of {} patches better; {} sites moved, {} inserted, {} deleted; {} places left with alpha "
+              "above {}",
+              cleanup_.better, cleanup_.patches, cleanup_.moved, cleanup_.inserted, cleanup_.deleted, cleanup_.left,
+              PatchOptions{}.bad_alpha);
   }
 
   // --- the mesh -----------------------------------------------------------------------------------------------------
@@ -297,6 +282,7 @@ private:
     result.checks = certify(context, numbering, {boundary_, meshed_boundary(), side}, result.mesh);
     result.history = std::move(history_);
     result.stop_reason = stop_reason_;
+    result.cleanup = cleanup_;
     result.requested_points = options_.points.value_or(0);
     result.edge_length = relative_size_.is_uniform() ? layout_.size->size({}) : layout_.typical_size;
     result.start_reason = scheme_->reason();
@@ -335,9 +321,9 @@ private:
   std::unique_ptr<LayoutContext> context_;
   std::unique_ptr<PointScheme> scheme_;
   std::vector<SweepRecord> history_;
-  AlphaBins alpha_bins_; // of the last sweep
-  GlobalId placed_ = 0;  // points at the beginning of the stage
-  int sweeps_ = 0;       // moves made
+  GlobalId placed_ = 0; // points at the beginning of the stage
+  int sweeps_ = 0;      // moves made
+  CleanupCounts cleanup_;
   StopReason stop_reason_ = StopReason::sweep_cap;
 };
 

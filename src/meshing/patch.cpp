@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/patch.hpp"
 
+#include "meshing/star_energy.hpp"
 #include "trime/geometry/diametral.hpp"
 #include "trime/mesh/quality.hpp"
 
@@ -17,84 +18,9 @@ constexpr double weight_of_bad = 10;
 constexpr double least_gain = 0.02, tolerated_rise = 0.0;
 constexpr double longest_step = 0.25; // h, of one Newton step
 constexpr int halvings = 3;
-constexpr double longest_slide = 0.2;     // h, of one step
-constexpr double nearest_share = 0.4;     // of the way to a neighbour along the boundary, at most, in one step
+constexpr double longest_slide = 0.2;      // h, of one step
+constexpr double nearest_share = 0.4;      // of the way to a neighbour along the boundary, at most, in one step
 constexpr double largest_arc_share = 1.05; // arc over chord: a turn by 60 degrees
-
-/// Value, gradient and second derivatives of a function of one vertex.
-struct Model {
-  double value = 0;
-  Vec2 gradient;
-  double xx = 0, xy = 0, yy = 0;
-};
-
-/// eta of the triangle p, a, b: (sum of squared edges) / (4 sqrt(3) area); negative if turned over.
-double eta(Vec2 p, Vec2 a, Vec2 b) {
-  constexpr double c = 0.28867513459481287; // 1 / (2 sqrt 3)
-  const double sum = geometry::squared_length(p - a) + geometry::squared_length(p - b) + geometry::squared_length(a - b);
-  return c * sum / geometry::cross(a - p, b - p);
-}
-
-double power_of_excess(double value) {
-  const double excess = value - 1;
-  return excess * excess * (excess * excess);
-}
-
-/// Sum of (eta - 1)^4 over the star of p; infinity if a triangle is turned over. `ring` is a closed ring, or the open
-/// fan of a boundary vertex.
-double star_value(Vec2 p, std::span<const Vec2> ring, bool closed = true) {
-  double sum = 0;
-  for (std::size_t k = 0; k < ring.size() - !closed; ++k) {
-    const double value = eta(p, ring[k], ring[k + 1 == ring.size() ? 0 : k + 1]);
-    if (!(value >= 1 - 1e-9))
-      return INFINITY;
-    sum += power_of_excess(value);
-  }
-  return sum;
-}
-
-Model star_model(Vec2 p, std::span<const Vec2> ring, bool closed = true) {
-  constexpr double c = 0.28867513459481287;
-  Model model;
-  for (std::size_t k = 0; k < ring.size() - !closed; ++k) {
-    const Vec2 a = ring[k], b = ring[k + 1 == ring.size() ? 0 : k + 1];
-    const double inverse = 1 / geometry::cross(a - p, b - p);
-    const double sum =
-        geometry::squared_length(p - a) + geometry::squared_length(p - b) + geometry::squared_length(a - b);
-    const Vec2 of_sum = 2 * ((p - a) + (p - b)), of_area{a.y - b.y, b.x - a.x};
-    const double value = c * sum * inverse, excess = value - 1;
-    const Vec2 g = c * inverse * (of_sum - (sum * inverse) * of_area);
-    const double w = c * inverse * inverse, v = 2 * sum * inverse;
-    const double hxx = 4 * c * inverse + w * (v * of_area.x * of_area.x - 2 * of_sum.x * of_area.x);
-    const double hyy = 4 * c * inverse + w * (v * of_area.y * of_area.y - 2 * of_sum.y * of_area.y);
-    const double hxy = w * (v * of_area.x * of_area.y - of_sum.x * of_area.y - of_sum.y * of_area.x);
-    const double first = 4 * excess * excess * excess, second = 12 * excess * excess;
-    model.value += power_of_excess(value);
-    model.gradient = model.gradient + first * g;
-    model.xx += second * g.x * g.x + first * hxx;
-    model.xy += second * g.x * g.y + first * hxy;
-    model.yy += second * g.y * g.y + first * hyy;
-  }
-  return model;
-}
-
-/// Newton's step where the model is convex, else down the gradient; not longer than `limit`.
-Vec2 descent(const Model& model, double limit) {
-  const double determinant = model.xx * model.yy - model.xy * model.xy;
-  Vec2 step;
-  if (determinant > 1e-6 * (model.xx * model.xx + model.yy * model.yy) && model.xx > 0)
-    step = (-1 / determinant) * Vec2{model.yy * model.gradient.x - model.xy * model.gradient.y,
-                                     model.xx * model.gradient.y - model.xy * model.gradient.x};
-  else
-    step = -1e300 * model.gradient;
-  const double length = geometry::length(step);
-  if (!(length > limit))
-    return step;
-  const double steepness = geometry::length(model.gradient);
-  if (!std::isfinite(length))
-    return steepness > 0 ? (-limit / steepness) * model.gradient : Vec2{};
-  return (limit / length) * step;
-}
 
 } // namespace
 
@@ -330,13 +256,13 @@ void PatchOptimizer::relax_vertex(Patch& patch, LocalIndex v) {
   }
   const Vec2 from = patch.mesh.position(v);
   const double h = patch.size[at(v)];
-  const Model model = star_model(from, around_);
-  Vec2 step = descent(model, longest_step * h);
+  const EnergyModel model = star_energy_model(from, around_, true);
+  Vec2 step = newton_step(model, longest_step * h);
   for (int halving = 0; halving <= halvings; ++halving, step = 0.5 * step) {
     const Vec2 to = lattice_.snap(from + step);
     if (to == from)
       return;
-    if (star_value(to, around_) < model.value && !guard_.correct(to, h, lattice_)) {
+    if (star_energy(to, around_, true) < model.value && !guard_.correct(to, h, lattice_)) {
       patch.mesh.move(v, to);
       return;
     }
@@ -358,13 +284,13 @@ void PatchOptimizer::slide_vertex(Patch& patch, LocalIndex v) {
   for (auto u = ring_.begin(); u <= last; ++u)
     around_.push_back(patch.mesh.position(*u));
   const Vec2 from = patch.mesh.position(v);
-  const Model model = star_model(from, around_, false);
+  const EnergyModel model = star_energy_model(from, around_, false);
   const Vec2 along = curve_.place(own.loop, own.arc).tangent;
   const double slope = geometry::dot(model.gradient, along);
   const double bend = model.xx * along.x * along.x + 2 * model.xy * along.x * along.y + model.yy * along.y * along.y;
-  const double limit = std::fmin(longest_slide * patch.size[at(v)],
-                                 nearest_share * std::fmin(geometry::length(around_.front() - from),
-                                                           geometry::length(around_.back() - from)));
+  const double limit =
+      std::fmin(longest_slide * patch.size[at(v)], nearest_share * std::fmin(geometry::length(around_.front() - from),
+                                                                             geometry::length(around_.back() - from)));
   double step = bend > 0 ? -slope / bend : slope < 0 ? limit : -limit;
   step = std::clamp(step, -limit, limit);
   const double length = curve_.length(own.loop);
@@ -373,7 +299,7 @@ void PatchOptimizer::slide_vertex(Patch& patch, LocalIndex v) {
     const Vec2 to = boundary_.periods.nearest_image(lattice_.snap(curve_.place(own.loop, arc).point), from);
     if (to == from)
       return;
-    if (!(star_value(to, around_, false) < model.value))
+    if (!(star_energy(to, around_, false) < model.value))
       continue;
     if (!patch.mesh.move(v, to) && !patch.mesh.replace(v, to)) {
       patch.broken = true;
@@ -452,7 +378,7 @@ bool PatchOptimizer::improve(Vec2 center, double size, std::span<const PatchSite
   };
   trial_ = base_;
   try_trial();
-  if (options_.operations && !(better && least.max < options_.bad_alpha)) {
+  if (!better || least.max >= options_.bad_alpha) {
     list_operations();
     for (const Operation& operation : operations_) {
       trial_ = base_;

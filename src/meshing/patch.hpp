@@ -34,18 +34,18 @@ struct SiteEdit {
 /// What is tried, and when it is kept.
 struct PatchOptions {
   double reach = 6;        ///< sites within this many h of the middle are read
-  double bad_alpha = 1.1;  ///< triangles above it weigh more
+  double bad_alpha = 1.07; ///< triangles above it are bad
   int trial_sweeps = 5;    ///< over the free sites after an operation
-  bool operations = true;  ///< insert and delete sites, too; else only move them
 };
 
 /// @brief Improves the triangles around a place by moving the free sites near it, and by single insertions and
-/// deletions followed by such moves (experiments: try and keep).
+/// deletions followed by such moves. Sites on the boundary that are no corners take part: they slide along their curve,
+/// come and go.
 ///
-/// A trial counts as better if the sum over the triangles of (alpha - 1)^2, those above `bad_alpha` weighing more,
-/// falls by 2 % at least and the largest alpha does not rise. Moves lower the sum over the star of (eta - 1)^4 by
-/// Newton steps, eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area) being 1 for an equilateral triangle (Bank and Smith 1997);
-/// nobody enters the disc of a boundary segment. Only + - * / sqrt and exact predicates: a pure function of the sites.
+/// A trial counts as better if the sum over the triangles of (alpha - 1)^2, bad ones weighing more, falls by 2 % at
+/// least and the largest alpha does not rise. Moves lower the StarEnergy of one site after the other by Newton steps.
+/// Nobody enters the diametral disc of a boundary segment, and no segment comes to stand for a curve that turns by more
+/// than 60 degrees. Only + - * / sqrt and exact predicates inside: a pure function of the sites.
 class PatchOptimizer {
 public:
   PatchOptimizer(const BoundarySites& boundary, const BoundaryCurve& curve, const BoundaryGuard& guard,

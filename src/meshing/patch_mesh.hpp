@@ -27,7 +27,8 @@ public:
     std::array<LocalIndex, 3> neighbour; ///< across the edge opposite of each vertex, -1 outside of the frame
   };
 
-  PatchMesh(const geometry::Lattice& lattice, const geometry::Periods& periods) : lattice_(lattice), periods_(periods) {}
+  PatchMesh(const geometry::Lattice& lattice, const geometry::Periods& periods)
+      : lattice_(lattice), periods_(periods) {}
 
   /// Empties the mesh and puts the frame at the corners of the square around `center`, `half_width` being a lattice
   /// multiple.

@@ -159,8 +159,7 @@ void SiteState::reveal(std::span<const Disc> discs, const sizing::SizeField& siz
   std::vector<mesh::BinRef> missing;
   for (const Disc& disc : discs)
     points_.for_each_near(
-        disc.center, disc.radius, [](LocalIndex, LocalIndex) {},
-        [&](mesh::BinRef bin) { missing.push_back(bin); });
+        disc.center, disc.radius, [](LocalIndex, LocalIndex) {}, [&](mesh::BinRef bin) { missing.push_back(bin); });
   std::sort(missing.begin(), missing.end());
   missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
   if (comm_.sum(static_cast<std::int64_t>(missing.size())) > 0)

@@ -47,7 +47,7 @@ struct MeshOptions {
   /// Exponent of 1/h in the weight of the Voronoi cells: 4 keeps the spacing proportional to h (see CvdRule); others
   /// are for comparisons.
   int density_exponent = 4;
-  bool cleanup = true; ///< max-min moves around the worst triangles after the sweeps
+  bool cleanup = true; ///< mend the worst triangles after the sweeps
   /// @brief Kept bit for bit (on the lattice) and never moved. On the boundary (to within 1e-10 of the container) they
   /// become corners; outside of the shape they are a GeometryError.
   std::vector<FixedPoint> fixed_points;
@@ -82,6 +82,17 @@ struct LoopSummary {
   std::vector<std::int32_t> parts; ///< DistributedMesh::facet_parts of its edges: each once, in order along the loop
 };
 
+/// What the clean-up of the worst triangles did, over all ranks.
+struct CleanupCounts {
+  std::int64_t patches = 0;                          ///< surroundings of bad triangles on which changes were tried
+  std::int64_t better = 0;                           ///< of these kept
+  std::int64_t moved = 0, inserted = 0, deleted = 0; ///< sites in what was kept; a site may move more than once
+  std::int64_t on_boundary = 0;                      ///< of these sites, those on the boundary
+  std::int64_t left = 0;                             ///< bad places where nothing helped
+
+  void add(const CleanupCounts& other);
+};
+
 struct MeshResult {
   mesh::DistributedMesh mesh;
   mesh::QualitySummary quality;
@@ -93,6 +104,7 @@ struct MeshResult {
   std::string start_reason;       ///< which start was chosen and why, one line
   std::string count_reason;       ///< why there are fewer points than requested; empty if they are nearly as many
   std::vector<LoopSummary> loops; ///< by tag
+  CleanupCounts cleanup;
   GlobalId corners = 0;
   int components = 0, holes = 0;
   double shape_area = 0;
