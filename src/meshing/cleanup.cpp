@@ -107,8 +107,10 @@ std::vector<Disc> Cleanup::share_places() const {
 }
 
 /// In the first round, and in a periodic container, all stars; else those at the places of the last round: elsewhere
-/// there is nothing bad, and nothing has changed.
+/// there is nothing bad, and nothing has changed. None if nothing has changed at all.
 void Cleanup::compute_stars() {
+  if (!changed_)
+    return;
   if (round_ == 0 || state_.grid().periods().any()) {
     state_.compute_stars(builder_, *layout_.size, Wanted::all_sites);
     return;
@@ -374,8 +376,11 @@ CleanupCounts Cleanup::round() {
   CleanupCounts counts;
   counts.patches = static_cast<std::int64_t>(candidates.size());
   const std::vector<SiteEdit> edits = try_patches(candidates, counts);
-  edit_the_boundary(edits);
-  apply(send_to_owners(edits));
+  changed_ = comm_.sum(static_cast<std::int64_t>(edits.size())) > 0;
+  if (changed_) {
+    edit_the_boundary(edits);
+    apply(send_to_owners(edits));
+  }
   ++round_;
   return sum_over_ranks(counts);
 }

@@ -58,6 +58,7 @@ private:
   const delaunay::StarBuilder& builder_;
   PatchOptions options_;
   int round_ = 0;
+  bool changed_ = true;      // something, in the last round
   std::vector<Disc> places_; // where this rank saw bad triangles, or changed something, in the last round
   // The boundary's changes of this round, sorted, and what became of its sites; empty: none.
   std::vector<BoundaryEdit> boundary_edits_;
