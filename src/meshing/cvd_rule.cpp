@@ -67,16 +67,11 @@ Vec2 CvdRule::centroid(const StarView& view, LocalIndex i) const {
 }
 
 void CvdRule::begin_sweep(const SweepSums& sums) {
-  if (sums.power.value() > 0)
-    age_ = 0;
-  momentum_ = std::min(largest_momentum, static_cast<double>(age_) / (age_ + 3));
-  ++age_;
+  momentum_.begin_sweep(sums);
 }
 
 Step CvdRule::step(const StarView& view, LocalIndex i) const {
-  const Vec2 to_centroid = centroid(view, i), advance = to_centroid + view.points.site(i).lead;
-  const double h = view.size(i);
-  return {to_centroid, momentum_ * advance, -geometry::dot(to_centroid, advance) / (h * h)};
+  return momentum_.step(view, i, centroid(view, i));
 }
 
 } // namespace trime::meshing

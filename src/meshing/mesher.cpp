@@ -154,7 +154,7 @@ private:
       const delaunay::StarPass pass = stars(Wanted::inner_sites);
       const SweepSums sums = record_sweep(pass, moved);
       const auto reason = control.decide();
-      history_.back().by_bars = control.by_bars();
+      history_.back().by_bars = control.mover() == Mover::bars;
       log_sweep(reason && scheme_->is_last());
       show_snapshot();
       if (reason) {

@@ -5,12 +5,15 @@ namespace trime::meshing {
 namespace {
 
 constexpr double still = 0.005; // of h
-constexpr std::size_t window = 5, earliest = 10;
+constexpr std::size_t window = 5;
 constexpr double median_gain = 0.1, good_median = 0.001;
 /// What five sweeps must gain. A coarse mesh costs little and decides over the order of the finer ones; before an
 /// insertion the order is about to be disturbed anyway.
 constexpr double tolerance_last = 0.04, tolerance_coarse = 0.02, tolerance_before_insertion = 0.1;
 constexpr double patience_of_bars = 0.4; // bars settle more slowly than accelerated Voronoi cells
+/// Triangles gain nearly all in a few sweeps.
+constexpr Patience patience_of_triangles{0.07, window + 1, false},
+    patience_of_coarse_triangles{0.03, window + 1, false};
 
 } // namespace
 
@@ -19,11 +22,12 @@ std::optional<StopReason> StopRule::decide(std::span<const SweepRecord> records)
   const SweepRecord& last = records.back();
   if (n > 1 && last.max_move < still)
     return StopReason::converged;
-  if (n >= earliest) {
+  if (n >= patience_.earliest) {
     const SweepRecord& before = records[n - 1 - window];
-    const bool mean_stalled = last.mean_alpha - 1 >= (1 - tolerance_) * (before.mean_alpha - 1);
-    const bool middle_stalled =
-        last.median_alpha - 1 < good_median || last.median_alpha - 1 >= (1 - tolerance_) * (before.median_alpha - 1);
+    const double least = 1 - patience_.tolerance;
+    const bool mean_stalled = last.mean_alpha - 1 >= least * (before.mean_alpha - 1);
+    const bool middle_stalled = !patience_.median || last.median_alpha - 1 < good_median ||
+                                last.median_alpha - 1 >= least * (before.median_alpha - 1);
     if (mean_stalled && middle_stalled)
       return StopReason::quality_stalled;
   }
@@ -42,30 +46,44 @@ bool median_stalled(std::span<const SweepRecord> records) {
 
 SweepControl::SweepControl(const MeshOptions& options, const std::vector<SweepRecord>& history)
     : options_(options), history_(history) {
-  if (options.method == Method::cvd)
-    use_cells();
-  else
-    use_bars();
+  use(options.method == Method::cvd ? Mover::cells : Mover::bars);
 }
 
-void SweepControl::use_bars() {
-  rule_ = std::make_unique<DistMeshRule>();
-  by_bars_ = true;
-}
-
-void SweepControl::use_cells() {
-  rule_ = std::make_unique<CvdRule>(options_.density_exponent);
-  by_bars_ = false;
+void SweepControl::use(Mover mover) {
+  mover_ = mover;
+  switch (mover) {
+  case Mover::bars:
+    rule_ = std::make_unique<DistMeshRule>();
+    break;
+  case Mover::cells:
+    rule_ = std::make_unique<CvdRule>(options_.density_exponent);
+    break;
+  case Mover::triangles:
+    rule_ = std::make_unique<TriangleRule>();
+    break;
+  }
 }
 
 void SweepControl::begin_stage(bool inserts, bool is_last) {
   first_record_ = history_.size();
   may_switch_ = options_.method == Method::hybrid && (is_last || !inserts);
-  tolerance_ = options_.stop_tolerance.value_or(is_last   ? tolerance_last
-                                                : inserts ? tolerance_before_insertion
-                                                          : tolerance_coarse);
-  if (!by_bars_)
-    use_cells(); // without the momentum of the stage before
+  inserts_ = inserts;
+  is_last_ = is_last;
+  if (mover_ != Mover::bars)
+    use(mover_); // without the momentum of the stage before
+}
+
+Patience SweepControl::patience() const {
+  if (mover_ == Mover::triangles) {
+    Patience patience = is_last_ ? patience_of_triangles : patience_of_coarse_triangles;
+    patience.tolerance = options_.stop_tolerance.value_or(patience.tolerance);
+    return patience;
+  }
+  if (options_.stop_tolerance)
+    return {*options_.stop_tolerance};
+  const double tolerance = is_last_ ? tolerance_last : inserts_ ? tolerance_before_insertion : tolerance_coarse;
+  const bool patient = options_.method == Method::distmesh && records().back().median_alpha - 1 >= good_median;
+  return {(patient ? patience_of_bars : 1) * tolerance};
 }
 
 std::span<const SweepRecord> SweepControl::records() const {
@@ -73,13 +91,11 @@ std::span<const SweepRecord> SweepControl::records() const {
 }
 
 std::optional<StopReason> SweepControl::decide() {
-  const bool patient = options_.method == Method::distmesh && !options_.stop_tolerance &&
-                       records().back().median_alpha - 1 >= good_median;
-  const auto reason = StopRule(options_.max_sweeps, (patient ? patience_of_bars : 1) * tolerance_).decide(records());
-  if (!by_bars_ || !may_switch_ || reason == StopReason::sweep_cap)
+  const auto reason = StopRule(options_.max_sweeps, patience()).decide(records());
+  if (!may_switch_ || mover_ == Mover::triangles || reason == StopReason::sweep_cap)
     return reason;
-  if (reason || median_stalled(records())) {
-    use_cells();
+  if (reason || (mover_ == Mover::bars && median_stalled(records()))) {
+    use(mover_ == Mover::bars ? Mover::cells : Mover::triangles);
     first_record_ = history_.size() - 1;
   }
   return std::nullopt;

@@ -12,27 +12,38 @@
 
 namespace trime::meshing {
 
+/// When a rule has done what it can.
+struct Patience {
+  double tolerance;          ///< least share of alpha - 1 that five sweeps must gain
+  std::size_t earliest = 10; ///< triangulations before it may stall
+  bool median = true;        ///< the median of alpha must have stalled as well
+};
+
 /// @brief Converged: no site moved by more than 0.005 h in the last sweep. Quality stalled: the mean of
-/// alpha - 1 fell by less than `tolerance` of itself over the last five sweeps, checked from the tenth triangulation
-/// on. Sweep cap: the moves since the start of the run.
+/// alpha - 1 fell by less than the tolerance over the last five sweeps. Sweep cap: the moves since the start of the
+/// run.
 class StopRule {
 public:
-  StopRule(int max_sweeps, double tolerance) : max_sweeps_(max_sweeps), tolerance_(tolerance) {}
+  StopRule(int max_sweeps, const Patience& patience) : max_sweeps_(max_sweeps), patience_(patience) {}
   /// @param records of the stage, or of the part of it that the present rule has moved; the same on every rank
   std::optional<StopReason> decide(std::span<const SweepRecord> records) const;
 
 private:
   int max_sweeps_;
-  double tolerance_;
+  Patience patience_;
 };
 
 /// @brief The median of alpha - 1 fell by less than a tenth of itself over the last five sweeps, or is below 0.001:
 /// bars have done what they can.
 bool median_stalled(std::span<const SweepRecord> records);
 
+/// What moves the sites.
+enum class Mover { bars, cells, triangles };
+
 /// @brief The rule of each sweep. `distmesh` and `cvd` stay with theirs. `hybrid` starts with bars and goes over to
 /// Voronoi cells, once and for all, when the median of alpha stalls: in the first stage if the later ones divide a
-/// relaxed mesh, in the last one if they insert points (as TriMe++ does).
+/// relaxed mesh, in the last one if they insert points (as TriMe++ does). When the cells have stalled, TriangleRule
+/// ends the stage, and does all the work in the stages after a division: they start in order.
 class SweepControl {
 public:
   SweepControl(const MeshOptions& options, const std::vector<SweepRecord>& history);
@@ -42,20 +53,19 @@ public:
   /// After a triangulation was recorded: the rule of the next move, or why the stage ends.
   std::optional<StopReason> decide();
   UpdateRule& rule() { return *rule_; }
-  /// Bars move the sites, not Voronoi cells.
-  bool by_bars() const { return by_bars_; }
+  Mover mover() const { return mover_; }
 
 private:
-  void use_bars();
-  void use_cells();
+  void use(Mover mover);
+  Patience patience() const;
   std::span<const SweepRecord> records() const;
 
   const MeshOptions options_;
   const std::vector<SweepRecord>& history_;
   std::unique_ptr<UpdateRule> rule_;
+  Mover mover_ = Mover::bars;
   std::size_t first_record_ = 0; // that the present rule counts from
-  bool by_bars_ = false, may_switch_ = true;
-  double tolerance_ = 0;
+  bool may_switch_ = true, inserts_ = false, is_last_ = true;
 };
 
 } // namespace trime::meshing

@@ -72,6 +72,19 @@ SweepSums measure(const StarView& view, double reference_size) {
   return all;
 }
 
+void Momentum::begin_sweep(const SweepSums& sums) {
+  if (sums.power.value() > 0)
+    age_ = 0;
+  factor_ = std::min(largest, static_cast<double>(age_) / (age_ + 3));
+  ++age_;
+}
+
+Step Momentum::step(const StarView& view, LocalIndex i, Vec2 move) const {
+  const Vec2 advance = move + view.points.site(i).lead;
+  const double h = view.size(i);
+  return {move, factor_ * advance, -geometry::dot(move, advance) / (h * h)};
+}
+
 void DistMeshRule::begin_sweep(const SweepSums& sums) {
   const double sizes = sums.squared_size_ratio.value();
   length_scale_ = sizes > 0 ? pressure * std::sqrt(sums.squared_length_ratio.value() / sizes) : pressure;

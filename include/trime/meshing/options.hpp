@@ -15,7 +15,8 @@
 
 namespace trime::meshing {
 
-/// How points move: repulsive bars; centroids of Voronoi cells; bars until the median of alpha stalls, then centroids.
+/// How points move: repulsive bars; centroids of Voronoi cells; bars until the median of alpha stalls, then centroids,
+/// and at last towards equilateral triangles (TriangleRule).
 enum class Method { distmesh, cvd, hybrid };
 /// @brief Where the points come from. Lattice: hexagonal, for uniform sizes. Hilbert: quantiles along the Hilbert
 /// curve. Coarse to fine: a mesh of few points is relaxed, its edges are divided, and again.
@@ -64,7 +65,7 @@ struct SweepRecord {
   int sweep = 0;
   GlobalId points = 0;
   int stage = 0;        ///< of the point scheme: a level of the coarse-to-fine start, or an insertion
-  bool by_bars = false; ///< the move after this triangulation is that of DistMesh, else of the Voronoi cells
+  bool by_bars = false; ///< the move after this triangulation is that of DistMesh, else of cells or triangles
   double median_alpha = 1, mean_alpha = 1, max_alpha = 1;
   double max_move = 0;     ///< longest move over local h
   double moving_share = 0; ///< share of the sites that moved more than 0.005 h

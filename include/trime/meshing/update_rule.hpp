@@ -88,7 +88,22 @@ private:
   double length_scale_ = pressure; // L0 / h
 };
 
-/// @brief Centroidal Voronoi tessellation by accelerated Lloyd steps.
+/// @brief Acceleration of a descent (Nesterov 1983): from the iterate x' = y + move(y) the next move is taken at
+/// y' = x' + b (x' - x), b = min(0.9, k/(k+3)), and k starts again from 0 when the last moves went uphill
+/// (sum of (y - x').(x' - x) / h^2 > 0; O'Donoghue and Candes 2015), which one sweep later is early enough.
+class Momentum {
+public:
+  void begin_sweep(const SweepSums& sums);
+  /// The step of site i whose plain move is `move`.
+  Step step(const StarView& view, LocalIndex i, geometry::Vec2 move) const;
+
+private:
+  static constexpr double largest = 0.9;
+  int age_ = 0; // sweeps since the last restart
+  double factor_ = 0;
+};
+
+/// @brief Centroidal Voronoi tessellation by accelerated Lloyd steps (see Momentum).
 ///
 /// Each site goes to the centroid of its Voronoi cell (exact: the polygon of circumcentres of its star; the discs of
 /// the boundary segments are empty, so no cell of an inner site leaves the shape) under the weight h^-4. Why 4: a
@@ -99,10 +114,6 @@ private:
 ///
 /// The weight is linear over each triangle (site, circumcentre, circumcentre), its value at a circumcentre from the
 /// mean of h at the three sites: no look into the field, nothing allocated, exact for the uniform weight.
-///
-/// Acceleration (Nesterov 1983): from the iterate x' = centroid(y) the next centroids are taken at
-/// y' = x' + b (x' - x), b = min(0.9, k/(k+3)), and k starts again from 0 when the last moves went uphill
-/// (sum of (y - x').(x' - x) / h^2 > 0; O'Donoghue and Candes 2015), which one sweep later is early enough.
 class CvdRule final : public UpdateRule {
 public:
   /// @param exponent of 1/h in the weight, 0..8
@@ -113,10 +124,36 @@ public:
   geometry::Vec2 centroid(const StarView& view, LocalIndex i) const;
 
 private:
-  static constexpr double largest_momentum = 0.9;
   int exponent_;
-  int age_ = 0; // sweeps since the last restart
-  double momentum_ = 0;
+  Momentum momentum_;
+};
+
+/// @brief Moves every site towards the minimum of an energy of the triangles around it, their neighbours held.
+///
+/// The energy of a triangle of area A is S / (4 sqrt(3) A) + k (A/W + W/A - 2): S is the sum of its squared sides, so
+/// that the first term is 1 for an equilateral triangle of any size and grows with its shear (Bank and Smith 1997); W
+/// is the area that h asks for (the mean of h at its corners, scaled to the mean edge of the whole mesh). One Newton
+/// step per site with exact second derivatives, which are positive definite, times 0.7: all sites move at once.
+///
+/// Why it comes after the cells: where h varies, a mesh must hold dislocations, and between them it is strained. alpha
+/// sees shear alone. Voronoi cells resist a change of area 7 times as much as shear, so they leave the strain as shear;
+/// a dislocation in a material without any resistance to a change of area has no shear at all (its displacement is
+/// b/(2 pi i) log z, which is analytic). k = 1/4 makes the resistance to a change of area half that to shear: alpha - 1
+/// falls to less than half, and the standard deviation of L / (s h) grows by a sixth at most. The order of the mesh,
+/// that is where its dislocations lie, is better left to the cells.
+///
+/// W is taken as constant in a step, so that a mesh with A = W everywhere stays as it is.
+class TriangleRule final : public UpdateRule {
+public:
+  static constexpr double stiffness = 0.25; ///< k
+
+  void begin_sweep(const SweepSums& sums) override;
+  Step step(const StarView& view, LocalIndex i) const override;
+
+private:
+  static constexpr double damping = 0.7; // from 0.9 on the shortest waves come to life
+  Momentum momentum_;
+  double area_scale_ = 1; // W over sqrt(3)/4 h^2
 };
 
 } // namespace trime::meshing

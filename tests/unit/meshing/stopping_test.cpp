@@ -25,25 +25,25 @@ std::vector<SweepRecord> history(int n, double factor, double max_move = 0.1) {
 }
 
 TEST(StopRule, TheStartHasNotMovedButIsNotConverged) {
-  EXPECT_EQ(StopRule(100, 0.04).decide(history(1, 1)), std::nullopt);
-  EXPECT_EQ(StopRule(100, 0.04).decide(history(2, 1, 0.0049)), StopReason::converged);
-  EXPECT_EQ(StopRule(100, 0.04).decide(history(2, 1, 0.0051)), std::nullopt);
+  EXPECT_EQ(StopRule(100, {0.04}).decide(history(1, 1)), std::nullopt);
+  EXPECT_EQ(StopRule(100, {0.04}).decide(history(2, 1, 0.0049)), StopReason::converged);
+  EXPECT_EQ(StopRule(100, {0.04}).decide(history(2, 1, 0.0051)), std::nullopt);
 }
 
 TEST(StopRule, QualityStallsWhenFiveSweepsBringLessThanTheTolerance) {
-  const StopRule rule(100, 0.04);
+  const StopRule rule(100, {0.04});
   EXPECT_EQ(rule.decide(history(9, 1)), std::nullopt) << "too early to tell";
   EXPECT_EQ(rule.decide(history(10, 1)), StopReason::quality_stalled);
   EXPECT_EQ(rule.decide(history(10, 0.99)), std::nullopt) << "4.9 % better over five sweeps";
   EXPECT_EQ(rule.decide(history(10, 0.995)), StopReason::quality_stalled) << "2.5 % better";
   EXPECT_EQ(rule.decide(history(10, 1.1)), StopReason::quality_stalled) << "worse";
-  EXPECT_EQ(StopRule(100, 0).decide(history(10, 0.999)), std::nullopt);
+  EXPECT_EQ(StopRule(100, {0}).decide(history(10, 0.999)), std::nullopt);
 }
 
 TEST(StopRule, TheSweepCapCountsMoves) {
-  EXPECT_EQ(StopRule(0, 0.04).decide(history(1, 0.5)), StopReason::sweep_cap);
-  EXPECT_EQ(StopRule(3, 0.04).decide(history(3, 0.5)), std::nullopt);
-  EXPECT_EQ(StopRule(3, 0.04).decide(history(4, 0.5)), StopReason::sweep_cap);
+  EXPECT_EQ(StopRule(0, {0.04}).decide(history(1, 0.5)), StopReason::sweep_cap);
+  EXPECT_EQ(StopRule(3, {0.04}).decide(history(3, 0.5)), std::nullopt);
+  EXPECT_EQ(StopRule(3, {0.04}).decide(history(4, 0.5)), StopReason::sweep_cap);
 }
 
 TEST(MedianStalled, WhenFiveSweepsBringLessThanATenth) {
@@ -53,7 +53,17 @@ TEST(MedianStalled, WhenFiveSweepsBringLessThanATenth) {
   EXPECT_TRUE(median_stalled(history(3, 0.05))) << "nothing left to gain";
 }
 
-/// Feeds a history line by line; returns after how many triangulations the stage ended, and notes when bars were left.
+TEST(StopRule, PatienceMayBeShortAndLookAtTheMeanAlone) {
+  std::vector<SweepRecord> records = history(6, 1);
+  EXPECT_EQ(StopRule(100, {0.07, 6, false}).decide(records), StopReason::quality_stalled);
+  EXPECT_EQ(StopRule(100, {0.07, 7, false}).decide(records), std::nullopt);
+  records.back().median_alpha = 1 + 0.5 * (records.front().median_alpha - 1);
+  EXPECT_EQ(StopRule(100, {0.07, 6, false}).decide(records), StopReason::quality_stalled);
+  EXPECT_EQ(StopRule(100, {0.07, 6, true}).decide(records), std::nullopt) << "the median still falls";
+}
+
+/// Feeds a history line by line; notes after how many triangulations the stage ended, and when bars and cells were
+/// left.
 struct StagedRun {
   StagedRun(Method method, bool inserts, bool is_last, double factor) {
     MeshOptions options;
@@ -62,19 +72,21 @@ struct StagedRun {
     std::vector<SweepRecord> records;
     SweepControl control(options, records);
     control.begin_stage(inserts, is_last);
-    started_with_bars = control.by_bars();
+    started_with_bars = control.mover() == Mover::bars;
     for (const SweepRecord& record : history(100, factor)) {
       records.push_back(record);
       reason = control.decide();
-      if (!control.by_bars() && left_bars < 0)
+      if (control.mover() != Mover::bars && left_bars < 0)
         left_bars = record.sweep;
+      if (control.mover() == Mover::triangles && left_cells < 0)
+        left_cells = record.sweep;
       if (reason)
         break;
     }
     triangulations = static_cast<int>(records.size());
   }
   bool started_with_bars = false;
-  int left_bars = -1, triangulations = 0;
+  int left_bars = -1, left_cells = -1, triangulations = 0;
   std::optional<StopReason> reason;
 };
 
@@ -82,13 +94,15 @@ TEST(SweepControl, MethodsKeepToTheirRules) {
   EXPECT_TRUE(StagedRun(Method::distmesh, false, true, 0.98).started_with_bars);
   EXPECT_EQ(StagedRun(Method::distmesh, false, true, 0.98).left_bars, -1);
   EXPECT_FALSE(StagedRun(Method::cvd, false, true, 0.98).started_with_bars);
+  EXPECT_EQ(StagedRun(Method::cvd, false, true, 0.995).left_cells, -1);
 }
 
 TEST(SweepControl, HybridGoesOverWhenTheMedianStalls) {
   const StagedRun run(Method::hybrid, false, true, 0.995);
   EXPECT_TRUE(run.started_with_bars);
   EXPECT_EQ(run.left_bars, 5);
-  EXPECT_EQ(run.triangulations, 5 + 10) << "ten triangulations of its own before the cells may stall";
+  EXPECT_EQ(run.left_cells, 5 + 9) << "ten triangulations of their own before the cells may stall";
+  EXPECT_EQ(run.triangulations, 5 + 9 + 6) << "and six for the triangles";
   EXPECT_EQ(run.reason, StopReason::quality_stalled);
 }
 
@@ -96,6 +110,34 @@ TEST(SweepControl, HybridKeepsBarsWhilePointsAreStillInserted) {
   const StagedRun run(Method::hybrid, true, false, 0.999);
   EXPECT_EQ(run.left_bars, -1);
   EXPECT_EQ(run.reason, StopReason::quality_stalled);
+}
+
+TEST(SweepControl, HybridHasOnlyTrianglesAfterADivision) {
+  MeshOptions options;
+  std::vector<SweepRecord> records;
+  SweepControl control(options, records);
+  control.begin_stage(false, false);
+  for (const SweepRecord& record : history(60, 0.999)) {
+    records.push_back(record);
+    if (control.decide())
+      break;
+  }
+  EXPECT_EQ(control.mover(), Mover::triangles);
+  const std::size_t before = records.size();
+  EXPECT_LT(before, 30U);
+  control.begin_stage(false, true);
+  std::optional<StopReason> reason;
+  for (const SweepRecord& record : history(60, 0.97)) { // 14 % in five sweeps
+    records.push_back(record);
+    EXPECT_EQ(control.mover(), Mover::triangles);
+    reason = control.decide();
+    if (reason)
+      break;
+  }
+  EXPECT_EQ(reason, std::nullopt);
+  records.push_back(records.back());
+  records.back().mean_alpha = records[records.size() - 6].mean_alpha;
+  EXPECT_EQ(control.decide(), StopReason::quality_stalled);
 }
 
 TEST(SweepControl, TheCapEndsWhateverRuns) {

@@ -225,5 +225,90 @@ TEST(CvdRule, MomentumGrowsAndStartsAgainUphill) {
   EXPECT_EQ(rule.step(cloud.view(), i).lead, (Vec2{0, 0}));
 }
 
+TEST(TriangleRule, LeavesAPerfectLatticeAlone) {
+  const Cloud cloud(lattice());
+  TriangleRule rule;
+  rule.begin_sweep(measure(cloud.view(), spacing));
+  EXPECT_LT(geometry::length(rule.step(cloud.view(), cloud.middle()).move), 1e-8 * spacing);
+}
+
+TEST(TriangleRule, BringsADisplacedSiteBack) {
+  std::vector<Site> sites = lattice();
+  const Cloud before(sites);
+  const Vec2 middle = before.points.position(before.middle());
+  const auto site =
+      std::find_if(sites.begin(), sites.end(), [&](const Site& candidate) { return candidate.position == middle; });
+  site->position = middle + Vec2{0.3 * spacing, 0.1 * spacing};
+  double distance = geometry::length(site->position - middle);
+  for (int sweep = 0; sweep < 6; ++sweep) {
+    site->position = testing::unit_lattice().snap(site->position);
+    const Cloud cloud(sites);
+    TriangleRule rule;
+    rule.begin_sweep(measure(cloud.view(), spacing));
+    for (LocalIndex i = 0; i < cloud.points.owned(); ++i)
+      if (cloud.points.position(i) == site->position) {
+        site->position = site->position + rule.step(cloud.view(), i).move;
+        break;
+      }
+    const double left = geometry::length(site->position - middle);
+    EXPECT_LT(left, 0.5 * distance) << sweep;
+    distance = left;
+  }
+  EXPECT_LT(distance, 1e-3 * spacing);
+}
+
+/// Energy of the triangles around site i if it were at p; edges of length h have their wanted area.
+double energy_at(const Cloud& cloud, LocalIndex i, Vec2 p, double h) {
+  const auto ring = cloud.stars.ring(i);
+  double energy = 0;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Vec2 a = cloud.points.position(ring[k]), b = cloud.points.position(ring[(k + 1) % ring.size()]);
+    const double area = geometry::cross(a - p, b - p) / 2, wanted = std::sqrt(3) / 4 * h * h;
+    const double squares = geometry::dot(a - p, a - p) + geometry::dot(b - p, b - p) + geometry::dot(b - a, b - a);
+    energy += squares / (4 * std::sqrt(3) * area) + TriangleRule::stiffness * (area / wanted + wanted / area - 2);
+  }
+  return energy;
+}
+
+/// The step is 0.7 times that of Newton: derivatives by differences give the same.
+TEST(TriangleRule, StepsTowardsTheLeastEnergyOfTheStar) {
+  const Cloud cloud(lattice(0.5), 1.1 * spacing);
+  TriangleRule rule;
+  rule.begin_sweep({}); // no bars at all: edges are to have length h
+  const double d = 1e-4 * spacing;
+  int stars = 0;
+  for (LocalIndex i = 0; i < cloud.points.owned(); ++i) {
+    const auto ring = cloud.stars.ring(i);
+    if (ring.size() < 3 || std::find(ring.begin(), ring.end(), delaunay::gap) != ring.end())
+      continue;
+    const Vec2 p = cloud.points.position(i), x{d, 0}, y{0, d};
+    const auto energy = [&](Vec2 to) { return energy_at(cloud, i, p + to, 1.1 * spacing); };
+    const Vec2 gradient{(energy(x) - energy(-1.0 * x)) / (2 * d), (energy(y) - energy(-1.0 * y)) / (2 * d)};
+    const double xx = (energy(x) + energy(-1.0 * x) - 2 * energy({})) / (d * d),
+                 yy = (energy(y) + energy(-1.0 * y) - 2 * energy({})) / (d * d),
+                 xy = (energy(x + y) - energy(x - y) - energy(y - x) + energy(-1.0 * (x + y))) / (4 * d * d);
+    const double determinant = xx * yy - xy * xy;
+    const Vec2 newton = (-1 / determinant) * Vec2{yy * gradient.x - xy * gradient.y, xx * gradient.y - xy * gradient.x};
+    const Vec2 step = rule.step(cloud.view(), i).move;
+    EXPECT_LT(geometry::length(step - 0.7 * newton), 1e-4 * spacing);
+    EXPECT_LT(energy(step), energy({}));
+    ++stars;
+  }
+  EXPECT_GT(stars, 400);
+}
+
+TEST(TriangleRule, SitesWithAGapInTheirRingStay) {
+  const Cloud cloud(lattice(0.3));
+  int open = 0;
+  for (LocalIndex i = 0; i < cloud.points.owned(); ++i) {
+    const auto ring = cloud.stars.ring(i);
+    if (std::find(ring.begin(), ring.end(), delaunay::gap) == ring.end())
+      continue;
+    EXPECT_EQ(TriangleRule().step(cloud.view(), i).move, (Vec2{0, 0}));
+    ++open;
+  }
+  EXPECT_GT(open, 0);
+}
+
 } // namespace
 } // namespace trime::meshing
