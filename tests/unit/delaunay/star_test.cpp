@@ -245,14 +245,30 @@ TEST(Stars, LongRingsOverflowUnderThreads) {
 TEST(Stars, OnlyWantedStarsAreComputedAndOthersAreEmptied) {
   Cloud cloud(testing::random_sites(300, 11), 0.5);
   const TriangleSet all = testing::triangles_of(cloud.points, cloud.stars);
-  std::vector<std::uint8_t> wanted(static_cast<std::size_t>(cloud.points.owned()));
+  std::vector<StarWish> wanted(static_cast<std::size_t>(cloud.points.owned()));
   for (std::size_t i = 0; i < wanted.size(); ++i)
-    wanted[i] = i % 3 == 0;
+    wanted[i] = i % 3 == 0 ? StarWish::compute : StarWish::none;
   cloud.builder.update(cloud.points, cloud.stars, {}, wanted, cloud.missing);
   for (LocalIndex i = 0; i < cloud.points.owned(); ++i)
     EXPECT_EQ(cloud.stars.ring(i).empty(), i % 3 != 0);
   cloud.builder.update(cloud.points, cloud.stars, {}, {}, cloud.missing);
   EXPECT_TRUE(testing::triangles_of(cloud.points, cloud.stars) == all) << "emptied stars come back when wanted";
+}
+
+TEST(Stars, ARingThatIsLeftStaysAsItWasAndIsComputedOnceItIsWanted) {
+  Cloud cloud(testing::random_sites(300, 13), 0.5);
+  const TriangleSet all = testing::triangles_of(cloud.points, cloud.stars);
+  const std::vector<StarWish> leave(static_cast<std::size_t>(cloud.points.owned()), StarWish::leave);
+  EXPECT_EQ(cloud.builder.update(cloud.points, cloud.stars, {}, leave, cloud.missing).rebuilt, 0);
+  EXPECT_TRUE(testing::triangles_of(cloud.points, cloud.stars) == all);
+  for (LocalIndex i = 0; i < cloud.points.owned(); ++i)
+    EXPECT_FALSE(cloud.stars.certain(i)) << "nobody has looked";
+  const std::vector<LocalIndex> wrong{1, 2, 3};
+  cloud.stars.store(0, wrong);
+  cloud.builder.update(cloud.points, cloud.stars, {}, leave, cloud.missing);
+  EXPECT_EQ(std::vector<LocalIndex>(cloud.stars.ring(0).begin(), cloud.stars.ring(0).end()), wrong);
+  cloud.builder.update(cloud.points, cloud.stars, {}, {}, cloud.missing);
+  EXPECT_TRUE(testing::triangles_of(cloud.points, cloud.stars) == all);
 }
 
 /// Half of the tiles belong to this rank; the bins of the others become known as they are asked for.
@@ -320,8 +336,8 @@ TEST(Stars, WarmRingWithAFarMemberIsNotTrusted) {
   std::vector<LocalIndex> index;
   points.assign_owned(sites, 0, grid.tile_count(), &index);
   const StarBuilder builder(lattice, 1.0);
-  std::vector<std::uint8_t> wanted(sites.size(), 0);
-  wanted[static_cast<std::size_t>(index[0])] = 1;
+  std::vector<StarWish> wanted(sites.size(), StarWish::none);
+  wanted[static_cast<std::size_t>(index[0])] = StarWish::compute;
   const auto ring_from = [&](const std::vector<LocalIndex>& last) {
     StarTable stars;
     stars.reset(points.owned());
