@@ -14,6 +14,7 @@ namespace {
 using geometry::Vec2;
 
 constexpr double clearance_of_score = 1.5, clearance_of_moves = 2.8; // h, from the rim of what is read
+constexpr double widest_frame = 0x1.8p44; // lattice steps: 1.5 sides of the container at least; predicates are exact
 constexpr double weight_of_bad = 10;
 constexpr double least_gain = 0.02, tolerated_rise = 0.0;
 constexpr double longest_step = 0.25; // h, of one Newton step
@@ -40,7 +41,7 @@ bool PatchOptimizer::build(Vec2 center, double size, std::span<const PatchSite> 
   size_ = size;
   const double reach = options_.reach * size;
   base_.broken = false;
-  base_.mesh.start(center, lattice_.snap(3 * reach));
+  base_.mesh.start(center, std::min(lattice_.snap(3 * reach), widest_frame * lattice_.step()));
   base_.role.assign(PatchMesh::frame, Role::held);
   base_.size.assign(PatchMesh::frame, size);
   base_.boundary.assign(PatchMesh::frame, {});
@@ -323,20 +324,22 @@ void PatchOptimizer::relax(Patch& patch, int sweeps) {
       }
 }
 
-/// Is the closed diametral disc of each chord that has changed free, and its curve no longer than it may be?
+/// Is the closed diametral disc of each chord that has changed free, and its curve no longer than it may be? Is that of
+/// each other chord free of what has changed on the boundary? The guard keeps the vertices inside off those.
 bool PatchOptimizer::chords_hold(const Patch& patch) const {
   for (LocalIndex v = PatchMesh::frame; v < patch.mesh.vertices(); ++v) {
     const BoundaryVertex& own = patch.boundary[at(v)];
-    if (patch.role[at(v)] == Role::gone || own.site < 0 || !own.changed)
+    if (patch.role[at(v)] == Role::gone || own.next < 0)
       continue;
     const Vec2 a = patch.mesh.position(v), b = patch.mesh.position(own.next);
     double arc = patch.boundary[at(own.next)].arc - own.arc;
     if (arc < 0)
       arc += curve_.length(own.loop);
-    if (arc > largest_arc_share * geometry::length(b - a))
+    if (own.changed && arc > largest_arc_share * geometry::length(b - a))
       return false;
     for (LocalIndex u = PatchMesh::frame; u < patch.mesh.vertices(); ++u)
       if (u != v && u != own.next && patch.role[at(u)] != Role::gone &&
+          (own.changed || patch.boundary[at(u)].changed) &&
           geometry::diametral_side(a, b, patch.mesh.position(u)) <= 0)
         return false;
   }

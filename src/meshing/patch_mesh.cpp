@@ -238,6 +238,8 @@ bool PatchMesh::move(LocalIndex v, Vec2 to) {
   return true;
 }
 
+/// Cuts off ears of the ring until a triangle is left, in which v lies; of the last four corners two may be in line
+/// with v.
 bool PatchMesh::remove(LocalIndex v) {
   LocalIndex left = degree(v);
   for (LocalIndex tries = left * left; left > 3; --tries) {
@@ -253,8 +255,10 @@ bool PatchMesh::remove(LocalIndex v) {
       const LocalIndex b = triangle(t).vertex[static_cast<std::size_t>(previous(at))];
       const LocalIndex c = triangle(u).vertex[static_cast<std::size_t>(previous(place_in(u, v)))];
       if (geometry::orient2d(position(a), position(b), position(c)) > 0 &&
-          geometry::orient2d(position(v), position(a), position(c)) > 0) {
+          geometry::orient2d(position(v), position(a), position(c)) >= (left > 4)) {
         flip(t, next(at));
+        for (int side = 0; side < 3; ++side) // t is the ear now
+          suspects_.push_back({t, side});
         flipped = true;
       } else
         t = u;
