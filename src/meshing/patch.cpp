@@ -327,6 +327,10 @@ void PatchOptimizer::relax(Patch& patch, int sweeps) {
 /// Is the closed diametral disc of each chord that has changed free, and its curve no longer than it may be? Is that of
 /// each other chord free of what has changed on the boundary? The guard keeps the vertices inside off those.
 bool PatchOptimizer::chords_hold(const Patch& patch) const {
+  const auto is_moved = [&](LocalIndex u) { // on the boundary
+    return patch.boundary[at(u)].site >= 0 &&
+           (u >= base_.mesh.vertices() || patch.mesh.position(u) != base_.mesh.position(u));
+  };
   for (LocalIndex v = PatchMesh::frame; v < patch.mesh.vertices(); ++v) {
     const BoundaryVertex& own = patch.boundary[at(v)];
     if (patch.role[at(v)] == Role::gone || own.next < 0)
@@ -339,7 +343,7 @@ bool PatchOptimizer::chords_hold(const Patch& patch) const {
       return false;
     for (LocalIndex u = PatchMesh::frame; u < patch.mesh.vertices(); ++u)
       if (u != v && u != own.next && patch.role[at(u)] != Role::gone &&
-          (own.changed || patch.boundary[at(u)].changed) &&
+          (own.changed || is_moved(u)) &&
           geometry::diametral_side(a, b, patch.mesh.position(u)) <= 0)
         return false;
   }

@@ -122,5 +122,19 @@ TEST(Agree, OfSeveralErrorsTheLowestRankWins) {
   }
 }
 
+TEST(Exchange, AllBytesComeToAllRanksInTheirOrder) {
+  const Communicator comm = Communicator::world();
+  const auto share = [](int rank) { return rank % 3 == 1 ? std::size_t{0} : static_cast<std::size_t>(5 * rank + 3); };
+  for (const std::size_t times : {std::size_t{0}, std::size_t{1}, std::size_t{10000}}) {
+    std::vector<std::byte> expected;
+    for (int rank = 0; rank < comm.size(); ++rank) {
+      const std::vector<std::byte> theirs = bytes_of(times * share(rank), rank + 1);
+      expected.insert(expected.end(), theirs.begin(), theirs.end());
+    }
+    const std::vector<std::byte> own = bytes_of(times * share(comm.rank()), comm.rank() + 1);
+    EXPECT_EQ(comm.all_gather(std::span<const std::byte>(own)), expected) << times;
+  }
+}
+
 } // namespace
 } // namespace trime::comm
