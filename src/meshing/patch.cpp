@@ -342,8 +342,7 @@ bool PatchOptimizer::chords_hold(const Patch& patch) const {
     if (own.changed && arc > largest_arc_share * geometry::length(b - a))
       return false;
     for (LocalIndex u = PatchMesh::frame; u < patch.mesh.vertices(); ++u)
-      if (u != v && u != own.next && patch.role[at(u)] != Role::gone &&
-          (own.changed || is_moved(u)) &&
+      if (u != v && u != own.next && patch.role[at(u)] != Role::gone && (own.changed || is_moved(u)) &&
           geometry::diametral_side(a, b, patch.mesh.position(u)) <= 0)
         return false;
   }

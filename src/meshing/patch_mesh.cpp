@@ -49,7 +49,7 @@ LocalIndex PatchMesh::locate(Vec2 p) const {
     if (t < 0)
       break;
   }
-  throw InternalError("a point of a patch lies outside of its frame");
+  throw InternalError(fmt::format("the point ({}, {}) lies outside of the frame of its patch", p.x, p.y));
 }
 
 bool PatchMesh::disc_holds(LocalIndex t, Vec2 p) const {

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
-#include <tuple>
 
 namespace trime::meshing {
 namespace {
@@ -131,17 +131,16 @@ TEST(Cleanup, MendsPeriodicShapes) {
 /// Patches larger than the shape, and fans that the frame of a patch could come into.
 TEST(Cleanup, TheCoarsestMeshesStayCertified) {
   const comm::Communicator world = comm::Communicator::world();
-  for (const Case& c : {Case{triangle(), 3}, Case{triangle(), 4}, Case{square(), 5}, Case{square(), 9},
-                        Case{square(), 23}, Case{square(), 60}, Case{disc(), 8}, Case{disc(), 12}, Case{disc(), 30},
-                        Case{square_with_hole(), 40, true}, Case{testing::torus_with_hole(), 80},
-                        Case{testing::wavy_band(), 150}}) {
+  for (const Case& c :
+       {Case{triangle(), 3}, Case{triangle(), 4}, Case{square(), 5}, Case{square(), 9}, Case{square(), 23},
+        Case{square(), 60}, Case{disc(), 8}, Case{disc(), 12}, Case{disc(), 30}, Case{square_with_hole(), 40, true},
+        Case{testing::torus_with_hole(), 80}, Case{testing::wavy_band(), 150}}) {
     SCOPED_TRACE(fmt::format("{}, {} points", c.shape.region().text(), c.points));
     const MeshResult with = run(world, c), without = run(world, c, false);
     expect_certified(with);
     expect_consistent(world, with.cleanup);
     EXPECT_LE(with.quality.alpha.max, without.quality.alpha.max * (1 + 1e-12));
-    EXPECT_EQ(with.mesh.point_slab.total,
-              without.mesh.point_slab.total + with.cleanup.inserted - with.cleanup.deleted);
+    EXPECT_EQ(with.mesh.point_slab.total, without.mesh.point_slab.total + with.cleanup.inserted - with.cleanup.deleted);
     EXPECT_EQ(with.corners, without.corners);
     if (world.is_root()) {
       EXPECT_EQ(with.mesh.hash, run(comm::Communicator::self(), c).mesh.hash);
@@ -159,7 +158,7 @@ TEST(Cleanup, KeepsFixedPoints) {
   options.max_sweeps = 30;
   const std::vector<Vec2> places{{0.3, 0.1}, {0.34, 0.1}, {0.5, 0.5}, {0.51, 0.515}, {0.625, 0.9}};
   for (const Vec2 p : places)
-    options.fixed_points.push_back({p});
+    options.fixed_points.push_back({p, {}});
   const sizing::UniformSize uniform;
   const RegionShape shape = square();
   const MeshResult result = Mesher(world, shape.boundary(), uniform, options, log, timers).run();

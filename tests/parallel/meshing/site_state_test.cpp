@@ -59,7 +59,8 @@ void expect_revealed(const geometry::Periods& periods) {
   serial.compute_stars(builder, size, Wanted::all_sites);
   std::vector<Disc> discs; // of each rank others, of the last one none
   for (std::uint64_t k = 0; k < 6 && world.rank() + 1 < std::max(2, world.size()); ++k)
-    discs.push_back({testing::random_vec2(40 + static_cast<std::uint64_t>(world.rank()), k), 0.05 + 0.07 * static_cast<double>(k)});
+    discs.push_back(
+        {testing::random_vec2(40 + static_cast<std::uint64_t>(world.rank()), k), 0.05 + 0.07 * static_cast<double>(k)});
   const testing::TriangleSet before = testing::triangles_of(distributed.points(), distributed.stars());
   distributed.reveal(discs, size);
   serial.reveal(discs, size);

@@ -25,8 +25,8 @@ using testing::unit_lattice;
 using Kind = BoundaryEdit::Kind;
 
 Boundary square_and_hole() {
-  Boundary boundary = boundary_of({polygon_loop({{0.1, 0.1}, {0.9, 0.1}, {0.9, 0.9}, {0.1, 0.9}}),
-                                   circle_loop({0.5, 0.5}, 0.2, true, 4, 2)});
+  Boundary boundary = boundary_of(
+      {polygon_loop({{0.1, 0.1}, {0.9, 0.1}, {0.9, 0.9}, {0.1, 0.9}}), circle_loop({0.5, 0.5}, 0.2, true, 4, 2)});
   boundary.part_names = {"below", "right", "above", "left", "hole"};
   for (int k = 0; k < 4; ++k) {
     boundary.loops[0].pieces[static_cast<std::size_t>(k)].part = k;
@@ -235,7 +235,8 @@ TEST(EditBoundary, ManyEditsAtOnceInAnyOrder) {
   EXPECT_EQ(sites.sites.size(), before.sites.size() + static_cast<std::size_t>(added - removed));
   EXPECT_EQ(std::count(new_index.begin(), new_index.end(), -1), removed);
   for (std::size_t e = 0; e < edits.size(); ++e) {
-    const LocalIndex k = edits[e].kind == Kind::insert ? inserted[e] : new_index[static_cast<std::size_t>(edits[e].site)];
+    const LocalIndex k =
+        edits[e].kind == Kind::insert ? inserted[e] : new_index[static_cast<std::size_t>(edits[e].site)];
     ASSERT_EQ(k >= 0, edits[e].kind != Kind::remove);
     if (k >= 0) {
       EXPECT_EQ(sites.sites[static_cast<std::size_t>(k)].position, edits[e].position);

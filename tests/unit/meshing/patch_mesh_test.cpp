@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <set>
-#include <tuple>
 
 namespace trime::meshing {
 namespace {
@@ -115,10 +114,14 @@ std::vector<Vec2> rows() {
 }
 
 std::vector<std::vector<Vec2>> point_sets() {
-  return {places(testing::random_sites(120, 1)),       places(testing::square_lattice(9, 0.0625)),
-          places(testing::hexagonal_lattice(9, 0.07)), places(testing::collinear(25)),
-          places(testing::cocircular_rings()),         places(testing::wheel(30, center, 0.25)),
-          places(testing::near_duplicates(40, 2)),     rows(),
+  return {places(testing::random_sites(120, 1)),
+          places(testing::square_lattice(9, 0.0625)),
+          places(testing::hexagonal_lattice(9, 0.07)),
+          places(testing::collinear(25)),
+          places(testing::cocircular_rings()),
+          places(testing::wheel(30, center, 0.25)),
+          places(testing::near_duplicates(40, 2)),
+          rows(),
           {{0.5, 0.5}}};
 }
 

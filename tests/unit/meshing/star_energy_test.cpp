@@ -140,9 +140,9 @@ TEST(StarEnergy, TheStepOfAnyModelIsFiniteAndBounded) {
   EXPECT_EQ(step_of(0, 0, 0, 0, 0), Vec2{});
   EXPECT_EQ(step_of(0, 0, 2, 0, 3), Vec2{});
   EXPECT_EQ(step_of(1, 0, 4, 0, 4), (Vec2{-0.25, 0}));
-  expect_near(step_of(3, 4, 0, 0, 0), {-0.3, -0.4}); // no curvature: down the gradient, as far as allowed
+  expect_near(step_of(3, 4, 0, 0, 0), {-0.3, -0.4});   // no curvature: down the gradient, as far as allowed
   expect_near(step_of(3, 4, -1, 0, -1), {-0.3, -0.4}); // a hill
-  expect_near(step_of(3, 4, 1, 2, 1), {-0.3, -0.4}); // a saddle
+  expect_near(step_of(3, 4, 1, 2, 1), {-0.3, -0.4});   // a saddle
   EXPECT_NEAR(geometry::length(step_of(1e100, 1e-100, 1e-3, 0, 1e-3)), 0.5, 1e-12);
   EXPECT_LE(geometry::length(step_of(1e-300, 0, 0, 0, 0)), 0.5);
 }
