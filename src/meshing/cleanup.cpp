@@ -2,6 +2,7 @@
 #include "meshing/cleanup.hpp"
 
 #include "meshing/extraction.hpp"
+#include "meshing/selection.hpp"
 #include "trime/comm/agree.hpp"
 #include "trime/core/random.hpp"
 #include "trime/core/thread_loop.hpp"
@@ -21,6 +22,8 @@ using geometry::Vec2;
 constexpr int hash_bits = 44;
 constexpr int classes_per_octave = 8;
 constexpr int passes_of_choice = 5;
+constexpr double largest_loss = 0.005;                       // of the sites
+constexpr double scarcity = 0.001, handicap_if_scarce = 1.5; // from when deletions must be that much better
 /// h: what two patches may share, since nothing moves near the rim of what is read.
 constexpr double overlap = 2;
 constexpr double around_bad_site = 3, around_patch = 3; // h: how far stars are computed anew, beyond its reach
@@ -70,6 +73,9 @@ GlobalId key_of(double alpha) {
   return std::bit_cast<std::int64_t>(alpha);
 }
 
+/// Stands for a patch where nothing helped.
+constexpr SiteEdit nothing{{}, {}, SiteEdit::Kind::none};
+
 } // namespace
 
 void CleanupCounts::add(const CleanupCounts& other) {
@@ -83,9 +89,14 @@ void CleanupCounts::add(const CleanupCounts& other) {
 }
 
 Cleanup::Cleanup(const comm::Communicator& comm, Layout& layout, const geometry::Boundary& boundary,
-                 const geometry::Lattice& lattice, const delaunay::StarBuilder& builder, const PatchOptions& options)
+                 const geometry::Lattice& lattice, const delaunay::StarBuilder& builder, GlobalId most_sites,
+                 const PatchOptions& options)
     : comm_(comm), layout_(layout), state_(*layout.state), curve_(boundary), lattice_(lattice), builder_(builder),
-      options_(options) {}
+      options_(options), most_sites_(most_sites), sites_(comm.sum(std::int64_t{state_.points().owned()})) {
+  most_sites_ = std::max(most_sites_, sites_);
+  wanted_sites_ = sites_;
+  least_sites_ = sites_ - static_cast<GlobalId>(largest_loss * static_cast<double>(sites_)) - 1;
+}
 
 /// What a star of one of these places may look at, sent to the owners of all tiles there.
 std::vector<Disc> Cleanup::share_places() const {
@@ -255,28 +266,74 @@ std::vector<PatchSite> Cleanup::sites_around(LocalIndex site, double reach) cons
   return sites;
 }
 
-std::vector<SiteEdit> Cleanup::try_patches(const std::vector<Candidate>& chosen, CleanupCounts& counts) {
+PatchBudget Cleanup::budget() const {
+  const bool scarce = static_cast<double>(sites_) < (1 - scarcity) * static_cast<double>(wanted_sites_);
+  return {sites_<most_sites_, sites_> least_sites_, scarce ? handicap_if_scarce : 1};
+}
+
+std::vector<std::vector<SiteEdit>> Cleanup::try_patches(const std::vector<Candidate>& chosen) {
   const mesh::BinnedPoints& points = state_.points();
   const StarView view = view_of(state_, *layout_.size);
+  const PatchBudget its_budget = budget();
   std::vector<std::vector<SiteEdit>> edits(chosen.size());
-  thread_loop(thread_count(), 1, [&](std::ptrdiff_t first, int) { // one optimizer for each thread
+  const auto threads = static_cast<std::size_t>(thread_count());
+  const auto try_share = [&](std::ptrdiff_t first, int) { // one optimizer for each thread
     PatchOptimizer optimizer(layout_.boundary, curve_, *layout_.guard, lattice_, options_);
-    for (std::size_t k = static_cast<std::size_t>(first); k < chosen.size();
-         k += static_cast<std::size_t>(thread_count())) {
+    for (std::size_t k = static_cast<std::size_t>(first); k < chosen.size(); k += threads) {
       const LocalIndex i = chosen[k].site;
       const double h = view.size(i);
-      optimizer.improve(points.position(i), h, sites_around(i, options_.reach * h), edits[k]);
+      optimizer.improve(points.position(i), h, sites_around(i, options_.reach * h), its_budget, edits[k]);
+      if (edits[k].empty())
+        edits[k].push_back(nothing);
     }
-  });
-  const geometry::Periods& periods = points.grid().periods();
+  };
+  comm::run_agreed(comm_, [&] { thread_loop(thread_count(), 1, try_share); });
+  return edits;
+}
+
+/// Empties the edits of patches that add or take too many sites. They may try again.
+void Cleanup::keep_within_limits(const std::vector<Candidate>& chosen, std::vector<std::vector<SiteEdit>>& edits) {
+  const auto gain_of = [](const std::vector<SiteEdit>& list) {
+    int gain = 0;
+    for (const SiteEdit& edit : list)
+      gain += edit.kind == SiteEdit::Kind::insert ? 1 : edit.kind == SiteEdit::Kind::remove ? -1 : 0;
+    return gain;
+  };
+  const auto limit = [&](int sign, GlobalId room) {
+    std::vector<std::uint64_t> keys;
+    for (std::size_t k = 0; k < edits.size(); ++k)
+      for (int n = sign * gain_of(edits[k]); n > 0; --n) // one key for each site
+        keys.push_back(hash_of(state_.points().position(chosen[k].site), n));
+    if (comm_.sum(static_cast<std::int64_t>(keys.size())) <= room)
+      return;
+    const std::uint64_t threshold = selection_threshold(comm_, keys, std::max<GlobalId>(0, room));
+    for (std::size_t k = 0; k < edits.size(); ++k)
+      for (int n = sign * gain_of(edits[k]); n > 0; --n)
+        if (!(hash_of(state_.points().position(chosen[k].site), n) < threshold)) {
+          edits[k].clear();
+          break;
+        }
+  };
+  limit(1, most_sites_ - sites_);
+  limit(-1, sites_ - least_sites_);
+}
+
+/// All edits of this rank, with canonical places; counts them and remembers where nothing helped.
+std::vector<SiteEdit> Cleanup::collect(const std::vector<Candidate>& chosen, std::vector<std::vector<SiteEdit>>& edits,
+                                       CleanupCounts& counts) {
+  const StarView view = view_of(state_, *layout_.size);
+  const geometry::Periods& periods = state_.grid().periods();
   std::vector<SiteEdit> all;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
-    const Vec2 place = points.position(chosen[k].site);
+    const Vec2 place = state_.points().position(chosen[k].site);
     if (edits[k].empty())
+      continue; // put off
+    if (edits[k].front().kind == SiteEdit::Kind::none) {
       counts.left += hopeless_.insert(hash_of(place, 0)).second;
-    else
-      places_.push_back({place, (options_.reach + around_patch) * view.size(chosen[k].site)});
-    counts.better += !edits[k].empty();
+      continue;
+    }
+    places_.push_back({place, (options_.reach + around_patch) * view.size(chosen[k].site)});
+    ++counts.better;
     for (SiteEdit& edit : edits[k]) {
       edit.from = periods.wrap(edit.from);
       edit.to = periods.wrap(edit.to);
@@ -284,8 +341,8 @@ std::vector<SiteEdit> Cleanup::try_patches(const std::vector<Candidate>& chosen,
       counts.inserted += edit.kind == SiteEdit::Kind::insert;
       counts.deleted += edit.kind == SiteEdit::Kind::remove;
       counts.on_boundary += edit.boundary >= 0;
+      all.push_back(edit);
     }
-    all.insert(all.end(), edits[k].begin(), edits[k].end());
   }
   return all;
 }
@@ -311,17 +368,15 @@ void Cleanup::edit_the_boundary(const std::vector<SiteEdit>& edits) {
     }
   boundary_edits_ = comm::from_bytes<BoundaryEdit>(comm_.all_gather(std::as_bytes(std::span<const BoundaryEdit>(own))));
   new_index_.clear();
-  if (boundary_edits_.empty())
+  index_at_.clear();
+  if (all.empty())
     return;
-  new_index_ = edit_boundary(layout_.boundary, curve_, boundary_edits_, inserted_);
+  std::vector<LocalIndex> inserted;
+  new_index_ = edit_boundary(layout_.boundary, curve_, all, inserted);
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (inserted[k] >= 0)
+      index_at_[{all[k].position.x, all[k].position.y}] = inserted[k];
   layout_.guard = std::make_unique<BoundaryGuard>(layout_.boundary, lattice_);
-}
-
-std::int32_t Cleanup::new_boundary_index(const SiteEdit& insertion) const {
-  for (std::size_t k = 0; k < boundary_edits_.size(); ++k)
-    if (boundary_edits_[k].kind == BoundaryEdit::Kind::insert && boundary_edits_[k].position == insertion.to)
-      return inserted_[k];
-  throw InternalError(fmt::format("no boundary site at ({}, {})", insertion.to.x, insertion.to.y));
 }
 
 void Cleanup::apply(const std::vector<SiteEdit>& edits) {
@@ -337,7 +392,7 @@ void Cleanup::apply(const std::vector<SiteEdit>& edits) {
   std::vector<std::uint8_t> deleted(sites.size(), 0);
   for (const SiteEdit& edit : edits) {
     if (edit.kind == SiteEdit::Kind::insert) {
-      sites.push_back({edit.to, edit.boundary >= 0 ? new_boundary_index(edit) : mesh::free_site});
+      sites.push_back({edit.to, edit.boundary >= 0 ? index_at_.at({edit.to.x, edit.to.y}) : mesh::free_site});
       deleted.push_back(0);
       continue;
     }
@@ -375,14 +430,18 @@ CleanupCounts Cleanup::round() {
   choose_apart(candidates, std::move(order));
   CleanupCounts counts;
   counts.patches = static_cast<std::int64_t>(candidates.size());
-  const std::vector<SiteEdit> edits = try_patches(candidates, counts);
+  std::vector<std::vector<SiteEdit>> of_patches = try_patches(candidates);
+  keep_within_limits(candidates, of_patches);
+  const std::vector<SiteEdit> edits = collect(candidates, of_patches, counts);
   changed_ = comm_.sum(static_cast<std::int64_t>(edits.size())) > 0;
   if (changed_) {
     edit_the_boundary(edits);
     apply(send_to_owners(edits));
   }
   ++round_;
-  return sum_over_ranks(counts);
+  counts = sum_over_ranks(counts);
+  sites_ += counts.inserted - counts.deleted;
+  return counts;
 }
 
 CleanupCounts Cleanup::run() {

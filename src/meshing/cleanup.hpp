@@ -6,7 +6,9 @@
 #include "meshing/patch.hpp"
 
 #include <cstdint>
+#include <map>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 namespace trime::meshing {
@@ -16,11 +18,15 @@ namespace trime::meshing {
 /// round: their patches (PatchOptimizer) do not overlap, and the choice is the same for any partition. The owner of a
 /// candidate computes its patch and sends the changes to the owners of the sites; what changes on the boundary goes to
 /// all ranks. A place where nothing helped is not tried again; its neighbours are.
+///
+/// The number of sites stays near that of the beginning, at most half a percent below, and never above the target: when
+/// the patches of a round would leave these limits, those first in the order of a hash are carried out.
 class Cleanup {
 public:
   /// References must outlive the object.
   Cleanup(const comm::Communicator& comm, Layout& layout, const geometry::Boundary& boundary,
-          const geometry::Lattice& lattice, const delaunay::StarBuilder& builder, const PatchOptions& options = {});
+          const geometry::Lattice& lattice, const delaunay::StarBuilder& builder, GlobalId most_sites,
+          const PatchOptions& options = {});
 
   /// @brief Rounds until no place is left where something has not been tried, at most `most_rounds`. Stars are to be
   /// computed anew afterwards. Collective. About 0.3 ms a patch; from the second round on only stars near bad triangles
@@ -42,12 +48,15 @@ private:
   std::vector<GlobalId> worst_alphas() const;
   std::vector<Candidate> find_candidates(std::vector<GlobalId>& order);
   void choose_apart(std::vector<Candidate>& candidates, std::vector<GlobalId> order) const;
-  std::vector<SiteEdit> try_patches(const std::vector<Candidate>& chosen, CleanupCounts& counts);
+  PatchBudget budget() const;
+  std::vector<std::vector<SiteEdit>> try_patches(const std::vector<Candidate>& chosen);
+  void keep_within_limits(const std::vector<Candidate>& chosen, std::vector<std::vector<SiteEdit>>& edits);
+  std::vector<SiteEdit> collect(const std::vector<Candidate>& chosen, std::vector<std::vector<SiteEdit>>& edits,
+                                CleanupCounts& counts);
   CleanupCounts sum_over_ranks(const CleanupCounts& own) const;
   std::vector<PatchSite> sites_around(LocalIndex site, double reach) const;
   std::vector<SiteEdit> send_to_owners(const std::vector<SiteEdit>& edits) const;
   void edit_the_boundary(const std::vector<SiteEdit>& edits);
-  std::int32_t new_boundary_index(const SiteEdit& insertion) const;
   void apply(const std::vector<SiteEdit>& edits);
 
   const comm::Communicator& comm_;
@@ -57,12 +66,13 @@ private:
   geometry::Lattice lattice_;
   const delaunay::StarBuilder& builder_;
   PatchOptions options_;
+  GlobalId most_sites_, least_sites_, wanted_sites_, sites_; // over all ranks
   int round_ = 0;
   bool changed_ = true;      // something, in the last round
   std::vector<Disc> places_; // where this rank saw bad triangles, or changed something, in the last round
-  // The boundary's changes of this round, sorted, and what became of its sites; empty: none.
-  std::vector<BoundaryEdit> boundary_edits_;
-  std::vector<LocalIndex> inserted_, new_index_;
+  // What became of the boundary's sites in this round, by their old index (empty: nothing), and the index of new ones.
+  std::vector<LocalIndex> new_index_;
+  std::map<std::pair<double, double>, LocalIndex> index_at_;
   std::unordered_set<std::uint64_t> hopeless_; // hashes of owned places where nothing helped
 };
 

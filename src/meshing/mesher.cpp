@@ -224,7 +224,7 @@ private:
     if (!options_.cleanup || history_.empty())
       return;
     const auto time = timers_.scope("clean-up");
-    cleanup_ = Cleanup(comm_, layout_, fixed_->boundary(), lattice_, *builder_).run();
+    cleanup_ = Cleanup(comm_, layout_, fixed_->boundary(), lattice_, *builder_, options_.points.value_or(0)).run();
     log_.info("clean-up: {} of {} patches better; {} sites moved, {} inserted, {} deleted; {} places left with alpha "
               "above {}",
               cleanup_.better, cleanup_.patches, cleanup_.moved, cleanup_.inserted, cleanup_.deleted, cleanup_.left,

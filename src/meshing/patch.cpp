@@ -16,7 +16,7 @@ using geometry::Vec2;
 constexpr double clearance_of_score = 1.5, clearance_of_moves = 2.8; // h, from the rim of what is read
 constexpr double widest_frame = 0x1.8p44; // lattice steps: 1.5 sides of the container at least; predicates are exact
 constexpr double weight_of_bad = 10;
-constexpr double least_gain = 0.02, tolerated_rise = 0.0;
+constexpr double least_gain = 0.02;
 constexpr double longest_step = 0.25; // h, of one Newton step
 constexpr int halvings = 3;
 constexpr double longest_slide = 0.2;      // h, of one step
@@ -195,6 +195,10 @@ void PatchOptimizer::list_operations() {
   }
 }
 
+bool PatchOptimizer::allows(const PatchBudget& budget, const Operation& operation) {
+  return operation.kind == SiteEdit::Kind::insert ? budget.may_insert : budget.may_delete;
+}
+
 /// Carries it out on the trial. @return false if it cannot be done
 bool PatchOptimizer::apply(const Operation& operation) {
   const LocalIndex v = operation.vertex;
@@ -364,32 +368,35 @@ void PatchOptimizer::collect_edits(std::vector<SiteEdit>& edits) const {
   }
 }
 
-bool PatchOptimizer::improve(Vec2 center, double size, std::span<const PatchSite> sites, std::vector<SiteEdit>& edits) {
+bool PatchOptimizer::improve(Vec2 center, double size, std::span<const PatchSite> sites, const PatchBudget& budget,
+                             std::vector<SiteEdit>& edits) {
   if (!build(center, size, sites))
     return false;
   const Score before = score(base_);
-  Score least = before;
-  least.sum *= 1 - least_gain;
+  double least = (1 - least_gain) * before.sum, largest = before.max; // alpha of the best trial
   bool better = false;
-  const auto try_trial = [&] {
+  const auto try_trial = [&](double handicap) {
     relax(trial_, options_.trial_sweeps);
     if (trial_.broken)
       return;
     const Score after = score(trial_);
-    if (!(after.sum < least.sum) || after.max > before.max + tolerated_rise || !chords_hold(trial_))
+    if (!(handicap * after.sum < least) || after.max > before.max || !chords_hold(trial_))
       return;
-    least = after;
+    least = handicap * after.sum;
+    largest = after.max;
     std::swap(best_, trial_);
     better = true;
   };
   trial_ = base_;
-  try_trial();
-  if (!better || least.max >= options_.bad_alpha) {
+  try_trial(1);
+  if (!better || largest >= options_.operate_alpha) {
     list_operations();
     for (const Operation& operation : operations_) {
+      if (!allows(budget, operation))
+        continue;
       trial_ = base_;
       if (apply(operation))
-        try_trial();
+        try_trial(operation.kind == SiteEdit::Kind::remove ? budget.deletion_handicap : 1);
     }
   }
   if (better)

@@ -24,7 +24,7 @@ struct PatchSite {
 
 /// What becomes of a site: where it goes, or that it is deleted; or a new site (`from` says nothing then).
 struct SiteEdit {
-  enum class Kind : std::int32_t { move, remove, insert };
+  enum class Kind : std::int32_t { move, remove, insert, none };
   geometry::Vec2 from, to;
   Kind kind = Kind::move;
   std::int32_t boundary = mesh::free_site; ///< index of the boundary site; for a new one, of the site before it
@@ -35,7 +35,15 @@ struct SiteEdit {
 struct PatchOptions {
   double reach = 6;        ///< sites within this many h of the middle are read
   double bad_alpha = 1.07; ///< triangles above it are bad
-  int trial_sweeps = 5;    ///< over the free sites after an operation
+  /// Insertions and deletions are tried where moves alone leave a triangle above it, or help nothing.
+  double operate_alpha = 1.09;
+  int trial_sweeps = 5; ///< over the free sites after an operation
+};
+
+/// What a patch may do with the number of sites.
+struct PatchBudget {
+  bool may_insert = true, may_delete = true;
+  double deletion_handicap = 1; ///< factor on the sum of a trial with fewer sites: above 1 if sites are scarce
 };
 
 /// @brief Improves the triangles around a place by moving the free sites near it, and by single insertions and
@@ -57,7 +65,8 @@ public:
   /// @param sites in lexicographic order; all that lie within `options.reach` times `size` of `center`
   /// @param edits receives the changes, if one was better
   /// @return whether one was
-  bool improve(geometry::Vec2 center, double size, std::span<const PatchSite> sites, std::vector<SiteEdit>& edits);
+  bool improve(geometry::Vec2 center, double size, std::span<const PatchSite> sites, const PatchBudget& budget,
+               std::vector<SiteEdit>& edits);
 
 private:
   enum class Role : std::uint8_t { gone, held, scored, free }; // scored: held, but its triangles count
@@ -98,6 +107,7 @@ private:
   Score score(const Patch& patch) const;
   const PatchMesh::Triangle* worst_triangle() const;
   void list_operations();
+  static bool allows(const PatchBudget& budget, const Operation& operation);
   bool apply(const Operation& operation);
   bool remove(LocalIndex v);
   bool insert_on_boundary(LocalIndex before);
