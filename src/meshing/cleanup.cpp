@@ -366,7 +366,8 @@ void Cleanup::edit_the_boundary(const std::vector<SiteEdit>& edits) {
                                                                             : BoundaryEdit::Kind::insert;
       own.push_back({edit.boundary, kind, edit.arc, edit.to});
     }
-  boundary_edits_ = comm::from_bytes<BoundaryEdit>(comm_.all_gather(std::as_bytes(std::span<const BoundaryEdit>(own))));
+  std::vector<BoundaryEdit> all =
+      comm::from_bytes<BoundaryEdit>(comm_.all_gather(std::as_bytes(std::span<const BoundaryEdit>(own))));
   new_index_.clear();
   index_at_.clear();
   if (all.empty())

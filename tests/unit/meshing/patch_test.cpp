@@ -60,11 +60,11 @@ struct Stage {
     });
     PatchOptimizer optimizer(sites_on, curve, guard, unit_lattice(), options);
     std::vector<SiteEdit> edits, again;
-    const bool better = optimizer.improve(center, h, near, edits);
+    const bool better = optimizer.improve(center, h, near, PatchBudget{}, edits);
     EXPECT_EQ(better, !edits.empty());
-    optimizer.improve(near.front().position, h, near, again); // something else in between
+    optimizer.improve(near.front().position, h, near, PatchBudget{}, again); // something else in between
     again.clear();
-    optimizer.improve(center, h, near, again);
+    optimizer.improve(center, h, near, PatchBudget{}, again);
     EXPECT_TRUE(equal(edits, again)) << "not a function of the sites";
     expect_allowed(edits);
     return edits;
@@ -375,7 +375,7 @@ TEST(PatchOptimizer, NearestImagesMakeAPatchOnATorus) {
       return geometry::lexicographically_less(a.position, b.position);
     });
     std::vector<SiteEdit> edits;
-    PatchOptimizer(none, curve, guard, unit_lattice(), {}).improve(center, h, sites, edits);
+    PatchOptimizer(none, curve, guard, unit_lattice(), {}).improve(center, h, sites, PatchBudget{}, edits);
     return edits;
   };
   const std::vector<SiteEdit> inside = edits_at(middle), across = edits_at({0, 0});
