@@ -118,7 +118,8 @@ constexpr Option table[] = {
      .kind = Kind::word,
      .fallback = "hybrid",
      .choices = "distmesh cvd hybrid",
-     .meaning = "how points move: repulsive bars, centroidal Voronoi cells, or both and then towards equilateral triangles"},
+     .meaning =
+         "how points move: repulsive bars, centroidal Voronoi cells, or both and then towards equilateral triangles"},
     {.section = "meshing",
      .key = "points",
      .kind = Kind::integer,
