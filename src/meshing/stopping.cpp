@@ -9,7 +9,8 @@ constexpr std::size_t window = 5;
 constexpr double median_gain = 0.1, good_median = 0.001;
 /// What five sweeps must gain. A coarse mesh costs little and decides over the order of the finer ones; before an
 /// insertion the order is about to be disturbed anyway.
-constexpr double tolerance_last = 0.04, tolerance_coarse = 0.02, tolerance_before_insertion = 0.1;
+constexpr double tolerance_last = 0.04, tolerance_before_insertion = 0.1;
+constexpr double tolerance_of_coarse_bars = 0.02, tolerance_of_coarse_cells = 0.01;
 constexpr double patience_of_bars = 0.4; // bars settle more slowly than accelerated Voronoi cells
 /// Triangles gain nearly all in a few sweeps.
 constexpr Patience patience_of_triangles{0.07, window + 1, false},
@@ -81,7 +82,10 @@ Patience SweepControl::patience() const {
   }
   if (options_.stop_tolerance)
     return {*options_.stop_tolerance};
-  const double tolerance = is_last_ ? tolerance_last : inserts_ ? tolerance_before_insertion : tolerance_coarse;
+  const double tolerance = is_last_                ? tolerance_last
+                           : inserts_              ? tolerance_before_insertion
+                           : mover_ == Mover::bars ? tolerance_of_coarse_bars
+                                                   : tolerance_of_coarse_cells;
   const bool patient = options_.method == Method::distmesh && records().back().median_alpha - 1 >= good_median;
   return {(patient ? patience_of_bars : 1) * tolerance};
 }
