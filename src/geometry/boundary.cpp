@@ -66,6 +66,18 @@ double Piece::distance(Vec2 p) const {
   return std::sqrt(std::fmin(squared_length(p - start), squared_length(p - end)));
 }
 
+Box Piece::covering_box() const {
+  Box box;
+  box.include(start);
+  box.include(end);
+  if (circular) {
+    const double margin = 0.5 * length(); // no point of an arc is farther from an end than half its length
+    box.min = box.min - Vec2{margin, margin};
+    box.max = box.max + Vec2{margin, margin};
+  }
+  return box;
+}
+
 double Loop::length() const {
   double sum = 0;
   for (const Piece& piece : pieces)

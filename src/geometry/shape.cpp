@@ -13,26 +13,6 @@ namespace trime::geometry {
 
 namespace {
 
-double squared_distance_to_box(Vec2 p, const Box& box) {
-  const double dx = std::fmax(0.0, std::fmax(box.min.x - p.x, p.x - box.max.x));
-  const double dy = std::fmax(0.0, std::fmax(box.min.y - p.y, p.y - box.max.y));
-  return dx * dx + dy * dy;
-}
-
-/// Contains the arc, if not tightly.
-Box box_of(const Piece& piece) {
-  Box box;
-  box.include(piece.start);
-  box.include(piece.end);
-  if (piece.circular) {
-    // No point of an arc is farther from an end than half its length.
-    const double margin = 0.5 * piece.length();
-    box.min = box.min - Vec2{margin, margin};
-    box.max = box.max + Vec2{margin, margin};
-  }
-  return box;
-}
-
 /// In a periodic container no piece leads out of one image of it: the image that holds the middle becomes canonical.
 Piece wrapped(Piece piece, const Periods& periods) {
   const Vec2 middle = 0.5 * (piece.start + piece.end), shift = periods.wrap(middle) - middle;
@@ -63,7 +43,7 @@ PieceTree::PieceTree(const Boundary& boundary) : periods_(boundary.periods) {
       const Piece piece = periods_.any() ? wrapped(unrolled, periods_) : unrolled;
       if (items_.size() % run_length == 0)
         runs.emplace_back();
-      const Box box = box_of(piece);
+      const Box box = piece.covering_box();
       runs.back().include(box.min);
       runs.back().include(box.max);
       items_.push_back({piece.start, piece.end, piece.circular ? static_cast<LocalIndex>(arcs_.size()) : -1});
@@ -123,7 +103,7 @@ void PieceTree::search(Vec2 p, double& best) const {
   std::array<Entry, 64> stack; // deeper than any tree in memory
   const std::size_t leaves = boxes_.size() / 2;
   std::size_t size = 0;
-  stack[size++] = {1, squared_distance_to_box(p, boxes_[1])};
+  stack[size++] = {1, boxes_[1].squared_distance(p)};
   while (size > 0) {
     const Entry entry = stack[--size];
     if (entry.squared_distance >= best)
@@ -132,8 +112,8 @@ void PieceTree::search(Vec2 p, double& best) const {
       best = std::fmin(best, squared_distance_to_run(entry.node - leaves, p));
       continue;
     }
-    Entry near{2 * entry.node, squared_distance_to_box(p, boxes_[2 * entry.node])};
-    Entry far{2 * entry.node + 1, squared_distance_to_box(p, boxes_[2 * entry.node + 1])};
+    Entry near{2 * entry.node, boxes_[2 * entry.node].squared_distance(p)};
+    Entry far{2 * entry.node + 1, boxes_[2 * entry.node + 1].squared_distance(p)};
     if (far.squared_distance < near.squared_distance)
       std::swap(near, far);
     stack[size++] = far;

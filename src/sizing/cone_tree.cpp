@@ -21,9 +21,7 @@ bool before(const Cone& a, const Cone& b, bool by_x) {
 } // namespace
 
 double ConeTree::Node::lower_bound(Vec2 p, double slope) const {
-  const double dx = std::max(0.0, std::max(box.min.x - p.x, p.x - box.max.x));
-  const double dy = std::max(0.0, std::max(box.min.y - p.y, p.y - box.max.y));
-  return slope * std::sqrt(dx * dx + dy * dy) + least;
+  return slope * std::sqrt(box.squared_distance(p)) + least;
 }
 
 ConeTree::ConeTree(std::vector<Cone> cones, double slope) : cones_(std::move(cones)), slope_(slope) {

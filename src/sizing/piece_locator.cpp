@@ -13,25 +13,6 @@ using geometry::Vec2;
 
 namespace {
 
-double squared_distance_to_box(Vec2 p, const Box& box) {
-  const double dx = std::max(0.0, std::max(box.min.x - p.x, p.x - box.max.x));
-  const double dy = std::max(0.0, std::max(box.min.y - p.y, p.y - box.max.y));
-  return dx * dx + dy * dy;
-}
-
-/// Contains the piece, if not tightly.
-Box box_of(const Piece& piece) {
-  Box box;
-  box.include(piece.start);
-  box.include(piece.end);
-  if (piece.circular) {
-    const double margin = 0.5 * piece.length(); // no point of an arc is farther from an end than half its length
-    box.min = box.min - Vec2{margin, margin};
-    box.max = box.max + Vec2{margin, margin};
-  }
-  return box;
-}
-
 Vec2 nearest_on_segment(Vec2 p, Vec2 a, Vec2 b) {
   const Vec2 d = b - a;
   const double along = dot(p - a, d), whole = squared_length(d);
@@ -59,7 +40,7 @@ PieceLocator::PieceLocator(const geometry::Boundary& boundary, const Images& ima
     for (const geometry::Loop& loop : boundary.loops)
       for (const Piece& piece : loop.pieces) {
         const LocalIndex index = piece.circular ? arc++ : -1;
-        Box box = box_of(piece);
+        Box box = piece.covering_box();
         box = {box.min + shift, box.max + shift};
         if (!images.in_reach(box))
           continue;
@@ -113,8 +94,8 @@ std::optional<Vec2> PieceLocator::nearest(Vec2 p, double reach) const {
       visit(entry.node - leaves, p, best);
       continue;
     }
-    Entry near{2 * entry.node, squared_distance_to_box(p, boxes_[2 * entry.node])};
-    Entry far{2 * entry.node + 1, squared_distance_to_box(p, boxes_[2 * entry.node + 1])};
+    Entry near{2 * entry.node, boxes_[2 * entry.node].squared_distance(p)};
+    Entry far{2 * entry.node + 1, boxes_[2 * entry.node + 1].squared_distance(p)};
     if (far.squared_distance < near.squared_distance)
       std::swap(near, far);
     stack[size++] = far;

@@ -29,6 +29,8 @@ struct Piece {
   Vec2 tangent(double s) const;
   /// Distance from p to the piece.
   double distance(Vec2 p) const;
+  /// A box that contains the piece; not tight for arcs.
+  Box covering_box() const;
 };
 
 /// @brief Closed curve: piece i ends where piece i+1 starts, the last where the first starts, moved by `winding`.

@@ -2,6 +2,7 @@
 // Points and vectors of the plane, and the axis-parallel box.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -48,6 +49,12 @@ struct Box {
   void include(Vec2 p) {
     min = {std::fmin(min.x, p.x), std::fmin(min.y, p.y)};
     max = {std::fmax(max.x, p.x), std::fmax(max.y, p.y)};
+  }
+  /// Squared distance from p to the box; 0 inside.
+  double squared_distance(Vec2 p) const {
+    const double dx = std::max(0.0, std::max(min.x - p.x, p.x - max.x));
+    const double dy = std::max(0.0, std::max(min.y - p.y, p.y - max.y));
+    return dx * dx + dy * dy;
   }
 };
 
