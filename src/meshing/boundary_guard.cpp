@@ -20,7 +20,7 @@ constexpr double near_share = 0.05; // of the chord length: closer sites encroac
 constexpr double push_share = 0.6;  // of the chord length, from its middle
 constexpr double cells_per_chord = 64;
 constexpr double most_cells = 0x1p22;
-constexpr double most_entries = 0x1p25; // of all cell lists together
+constexpr double entries = 0x1p22, entries_per_chord = 64, most_entries = 0x1p25; // of all cell lists together
 
 std::vector<Segment> chords_of(const BoundarySites& sites) {
   std::vector<Segment> chords;
@@ -85,7 +85,8 @@ geometry::Box BoundaryGuard::choose_cells() {
   }
   const double n = static_cast<double>(chords_.segments().size()), area = box.width() * box.height();
   const double cells = std::clamp(cells_per_chord * n, 4096.0, most_cells);
-  side_ = std::sqrt(std::fmax(area / cells, area_of_discs / most_entries));
+  const double affordable = std::clamp(entries_per_chord * n, entries, most_entries);
+  side_ = std::sqrt(std::fmax(area / cells, area_of_discs / affordable));
   side_ = std::fmax(side_, std::fmax(box.width(), box.height()) * 0x1p-14);
   inverse_side_ = 1 / side_;
   corner_ = box.min - Vec2{side_, side_};

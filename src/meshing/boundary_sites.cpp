@@ -5,6 +5,7 @@
 #include "boundary_layout.hpp"
 #include "chord_curve.hpp"
 #include "loop_metric.hpp"
+#include "segment_watch.hpp"
 #include "site_tree.hpp"
 
 #include "trime/core/angle.hpp"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace trime::meshing {
 
@@ -19,7 +21,7 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr int max_rounds = 60;
+constexpr int full_rounds = 20;                // later rounds look only at segments near the new sites
 constexpr double shortest_in_steps = 0x1p11;   // a shorter part is not divided
 constexpr double largest_turn = pi / 3 + 1e-6; // of the curve between neighbouring sites
 constexpr double junction_turn = pi / 4; // a junction that turns by more becomes a site when its segment is divided
@@ -33,8 +35,9 @@ double nearest_power_of_two(double v) {
 class Refiner {
 public:
   Refiner(const geometry::Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
-          double corner_angle, std::span<const Vec2> inside)
-      : boundary_(boundary), lattice_(lattice), inside_(inside), inside_tree_(tree_of(inside)) {
+          double corner_angle, std::span<const Vec2> inside, std::size_t affordable)
+      : boundary_(boundary), lattice_(lattice), inside_(inside), inside_tree_(tree_of(inside)),
+        affordable_(affordable) {
     metrics_.reserve(boundary.loops.size());
     for (const geometry::Loop& loop : boundary.loops) {
       metrics_.emplace_back(loop, size, boundary.periods);
@@ -43,6 +46,7 @@ public:
     most_sites_ = std::max<std::size_t>(4000000, 16 * sites_.size());
   }
 
+  /// Ends, since each round adds a site: a change in one place may run through the whole boundary, a segment a round.
   void run() {
     std::vector<LocalIndex> fresh_sites(sites_.size());
     for (std::size_t k = 0; k < sites_.size(); ++k)
@@ -53,8 +57,10 @@ public:
       fresh_sites.clear();
       fresh_segments.clear();
       for (const Cut& cut : cuts) {
-        if (rounds_ == max_rounds)
-          fail(cut);
+        if (sites_.size() >= affordable_) {
+          overfull_ = true;
+          return;
+        }
         fresh_segments.push_back(cut.segment);
         fresh_sites.push_back(divide(cut));
         fresh_segments.push_back(fresh_sites.back());
@@ -64,6 +70,7 @@ public:
       halvings_ += static_cast<LocalIndex>(cuts.size());
     }
     --rounds_;
+    overfull_ = sites_.size() > affordable_;
   }
 
   BoundarySites result() const;
@@ -85,6 +92,8 @@ private:
 
   void add_loop(const std::vector<LoopSite>& loop_sites);
   std::vector<Cut> find_cuts(const std::vector<LocalIndex>& fresh_sites, const std::vector<LocalIndex>& fresh_segments);
+  std::vector<LocalIndex> candidates(const std::vector<LocalIndex>& fresh_sites,
+                                     const std::vector<LocalIndex>& fresh_segments);
   LocalIndex find_intruder(const SiteTree& tree, LocalIndex segment, bool foreign = false) const;
   SiteTree tree_of(std::span<const Vec2> points) const;
   bool curve_offends(LocalIndex segment) const;
@@ -114,8 +123,11 @@ private:
   std::vector<LoopMetric> metrics_;
   std::vector<Site> sites_;
   std::vector<LocalIndex> loop_first_; // some site of each loop that stays its first
-  std::vector<SiteTree> trees_;        // one per round, of the sites that came in it
-  std::size_t most_sites_ = 0;
+  std::vector<SiteTree> trees_;        // of all sites, each tree more than twice as large as the next
+  std::optional<SegmentWatch> watch_;  // of all segments, after some rounds
+  std::size_t most_sites_ = 0;         // more than that is not what anybody wants
+  const std::size_t affordable_;       // the caller's limit
+  bool overfull_ = false;
   LocalIndex halvings_ = 0;
   int rounds_ = 0;
 };
@@ -135,20 +147,57 @@ std::vector<Refiner::Cut> Refiner::find_cuts(const std::vector<LocalIndex>& fres
   std::vector<SiteTree::Item> items;
   for (const LocalIndex k : fresh_sites)
     items.push_back({boundary_.periods.wrap(sites_[k].position), k});
+  const SiteTree newest(items);
+  for (; !trees_.empty() && trees_.back().size() <= 2 * items.size(); trees_.pop_back())
+    items.insert(items.end(), trees_.back().items().begin(), trees_.back().items().end());
   trees_.emplace_back(std::move(items));
-  std::vector<std::uint8_t> fresh(sites_.size(), 0);
-  for (const LocalIndex k : fresh_segments)
-    fresh[k] = 1;
   std::vector<Cut> cuts;
-  for (LocalIndex k = 0; k < static_cast<LocalIndex>(sites_.size()); ++k) {
+  const auto look = [&](LocalIndex k, bool fresh) {
     LocalIndex intruder = -1;
-    for (std::size_t tree = fresh[k] ? 0 : trees_.size() - 1; tree < trees_.size() && intruder < 0; ++tree)
+    if (!fresh)
+      intruder = find_intruder(newest, k);
+    for (std::size_t tree = 0; fresh && tree < trees_.size() && intruder < 0; ++tree)
       intruder = find_intruder(trees_[tree], k);
-    const LocalIndex point = fresh[k] && intruder < 0 ? find_intruder(inside_tree_, k, true) : -1;
-    if (intruder >= 0 || point >= 0 || (fresh[k] && curve_offends(k)))
+    const LocalIndex point = fresh && intruder < 0 ? find_intruder(inside_tree_, k, true) : -1;
+    if (intruder >= 0 || point >= 0 || (fresh && curve_offends(k)))
       cuts.push_back({k, intruder, point});
+  };
+  std::vector<LocalIndex> fresh = fresh_segments;
+  std::sort(fresh.begin(), fresh.end());
+  const auto is_fresh = [&](LocalIndex k) { return std::binary_search(fresh.begin(), fresh.end(), k); };
+  if (rounds_ < full_rounds) {
+    for (LocalIndex k = 0, f = 0; k < static_cast<LocalIndex>(sites_.size()); ++k) {
+      const bool hit = f < std::ssize(fresh) && fresh[f] == k;
+      f += hit ? 1 : 0;
+      look(k, hit);
+    }
+    return cuts;
   }
+  for (const LocalIndex k : candidates(fresh_sites, fresh))
+    look(k, is_fresh(k));
   return cuts;
+}
+
+/// The new segments, and the others that a new site may encroach upon; ascending.
+std::vector<LocalIndex> Refiner::candidates(const std::vector<LocalIndex>& fresh_sites,
+                                            const std::vector<LocalIndex>& fresh_segments) {
+  const auto watch = [&](LocalIndex k) {
+    const Vec2 from = sites_[k].position;
+    watch_->add(boundary_.periods.wrap(from), end_of(sites_[k]) - from, k);
+  };
+  if (watch_) {
+    std::for_each(fresh_segments.begin(), fresh_segments.end(), watch);
+  } else {
+    watch_.emplace(boundary_.periods);
+    for (LocalIndex k = 0; k < static_cast<LocalIndex>(sites_.size()); ++k)
+      watch(k);
+  }
+  std::vector<LocalIndex> found = fresh_segments;
+  for (const LocalIndex k : fresh_sites)
+    watch_->find(boundary_.periods.wrap(sites_[k].position), found);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 /// A site, or an image of one, in the disc of a segment; see SiteTree. The tree holds canonical positions.
@@ -247,7 +296,7 @@ void Refiner::fail(const Cut& cut) const {
   }
   throw GeometryError(fmt::format(
       "the boundary is too narrow near ({:.17g}, {:.17g}): {}; expected parts that are at least {:.3g} apart (the "
-      "resolution of the container), divided {} times down to a segment of {:.3g}. More points are not the cure: "
+      "resolution of the container), divided in {} rounds down to a segment of {:.3g}. More points are not the cure: "
       "simplify the contour there, or move its parts clearly apart or together, or make the container smaller",
       from.x, from.y, cause, shortest_in_steps * lattice_.step(), rounds_, geometry::length(to - from)));
 }
@@ -259,6 +308,7 @@ BoundarySites Refiner::result() const {
   out.sites.reserve(sites_.size());
   out.halvings = halvings_;
   out.rounds = rounds_;
+  out.overfull = overfull_;
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t loop = 0; loop < loop_first_.size(); ++loop) {
     const auto first = static_cast<LocalIndex>(out.sites.size());
@@ -288,8 +338,9 @@ BoundarySites Refiner::result() const {
 } // namespace
 
 BoundarySites make_boundary_sites(const geometry::Boundary& boundary, const sizing::SizeField& size,
-                                  const geometry::Lattice& lattice, double corner_angle, std::span<const Vec2> inside) {
-  Refiner refiner(boundary, size, lattice, corner_angle, inside);
+                                  const geometry::Lattice& lattice, double corner_angle, std::span<const Vec2> inside,
+                                  std::size_t affordable) {
+  Refiner refiner(boundary, size, lattice, corner_angle, inside, affordable);
   refiner.run();
   return refiner.result();
 }

@@ -62,16 +62,17 @@ private:
     const geometry::Vec2 p = lattice_.snap(0.5 * (box.min + box.max));
     const double h = size_.size(p);
     const bool valid = sizing::is_valid_size(h);
-    if (!valid && (part.clear || guard_.inside(p)) && grid_.container().contains(p))
+    const bool inside = part.clear || guard_.inside(p);
+    if (!valid && inside && grid_.container().contains(p))
       sizing::fail_for_size(p, h);
-    const double free = valid ? strip * h : 0; // outside the shape any value will do
+    const double free = valid && inside ? strip * h : 0; // outside the shape any value will do
     double distance = INFINITY;
     bool clear = part.clear;
     if (!clear) {
       const double reach = 0.5 * std::hypot(box.width(), box.height()) + free;
       distance = guard_.distance(p, reach);
       clear = distance >= reach;
-      if (clear && !guard_.inside(p))
+      if (clear && !inside)
         return;
     }
     const double sites = valid ? box.width() * box.height() / (row_height * h * h) : 0;
@@ -83,7 +84,7 @@ private:
                cells);
       return;
     }
-    if (!clear && (distance < free || !guard_.inside(p)))
+    if (!clear && (distance < free || !inside))
       return;
     if (grid_.container().contains(p))
       visit(Cell{box, part.key, part.level, h, std::llround(weight_unit * sites)});

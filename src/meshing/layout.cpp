@@ -11,6 +11,7 @@ namespace trime::meshing {
 namespace {
 
 constexpr double row_height = 0.8660254037844386;
+constexpr double emptiest_grid = 64; // areas of the shape that the grid covers with cells as small as its triangles
 
 /// The part of the container grid around the shape: what lies beyond holds no site. One whole period along periodic
 /// axes. Cells that were given keep their size.
@@ -20,7 +21,7 @@ std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Layout
   geometry::Box around;
   for (const BoundarySite& site : layout.boundary.sites)
     around.include(site.position);
-  const double h = spacing;
+  double h = spacing;
   geometry::Box box{{std::max(container.min.x, around.min.x - h), std::max(container.min.y, around.min.y - h)},
                     {std::min(container.max.x, around.max.x + h), std::min(container.max.y, around.max.y + h)}};
   const geometry::Periods& periods = context.boundary.periods;
@@ -32,6 +33,9 @@ std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Layout
     box.min.y = periods.min.y;
     box.max.y = periods.min.y + periods.y;
   }
+  // Of a shape that is nearly nothing but boundary, most cells hold no site.
+  if (context.boundary.area > 0)
+    h = std::max(h, h * std::sqrt(box.width() * box.height() / (emptiest_grid * context.boundary.area)));
   const auto cells = [](const std::optional<int>& given, double share) -> std::optional<int> {
     if (!given)
       return given;
@@ -50,8 +54,10 @@ double estimated_size(double area, double perimeter, double n) {
   return (b + std::sqrt(b * b + 4 * a * n)) / (2 * n);
 }
 
-Layout lay_boundary(const LayoutContext& context, double factor, double coarsening, double expected,
-                    double grid_coarsening) {
+namespace {
+
+Layout lay_at_most(const LayoutContext& context, double factor, double coarsening, double expected,
+                   double grid_coarsening, std::size_t affordable) {
   const auto time = context.timers.scope("boundary");
   Layout layout;
   layout.factor = factor;
@@ -66,13 +72,32 @@ Layout lay_boundary(const LayoutContext& context, double factor, double coarseni
     if (layout.size->is_uniform())
       layout.typical_size = sizing::checked_size(*layout.size, {});
     layout.boundary = make_boundary_sites(context.fixed.boundary(), *layout.size, context.lattice,
-                                          context.options.corner_angle, context.fixed.inside());
+                                          context.options.corner_angle, context.fixed.inside(), affordable);
+    if (layout.boundary.overfull)
+      return;
     layout.guard = std::make_unique<BoundaryGuard>(layout.boundary, context.lattice);
     context.fixed.check_inside(*layout.guard);
   });
   layout.fixed_inside = static_cast<GlobalId>(context.fixed.inside().size());
-  layout.state = make_state(context, layout, grid_coarsening * layout.typical_size);
+  if (!layout.boundary.overfull)
+    layout.state = make_state(context, layout, grid_coarsening * layout.typical_size);
   return layout;
+}
+
+} // namespace
+
+Layout lay_boundary(const LayoutContext& context, double factor, double coarsening, double expected,
+                    double grid_coarsening) {
+  return lay_at_most(context, factor, coarsening, expected, grid_coarsening, std::numeric_limits<std::size_t>::max());
+}
+
+Layout try_boundary(const LayoutContext& context, double factor, double expected, double grid_coarsening) {
+  constexpr double times_points = 1.5, at_least = 1000;
+  const std::optional<GlobalId>& points = context.options.points;
+  const std::size_t affordable =
+      points ? static_cast<std::size_t>(std::max(at_least, times_points * static_cast<double>(*points)))
+             : std::numeric_limits<std::size_t>::max();
+  return lay_at_most(context, factor, 1, expected, grid_coarsening, affordable);
 }
 
 TileRange even_share(const Layout& layout, const comm::Communicator& comm) {

@@ -58,6 +58,10 @@ double estimated_size(double area, double perimeter, double n);
 Layout lay_boundary(const LayoutContext& context, double factor, double coarsening, double expected,
                     double grid_coarsening = 1);
 
+/// @brief lay_boundary in search of a factor. If the boundary takes far more points than were asked for, its sites are
+/// not finished (`overfull`), and the layout has neither guard nor state. Collective.
+Layout try_boundary(const LayoutContext& context, double factor, double expected, double grid_coarsening = 1);
+
 /// The tiles that this rank fills with sites: an even share, before anything is known of their number.
 TileRange even_share(const Layout& layout, const comm::Communicator& comm);
 

@@ -24,6 +24,7 @@ public:
   /// `index_b` at b; -1 if there is none. Exact.
   LocalIndex find_in_disc(geometry::Vec2 a, geometry::Vec2 b, LocalIndex index_a, LocalIndex index_b) const;
   std::size_t size() const { return items_.size(); }
+  const std::vector<Item>& items() const { return items_; }
 
 private:
   void build(std::size_t low, std::size_t high);

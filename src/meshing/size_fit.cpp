@@ -13,7 +13,30 @@ namespace {
 constexpr double row_height = 0.8660254037844386;
 constexpr int boundary_rounds = 3, spacing_rounds = 12, density_rounds = 40, saturated_rounds = 8;
 constexpr double same_spacing = 0.02;
-constexpr double close_enough = 0.004; // of the points asked for
+constexpr double close_enough = 0.004;                // of the points asked for
+constexpr double many_points = 64, least_share = 0.5; // the latter of the points asked for
+
+/// The boundary that takes the fewest points among those tried, and where it takes most of them.
+struct Fewest {
+  double points = INFINITY;
+  bool counted = true; ///< to the end; else there would be more
+  geometry::Segment shortest{};
+
+  void consider(const Layout& layout, double trial_points) {
+    if (trial_points >= points)
+      return;
+    points = trial_points;
+    counted = !layout.boundary.overfull;
+    double least = INFINITY;
+    for (LocalIndex k = 0; k < std::ssize(layout.boundary.sites); ++k) {
+      const geometry::Segment chord = layout.boundary.chord(k);
+      if (const double length = geometry::length(chord.b - chord.a); length < least) {
+        least = length;
+        shortest = chord;
+      }
+    }
+  }
+};
 
 [[noreturn]] void fail_for_few_points(const LayoutContext& context, double fewest) {
   const GlobalId points = context.options.points.value_or(0);
@@ -31,6 +54,18 @@ constexpr double close_enough = 0.004; // of the points asked for
       fmt::format("points = {} are too few for this shape: its boundary alone needs {:.0f} (every corner, and "
                   "every place where the boundary comes near itself, takes its own); ask for more",
                   points, fewest));
+}
+
+[[noreturn]] void fail_for_few_points(const LayoutContext& context, const Fewest& fewest) {
+  if (context.options.max_size || context.fixed.inside().size() > 0)
+    fail_for_few_points(context, fewest.points);
+  const geometry::Vec2 place = 0.5 * (fewest.shortest.a + fewest.shortest.b);
+  throw ConfigError(fmt::format(
+      "points = {} are too few for this shape: its boundary alone needs {}{:.0f} (every corner, and every place where "
+      "the boundary comes near itself, takes its own; the shortest segment, {:.3g} long, is at ({:.6g}, {:.6g})); ask "
+      "for more, or simplify the shape there",
+      *context.options.points, fewest.counted ? "" : "more than ", fewest.points,
+      geometry::length(fewest.shortest.b - fewest.shortest.a), place.x, place.y));
 }
 
 /// Bounds that the edge length itself breaks cannot be met.
@@ -52,14 +87,15 @@ void check_edge_length(const MeshOptions& options) {
 /// Sites on the boundary at size h, or at the next larger size at which they are not more than the points asked for.
 Layout lay_affordable_boundary(const LayoutContext& context, double h, double expected) {
   constexpr int growth_rounds = 16;
-  GlobalId fewest = 0;
-  for (int round = 0; round < growth_rounds; ++round, h *= 1.3) {
-    Layout layout = lay_boundary(context, h, 1, expected);
-    fewest = round == 0 ? layout.placed_first() : std::min(fewest, layout.placed_first());
+  Fewest fewest;
+  for (int round = 0; round < growth_rounds; ++round) {
+    Layout layout = try_boundary(context, h, expected);
+    fewest.consider(layout, static_cast<double>(layout.placed_first()));
     if (!context.options.points || layout.placed_first() <= *context.options.points)
       return layout;
+    h *= layout.boundary.overfull ? 2 : 1.3;
   }
-  fail_for_few_points(context, static_cast<double>(fewest));
+  fail_for_few_points(context, fewest);
 }
 
 /// @brief The smallest spacing found whose lattice has at most the wanted number of sites. The count falls like the
@@ -145,7 +181,7 @@ public:
                                                    : *context_.options.edge_length;
     double smallest = 0;
     comm::run_agreed(context_.comm, [&] { smallest = smallest_sampled(context_); });
-    return context_.options.points ? for_points(uniform / smallest, smallest) : for_edge_length(uniform / smallest);
+    return context_.options.points ? for_points(uniform, smallest) : for_edge_length(uniform / smallest);
   }
 
 private:
@@ -157,25 +193,33 @@ private:
 
   Trial try_factor(double factor) const {
     Trial trial;
-    trial.fit.layout = lay_boundary(context_, factor, 1, points_, coarsening_);
-    trial.totals = wanted_inside(context_, trial.fit.layout, coarsening_);
-    trial.fit.inner = std::floor(trial.totals.sites);
+    trial.fit.layout = try_boundary(context_, factor, points_, coarsening_);
+    if (!trial.fit.layout.boundary.overfull) {
+      trial.totals = wanted_inside(context_, trial.fit.layout, coarsening_);
+      trial.fit.inner = std::floor(trial.totals.sites);
+    }
     trial.points = trial.fit.inner + static_cast<double>(trial.fit.layout.placed_first());
     return trial;
   }
 
   /// From above: large factors make few points, so no trial costs more than the result.
+  /// @param uniform size of a uniform mesh of so many points
   /// @param smallest size for a factor of 1: where even that is far larger than the container, nothing will change
-  DensityFit for_points(double factor, double smallest) const {
+  DensityFit for_points(double uniform, double smallest) const {
+    double factor = uniform / smallest;
     const geometry::Box& container = context_.options.container;
+    const double extent = std::max(container.width(), container.height()); // no site fits into such sizes
     const double largest = 64 * (container.width() + container.height()) / smallest;
-    double low = 0, high = INFINITY, fewest = INFINITY, last = 0, last_factor = 0;
+    double low = 0, high = INFINITY, last = 0, last_factor = 0;
+    Fewest fewest;
     int saturated = 0; // rounds in a row that changed nothing; the first ones may be too coarse for a site inside
     Trial best;
     for (int round = 0; round < density_rounds; ++round) {
       Trial trial = try_factor(factor);
       const double points = trial.points;
-      fewest = std::min(fewest, points);
+      const bool trial_overfull = trial.fit.layout.boundary.overfull;
+      if (points > points_)
+        fewest.consider(trial.fit.layout, points);
       const bool same = high < INFINITY && low == 0 && std::fabs(points - last) < 1e-3 * last;
       saturated = same ? saturated + 1 : 0;
       const double guess = next_factor(factor, points, last_factor, last);
@@ -189,12 +233,12 @@ private:
         if (points >= (1 - close_enough) * points_ || points > points_ - 2)
           return std::move(best.fit);
       }
-      if (saturated == saturated_rounds)
+      if (low * smallest > extent || saturated == saturated_rounds)
         break; // finer does not help: min_size, or the discs of the boundary fill the shape
       if (high < INFINITY && low > (1 - 1e-4) * high)
         break;
       if (high == INFINITY) {
-        factor = std::max(guess, 1.02 * factor);
+        factor = std::max(guess, (trial_overfull ? 1.5 : 1.02) * factor);
         if (factor > largest)
           fail_for_few_points(context_, fewest);
       } else if (low == 0) {
@@ -204,7 +248,9 @@ private:
         factor = std::clamp(guess, low + margin, high - margin);
       }
     }
-    if (!(high < INFINITY))
+    // A jump from too many points to a few, at a size that has no site inside, is no mesh of that many points.
+    const bool jump = low > 0 && best.fit.inner == 0 && points_ > many_points && best.points < least_share * points_;
+    if (!(high < INFINITY) || jump)
       fail_for_few_points(context_, fewest);
     if (best.points < 0.98 * points_)
       best.fit.shortage = context_.options.min_size

@@ -12,6 +12,7 @@
 #include "trime/sizing/size_field.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -40,6 +41,7 @@ struct BoundarySites {
   LocalIndex halvings = 0;      ///< segments divided after the layout
   int rounds = 0;               ///< of halving
   double shortest = 0;          ///< length of the shortest chord
+  bool overfull = false;        ///< ended at more sites than are affordable: the discs may not be empty
 
   /// From site i to its next, or to that image of it where the boundary leads.
   geometry::Segment chord(LocalIndex i) const {
@@ -56,11 +58,13 @@ struct BoundarySites {
 /// segment is then divided while another site lies in its diametral disc, or the curve between its ends leaves that
 /// disc or turns by more than 60 degrees: in the middle, or next to a sharp corner on a power-of-two radius
 /// (concentric shells), so that the process ends for any angle. The discs are kept free of the points of `inside`, too.
-/// Deterministic; O(B log B) for B sites and pieces.
+/// Deterministic; O(B log^2 B) for B sites and pieces.
+/// @param affordable once there are so many sites, halving ends: the caller only wants to know that they are too many
 /// @throws GeometryError with the place, if two parts of the boundary are too close to be told apart, or if the size
 ///         asks for more than 2^27 sites
 BoundarySites make_boundary_sites(const geometry::Boundary& boundary, const sizing::SizeField& size,
                                   const geometry::Lattice& lattice, double corner_angle,
-                                  std::span<const geometry::Vec2> inside = {});
+                                  std::span<const geometry::Vec2> inside = {},
+                                  std::size_t affordable = std::numeric_limits<std::size_t>::max());
 
 } // namespace trime::meshing

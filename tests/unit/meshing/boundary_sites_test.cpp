@@ -289,6 +289,34 @@ TEST(BoundarySites, LargeCornerAnglesStillEnd) {
   }
 }
 
+/// Teeth on a bar, as wide as the gaps between them.
+std::vector<Vec2> comb(int teeth, double width) {
+  std::vector<Vec2> ring{{0.1, 0.1}, {0.1 + (2 * teeth - 1) * width, 0.1}};
+  for (int tooth = teeth - 1; tooth >= 0; --tooth) {
+    const double left = 0.1 + 2 * tooth * width;
+    ring.insert(ring.end(), {{left + width, 0.5}, {left, 0.5}});
+    if (tooth > 0)
+      ring.insert(ring.end(), {{left, 0.2}, {left - width, 0.2}});
+  }
+  return ring;
+}
+
+TEST(BoundarySites, HalvingMayRunThroughTheWholeBoundary) { // from tooth to tooth, a round for each
+  const Graded size;
+  const BoundarySites result = expect_sound(boundary_of({polygon_loop(comb(60, 0.006))}), size);
+  EXPECT_GT(result.rounds, 25);
+  EXPECT_FALSE(result.overfull);
+}
+
+TEST(BoundarySites, HalvingEndsWhereThereAreMoreSitesThanAffordable) {
+  const Graded size;
+  const Boundary boundary = boundary_of({polygon_loop(comb(60, 0.006))});
+  const std::size_t all = make_boundary_sites(boundary, size, unit_lattice(), 30).sites.size();
+  const BoundarySites result = make_boundary_sites(boundary, size, unit_lattice(), 30, {}, all / 2);
+  EXPECT_TRUE(result.overfull);
+  EXPECT_EQ(result.sites.size(), all / 2);
+}
+
 TEST(BoundarySites, PartsCloserThanTheLatticeAreRefusedWithThePlace) {
   Boundary boundary = square();
   boundary.loops.push_back(polygon_loop({{0.312, 0.1 + 1e-13}, {0.4, 0.3}, {0.5, 0.2}}));
