@@ -178,6 +178,8 @@ void read_meshing(const Settings& settings, meshing::MeshOptions& mesh, io::Diag
       mesh.method = method;
   mesh.initial_fraction = settings.optional_number("meshing", "initial_fraction");
   mesh.corner_angle = settings.number("meshing", "corner_angle");
+  mesh.keep_features = settings.boolean("meshing", "keep_features");
+  mesh.feature_tolerance = settings.number("meshing", "feature_tolerance");
   mesh.seed = static_cast<std::uint64_t>(settings.integer("meshing", "seed"));
   mesh.max_sweeps = static_cast<int>(settings.integer("meshing", "max_sweeps"));
   mesh.cleanup = settings.boolean("meshing", "cleanup");

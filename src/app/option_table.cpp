@@ -153,6 +153,21 @@ constexpr Option table[] = {
      .range = {0, 180, true},
      .meaning = "degrees; a boundary vertex that turns by more, or by more than 120, is kept as a vertex of the mesh"},
     {.section = "meshing",
+     .key = "keep_features",
+     .kind = Kind::boolean,
+     .fallback = "false",
+     .meaning =
+         "true: every such vertex, island and lake is kept, however small, and the size lowered around it; false: "
+         "islands and lakes with a perimeter below 3 local sizes are dropped, and vertices may be left out, see "
+         "`feature_tolerance`; all is counted"},
+    {.section = "meshing",
+     .key = "feature_tolerance",
+     .fallback = "0.1",
+     .range = {0, 0.3},
+     .meaning =
+         "in local sizes: such vertices less than 2 from the next may be left out where boundary edges then pass no "
+         "farther from them"},
+    {.section = "meshing",
      .key = "seed",
      .kind = Kind::integer,
      .fallback = "1",

@@ -79,6 +79,14 @@ Attributes result_attributes(const meshing::MeshResult& result, const SizeSummar
           {"cleanup_deleted", result.cleanup.deleted},
           {"cleanup_on_boundary", result.cleanup.on_boundary},
           {"cleanup_left", result.cleanup.left},
+          {"dropped_islands", result.features.dropped_islands},
+          {"dropped_lakes", result.features.dropped_lakes},
+          {"dropped_area", result.features.dropped_area},
+          {"corners_left_out", result.features.corners_left_out},
+          {"largest_deviation", result.features.largest_deviation},
+          {"segments_halved", result.features.segments_halved},
+          {"size_limits", result.features.size_limits},
+          {"lowest_size_share", result.features.lowest_size_share},
           {"seconds_total", measured.total}, // up to the writing of this file
           {"peak_memory_bytes", measured.peak_memory},
           {"bytes_per_point", static_cast<double>(measured.memory_sum) / points},
@@ -128,6 +136,16 @@ std::string loop_name(const geometry::Boundary& boundary, const meshing::LoopSum
   return name;
 }
 
+/// Corners where small angles cannot be avoided.
+io::MetadataGroup sharp_corners_group(const std::vector<meshing::SharpCorner>& corners) {
+  using Corner = meshing::SharpCorner;
+  return {"sharp_corners",
+          {{"below_degrees", meshing::FeatureReport::sharp_angle}},
+          {column<double>("x", corners, [](const Corner& c) { return c.place.x; }),
+           column<double>("y", corners, [](const Corner& c) { return c.place.y; }),
+           column<double>("degrees", corners, &Corner::degrees)}};
+}
+
 std::string kind_name(const meshing::LoopSummary& loop) {
   using Kind = meshing::LoopSummary::Kind;
   return loop.kind == Kind::outer ? "outer" : loop.kind == Kind::hole ? "hole" : "band";
@@ -160,7 +178,8 @@ io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result
                  result_attributes(result, size, measured)),
           texts(p),
           {history_group(result.history), io::quality_group(result.quality), io::checks_group(result.checks),
-           timers_group(measured.times), tags_group(p.boundary, result.loops, p.options.region)}};
+           timers_group(measured.times), tags_group(p.boundary, result.loops, p.options.region),
+           sharp_corners_group(result.features.sharp_corners)}};
 }
 
 io::Metadata describe_step(const Provenance& p, const meshing::Snapshot& snapshot) {

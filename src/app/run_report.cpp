@@ -47,6 +47,14 @@ std::string count_text(const meshing::MeshResult& result) {
                      result.count_reason.empty() ? "" : ": ", result.count_reason);
 }
 
+/// What was done about features below the resolution.
+std::string boundary_text(const meshing::MeshResult& result) {
+  std::string text;
+  for (const std::string& line : meshing::describe(result.features, result.shape_area))
+    text += "Boundary: " + line + "\n";
+  return text;
+}
+
 std::string size_text(const SizeSummary& size) {
   return size.smallest == size.largest
              ? fmt::format("Size: {}; target edge length {:.6g}\n", size.description, size.largest)
@@ -151,7 +159,7 @@ std::string run_report(const meshing::MeshResult& result, const SizeSummary& siz
     text += "Start: " + result.start_reason + "\n";
   text += fmt::format("Stopped after {} sweeps: {}\n", result.history.empty() ? 0 : result.history.back().sweep,
                       meshing::to_string(result.stop_reason));
-  text += area_text(result) + cleanup_text(result.cleanup);
+  text += boundary_text(result) + area_text(result) + cleanup_text(result.cleanup);
   text += quality_text(result.quality) + "\n" + checks_text(result.checks) + "\n" + times_text(measured);
   text += fmt::format("  {:.0f} points per second\n\n", points / std::max(measured.total, 1e-9));
   text += fmt::format("Memory     at most {:.1f} MiB per rank, {:.0f} bytes per point over all ranks\n",

@@ -41,6 +41,43 @@ BoundaryCurve::Place BoundaryCurve::place(LocalIndex loop, double arc) const {
   return {static_cast<LocalIndex>(piece), along, on.point(along) + turns * curve.winding, on.tangent(along)};
 }
 
+BoundaryCurve::Strayed BoundaryCurve::strayed(LocalIndex loop, double from, double to,
+                                              const geometry::Segment& chord) const {
+  const std::vector<double>& starts = starts_[at(loop)];
+  const geometry::Loop& curve = boundary_.loops[at(loop)];
+  if (to < from)
+    to += starts.back();
+  const Place first = place(loop, from);
+  const Vec2 shift = chord.a - first.point;
+  const double rounding = 1e-9 * geometry::squared_length(chord.b - chord.a);
+  Strayed result;
+  double squared = 0;
+  const auto look = [&](Vec2 p) {
+    squared = std::fmax(squared, geometry::squared_distance(p, chord));
+    result.leaves_disc |= geometry::dot(chord.a - p, chord.b - p) > rounding;
+  };
+  Vec2 moved = shift;
+  double passed = from - first.along; // arc at the start of the piece
+  std::size_t k = static_cast<std::size_t>(first.piece);
+  for (std::size_t visited = 0; visited <= curve.pieces.size() && passed < to; ++visited) {
+    const geometry::Piece& piece = curve.pieces[k];
+    const double length = starts[k + 1] - starts[k];
+    if (passed > from)
+      look(piece.start + moved);
+    for (int quarter = 1; piece.circular && quarter < 4; ++quarter) {
+      const double low = std::fmax(from - passed, 0), high = std::fmin(to - passed, length);
+      look(piece.point(low + 0.25 * quarter * (high - low)) + moved);
+    }
+    passed += length;
+    if (++k == curve.pieces.size()) {
+      k = 0;
+      moved = moved + curve.winding;
+    }
+  }
+  result.deviation = std::sqrt(squared);
+  return result;
+}
+
 LocalIndex loop_of(const BoundarySites& boundary, LocalIndex site) {
   const auto above = std::upper_bound(boundary.loop_start.begin(), boundary.loop_start.end(), site);
   return static_cast<LocalIndex>(above - boundary.loop_start.begin()) - 1;

@@ -4,6 +4,7 @@
 
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
+#include "trime/geometry/segment.hpp"
 #include "trime/meshing/boundary_sites.hpp"
 
 #include <span>
@@ -31,6 +32,14 @@ public:
     geometry::Vec2 tangent; ///< unit
   };
   Place place(LocalIndex loop, double arc) const;
+
+  /// How the curve from one place on to another, less than a length of the loop ahead, differs from the chord a-b
+  /// between them (or images of them). O(pieces between)
+  struct Strayed {
+    double deviation = 0;     ///< largest distance from the chord, of junctions and points on arcs
+    bool leaves_disc = false; ///< one lies outside of the chord's diametral disc
+  };
+  Strayed strayed(LocalIndex loop, double from, double to, const geometry::Segment& chord) const;
 
 private:
   const geometry::Boundary& boundary_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "boundary_layout.hpp"
 
+#include "site_path.hpp"
+
 #include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"
 
@@ -16,6 +18,8 @@ namespace {
 constexpr double always_a_corner = 120;           // degrees; no chord can stand for such a turn
 constexpr double sharp_turn = 120;                // degrees; the arms then meet at less than 60
 constexpr double largest_turn = pi / 3 + 1e-9;    // of the curve within one interval
+constexpr double long_arm = 2;                    // in local sizes: a corner with such arms is kept
+constexpr double most_of_extent = 0.1;            // of a loop: no corner is left out farther from its chord
 constexpr double smallest_size_in_steps = 0x1p11; // of the lattice, for h
 
 struct Corner {
@@ -25,15 +29,65 @@ struct Corner {
   std::vector<double> ahead, behind; // t of the shells on its two arms, from the corner outward; unwrapped
 };
 
-std::vector<Corner> find_corners(const LoopMetric& metric, double corner_angle) {
-  std::vector<Corner> corners;
+/// A vertex of the convex hull: it lies at the end of something.
+std::size_t outermost_junction(const geometry::Loop& loop) {
+  geometry::Box box;
+  for (const geometry::Piece& piece : loop.pieces)
+    box.include(piece.start);
+  const Vec2 middle = 0.5 * (box.min + box.max);
+  std::size_t outermost = 0;
+  for (std::size_t i = 1; i < loop.pieces.size(); ++i)
+    if (geometry::squared_length(loop.pieces[i].start - middle) >
+        geometry::squared_length(loop.pieces[outermost].start - middle))
+      outermost = i;
+  return outermost;
+}
+
+double extent_of(const geometry::Loop& loop) {
+  geometry::Box box;
+  for (const geometry::Piece& piece : loop.pieces)
+    box.include(piece.start);
+  return std::fmax(box.width(), box.height());
+}
+
+/// Junctions of a loop by what becomes of them.
+struct Junctions {
+  std::vector<Corner> kept;   // for certain
+  std::vector<double> others; // t of those that turn as much but may be left out: features below the resolution
+};
+
+Corner corner_at(const LoopMetric& metric, std::size_t piece) {
+  return {
+      metric.piece_t(piece), metric.loop().pieces[piece].start, metric.loop().turn_degrees(piece) > sharp_turn, {}, {}};
+}
+
+double way_to_next(const std::vector<double>& turning, std::size_t k, double total) {
+  return k + 1 < turning.size() ? turning[k + 1] - turning[k] : turning.front() + total - turning.back();
+}
+
+Junctions find_junctions(const LoopMetric& metric, double corner_angle, double tolerance) {
   const auto& pieces = metric.loop().pieces;
+  std::vector<double> turning; // t of all junctions that turn by more than the angle
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (metric.loop().turn_degrees(i) > std::fmin(corner_angle, always_a_corner))
+      turning.push_back(metric.piece_t(i));
+  Junctions found;
+  std::size_t next = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const double turn = metric.loop().turn_degrees(i);
-    if (turn > std::fmin(corner_angle, always_a_corner) || pieces[i].corner)
-      corners.push_back({metric.piece_t(i), pieces[i].start, turn > sharp_turn, {}, {}});
+    const bool turns = next < turning.size() && turning[next] == metric.piece_t(i);
+    const bool alone = turns && way_to_next(turning, next, metric.total()) >= long_arm &&
+                       way_to_next(turning, (next + turning.size() - 1) % turning.size(), metric.total()) >= long_arm;
+    next += turns;
+    if (pieces[i].corner || alone || (turns && tolerance == 0))
+      found.kept.push_back(corner_at(metric, i));
+    else if (turns)
+      found.others.push_back(metric.piece_t(i));
   }
-  return corners;
+  if (found.kept.empty() && !found.others.empty())
+    found.kept.push_back(corner_at(metric, outermost_junction(metric.loop())));
+  if (!found.kept.empty())
+    std::erase(found.others, found.kept.front().t);
+  return found;
 }
 
 /// The two neighbours of a corner along the loop, as places on its arms.
@@ -79,6 +133,7 @@ void make_shells(const LoopMetric& metric, const Arms& arms, Corner& corner) {
 struct Stretch {
   double from, to;
   long intervals;
+  bool ragged = false; // its sites are chosen, not quantiles
 };
 
 long intervals_of(const LoopMetric& metric, double from, double to) {
@@ -86,8 +141,16 @@ long intervals_of(const LoopMetric& metric, double from, double to) {
   return std::max({1L, std::lround(to - from), std::lround(by_turn)});
 }
 
-std::vector<Stretch> stretches_of(const LoopMetric& metric, const std::vector<Corner>& corners) {
+std::vector<Stretch> stretches_of(const LoopMetric& metric, const Junctions& junctions) {
+  const std::vector<Corner>& corners = junctions.kept;
   std::vector<Stretch> stretches;
+  const auto ragged = [&](double from, double to) {
+    const auto has = [&](double low, double high) {
+      const auto first = std::upper_bound(junctions.others.begin(), junctions.others.end(), low);
+      return first != junctions.others.end() && *first < high;
+    };
+    return has(from, to) || has(from - metric.total(), to - metric.total());
+  };
   if (corners.empty())
     return {{0, metric.total(), std::max(3L, intervals_of(metric, 0, metric.total()))}};
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -95,7 +158,8 @@ std::vector<Stretch> stretches_of(const LoopMetric& metric, const std::vector<Co
     const Corner &corner = corners[k], &next = corners[last ? 0 : k + 1];
     double from = corner.t;
     const auto add = [&](double to, bool shell) {
-      stretches.push_back({from, to, shell ? 1 : intervals_of(metric, from, to)});
+      const bool chosen = !shell && ragged(from, to);
+      stretches.push_back({from, to, shell || chosen ? 1 : intervals_of(metric, from, to), chosen});
       from = to;
     };
     const double shift = last ? metric.total() : 0;
@@ -114,7 +178,7 @@ std::vector<Stretch> stretches_of(const LoopMetric& metric, const std::vector<Co
 void ensure_polygon(std::vector<Stretch>& stretches) {
   long sites = 0;
   for (const Stretch& stretch : stretches)
-    sites += stretch.intervals;
+    sites += stretch.ragged ? 3 : stretch.intervals;
   for (; sites < 3; ++sites) {
     const auto length = [](const Stretch& s) { return (s.to - s.from) / static_cast<double>(s.intervals); };
     ++std::max_element(stretches.begin(), stretches.end(), [&](const Stretch& a, const Stretch& b) {
@@ -123,38 +187,102 @@ void ensure_polygon(std::vector<Stretch>& stretches) {
   }
 }
 
+/// The sites of one loop as they come up.
+class Layouter {
+public:
+  Layouter(const LoopMetric& metric, const geometry::Lattice& lattice, double corner_angle,
+           const FeatureTolerance& tolerance, const Junctions& junctions)
+      : metric_(metric), lattice_(lattice), tolerance_(tolerance), corners_(junctions.kept),
+        corner_angle_(corner_angle) {}
+
+  /// The start of a stretch and what lies in it, without its end.
+  void add(const Stretch& stretch, bool closed) {
+    if (stretch.ragged)
+      add_chosen(stretch, closed);
+    for (long j = 0; j < stretch.intervals && !stretch.ragged; ++j)
+      add_site(stretch.from +
+                   (stretch.to - stretch.from) * (static_cast<double>(j) / static_cast<double>(stretch.intervals)),
+               j == 0);
+  }
+
+  std::vector<LoopSite> sorted() {
+    std::sort(sites_.begin(), sites_.end(), [](const LoopSite& a, const LoopSite& b) { return a.t < b.t; });
+    return std::move(sites_);
+  }
+
+private:
+  void add_site(double t, bool first) {
+    if (first && next_corner_ < corners_.size() && t == corners_[next_corner_].t) {
+      const Corner& corner = corners_[next_corner_++];
+      sites_.push_back({t, corner.position, corner.sharp ? SiteKind::sharp_corner : SiteKind::corner});
+      return;
+    }
+    t = t >= metric_.total() ? t - metric_.total() : t;
+    const Vec2 p = metric_.point(t);
+    check_size(p);
+    sites_.push_back({t, lattice_.snap(p), SiteKind::plain});
+  }
+
+  void add_chosen(const Stretch& stretch, bool closed) {
+    const std::vector<Place> places = places_between(metric_, stretch.from, stretch.to, lattice_, tolerance_);
+    const std::vector<LocalIndex> path = shortest_site_path(places, closed);
+    add_site(stretch.from, true);
+    for (std::size_t k = 1; k + 1 < path.size(); ++k) {
+      const Place& place = places[static_cast<std::size_t>(path[k])];
+      check_size(place.position);
+      const bool round = place.t >= metric_.total();
+      sites_.push_back({place.junction >= 0 ? metric_.piece_t(static_cast<std::size_t>(place.junction)) // exactly
+                        : round             ? place.t - metric_.total()
+                                            : place.t,
+                        round ? place.position - metric_.loop().winding : place.position,
+                        place.junction >= 0
+                            ? kind_of_junction(metric_.loop(), static_cast<std::size_t>(place.junction), corner_angle_)
+                            : SiteKind::plain});
+    }
+  }
+
+  void check_size(Vec2 p) const {
+    const double least = smallest_size_in_steps * lattice_.step();
+    if (metric_.size(p) < least)
+      throw GeometryError(fmt::format("element size on the boundary at ({}, {}): expected at least {} (the resolution "
+                                      "of the container), found {}; use a larger edge length or fewer points",
+                                      p.x, p.y, least, metric_.size(p)));
+  }
+
+  const LoopMetric& metric_;
+  const geometry::Lattice& lattice_;
+  const FeatureTolerance& tolerance_;
+  const std::vector<Corner>& corners_;
+  double corner_angle_;
+  std::size_t next_corner_ = 0;
+  std::vector<LoopSite> sites_;
+};
+
 } // namespace
 
-std::vector<LoopSite> lay_out_loop(const LoopMetric& metric, const geometry::Lattice& lattice, double corner_angle) {
-  std::vector<Corner> corners = find_corners(metric, corner_angle);
+SiteKind kind_of_junction(const geometry::Loop& loop, std::size_t piece, double corner_angle) {
+  const double turn = loop.turn_degrees(piece);
+  if (turn > sharp_turn)
+    return SiteKind::sharp_corner;
+  return turn > std::fmin(corner_angle, always_a_corner) || loop.pieces[piece].corner ? SiteKind::corner
+                                                                                      : SiteKind::plain;
+}
+
+std::vector<LoopSite> lay_out_loop(const LoopMetric& metric, const geometry::Lattice& lattice, double corner_angle,
+                                   const FeatureTolerance& tolerance) {
+  Junctions junctions = find_junctions(metric, corner_angle, tolerance.share);
+  std::vector<Corner>& corners = junctions.kept;
   for (std::size_t k = 0; k < corners.size(); ++k)
     if (corners[k].sharp)
       make_shells(metric, arms_of(corners, k, metric.total()), corners[k]);
-  std::vector<Stretch> stretches = stretches_of(metric, corners);
+  std::vector<Stretch> stretches = stretches_of(metric, junctions);
   ensure_polygon(stretches);
-  std::vector<LoopSite> sites;
-  std::size_t corner = 0;
+  FeatureTolerance capped = tolerance;
+  capped.most = most_of_extent * extent_of(metric.loop());
+  Layouter layouter(metric, lattice, corner_angle, capped, junctions);
   for (const Stretch& stretch : stretches)
-    for (long j = 0; j < stretch.intervals; ++j) {
-      double t = stretch.from +
-                 (stretch.to - stretch.from) * (static_cast<double>(j) / static_cast<double>(stretch.intervals));
-      if (j == 0 && corner < corners.size() && t == corners[corner].t) {
-        sites.push_back(
-            {t, corners[corner].position, corners[corner].sharp ? SiteKind::sharp_corner : SiteKind::corner});
-        ++corner;
-        continue;
-      }
-      t = t >= metric.total() ? t - metric.total() : t;
-      const Vec2 p = metric.point(t);
-      if (metric.size(p) < smallest_size_in_steps * lattice.step())
-        throw GeometryError(
-            fmt::format("element size on the boundary at ({}, {}): expected at least {} (the resolution "
-                        "of the container), found {}; use a larger edge length or fewer points",
-                        p.x, p.y, smallest_size_in_steps * lattice.step(), metric.size(p)));
-      sites.push_back({t, lattice.snap(p), SiteKind::plain});
-    }
-  std::sort(sites.begin(), sites.end(), [](const LoopSite& a, const LoopSite& b) { return a.t < b.t; });
-  return sites;
+    layouter.add(stretch, stretches.size() == 1 && !metric.loop().winds());
+  return layouter.sorted();
 }
 
 } // namespace trime::meshing

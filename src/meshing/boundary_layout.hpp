@@ -3,6 +3,7 @@
 #pragma once
 
 #include "loop_metric.hpp"
+#include "site_places.hpp"
 
 #include "trime/geometry/lattice.hpp"
 
@@ -20,8 +21,12 @@ struct LoopSite {
   SiteKind kind;
 };
 
+/// What a junction is as a site: of pieces, at the start of one of them.
+SiteKind kind_of_junction(const geometry::Loop& loop, std::size_t piece, double corner_angle);
+
 /// @brief Sites in ascending t, at least 3.
 /// @throws GeometryError if the size is too small for the lattice
-std::vector<LoopSite> lay_out_loop(const LoopMetric& metric, const geometry::Lattice& lattice, double corner_angle);
+std::vector<LoopSite> lay_out_loop(const LoopMetric& metric, const geometry::Lattice& lattice, double corner_angle,
+                                   const FeatureTolerance& tolerance);
 
 } // namespace trime::meshing

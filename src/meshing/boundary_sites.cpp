@@ -24,6 +24,7 @@ namespace {
 constexpr int full_rounds = 20;                // later rounds look only at segments near the new sites
 constexpr double shortest_in_steps = 0x1p11;   // a shorter part is not divided
 constexpr double largest_turn = pi / 3 + 1e-6; // of the curve between neighbouring sites
+constexpr double most_deviation = 1.25;        // of the tolerance; the layout keeps within 1.1 of it
 constexpr double junction_turn = pi / 4; // a junction that turns by more becomes a site when its segment is divided
 
 double nearest_power_of_two(double v) {
@@ -35,13 +36,17 @@ double nearest_power_of_two(double v) {
 class Refiner {
 public:
   Refiner(const geometry::Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
-          double corner_angle, std::span<const Vec2> inside, std::size_t affordable)
-      : boundary_(boundary), lattice_(lattice), inside_(inside), inside_tree_(tree_of(inside)),
-        affordable_(affordable) {
+          double corner_angle, std::span<const Vec2> inside, const FeatureRule& rule, std::size_t affordable)
+      : boundary_(boundary), lattice_(lattice),
+        corner_angle_(corner_angle), tolerance_{rule.size ? rule.size : &size, rule.tolerance, boundary.periods},
+        inside_(inside), inside_tree_(tree_of(inside)),
+        dropped_(drop_small_loops(boundary, *tolerance_.size, rule.least_perimeter, inside)), affordable_(affordable) {
     metrics_.reserve(boundary.loops.size());
-    for (const geometry::Loop& loop : boundary.loops) {
-      metrics_.emplace_back(loop, size, boundary.periods);
-      add_loop(lay_out_loop(metrics_.back(), lattice, corner_angle));
+    for (std::size_t k = 0; k < boundary.loops.size(); ++k) {
+      if (dropped_.dropped[k])
+        continue;
+      metrics_.emplace_back(boundary.loops[k], size, boundary.periods);
+      add_loop(lay_out_loop(metrics_.back(), lattice, corner_angle, tolerance_));
     }
     most_sites_ = std::max<std::size_t>(4000000, 16 * sites_.size());
   }
@@ -98,7 +103,12 @@ private:
   SiteTree tree_of(std::span<const Vec2> points) const;
   bool curve_offends(LocalIndex segment) const;
   LocalIndex divide(const Cut& cut);
-  double cut_place(const Site& a, const Site& b, double end) const;
+  struct CutPlace {
+    double t;
+    LocalIndex junction = -1; // the piece that starts there
+  };
+  CutPlace cut_place(const Site& a, const Site& b, double end) const;
+  void note_left_out(const Site& a, BoundarySites& out) const;
   [[noreturn]] void fail(const Cut& cut) const;
 
   const Site& next(const Site& site) const { return sites_[site.next]; }
@@ -118,9 +128,12 @@ private:
 
   const geometry::Boundary& boundary_;
   const geometry::Lattice& lattice_;
+  const double corner_angle_;
+  const FeatureTolerance tolerance_;
   const std::span<const Vec2> inside_;
   const SiteTree inside_tree_;
-  std::vector<LoopMetric> metrics_;
+  const DroppedLoops dropped_;
+  std::vector<LoopMetric> metrics_; // of the loops that stay
   std::vector<Site> sites_;
   std::vector<LocalIndex> loop_first_; // some site of each loop that stays its first
   std::vector<SiteTree> trees_;        // of all sites, each tree more than twice as large as the next
@@ -229,16 +242,21 @@ SiteTree Refiner::tree_of(std::span<const Vec2> points) const {
 bool Refiner::curve_offends(LocalIndex segment) const {
   const Site& a = sites_[segment];
   const PartSummary part = summarize(a);
-  return part.leaves_disc || std::fabs(part.turn) > largest_turn || a.position == end_of(a);
+  if (part.leaves_disc || a.position == end_of(a))
+    return true;
+  const double tolerance = tolerance_.at(a.position);
+  const bool strays = tolerance > 0 && part.sharpest_turn > corner_angle_ * (pi / 180) &&
+                      part.deviation > most_deviation * tolerance; // from a corner, after a division
+  return strays || (std::fabs(part.turn) > largest_turn && part.deviation > tolerance);
 }
 
 /// Where to divide the segment from a to b, as t after a.
-double Refiner::cut_place(const Site& a, const Site& b, double end) const {
+Refiner::CutPlace Refiner::cut_place(const Site& a, const Site& b, double end) const {
   const LoopMetric& metric = metrics_[a.loop];
   const PartSummary part = summarize(a);
   if (part.sharpest_turn > junction_turn) {
-    const double t = metric.piece_t(part.sharpest);
-    return t > a.t ? t : t + metric.total();
+    const double t = metric.piece_t(static_cast<std::size_t>(part.sharpest));
+    return {t > a.t ? t : t + metric.total(), part.sharpest};
   }
   const bool sharp_a = a.kind == SiteKind::sharp_corner, sharp_b = b.kind == SiteKind::sharp_corner;
   if (sharp_a != sharp_b) {
@@ -247,11 +265,11 @@ double Refiner::cut_place(const Site& a, const Site& b, double end) const {
     const auto t = sharp_a ? metric.first_at_radius(a.t, end, apex.position, radius)
                            : metric.first_at_radius(end, a.t, apex.position, radius);
     if (t && *t > a.t && *t < end)
-      return *t;
+      return {*t};
   }
   if (std::fabs(part.turn) > largest_turn)
-    return part.half_turn_t;
-  return 0.5 * (a.t + end);
+    return {part.half_turn_t};
+  return {0.5 * (a.t + end)};
 }
 
 LocalIndex Refiner::divide(const Cut& cut) {
@@ -265,16 +283,18 @@ LocalIndex Refiner::divide(const Cut& cut) {
        (boundary_.periods.same_point(sites_[cut.intruder].position, a.position) ||
         boundary_.periods.same_point(sites_[cut.intruder].position, b.position))))
     fail(cut);
-  double t = cut_place(a, b, end);
-  Vec2 position = lattice_.snap(metric.point(t));
+  const CutPlace place = cut_place(a, b, end);
+  Vec2 position = lattice_.snap(metric.point(place.t));
   if (position == a.position || position == b.position)
     fail(cut);
-  if (t >= metric.total()) {
-    t -= metric.total();
+  const bool round = place.t >= metric.total();
+  if (round)
     position = position - metric.loop().winding;
-  }
+  const auto junction = static_cast<std::size_t>(place.junction);
+  const double t = place.junction >= 0 ? metric.piece_t(junction) : round ? place.t - metric.total() : place.t;
   const auto index = static_cast<LocalIndex>(sites_.size());
-  sites_.push_back({t, position, cut.segment, a.next, a.loop, SiteKind::plain});
+  sites_.push_back({t, position, cut.segment, a.next, a.loop,
+                    place.junction >= 0 ? kind_of_junction(metric.loop(), junction, corner_angle_) : SiteKind::plain});
   sites_[cut.segment].next = index;
   sites_[a.next].previous = index;
   return index;
@@ -301,6 +321,16 @@ void Refiner::fail(const Cut& cut) const {
       from.x, from.y, cause, shortest_in_steps * lattice_.step(), rounds_, geometry::length(to - from)));
 }
 
+/// Corners between a site and its next.
+void Refiner::note_left_out(const Site& a, BoundarySites& out) const {
+  const PartSummary part = summarize(a);
+  if (tolerance_.share == 0 || part.sharpest_turn <= corner_angle_ * (pi / 180))
+    return;
+  const LoopMetric& metric = metrics_[a.loop];
+  out.left_out += metric.corners_between(a.t, end_t(a), corner_angle_ * (pi / 180));
+  out.deviation = std::fmax(out.deviation, tolerance_.share * part.deviation / tolerance_.at(a.position));
+}
+
 BoundarySites Refiner::result() const {
   const geometry::Periods& periods = boundary_.periods;
   BoundarySites out;
@@ -319,10 +349,11 @@ BoundarySites Refiner::result() const {
       const auto index = static_cast<LocalIndex>(out.sites.size());
       const Vec2 canonical = periods.wrap(site.position), end = end_of(site) + (canonical - site.position);
       const auto [piece, along] = metrics_[loop].place(site.t);
-      out.sites.push_back({canonical, index - 1, index + 1, boundary_.loops[loop].tag, site.kind != SiteKind::plain,
+      out.sites.push_back({canonical, index - 1, index + 1, metrics_[loop].loop().tag, site.kind != SiteKind::plain,
                            end - periods.wrap(end), piece, along});
       out.corners += site.kind != SiteKind::plain;
       out.sharp_corners += site.kind == SiteKind::sharp_corner;
+      note_left_out(site, out);
       shortest = std::fmin(shortest, geometry::squared_length(end - canonical));
       k = site.next;
     } while (k != loop_first_[loop]);
@@ -331,7 +362,8 @@ BoundarySites Refiner::result() const {
   }
   out.loop_start.push_back(static_cast<LocalIndex>(out.sites.size()));
   out.shortest = std::sqrt(shortest);
-  name_parts(boundary_, out);
+  out.dropped = dropped_;
+  name_parts(dropped_.any() ? boundary_without(boundary_, dropped_) : boundary_, out);
   return out;
 }
 
@@ -339,8 +371,8 @@ BoundarySites Refiner::result() const {
 
 BoundarySites make_boundary_sites(const geometry::Boundary& boundary, const sizing::SizeField& size,
                                   const geometry::Lattice& lattice, double corner_angle, std::span<const Vec2> inside,
-                                  std::size_t affordable) {
-  Refiner refiner(boundary, size, lattice, corner_angle, inside, affordable);
+                                  const FeatureRule& rule, std::size_t affordable) {
+  Refiner refiner(boundary, size, lattice, corner_angle, inside, rule, affordable);
   refiner.run();
   return refiner.result();
 }

@@ -22,10 +22,12 @@ using geometry::Vec2;
 constexpr int hash_bits = 44;
 constexpr int classes_per_octave = 8;
 constexpr int passes_of_choice = 5;
+/// The worst triangles first: thresholds of the stages, as multiples of the excess that counts as bad.
+constexpr std::array<double, 3> stages{4, 2, 1};
 constexpr double largest_loss = 0.005;                       // of the sites
 constexpr double scarcity = 0.001, handicap_if_scarce = 1.5; // from when deletions must be that much better
 /// h: what two patches may share, since nothing moves near the rim of what is read.
-constexpr double overlap = 2;
+constexpr double overlap = 2.8;
 constexpr double around_bad_site = 3, around_patch = 3; // h: how far stars are computed anew, beyond its reach
 
 std::size_t at(LocalIndex i) {
@@ -73,9 +75,6 @@ GlobalId key_of(double alpha) {
   return std::bit_cast<std::int64_t>(alpha);
 }
 
-/// Stands for a patch where nothing helped.
-constexpr SiteEdit nothing{{}, {}, SiteEdit::Kind::none};
-
 } // namespace
 
 void CleanupCounts::add(const CleanupCounts& other) {
@@ -117,12 +116,12 @@ std::vector<Disc> Cleanup::share_places() const {
   return send(comm_, by_rank);
 }
 
-/// In the first round, and in a periodic container, all stars; else those at the places of the last round: elsewhere
-/// there is nothing bad, and nothing has changed. None if nothing has changed at all.
+/// In the first round of a stage, and in a periodic container, all stars; else those at the places of the last round:
+/// elsewhere there is nothing bad, and nothing has changed. None if nothing has changed at all.
 void Cleanup::compute_stars() {
-  if (!changed_)
+  if (!changed_ && !all_stars_)
     return;
-  if (round_ == 0 || state_.grid().periods().any()) {
+  if (std::exchange(all_stars_, false) || state_.grid().periods().any()) {
     state_.compute_stars(builder_, *layout_.size, Wanted::all_sites);
     return;
   }
@@ -166,7 +165,7 @@ std::vector<GlobalId> Cleanup::worst_alphas() const {
     for (std::size_t k = 0; k < fan.triangles; ++k)
       worst = std::max(worst,
                        mesh::aspect_ratio(p, points.position(fan.neighbour(k)), points.position(fan.neighbour(k + 1))));
-    if (worst > options_.bad_alpha && std::isfinite(worst) && !hopeless_.contains(hash_of(p, 0)))
+    if (worst > threshold_ && std::isfinite(worst) && !hopeless_.contains(hash_of(p, 0)))
       keys[at(i)] = key_of(worst);
   });
   return keys;
@@ -283,8 +282,6 @@ std::vector<std::vector<SiteEdit>> Cleanup::try_patches(const std::vector<Candid
       const LocalIndex i = chosen[k].site;
       const double h = view.size(i);
       optimizer.improve(points.position(i), h, sites_around(i, options_.reach * h), its_budget, edits[k]);
-      if (edits[k].empty())
-        edits[k].push_back(nothing);
     }
   };
   comm::run_agreed(comm_, [&] { thread_loop(thread_count(), 1, try_share); });
@@ -318,23 +315,21 @@ void Cleanup::keep_within_limits(const std::vector<Candidate>& chosen, std::vect
   limit(-1, sites_ - least_sites_);
 }
 
-/// All edits of this rank, with canonical places; counts them and remembers where nothing helped.
-std::vector<SiteEdit> Cleanup::collect(const std::vector<Candidate>& chosen, std::vector<std::vector<SiteEdit>>& edits,
-                                       CleanupCounts& counts) {
+/// All edits of this rank, with canonical places, counted.
+std::vector<SiteEdit> Cleanup::collect(const std::vector<Candidate>& chosen,
+                                       const std::vector<std::vector<SiteEdit>>& edits, CleanupCounts& counts) {
   const StarView view = view_of(state_, *layout_.size);
   const geometry::Periods& periods = state_.grid().periods();
   std::vector<SiteEdit> all;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
-    const Vec2 place = state_.points().position(chosen[k].site);
     if (edits[k].empty())
       continue; // put off
-    if (edits[k].front().kind == SiteEdit::Kind::none) {
-      counts.left += hopeless_.insert(hash_of(place, 0)).second;
-      continue;
-    }
-    places_.push_back({place, (options_.reach + around_patch) * view.size(chosen[k].site)});
-    ++counts.better;
-    for (SiteEdit& edit : edits[k]) {
+    const bool better = edits[k].front().kind != SiteEdit::Kind::none;
+    ++(better ? counts.better : counts.left);
+    if (better)
+      places_.push_back(
+          {state_.points().position(chosen[k].site), (options_.reach + around_patch) * view.size(chosen[k].site)});
+    for (SiteEdit edit : edits[k]) {
       edit.from = periods.wrap(edit.from);
       edit.to = periods.wrap(edit.to);
       counts.moved += edit.kind == SiteEdit::Kind::move;
@@ -360,7 +355,7 @@ std::vector<SiteEdit> Cleanup::send_to_owners(const std::vector<SiteEdit>& edits
 void Cleanup::edit_the_boundary(const std::vector<SiteEdit>& edits) {
   std::vector<BoundaryEdit> own;
   for (const SiteEdit& edit : edits)
-    if (edit.boundary >= 0) {
+    if (edit.boundary >= 0 && edit.kind != SiteEdit::Kind::none) {
       const BoundaryEdit::Kind kind = edit.kind == SiteEdit::Kind::move     ? BoundaryEdit::Kind::slide
                                       : edit.kind == SiteEdit::Kind::remove ? BoundaryEdit::Kind::remove
                                                                             : BoundaryEdit::Kind::insert;
@@ -392,6 +387,8 @@ void Cleanup::apply(const std::vector<SiteEdit>& edits) {
   }
   std::vector<std::uint8_t> deleted(sites.size(), 0);
   for (const SiteEdit& edit : edits) {
+    if (edit.kind == SiteEdit::Kind::none)
+      continue;
     if (edit.kind == SiteEdit::Kind::insert) {
       sites.push_back({edit.to, edit.boundary >= 0 ? index_at_.at({edit.to.x, edit.to.y}) : mesh::free_site});
       deleted.push_back(0);
@@ -433,11 +430,14 @@ CleanupCounts Cleanup::round() {
   counts.patches = static_cast<std::int64_t>(candidates.size());
   std::vector<std::vector<SiteEdit>> of_patches = try_patches(candidates);
   keep_within_limits(candidates, of_patches);
-  const std::vector<SiteEdit> edits = collect(candidates, of_patches, counts);
-  changed_ = comm_.sum(static_cast<std::int64_t>(edits.size())) > 0;
+  const std::vector<SiteEdit> edits = collect(candidates, of_patches, counts), own = send_to_owners(edits);
+  for (const SiteEdit& edit : own)
+    if (edit.kind == SiteEdit::Kind::none)
+      hopeless_.insert(hash_of(edit.from, 0));
+  changed_ = comm_.sum(counts.better) > 0;
   if (changed_) {
     edit_the_boundary(edits);
-    apply(send_to_owners(edits));
+    apply(own);
   }
   ++round_;
   counts = sum_over_ranks(counts);
@@ -447,11 +447,15 @@ CleanupCounts Cleanup::round() {
 
 CleanupCounts Cleanup::run() {
   CleanupCounts all;
-  for (int k = 0; k < most_rounds; ++k) {
-    const CleanupCounts counts = round();
-    all.add(counts);
-    if (counts.patches == 0)
-      break;
+  int rounds = 0;
+  for (const double excess : stages) {
+    threshold_ = 1 + excess * (options_.bad_alpha - 1);
+    all_stars_ = true;
+    for (std::int64_t patches = 1; patches > 0 && rounds < most_rounds; ++rounds) {
+      const CleanupCounts counts = round();
+      all.add(counts);
+      patches = counts.patches;
+    }
   }
   return all;
 }

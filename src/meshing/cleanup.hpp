@@ -17,7 +17,7 @@ namespace trime::meshing {
 /// the candidates those act that are the first of their surroundings in an order of size class and hash of place and
 /// round: their patches (PatchOptimizer) do not overlap, and the choice is the same for any partition. The owner of a
 /// candidate computes its patch and sends the changes to the owners of the sites; what changes on the boundary goes to
-/// all ranks. A place where nothing helped is not tried again; its neighbours are.
+/// all ranks. A triangle for which nothing helped is not tried again before a corner of it has moved.
 ///
 /// The number of sites stays near that of the beginning, at most half a percent below, and never above the target: when
 /// the patches of a round would leave these limits, those first in the order of a hash are carried out.
@@ -35,7 +35,7 @@ public:
 
   /// One round. Collective.
   CleanupCounts round();
-  static constexpr int most_rounds = 30;
+  static constexpr int most_rounds = 250;
 
 private:
   struct Candidate {
@@ -51,7 +51,7 @@ private:
   PatchBudget budget() const;
   std::vector<std::vector<SiteEdit>> try_patches(const std::vector<Candidate>& chosen);
   void keep_within_limits(const std::vector<Candidate>& chosen, std::vector<std::vector<SiteEdit>>& edits);
-  std::vector<SiteEdit> collect(const std::vector<Candidate>& chosen, std::vector<std::vector<SiteEdit>>& edits,
+  std::vector<SiteEdit> collect(const std::vector<Candidate>& chosen, const std::vector<std::vector<SiteEdit>>& edits,
                                 CleanupCounts& counts);
   CleanupCounts sum_over_ranks(const CleanupCounts& own) const;
   std::vector<PatchSite> sites_around(LocalIndex site, double reach) const;
@@ -69,11 +69,13 @@ private:
   GlobalId most_sites_, least_sites_, wanted_sites_, sites_; // over all ranks
   int round_ = 0;
   bool changed_ = true;      // something, in the last round
+  bool all_stars_ = true;    // are to be computed in the next
+  double threshold_ = 1;     // of alpha, of the present stage
   std::vector<Disc> places_; // where this rank saw bad triangles, or changed something, in the last round
   // What became of the boundary's sites in this round, by their old index (empty: nothing), and the index of new ones.
   std::vector<LocalIndex> new_index_;
   std::map<std::pair<double, double>, LocalIndex> index_at_;
-  std::unordered_set<std::uint64_t> hopeless_; // hashes of owned places where nothing helped
+  std::unordered_set<std::uint64_t> hopeless_; // hashes of owned sites with a triangle for which nothing helped
 };
 
 } // namespace trime::meshing

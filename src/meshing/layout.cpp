@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/layout.hpp"
 
+#include "meshing/size_limits.hpp"
 #include "trime/comm/agree.hpp"
 
 #include <algorithm>
@@ -11,7 +12,10 @@ namespace trime::meshing {
 namespace {
 
 constexpr double row_height = 0.8660254037844386;
-constexpr double emptiest_grid = 64; // areas of the shape that the grid covers with cells as small as its triangles
+constexpr double emptiest_grid = 64;  // areas of the shape that the grid covers with cells as small as its triangles
+constexpr double least_perimeter = 3; // of islands and lakes that stay, in local sizes
+constexpr int lowering_rounds = 3;
+constexpr double gradation = 0.2; // of the size around places where it is lowered
 
 /// The part of the container grid around the shape: what lies beyond holds no site. One whole period along periodic
 /// axes. Cells that were given keep their size.
@@ -47,32 +51,63 @@ std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Layout
                                                        !context.relative_size.is_uniform(), periods});
 }
 
-} // namespace
-
-double estimated_size(double area, double perimeter, double n) {
-  const double a = 2 * area / std::sqrt(3.0), b = perimeter / 2;
-  return (b + std::sqrt(b * b + 4 * a * n)) / (2 * n);
+/// The sizes of a stage from what `layout.fitted` says.
+void set_sizes(const LayoutContext& context, Layout& layout) {
+  const auto& limits = layout.fitted.limits;
+  if (limits.empty())
+    layout.lowered_size = std::make_unique<sizing::ScaledSize>(*layout.asked_size, 1);
+  else
+    layout.lowered_size =
+        std::make_unique<sizing::LoweredSize>(*layout.asked_size, limits, gradation, context.boundary.periods);
+  layout.size = std::make_unique<sizing::ScaledSize>(*layout.lowered_size, layout.coarsening);
 }
 
-namespace {
+void lay_sites(const LayoutContext& context, std::size_t affordable, Layout& layout) {
+  const sizing::ScaledSize asked(*layout.asked_size, layout.coarsening);
+  const bool keeps_all = context.options.keep_features;
+  const FeatureRule rule{keeps_all ? 0 : context.options.feature_tolerance, keeps_all ? 0 : least_perimeter, &asked};
+  layout.boundary = make_boundary_sites(context.fixed.boundary(), *layout.size, context.lattice,
+                                        context.options.corner_angle, context.fixed.inside(), rule, affordable);
+}
 
-Layout lay_at_most(const LayoutContext& context, double factor, double coarsening, double expected,
-                   double grid_coarsening, std::size_t affordable) {
+/// Where chords come out short, or a channel is narrow, the size is lowered and the boundary laid anew.
+void lower_size(const LayoutContext& context, std::size_t affordable, Layout& layout) {
+  for (int round = 0; round < lowering_rounds && !layout.boundary.overfull; ++round) {
+    const std::vector<sizing::SizeLimit> more = size_limits(layout.boundary, *layout.size, *layout.asked_size);
+    if (more.empty())
+      return;
+    layout.fitted.limits.insert(layout.fitted.limits.end(), more.begin(), more.end());
+    set_sizes(context, layout);
+    lay_sites(context, affordable, layout);
+  }
+}
+
+/// What a layout is asked to be.
+struct LayoutRequest {
+  FittedSize fitted;
+  double coarsening, expected, grid_coarsening;
+  bool lowers; // the size, where the boundary needs it
+  std::size_t affordable;
+};
+constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
+
+Layout lay(const LayoutContext& context, const LayoutRequest& request) {
   const auto time = context.timers.scope("boundary");
   Layout layout;
-  layout.factor = factor;
-  layout.coarsening = coarsening;
-  layout.typical_size = std::sqrt(context.boundary.area / (row_height * std::max(1.0, expected)));
+  layout.fitted = request.fitted;
+  layout.coarsening = request.coarsening;
+  layout.typical_size = std::sqrt(context.boundary.area / (row_height * std::max(1.0, request.expected)));
   const MeshOptions& options = context.options;
-  layout.final_size =
-      std::make_unique<sizing::ScaledSize>(context.relative_size, factor, options.min_size.value_or(0),
+  layout.asked_size =
+      std::make_unique<sizing::ScaledSize>(context.relative_size, request.fitted.factor, options.min_size.value_or(0),
                                            options.max_size.value_or(std::numeric_limits<double>::infinity()));
-  layout.size = std::make_unique<sizing::ScaledSize>(*layout.final_size, coarsening);
+  set_sizes(context, layout);
   comm::run_agreed(context.comm, [&] {
-    if (layout.size->is_uniform())
-      layout.typical_size = sizing::checked_size(*layout.size, {});
-    layout.boundary = make_boundary_sites(context.fixed.boundary(), *layout.size, context.lattice,
-                                          context.options.corner_angle, context.fixed.inside(), affordable);
+    if (layout.asked_size->is_uniform())
+      layout.typical_size = request.coarsening * sizing::checked_size(*layout.asked_size, {});
+    lay_sites(context, request.affordable, layout);
+    if (request.lowers && !layout.asked_size->is_uniform())
+      lower_size(context, request.affordable, layout);
     if (layout.boundary.overfull)
       return;
     layout.guard = std::make_unique<BoundaryGuard>(layout.boundary, context.lattice);
@@ -80,24 +115,31 @@ Layout lay_at_most(const LayoutContext& context, double factor, double coarsenin
   });
   layout.fixed_inside = static_cast<GlobalId>(context.fixed.inside().size());
   if (!layout.boundary.overfull)
-    layout.state = make_state(context, layout, grid_coarsening * layout.typical_size);
+    layout.state = make_state(context, layout, request.grid_coarsening * layout.typical_size);
   return layout;
 }
 
 } // namespace
 
-Layout lay_boundary(const LayoutContext& context, double factor, double coarsening, double expected,
-                    double grid_coarsening) {
-  return lay_at_most(context, factor, coarsening, expected, grid_coarsening, std::numeric_limits<std::size_t>::max());
+double estimated_size(double area, double perimeter, double n) {
+  const double a = 2 * area / std::sqrt(3.0), b = perimeter / 2;
+  return (b + std::sqrt(b * b + 4 * a * n)) / (2 * n);
+}
+
+Layout lay_boundary(const LayoutContext& context, double factor, double expected, double grid_coarsening) {
+  return lay(context, {{factor, {}}, 1, expected, grid_coarsening, true, unlimited});
+}
+
+Layout lay_stage(const LayoutContext& context, const FittedSize& fitted, double coarsening, double expected) {
+  return lay(context, {fitted, coarsening, expected, 1, false, unlimited});
 }
 
 Layout try_boundary(const LayoutContext& context, double factor, double expected, double grid_coarsening) {
   constexpr double times_points = 1.5, at_least = 1000;
   const std::optional<GlobalId>& points = context.options.points;
   const std::size_t affordable =
-      points ? static_cast<std::size_t>(std::max(at_least, times_points * static_cast<double>(*points)))
-             : std::numeric_limits<std::size_t>::max();
-  return lay_at_most(context, factor, 1, expected, grid_coarsening, affordable);
+      points ? static_cast<std::size_t>(std::max(at_least, times_points * static_cast<double>(*points))) : unlimited;
+  return lay(context, {{factor, {}}, 1, expected, grid_coarsening, true, affordable});
 }
 
 TileRange even_share(const Layout& layout, const comm::Communicator& comm) {

@@ -13,6 +13,7 @@
 #include "trime/meshing/boundary_sites.hpp"
 #include "trime/meshing/options.hpp"
 #include "trime/meshing/start.hpp"
+#include "trime/sizing/lowered_size.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <memory>
@@ -32,12 +33,20 @@ struct LayoutContext {
   const FixedPoints& fixed;
 };
 
+/// What the size field of the last stage follows from.
+struct FittedSize {
+  double factor = 1;                     ///< of the relative size; for a uniform field h itself
+  std::vector<sizing::SizeLimit> limits; ///< where the boundary needs smaller triangles than that asks for
+};
+
 /// All that the sweeps of a stage start from. Only `state` differs from rank to rank.
 struct Layout {
-  double factor = 1;       ///< of the relative size, in the last stage; for a uniform field h itself
-  double coarsening = 1;   ///< h of this stage over that of the last
-  double typical_size = 1; ///< edge length of as many equal triangles
-  std::unique_ptr<sizing::ScaledSize> final_size, size; ///< of the last stage, and of this one
+  FittedSize fitted;
+  double coarsening = 1;                           ///< h of this stage over that of the last
+  double typical_size = 1;                         ///< edge length of as many equal triangles
+  std::unique_ptr<sizing::ScaledSize> asked_size;  ///< of the last stage
+  std::unique_ptr<sizing::SizeField> lowered_size; ///< the same within the limits
+  std::unique_ptr<sizing::SizeField> size;         ///< of this stage
   BoundarySites boundary;
   std::unique_ptr<BoundaryGuard> guard;
   std::unique_ptr<SiteState> state;
@@ -52,11 +61,14 @@ struct Layout {
 /// T = A / (sqrt(3)/4 h^2) and B = P/h.
 double estimated_size(double area, double perimeter, double n);
 
-/// @brief Boundary sites for a size, and an empty container grid for about `expected` points. Collective.
+/// @brief Boundary sites for a size, and an empty container grid for about `expected` points. The size is lowered where
+/// the boundary needs smaller triangles, see size_limits, and the boundary laid anew, in a few rounds. Collective.
 /// @param grid_coarsening the grid's spacing over that of the points: above 1 for a layout that will hold none
 /// @throws GeometryError as make_boundary_sites, on all ranks together
-Layout lay_boundary(const LayoutContext& context, double factor, double coarsening, double expected,
-                    double grid_coarsening = 1);
+Layout lay_boundary(const LayoutContext& context, double factor, double expected, double grid_coarsening = 1);
+
+/// The same at a size that was found before, or `coarsening` times it. Collective.
+Layout lay_stage(const LayoutContext& context, const FittedSize& fitted, double coarsening, double expected);
 
 /// @brief lay_boundary in search of a factor. If the boundary takes far more points than were asked for, its sites are
 /// not finished (`overfull`), and the layout has neither guard nor state. Collective.

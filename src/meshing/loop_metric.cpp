@@ -91,6 +91,11 @@ double LoopMetric::arc(double t) const {
   return turns * knots_.back().arc + low.arc + (high.arc - low.arc) * ((t - low.t) / (high.t - low.t));
 }
 
+LocalIndex LoopMetric::first_junction_from(double t) const {
+  const auto pieces = piece_t_.end() - 1;
+  return static_cast<LocalIndex>(std::lower_bound(piece_t_.begin(), pieces, t) - piece_t_.begin());
+}
+
 std::optional<double> LoopMetric::first_at_radius(double t0, double t1, Vec2 center, double radius) const {
   const auto reached = [&](double t) { return geometry::squared_length(point(t) - center) >= radius * radius; };
   const bool forward = t1 > t0;
@@ -121,30 +126,6 @@ std::optional<double> LoopMetric::first_at_radius(double t0, double t1, Vec2 cen
   return far;
 }
 
-PartSummary LoopMetric::summarize(double t0, double t1, Vec2 a, Vec2 b) const {
-  PartSummary part;
-  const double tolerance = 1e-9 * geometry::squared_length(b - a);
-  double unsigned_turn = 0;
-  for_each_turn(t0, t1, [&](const Turn& turn) {
-    part.leaves_disc |= geometry::dot(a - turn.position, b - turn.position) > tolerance;
-    part.turn += turn.amount;
-    unsigned_turn += std::fabs(turn.amount);
-    if (turn.junction >= 0 && std::fabs(turn.amount) > part.sharpest_turn) {
-      part.sharpest_turn = std::fabs(turn.amount);
-      part.sharpest = turn.junction;
-    }
-  });
-  part.half_turn_t = 0.5 * (t0 + t1);
-  double before = 0;
-  for_each_turn(t0, t1, [&](const Turn& turn) {
-    const double after = before + std::fabs(turn.amount);
-    if (before < 0.5 * unsigned_turn && after >= 0.5 * unsigned_turn)
-      part.half_turn_t = turn.t;
-    before = after;
-  });
-  return part;
-}
-
 /// Calls visit(turn) along the way from t0 to t1: junctions strictly between, arcs as four equal turns.
 template <class Visit>
 void LoopMetric::for_each_turn(double t0, double t1, const Visit& visit) const {
@@ -171,6 +152,39 @@ void LoopMetric::for_each_turn(double t0, double t1, const Visit& visit) const {
       moved = moved + loop_.winding;
     }
   }
+}
+
+LocalIndex LoopMetric::corners_between(double t0, double t1, double turn) const {
+  LocalIndex corners = 0;
+  for_each_turn(t0, t1, [&](const Turn& one) { corners += one.junction >= 0 && std::fabs(one.amount) > turn; });
+  return corners;
+}
+
+PartSummary LoopMetric::summarize(double t0, double t1, Vec2 a, Vec2 b) const {
+  PartSummary part;
+  const double tolerance = 1e-9 * geometry::squared_length(b - a);
+  double unsigned_turn = 0;
+  for_each_turn(t0, t1, [&](const Turn& turn) {
+    part.leaves_disc |= geometry::dot(a - turn.position, b - turn.position) > tolerance;
+    part.turn += turn.amount;
+    part.deviation = std::fmax(part.deviation, std::fabs(geometry::cross(b - a, turn.position - a)));
+    unsigned_turn += std::fabs(turn.amount);
+    if (turn.junction >= 0 && std::fabs(turn.amount) > part.sharpest_turn) {
+      part.sharpest_turn = std::fabs(turn.amount);
+      part.sharpest = turn.junction;
+    }
+  });
+  if (const double length = geometry::length(b - a); length > 0)
+    part.deviation /= length;
+  part.half_turn_t = 0.5 * (t0 + t1);
+  double before = 0;
+  for_each_turn(t0, t1, [&](const Turn& turn) {
+    const double after = before + std::fabs(turn.amount);
+    if (before < 0.5 * unsigned_turn && after >= 0.5 * unsigned_turn)
+      part.half_turn_t = turn.t;
+    before = after;
+  });
+  return part;
 }
 
 } // namespace trime::meshing

@@ -18,6 +18,7 @@ struct PartSummary {
   double half_turn_t = 0;   ///< where half of the total (unsigned) turn is reached
   double sharpest_turn = 0; ///< largest unsigned turn of a junction strictly between
   LocalIndex sharpest = -1; ///< that junction: index of the piece that starts there
+  double deviation = 0;     ///< largest distance of a piece end or arc point strictly between from the chord's line
   bool leaves_disc = false; ///< a piece end or arc point strictly between lies outside the chord's diametral disc
 };
 
@@ -38,6 +39,8 @@ public:
   double total() const { return knots_.back().t; }
   /// t of the start of piece i.
   double piece_t(std::size_t i) const { return piece_t_[i]; }
+  /// The first piece that starts at t or behind it, 0 <= t < total(); the number of pieces if none does.
+  LocalIndex first_junction_from(double t) const;
   const geometry::Loop& loop() const { return loop_; }
   geometry::Vec2 point(double t) const;
   /// Where point(t) lies; the start of a piece belongs to that piece. @pre 0 <= t < total()
@@ -47,6 +50,8 @@ public:
   /// The first t on the way from t0 to t1 (either direction) at which the distance from `center` reaches `radius`.
   /// @pre the point at t0 is nearer than `radius`
   std::optional<double> first_at_radius(double t0, double t1, geometry::Vec2 center, double radius) const;
+  /// Junctions strictly between t0 < t1 <= t0 + total() that turn by more than `turn` radians.
+  LocalIndex corners_between(double t0, double t1, double turn) const;
   /// The curve between t0 < t1 <= t0 + total(), whose ends became the sites a and b.
   PartSummary summarize(double t0, double t1, geometry::Vec2 a, geometry::Vec2 b) const;
 

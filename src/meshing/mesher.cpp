@@ -5,6 +5,7 @@
 #include "meshing/chord_curve.hpp"
 #include "meshing/cleanup.hpp"
 #include "meshing/extraction.hpp"
+#include "meshing/feature_report.hpp"
 #include "meshing/layout.hpp"
 #include "meshing/point_scheme.hpp"
 #include "meshing/site_state.hpp"
@@ -72,6 +73,8 @@ private:
 
   void set_up(Layout layout) {
     layout_ = std::move(layout);
+    if (dropped().any())
+      remaining_ = boundary_without(fixed_->boundary(), dropped());
     placed_ = comm_.sum(std::int64_t{state().points().owned()});
     const mesh::TileGrid& grid = state().grid();
     make_builder(placed_);
@@ -80,14 +83,20 @@ private:
               holes, holes == 1 ? "" : "s", layout_.boundary.sites.size(), layout_.boundary.corners);
     log_.info("start: {} points in {} tiles ({} x {} cells), mean edge about {:.6g}", placed_, grid.tile_count(),
               grid.cells_x(), grid.cells_y(), layout_.typical_size);
-    if (scheme_->is_last())
+    if (scheme_->is_last()) {
+      features_ = report_features(layout_);
+      for (const std::string& line : describe(features_, boundary_.area))
+        log_.info("boundary: {}", line);
       comm::run_agreed(comm_, [this] { // they ask the size field, which may be a user's
         warn_of_fine_features();
         warn_of_steep_sizes();
         if (!fixed_->empty())
           fixed_->warn_of_close_ones(*layout_.guard, *layout_.size, log_);
       });
+    }
   }
+
+  const DroppedLoops& dropped() const { return layout_.boundary.dropped; }
 
   /// A size that changes by more than the way that it takes cannot be followed by triangles.
   void warn_of_steep_sizes() {
@@ -188,8 +197,8 @@ private:
     return state().compute_stars(*builder_, *layout_.size, wanted);
   }
 
-  /// What the sites are laid on: the shape's boundary with fixed points as corners.
-  const geometry::Boundary& meshed_boundary() const { return fixed_->boundary(); }
+  /// What the sites are laid on: the shape's boundary with fixed points as corners, without the loops that are dropped.
+  const geometry::Boundary& meshed_boundary() const { return dropped().any() ? remaining_ : fixed_->boundary(); }
   SiteState& state() { return *layout_.state; }
   const SiteState& state() const { return *layout_.state; }
   MoveContext move_context() const { return {*layout_.guard, *layout_.size, lattice_}; }
@@ -224,11 +233,14 @@ private:
     if (!options_.cleanup || history_.empty())
       return;
     const auto time = timers_.scope("clean-up");
-    cleanup_ = Cleanup(comm_, layout_, fixed_->boundary(), lattice_, *builder_, options_.points.value_or(0)).run();
+    PatchOptions patches;
+    patches.tolerance = options_.keep_features ? 0 : options_.feature_tolerance;
+    cleanup_ =
+        Cleanup(comm_, layout_, meshed_boundary(), lattice_, *builder_, options_.points.value_or(0), patches).run();
     log_.info("clean-up: {} of {} patches better; {} sites moved, {} inserted, {} deleted; {} places left with alpha "
               "above {}",
               cleanup_.better, cleanup_.patches, cleanup_.moved, cleanup_.inserted, cleanup_.deleted, cleanup_.left,
-              PatchOptions{}.bad_alpha);
+              patches.bad_alpha);
   }
 
   // --- the mesh -----------------------------------------------------------------------------------------------------
@@ -291,7 +303,8 @@ private:
       log_.warning("{} points were asked for, {} made: {}", result.requested_points, result.mesh.point_slab.total,
                    result.count_reason);
     result.corners = layout_.boundary.corners;
-    result.shape_area = boundary_.area;
+    result.shape_area = meshed_boundary().area;
+    result.features = std::move(features_);
     return result;
   }
 
@@ -316,6 +329,8 @@ private:
   geometry::Lattice lattice_;
   std::unique_ptr<FixedPoints> fixed_;
   Layout layout_;
+  geometry::Boundary remaining_; // without the loops that were dropped, if any
+  FeatureReport features_;
   double cap_factor_ = 0; // of h
   std::unique_ptr<delaunay::StarBuilder> builder_;
   std::unique_ptr<LayoutContext> context_;

@@ -17,10 +17,16 @@ constexpr double clearance_of_score = 1.5, clearance_of_moves = 2.8; // h, from 
 constexpr double widest_frame = 0x1.8p44; // lattice steps: 1.5 sides of the container at least; predicates are exact
 constexpr double weight_of_bad = 10;
 constexpr double least_gain = 0.02;
+constexpr int early_sweeps = 2;       // after them a trial is given up that is
+constexpr double hopeless_share = 3;  // that much worse than what it has to be
 constexpr double longest_step = 0.25; // h, of one Newton step
 constexpr int halvings = 3;
-constexpr double longest_slide = 0.2;      // h, of one step
-constexpr double nearest_share = 0.4;      // of the way to a neighbour along the boundary, at most, in one step
+constexpr double longest_slide = 0.2; // h, of one step
+constexpr double nearest_share = 0.4; // of the way to a neighbour along the boundary, at most, in one step
+constexpr double straight_share = 1 + 1e-9;
+/// h: chords of curves that stray by more than `unseen` are no longer than that; where a triangle above `bend_alpha`
+/// would be left, the second limit holds.
+constexpr double bent_at_first = 1.01, bent_at_last = 1.25, unseen = 0.001, bend_alpha = 1.1;
 constexpr double largest_arc_share = 1.05; // arc over chord: a turn by 60 degrees
 
 } // namespace
@@ -300,18 +306,21 @@ void PatchOptimizer::slide_vertex(Patch& patch, LocalIndex v) {
   step = std::clamp(step, -limit, limit);
   const double length = curve_.length(own.loop);
   for (int halving = 0; halving <= halvings; ++halving, step *= 0.5) {
-    double arc = own.arc + step;
+    const double arc = own.arc + step;
     const Vec2 to = boundary_.periods.nearest_image(lattice_.snap(curve_.place(own.loop, arc).point), from);
     if (to == from)
       return;
-    if (!(star_energy(to, around_, false) < model.value))
+    BoundaryVertex moved = own;
+    moved.arc = arc >= length ? arc - length : arc < 0 ? arc + length : arc;
+    if (!(star_energy(to, around_, false) < model.value) ||
+        !stands_for_curve(moved, patch.boundary[at(own.next)], {to, around_.front()}, patch.size[at(v)]) ||
+        !stands_for_curve(patch.boundary[at(own.previous)], moved, {around_.back(), to}, patch.size[at(v)]))
       continue;
     if (!patch.mesh.move(v, to) && !patch.mesh.replace(v, to)) {
       patch.broken = true;
       return;
     }
-    arc = arc >= length ? arc - length : arc < 0 ? arc + length : arc;
-    own.arc = arc;
+    own.arc = moved.arc;
     own.changed = patch.boundary[at(own.previous)].changed = true;
     return;
   }
@@ -328,7 +337,22 @@ void PatchOptimizer::relax(Patch& patch, int sweeps) {
       }
 }
 
-/// Is the closed diametral disc of each chord that has changed free, and its curve no longer than it may be? Is that of
+/// May the chord between two vertices on the boundary take the place of the curve?
+bool PatchOptimizer::stands_for_curve(const BoundaryVertex& from, const BoundaryVertex& to,
+                                      const geometry::Segment& chord, double size) const {
+  double arc = to.arc - from.arc;
+  if (arc < 0)
+    arc += curve_.length(from.loop);
+  const double length = geometry::length(chord.b - chord.a);
+  if (arc <= straight_share * length)
+    return true; // as on a straight side
+  const BoundaryCurve::Strayed strayed = curve_.strayed(from.loop, from.arc, to.arc, chord);
+  if (strayed.leaves_disc || (length > longest_bent_ * size && strayed.deviation > unseen * size))
+    return false; // the area that is lost grows with the third power of the length
+  return arc <= largest_arc_share * length || strayed.deviation <= options_.tolerance * size;
+}
+
+/// Is the closed diametral disc of each chord that has changed free, and does it stand for its curve? Is that of
 /// each other chord free of what has changed on the boundary? The guard keeps the vertices inside off those.
 bool PatchOptimizer::chords_hold(const Patch& patch) const {
   const auto is_moved = [&](LocalIndex u) { // on the boundary
@@ -340,10 +364,7 @@ bool PatchOptimizer::chords_hold(const Patch& patch) const {
     if (patch.role[at(v)] == Role::gone || own.next < 0)
       continue;
     const Vec2 a = patch.mesh.position(v), b = patch.mesh.position(own.next);
-    double arc = patch.boundary[at(own.next)].arc - own.arc;
-    if (arc < 0)
-      arc += curve_.length(own.loop);
-    if (own.changed && arc > largest_arc_share * geometry::length(b - a))
+    if (own.changed && !stands_for_curve(own, patch.boundary[at(own.next)], {a, b}, patch.size[at(v)]))
       return false;
     for (LocalIndex u = PatchMesh::frame; u < patch.mesh.vertices(); ++u)
       if (u != v && u != own.next && patch.role[at(u)] != Role::gone && (own.changed || is_moved(u)) &&
@@ -368,40 +389,56 @@ void PatchOptimizer::collect_edits(std::vector<SiteEdit>& edits) const {
   }
 }
 
+/// Relaxes the trial and keeps it if it is better than what there was.
+void PatchOptimizer::try_trial(double handicap, Best& best) {
+  relax(trial_, early_sweeps);
+  if (trial_.broken || handicap * score(trial_).sum > hopeless_share * best.least)
+    return;
+  relax(trial_, options_.trial_sweeps - early_sweeps);
+  if (trial_.broken)
+    return;
+  const Score after = score(trial_);
+  if (!(handicap * after.sum < best.least) || after.max > best.before || !chords_hold(trial_))
+    return;
+  best.least = handicap * after.sum;
+  best.largest = after.max;
+  best.found = true;
+  std::swap(best_, trial_);
+}
+
+void PatchOptimizer::try_everything(const PatchBudget& budget, Best& best) {
+  trial_ = base_;
+  try_trial(1, best);
+  if (best.found && best.largest < options_.operate_alpha)
+    return;
+  for (const Operation& operation : operations_) {
+    if (!allows(budget, operation))
+      continue;
+    trial_ = base_;
+    if (apply(operation))
+      try_trial(operation.kind == SiteEdit::Kind::remove ? budget.deletion_handicap : 1, best);
+  }
+}
+
 bool PatchOptimizer::improve(Vec2 center, double size, std::span<const PatchSite> sites, const PatchBudget& budget,
                              std::vector<SiteEdit>& edits) {
   if (!build(center, size, sites))
     return false;
   const Score before = score(base_);
-  double least = (1 - least_gain) * before.sum, largest = before.max; // alpha of the best trial
-  bool better = false;
-  const auto try_trial = [&](double handicap) {
-    relax(trial_, options_.trial_sweeps);
-    if (trial_.broken)
-      return;
-    const Score after = score(trial_);
-    if (!(handicap * after.sum < least) || after.max > before.max || !chords_hold(trial_))
-      return;
-    least = handicap * after.sum;
-    largest = after.max;
-    std::swap(best_, trial_);
-    better = true;
-  };
-  trial_ = base_;
-  try_trial(1);
-  if (!better || largest >= options_.operate_alpha) {
-    list_operations();
-    for (const Operation& operation : operations_) {
-      if (!allows(budget, operation))
-        continue;
-      trial_ = base_;
-      if (apply(operation))
-        try_trial(operation.kind == SiteEdit::Kind::remove ? budget.deletion_handicap : 1);
-    }
+  Best best{(1 - least_gain) * before.sum, before.max, before.max};
+  list_operations();
+  longest_bent_ = bent_at_first;
+  try_everything(budget, best);
+  if (best.largest >= bend_alpha) { // rather longer chords on curves than a bad triangle
+    longest_bent_ = bent_at_last;
+    try_everything(budget, best);
   }
-  if (better)
+  if (best.found)
     collect_edits(edits);
-  return better;
+  else if (const PatchMesh::Triangle* worst = worst_triangle())
+    for (const LocalIndex v : worst->vertex)
+      edits.push_back({base_.mesh.position(v), base_.mesh.position(v), SiteEdit::Kind::none});
+  return best.found;
 }
 
 } // namespace trime::meshing

@@ -22,7 +22,8 @@ struct PatchSite {
   std::int32_t boundary; ///< see mesh::Site
 };
 
-/// What becomes of a site: where it goes, or that it is deleted; or a new site (`from` says nothing then).
+/// What becomes of a site: where it goes, or that it is deleted; or a new site (`from` says nothing then); or that
+/// nothing helps there.
 struct SiteEdit {
   enum class Kind : std::int32_t { move, remove, insert, none };
   geometry::Vec2 from, to;
@@ -38,6 +39,7 @@ struct PatchOptions {
   /// Insertions and deletions are tried where moves alone leave a triangle above it, or help nothing.
   double operate_alpha = 1.09;
   int trial_sweeps = 5; ///< over the free sites after an operation
+  double tolerance = 0; ///< h: how far a new chord may pass from a curve that turns by more than 60 degrees
 };
 
 /// What a patch may do with the number of sites.
@@ -52,8 +54,9 @@ struct PatchBudget {
 ///
 /// A trial counts as better if the sum over the triangles of (alpha - 1)^2, bad ones weighing more, falls by 2 % at
 /// least and the largest alpha does not rise. Moves lower the StarEnergy of one site after the other by Newton steps.
-/// Nobody enters the diametral disc of a boundary segment, and no segment comes to stand for a curve that turns by more
-/// than 60 degrees. Only + - * / sqrt and exact predicates inside: a pure function of the sites.
+/// Nobody enters the diametral disc of a boundary segment, and no segment comes to stand for a curve that leaves its
+/// disc, or that turns by more than 60 degrees and strays by more than the tolerance. Only + - * / sqrt and exact
+/// predicates inside: a pure function of the sites.
 class PatchOptimizer {
 public:
   PatchOptimizer(const BoundarySites& boundary, const BoundaryCurve& curve, const BoundaryGuard& guard,
@@ -63,7 +66,7 @@ public:
 
   /// @brief Tries everything once.
   /// @param sites in lexicographic order; all that lie within `options.reach` times `size` of `center`
-  /// @param edits receives the changes, if one was better
+  /// @param edits receives the changes, if one was better; else Kind::none for the corners of the bad triangle
   /// @return whether one was
   bool improve(geometry::Vec2 center, double size, std::span<const PatchSite> sites, const PatchBudget& budget,
                std::vector<SiteEdit>& edits);
@@ -98,6 +101,12 @@ private:
     std::vector<BoundaryVertex> boundary;
     bool broken = false;
   };
+  struct Best {     // among the trials of a patch
+    double least;   // sum that another one must fall below
+    double before;  // largest alpha at the beginning
+    double largest; // now
+    bool found = false;
+  };
   static std::size_t at(LocalIndex v) { return static_cast<std::size_t>(v); }
 
   bool build(geometry::Vec2 center, double size, std::span<const PatchSite> sites);
@@ -111,9 +120,13 @@ private:
   bool apply(const Operation& operation);
   bool remove(LocalIndex v);
   bool insert_on_boundary(LocalIndex before);
+  void try_trial(double handicap, Best& best);
+  void try_everything(const PatchBudget& budget, Best& best);
   void relax(Patch& patch, int sweeps);
   void relax_vertex(Patch& patch, LocalIndex v);
   void slide_vertex(Patch& patch, LocalIndex v);
+  bool stands_for_curve(const BoundaryVertex& from, const BoundaryVertex& to, const geometry::Segment& chord,
+                        double size) const;
   bool chords_hold(const Patch& patch) const;
   void collect_edits(std::vector<SiteEdit>& edits) const;
 
@@ -125,6 +138,7 @@ private:
   Patch base_, trial_, best_;
   geometry::Vec2 center_;
   double size_ = 1;
+  double longest_bent_ = 1; // h: limit of chords of curves, in the present trials
   std::vector<Operation> operations_;
   std::vector<LocalIndex> ring_;
   std::vector<geometry::Vec2> around_;

@@ -78,10 +78,10 @@ Layout PointScheme::first_of_insertion() {
   const double coarsening = std::sqrt(expected_points() / points_now_);
   DensityFit fit = fit_density(context_, expected_points(), std::fmin(coarsening, coarsest_integral));
   shortage_ = std::move(fit.shortage);
-  Layout layout = lay_boundary(context_, fit.layout.factor, coarsening, points_now_);
+  Layout layout = lay_stage(context_, fit.layout.fitted, coarsening, points_now_);
   if (const double held = static_cast<double>(layout.placed_first()); points_now_ < 2 * held) {
     points_now_ = std::min(expected_points(), 2 * held); // a stage of boundary alone has no order to pass on
-    layout = lay_boundary(context_, fit.layout.factor, std::sqrt(expected_points() / points_now_), points_now_);
+    layout = lay_stage(context_, fit.layout.fitted, std::sqrt(expected_points() / points_now_), points_now_);
     reason_ += fmt::format("; the first share was raised to {:.3g}, since the boundary alone takes half of it",
                            points_now_ / expected_points());
   }
@@ -94,11 +94,11 @@ Layout PointScheme::first_of_insertion() {
 Layout PointScheme::first_of_divisions() {
   DensityFit fit = fit_density(context_, expected_points(), std::ldexp(1.0, last_stage_));
   shortage_ = std::move(fit.shortage);
-  const double factor = fit.layout.factor, points = fit.inner + static_cast<double>(fit.layout.placed_first());
+  const double points = fit.inner + static_cast<double>(fit.layout.placed_first());
   Layout layout;
   double inner = 0;
   for (;; --last_stage_) {
-    layout = lay_boundary(context_, factor, std::ldexp(1.0, last_stage_), std::ldexp(points, -2 * last_stage_));
+    layout = lay_stage(context_, fit.layout.fitted, std::ldexp(1.0, last_stage_), std::ldexp(points, -2 * last_stage_));
     inner = wanted_inside(context_, layout, 2).sites;
     if (last_stage_ == 0 || inner >= static_cast<double>(layout.placed_first()))
       break;
@@ -148,7 +148,7 @@ Layout PointScheme::divide(const Layout& previous) {
   const comm::Communicator& comm = context_.comm;
   const ExtractionContext old{*previous.state, previous.boundary, *previous.size, context_.lattice};
   const GlobalId before = comm.sum(std::int64_t{previous.state->points().owned()});
-  Layout layout = lay_boundary(context_, previous.factor, previous.coarsening / 2, 4 * static_cast<double>(before));
+  Layout layout = lay_stage(context_, previous.fitted, previous.coarsening / 2, 4 * static_cast<double>(before));
   const auto time = context_.timers.scope("start");
   std::vector<mesh::Site> sites = split_edges(old);
   clear_strip(layout, sites);
@@ -172,7 +172,7 @@ Layout PointScheme::insert(const Layout& previous) {
     ++last_stage_; // too few triangles for the rest: the boundary took the points of the first stages
   points_now_ = is_last() ? all : std::min(all, std::max(grown, std::floor(growth * points_now_)));
   const double coarsening = is_last() ? 1 : std::fmax(1, std::sqrt(expected_points() / points_now_));
-  Layout layout = lay_boundary(context_, previous.factor, coarsening, points_now_);
+  Layout layout = lay_stage(context_, previous.fitted, coarsening, points_now_);
   const auto time = context_.timers.scope("start");
   std::vector<mesh::Site> sites = inner_sites(*previous.state);
   clear_strip(layout, sites);

@@ -10,10 +10,6 @@ namespace trime::meshing {
 
 using geometry::Vec2;
 
-namespace {
-constexpr std::size_t leaf_size = 8;
-}
-
 SiteTree::SiteTree(std::vector<Item> items) : items_(std::move(items)), split_y_(items_.size(), 0) {
   build(0, items_.size());
 }

@@ -37,6 +37,8 @@ struct MeshOptions {
   std::optional<GlobalId> points;    ///< exactly one of points and edge_length is set
   std::optional<double> edge_length; ///< target edge length (uniform size)
   double corner_angle = 30;          ///< degrees
+  bool keep_features = false;        ///< keeps every corner, island and lake, however small
+  double feature_tolerance = 0.1;    ///< in local sizes: how far chords may pass from corners that they leave out
   std::uint64_t seed = 1;
   int max_sweeps = 500;
   std::optional<double> stop_tolerance; ///< empty: the default of the method
@@ -94,6 +96,28 @@ struct CleanupCounts {
   void add(const CleanupCounts& other);
 };
 
+/// A corner of the boundary polygon and its angle on the inside.
+struct SharpCorner {
+  geometry::Vec2 place;
+  double degrees;
+};
+
+/// What was done about features of the boundary that are smaller than the elements, in the last stage.
+struct FeatureReport {
+  static constexpr double sharp_angle = 56; ///< degrees; below, a good triangle does not fit in a corner
+  GlobalId dropped_islands = 0, dropped_lakes = 0;
+  double dropped_area = 0;                ///< of both
+  GlobalId corners_left_out = 0;          ///< on the loops that stay
+  double largest_deviation = 0;           ///< of one of them from its boundary edge, over the local size
+  GlobalId segments_halved = 0;           ///< after the layout, to keep their discs empty
+  GlobalId size_limits = 0;               ///< places where the size was lowered
+  double lowest_size_share = 1;           ///< there, of what was asked for
+  std::vector<SharpCorner> sharp_corners; ///< below sharp_angle, the sharpest first
+};
+
+/// One line for each thing that was done; none for a boundary that needed nothing.
+std::vector<std::string> describe(const FeatureReport& report, double shape_area);
+
 struct MeshResult {
   mesh::DistributedMesh mesh;
   mesh::QualitySummary quality;
@@ -108,7 +132,8 @@ struct MeshResult {
   CleanupCounts cleanup;
   GlobalId corners = 0;
   int components = 0, holes = 0;
-  double shape_area = 0;
+  double shape_area = 0; ///< of what is meshed: without islands, with lakes that were dropped
+  FeatureReport features;
 };
 
 } // namespace trime::meshing

@@ -194,7 +194,7 @@ TEST(PeriodicMesher, APerturbedHexagonalTorusReturns) {
   const LayoutContext context{world, shape.boundary(), size, options, frame.lattice(), log, timers, none};
   // Bars all the way, cells all the way, and cells after bars as the hybrid method has it.
   for (const auto& [by_bars, sweeps] : {std::pair{360, 360}, {0, 120}, {40, 160}}) {
-    Layout layout = lay_boundary(context, 1.0 / columns, 1, columns * rows);
+    Layout layout = lay_boundary(context, 1.0 / columns, columns * rows);
     place_sites(context, layout, perturbed_lattice(world, frame, columns, rows, 0.15));
     const delaunay::StarBuilder builder(frame.lattice(), 1);
     DistMeshRule bars;

@@ -312,7 +312,7 @@ TEST(BoundarySites, HalvingEndsWhereThereAreMoreSitesThanAffordable) {
   const Graded size;
   const Boundary boundary = boundary_of({polygon_loop(comb(60, 0.006))});
   const std::size_t all = make_boundary_sites(boundary, size, unit_lattice(), 30).sites.size();
-  const BoundarySites result = make_boundary_sites(boundary, size, unit_lattice(), 30, {}, all / 2);
+  const BoundarySites result = make_boundary_sites(boundary, size, unit_lattice(), 30, {}, {}, all / 2);
   EXPECT_TRUE(result.overfull);
   EXPECT_EQ(result.sites.size(), all / 2);
 }

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What becomes of features of the boundary that are smaller than the elements.
+#pragma once
+
+#include "trime/geometry/boundary.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <span>
+#include <vector>
+
+namespace trime::meshing {
+
+/// @brief Loops whose perimeter is below `least_perimeter` local sizes are dropped; corners may be left out where
+/// chords then pass no farther from the boundary than `tolerance` local sizes. Corners with arms of two local sizes and
+/// more on both sides, and corners that are asked for (Piece::corner), are always kept. The default keeps everything.
+struct FeatureRule {
+  double tolerance = 0;
+  double least_perimeter = 0;
+  /// The local size that counts, if it differs from that by which the sites are laid. Must outlive what uses the rule.
+  const sizing::SizeField* size = nullptr;
+};
+
+/// What the loops that a rule drops took with them.
+struct DroppedLoops {
+  std::vector<char> dropped; ///< per loop of the boundary
+  int components = 0, holes = 0;
+  double area = 0;   ///< of the islands plus that of the lakes
+  double change = 0; ///< of the shape's area: lakes minus islands
+  /// Of the Euler characteristic.
+  int euler_change() const { return holes - components; }
+  bool any() const { return components + holes > 0; }
+};
+
+/// The boundary of what is left. O(pieces)
+geometry::Boundary boundary_without(const geometry::Boundary& boundary, const DroppedLoops& dropped);
+
+/// @brief Applies the rule. A loop stays if it winds around the container, has a corner that is asked for, or encloses
+/// a loop that stays or one of `inside`, and one component always stays. O(pieces + loops log loops) for loops apart.
+/// @param inside points of the shape that must remain in it, in lexicographic order
+DroppedLoops drop_small_loops(const geometry::Boundary& boundary, const sizing::SizeField& size, double least_perimeter,
+                              std::span<const geometry::Vec2> inside = {});
+
+} // namespace trime::meshing

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The places of a stretch of a loop among which its sites are chosen.
+#pragma once
+
+#include "loop_metric.hpp"
+#include "site_path.hpp"
+
+#include "trime/geometry/lattice.hpp"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace trime::meshing {
+
+/// How far chords may pass from the boundary: `share` of the local size as it was asked for.
+struct FeatureTolerance {
+  const sizing::SizeField* size; ///< as it was asked for, not lowered
+  double share;                  ///< 0: every corner is kept
+  geometry::Periods periods{};
+  double most = std::numeric_limits<double>::infinity(); ///< a length: a size far above the shape gives no licence
+
+  double at(geometry::Vec2 p) const { return std::fmin(most, share * sizing::checked_size(*size, periods.wrap(p))); }
+};
+
+/// @brief Junctions between t0 and t1, and places at most a quarter of the local size apart between them; both ends.
+/// Junctions that lie within a small part of the tolerance of a chord between others are left out (Douglas and Peucker
+/// 1973). O(n log n) for n junctions, at most O(64 n).
+std::vector<Place> places_between(const LoopMetric& metric, double t0, double t1, const geometry::Lattice& lattice,
+                                  const FeatureTolerance& tolerance);
+
+} // namespace trime::meshing

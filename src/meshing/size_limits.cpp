@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "size_limits.hpp"
+
+#include "site_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::meshing {
+
+using geometry::Vec2;
+
+namespace {
+
+constexpr double short_chord = 0.65; // of the local size
+constexpr double short_factor = 1.2; // limit over the length of a short chord: its neighbours may be longer
+constexpr double narrow_gap = 0.65;  // of the local size: sites that are nearer across the inside
+constexpr double least_share = 0.05; // of the size that is asked for: no limit is lower
+constexpr double lens_offset = 0.134, lens_radius = 0.5176; // of the chord: circle that sees it at 75 degrees
+constexpr double width_share = 1.15;                        // chord of an equilateral triangle over its height
+
+class LimitFinder {
+public:
+  LimitFinder(const BoundarySites& boundary, const sizing::SizeField& size, const sizing::SizeField& asked)
+      : boundary_(boundary), size_(size), asked_(asked), tree_(items_of(boundary)) {}
+
+  std::vector<sizing::SizeLimit> run() const {
+    std::vector<sizing::SizeLimit> limits;
+    const auto add = [&](Vec2 place, double limit, double h) {
+      if (limit < 0.95 * h)
+        limits.push_back({place, std::fmax(limit, least_share * asked_.size(place))});
+    };
+    for (LocalIndex k = 0; k < static_cast<LocalIndex>(boundary_.sites.size()); ++k) {
+      const geometry::Segment chord = boundary_.chord(k);
+      const double at_site = sizing::checked_size(size_, chord.a);
+      add(chord.a, gap_across(k, narrow_gap * at_site), at_site);
+      if (is_near_sharp(k))
+        continue; // in a wedge chords are short at any size
+      const Vec2 middle = boundary_.periods.wrap(0.5 * (chord.a + chord.b));
+      const double length = geometry::length(chord.b - chord.a), h = sizing::checked_size(size_, middle);
+      const double limit = length < short_chord * h ? short_factor * length : h;
+      add(middle, std::fmin(limit, width_share * width_across(k, chord, length)), h);
+    }
+    return limits;
+  }
+
+private:
+  static std::vector<SiteTree::Item> items_of(const BoundarySites& boundary) {
+    std::vector<SiteTree::Item> items;
+    for (std::size_t k = 0; k < boundary.sites.size(); ++k)
+      items.push_back({boundary.sites[k].position, static_cast<LocalIndex>(k)});
+    return items;
+  }
+
+  /// Least distance from the chord's line of the sites that see it at a large angle; infinite without any.
+  double width_across(LocalIndex k, const geometry::Segment& chord, double length) const {
+    const Vec2 along = (1 / length) * (chord.b - chord.a), inward{-along.y, along.x};
+    const Vec2 center = 0.5 * (chord.a + chord.b) + lens_offset * length * inward;
+    double width = std::numeric_limits<double>::infinity();
+    tree_.for_each_within(center, lens_radius * length, [&](const SiteTree::Item& item) {
+      const double height = geometry::dot(item.position - chord.a, inward);
+      if (height > 0 && !is_near(k, item.index))
+        width = std::fmin(width, height);
+    });
+    return width;
+  }
+
+  LocalIndex next(LocalIndex k) const { return boundary_.sites[static_cast<std::size_t>(k)].next; }
+  LocalIndex previous(LocalIndex k) const { return boundary_.sites[static_cast<std::size_t>(k)].previous; }
+
+  /// Is one of the ends of chord k, or a neighbour of them, a sharp corner?
+  bool is_near_sharp(LocalIndex k) const {
+    return is_sharp(previous(k)) || is_sharp(k) || is_sharp(next(k)) || is_sharp(next(next(k)));
+  }
+
+  /// Distance from site k to the nearest other one across the inside, if below `reach`; else infinite.
+  double gap_across(LocalIndex k, double reach) const {
+    const geometry::Segment out = boundary_.chord(k);
+    const Vec2 ahead = out.b - out.a, back = boundary_.chord(previous(k)).a - boundary_.chord(previous(k)).b;
+    double gap = std::numeric_limits<double>::infinity();
+    tree_.for_each_within(out.a, reach, [&](const SiteTree::Item& item) {
+      const Vec2 across = item.position - out.a;
+      const bool left_of_ahead = geometry::cross(ahead, across) > 0, right_of_back = geometry::cross(across, back) > 0;
+      const bool inside =
+          geometry::cross(ahead, back) > 0 ? left_of_ahead && right_of_back : left_of_ahead || right_of_back;
+      if (inside && !is_around_corner(k, item.index))
+        gap = std::fmin(gap, geometry::length(across));
+    });
+    return gap;
+  }
+
+  /// Are the sites at most two chords apart, or on the arms of one sharp corner?
+  bool is_around_corner(LocalIndex k, LocalIndex other) const {
+    constexpr int longest_arms = 24; // chords of both arms together
+    LocalIndex forward = k, backward = k;
+    bool sharp_ahead = is_sharp(k), sharp_behind = sharp_ahead;
+    for (int hop = 0; hop <= longest_arms; ++hop) {
+      if ((forward == other && (hop <= 2 || sharp_ahead)) || (backward == other && (hop <= 2 || sharp_behind)))
+        return true;
+      forward = next(forward);
+      backward = previous(backward);
+      sharp_ahead |= is_sharp(forward);
+      sharp_behind |= is_sharp(backward);
+    }
+    return false;
+  }
+
+  /// Do the chords of site k meet at less than 60 degrees, on the inside?
+  bool is_sharp(LocalIndex k) const {
+    const geometry::Segment out = boundary_.chord(k),
+                            in = boundary_.chord(boundary_.sites[static_cast<std::size_t>(k)].previous);
+    const Vec2 ahead = out.b - out.a, back = in.a - in.b;
+    const double dot = geometry::dot(ahead, back);
+    return geometry::cross(ahead, back) > 0 && dot > 0 &&
+           4 * dot * dot > geometry::squared_length(ahead) * geometry::squared_length(back);
+  }
+
+  /// Is the site at most two chords from chord k along the boundary?
+  bool is_near(LocalIndex k, LocalIndex other) const {
+    const auto& sites = boundary_.sites;
+    const LocalIndex next = sites[k].next, previous = sites[k].previous;
+    return other == k || other == next || other == previous || other == sites[next].next;
+  }
+
+  const BoundarySites& boundary_;
+  const sizing::SizeField &size_, &asked_;
+  const SiteTree tree_;
+};
+
+} // namespace
+
+std::vector<sizing::SizeLimit> size_limits(const BoundarySites& boundary, const sizing::SizeField& size,
+                                           const sizing::SizeField& asked) {
+  return LimitFinder(boundary, size, asked).run();
+}
+
+} // namespace trime::meshing

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/sizing/lowered_size.hpp"
+
+#include "sizing/cone_tree.hpp"
+
+namespace trime::sizing {
+namespace {
+
+/// With the images next to the container: a nearest one is among them.
+std::vector<Cone> cones_of(const std::vector<SizeLimit>& limits, const geometry::Periods& periods) {
+  std::vector<Cone> cones;
+  const int nx = periods.x > 0 ? 1 : 0, ny = periods.y > 0 ? 1 : 0;
+  for (const SizeLimit& limit : limits)
+    for (int j = -ny; j <= ny; ++j)
+      for (int i = -nx; i <= nx; ++i)
+        cones.push_back({periods.wrap(limit.place) + geometry::Vec2{i * periods.x, j * periods.y}, limit.size});
+  return cones;
+}
+
+} // namespace
+
+LoweredSize::LoweredSize(const SizeField& field, const std::vector<SizeLimit>& limits, double gradation,
+                         const geometry::Periods& periods)
+    : field_(field), periods_(periods), cones_(std::make_unique<const ConeTree>(cones_of(limits, periods), gradation)) {
+}
+
+LoweredSize::~LoweredSize() = default;
+
+double LoweredSize::size(geometry::Vec2 p) const {
+  const double size = field_.size(p);
+  return is_valid_size(size) ? cones_->value(periods_.wrap(p), size) : size;
+}
+
+} // namespace trime::sizing
