@@ -95,6 +95,7 @@ std::vector<LocalIndex> edit_boundary(BoundarySites& boundary, const BoundaryCur
   boundary.loop_start.assign(1, 0);
   std::vector<LocalIndex> new_index(old.sites.size(), -1);
   std::size_t next = 0;
+  LocalIndex inserted_before = -1;
   const auto put = [&](BoundarySite site, const BoundaryEdit& edit, const BoundaryCurve::Place& place) {
     site.position = edit.position;
     site.piece = place.piece;
@@ -116,6 +117,10 @@ std::vector<LocalIndex> edit_boundary(BoundarySites& boundary, const BoundaryCur
         boundary.sites.push_back(site);
       }
       for (; next < edits.size() && edits[next].site == k; ++next) {
+        if (edits[next].kind != BoundaryEdit::Kind::insert || inserted_before == k)
+          throw InternalError(fmt::format("two changes of one boundary site or chord, at ({}, {})",
+                                          edits[next].position.x, edits[next].position.y));
+        inserted_before = k;
         inserted[next] = put(site, edits[next], curve.place(number, edits[next].arc));
         boundary.sites.back().corner = false;
       }

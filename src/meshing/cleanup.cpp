@@ -26,9 +26,7 @@ constexpr int passes_of_choice = 5;
 constexpr std::array<double, 3> stages{4, 2, 1};
 constexpr double largest_loss = 0.005;                       // of the sites
 constexpr double scarcity = 0.001, handicap_if_scarce = 1.5; // from when deletions must be that much better
-/// h: what two patches may share, since nothing moves near the rim of what is read.
-constexpr double overlap = 2.8;
-constexpr double around_bad_site = 3, around_patch = 3; // h: how far stars are computed anew, beyond its reach
+constexpr double around_bad_site = 3, around_patch = 3;      // h: how far stars are computed anew, beyond its reach
 
 std::size_t at(LocalIndex i) {
   return static_cast<std::size_t>(i);
@@ -196,7 +194,7 @@ std::vector<Cleanup::Candidate> Cleanup::find_candidates(std::vector<GlobalId>& 
     if (std::any_of(ring.begin(), ring.end(), is_worse))
       continue;
     const SizeClass its_class = class_of(view.size(i));
-    const double separation = (2 * options_.reach - overlap) * its_class.upper;
+    const double separation = (2 * options_.reach - PatchOptions::clearance) * its_class.upper;
     if (separation > limit)
       continue;
     candidates.push_back({i, separation});

@@ -13,8 +13,8 @@ namespace {
 
 using geometry::Vec2;
 
-constexpr double clearance_of_score = 1.5, clearance_of_moves = 2.8; // h, from the rim of what is read
-constexpr double widest_frame = 0x1.8p44; // lattice steps: 1.5 sides of the container at least; predicates are exact
+constexpr double clearance_of_score = 1.5; // h, from the rim of what is read
+constexpr double widest_frame = 0x1.8p44;  // lattice steps: 1.5 sides of the container at least; predicates are exact
 constexpr double weight_of_bad = 10;
 constexpr double least_gain = 0.02;
 constexpr int early_sweeps = 2;       // after them a trial is given up that is
@@ -53,10 +53,11 @@ bool PatchOptimizer::build(Vec2 center, double size, std::span<const PatchSite> 
   base_.boundary.assign(PatchMesh::frame, {});
   for (const PatchSite& site : sites) {
     const double distance = geometry::length(site.position - center);
+    const double coarser = std::fmax(site.size, size);
     Role role = Role::held;
-    if (distance + clearance_of_moves * site.size < reach && site.boundary != mesh::fixed_site)
+    if (distance + PatchOptions::clearance * coarser < reach && site.boundary != mesh::fixed_site)
       role = Role::free;
-    else if (distance + clearance_of_score * site.size < reach)
+    else if (distance + clearance_of_score * coarser < reach)
       role = Role::scored;
     BoundaryVertex on_boundary;
     if (site.boundary >= 0) {

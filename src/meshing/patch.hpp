@@ -34,6 +34,8 @@ struct SiteEdit {
 
 /// What is tried, and when it is kept.
 struct PatchOptions {
+  /// h at the middle: nothing changes within it from the rim of what is read, so a patch may begin that much nearer.
+  static constexpr double clearance = 2.8;
   double reach = 6;        ///< sites within this many h of the middle are read
   double bad_alpha = 1.07; ///< triangles above it are bad
   /// Insertions and deletions are tried where moves alone leave a triangle above it, or help nothing.

@@ -161,6 +161,21 @@ TEST(EditBoundary, NothingToDoLeavesAllAsItWas) {
   expect_sound(sites, curve);
 }
 
+/// Patches that overlap would do that.
+TEST(EditBoundary, RefusesTwoChangesOfOneSiteOrChord) {
+  const Boundary boundary = square_and_hole();
+  const BoundaryCurve curve(boundary);
+  const BoundarySites before = sites_of(boundary, 0.07);
+  const double arc = arc_between(before, curve, 5);
+  const Vec2 place = curve.place(0, arc).point;
+  for (const BoundaryEdit::Kind kind : {BoundaryEdit::Kind::slide, BoundaryEdit::Kind::insert}) {
+    BoundarySites sites = before;
+    std::vector<BoundaryEdit> edits(2, {5, kind, arc, place});
+    std::vector<LocalIndex> inserted;
+    EXPECT_THROW(edit_boundary(sites, curve, edits, inserted), InternalError);
+  }
+}
+
 /// At each site of both loops, the first and the last ones included: slide, insertion and removal.
 TEST(EditBoundary, EachSiteCanSlideGoAndGetANewNext) {
   const Boundary boundary = square_and_hole();

@@ -185,6 +185,22 @@ TEST(PatchOptimizer, BringsADisplacedSiteBack) {
   }
 }
 
+/// Another patch may begin 2 reach - clearance away: it may read what this one changes otherwise.
+TEST(PatchOptimizer, ChangesNothingNearTheRimHoweverSmallTheTrianglesThere) {
+  Stage stage(far_square());
+  add_lattice(stage);
+  stage.take_nearest(middle);
+  const Vec2 displaced = unit_lattice().snap(middle + h * Vec2{0.3, 0.1});
+  stage.add(displaced);
+  for (PatchSite& site : stage.sites)
+    if (geometry::length(site.position - middle) > 2 * h)
+      site.size = 0.05 * h;
+  const std::vector<SiteEdit> edits = stage.improve(displaced);
+  EXPECT_FALSE(edits.empty());
+  for (const SiteEdit& edit : edits)
+    EXPECT_LT(geometry::length(edit.from - displaced), (PatchOptions{}.reach - PatchOptions::clearance) * h);
+}
+
 TEST(PatchOptimizer, DeletesOneTooMany) {
   Stage stage(far_square());
   stage.options.bad_alpha = stage.options.operate_alpha = 1.02; // so that moves alone are not enough
