@@ -14,6 +14,8 @@ using geometry::Vec2;
 
 namespace {
 
+constexpr double cosine_of_bent = 0.99996, cosine_of_sharp = 0.8660254037844386; // half a degree, 30 degrees
+
 std::size_t at(LocalIndex i) {
   return static_cast<std::size_t>(i);
 }
@@ -62,8 +64,13 @@ BoundaryCurve::Strayed BoundaryCurve::strayed(LocalIndex loop, double from, doub
   for (std::size_t visited = 0; visited <= curve.pieces.size() && passed < to; ++visited) {
     const geometry::Piece& piece = curve.pieces[k];
     const double length = starts[k + 1] - starts[k];
-    if (passed > from)
+    if (passed > from) {
       look(piece.start + moved);
+      const geometry::Piece& before = curve.pieces[k == 0 ? curve.pieces.size() - 1 : k - 1];
+      const double cosine = geometry::dot(before.tangent(before.length()), piece.tangent(0));
+      result.bent |= cosine < cosine_of_bent;
+      result.sharp |= cosine < cosine_of_sharp;
+    }
     for (int quarter = 1; piece.circular && quarter < 4; ++quarter) {
       const double low = std::fmax(from - passed, 0), high = std::fmin(to - passed, length);
       look(piece.point(low + 0.25 * quarter * (high - low)) + moved);

@@ -38,6 +38,8 @@ public:
   struct Strayed {
     double deviation = 0;     ///< largest distance from the chord, of junctions and points on arcs
     bool leaves_disc = false; ///< one lies outside of the chord's diametral disc
+    bool bent = false;        ///< a junction lies between that turns by more than half a degree
+    bool sharp = false;       ///< one that turns by more than 30 degrees
   };
   Strayed strayed(LocalIndex loop, double from, double to, const geometry::Segment& chord) const;
 

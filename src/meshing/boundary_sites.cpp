@@ -24,6 +24,7 @@ namespace {
 constexpr int full_rounds = 20;                // later rounds look only at segments near the new sites
 constexpr double shortest_in_steps = 0x1p11;   // a shorter part is not divided
 constexpr double largest_turn = pi / 3 + 1e-6; // of the curve between neighbouring sites
+constexpr double smooth_junction = pi / 360;   // where two pieces of one circle meet
 constexpr double most_deviation = 1.25;        // of the tolerance; the layout keeps within 1.1 of it
 constexpr double junction_turn = pi / 4; // a junction that turns by more becomes a site when its segment is divided
 
@@ -247,7 +248,9 @@ bool Refiner::curve_offends(LocalIndex segment) const {
   const double tolerance = tolerance_.at(a.position);
   const bool strays = tolerance > 0 && part.sharpest_turn > corner_angle_ * (pi / 180) &&
                       part.deviation > most_deviation * tolerance; // from a corner, after a division
-  return strays || (std::fabs(part.turn) > largest_turn && part.deviation > tolerance);
+  // The arc of a circle has no corner that could be left out.
+  const bool is_smooth = part.sharpest_turn < smooth_junction;
+  return strays || (std::fabs(part.turn) > largest_turn && (is_smooth || part.deviation > tolerance));
 }
 
 /// Where to divide the segment from a to b, as t after a.

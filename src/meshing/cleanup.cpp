@@ -90,9 +90,10 @@ Cleanup::Cleanup(const comm::Communicator& comm, Layout& layout, const geometry:
                  const PatchOptions& options)
     : comm_(comm), layout_(layout), state_(*layout.state), curve_(boundary), lattice_(lattice), builder_(builder),
       options_(options), most_sites_(most_sites), sites_(comm.sum(std::int64_t{state_.points().owned()})) {
-  most_sites_ = std::max(most_sites_, sites_);
+  const GlobalId leeway = static_cast<GlobalId>(largest_loss * static_cast<double>(sites_)) + 1;
+  most_sites_ = most_sites_ > 0 ? std::max(most_sites_, sites_) : sites_ + leeway;
   wanted_sites_ = sites_;
-  least_sites_ = sites_ - static_cast<GlobalId>(largest_loss * static_cast<double>(sites_)) - 1;
+  least_sites_ = sites_ - leeway;
 }
 
 /// What a star of one of these places may look at, sent to the owners of all tiles there.
@@ -265,7 +266,7 @@ std::vector<PatchSite> Cleanup::sites_around(LocalIndex site, double reach) cons
 
 PatchBudget Cleanup::budget() const {
   const bool scarce = static_cast<double>(sites_) < (1 - scarcity) * static_cast<double>(wanted_sites_);
-  return {sites_<most_sites_, sites_> least_sites_, scarce ? handicap_if_scarce : 1};
+  return {sites_ < most_sites_, sites_ - least_sites_, scarce ? handicap_if_scarce : 1};
 }
 
 std::vector<std::vector<SiteEdit>> Cleanup::try_patches(const std::vector<Candidate>& chosen) {
@@ -298,13 +299,13 @@ void Cleanup::keep_within_limits(const std::vector<Candidate>& chosen, std::vect
     std::vector<std::uint64_t> keys;
     for (std::size_t k = 0; k < edits.size(); ++k)
       for (int n = sign * gain_of(edits[k]); n > 0; --n) // one key for each site
-        keys.push_back(hash_of(state_.points().position(chosen[k].site), n));
+        keys.push_back(hash_of(state_.points().position(chosen[k].site), 4 * round_ + n));
     if (comm_.sum(static_cast<std::int64_t>(keys.size())) <= room)
       return;
     const std::uint64_t threshold = selection_threshold(comm_, keys, std::max<GlobalId>(0, room));
     for (std::size_t k = 0; k < edits.size(); ++k)
       for (int n = sign * gain_of(edits[k]); n > 0; --n)
-        if (!(hash_of(state_.points().position(chosen[k].site), n) < threshold)) {
+        if (!(hash_of(state_.points().position(chosen[k].site), 4 * round_ + n) < threshold)) {
           edits[k].clear();
           break;
         }
@@ -445,14 +446,14 @@ CleanupCounts Cleanup::round() {
 
 CleanupCounts Cleanup::run() {
   CleanupCounts all;
-  int rounds = 0;
   for (const double excess : stages) {
     threshold_ = 1 + excess * (options_.bad_alpha - 1);
     all_stars_ = true;
-    for (std::int64_t patches = 1; patches > 0 && rounds < most_rounds; ++rounds) {
+    for (int k = 0; k < most_rounds; ++k) {
       const CleanupCounts counts = round();
       all.add(counts);
-      patches = counts.patches;
+      if (counts.patches == 0)
+        break;
     }
   }
   return all;

@@ -19,8 +19,9 @@ namespace trime::meshing {
 /// candidate computes its patch and sends the changes to the owners of the sites; what changes on the boundary goes to
 /// all ranks. A triangle for which nothing helped is not tried again before a corner of it has moved.
 ///
-/// The number of sites stays near that of the beginning, at most half a percent below, and never above the target: when
-/// the patches of a round would leave these limits, those first in the order of a hash are carried out.
+/// The number of sites stays near that of the beginning, at most half a percent below, and never above `most_sites` (0:
+/// half a percent above): when the patches of a round would leave these limits, those first in the order of a hash are
+/// carried out.
 class Cleanup {
 public:
   /// References must outlive the object.
@@ -28,9 +29,9 @@ public:
           const geometry::Lattice& lattice, const delaunay::StarBuilder& builder, GlobalId most_sites,
           const PatchOptions& options = {});
 
-  /// @brief Rounds until no place is left where something has not been tried, at most `most_rounds`. Stars are to be
-  /// computed anew afterwards. Collective. About 0.3 ms a patch; from the second round on only stars near bad triangles
-  /// and changes are computed.
+  /// @brief Rounds until no place is left where something has not been tried, at most `most_rounds` in each stage.
+  /// Stars are to be computed anew afterwards. Collective. About 0.3 ms a patch; from the second round on only stars
+  /// near bad triangles and changes are computed.
   CleanupCounts run();
 
   /// One round. Collective.

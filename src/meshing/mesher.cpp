@@ -237,8 +237,8 @@ private:
     patches.tolerance = options_.keep_features ? 0 : options_.feature_tolerance;
     cleanup_ =
         Cleanup(comm_, layout_, meshed_boundary(), lattice_, *builder_, options_.points.value_or(0), patches).run();
-    log_.info("clean-up: {} of {} patches better; {} sites moved, {} inserted, {} deleted; {} places left with alpha "
-              "above {}",
+    log_.info("clean-up: {} of {} patches better; {} sites moved, {} inserted, {} deleted; nothing helped at {} "
+              "places with alpha above {}",
               cleanup_.better, cleanup_.patches, cleanup_.moved, cleanup_.inserted, cleanup_.deleted, cleanup_.left,
               patches.bad_alpha);
   }
@@ -316,7 +316,7 @@ private:
       return scheme_->shortage();
     return fmt::format("{} points came too near to the boundary or to each other and were taken out; the start left "
                        "out the rest",
-                       placed_ - points);
+                       placed_ + cleanup_.inserted - cleanup_.deleted - points);
   }
 
   const comm::Communicator& comm_;

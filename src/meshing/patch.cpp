@@ -203,7 +203,8 @@ void PatchOptimizer::list_operations() {
 }
 
 bool PatchOptimizer::allows(const PatchBudget& budget, const Operation& operation) {
-  return operation.kind == SiteEdit::Kind::insert ? budget.may_insert : budget.may_delete;
+  return operation.kind == SiteEdit::Kind::insert ? budget.may_insert
+                                                  : budget.may_delete >= (operation.second < 0 ? 1 : 2);
 }
 
 /// Carries it out on the trial. @return false if it cannot be done
@@ -350,7 +351,8 @@ bool PatchOptimizer::stands_for_curve(const BoundaryVertex& from, const Boundary
   const BoundaryCurve::Strayed strayed = curve_.strayed(from.loop, from.arc, to.arc, chord);
   if (strayed.leaves_disc || (length > longest_bent_ * size && strayed.deviation > unseen * size))
     return false; // the area that is lost grows with the third power of the length
-  return arc <= largest_arc_share * length || strayed.deviation <= options_.tolerance * size;
+  const bool tolerated = strayed.bent && strayed.deviation <= options_.tolerance * size;
+  return tolerated || (!strayed.sharp && arc <= largest_arc_share * length);
 }
 
 /// Is the closed diametral disc of each chord that has changed free, and does it stand for its curve? Is that of
@@ -423,8 +425,10 @@ void PatchOptimizer::try_everything(const PatchBudget& budget, Best& best) {
 
 bool PatchOptimizer::improve(Vec2 center, double size, std::span<const PatchSite> sites, const PatchBudget& budget,
                              std::vector<SiteEdit>& edits) {
-  if (!build(center, size, sites))
+  if (!build(center, size, sites)) {
+    edits.push_back({center, center, SiteEdit::Kind::none});
     return false;
+  }
   const Score before = score(base_);
   Best best{(1 - least_gain) * before.sum, before.max, before.max};
   list_operations();
@@ -434,9 +438,12 @@ bool PatchOptimizer::improve(Vec2 center, double size, std::span<const PatchSite
     longest_bent_ = bent_at_last;
     try_everything(budget, best);
   }
-  if (best.found)
+  if (best.found) {
     collect_edits(edits);
-  else if (const PatchMesh::Triangle* worst = worst_triangle())
+    return true;
+  }
+  edits.push_back({center, center, SiteEdit::Kind::none});
+  if (const PatchMesh::Triangle* worst = worst_triangle())
     for (const LocalIndex v : worst->vertex)
       edits.push_back({base_.mesh.position(v), base_.mesh.position(v), SiteEdit::Kind::none});
   return best.found;

@@ -46,7 +46,8 @@ struct PatchOptions {
 
 /// What a patch may do with the number of sites.
 struct PatchBudget {
-  bool may_insert = true, may_delete = true;
+  bool may_insert = true;
+  GlobalId may_delete = 2;      ///< so many
   double deletion_handicap = 1; ///< factor on the sum of a trial with fewer sites: above 1 if sites are scarce
 };
 
@@ -68,7 +69,8 @@ public:
 
   /// @brief Tries everything once.
   /// @param sites in lexicographic order; all that lie within `options.reach` times `size` of `center`
-  /// @param edits receives the changes, if one was better; else Kind::none for the corners of the bad triangle
+  /// @param edits receives the changes, if one was better; else Kind::none for the center and the corners of the bad
+  /// triangle
   /// @return whether one was
   bool improve(geometry::Vec2 center, double size, std::span<const PatchSite> sites, const PatchBudget& budget,
                std::vector<SiteEdit>& edits);
