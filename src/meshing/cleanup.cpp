@@ -170,7 +170,7 @@ std::vector<GlobalId> Cleanup::worst_alphas() const {
   return keys;
 }
 
-/// Local maxima of badness; `order` receives their rank among candidates, 0 for all other sites, ghosts included.
+/// Local maxima of badness; `order` receives their rank among candidates, 0 for all other owned sites.
 std::vector<Cleanup::Candidate> Cleanup::find_candidates(std::vector<GlobalId>& order) {
   const mesh::BinnedPoints& points = state_.points();
   const StarView view = view_of(state_, *layout_.size);
@@ -180,7 +180,6 @@ std::vector<Cleanup::Candidate> Cleanup::find_candidates(std::vector<GlobalId>& 
   keys.insert(keys.end(), of_ghosts.begin(), of_ghosts.end());
   const geometry::Periods& periods = points.grid().periods();
   std::vector<Candidate> candidates;
-  std::vector<double> reaches;
   order.assign(at(points.owned()), 0);
   const double limit = 0.45 * std::min(periods.x > 0 ? periods.x : INFINITY, periods.y > 0 ? periods.y : INFINITY);
   for (LocalIndex i = 0; i < points.owned(); ++i) {
@@ -211,7 +210,6 @@ std::vector<Cleanup::Candidate> Cleanup::find_candidates(std::vector<GlobalId>& 
 /// Those of a smaller class come first, so that of two the one that has to leave looks far enough.
 void Cleanup::choose_apart(std::vector<Candidate>& candidates, std::vector<GlobalId> order) const {
   const mesh::BinnedPoints& points = state_.points();
-  const LocalIndex owned = points.owned();
   std::vector<Candidate> chosen;
   for (int pass = 0; pass < passes_of_choice; ++pass) {
     const std::vector<GlobalId> of_ghosts = state_.halo().exchange(points, order); // 0: none, negative: chosen
@@ -238,7 +236,6 @@ void Cleanup::choose_apart(std::vector<Candidate>& candidates, std::vector<Globa
       }
       return leaves || first;
     });
-    TRIME_ASSERT(order.size() == at(owned));
   }
   candidates = std::move(chosen);
   std::sort(candidates.begin(), candidates.end(),

@@ -140,7 +140,7 @@ PatchOptimizer::Score PatchOptimizer::score(const Patch& patch) const {
   return score;
 }
 
-/// Of the triangles that count, nearest to the middle: the one that made this patch.
+/// Of the triangles at the middle that count: the one that made this patch.
 const PatchMesh::Triangle* PatchOptimizer::worst_triangle() const {
   const PatchMesh::Triangle* worst = nullptr;
   double largest = 1;
@@ -446,7 +446,7 @@ bool PatchOptimizer::improve(Vec2 center, double size, std::span<const PatchSite
   if (const PatchMesh::Triangle* worst = worst_triangle())
     for (const LocalIndex v : worst->vertex)
       edits.push_back({base_.mesh.position(v), base_.mesh.position(v), SiteEdit::Kind::none});
-  return best.found;
+  return false;
 }
 
 } // namespace trime::meshing

@@ -158,15 +158,17 @@ class HardShapes(unittest.TestCase):
                    says=["boundary alone needs more than 1500", "simplify the shape there"])
 
     def test_islands(self):
-        sea = [SQUARE] + islands(200)
-        first, points = self.mesh(sea, "meshing.points=8000", euler=1 - 200)
+        sea, keep = [SQUARE] + islands(200), "meshing.keep_features=true"
+        first, points = self.mesh(sea, "meshing.points=8000", keep, euler=1 - 200)
         self.assertGreater(points, 7900)
-        self.assertEqual(self.mesh(sea, "meshing.points=8000", euler=1 - 200, ranks=3)[0], first)
+        self.assertEqual(self.mesh(sea, "meshing.points=8000", keep, euler=1 - 200, ranks=3)[0], first)
 
     def test_annulus(self):
         for width in (0.02, 0.003):
             self.mesh(ANNULUS + disc("b", 0.5, 0.5, 0.4 - width), "meshing.edge_length=0.01", euler=0)
-        self.mesh(ANNULUS + disc("b", 0.5, 0.5, 1e-6), "meshing.points=1000", euler=0)
+        pinhole = ANNULUS + disc("b", 0.5, 0.5, 1e-6)
+        self.mesh(pinhole, "meshing.points=1000", "meshing.keep_features=true", euler=0)
+        self.mesh(pinhole, "meshing.points=1000", euler=1)  # below the resolution
         self.error(ANNULUS + disc("b", 0.5, 0.5, 0.4 - 1e-5), "meshing.points=1000", "sizing.type=automatic", code=2,
                    says=["boundary alone needs more than"])
 
@@ -176,7 +178,8 @@ class HardShapes(unittest.TestCase):
     def test_snowflake(self):
         self.mesh([koch(7)], "meshing.points=100000")
         self.mesh([rectangle(0.01, 0.01, 0.99, 0.99), koch(5)], "meshing.points=10000", euler=0)
-        self.error([koch(7)], "meshing.points=1000", code=2, says=["boundary alone needs more than 49152"])
+        self.error([koch(7)], "meshing.points=1000", "meshing.keep_features=true", code=2,
+                   says=["boundary alone needs more than 49152"])
 
 
 if __name__ == "__main__":
