@@ -19,6 +19,7 @@ constexpr double always_a_corner = 120;           // degrees; no chord can stand
 constexpr double sharp_turn = 120;                // degrees; the arms then meet at less than 60
 constexpr double largest_turn = pi / 3 + 1e-9;    // of the curve within one interval
 constexpr double long_arm = 2;                    // in local sizes: a corner with such arms is kept
+constexpr double turned_back = 2 * pi / 3;        // between two such arms, on a short way: the end of a slit
 constexpr double most_of_extent = 0.1;            // of a loop: no corner is left out farther from its chord
 constexpr double smallest_size_in_steps = 0x1p11; // of the lattice, for h
 
@@ -61,27 +62,66 @@ Corner corner_at(const LoopMetric& metric, std::size_t piece) {
       metric.piece_t(piece), metric.loop().pieces[piece].start, metric.loop().turn_degrees(piece) > sharp_turn, {}, {}};
 }
 
-double way_to_next(const std::vector<double>& turning, std::size_t k, double total) {
-  return k + 1 < turning.size() ? turning[k + 1] - turning[k] : turning.front() + total - turning.back();
+/// A junction that turns by more than the corner angle.
+struct Turning {
+  std::size_t piece;
+  double t;
+  double turn; // signed, radians
+};
+
+std::vector<Turning> find_turnings(const LoopMetric& metric, double corner_angle) {
+  const auto& pieces = metric.loop().pieces;
+  std::vector<Turning> turnings;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (!(metric.loop().turn_degrees(i) > std::fmin(corner_angle, always_a_corner)))
+      continue;
+    const geometry::Piece& before = pieces[(i + pieces.size() - 1) % pieces.size()];
+    const Vec2 in = before.tangent(before.length()), out = pieces[i].tangent(0);
+    turnings.push_back({i, metric.piece_t(i), angle_of(geometry::cross(in, out), geometry::dot(in, out))});
+  }
+  return turnings;
+}
+
+/// @brief Which of the junctions stand at a long arm on both sides, or at the two ends of a short way on which the
+/// curve turns back between two long arms: the end of a slit. Its sides get sites in pairs only if both corners stay;
+/// else they meet in a wedge that takes any number of sites.
+std::vector<char> find_clear_corners(const std::vector<Turning>& turnings, double total) {
+  const std::size_t n = turnings.size();
+  const auto way_ahead = [&](std::size_t k) {
+    return k + 1 < n ? turnings[k + 1].t - turnings[k].t : turnings.front().t + total - turnings.back().t;
+  };
+  std::vector<char> clear(n, 0);
+  for (std::size_t k = 0; k < n; ++k) {
+    if (way_ahead((k + n - 1) % n) < long_arm)
+      continue;
+    double turn = 0, way = 0;
+    for (std::size_t hop = 0; hop < n && way < long_arm; ++hop) {
+      const std::size_t last = (k + hop) % n;
+      turn += turnings[last].turn;
+      if (way_ahead(last) >= long_arm) {
+        if (hop == 0 || std::fabs(turn) >= turned_back)
+          clear[k] = clear[last] = 1;
+        break;
+      }
+      way += way_ahead(last);
+    }
+  }
+  return clear;
 }
 
 Junctions find_junctions(const LoopMetric& metric, double corner_angle, double tolerance) {
   const auto& pieces = metric.loop().pieces;
-  std::vector<double> turning; // t of all junctions that turn by more than the angle
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    if (metric.loop().turn_degrees(i) > std::fmin(corner_angle, always_a_corner))
-      turning.push_back(metric.piece_t(i));
+  const std::vector<Turning> turnings = find_turnings(metric, corner_angle);
+  const std::vector<char> clear = find_clear_corners(turnings, metric.total());
   Junctions found;
   std::size_t next = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const bool turns = next < turning.size() && turning[next] == metric.piece_t(i);
-    const bool alone = turns && way_to_next(turning, next, metric.total()) >= long_arm &&
-                       way_to_next(turning, (next + turning.size() - 1) % turning.size(), metric.total()) >= long_arm;
-    next += turns;
-    if (pieces[i].corner || alone || (turns && tolerance == 0))
+    const bool turns = next < turnings.size() && turnings[next].piece == i;
+    if (pieces[i].corner || (turns && (clear[next] || tolerance == 0)))
       found.kept.push_back(corner_at(metric, i));
     else if (turns)
       found.others.push_back(metric.piece_t(i));
+    next += turns;
   }
   if (found.kept.empty() && !found.others.empty())
     found.kept.push_back(corner_at(metric, outermost_junction(metric.loop())));

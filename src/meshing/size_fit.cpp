@@ -16,6 +16,12 @@ constexpr double same_spacing = 0.02;
 constexpr double close_enough = 0.004;                // of the points asked for
 constexpr double many_points = 64, least_share = 0.5; // the latter of the points asked for
 
+/// The boundary takes too many points at one size and leaves next to none at the next larger: that is no mesh of so
+/// many points.
+bool is_jump(double points, double wanted) {
+  return wanted > many_points && points < least_share * wanted;
+}
+
 /// The boundary that takes the fewest points among those tried, and where it takes most of them.
 struct Fewest {
   double points = INFINITY;
@@ -91,8 +97,12 @@ Layout lay_affordable_boundary(const LayoutContext& context, double h, double ex
   for (int round = 0; round < growth_rounds; ++round) {
     Layout layout = try_boundary(context, h, expected);
     fewest.consider(layout, static_cast<double>(layout.placed_first()));
-    if (!context.options.points || layout.placed_first() <= *context.options.points)
+    const double held = static_cast<double>(layout.placed_first()), size = layout.size->size({});
+    if (!context.options.points || layout.placed_first() <= *context.options.points) {
+      if (round > 0 && is_jump(held + context.boundary.area / (row_height * size * size), expected))
+        break;
       return layout;
+    }
     h *= layout.boundary.overfull ? 2 : 1.3;
   }
   fail_for_few_points(context, fewest);
@@ -248,9 +258,7 @@ private:
         factor = std::clamp(guess, low + margin, high - margin);
       }
     }
-    // A jump from too many points to a few, at a size that has no site inside, is no mesh of that many points.
-    const bool jump = low > 0 && best.fit.inner == 0 && points_ > many_points && best.points < least_share * points_;
-    if (!(high < INFINITY) || jump)
+    if (!(high < INFINITY) || (low > 0 && is_jump(best.points, points_)))
       fail_for_few_points(context_, fewest);
     if (best.points < 0.98 * points_)
       best.fit.shortage = context_.options.min_size

@@ -34,8 +34,9 @@ struct DroppedLoops {
 /// The boundary of what is left. O(pieces)
 geometry::Boundary boundary_without(const geometry::Boundary& boundary, const DroppedLoops& dropped);
 
-/// @brief Applies the rule. A loop stays if it winds around the container, has a corner that is asked for, or encloses
-/// a loop that stays or one of `inside`, and one component always stays. O(pieces + loops log loops) for loops apart.
+/// @brief Applies the rule. A loop stays if it winds around the container, has a corner that is asked for, encloses
+/// more than 1 % of the area of the shape, a loop that stays or one of `inside`, and one component always stays.
+/// O(pieces + loops log loops) for loops apart.
 /// @param inside points of the shape that must remain in it, in lexicographic order
 DroppedLoops drop_small_loops(const geometry::Boundary& boundary, const sizing::SizeField& size, double least_perimeter,
                               std::span<const geometry::Vec2> inside = {});
