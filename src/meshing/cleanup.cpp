@@ -24,6 +24,8 @@ constexpr int classes_per_octave = 8;
 constexpr int passes_of_choice = 5;
 /// The worst triangles first: thresholds of the stages, as multiples of the excess that counts as bad.
 constexpr std::array<double, 3> stages{4, 2, 1};
+constexpr int few_of = 5; // below this part of the patches of the fullest round the next stage takes the rest along
+constexpr int most_failures = 2;                             // in a cell of about half an edge; then it is left alone
 constexpr double largest_loss = 0.005;                       // of the sites
 constexpr double scarcity = 0.001, handicap_if_scarce = 1.5; // from when deletions must be that much better
 constexpr double around_bad_site = 3, around_patch = 3;      // h: how far stars are computed anew, beyond its reach
@@ -96,6 +98,22 @@ Cleanup::Cleanup(const comm::Communicator& comm, Layout& layout, const geometry:
   least_sites_ = sites_ - leeway;
 }
 
+/// Of the cell of a place, a power of two wide, in its tile: the same on any number of ranks.
+std::uint64_t Cleanup::cell_key(Vec2 p, double h) const {
+  int exponent = 0;
+  std::frexp(h, &exponent);
+  const Vec2 cell{std::floor(std::ldexp(p.x, 2 - exponent)), std::floor(std::ldexp(p.y, 2 - exponent))};
+  return mix_bits(hash_of(cell, exponent) + static_cast<std::uint64_t>(state_.grid().place(p).tile));
+}
+
+bool Cleanup::is_hopeless(LocalIndex i, double h) const {
+  const Vec2 p = state_.points().position(i);
+  if (hopeless_.contains(hash_of(p, 0)))
+    return true;
+  const auto cell = failures_.find(cell_key(p, h));
+  return cell != failures_.end() && cell->second >= most_failures;
+}
+
 /// What a star of one of these places may look at, sent to the owners of all tiles there.
 std::vector<Disc> Cleanup::share_places() const {
   const mesh::TileGrid& grid = state_.grid();
@@ -150,6 +168,7 @@ void Cleanup::remember_places(const std::vector<GlobalId>& keys) {
 /// Key of the worst triangle of each owned site, 0 below the threshold or where nothing helps.
 std::vector<GlobalId> Cleanup::worst_alphas() const {
   const ExtractionContext context{state_, layout_.boundary, *layout_.size, lattice_};
+  const StarView view = view_of(state_, *layout_.size);
   const mesh::BinnedPoints& points = state_.points();
   std::vector<GlobalId> keys(at(points.owned()), 0);
   thread_loop(points.owned(), 1024, [&](std::ptrdiff_t item, int) {
@@ -164,7 +183,7 @@ std::vector<GlobalId> Cleanup::worst_alphas() const {
     for (std::size_t k = 0; k < fan.triangles; ++k)
       worst = std::max(worst,
                        mesh::aspect_ratio(p, points.position(fan.neighbour(k)), points.position(fan.neighbour(k + 1))));
-    if (worst > threshold_ && std::isfinite(worst) && !hopeless_.contains(hash_of(p, 0)))
+    if (worst > threshold_ && std::isfinite(worst) && !is_hopeless(i, view.size(i)))
       keys[at(i)] = key_of(worst);
   });
   return keys;
@@ -202,6 +221,28 @@ std::vector<Cleanup::Candidate> Cleanup::find_candidates(std::vector<GlobalId>& 
                    static_cast<GlobalId>(hash_of(points.position(i), 1 + round_) >> (64 - hash_bits));
   }
   return candidates;
+}
+
+/// Takes out the candidates with more sites around than a patch looks at: nothing helps there.
+/// @return how many
+std::int64_t Cleanup::leave_crowded(std::vector<Candidate>& candidates, std::vector<GlobalId>& order) {
+  const mesh::BinnedPoints& points = state_.points();
+  const StarView view = view_of(state_, *layout_.size);
+  return static_cast<std::int64_t>(std::erase_if(candidates, [&](const Candidate& candidate) {
+    const double h = view.size(candidate.site);
+    if (sites_around(candidate.site, options_.reach * h).size() <= options_.most_sites)
+      return false;
+    note_failure(points.position(candidate.site), h);
+    order[at(candidate.site)] = 0;
+    return true;
+  }));
+}
+
+/// Nothing helps at a site. @param h there if it was the middle of the patch, else 0
+void Cleanup::note_failure(Vec2 p, double h) {
+  hopeless_.insert(hash_of(p, 0));
+  if (h > 0)
+    ++failures_[cell_key(p, h)];
 }
 
 /// @brief Leaves a set of candidates that keep their separations, as large as a few rounds make it (Luby 1986): who is
@@ -242,6 +283,7 @@ void Cleanup::choose_apart(std::vector<Candidate>& candidates, std::vector<Globa
             [](const Candidate& a, const Candidate& b) { return a.site < b.site; });
 }
 
+/// All of them; or some, more than a patch looks at.
 std::vector<PatchSite> Cleanup::sites_around(LocalIndex site, double reach) const {
   const mesh::BinnedPoints& points = state_.points();
   const StarView view = view_of(state_, *layout_.size);
@@ -250,7 +292,7 @@ std::vector<PatchSite> Cleanup::sites_around(LocalIndex site, double reach) cons
   points.for_each_near(
       center, reach,
       [&](LocalIndex begin, LocalIndex end) {
-        for (LocalIndex j = begin; j < end; ++j)
+        for (LocalIndex j = begin; j < end && sites.size() <= options_.most_sites; ++j)
           if (geometry::squared_length(points.position(j) - center) < reach * reach)
             sites.push_back({points.position(j), view.size(j), points.boundary(j)});
       },
@@ -421,15 +463,16 @@ CleanupCounts Cleanup::round() {
   for (const Candidate& candidate : candidates)
     discs.push_back({state_.points().position(candidate.site), candidate.separation});
   state_.reveal(discs, *layout_.size);
-  choose_apart(candidates, std::move(order));
   CleanupCounts counts;
-  counts.patches = static_cast<std::int64_t>(candidates.size());
+  counts.left = leave_crowded(candidates, order);
+  choose_apart(candidates, std::move(order));
+  counts.patches = counts.left + static_cast<std::int64_t>(candidates.size());
   std::vector<std::vector<SiteEdit>> of_patches = try_patches(candidates);
   keep_within_limits(candidates, of_patches);
   const std::vector<SiteEdit> edits = collect(candidates, of_patches, counts), own = send_to_owners(edits);
   for (const SiteEdit& edit : own)
     if (edit.kind == SiteEdit::Kind::none)
-      hopeless_.insert(hash_of(edit.from, 0));
+      note_failure(edit.from, edit.arc);
   changed_ = comm_.sum(counts.better) > 0;
   if (changed_) {
     edit_the_boundary(edits);
@@ -446,10 +489,12 @@ CleanupCounts Cleanup::run() {
   for (const double excess : stages) {
     threshold_ = 1 + excess * (options_.bad_alpha - 1);
     all_stars_ = true;
+    GlobalId most = 0;
     for (int k = 0; k < most_rounds; ++k) {
       const CleanupCounts counts = round();
       all.add(counts);
-      if (counts.patches == 0)
+      most = std::max(most, counts.patches);
+      if (counts.patches == 0 || (excess != stages.back() && few_of * counts.patches < most))
         break;
     }
   }

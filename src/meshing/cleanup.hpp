@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <map>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -46,8 +47,12 @@ private:
   void compute_stars();
   std::vector<Disc> share_places() const;
   void remember_places(const std::vector<GlobalId>& keys);
+  std::uint64_t cell_key(geometry::Vec2 p, double h) const;
+  bool is_hopeless(LocalIndex i, double h) const;
   std::vector<GlobalId> worst_alphas() const;
   std::vector<Candidate> find_candidates(std::vector<GlobalId>& order);
+  std::int64_t leave_crowded(std::vector<Candidate>& candidates, std::vector<GlobalId>& order);
+  void note_failure(geometry::Vec2 p, double h);
   void choose_apart(std::vector<Candidate>& candidates, std::vector<GlobalId> order) const;
   PatchBudget budget() const;
   std::vector<std::vector<SiteEdit>> try_patches(const std::vector<Candidate>& chosen);
@@ -76,7 +81,8 @@ private:
   // What became of the boundary's sites in this round, by their old index (empty: nothing), and the index of new ones.
   std::vector<LocalIndex> new_index_;
   std::map<std::pair<double, double>, LocalIndex> index_at_;
-  std::unordered_set<std::uint64_t> hopeless_; // hashes of owned sites with a triangle for which nothing helped
+  std::unordered_map<std::uint64_t, int> failures_; // by cell
+  std::unordered_set<std::uint64_t> hopeless_;      // hashes of owned sites with a triangle for which nothing helped
 };
 
 } // namespace trime::meshing

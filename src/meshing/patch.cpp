@@ -6,6 +6,7 @@
 #include "trime/mesh/quality.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace trime::meshing {
@@ -17,9 +18,10 @@ constexpr double clearance_of_score = 1.5; // h, from the rim of what is read
 constexpr double widest_frame = 0x1.8p44;  // lattice steps: 1.5 sides of the container at least; predicates are exact
 constexpr double weight_of_bad = 10;
 constexpr double least_gain = 0.02;
-constexpr int early_sweeps = 2;       // after them a trial is given up that is
-constexpr double hopeless_share = 3;  // that much worse than what it has to be
-constexpr double longest_step = 0.25; // h, of one Newton step
+constexpr std::array<double, 2> hopeless_shares{4, 1.6}; // after each of the first sweeps a trial is given up that is
+                                                         // so much worse than what it has to be
+constexpr double near_sweeps = 2;                        // h: how far from the middle the first sweeps reach
+constexpr double longest_step = 0.25;                    // h, of one Newton step
 constexpr int halvings = 3;
 constexpr double longest_slide = 0.2; // h, of one step
 constexpr double nearest_share = 0.4; // of the way to a neighbour along the boundary, at most, in one step
@@ -45,6 +47,8 @@ LocalIndex PatchOptimizer::Patch::add(Vec2 p, double h, const BoundaryVertex& on
 bool PatchOptimizer::build(Vec2 center, double size, std::span<const PatchSite> sites) {
   center_ = center;
   size_ = size;
+  if (sites.size() > options_.most_sites)
+    return false;
   const double reach = options_.reach * size;
   base_.broken = false;
   base_.mesh.start(center, std::min(lattice_.snap(3 * reach), widest_frame * lattice_.step()));
@@ -328,10 +332,11 @@ void PatchOptimizer::slide_vertex(Patch& patch, LocalIndex v) {
   }
 }
 
-void PatchOptimizer::relax(Patch& patch, int sweeps) {
+void PatchOptimizer::relax(Patch& patch, int sweeps, double radius) {
   for (int sweep = 0; sweep < sweeps && !patch.broken; ++sweep)
     for (LocalIndex v = PatchMesh::frame; v < patch.mesh.vertices() && !patch.broken; ++v)
-      if (patch.role[at(v)] == Role::free) {
+      if (patch.role[at(v)] == Role::free &&
+          geometry::squared_length(patch.mesh.position(v) - center_) < radius * radius) {
         if (patch.boundary[at(v)].site >= 0)
           slide_vertex(patch, v);
         else
@@ -349,10 +354,13 @@ bool PatchOptimizer::stands_for_curve(const BoundaryVertex& from, const Boundary
   if (arc <= straight_share * length)
     return true; // as on a straight side
   const BoundaryCurve::Strayed strayed = curve_.strayed(from.loop, from.arc, to.arc, chord);
-  if (strayed.leaves_disc || (length > longest_bent_ * size && strayed.deviation > unseen * size))
-    return false; // the area that is lost grows with the third power of the length
   const bool tolerated = strayed.bent && strayed.deviation <= options_.tolerance * size;
-  return tolerated || (!strayed.sharp && arc <= largest_arc_share * length);
+  if (strayed.leaves_disc || !(tolerated || (!strayed.sharp && arc <= largest_arc_share * length)))
+    return false;
+  if (strayed.deviation <= unseen * size || length <= longest_bent_ * size)
+    return true;
+  too_long_ |= length <= bent_at_last * size;
+  return false; // the area that is lost grows with the third power of the length
 }
 
 /// Is the closed diametral disc of each chord that has changed free, and does it stand for its curve? Is that of
@@ -392,49 +400,79 @@ void PatchOptimizer::collect_edits(std::vector<SiteEdit>& edits) const {
   }
 }
 
-/// Relaxes the trial and keeps it if it is better than what there was.
-void PatchOptimizer::try_trial(double handicap, Best& best) {
-  relax(trial_, early_sweeps);
-  if (trial_.broken || handicap * score(trial_).sum > hopeless_share * best.least)
+/// A few sweeps near the middle. @return the sum then, infinite if there is no hope
+double PatchOptimizer::begin_trial(double handicap, const Best& best) {
+  double sum = INFINITY;
+  for (const double hopeless : hopeless_shares) {
+    relax(trial_, 1, near_sweeps * size_);
+    sum = handicap * score(trial_).sum;
+    if (trial_.broken || !(sum <= hopeless * best.least))
+      return INFINITY;
+  }
+  return sum;
+}
+
+/// The other sweeps; keeps the trial if it is better than what there was.
+void PatchOptimizer::finish_trial(Patch& trial, double handicap, Best& best) {
+  relax(trial, options_.trial_sweeps - static_cast<int>(hopeless_shares.size()), INFINITY);
+  if (trial.broken)
     return;
-  relax(trial_, options_.trial_sweeps - early_sweeps);
-  if (trial_.broken)
-    return;
-  const Score after = score(trial_);
-  if (!(handicap * after.sum < best.least) || after.max > best.before || !chords_hold(trial_))
+  const Score after = score(trial);
+  if (!(handicap * after.sum < best.least) || after.max > best.before || !chords_hold(trial))
     return;
   best.least = handicap * after.sum;
   best.largest = after.max;
   best.found = true;
-  std::swap(best_, trial_);
+  std::swap(best_, trial);
+}
+
+/// The trial takes its place among the finalists, if it is good enough for one.
+void PatchOptimizer::enter_finals(double sum, double handicap) {
+  std::size_t place = finalists_.size();
+  while (place > 0 && sum < finalists_[place - 1].sum)
+    --place;
+  if (place == finalists_.size())
+    return;
+  std::rotate(finalists_.begin() + static_cast<std::ptrdiff_t>(place), finalists_.end() - 1, finalists_.end());
+  finalists_[place].sum = sum;
+  finalists_[place].handicap = handicap;
+  std::swap(finalists_[place].patch, trial_);
 }
 
 void PatchOptimizer::try_everything(const PatchBudget& budget, Best& best) {
   trial_ = base_;
-  try_trial(1, best);
+  if (begin_trial(1, best) < INFINITY)
+    finish_trial(trial_, 1, best);
   if (best.found && best.largest < options_.operate_alpha)
     return;
+  for (Finalist& finalist : finalists_)
+    finalist.sum = INFINITY;
   for (const Operation& operation : operations_) {
     if (!allows(budget, operation))
       continue;
     trial_ = base_;
+    const double handicap = operation.kind == SiteEdit::Kind::remove ? budget.deletion_handicap : 1;
     if (apply(operation))
-      try_trial(operation.kind == SiteEdit::Kind::remove ? budget.deletion_handicap : 1, best);
+      enter_finals(begin_trial(handicap, best), handicap);
   }
+  for (Finalist& finalist : finalists_)
+    if (finalist.sum < INFINITY)
+      finish_trial(finalist.patch, finalist.handicap, best);
 }
 
 bool PatchOptimizer::improve(Vec2 center, double size, std::span<const PatchSite> sites, const PatchBudget& budget,
                              std::vector<SiteEdit>& edits) {
   if (!build(center, size, sites)) {
-    edits.push_back({center, center, SiteEdit::Kind::none});
+    edits.push_back({center, center, SiteEdit::Kind::none, mesh::free_site, size});
     return false;
   }
   const Score before = score(base_);
   Best best{(1 - least_gain) * before.sum, before.max, before.max};
   list_operations();
   longest_bent_ = bent_at_first;
+  too_long_ = false;
   try_everything(budget, best);
-  if (best.largest >= bend_alpha) { // rather longer chords on curves than a bad triangle
+  if (best.largest >= bend_alpha && too_long_) { // rather longer chords on curves than a bad triangle
     longest_bent_ = bent_at_last;
     try_everything(budget, best);
   }
@@ -442,7 +480,7 @@ bool PatchOptimizer::improve(Vec2 center, double size, std::span<const PatchSite
     collect_edits(edits);
     return true;
   }
-  edits.push_back({center, center, SiteEdit::Kind::none});
+  edits.push_back({center, center, SiteEdit::Kind::none, mesh::free_site, size});
   if (const PatchMesh::Triangle* worst = worst_triangle())
     for (const LocalIndex v : worst->vertex)
       edits.push_back({base_.mesh.position(v), base_.mesh.position(v), SiteEdit::Kind::none});

@@ -29,19 +29,23 @@ struct SiteEdit {
   geometry::Vec2 from, to;
   Kind kind = Kind::move;
   std::int32_t boundary = mesh::free_site; ///< index of the boundary site; for a new one, of the site before it
-  double arc = 0;                          ///< of the new place on the boundary
+  double arc = 0;                          ///< of the new place on the boundary; none: h at the middle, else 0
 };
 
 /// What is tried, and when it is kept.
 struct PatchOptions {
   /// h at the middle: nothing changes within it from the rim of what is read, so a patch may begin that much nearer.
   static constexpr double clearance = 2.8;
-  double reach = 6;        ///< sites within this many h of the middle are read
+  double reach = 6; ///< sites within this many h of the middle are read
+  /// A hexagonal lattice has 130 there. Where the boundary crowds many more, as in spikes far below h, nothing is
+  /// tried.
+  std::size_t most_sites = 500;
   double bad_alpha = 1.07; ///< triangles above it are bad
   /// Insertions and deletions are tried where moves alone leave a triangle above it, or help nothing.
   double operate_alpha = 1.09;
-  int trial_sweeps = 5; ///< over the free sites after an operation
-  double tolerance = 0; ///< h: how far a new chord may pass from a curve that turns by more than 60 degrees
+  int trial_sweeps = 5;      ///< over the free sites after an operation
+  std::size_t finalists = 4; ///< operations that go beyond the first sweeps, near the middle
+  double tolerance = 0;      ///< h: how far a new chord may pass from a curve that turns by more than 60 degrees
 };
 
 /// What a patch may do with the number of sites.
@@ -65,7 +69,7 @@ public:
   PatchOptimizer(const BoundarySites& boundary, const BoundaryCurve& curve, const BoundaryGuard& guard,
                  const geometry::Lattice& lattice, const PatchOptions& options)
       : boundary_(boundary), curve_(curve), guard_(guard), lattice_(lattice), options_(options),
-        base_(lattice, boundary.periods), trial_(lattice, boundary.periods), best_(lattice, boundary.periods) {}
+        base_(lattice, boundary.periods), trial_(base_), best_(base_), finalists_(options.finalists, Finalist{base_}) {}
 
   /// @brief Tries everything once.
   /// @param sites in lexicographic order; all that lie within `options.reach` times `size` of `center`
@@ -105,6 +109,10 @@ private:
     std::vector<BoundaryVertex> boundary;
     bool broken = false;
   };
+  struct Finalist {
+    Patch patch;
+    double sum = 0, handicap = 1;
+  };
   struct Best {     // among the trials of a patch
     double least;   // sum that another one must fall below
     double before;  // largest alpha at the beginning
@@ -124,9 +132,11 @@ private:
   bool apply(const Operation& operation);
   bool remove(LocalIndex v);
   bool insert_on_boundary(LocalIndex before);
-  void try_trial(double handicap, Best& best);
+  double begin_trial(double handicap, const Best& best);
+  void finish_trial(Patch& trial, double handicap, Best& best);
+  void enter_finals(double sum, double handicap);
   void try_everything(const PatchBudget& budget, Best& best);
-  void relax(Patch& patch, int sweeps);
+  void relax(Patch& patch, int sweeps, double radius);
   void relax_vertex(Patch& patch, LocalIndex v);
   void slide_vertex(Patch& patch, LocalIndex v);
   bool stands_for_curve(const BoundaryVertex& from, const BoundaryVertex& to, const geometry::Segment& chord,
@@ -140,9 +150,11 @@ private:
   geometry::Lattice lattice_;
   PatchOptions options_;
   Patch base_, trial_, best_;
+  std::vector<Finalist> finalists_; // by sum; infinite: none
   geometry::Vec2 center_;
   double size_ = 1;
-  double longest_bent_ = 1; // h: limit of chords of curves, in the present trials
+  double longest_bent_ = 1;       // h: limit of chords of curves, in the present trials
+  mutable bool too_long_ = false; // a chord failed only by this limit
   std::vector<Operation> operations_;
   std::vector<LocalIndex> ring_;
   std::vector<geometry::Vec2> around_;

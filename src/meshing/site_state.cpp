@@ -16,6 +16,7 @@ namespace {
 constexpr int halo_margin = 2;
 /// Rounds of asking for more bins; every round reaches at least one bin farther, two suffice in practice.
 constexpr int max_halo_rounds = 100;
+constexpr double unknown_size = 0;
 constexpr int size_chunk = 1024; // sites whose size one thread evaluates in a row
 
 /// Owned sites and ghosts are counted by LocalIndex; one in eight is left for ghosts and growth. Weights are
@@ -54,6 +55,7 @@ void SiteState::distribute(std::vector<mesh::Site> sites) {
   choose_bins(sites);
   points_.assign_owned(sites, partition_.first_tile(comm_.rank()), partition_.last_tile(comm_.rank()));
   sizes_.forget();
+  carried_.clear();
   stars_.reset(points_.owned());
   halo_.reset(partition_, halo_margin);
 }
@@ -74,6 +76,7 @@ void SiteState::choose_bins(std::span<const mesh::Site> sites) {
 void SiteState::move_sites(std::vector<mesh::Site>& sites, std::span<const std::uint8_t> deleted) {
   const std::size_t before = sites.size(), old = static_cast<std::size_t>(points_.owned());
   wrap(sites);
+  remember_sizes(sites);
   renumbering_.assign(before, -1);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < before; ++i)
@@ -92,10 +95,38 @@ void SiteState::move_sites(std::vector<mesh::Site>& sites, std::span<const std::
       index = sorted_[static_cast<std::size_t>(index)];
   sizes_.forget();
   renumbering_.resize(old);
+  carry_sizes();
   stars_.renumber(renumbering_, points_.owned());
 }
 
-/// Fetches the ghosts and evaluates h where it is not known: at all sites after a move, at the ghosts alone after the
+/// h of the owned sites that stay where they are, if most do.
+void SiteState::remember_sizes(std::span<const mesh::Site> sites) {
+  carried_.clear();
+  if (points_.owned() == 0 || !sizes_.known(0) || sizes_.is_uniform())
+    return;
+  const auto stays = [&](LocalIndex i) { return sites[static_cast<std::size_t>(i)].position == points_.position(i); };
+  LocalIndex staying = 0;
+  for (LocalIndex i = 0; i < points_.owned(); ++i)
+    staying += stays(i);
+  if (staying <= points_.owned() / 2)
+    return;
+  carried_.resize(static_cast<std::size_t>(points_.owned()));
+  for (LocalIndex i = 0; i < points_.owned(); ++i)
+    carried_[static_cast<std::size_t>(i)] = stays(i) ? sizes_[i] : unknown_size;
+}
+
+/// The same by their new indices.
+void SiteState::carry_sizes() {
+  if (carried_.empty())
+    return;
+  std::vector<double> carried(static_cast<std::size_t>(points_.owned()), unknown_size);
+  for (std::size_t i = 0; i < renumbering_.size(); ++i)
+    if (renumbering_[i] >= 0)
+      carried[static_cast<std::size_t>(renumbering_[i])] = carried_[i];
+  carried_ = std::move(carried);
+}
+
+/// Fetches the ghosts and evaluates h where it is not known: at the sites that moved, at the ghosts alone after the
 /// subscriptions grew.
 void SiteState::refresh_sites(const sizing::SizeField& size) {
   halo_.refresh(points_);
@@ -115,8 +146,12 @@ void SiteState::evaluate_sizes(const sizing::SizeField& size) {
   values.resize(static_cast<std::size_t>(points_.size()));
   thread_loop(points_.size() - first, size_chunk, [&](std::ptrdiff_t k, int) {
     const LocalIndex i = first + static_cast<LocalIndex>(k);
-    values[static_cast<std::size_t>(i)] = size.size(periods.wrap(points_.position(i)));
+    const double carried =
+        static_cast<std::size_t>(i) < carried_.size() ? carried_[static_cast<std::size_t>(i)] : unknown_size;
+    values[static_cast<std::size_t>(i)] =
+        carried != unknown_size ? carried : size.size(periods.wrap(points_.position(i)));
   });
+  carried_.clear();
   for (LocalIndex i = first; i < points_.owned(); ++i)
     if (const double h = values[static_cast<std::size_t>(i)]; !sizing::is_valid_size(h))
       sizing::fail_for_size(periods.wrap(points_.position(i)), h);
@@ -133,7 +168,6 @@ delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder
 
 delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size,
                                             std::span<const delaunay::StarWish> wanted) {
-  sizes_.forget(); // the field may be another one now
   refresh_sites(size);
   delaunay::StarPass all;
   std::vector<mesh::BinRef> missing;

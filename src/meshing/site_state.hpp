@@ -39,6 +39,7 @@ public:
 
   /// @brief Refreshes the halo and the sizes and computes the wanted stars, asking for more bins until every one is
   /// certain. Collective.
+  /// @param size the same field in all calls: h of sites that stay in place is not evaluated again
   /// @throws GeometryError on all ranks together if h at a site is not positive and finite
   delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size, Wanted wanted);
 
@@ -66,6 +67,8 @@ private:
   void choose_bins(std::span<const mesh::Site> sites);
   void refresh_sites(const sizing::SizeField& size);
   void subscribe(std::span<const mesh::BinRef> missing, const sizing::SizeField& size);
+  void remember_sizes(std::span<const mesh::Site> sites);
+  void carry_sizes();
   void evaluate_sizes(const sizing::SizeField& size);
 
   const comm::Communicator& comm_;
@@ -77,6 +80,7 @@ private:
   mesh::LocalSizes sizes_;
   std::vector<delaunay::StarWish> wanted_;
   std::vector<LocalIndex> stays_, sorted_, renumbering_;
+  std::vector<double> carried_; // h of owned sites from before a move, 0 where they moved
 };
 
 /// Points, stars and sizes, as an update rule sees them. @param size the field of the last compute_stars
