@@ -90,6 +90,27 @@ LocalIndex loop_of(const BoundarySites& boundary, LocalIndex site) {
   return static_cast<LocalIndex>(above - boundary.loop_start.begin()) - 1;
 }
 
+namespace {
+
+/// @brief Sorts the insertions into one chord by their way from its first site.
+/// @return behind the last of them
+std::size_t order_insertions(std::vector<BoundaryEdit>& edits, std::size_t first, double arc, double length) {
+  std::size_t past = first;
+  while (past < edits.size() && edits[past].site == edits[first].site)
+    ++past;
+  const auto way = [&](const BoundaryEdit& edit) { return edit.arc >= arc ? edit.arc - arc : edit.arc - arc + length; };
+  std::sort(edits.begin() + static_cast<std::ptrdiff_t>(first), edits.begin() + static_cast<std::ptrdiff_t>(past),
+            [&](const BoundaryEdit& a, const BoundaryEdit& b) { return way(a) < way(b); });
+  for (std::size_t k = first; k < past; ++k)
+    if (edits[k].kind != BoundaryEdit::Kind::insert ||
+        (k > first && (edits[k].patch != edits[first].patch || !(way(edits[k - 1]) < way(edits[k])))))
+      throw InternalError(fmt::format("two changes of one boundary site or chord, at ({}, {})", edits[k].position.x,
+                                      edits[k].position.y));
+  return past;
+}
+
+} // namespace
+
 std::vector<LocalIndex> edit_boundary(BoundarySites& boundary, const BoundaryCurve& curve,
                                       std::vector<BoundaryEdit>& edits, std::vector<LocalIndex>& inserted) {
   std::sort(edits.begin(), edits.end(), [](const BoundaryEdit& a, const BoundaryEdit& b) {
@@ -102,7 +123,6 @@ std::vector<LocalIndex> edit_boundary(BoundarySites& boundary, const BoundaryCur
   boundary.loop_start.assign(1, 0);
   std::vector<LocalIndex> new_index(old.sites.size(), -1);
   std::size_t next = 0;
-  LocalIndex inserted_before = -1;
   const auto put = [&](BoundarySite site, const BoundaryEdit& edit, const BoundaryCurve::Place& place) {
     site.position = edit.position;
     site.piece = place.piece;
@@ -115,19 +135,21 @@ std::vector<LocalIndex> edit_boundary(BoundarySites& boundary, const BoundaryCur
     const LocalIndex first = boundary.loop_start.back();
     for (LocalIndex k = old.loop_start[loop]; k < old.loop_start[loop + 1]; ++k) {
       const BoundarySite& site = old.sites[at(k)];
+      double arc = curve.arc(number, site);
       if (next < edits.size() && edits[next].site == k && edits[next].kind != BoundaryEdit::Kind::insert) {
         const BoundaryEdit& edit = edits[next++];
-        if (edit.kind == BoundaryEdit::Kind::slide)
-          new_index[at(k)] = put(site, edit, curve.place(number, edit.arc));
+        if (edit.kind == BoundaryEdit::Kind::slide) {
+          arc = edit.arc;
+          new_index[at(k)] = put(site, edit, curve.place(number, arc));
+        }
       } else {
         new_index[at(k)] = static_cast<LocalIndex>(boundary.sites.size());
         boundary.sites.push_back(site);
       }
-      for (; next < edits.size() && edits[next].site == k; ++next) {
-        if (edits[next].kind != BoundaryEdit::Kind::insert || inserted_before == k)
-          throw InternalError(fmt::format("two changes of one boundary site or chord, at ({}, {})",
-                                          edits[next].position.x, edits[next].position.y));
-        inserted_before = k;
+      const std::size_t past = next < edits.size() && edits[next].site == k
+                                   ? order_insertions(edits, next, arc, curve.length(number))
+                                   : next;
+      for (; next < past; ++next) {
         inserted[next] = put(site, edits[next], curve.place(number, edits[next].arc));
         boundary.sites.back().corner = false;
       }

@@ -305,7 +305,7 @@ std::vector<PatchSite> Cleanup::sites_around(LocalIndex site, double reach) cons
 
 PatchBudget Cleanup::budget() const {
   const bool scarce = static_cast<double>(sites_) < (1 - scarcity) * static_cast<double>(wanted_sites_);
-  return {sites_ < most_sites_, sites_ - least_sites_, scarce ? handicap_if_scarce : 1};
+  return {most_sites_ - sites_, sites_ - least_sites_, scarce ? handicap_if_scarce : 1};
 }
 
 std::vector<std::vector<SiteEdit>> Cleanup::try_patches(const std::vector<Candidate>& chosen) {
@@ -334,20 +334,17 @@ void Cleanup::keep_within_limits(const std::vector<Candidate>& chosen, std::vect
       gain += edit.kind == SiteEdit::Kind::insert ? 1 : edit.kind == SiteEdit::Kind::remove ? -1 : 0;
     return gain;
   };
+  const auto key = [&](std::size_t k) { return hash_of(state_.points().position(chosen[k].site), 4 * round_); };
   const auto limit = [&](int sign, GlobalId room) {
     std::vector<std::uint64_t> keys;
-    for (std::size_t k = 0; k < edits.size(); ++k)
-      for (int n = sign * gain_of(edits[k]); n > 0; --n) // one key for each site
-        keys.push_back(hash_of(state_.points().position(chosen[k].site), 4 * round_ + n));
+    for (std::size_t k = 0; k < edits.size(); ++k) // as often as it counts
+      keys.insert(keys.end(), static_cast<std::size_t>(std::max(0, sign * gain_of(edits[k]))), key(k));
     if (comm_.sum(static_cast<std::int64_t>(keys.size())) <= room)
       return;
     const std::uint64_t threshold = selection_threshold(comm_, keys, std::max<GlobalId>(0, room));
     for (std::size_t k = 0; k < edits.size(); ++k)
-      for (int n = sign * gain_of(edits[k]); n > 0; --n)
-        if (!(hash_of(state_.points().position(chosen[k].site), 4 * round_ + n) < threshold)) {
-          edits[k].clear();
-          break;
-        }
+      if (sign * gain_of(edits[k]) > 0 && !(key(k) < threshold))
+        edits[k].clear();
   };
   limit(1, most_sites_ - sites_);
   limit(-1, sites_ - least_sites_);
@@ -370,6 +367,7 @@ std::vector<SiteEdit> Cleanup::collect(const std::vector<Candidate>& chosen,
     for (SiteEdit edit : edits[k]) {
       edit.from = periods.wrap(edit.from);
       edit.to = periods.wrap(edit.to);
+      edit.patch = hash_of(state_.points().position(chosen[k].site), 0);
       counts.moved += edit.kind == SiteEdit::Kind::move;
       counts.inserted += edit.kind == SiteEdit::Kind::insert;
       counts.deleted += edit.kind == SiteEdit::Kind::remove;
@@ -397,7 +395,7 @@ void Cleanup::edit_the_boundary(const std::vector<SiteEdit>& edits) {
       const BoundaryEdit::Kind kind = edit.kind == SiteEdit::Kind::move     ? BoundaryEdit::Kind::slide
                                       : edit.kind == SiteEdit::Kind::remove ? BoundaryEdit::Kind::remove
                                                                             : BoundaryEdit::Kind::insert;
-      own.push_back({edit.boundary, kind, edit.arc, edit.to});
+      own.push_back({edit.boundary, kind, edit.arc, edit.to, edit.patch});
     }
   std::vector<BoundaryEdit> all =
       comm::from_bytes<BoundaryEdit>(comm_.all_gather(std::as_bytes(std::span<const BoundaryEdit>(own))));

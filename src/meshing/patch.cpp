@@ -22,6 +22,9 @@ constexpr std::array<double, 2> hopeless_shares{4, 1.6}; // after each of the fi
                                                          // so much worse than what it has to be
 constexpr double near_sweeps = 2;                        // h: how far from the middle the first sweeps reach
 constexpr double longest_step = 0.25;                    // h, of one Newton step
+constexpr double refine_alpha = 1.3, refine_gain = 0.1;  // of the excess of alpha
+constexpr int refine_sweeps = 20;
+constexpr LocalIndex most_refined = 40; // new sites on the boundary
 constexpr int halvings = 3;
 constexpr double longest_slide = 0.2; // h, of one step
 constexpr double nearest_share = 0.4; // of the way to a neighbour along the boundary, at most, in one step
@@ -50,7 +53,7 @@ bool PatchOptimizer::build(Vec2 center, double size, std::span<const PatchSite> 
   if (sites.size() > options_.most_sites)
     return false;
   const double reach = options_.reach * size;
-  base_.broken = false;
+  base_.broken = base_.divided = false;
   base_.mesh.start(center, std::min(lattice_.snap(3 * reach), widest_frame * lattice_.step()));
   base_.role.assign(PatchMesh::frame, Role::held);
   base_.size.assign(PatchMesh::frame, size);
@@ -170,55 +173,137 @@ void PatchOptimizer::list_operations() {
   const PatchMesh::Triangle* worst = worst_triangle();
   if (!worst)
     return;
-  using Kind = SiteEdit::Kind;
   const auto place = [&](std::size_t k) { return base_.mesh.position(worst->vertex[k % 3]); };
+  const auto insert = [&](Vec2 p) { operations_.push_back({.inserted = p}); };
+  const auto remove = [&](LocalIndex v) { operations_.push_back({.removed = {v, -1}}); };
   std::size_t longest = 0;
   for (std::size_t k = 1; k < 3; ++k)
     if (geometry::squared_length(place(k + 2) - place(k + 1)) >
         geometry::squared_length(place(longest + 2) - place(longest + 1)))
       longest = k; // the edge opposite of vertex k
-  operations_.push_back({Kind::insert, -1, 0.5 * (place(longest + 1) + place(longest + 2))});
+  insert(0.5 * (place(longest + 1) + place(longest + 2)));
   for (const LocalIndex v : worst->vertex)
     if (base_.role[at(v)] == Role::free)
-      operations_.push_back({Kind::remove, v, {}});
-  for (std::size_t k = 0; k < 3; ++k)
-    if (base_.boundary[at(worst->vertex[k])].next == worst->vertex[(k + 1) % 3])
-      operations_.push_back({Kind::insert, worst->vertex[k], {}});
-  for (std::size_t k = 0; k < 3; ++k) { // a corner with one triangle: a vertex inside must come nearer
-    const BoundaryVertex& corner = base_.boundary[at(worst->vertex[k])];
-    const LocalIndex next = worst->vertex[(k + 1) % 3], previous = worst->vertex[(k + 2) % 3];
-    if (corner.next == next && corner.previous == previous && base_.role[at(next)] == Role::free &&
-        base_.role[at(previous)] == Role::free)
-      operations_.push_back({Kind::remove, next, {}, previous});
-  }
-  operations_.push_back({Kind::insert, -1, (1.0 / 3) * (place(0) + place(1) + place(2))});
+      remove(v);
+  list_at_boundary(*worst);
+  insert((1.0 / 3) * (place(0) + place(1) + place(2)));
   std::vector<LocalIndex> neighbours;
   for (const LocalIndex v : worst->vertex) {
     base_.mesh.collect_ring(v, neighbours);
     if (base_.role[at(v)] == Role::free && base_.boundary[at(v)].site < 0 && neighbours.size() >= 7)
       for (std::size_t k = 0; k < neighbours.size(); k += 2)
-        operations_.push_back({Kind::insert, -1, 0.5 * (base_.mesh.position(v) + base_.mesh.position(neighbours[k]))});
+        insert(0.5 * (base_.mesh.position(v) + base_.mesh.position(neighbours[k])));
     for (const LocalIndex u : neighbours)
       if (u >= PatchMesh::frame && base_.role[at(u)] == Role::free &&
           (base_.boundary[at(u)].site >= 0 || base_.mesh.degree(u) != 6) &&
           std::find(worst->vertex.begin(), worst->vertex.end(), u) == worst->vertex.end())
-        operations_.push_back({Kind::remove, u, {}});
+        remove(u);
   }
 }
 
-bool PatchOptimizer::allows(const PatchBudget& budget, const Operation& operation) {
-  return operation.kind == SiteEdit::Kind::insert ? budget.may_insert
-                                                  : budget.may_delete >= (operation.second < 0 ? 1 : 2);
+/// What may help a triangle with edges on the boundary.
+void PatchOptimizer::list_at_boundary(const PatchMesh::Triangle& worst) {
+  const Vec2 middle = (1.0 / 3) * (base_.mesh.position(worst.vertex[0]) + base_.mesh.position(worst.vertex[1]) +
+                                   base_.mesh.position(worst.vertex[2]));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const LocalIndex v = worst.vertex[k], next = worst.vertex[(k + 1) % 3], previous = worst.vertex[(k + 2) % 3];
+    if (base_.boundary[at(v)].next != next)
+      continue;
+    operations_.push_back({.divided = {v, -1}});
+    operations_.push_back({.divided = {v, -1}, .inserted = middle});
+    if (base_.boundary[at(v)].previous != previous)
+      continue;
+    // A corner with one triangle: a vertex inside must come nearer, or more of them.
+    if (base_.role[at(next)] == Role::free && base_.role[at(previous)] == Role::free)
+      operations_.push_back({.removed = {next, previous}});
+    operations_.push_back({.divided = {v, previous}});
+    operations_.push_back({.divided = {v, previous}, .inserted = middle});
+  }
+}
+
+/// Has the trial a number of sites that is allowed?
+bool PatchOptimizer::is_within(const PatchBudget& budget) const {
+  const GlobalId removed = std::count(trial_.role.begin(), trial_.role.end(), Role::gone);
+  const GlobalId gain = trial_.mesh.vertices() - base_.mesh.vertices() - removed;
+  return gain <= budget.may_insert && -gain <= budget.may_delete;
 }
 
 /// Carries it out on the trial. @return false if it cannot be done
 bool PatchOptimizer::apply(const Operation& operation) {
-  const LocalIndex v = operation.vertex;
-  if (operation.kind == SiteEdit::Kind::insert && v >= 0)
-    return insert_on_boundary(v);
-  if (operation.kind == SiteEdit::Kind::remove)
-    return remove(v) && (operation.second < 0 || remove(operation.second));
-  Vec2 p = lattice_.snap(operation.place);
+  for (const LocalIndex v : operation.removed)
+    if (v >= 0 && !remove(v))
+      return false;
+  for (const LocalIndex v : operation.divided)
+    if (v >= 0 && !insert_on_boundary(v))
+      return false;
+  return !operation.inserted || insert(*operation.inserted);
+}
+
+/// Divides all edges of the triangles that have a vertex of the worst one: the boundary is too ragged for h there.
+bool PatchOptimizer::refine() {
+  const PatchMesh::Triangle worst = *worst_triangle();
+  const auto is_worst = [&](LocalIndex v) {
+    return std::find(worst.vertex.begin(), worst.vertex.end(), v) != worst.vertex.end();
+  };
+  std::vector<Vec2> middles;
+  for (const PatchMesh::Triangle& triangle : base_.mesh.triangles()) {
+    if (!counts(base_, triangle) || std::none_of(triangle.vertex.begin(), triangle.vertex.end(), is_worst))
+      continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const LocalIndex v = triangle.vertex[k], next = triangle.vertex[(k + 1) % 3];
+      if (base_.boundary[at(v)].next == next) {
+        if (base_.role[at(v)] < Role::scored || base_.role[at(next)] < Role::scored || !insert_on_boundary(v))
+          return false;
+      } else if (base_.boundary[at(v)].previous != next) {
+        const Vec2 middle = 0.5 * (base_.mesh.position(v) + base_.mesh.position(next));
+        if (std::find(middles.begin(), middles.end(), middle) == middles.end())
+          middles.push_back(middle);
+      }
+    }
+  }
+  if (!divide_where_encroached())
+    return false;
+  for (const Vec2 middle : middles)
+    insert(middle); // where there is room
+  return true;
+}
+
+/// Divides chords with a vertex of the boundary in their discs.
+bool PatchOptimizer::divide_where_encroached() {
+  for (LocalIndex v = PatchMesh::frame; v < trial_.mesh.vertices(); ++v) {
+    if (trial_.mesh.vertices() > base_.mesh.vertices() + most_refined)
+      return false;
+    const LocalIndex next = trial_.boundary[at(v)].next;
+    if (next < 0 || trial_.role[at(v)] < Role::scored || trial_.role[at(next)] < Role::scored)
+      continue;
+    for (LocalIndex u = PatchMesh::frame; u < trial_.mesh.vertices(); ++u)
+      if (u != v && u != next && trial_.boundary[at(u)].site >= 0 &&
+          geometry::diametral_side(trial_.mesh.position(v), trial_.mesh.position(next), trial_.mesh.position(u)) <= 0) {
+        if (!insert_on_boundary(v))
+          return false;
+        v = PatchMesh::frame - 1; // from the beginning
+        break;
+      }
+  }
+  return true;
+}
+
+/// Does p keep off the discs of all chords?
+bool PatchOptimizer::is_clear(const Patch& patch, Vec2 p, double h) const {
+  if (!patch.divided)
+    return !guard_.correct(p, h, lattice_);
+  for (LocalIndex v = PatchMesh::frame; v < patch.mesh.vertices(); ++v)
+    if (const LocalIndex next = patch.boundary[at(v)].next;
+        next >= 0 && patch.role[at(v)] != Role::gone &&
+        geometry::diametral_side(patch.mesh.position(v), patch.mesh.position(next), p) <= 0)
+      return false;
+  return true;
+}
+
+bool PatchOptimizer::insert(Vec2 place) {
+  Vec2 p = lattice_.snap(place);
+  if (trial_.divided)
+    return is_clear(trial_, p, size_) && trial_.add(p, size_, {}, Role::free) >= 0;
   if (const auto pushed = guard_.correct(p, size_, lattice_)) { // such as in the corner of a square
     p = lattice_.snap(*pushed);
     if (guard_.correct(p, size_, lattice_))
@@ -260,6 +345,7 @@ bool PatchOptimizer::insert_on_boundary(LocalIndex before) {
   trial_.boundary[at(before)].next = v;
   trial_.boundary[at(before)].changed = true;
   trial_.boundary[at(after)].previous = v;
+  trial_.divided = true;
   return true;
 }
 
@@ -279,7 +365,7 @@ void PatchOptimizer::relax_vertex(Patch& patch, LocalIndex v) {
     const Vec2 to = lattice_.snap(from + step);
     if (to == from)
       return;
-    if (star_energy(to, around_, true) < model.value && !guard_.correct(to, h, lattice_)) {
+    if (star_energy(to, around_, true) < model.value && is_clear(patch, to, h)) {
       patch.mesh.move(v, to);
       return;
     }
@@ -320,7 +406,8 @@ void PatchOptimizer::slide_vertex(Patch& patch, LocalIndex v) {
     moved.arc = arc >= length ? arc - length : arc < 0 ? arc + length : arc;
     if (!(star_energy(to, around_, false) < model.value) ||
         !stands_for_curve(moved, patch.boundary[at(own.next)], {to, around_.front()}, patch.size[at(v)]) ||
-        !stands_for_curve(patch.boundary[at(own.previous)], moved, {around_.back(), to}, patch.size[at(v)]))
+        !stands_for_curve(patch.boundary[at(own.previous)], moved, {around_.back(), to}, patch.size[at(v)]) ||
+        !leaves_discs_empty(patch, v, to))
       continue;
     if (!patch.mesh.move(v, to) && !patch.mesh.replace(v, to)) {
       patch.broken = true;
@@ -330,6 +417,23 @@ void PatchOptimizer::slide_vertex(Patch& patch, LocalIndex v) {
     own.changed = patch.boundary[at(own.previous)].changed = true;
     return;
   }
+}
+
+/// Of the chords, when a vertex of the boundary comes to lie elsewhere.
+bool PatchOptimizer::leaves_discs_empty(const Patch& patch, LocalIndex v, Vec2 to) const {
+  const BoundaryVertex& own = patch.boundary[at(v)];
+  const Vec2 behind = patch.mesh.position(own.previous), ahead = patch.mesh.position(own.next);
+  for (LocalIndex u = PatchMesh::frame; u < patch.mesh.vertices(); ++u) {
+    if (u == v || patch.role[at(u)] == Role::gone)
+      continue;
+    const Vec2 p = patch.mesh.position(u);
+    const LocalIndex next = patch.boundary[at(u)].next;
+    if ((u != own.previous && geometry::diametral_side(behind, to, p) <= 0) ||
+        (u != own.next && geometry::diametral_side(to, ahead, p) <= 0) ||
+        (next >= 0 && next != v && geometry::diametral_side(p, patch.mesh.position(next), to) <= 0))
+      return false;
+  }
+  return true;
 }
 
 void PatchOptimizer::relax(Patch& patch, int sweeps, double radius) {
@@ -448,16 +552,30 @@ void PatchOptimizer::try_everything(const PatchBudget& budget, Best& best) {
   for (Finalist& finalist : finalists_)
     finalist.sum = INFINITY;
   for (const Operation& operation : operations_) {
-    if (!allows(budget, operation))
-      continue;
     trial_ = base_;
-    const double handicap = operation.kind == SiteEdit::Kind::remove ? budget.deletion_handicap : 1;
-    if (apply(operation))
+    const double handicap = operation.inserts() ? 1 : budget.deletion_handicap;
+    if (apply(operation) && is_within(budget))
       enter_finals(begin_trial(handicap, best), handicap);
   }
   for (Finalist& finalist : finalists_)
     if (finalist.sum < INFINITY)
       finish_trial(finalist.patch, finalist.handicap, best);
+}
+
+/// Smaller triangles where nothing else helps: more of them, so their largest alpha decides and not the sum.
+void PatchOptimizer::try_refining(const PatchBudget& budget, Best& best) {
+  trial_ = base_;
+  if (!refine() || !is_within(budget))
+    return;
+  relax(trial_, refine_sweeps, INFINITY);
+  if (trial_.broken)
+    return;
+  const double largest = score(trial_).max;
+  if (largest - 1 > (1 - refine_gain) * (best.largest - 1) || !chords_hold(trial_))
+    return;
+  best.largest = largest;
+  best.found = true;
+  std::swap(best_, trial_);
 }
 
 bool PatchOptimizer::improve(Vec2 center, double size, std::span<const PatchSite> sites, const PatchBudget& budget,
@@ -476,6 +594,8 @@ bool PatchOptimizer::improve(Vec2 center, double size, std::span<const PatchSite
     longest_bent_ = bent_at_last;
     try_everything(budget, best);
   }
+  if (best.largest > refine_alpha && !operations_.empty())
+    try_refining(budget, best);
   if (best.found) {
     collect_edits(edits);
     return true;

@@ -9,7 +9,9 @@
 #include "trime/mesh/binned_points.hpp"
 #include "trime/meshing/boundary_guard.hpp"
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,6 +32,7 @@ struct SiteEdit {
   Kind kind = Kind::move;
   std::int32_t boundary = mesh::free_site; ///< index of the boundary site; for a new one, of the site before it
   double arc = 0;                          ///< of the new place on the boundary; none: h at the middle, else 0
+  std::uint64_t patch = 0;                 ///< set by who collects them
 };
 
 /// What is tried, and when it is kept.
@@ -50,8 +53,8 @@ struct PatchOptions {
 
 /// What a patch may do with the number of sites.
 struct PatchBudget {
-  bool may_insert = true;
-  GlobalId may_delete = 2;      ///< so many
+  GlobalId may_insert = 100; ///< so many more than it deletes
+  GlobalId may_delete = 2;
   double deletion_handicap = 1; ///< factor on the sum of a trial with fewer sites: above 1 if sites are scarce
 };
 
@@ -85,10 +88,10 @@ private:
     double sum = 0, max = 1;
   };
   struct Operation {
-    SiteEdit::Kind kind;
-    LocalIndex vertex;      // to be removed; of an insertion on the boundary the one before
-    geometry::Vec2 place{}; // of an insertion inside
-    LocalIndex second = -1; // to be removed, too
+    std::array<LocalIndex, 2> removed{-1, -1};   // vertices
+    std::array<LocalIndex, 2> divided{-1, -1};   // chords of the boundary, by the vertex where they begin
+    std::optional<geometry::Vec2> inserted = {}; // inside
+    bool inserts() const { return divided[0] >= 0 || inserted; }
   };
   /// A vertex on the boundary: its neighbours along the loop, -1 beyond the patch, and its place.
   struct BoundaryVertex {
@@ -108,6 +111,7 @@ private:
     std::vector<double> size;
     std::vector<BoundaryVertex> boundary;
     bool broken = false;
+    bool divided = false; // chords were: the guard knows larger discs
   };
   struct Finalist {
     Patch patch;
@@ -128,9 +132,15 @@ private:
   Score score(const Patch& patch) const;
   const PatchMesh::Triangle* worst_triangle() const;
   void list_operations();
-  static bool allows(const PatchBudget& budget, const Operation& operation);
+  void list_at_boundary(const PatchMesh::Triangle& worst);
+  bool is_within(const PatchBudget& budget) const;
   bool apply(const Operation& operation);
   bool remove(LocalIndex v);
+  void try_refining(const PatchBudget& budget, Best& best);
+  bool refine();
+  bool divide_where_encroached();
+  bool is_clear(const Patch& patch, geometry::Vec2 p, double h) const;
+  bool insert(geometry::Vec2 place);
   bool insert_on_boundary(LocalIndex before);
   double begin_trial(double handicap, const Best& best);
   void finish_trial(Patch& trial, double handicap, Best& best);
@@ -141,6 +151,7 @@ private:
   void slide_vertex(Patch& patch, LocalIndex v);
   bool stands_for_curve(const BoundaryVertex& from, const BoundaryVertex& to, const geometry::Segment& chord,
                         double size) const;
+  bool leaves_discs_empty(const Patch& patch, LocalIndex v, geometry::Vec2 to) const;
   bool chords_hold(const Patch& patch) const;
   void collect_edits(std::vector<SiteEdit>& edits) const;
 
