@@ -54,8 +54,11 @@ BoundaryCurve::Strayed BoundaryCurve::strayed(LocalIndex loop, double from, doub
   const double rounding = 1e-9 * geometry::squared_length(chord.b - chord.a);
   Strayed result;
   double squared = 0;
-  const auto look = [&](Vec2 p) {
-    squared = std::fmax(squared, geometry::squared_distance(p, chord));
+  const auto look = [&](Vec2 p, double arc) {
+    if (const double distance = geometry::squared_distance(p, chord); distance > squared) {
+      squared = distance;
+      result.farthest = arc;
+    }
     result.leaves_disc |= geometry::dot(chord.a - p, chord.b - p) > rounding;
   };
   Vec2 moved = shift;
@@ -65,7 +68,7 @@ BoundaryCurve::Strayed BoundaryCurve::strayed(LocalIndex loop, double from, doub
     const geometry::Piece& piece = curve.pieces[k];
     const double length = starts[k + 1] - starts[k];
     if (passed > from) {
-      look(piece.start + moved);
+      look(piece.start + moved, passed);
       const geometry::Piece& before = curve.pieces[k == 0 ? curve.pieces.size() - 1 : k - 1];
       const double cosine = geometry::dot(before.tangent(before.length()), piece.tangent(0));
       result.bent |= cosine < cosine_of_bent;
@@ -73,7 +76,8 @@ BoundaryCurve::Strayed BoundaryCurve::strayed(LocalIndex loop, double from, doub
     }
     for (int quarter = 1; piece.circular && quarter < 4; ++quarter) {
       const double low = std::fmax(from - passed, 0), high = std::fmin(to - passed, length);
-      look(piece.point(low + 0.25 * quarter * (high - low)) + moved);
+      const double along = low + 0.25 * quarter * (high - low);
+      look(piece.point(along) + moved, passed + along);
     }
     passed += length;
     if (++k == curve.pieces.size()) {

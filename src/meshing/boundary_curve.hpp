@@ -38,6 +38,7 @@ public:
   /// between them (or images of them). O(pieces between)
   struct Strayed {
     double deviation = 0;     ///< largest distance from the chord, of junctions and points on arcs
+    double farthest = 0;      ///< arc length there, from the start of the loop; may be above its length
     bool leaves_disc = false; ///< one lies outside of the chord's diametral disc
     bool bent = false;        ///< a junction lies between that turns by more than half a degree
     bool sharp = false;       ///< one that turns by more than 30 degrees

@@ -22,6 +22,7 @@ constexpr std::array<double, 2> hopeless_shares{4, 1.6}; // after each of the fi
                                                          // so much worse than what it has to be
 constexpr double near_sweeps = 2;                        // h: how far from the middle the first sweeps reach
 constexpr double longest_step = 0.25;                    // h, of one Newton step
+constexpr double most_off_middle = 0.3;                  // of a chord, where it is divided
 constexpr double refine_alpha = 1.3, refine_gain = 0.1;  // of the excess of alpha
 constexpr int refine_sweeps = 20;
 constexpr LocalIndex most_refined = 40; // new sites on the boundary
@@ -335,6 +336,10 @@ bool PatchOptimizer::insert_on_boundary(LocalIndex before) {
   if (end <= own.arc)
     end += curve_.length(own.loop);
   BoundaryVertex made{own.site, before, after, own.loop, 0.5 * (own.arc + end), true};
+  const BoundaryCurve::Strayed strayed =
+      curve_.strayed(own.loop, own.arc, end, {trial_.mesh.position(before), trial_.mesh.position(after)});
+  if (strayed.bent && std::fabs(strayed.farthest - made.arc) < most_off_middle * (end - own.arc))
+    made.arc = strayed.farthest; // a corner that was left out
   const Vec2 p = boundary_.periods.nearest_image(lattice_.snap(curve_.place(own.loop, made.arc).point), center_);
   if (made.arc >= curve_.length(own.loop))
     made.arc -= curve_.length(own.loop);
