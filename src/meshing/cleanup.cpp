@@ -297,6 +297,10 @@ std::vector<PatchSite> Cleanup::sites_around(LocalIndex site, double reach) cons
             sites.push_back({points.position(j), view.size(j), points.boundary(j)});
       },
       [](mesh::BinRef) {});
+  if (sites.size() <= options_.most_sites)
+    for (PatchSite& found : sites)
+      if (found.boundary >= 0 && options_.tolerance > 0)
+        found.tolerance = options_.tolerance * layout_.asked_size->size(points.grid().periods().wrap(found.position));
   std::sort(sites.begin(), sites.end(), [](const PatchSite& a, const PatchSite& b) {
     return geometry::lexicographically_less(a.position, b.position);
   });

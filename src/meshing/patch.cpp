@@ -71,6 +71,7 @@ bool PatchOptimizer::build(Vec2 center, double size, std::span<const PatchSite> 
     if (site.boundary >= 0) {
       const BoundarySite& its = boundary_.sites[at(site.boundary)];
       on_boundary.site = site.boundary;
+      on_boundary.tolerance = site.tolerance;
       on_boundary.loop = loop_of(boundary_, site.boundary);
       on_boundary.arc = curve_.arc(on_boundary.loop, its);
       if (its.corner)
@@ -335,7 +336,7 @@ bool PatchOptimizer::insert_on_boundary(LocalIndex before) {
   double end = trial_.boundary[at(after)].arc;
   if (end <= own.arc)
     end += curve_.length(own.loop);
-  BoundaryVertex made{own.site, before, after, own.loop, 0.5 * (own.arc + end), true};
+  BoundaryVertex made{own.site, before, after, own.loop, 0.5 * (own.arc + end), own.tolerance, true};
   const BoundaryCurve::Strayed strayed =
       curve_.strayed(own.loop, own.arc, end, {trial_.mesh.position(before), trial_.mesh.position(after)});
   if (strayed.bent && std::fabs(strayed.farthest - made.arc) < most_off_middle * (end - own.arc))
@@ -463,7 +464,7 @@ bool PatchOptimizer::stands_for_curve(const BoundaryVertex& from, const Boundary
   if (arc <= straight_share * length)
     return true; // as on a straight side
   const BoundaryCurve::Strayed strayed = curve_.strayed(from.loop, from.arc, to.arc, chord);
-  const bool tolerated = strayed.bent && strayed.deviation <= options_.tolerance * size;
+  const bool tolerated = strayed.bent && strayed.deviation <= from.tolerance;
   if (strayed.leaves_disc || !(tolerated || (!strayed.sharp && arc <= largest_arc_share * length)))
     return false;
   if (strayed.deviation <= unseen * size || length <= longest_bent_ * size)

@@ -22,6 +22,7 @@ struct PatchSite {
   geometry::Vec2 position;
   double size;           ///< h there
   std::int32_t boundary; ///< see mesh::Site
+  double tolerance = 0;  ///< on the boundary: how far a new chord may pass from a curve with corners between
 };
 
 /// What becomes of a site: where it goes, or that it is deleted; or a new site (`from` says nothing then); or that
@@ -48,7 +49,7 @@ struct PatchOptions {
   double operate_alpha = 1.09;
   int trial_sweeps = 5;      ///< over the free sites after an operation
   std::size_t finalists = 4; ///< operations that go beyond the first sweeps, near the middle
-  double tolerance = 0;      ///< h: how far a new chord may pass from a curve that turns by more than 60 degrees
+  double tolerance = 0;      ///< of PatchSite, in sizes as they are asked for
 };
 
 /// What a patch may do with the number of sites.
@@ -99,6 +100,7 @@ private:
     LocalIndex previous = -1, next = -1;
     LocalIndex loop = -1;
     double arc = 0;
+    double tolerance = 0;
     bool changed = false; // the chord to the next is not what it was
   };
   /// A triangulation and what is known of its vertices.
