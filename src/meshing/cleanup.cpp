@@ -25,10 +25,11 @@ constexpr int passes_of_choice = 5;
 /// The worst triangles first: thresholds of the stages, as multiples of the excess that counts as bad.
 constexpr std::array<double, 3> stages{4, 2, 1};
 constexpr int few_of = 5; // below this part of the patches of the fullest round the next stage takes the rest along
-constexpr int most_failures = 2;                             // in a cell of about half an edge; then it is left alone
-constexpr double largest_loss = 0.005;                       // of the sites
-constexpr double scarcity = 0.001, handicap_if_scarce = 1.5; // from when deletions must be that much better
-constexpr double around_bad_site = 3, around_patch = 3;      // h: how far stars are computed anew, beyond its reach
+constexpr int most_failures = 2;       // in a cell of about half an edge; then it is left alone
+constexpr double largest_loss = 0.005; // of the sites
+constexpr double scarcity = 0.001, handicap_if_scarce = 1.5,
+                 handicap_if_crowded = 0.85;            // from when deletions must be that much better
+constexpr double around_bad_site = 3, around_patch = 3; // h: how far stars are computed anew, beyond its reach
 
 std::size_t at(LocalIndex i) {
   return static_cast<std::size_t>(i);
@@ -308,8 +309,10 @@ std::vector<PatchSite> Cleanup::sites_around(LocalIndex site, double reach) cons
 }
 
 PatchBudget Cleanup::budget() const {
+  const GlobalId room = most_sites_ - sites_;
+  const bool crowded = static_cast<double>(room) < scarcity * static_cast<double>(most_sites_);
   const bool scarce = static_cast<double>(sites_) < (1 - scarcity) * static_cast<double>(wanted_sites_);
-  return {most_sites_ - sites_, sites_ - least_sites_, scarce ? handicap_if_scarce : 1};
+  return {room, sites_ - least_sites_, crowded ? handicap_if_crowded : scarce ? handicap_if_scarce : 1};
 }
 
 std::vector<std::vector<SiteEdit>> Cleanup::try_patches(const std::vector<Candidate>& chosen) {
