@@ -18,12 +18,12 @@ constexpr double clearance_of_score = 1.5; // h, from the rim of what is read
 constexpr double widest_frame = 0x1.8p44;  // lattice steps: 1.5 sides of the container at least; predicates are exact
 constexpr double weight_of_bad = 10;
 constexpr double least_gain = 0.02;
-constexpr std::array<double, 2> hopeless_shares{4, 1.6}; // after each of the first sweeps a trial is given up that is
-                                                         // so much worse than what it has to be
-constexpr double near_sweeps = 2;                        // h: how far from the middle the first sweeps reach
-constexpr double longest_step = 0.25;                    // h, of one Newton step
-constexpr double most_off_middle = 0.3;                  // of a chord, where it is divided
-constexpr double refine_alpha = 1.3, refine_gain = 0.1;  // of the excess of alpha
+constexpr std::array<double, 2> hopeless_shares{4, 2};  // after each of the first sweeps a trial is given up that is
+                                                        // so much worse than what it has to be
+constexpr double near_sweeps = 2;                       // h: how far from the middle the first sweeps reach
+constexpr double longest_step = 0.25;                   // h, of one Newton step
+constexpr double most_off_middle = 0.3;                 // of a chord, where it is divided
+constexpr double refine_alpha = 1.3, refine_gain = 0.1; // of the excess of alpha
 constexpr int refine_sweeps = 20;
 constexpr LocalIndex most_refined = 40; // new sites on the boundary
 constexpr int halvings = 3;
@@ -516,7 +516,7 @@ double PatchOptimizer::begin_trial(double handicap, const Best& best) {
   for (const double hopeless : hopeless_shares) {
     relax(trial_, 1, near_sweeps * size_);
     sum = handicap * score(trial_).sum;
-    if (trial_.broken || !(sum <= hopeless * best.least))
+    if (trial_.broken || !(sum <= hopeless * best.first))
       return INFINITY;
   }
   return sum;
@@ -591,7 +591,8 @@ bool PatchOptimizer::improve(Vec2 center, double size, std::span<const PatchSite
     return false;
   }
   const Score before = score(base_);
-  Best best{(1 - least_gain) * before.sum, before.max, before.max};
+  const double least = (1 - least_gain) * before.sum;
+  Best best{least, least, before.max, before.max};
   list_operations();
   longest_bent_ = bent_at_first;
   too_long_ = false;

@@ -47,7 +47,7 @@ struct PatchOptions {
   double bad_alpha = 1.07; ///< triangles above it are bad
   /// Insertions and deletions are tried where moves alone leave a triangle above it, or help nothing.
   double operate_alpha = 1.09;
-  int trial_sweeps = 5;      ///< over the free sites after an operation
+  int trial_sweeps = 6;      ///< over the free sites after an operation
   std::size_t finalists = 4; ///< operations that go beyond the first sweeps, near the middle
   double tolerance = 0;      ///< of PatchSite, in sizes as they are asked for
 };
@@ -120,7 +120,8 @@ private:
     double sum = 0, handicap = 1;
   };
   struct Best {     // among the trials of a patch
-    double least;   // sum that another one must fall below
+    double first;   // sum that a trial had to fall below at first
+    double least;   // and now
     double before;  // largest alpha at the beginning
     double largest; // now
     bool found = false;

@@ -66,6 +66,12 @@ inline geometry::Boundary boundary_of(std::vector<geometry::Loop> loops) {
   geometry::Boundary boundary;
   boundary.loops = std::move(loops);
   boundary.part_names = {"shape"};
+  for (const geometry::Loop& loop : boundary.loops)
+    for (const geometry::Piece& piece : loop.pieces) {
+      boundary.area += 0.5 * cross(piece.start, piece.end);
+      if (piece.circular)
+        boundary.area += 0.5 * piece.radius * piece.radius * (piece.sweep - sin_cos(piece.sweep).sin);
+    }
   return boundary;
 }
 

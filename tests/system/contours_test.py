@@ -10,6 +10,7 @@ import sys
 import unittest
 
 import h5py
+import numpy
 
 from trime_run import ROOT, Workspace, run
 
@@ -40,6 +41,13 @@ normalize = true
 method = distmesh
 points = 100000
 """
+
+
+def smallest_angles(places):
+    """Of triangles (n, 3, 2), in degrees."""
+    sides = numpy.linalg.norm(numpy.roll(places, 1, axis=1) - numpy.roll(places, 2, axis=1), axis=2)
+    a, b, c = numpy.sort(sides, axis=1).T
+    return numpy.degrees(numpy.arccos((b * b + c * c - a * a) / (2 * b * c)))
 
 
 def checks_of(path):
@@ -79,6 +87,23 @@ class Contours(unittest.TestCase):
             self.assertTrue(9900 <= size <= 10000, size)
             for ranks, threads in ((3, 1), (4, 2)):
                 self.assertEqual(self.mesh(work, POKER, ranks=ranks, threads=threads)[2], mesh_hash)
+
+    def test_north_america_has_no_bad_triangle(self):
+        """All three methods with 20000 points: input corners under 56 degrees apart, which the file lists."""
+        for method in ("distmesh", "cvd", "hybrid"):
+            with self.subTest(method=method), Workspace() as work:
+                self.mesh(work, NORTH_AMERICA.replace("[meshing]", "[sizing]\ntype = automatic\ngradation = 0.2\n[meshing]")
+                          .replace("100000", "20000").replace("distmesh", method))
+                with h5py.File(work / "c.h5", "r") as file:
+                    alpha = file["VTKHDF/CellData/alpha"][:]
+                    places = file["Mesh/mesh/geometry"][:][file["Mesh/mesh/topology"][:]]
+                    sharp = {name: file[f"trime_mpi/sharp_corners/{name}"][:] for name in ("x", "y", "degrees")}
+                self.assertLess(alpha.mean(), 1.03 if method == "hybrid" else 1.035)
+                self.assertLess(alpha.max(), 1.4)
+                self.assertTrue(0 < len(sharp["x"]) < 60 and (sharp["degrees"] < 56).all())
+                corners = set(zip(sharp["x"], sharp["y"]))
+                for triangle, angle in zip(places, smallest_angles(places)):
+                    self.assertTrue(angle > 28 or any((x, y) in corners for x, y in triangle), (triangle, angle))
 
     def test_north_america_keeps_its_lakes(self):
         with Workspace() as work:

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 
 namespace trime::meshing {
 namespace {
@@ -119,6 +120,48 @@ TEST(SiteState, SitesComeAndGoInOneMove) {
       return sum;
     };
     EXPECT_EQ(world.sum(count(state)), count(serial));
+  }
+}
+
+/// Counts how often it is asked.
+class CountingSize final : public sizing::SizeField {
+public:
+  double size(Vec2 p) const override {
+    ++count;
+    return 0.02 + 0.05 * p.x;
+  }
+  mutable std::atomic<int> count = 0;
+};
+
+TEST(SiteState, SizesOfSitesThatStayAreNotEvaluatedAgain) {
+  const comm::Communicator world = comm::Communicator::world();
+  SiteState state(world, square, {{}, {}, 0.03});
+  state.distribute(testing::dealt(world, testing::random_sites(1500, 8)));
+  const CountingSize size;
+  const StarBuilder builder(unit_lattice(), 0.08);
+  state.compute_stars(builder, size, Wanted::all_sites);
+  for (int round = 0; round < 3; ++round) {
+    std::vector<Site> sites;
+    std::vector<std::uint8_t> deleted;
+    int moved = 0;
+    for (LocalIndex i = 0; i < state.points().owned(); ++i) {
+      sites.push_back(state.points().site(i));
+      const std::uint64_t key = state.grid().point_key(sites.back().position) + static_cast<std::uint64_t>(round);
+      deleted.push_back(key % 31 == 0);
+      if (key % 17 == 0 && ++moved)
+        sites.back().position = unit_lattice().snap(0.9 * sites.back().position + Vec2{0.05, 0.05});
+    }
+    const std::vector<Site> added = testing::dealt(world, testing::random_sites(20, 50 + round));
+    sites.insert(sites.end(), added.begin(), added.end());
+    deleted.resize(sites.size(), 0);
+    state.move_sites(sites, deleted);
+    const std::int64_t changed = world.sum(std::int64_t{moved}) + 20;
+    size.count = 0;
+    state.compute_stars(builder, size, Wanted::all_sites);
+    const std::int64_t ghosts = world.sum(std::int64_t{state.points().size() - state.points().owned()});
+    EXPECT_LE(world.sum(std::int64_t{size.count}), changed + 3 * ghosts); // those are asked for in each round
+    for (LocalIndex i = 0; i < state.points().size(); ++i)
+      EXPECT_EQ(state.sizes()[i], 0.02 + 0.05 * state.points().position(i).x);
   }
 }
 

@@ -176,6 +176,35 @@ TEST(EditBoundary, RefusesTwoChangesOfOneSiteOrChord) {
   }
 }
 
+/// As where a patch refines: they stand in the order of the curve, also around the start of the loop.
+TEST(EditBoundary, OneChordCanGetSeveralSitesOfOnePatch) {
+  const Boundary boundary = square_and_hole();
+  const BoundaryCurve curve(boundary);
+  const BoundarySites before = sites_of(boundary, 0.07);
+  for (const LocalIndex k : {0, 5, before.loop_start[1] - 1, before.loop_start[2] - 1}) {
+    const double from = arc_of(before, curve, k), length = curve.length(loop_of(before, k));
+    const double way = 2 * (arc_between(before, curve, k) - from);
+    std::vector<BoundaryEdit> edits;
+    for (const double share : {0.75, 0.25, 0.5}) {
+      const double arc = std::fmod(from + share * way, length);
+      edits.push_back(edit_at(before, curve, k, Kind::insert, arc));
+      edits.back().patch = 7;
+    }
+    std::vector<BoundaryEdit> of_two = edits;
+    BoundarySites sites = before;
+    std::vector<LocalIndex> inserted;
+    edit_boundary(sites, curve, edits, inserted);
+    expect_sound(sites, curve);
+    EXPECT_EQ(sites.sites.size(), before.sites.size() + 3);
+    EXPECT_EQ(inserted, (std::vector<LocalIndex>{k + 1, k + 2, k + 3}));
+    for (std::size_t n = 0; n < 3; ++n)
+      EXPECT_NEAR(std::fmod(edits[n].arc - from + length, length), 0.25 * static_cast<double>(n + 1) * way, 1e-9);
+    of_two[1].patch = 8;
+    sites = before;
+    EXPECT_THROW(edit_boundary(sites, curve, of_two, inserted), InternalError);
+  }
+}
+
 /// At each site of both loops, the first and the last ones included: slide, insertion and removal.
 TEST(EditBoundary, EachSiteCanSlideGoAndGetANewNext) {
   const Boundary boundary = square_and_hole();

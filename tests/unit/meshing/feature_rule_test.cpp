@@ -151,7 +151,38 @@ TEST(FeatureRule, WhatAStayingThingNeedsStays) {
   boundary.loops[3].pieces[0].corner = true; // a fixed point on the island: its lake stays, too, at any size
   EXPECT_EQ(drop_small_loops(boundary, UniformSize(1), 3).dropped, (std::vector<char>{0, 1, 0, 0}));
   boundary.loops[3].pieces[0].corner = false;
-  EXPECT_EQ(drop_small_loops(boundary, UniformSize(10), 3).dropped, (std::vector<char>{0, 1, 1, 1})); // one stays
+}
+
+TEST(FeatureRule, WhatIsMoreThanAHundredthOfTheAreaStays) {
+  EXPECT_EQ(drop_small_loops(lakes(0.02), UniformSize(10), 3).dropped, (std::vector<char>{0, 1, 0, 1}));
+  // Two discs, a thin annulus: the size that makes few points of them is no reason to drop one.
+  const Boundary two = boundary_of(
+      {polygon_loop(regular_polygon(12, {0.3, 0.5}, 0.19)), polygon_loop(regular_polygon(12, {0.7, 0.5}, 0.19))});
+  EXPECT_FALSE(drop_small_loops(two, UniformSize(10), 3).any());
+  const Boundary annulus = boundary_of(
+      {polygon_loop(regular_polygon(12, {0.5, 0.5}, 0.4)), polygon_loop(regular_polygon(12, {0.5, 0.5}, 0.399, true))});
+  EXPECT_FALSE(drop_small_loops(annulus, UniformSize(10), 3).any());
+}
+
+TEST(FeatureRule, OneOfManySmallIslandsStays) {
+  std::vector<geometry::Loop> islands;
+  for (int k = 0; k < 144; ++k)
+    islands.push_back(polygon_loop(regular_polygon(12, {0.08 * (k % 12) + 0.06, 0.08 * (k / 12) + 0.06}, 0.03)));
+  const DroppedLoops dropped = drop_small_loops(boundary_of(islands), UniformSize(10), 3);
+  EXPECT_EQ(dropped.components, 143);
+}
+
+/// The two corners at the end of a slit stay, however near to each other: its sides get sites in pairs.
+TEST(FeatureRule, TheEndsOfASlitStay) {
+  for (const double width : {1e-3, 1e-6, 1e-10}) {
+    const Boundary boundary =
+        boundary_of({polygon_loop({{0.1, 0.1}, {0.9, 0.1}, {0.9, 0.9}, {0.1, 0.9}}),
+                     polygon_loop({{0.3, 0.5}, {0.3, 0.5 + width}, {0.7, 0.5 + width}, {0.7, 0.5}})});
+    const BoundarySites ruled = sites_of(boundary, 0.03, 0.1);
+    EXPECT_EQ(ruled.corners, 8);
+    EXPECT_EQ(ruled.left_out, 0);
+    EXPECT_LT(ruled.sites.size(), 150u);
+  }
 }
 
 TEST(SitePath, AStraightLineIsDividedEvenlyAndACornerKept) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the optimizer makes of patches whose remedy is known.
-#include "meshing/patch.hpp"
-
-#include "support/boundary_shapes.hpp"
+#include "support/patch_stage.hpp"
 #include "support/periodic_shapes.hpp"
 #include "support/point_sets.hpp"
 #include "trime/geometry/diametral.hpp"
@@ -23,93 +21,9 @@ using testing::boundary_of;
 using testing::circle_loop;
 using testing::polygon_loop;
 using testing::unit_lattice;
-using Kind = SiteEdit::Kind;
+using namespace testing_patch;
 
-constexpr double h = 0.03125;
 const Vec2 middle{0.5, 0.5};
-
-/// Sites of a patch, and all that the optimizer needs.
-struct Stage {
-  explicit Stage(Boundary of, double size = h)
-      : boundary(std::move(of)), sites_on(make_boundary_sites(boundary, UniformSize(size), unit_lattice(), 30)),
-        curve(boundary), guard(sites_on, unit_lattice()) {}
-  Stage(const Stage&) = delete;
-
-  void add(Vec2 p, std::int32_t kind = mesh::free_site) { sites.push_back({unit_lattice().snap(p), h, kind}); }
-  void add_boundary() {
-    for (std::size_t k = 0; k < sites_on.sites.size(); ++k)
-      sites.push_back({sites_on.sites[k].position, h, static_cast<std::int32_t>(k)});
-  }
-  /// Takes the site nearest to p out. @return where it was
-  Vec2 take_nearest(Vec2 p) {
-    const auto nearest = std::min_element(sites.begin(), sites.end(), [&](const PatchSite& a, const PatchSite& b) {
-      return geometry::squared_length(a.position - p) < geometry::squared_length(b.position - p);
-    });
-    const Vec2 at = nearest->position;
-    sites.erase(nearest);
-    return at;
-  }
-
-  std::vector<SiteEdit> improve(Vec2 center) {
-    std::vector<PatchSite> near;
-    for (const PatchSite& site : sites)
-      if (geometry::length(site.position - center) < PatchOptions{}.reach * h)
-        near.push_back(site);
-    std::sort(near.begin(), near.end(), [](const PatchSite& a, const PatchSite& b) {
-      return geometry::lexicographically_less(a.position, b.position);
-    });
-    PatchOptimizer optimizer(sites_on, curve, guard, unit_lattice(), options);
-    std::vector<SiteEdit> edits, again;
-    const bool better = optimizer.improve(center, h, near, PatchBudget{}, edits);
-    for (const SiteEdit& edit : edits)
-      EXPECT_EQ(edit.kind == Kind::none, !better);
-    optimizer.improve(near.front().position, h, near, PatchBudget{}, again); // something else in between
-    again.clear();
-    optimizer.improve(center, h, near, PatchBudget{}, again);
-    EXPECT_TRUE(equal(edits, again)) << "not a function of the sites";
-    if (!better)
-      edits.clear();
-    expect_allowed(edits);
-    return edits;
-  }
-
-  static bool equal(const std::vector<SiteEdit>& a, const std::vector<SiteEdit>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const SiteEdit& x, const SiteEdit& y) {
-      return x.from == y.from && x.to == y.to && x.kind == y.kind && x.boundary == y.boundary && x.arc == y.arc;
-    });
-  }
-
-  /// Corners and fixed sites stay, what comes from a site comes from one, and boundary sites lie on their curve.
-  void expect_allowed(const std::vector<SiteEdit>& edits) const {
-    for (const SiteEdit& edit : edits) {
-      EXPECT_EQ(edit.to, unit_lattice().snap(edit.to));
-      const auto site = std::find_if(sites.begin(), sites.end(),
-                                     [&](const PatchSite& candidate) { return candidate.position == edit.from; });
-      if (edit.kind != Kind::insert) {
-        ASSERT_NE(site, sites.end());
-        EXPECT_NE(site->boundary, mesh::fixed_site);
-        EXPECT_EQ(std::max(site->boundary, -1), std::max(edit.boundary, -1));
-        if (site->boundary >= 0) {
-          EXPECT_FALSE(sites_on.sites[static_cast<std::size_t>(site->boundary)].corner);
-        }
-      }
-      if (edit.boundary >= 0 && edit.kind != Kind::remove) {
-        EXPECT_GE(edit.arc, 0);
-        EXPECT_LT(geometry::length(curve.place(loop_of(sites_on, edit.boundary), edit.arc).point - edit.to), 1e-12);
-      }
-      if (edit.boundary < 0 && edit.kind != Kind::remove) {
-        EXPECT_TRUE(guard.inside(edit.to));
-      }
-    }
-  }
-
-  Boundary boundary;
-  BoundarySites sites_on;
-  BoundaryCurve curve;
-  BoundaryGuard guard;
-  std::vector<PatchSite> sites;
-  PatchOptions options;
-};
 
 Boundary far_square() {
   return boundary_of({polygon_loop({{0.05, 0.05}, {0.95, 0.05}, {0.95, 0.95}, {0.05, 0.95}})});
@@ -120,45 +34,6 @@ void add_lattice(Stage& stage, int rings = 9, Vec2 about = middle) {
   for (int j = -rings; j <= rings; ++j)
     for (int i = -rings; i <= rings; ++i)
       stage.add(about + h * Vec2{i + 0.5 * (j & 1), std::sqrt(0.75) * j});
-}
-
-/// Largest alpha of the triangles with a corner within `radius` of `center`, by brute force.
-double worst_alpha(const Stage& stage, const std::vector<SiteEdit>& edits, Vec2 center, double radius) {
-  PatchMesh mesh(unit_lattice(), {});
-  mesh.start(center, 4);
-  const auto is_gone = [&](Vec2 p) {
-    return std::any_of(edits.begin(), edits.end(),
-                       [&](const SiteEdit& edit) { return edit.kind != Kind::insert && edit.from == p; });
-  };
-  for (const PatchSite& site : stage.sites)
-    if (!is_gone(site.position)) {
-      EXPECT_GE(mesh.insert(site.position), 0);
-    }
-  for (const SiteEdit& edit : edits)
-    if (edit.kind != Kind::remove) {
-      EXPECT_GE(mesh.insert(edit.to), 0);
-    }
-  double worst = 1;
-  for (const PatchMesh::Triangle& triangle : mesh.triangles()) {
-    bool counts = false;
-    Vec2 centroid;
-    for (const LocalIndex v : triangle.vertex)
-      if (v >= 0) {
-        counts |= geometry::length(mesh.position(v) - center) < radius;
-        centroid = centroid + (1.0 / 3) * mesh.position(v);
-      }
-    if (triangle.vertex[0] >= PatchMesh::frame && triangle.vertex[1] >= PatchMesh::frame &&
-        triangle.vertex[2] >= PatchMesh::frame && counts && stage.guard.inside(unit_lattice().snap(centroid)))
-      worst = std::max(worst, mesh::aspect_ratio(mesh.position(triangle.vertex[0]), mesh.position(triangle.vertex[1]),
-                                                 mesh.position(triangle.vertex[2])));
-  }
-  return worst;
-}
-
-/// How many edits of a kind there are, on the boundary or inside.
-std::ptrdiff_t count(const std::vector<SiteEdit>& edits, Kind kind, bool on_boundary = false) {
-  return std::count_if(edits.begin(), edits.end(),
-                       [&](const SiteEdit& edit) { return edit.kind == kind && (edit.boundary >= 0) == on_boundary; });
 }
 
 TEST(PatchOptimizer, LeavesAPerfectLatticeAlone) {
@@ -292,7 +167,7 @@ TEST(PatchOptimizer, ASiteOfAStraightBoundarySlidesBack) {
 TEST(PatchOptimizer, SitesOfAStraightBoundaryComeAndGo) {
   for (const bool one_more : {true, false}) {
     Stage stage(half_plane());
-    stage.options.bad_alpha = 1.02;
+    stage.options.bad_alpha = stage.options.operate_alpha = 1.02;
     std::vector<LocalIndex> inserted;
     Vec2 center = middle;
     for (LocalIndex k = 0; k < static_cast<LocalIndex>(stage.sites_on.sites.size()); ++k)
@@ -404,6 +279,24 @@ TEST(PatchOptimizer, NearestImagesMakeAPatchOnATorus) {
     EXPECT_EQ(inside[k].from - middle, across[k].from);
     EXPECT_EQ(inside[k].to - middle, across[k].to);
   }
+}
+
+/// A strip of 0.4 h whose end is a triangle with an angle of 104 degrees.
+Boundary blunt_strip() {
+  const double length = 12 * h, tip = length + 0.156 * h;
+  return boundary_of({polygon_loop({{0.25, 0.5},
+                                    {0.25 + length, 0.5},
+                                    {0.25 + tip, 0.5 + 0.2 * h},
+                                    {0.25 + length, 0.5 + 0.4 * h},
+                                    {0.25, 0.5 + 0.4 * h}})});
+}
+
+TEST(PatchOptimizer, InsertsNoMoreThanItMay) {
+  Stage stage(blunt_strip());
+  stage.add_boundary();
+  stage.budget.may_insert = 2;
+  const std::vector<SiteEdit> edits = stage.improve(unit_lattice().snap({0.25 + 12.156 * h, 0.5 + 0.2 * h}));
+  EXPECT_LE(count(edits, Kind::insert, true) + count(edits, Kind::insert), 2);
 }
 
 } // namespace
