@@ -62,13 +62,15 @@ BoundaryCurve::Strayed BoundaryCurve::strayed(LocalIndex loop, double from, doub
     result.leaves_disc |= geometry::dot(chord.a - p, chord.b - p) > rounding;
   };
   Vec2 moved = shift;
+  double turns = from >= starts.back() ? 1 : from < 0 ? -1 : 0;
   double passed = from - first.along; // arc at the start of the piece
   std::size_t k = static_cast<std::size_t>(first.piece);
   for (std::size_t visited = 0; visited <= curve.pieces.size() && passed < to; ++visited) {
     const geometry::Piece& piece = curve.pieces[k];
     const double length = starts[k + 1] - starts[k];
     if (passed > from) {
-      look(piece.start + moved, passed);
+      look(piece.start + moved, starts[k] + turns * starts.back()); // bit for bit that of the junction
+
       const geometry::Piece& before = curve.pieces[k == 0 ? curve.pieces.size() - 1 : k - 1];
       const double cosine = geometry::dot(before.tangent(before.length()), piece.tangent(0));
       result.bent |= cosine < cosine_of_bent;
@@ -82,6 +84,7 @@ BoundaryCurve::Strayed BoundaryCurve::strayed(LocalIndex loop, double from, doub
     passed += length;
     if (++k == curve.pieces.size()) {
       k = 0;
+      ++turns;
       moved = moved + curve.winding;
     }
   }

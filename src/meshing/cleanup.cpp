@@ -25,10 +25,10 @@ constexpr int passes_of_choice = 5;
 /// The worst triangles first: thresholds of the stages, as multiples of the excess that counts as bad.
 constexpr std::array<double, 3> stages{4, 2, 1};
 constexpr int few_of = 5; // below this part of the patches of the fullest round the next stage takes the rest along
-constexpr int most_failures = 2;       // in a cell of about half an edge; then it is left alone
+constexpr int most_failures = 2;       // in a cell of a quarter to half of h; then it is left alone for good
 constexpr double largest_loss = 0.005; // of the sites
-constexpr double scarcity = 0.001, handicap_if_scarce = 1.5,
-                 handicap_if_crowded = 0.85;            // from when deletions must be that much better
+/// Where sites, or room for more of them, are fewer than this share of all: factor on the sum of a trial that deletes.
+constexpr double scarcity = 0.001, handicap_if_scarce = 1.5, handicap_if_crowded = 0.85;
 constexpr double around_bad_site = 3, around_patch = 3; // h: how far stars are computed anew, beyond its reach
 
 std::size_t at(LocalIndex i) {
@@ -298,14 +298,16 @@ std::vector<PatchSite> Cleanup::sites_around(LocalIndex site, double reach) cons
             sites.push_back({points.position(j), view.size(j), points.boundary(j)});
       },
       [](mesh::BinRef) {});
-  if (sites.size() <= options_.most_sites)
-    for (PatchSite& found : sites)
-      if (found.boundary >= 0 && options_.tolerance > 0)
-        found.tolerance = options_.tolerance * layout_.asked_size->size(points.grid().periods().wrap(found.position));
   std::sort(sites.begin(), sites.end(), [](const PatchSite& a, const PatchSite& b) {
     return geometry::lexicographically_less(a.position, b.position);
   });
   return sites;
+}
+
+void Cleanup::set_tolerances(std::vector<PatchSite>& sites) const {
+  for (PatchSite& site : sites)
+    if (site.boundary >= 0 && options_.tolerance > 0)
+      site.tolerance = options_.tolerance * layout_.asked_size->size(state_.grid().periods().wrap(site.position));
 }
 
 PatchBudget Cleanup::budget() const {
@@ -326,7 +328,9 @@ std::vector<std::vector<SiteEdit>> Cleanup::try_patches(const std::vector<Candid
     for (std::size_t k = static_cast<std::size_t>(first); k < chosen.size(); k += threads) {
       const LocalIndex i = chosen[k].site;
       const double h = view.size(i);
-      optimizer.improve(points.position(i), h, sites_around(i, options_.reach * h), its_budget, edits[k]);
+      std::vector<PatchSite> sites = sites_around(i, options_.reach * h);
+      set_tolerances(sites);
+      optimizer.improve(points.position(i), h, sites, its_budget, edits[k]);
     }
   };
   comm::run_agreed(comm_, [&] { thread_loop(thread_count(), 1, try_share); });
@@ -469,9 +473,9 @@ CleanupCounts Cleanup::round() {
     discs.push_back({state_.points().position(candidate.site), candidate.separation});
   state_.reveal(discs, *layout_.size);
   CleanupCounts counts;
-  counts.left = leave_crowded(candidates, order);
+  crowded_ = comm_.sum(leave_crowded(candidates, order));
   choose_apart(candidates, std::move(order));
-  counts.patches = counts.left + static_cast<std::int64_t>(candidates.size());
+  counts.patches = static_cast<std::int64_t>(candidates.size());
   std::vector<std::vector<SiteEdit>> of_patches = try_patches(candidates);
   keep_within_limits(candidates, of_patches);
   const std::vector<SiteEdit> edits = collect(candidates, of_patches, counts), own = send_to_owners(edits);
@@ -499,7 +503,7 @@ CleanupCounts Cleanup::run() {
       const CleanupCounts counts = round();
       all.add(counts);
       most = std::max(most, counts.patches);
-      if (counts.patches == 0 || (excess != stages.back() && few_of * counts.patches < most))
+      if (counts.patches + crowded_ == 0 || (excess != stages.back() && few_of * counts.patches < most))
         break;
     }
   }

@@ -18,7 +18,8 @@ namespace trime::meshing {
 /// the candidates those act that are the first of their surroundings in an order of size class and hash of place and
 /// round: their patches (PatchOptimizer) do not overlap, and the choice is the same for any partition. The owner of a
 /// candidate computes its patch and sends the changes to the owners of the sites; what changes on the boundary goes to
-/// all ranks. A triangle for which nothing helped is not tried again before a corner of it has moved.
+/// all ranks. A triangle for which nothing helped is not tried again before a corner of it has moved, and a
+/// place where nothing helped twice not at all.
 ///
 /// The number of sites stays near that of the beginning, at most half a percent below, and never above `most_sites` (0:
 /// half a percent above): when the patches of a round would leave these limits, those first in the order of a hash are
@@ -30,9 +31,10 @@ public:
           const geometry::Lattice& lattice, const delaunay::StarBuilder& builder, GlobalId most_sites,
           const PatchOptions& options = {});
 
-  /// @brief Rounds until no place is left where something has not been tried, at most `most_rounds` in each stage.
-  /// Stars are to be computed anew afterwards. Collective. About 1 ms a patch, 2.5 where nothing helps; from the second
-  /// round on only stars near bad triangles and changes are computed.
+  /// @brief Rounds until no place is left where something has not been tried, at most `most_rounds` in each stage; the
+  /// stages for the worst triangles hand over their last places to the next. Stars are to be computed anew afterwards.
+  /// Collective. About 1 ms a patch, 2.5 where nothing helps; from the second round on only stars near bad triangles
+  /// and changes are computed.
   CleanupCounts run();
 
   /// One round. Collective.
@@ -61,6 +63,7 @@ private:
                                 CleanupCounts& counts);
   CleanupCounts sum_over_ranks(const CleanupCounts& own) const;
   std::vector<PatchSite> sites_around(LocalIndex site, double reach) const;
+  void set_tolerances(std::vector<PatchSite>& sites) const;
   std::vector<SiteEdit> send_to_owners(const std::vector<SiteEdit>& edits) const;
   void edit_the_boundary(const std::vector<SiteEdit>& edits);
   void apply(const std::vector<SiteEdit>& edits);
@@ -74,6 +77,7 @@ private:
   PatchOptions options_;
   GlobalId most_sites_, least_sites_, wanted_sites_, sites_; // over all ranks
   int round_ = 0;
+  GlobalId crowded_ = 0;     // places of the last round with too many sites around, over all ranks
   bool changed_ = true;      // something, in the last round
   bool all_stars_ = true;    // are to be computed in the next
   double threshold_ = 1;     // of alpha, of the present stage

@@ -302,13 +302,20 @@ bool PatchOptimizer::is_clear(const Patch& patch, Vec2 p, double h) const {
   return true;
 }
 
+/// Is a new site there far enough from the rim?
+bool PatchOptimizer::is_within_reach(Vec2 p, double h) const {
+  return geometry::length(p - center_) + PatchOptions::clearance * std::fmax(h, size_) < options_.reach * size_;
+}
+
 bool PatchOptimizer::insert(Vec2 place) {
   Vec2 p = lattice_.snap(place);
+  if (!is_within_reach(p, size_))
+    return false;
   if (trial_.divided)
     return is_clear(trial_, p, size_) && trial_.add(p, size_, {}, Role::free) >= 0;
   if (const auto pushed = guard_.correct(p, size_, lattice_)) { // such as in the corner of a square
     p = lattice_.snap(*pushed);
-    if (guard_.correct(p, size_, lattice_))
+    if (guard_.correct(p, size_, lattice_) || !is_within_reach(p, size_))
       return false;
   }
   return trial_.add(p, size_, {}, Role::free) >= 0;
@@ -345,7 +352,7 @@ bool PatchOptimizer::insert_on_boundary(LocalIndex before) {
   if (made.arc >= curve_.length(own.loop))
     made.arc -= curve_.length(own.loop);
   const double h = 0.5 * (trial_.size[at(before)] + trial_.size[at(after)]);
-  const LocalIndex v = trial_.add(p, h, made, Role::free);
+  const LocalIndex v = is_within_reach(p, h) ? trial_.add(p, h, made, Role::free) : -1;
   if (v < 0)
     return false;
   trial_.boundary[at(before)].next = v;
@@ -473,6 +480,18 @@ bool PatchOptimizer::stands_for_curve(const BoundaryVertex& from, const Boundary
   return false; // the area that is lost grows with the third power of the length
 }
 
+/// Has a triangle behind a chord, seen from inside, a vertex that lies inside? It would have crossed the chord.
+bool PatchOptimizer::is_crossed(const Patch& patch) const {
+  for (const PatchMesh::Triangle& triangle : patch.mesh.triangles())
+    for (std::size_t k = 0; k < 3 && triangle.vertex[0] >= 0; ++k) {
+      const LocalIndex from = triangle.vertex[k], to = triangle.vertex[(k + 1) % 3],
+                       third = triangle.vertex[(k + 2) % 3];
+      if (patch.boundary[at(to)].next == from && third >= PatchMesh::frame && patch.boundary[at(third)].site < 0)
+        return true;
+    }
+  return false;
+}
+
 /// Is the closed diametral disc of each chord that has changed free, and does it stand for its curve? Is that of
 /// each other chord free of what has changed on the boundary? The guard keeps the vertices inside off those.
 bool PatchOptimizer::chords_hold(const Patch& patch) const {
@@ -492,7 +511,7 @@ bool PatchOptimizer::chords_hold(const Patch& patch) const {
           geometry::diametral_side(a, b, patch.mesh.position(u)) <= 0)
         return false;
   }
-  return true;
+  return !patch.divided || !is_crossed(patch);
 }
 
 /// The difference between the sites and the best trial.
@@ -528,7 +547,8 @@ void PatchOptimizer::finish_trial(Patch& trial, double handicap, Best& best) {
   if (trial.broken)
     return;
   const Score after = score(trial);
-  if (!(handicap * after.sum < best.least) || after.max > best.before || !chords_hold(trial))
+  const double sum = std::fmax(handicap, 1) * after.sum; // a preference makes nothing better that is not
+  if (!(handicap * after.sum < best.least) || !(sum < best.first) || after.max > best.before || !chords_hold(trial))
     return;
   best.least = handicap * after.sum;
   best.largest = after.max;

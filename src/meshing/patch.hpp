@@ -59,9 +59,9 @@ struct PatchBudget {
   double deletion_handicap = 1; ///< factor on the sum of a trial with fewer sites: above 1 if sites are scarce
 };
 
-/// @brief Improves the triangles around a place by moving the free sites near it, and by single insertions and
-/// deletions followed by such moves. Sites on the boundary that are no corners take part: they slide along their curve,
-/// come and go.
+/// @brief Improves the triangles around a place by moving the free sites near it, and by insertions and deletions
+/// followed by such moves; where nothing else helps, by smaller triangles. Sites on the boundary that are no corners
+/// take part: they slide along their curve, come and go.
 ///
 /// A trial counts as better if the sum over the triangles of (alpha - 1)^2, bad ones weighing more, falls by 2 % at
 /// least and the largest alpha does not rise. Moves lower the StarEnergy of one site after the other by Newton steps.
@@ -143,6 +143,7 @@ private:
   bool refine();
   bool divide_where_encroached();
   bool is_clear(const Patch& patch, geometry::Vec2 p, double h) const;
+  bool is_within_reach(geometry::Vec2 p, double h) const;
   bool insert(geometry::Vec2 place);
   bool insert_on_boundary(LocalIndex before);
   double begin_trial(double handicap, const Best& best);
@@ -155,6 +156,7 @@ private:
   bool stands_for_curve(const BoundaryVertex& from, const BoundaryVertex& to, const geometry::Segment& chord,
                         double size) const;
   bool leaves_discs_empty(const Patch& patch, LocalIndex v, geometry::Vec2 to) const;
+  bool is_crossed(const Patch& patch) const;
   bool chords_hold(const Patch& patch) const;
   void collect_edits(std::vector<SiteEdit>& edits) const;
 

@@ -130,7 +130,13 @@ void SiteState::carry_sizes() {
 /// subscriptions grew.
 void SiteState::refresh_sites(const sizing::SizeField& size) {
   halo_.refresh(points_);
-  comm::run_agreed(comm_, [&] { evaluate_sizes(size); });
+  try {
+    comm::run_agreed(comm_, [&] { evaluate_sizes(size); });
+  } catch (...) {
+    sizes_.forget();
+    carried_.clear();
+    throw;
+  }
 }
 
 /// Owned sites are checked in the order of the curve, so that the first bad one does not depend on the ranks; ghosts

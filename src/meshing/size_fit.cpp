@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace trime::meshing {
 namespace {
@@ -16,8 +17,8 @@ constexpr double same_spacing = 0.02;
 constexpr double close_enough = 0.004;                // of the points asked for
 constexpr double many_points = 64, least_share = 0.5; // the latter of the points asked for
 
-/// The boundary takes too many points at one size and leaves next to none at the next larger: that is no mesh of so
-/// many points.
+/// The boundary takes too many points at one size, and at the next larger there are less than half of those asked for:
+/// that is no mesh of so many points.
 bool is_jump(double points, double wanted) {
   return wanted > many_points && points < least_share * wanted;
 }
@@ -90,22 +91,24 @@ void check_edge_length(const MeshOptions& options) {
 // --- uniform size
 // -----------------------------------------------------------------------------------------------------
 
-/// Sites on the boundary at size h, or at the next larger size at which they are not more than the points asked for.
-Layout lay_affordable_boundary(const LayoutContext& context, double h, double expected) {
-  constexpr int growth_rounds = 16;
-  Fewest fewest;
+/// @brief Sites on the boundary at size h, or at the next larger size at which they are not more than the points asked
+/// for. Nothing if there is none, or only one that is too large for so many points.
+std::optional<Layout> lay_affordable_boundary(const LayoutContext& context, double h, double expected, Fewest& fewest) {
+  constexpr int growth_rounds = 24;
+  constexpr double growth = 1.3;
   for (int round = 0; round < growth_rounds; ++round) {
     Layout layout = try_boundary(context, h, expected);
-    fewest.consider(layout, static_cast<double>(layout.placed_first()));
-    const double held = static_cast<double>(layout.placed_first()), size = layout.size->size({});
+    const double held = static_cast<double>(layout.placed_first());
     if (!context.options.points || layout.placed_first() <= *context.options.points) {
-      if (round > 0 && is_jump(held + context.boundary.area / (row_height * size * size), expected))
+      const double size = layout.size->size({}), area = context.boundary.area + layout.boundary.dropped.change;
+      if (round > 0 && is_jump(held + area / (row_height * size * size), expected))
         break;
       return layout;
     }
-    h *= layout.boundary.overfull ? 2 : 1.3;
+    fewest.consider(layout, held);
+    h *= growth;
   }
-  fail_for_few_points(context, fewest);
+  return std::nullopt;
 }
 
 /// @brief The smallest spacing found whose lattice has at most the wanted number of sites. The count falls like the
@@ -321,7 +324,15 @@ LatticeFit fit_lattice(const LayoutContext& context) {
                           context.boundary.area / (row_height * most * most) + 0.5 * context.boundary.length() / most);
     }
     const double points = by_points ? expected : context.boundary.area / (row_height * h * h);
-    fit.layout = lay_affordable_boundary(context, h / relative, points);
+    Fewest fewest;
+    std::optional<Layout> layout = lay_affordable_boundary(context, h / relative, points, fewest);
+    if (!layout && round == 0)
+      fail_for_few_points(context, fewest);
+    if (!layout) { // at this spacing the lattice fits into the layout of the round before
+      fit.spacing = h;
+      break;
+    }
+    fit.layout = std::move(*layout);
     const double laid = fit.spacing = fit.layout.size->size({});
     if (!by_points)
       break;

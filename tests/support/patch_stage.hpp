@@ -62,7 +62,7 @@ struct Stage {
     EXPECT_TRUE(equal(edits, again)) << "not a function of the sites";
     if (!better)
       edits.clear();
-    expect_allowed(edits);
+    expect_allowed(edits, center);
     return edits;
   }
 
@@ -72,10 +72,12 @@ struct Stage {
     });
   }
 
-  /// Corners and fixed sites stay, what comes from a site comes from one, and boundary sites lie on their curve.
-  void expect_allowed(const std::vector<SiteEdit>& edits) const {
+  /// Corners and fixed sites stay, what comes from a site comes from one, boundary sites lie on their curve, and
+  /// nothing changes near the rim (an inserted site may move by half of h).
+  void expect_allowed(const std::vector<SiteEdit>& edits, Vec2 center) const {
     for (const SiteEdit& edit : edits) {
       EXPECT_EQ(edit.to, unit_lattice().snap(edit.to));
+      EXPECT_LT(geometry::length(edit.from - center), (options.reach - PatchOptions::clearance) * h + 0.5 * h);
       const auto site = std::find_if(sites.begin(), sites.end(),
                                      [&](const PatchSite& candidate) { return candidate.position == edit.from; });
       if (edit.kind != Kind::insert) {
