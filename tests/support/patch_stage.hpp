@@ -73,11 +73,12 @@ struct Stage {
   }
 
   /// Corners and fixed sites stay, what comes from a site comes from one, boundary sites lie on their curve, and
-  /// nothing changes near the rim (an inserted site may move by half of h).
+  /// nothing changes near the rim (a new site may move by h from where it begins: the scored triangles of the next
+  /// patch are farther).
   void expect_allowed(const std::vector<SiteEdit>& edits, Vec2 center) const {
     for (const SiteEdit& edit : edits) {
       EXPECT_EQ(edit.to, unit_lattice().snap(edit.to));
-      EXPECT_LT(geometry::length(edit.from - center), (options.reach - PatchOptions::clearance) * h + 0.5 * h);
+      EXPECT_LT(geometry::length(edit.from - center), (options.reach - PatchOptions::clearance) * h + h);
       const auto site = std::find_if(sites.begin(), sites.end(),
                                      [&](const PatchSite& candidate) { return candidate.position == edit.from; });
       if (edit.kind != Kind::insert) {
