@@ -70,7 +70,6 @@ BoundaryCurve::Strayed BoundaryCurve::strayed(LocalIndex loop, double from, doub
     const double length = starts[k + 1] - starts[k];
     if (passed > from) {
       look(piece.start + moved, starts[k] + turns * starts.back()); // bit for bit that of the junction
-
       const geometry::Piece& before = curve.pieces[k == 0 ? curve.pieces.size() - 1 : k - 1];
       const double cosine = geometry::dot(before.tangent(before.length()), piece.tangent(0));
       result.bent |= cosine < cosine_of_bent;
