@@ -21,6 +21,8 @@ public:
 
   void add(double term) { value_ += static_cast<std::int64_t>(round_to_integer(term * 0x1p32)); }
   void add(const FixedSum& other) { value_ += other.value_; }
+  /// Adds a multiple of the unit.
+  void add_units(std::int64_t units) { value_ += units; }
   double value() const { return static_cast<double>(value_) * unit; }
 
   /// Low 32 bits and the rest: both parts may be summed over ranks as plain integers before join.
