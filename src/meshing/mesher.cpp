@@ -163,11 +163,11 @@ private:
     Sweeper::Counts counts;
     counts.rebuilt = comm_.sum(stars(Wanted::inner_sites).rebuilt);
     Sweeper sweeper(state(), *builder_, move_context());
-    SweepSums sums = record_sweep(counts);
+    SweepSums sums = record_sweep(sweeper, counts);
     begun_.reset();
     while (!is_done(control, sweeper)) {
       counts = sweep(sweeper, control, sums);
-      sums = record_sweep(counts);
+      sums = record_sweep(sweeper, counts);
     }
     const auto time = timers_.scope("sort");
     sweeper.sort();
@@ -230,9 +230,9 @@ private:
   const SiteState& state() const { return *layout_.state; }
   MoveContext move_context() const { return {*layout_.guard, *layout_.size, lattice_}; }
 
-  SweepSums record_sweep(const Sweeper::Counts& counts) {
+  SweepSums record_sweep(Sweeper& sweeper, const Sweeper::Counts& counts) {
     const auto time = timers_.scope("measure");
-    SweepSummary summary = summarize_sweep(comm_, layout_, counts);
+    SweepSummary summary = summarize_sweep(comm_, layout_, sweeper, counts);
     summary.record.sweep = sweeps_;
     summary.record.stage = scheme_->stage();
     summary.record.seconds = timers_.total();

@@ -24,6 +24,15 @@ struct Move {
   V x, y;
 };
 
+/// alpha - 1 of the triangle (0, a, b): a b c (a + b + c) / (16 A^2) - 1.
+template <class V>
+TRIME_INLINE V excess_of_alpha(const Spoke<V>& a, const Spoke<V>& b, V twice_area) {
+  const V x = b.x - a.x, y = b.y - a.y;
+  const V first = lanes::square_root(a.squared), second = lanes::square_root(b.squared);
+  const V third = lanes::square_root(x * x + y * y);
+  return first * second * third * (first + second + third) / (4.0 * (twice_area * twice_area)) - 1.0;
+}
+
 /// See DistMeshRule.
 template <class V, bool graded>
 class BarFormula {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // 8 sites side by side.
 #define TRIME_LANES 8
-#include "meshing/sweep_kernel_lanes.hpp"
+#include "meshing/quality_kernel_lanes.hpp"
 
 namespace trime::meshing {
 
-SweepTally sweep_avx512(const SweepTask& task, LocalIndex begin, LocalIndex end, SweepLeftovers& leftovers) {
-  return sweep_lanes(task, begin, end, leftovers);
-}
+const SweepKernels avx512_kernels{sweep_lanes, measure_lanes};
 
 } // namespace trime::meshing

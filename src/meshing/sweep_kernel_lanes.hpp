@@ -22,19 +22,14 @@ struct Group {
   V degree{};
 };
 
-TRIME_INLINE Group group_at(const SweepTask& task, LocalIndex i, LocalIndex end, SweepLeftovers& leftovers) {
+TRIME_INLINE Group group_at(const SweepTask& task, LocalIndex i, LocalIndex end) {
   Group group;
   LocalIndex any = -1;
   for (int l = 0; l < width; ++l) {
     group.site[l] = -1;
-    if (i + l >= end)
-      continue;
-    const SiteClass kind = task.classes[i + l];
-    if (kind == SiteClass::local) {
+    if (i + l < end && task.classes[i + l] == SiteClass::local) {
       group.site[l] = any = i + l;
       group.local |= 1U << l;
-    } else if (kind != SiteClass::held) {
-      leftovers.suspects[leftovers.suspect_count++] = i + l;
     }
   }
   if (any < 0)
@@ -60,6 +55,13 @@ TRIME_INLINE V load_sizes(const SweepTask& task, const Group& group, int slot) {
   V h{};
   for (int l = 0; l < width; ++l)
     h[l] = task.sizes[task.rings[slots * std::ptrdiff_t{group.site[l]} + slot]];
+  return h;
+}
+
+TRIME_INLINE V load_own_sizes(const SweepTask& task, const Group& group) {
+  V h{};
+  for (int l = 0; l < width; ++l)
+    h[l] = task.sizes[group.site[l]];
   return h;
 }
 
@@ -105,8 +107,7 @@ TRIME_INLINE void sweep_group(const SweepTask& task, const Group& group, LocalIn
   const lanes::Pairs<V> p = load_sites(task.positions, group);
   V own = V{} + task.uniform_size;
   if constexpr (graded)
-    for (int l = 0; l < width; ++l)
-      own[l] = task.sizes[group.site[l]];
+    own = load_own_sizes(task, group);
   const V uncapped = task.cap_factor * own, all_caps = V{} + task.largest_cap;
   ConvexityTest test(lanes::select(uncapped < all_caps, uncapped, all_caps));
   Formula<V, graded> formula(task.rule, own);
@@ -193,13 +194,15 @@ SweepTally sweep_range(const SweepTask& task, LocalIndex begin, LocalIndex end, 
   V ratio{}, distance{};
   M power{};
   for (LocalIndex i = begin; i < end; i += width) {
-    const Group group = group_at(task, i, end, leftovers);
-    const unsigned all = (1U << width) - 1;
-    if (group.local != all || i + width > end)
-      for (LocalIndex j = i; j < i + width && j < end; ++j) { // those that are not moved below stay
-        task.next_positions[j] = task.positions[j];
-        task.next_leads[j] = {};
-      }
+    const Group group = group_at(task, i, end);
+    for (LocalIndex j = i; j < i + width && j < end; ++j) {
+      if (group.local >> (j - i) & 1)
+        continue;
+      task.next_positions[j] = task.positions[j];
+      task.next_leads[j] = {};
+      if (task.classes[j] != SiteClass::held)
+        leftovers.suspects[leftovers.suspect_count++] = j;
+    }
     if (group.local)
       sweep_group<Formula, graded>(task, group, i, leftovers, tally, ratio, distance, power);
   }

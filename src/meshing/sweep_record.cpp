@@ -33,11 +33,12 @@ private:
 
 } // namespace
 
-SweepSummary summarize_sweep(const comm::Communicator& comm, const Layout& layout, const Sweeper::Counts& counts) {
+SweepSummary summarize_sweep(const comm::Communicator& comm, const Layout& layout, Sweeper& sweeper,
+                             const Sweeper::Counts& counts) {
   SweepSummary summary;
   SweepSums& sums = summary.sums;
   SweepRecord& record = summary.record;
-  sums = measure(view_of(*layout.state, *layout.size), layout.typical_size);
+  sums = sweeper.measure(layout.typical_size);
   Packer packer;
   for (const FixedSum* sum : {&sums.squared_length_ratio, &sums.squared_size_ratio, &sums.excess_alpha})
     packer.add(*sum);

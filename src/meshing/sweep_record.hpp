@@ -20,7 +20,8 @@ struct SweepSummary {
 /// @brief Measures the stars of the inner sites, with one packed reduction of quality and sums for the rule. Leaves
 /// `sweep`, `stage`, `by_bars` and `seconds` of the record to the caller. Collective.
 /// @param counts of the sweeps since the last record
-SweepSummary summarize_sweep(const comm::Communicator& comm, const Layout& layout, const Sweeper::Counts& counts);
+SweepSummary summarize_sweep(const comm::Communicator& comm, const Layout& layout, Sweeper& sweeper,
+                             const Sweeper::Counts& counts);
 
 /// The line of the log.
 std::string to_string(const SweepRecord& record);

@@ -20,19 +20,20 @@ using geometry::Vec2;
 constexpr double drift_in_sizes_allowed = 1, drift_in_tiles_allowed = 0.25;
 constexpr int chunk = 64; // sites that one thread treats in a row
 constexpr int most_halo_rounds = 100;
+constexpr LocalIndex most_measured = 1024; // sites in one call of the kernel
 
-SweepKernel kernel_of_machine() {
+const SweepKernels& kernels_of_machine() {
 #if defined(__x86_64__)
   switch (simd_level()) {
   case SimdLevel::avx512:
-    return sweep_avx512;
+    return avx512_kernels;
   case SimdLevel::avx2:
-    return sweep_avx2;
+    return avx2_kernels;
   case SimdLevel::portable:
     break;
   }
 #endif
-  return sweep_portable;
+  return portable_kernels;
 }
 
 std::size_t at(LocalIndex i) {
@@ -74,7 +75,7 @@ void Sweeper::classify() {
   });
 }
 
-SweepTask Sweeper::task_for(const UpdateRule& rule) {
+SweepTask Sweeper::task() {
   mesh::BinnedPoints& points = state_.points();
   SweepTask task;
   task.positions = points.positions().data();
@@ -88,7 +89,6 @@ SweepTask Sweeper::task_for(const UpdateRule& rule) {
   }
   task.next_positions = points.next_positions().data();
   task.next_leads = points.next_leads().data();
-  task.rule = rule.parameters();
   task.lattice_step = context_.lattice.step();
   task.inverse_lattice_step = context_.lattice.inverse_step();
   const geometry::Periods& periods = state_.grid().periods();
@@ -113,9 +113,9 @@ SweepTask Sweeper::task_for(const UpdateRule& rule) {
   return task;
 }
 
-void Sweeper::run_kernel(const SweepTask& task) {
+void Sweeper::run_kernel(const SweepTask& sweep) {
   const mesh::BinnedPoints& points = state_.points();
-  const SweepKernel kernel = kernel_of_machine();
+  const SweepKernel kernel = kernels_of_machine().sweep;
   const LocalIndex first_tile = points.first_tile(), tiles = points.last_tile() - first_tile;
   tallies_.assign(at(tiles), {});
   retally_.assign(at(tiles), 0);
@@ -127,7 +127,7 @@ void Sweeper::run_kernel(const SweepTask& task) {
     mine.suspects.resize(suspects + n);
     mine.irregular.resize(irregular + n);
     SweepLeftovers leftovers{mine.suspects.data() + suspects, mine.irregular.data() + irregular};
-    tallies_[static_cast<std::size_t>(t)] = kernel(task, begin, end, leftovers);
+    tallies_[static_cast<std::size_t>(t)] = kernel(sweep, begin, end, leftovers);
     mine.suspects.resize(suspects + static_cast<std::size_t>(leftovers.suspect_count));
     mine.irregular.resize(irregular + static_cast<std::size_t>(leftovers.irregular_count));
     retally_[static_cast<std::size_t>(t)] = leftovers.suspect_count + leftovers.irregular_count > 0;
@@ -241,7 +241,9 @@ void Sweeper::prepare(const UpdateRule& rule) {
   state_.points().prepare_advance();
   rebuilt_ = 0;
   checked_.clear();
-  run_kernel(task_for(rule));
+  SweepTask all = task();
+  all.rule = rule.parameters();
+  run_kernel(all);
   std::vector<LocalIndex> first;
   first.swap(suspects_);
   mark(first, suspects_);
@@ -357,6 +359,39 @@ void Sweeper::sort() {
   std::copy_n(points.positions().begin(), points.owned(), points.next_positions().begin());
   std::copy(points.leads().begin(), points.leads().end(), points.next_leads().begin());
   move_and_sort({});
+}
+
+SweepSums Sweeper::measure(double reference_size) {
+  const mesh::BinnedPoints& points = state_.points();
+  const QualityKernel kernel = kernels_of_machine().measure;
+  const SweepTask all = task();
+  const StarView view = view_of(state_, context_.size);
+  struct Measured {
+    SweepSums sums;
+    std::vector<double> excesses;
+  };
+  std::vector<Measured> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
+  thread_loop((points.owned() + most_measured - 1) / most_measured, 1, [&](std::ptrdiff_t part, int thread) {
+    auto& [sums, excesses] = of_thread[static_cast<std::size_t>(thread)];
+    const LocalIndex begin = static_cast<LocalIndex>(part) * most_measured;
+    const LocalIndex end = std::min(points.owned(), begin + most_measured);
+    excesses.resize(8 * at(most_measured));
+    const QualityTally tally = kernel(all, begin, end, 1 / reference_size, excesses.data());
+    sums.squared_length_ratio.add_units(tally.squared_lengths);
+    sums.squared_size_ratio.add_units(tally.squared_sizes);
+    sums.excess_alpha.add_units(tally.excess);
+    sums.triangles += tally.triangles;
+    sums.max_alpha = std::max(sums.max_alpha, 1 + tally.largest_excess);
+    for (std::int64_t k = 0; k < tally.triangles; ++k)
+      sums.alpha_bins.add(excesses[static_cast<std::size_t>(k)]);
+    for (LocalIndex i = begin; i < end; ++i)
+      if (classes_[at(i)] == SiteClass::exact || classes_[at(i)] == SiteClass::fixed)
+        measure_star(view, i, reference_size, sums);
+  });
+  SweepSums sums;
+  for (const Measured& measured : of_thread)
+    sums.add(measured.sums);
+  return sums;
 }
 
 void Sweeper::verify() const {

@@ -50,11 +50,14 @@ public:
   /// uncertain. Without it the state has bins that are too old for others. Collective.
   void sort();
 
+  /// Sums over the stars of the inner owned sites: the same as meshing::measure, in less time.
+  SweepSums measure(double reference_size);
+
   /// Compares every star with one computed by emptiness. Collective. @throws InternalError on all ranks if any differs
   void verify() const;
 
 private:
-  SweepTask task_for(const UpdateRule& rule);
+  SweepTask task();
   void classify();
   SiteClass class_of(LocalIndex i) const;
   void run_kernel(const SweepTask& task);

@@ -2,8 +2,8 @@
 #include "trime/meshing/update_rule.hpp"
 
 #include "meshing/rule_formulas.hpp"
+#include "meshing/sweep_kernel.hpp"
 #include "trime/core/thread_loop.hpp"
-#include "trime/mesh/quality.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,36 +13,11 @@ namespace {
 
 using geometry::Vec2;
 
-constexpr double largest_term = 0x1p17; // keeps FixedSum within its reach
-
 /// A triangle with several inner sites is measured from the lexicographically smallest of them.
 bool is_measured_from(const mesh::BinnedPoints& points, Vec2 p, LocalIndex a, LocalIndex b) {
   const geometry::Periods& periods = points.grid().periods();
   return (points.boundary(a) >= 0 || periods.less(p, points.position(a))) &&
          (points.boundary(b) >= 0 || periods.less(p, points.position(b)));
-}
-
-void measure_site(const StarView& view, LocalIndex i, double inverse_reference, SweepSums& sums) {
-  const std::span<const LocalIndex> ring = view.stars.ring(i);
-  const Vec2 p = view.points.position(i);
-  const double own_size = view.size(i);
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    const LocalIndex a = ring[k], b = ring[k + 1 == ring.size() ? 0 : k + 1];
-    if (a == delaunay::gap)
-      continue;
-    const Vec2 q = view.points.position(a);
-    const double h = 0.5 * (own_size + view.size(a)) * inverse_reference;
-    sums.squared_length_ratio.add(
-        std::min(largest_term, geometry::squared_length(q - p) * inverse_reference * inverse_reference));
-    sums.squared_size_ratio.add(std::min(largest_term, h * h));
-    if (b != delaunay::gap && is_measured_from(view.points, p, a, b)) {
-      const double alpha = mesh::aspect_ratio(p, q, view.points.position(b));
-      sums.excess_alpha.add(std::min(alpha - 1, 1000.0));
-      sums.alpha_bins.add(alpha - 1);
-      sums.max_alpha = std::max(sums.max_alpha, alpha);
-      ++sums.triangles;
-    }
-  }
 }
 
 Spoke<double> spoke_to(const StarView& view, Vec2 p, LocalIndex neighbour) {
@@ -91,6 +66,29 @@ void SweepSums::add(const SweepSums& other) {
   power.add(other.power);
 }
 
+void measure_star(const StarView& view, LocalIndex i, double reference_size, SweepSums& sums) {
+  const std::span<const LocalIndex> ring = view.stars.ring(i);
+  const Vec2 p = view.points.position(i);
+  const double own_size = view.size(i), inverse = 1 / reference_size;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const LocalIndex i_a = ring[k], i_b = ring[k + 1 == ring.size() ? 0 : k + 1];
+    if (i_a == delaunay::gap)
+      continue;
+    const Spoke<double> a = spoke_to(view, p, i_a);
+    const double h = view.is_uniform() ? own_size * inverse : 0.5 * (own_size + a.size) * inverse;
+    sums.squared_length_ratio.add(std::min(largest_term, a.squared * (inverse * inverse)));
+    sums.squared_size_ratio.add(std::min(largest_term, h * h));
+    if (i_b == delaunay::gap || !is_measured_from(view.points, p, i_a, i_b))
+      continue;
+    const Spoke<double> b = spoke_to(view, p, i_b);
+    const double excess = excess_of_alpha(a, b, a.x * b.y - a.y * b.x);
+    sums.excess_alpha.add(std::min(excess, largest_excess_term));
+    sums.alpha_bins.add(excess);
+    sums.max_alpha = std::max(sums.max_alpha, 1 + excess);
+    ++sums.triangles;
+  }
+}
+
 SweepSums measure(const StarView& view, double reference_size) {
   std::vector<SweepSums> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
   const LocalIndex first_tile = view.points.first_tile();
@@ -99,7 +97,7 @@ SweepSums measure(const StarView& view, double reference_size) {
     SweepSums& sums = of_thread[static_cast<std::size_t>(thread)];
     for (LocalIndex i = begin; i < end; ++i)
       if (view.points.boundary(i) < 0)
-        measure_site(view, i, 1 / reference_size, sums);
+        measure_star(view, i, reference_size, sums);
   });
   SweepSums all;
   for (const SweepSums& sums : of_thread)

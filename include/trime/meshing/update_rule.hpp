@@ -56,6 +56,9 @@ struct SweepSums {
   void add(const SweepSums& other);
 };
 
+/// Adds the star of the inner site i.
+void measure_star(const StarView& view, LocalIndex i, double reference_size, SweepSums& sums);
+
 /// Sums over the inner owned sites. Threads over tiles. @param reference_size h_ref, any typical size
 SweepSums measure(const StarView& view, double reference_size);
 

@@ -205,7 +205,7 @@ TEST(PeriodicMesher, APerturbedHexagonalTorusReturns) {
     Sweeper::Counts moved;
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       UpdateRule& rule = sweep < by_bars ? static_cast<UpdateRule&>(bars) : cells;
-      rule.begin_sweep(summarize_sweep(world, layout, moved).sums);
+      rule.begin_sweep(summarize_sweep(world, layout, sweeper, moved).sums);
       sweeper.prepare(rule);
       moved = sweeper.commit();
     }
