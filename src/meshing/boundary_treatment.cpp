@@ -47,6 +47,8 @@ void MoveCounts::add(const MoveCounts& other) {
 Treated treat_step(const MoveContext& context, const mesh::TileGrid& grid, const mesh::Site& site, double h, Step step,
                    int allowed) {
   step = capped(step, move_cap * h);
+  if (const Vec2 way = step.move + step.lead; geometry::squared_length(way) < (rest * h) * (rest * h))
+    step = {};
   const Vec2 way = step.move + step.lead;
   Treated treated{context.lattice.snap(into_box(site.position + way, grid)), step.lead, site.pushes};
   const auto pushed = context.guard.correct(treated.position, h, context.lattice);

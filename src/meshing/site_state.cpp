@@ -133,12 +133,14 @@ void SiteState::refresh(const sizing::SizeField& size) {
   evaluate_agreed(size);
 }
 
-void SiteState::advance(const sizing::SizeField& size, double drift) {
+void SiteState::advance(const sizing::SizeField& size, double drift, bool new_sizes) {
   points_.advance();
   halo_.refresh_positions(points_);
   points_.set_largest_drift(drift);
-  sizes_.forget();
-  evaluate_agreed(size);
+  if (new_sizes) {
+    sizes_.forget();
+    evaluate_agreed(size);
+  }
 }
 
 void SiteState::evaluate_agreed(const sizing::SizeField& size) {

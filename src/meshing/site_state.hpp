@@ -53,8 +53,9 @@ public:
   /// @brief Fetches the ghosts and evaluates h at sites that moved; part of compute_stars. Collective.
   void refresh(const sizing::SizeField& size);
   /// @brief Moves the owned sites to BinnedPoints::next_positions, without sorting, and the ghosts with them.
-  /// Collective. @param drift bound on how far any site of any rank has come since sites were sorted @pre no periods
-  void advance(const sizing::SizeField& size, double drift);
+  /// Collective. @param drift bound on how far any site of any rank has come since sites were sorted
+  /// @param new_sizes evaluates h at the new places; else sites keep theirs @pre no periods
+  void advance(const sizing::SizeField& size, double drift, bool new_sizes);
   /// Adds bins to those that this rank knows; local indices of ghosts may change. Collective.
   void fetch(std::span<const mesh::BinRef> missing, const sizing::SizeField& size);
 

@@ -20,8 +20,9 @@ enum class SiteClass : std::uint8_t {
   local  ///< moves; its star is certified by the stars around it
 };
 
-/// @brief Moves longer than this are cut, in h; and sites that move by less are at rest.
-constexpr double move_cap = 0.4, still = 0.005;
+constexpr double move_cap = 0.4; ///< moves are cut to this, in h
+constexpr double still = 0.005;  ///< sites that move by more are called moving
+constexpr double rest = 1e-6;    ///< shorter moves are not made: most of a lattice then stays as it is, bit for bit
 constexpr double largest_power = 0x1p10; ///< of one site, keeps sums within their reach
 
 /// Plain arrays by local index, and what is the same for all sites.

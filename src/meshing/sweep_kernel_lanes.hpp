@@ -142,17 +142,20 @@ TRIME_INLINE void sweep_group(const SweepTask& task, const Group& group, LocalIn
 
   const Move<V> move = formula.move();
   const lanes::Pairs<V> lead = load_sites(task.leads, group);
-  const V next_lead_x = task.rule.momentum * (move.x + lead.x), next_lead_y = task.rule.momentum * (move.y + lead.y);
+  V next_lead_x = task.rule.momentum * (move.x + lead.x), next_lead_y = task.rule.momentum * (move.y + lead.y);
   const V limit = (move_cap * own) * (move_cap * own), way_x = move.x + next_lead_x, way_y = move.y + next_lead_y;
-  const M is_short = (move.x * move.x + move.y * move.y <= limit) & (way_x * way_x + way_y * way_y <= limit);
+  const V squared_way = way_x * way_x + way_y * way_y;
+  const M is_short = (move.x * move.x + move.y * move.y <= limit) & (squared_way <= limit);
+  const M rests = squared_way < (rest * own) * (rest * own);
   const auto clamp = [](V v, double low, double high) {
     const V above = lanes::select(v > low, v, V{} + low);
     return lanes::select(above < high, above, V{} + high);
   };
-  const V x = lanes::nearest(clamp(p.x + way_x, task.box.min.x, task.box.max.x) * task.inverse_lattice_step) *
-              task.lattice_step;
-  const V y = lanes::nearest(clamp(p.y + way_y, task.box.min.y, task.box.max.y) * task.inverse_lattice_step) *
-              task.lattice_step;
+  const auto snap = [&](V v) { return lanes::nearest(v * task.inverse_lattice_step) * task.lattice_step; };
+  const V x = lanes::select(rests, p.x, snap(clamp(p.x + way_x, task.box.min.x, task.box.max.x)));
+  const V y = lanes::select(rests, p.y, snap(clamp(p.y + way_y, task.box.min.y, task.box.max.y)));
+  next_lead_x = lanes::select(rests, V{}, next_lead_x);
+  next_lead_y = lanes::select(rests, V{}, next_lead_y);
 
   const unsigned certified = group.local & test.good();
   unsigned moved = certified & lanes::bits(is_short);

@@ -18,7 +18,10 @@ using geometry::Vec2;
 
 /// Sites are sorted again when one may have come so far since the last time, in h or in tiles: searches become long.
 constexpr double drift_in_sizes_allowed = 1, drift_in_tiles_allowed = 0.25;
-constexpr int chunk = 64; // sites that one thread treats in a row
+/// All tiles awake when a scale of the rule has changed by this share.
+constexpr double scale_change = 1e-3;
+constexpr int sweeps_of_a_size = 4; // h is evaluated anew after so many sweeps
+constexpr int chunk = 64;           // sites that one thread treats in a row
 constexpr int most_halo_rounds = 100;
 constexpr LocalIndex most_measured = 1024; // sites in one call of the kernel
 
@@ -73,6 +76,44 @@ void Sweeper::classify() {
     for (LocalIndex i = begin; i < end; ++i)
       classes_[at(i)] = class_of(i);
   });
+  const mesh::BinnedPoints& points = state_.points();
+  const LocalIndex first_tile = points.first_tile(), tiles = points.last_tile() - first_tile;
+  const geometry::Box box = state_.grid().tile_box(0);
+  const double side = std::min(box.width(), box.height()), periodic_cap = task().largest_cap;
+  wide_.assign(at(tiles), 0);
+  thread_loop(tiles, 4, [&](std::ptrdiff_t t, int) { // edges are shorter than two caps, sites drift by a part of a tile
+    const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
+    double largest = 0;
+    for (LocalIndex i = begin; i < end; ++i)
+      largest = std::max(largest, state_.sizes()[i]);
+    wide_[static_cast<std::size_t>(t)] =
+        2 * std::min(periodic_cap, builder_.cap(largest)) > (1 - 2 * drift_in_tiles_allowed) * side;
+  });
+  copied_.assign(at(tiles), 0);
+  active_.assign(at(state_.grid().tile_count()), 1);
+  all_awake_ = true;
+}
+
+/// Decides which tiles take part in this sweep.
+void Sweeper::wake_tiles(const RuleParameters& rule) {
+  const auto changed = [](double a, double b) { return std::fabs(a - b) > scale_change * b; };
+  if (all_awake_ || rule.kind != waking_rule_.kind || changed(rule.length_scale, waking_rule_.length_scale) ||
+      changed(rule.area_scale, waking_rule_.area_scale)) {
+    waking_rule_ = rule;
+    awake_.assign(wide_.size(), 1);
+    all_awake_ = false;
+    return;
+  }
+  const mesh::TileGrid& grid = state_.grid();
+  for (std::size_t t = 0; t < awake_.size(); ++t) {
+    const mesh::GridPosition here = grid.tile_position(state_.points().first_tile() + static_cast<LocalIndex>(t));
+    const int column = static_cast<int>(here.x), row = static_cast<int>(here.y);
+    bool awake = wide_[t];
+    for (int y = std::max(0, row - 1); y <= std::min(grid.tiles_y() - 1, row + 1); ++y)
+      for (int x = std::max(0, column - 1); x <= std::min(grid.tiles_x() - 1, column + 1); ++x)
+        awake = awake || active_[at(grid.tile_at(x, y))];
+    awake_[t] = awake;
+  }
 }
 
 SweepTask Sweeper::task() {
@@ -122,6 +163,15 @@ void Sweeper::run_kernel(const SweepTask& sweep) {
   std::vector<Work> work(static_cast<std::size_t>(std::max(1, thread_count())));
   thread_loop(tiles, 1, [&](std::ptrdiff_t t, int thread) {
     const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
+    if (!awake_[static_cast<std::size_t>(t)]) {
+      if (!copied_[static_cast<std::size_t>(t)]) {
+        std::copy(sweep.positions + begin, sweep.positions + end, sweep.next_positions + begin);
+        std::fill(sweep.next_leads + begin, sweep.next_leads + end, Vec2{});
+      }
+      copied_[static_cast<std::size_t>(t)] = 1;
+      return;
+    }
+    copied_[static_cast<std::size_t>(t)] = 0;
     Work& mine = work[static_cast<std::size_t>(thread)];
     const std::size_t suspects = mine.suspects.size(), irregular = mine.irregular.size(), n = at(end - begin);
     mine.suspects.resize(suspects + n);
@@ -196,7 +246,9 @@ void Sweeper::move_one_by_one(const UpdateRule& rule, std::span<const LocalIndex
     positions[at(i)] = treated.position;
     leads[at(i)] = treated.lead;
     fates_[at(i)] = treated.deleted ? Fate::deleted : treated.pushed ? Fate::pushed : Fate::moved;
-    std::atomic_ref(retally_[at(tile_of_site(i) - points.first_tile())]).store(1, std::memory_order_relaxed);
+    const std::size_t tile = at(tile_of_site(i) - points.first_tile());
+    std::atomic_ref(retally_[tile]).store(1, std::memory_order_relaxed);
+    std::atomic_ref(copied_[tile]).store(0, std::memory_order_relaxed);
   });
 }
 
@@ -243,6 +295,7 @@ void Sweeper::prepare(const UpdateRule& rule) {
   checked_.clear();
   SweepTask all = task();
   all.rule = rule.parameters();
+  wake_tiles(all.rule);
   run_kernel(all);
   std::vector<LocalIndex> first;
   first.swap(suspects_);
@@ -317,10 +370,16 @@ Sweeper::Counts Sweeper::commit() {
     move_and_sort(deleted);
     return counts_;
   }
+  const std::vector<double> before = points.drifts();
   for (LocalIndex t = points.first_tile(); t < points.last_tile(); ++t)
     points.set_drift(t,
                      points.drift(t) + std::sqrt(tallies_[at(t - points.first_tile())].squared_distance) * (1 + 1e-9));
-  state_.advance(context_.size, drift_);
+  const bool new_sizes = ++age_of_sizes_ >= sweeps_of_a_size;
+  state_.advance(context_.size, drift_, new_sizes);
+  if (new_sizes)
+    age_of_sizes_ = 0;
+  for (std::size_t t = 0; t < active_.size(); ++t)
+    active_[t] = points.drifts()[t] > before[t];
   sorted_ = false;
   return counts_;
 }
@@ -341,6 +400,7 @@ void Sweeper::move_and_sort(std::span<const std::uint8_t> deleted) {
   state_.move_sites(sites, deleted.empty() ? std::span(none) : deleted);
   state_.refresh(context_.size);
   drift_ = drift_in_sizes_ = 0;
+  age_of_sizes_ = 0;
   sorted_ = true;
   classify();
 }

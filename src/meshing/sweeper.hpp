@@ -22,9 +22,12 @@ namespace trime::meshing {
 /// neighbours (else one of them had changed, and this one been looked at). The region of all such stars is bounded by
 /// edges of stars certified by emptiness, which are edges of the one Delaunay triangulation; inside, the lemma holds.
 ///
+/// Where nothing moves, nothing is done: a tile sleeps while no site of it and of the tiles around it has moved in the
+/// last sweep, and the rule stays as it is. Tiles are the same on any ranks, so nothing depends on who sleeps.
+///
 /// Sites are not sorted in every sweep: bins stay as they are, and searches go as much farther as sites have come
-/// (BinnedPoints::for_each_near), until that is too much. In a periodic container sites are sorted each time, so that
-/// they are in it.
+/// (BinnedPoints::for_each_near), until that is too much. h is evaluated anew every few sweeps. In a periodic container
+/// sites are sorted each time, so that they are in it.
 class Sweeper {
 public:
   /// @pre the stars of all inner sites are certain; all arguments outlive this object
@@ -60,6 +63,7 @@ private:
   SweepTask task();
   void classify();
   SiteClass class_of(LocalIndex i) const;
+  void wake_tiles(const RuleParameters& rule);
   void run_kernel(const SweepTask& task);
   std::int64_t certify_suspects();
   void mark(std::vector<LocalIndex>& sites, std::vector<LocalIndex>& list);
@@ -85,6 +89,12 @@ private:
   std::vector<Fate> fates_;                    // by site; other than `moved` only in tiles of retally_
   std::vector<std::uint8_t> retally_;          // by owned tile: not all of its sites were moved by the kernel
   std::vector<SweepTally> tallies_;            // by owned tile
+  std::vector<std::uint8_t> awake_;            // by owned tile
+  std::vector<std::uint8_t> copied_;           // by owned tile: its sites have the same places now and next
+  std::vector<std::uint8_t> wide_;             // by owned tile: triangles may reach beyond the tiles around it
+  std::vector<std::uint8_t> active_;           // by tile of the container: sites were moved by the last sweep
+  RuleParameters waking_rule_;                 // of the last sweep with all tiles awake
+  bool all_awake_ = true;                      // in the next sweep
   std::vector<LocalIndex> suspects_, checked_; // to be certified by emptiness; all that were
   std::vector<LocalIndex> irregular_;
   std::vector<mesh::BinRef> missing_;
@@ -92,6 +102,7 @@ private:
   Counts counts_;
   double largest_distance_ = 0;           // of this sweep, over all ranks
   double drift_ = 0, drift_in_sizes_ = 0; // since the last sorting, over all ranks
+  int age_of_sizes_ = 0;                  // in sweeps
   bool sorted_ = true, prepared_ = false;
 };
 

@@ -108,6 +108,7 @@ public:
   /// No site that was sorted into this tile has come farther since.
   void set_drift(LocalIndex tile, double distance) { drift_[static_cast<std::size_t>(tile)] = distance; }
   double drift(LocalIndex tile) const { return drift_[static_cast<std::size_t>(tile)]; }
+  const std::vector<double>& drifts() const { return drift_; }
   /// The largest of all drifts, over all ranks.
   void set_largest_drift(double distance) { largest_drift_ = distance; }
   double largest_drift() const { return largest_drift_; }
