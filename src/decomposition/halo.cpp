@@ -175,7 +175,8 @@ std::size_t Halo::ghosts_of(const mesh::BinnedPoints& points, const Peer& peer) 
   return sites;
 }
 
-std::vector<GlobalId> Halo::exchange(const mesh::BinnedPoints& points, std::span<const GlobalId> owned_values) const {
+template <class T>
+std::vector<T> Halo::exchange_values(const mesh::BinnedPoints& points, std::span<const T> owned_values) const {
   std::vector<Message> outgoing, incoming;
   for (const Peer& peer : exports_) {
     outgoing.push_back({peer.rank, {}});
@@ -186,9 +187,17 @@ std::vector<GlobalId> Halo::exchange(const mesh::BinnedPoints& points, std::span
     }
   }
   for (const Peer& peer : imports_)
-    incoming.push_back({peer.rank, std::vector<std::byte>(ghosts_of(points, peer) * sizeof(GlobalId))});
+    incoming.push_back({peer.rank, std::vector<std::byte>(ghosts_of(points, peer) * sizeof(T))});
   comm_->exchange_known(outgoing, incoming);
-  return concatenate<GlobalId>(incoming);
+  return concatenate<T>(incoming);
+}
+
+std::vector<GlobalId> Halo::exchange(const mesh::BinnedPoints& points, std::span<const GlobalId> owned_values) const {
+  return exchange_values(points, owned_values);
+}
+
+std::vector<double> Halo::exchange(const mesh::BinnedPoints& points, std::span<const double> owned_values) const {
+  return exchange_values(points, owned_values);
 }
 
 /// For each tile of a peer its drift, then the positions of its sites.

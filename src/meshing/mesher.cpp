@@ -160,13 +160,18 @@ private:
   /// Sweeps until the stop rule ends the stage, at the sweep cap at the latest; then sorts.
   void relax(SweepControl& control) {
     control.begin_stage(scheme_->inserts(), scheme_->is_last());
-    Sweeper::Counts counts;
+    Sweeper::Counts counts; // since the last record
     counts.rebuilt = comm_.sum(stars(Wanted::inner_sites).rebuilt);
     Sweeper sweeper(state(), *builder_, move_context());
     SweepSums sums = record_sweep(sweeper, counts);
+    show_snapshot(sweeper);
     begun_.reset();
-    while (!is_done(control, sweeper)) {
-      counts = sweep(sweeper, control, sums);
+    while (!is_done(control)) {
+      counts = {};
+      do {
+        counts.follow_by(sweep(sweeper, control, sums));
+        show_snapshot(sweeper);
+      } while (sweeps_ - history_.back().sweep < measuring_interval && sweeps_ < options_.max_sweeps);
       sums = record_sweep(sweeper, counts);
     }
     const auto time = timers_.scope("sort");
@@ -194,18 +199,17 @@ private:
     return moved;
   }
 
-  bool is_done(SweepControl& control, Sweeper& sweeper) {
+  bool is_done(SweepControl& control) {
     const auto reason = control.decide();
     history_.back().by_bars = control.mover() == Mover::bars;
     log_sweep(reason && scheme_->is_last());
-    show_snapshot(sweeper);
     stop_reason_ = reason.value_or(stop_reason_);
     return reason.has_value();
   }
 
   /// Shows the present triangulation to the observer, if the options ask for it.
   void show_snapshot(Sweeper& sweeper) {
-    const int retriangulation = static_cast<int>(history_.size()), interval = options_.snapshot_interval;
+    const int retriangulation = ++triangulations_, interval = options_.snapshot_interval;
     if (!observer || interval == 0 || !(retriangulation == 1 || (interval > 0 && retriangulation % interval == 0)))
       return;
     sweeper.sort();
@@ -365,6 +369,7 @@ private:
   std::vector<SweepRecord> history_;
   GlobalId placed_ = 0;        // points at the beginning of the stage
   int sweeps_ = 0;             // moves made
+  int triangulations_ = 0;     // the first of each stage, and one for each move
   std::optional<Mover> begun_; // the rule that knows the sums for the next move
   CleanupCounts cleanup_;
   StopReason stop_reason_ = StopReason::sweep_cap;

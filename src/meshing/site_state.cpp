@@ -126,8 +126,7 @@ void SiteState::carry_sizes() {
   carried_ = std::move(carried);
 }
 
-/// Fetches the ghosts and evaluates h where it is not known: at the sites that moved, at the ghosts alone after the
-/// subscriptions grew.
+/// Fetches the ghosts and evaluates h where it is not known.
 void SiteState::refresh(const sizing::SizeField& size) {
   halo_.refresh(points_);
   evaluate_agreed(size);
@@ -204,7 +203,13 @@ delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder
 
 void SiteState::fetch(std::span<const mesh::BinRef> missing, const sizing::SizeField& size) {
   halo_.subscribe(missing);
-  refresh(size);
+  halo_.refresh(points_);
+  if (!size.is_uniform()) { // h of a site that has moved may be older than its place: all must see that of its owner
+    std::vector<double>& values = sizes_.values();
+    values.resize(static_cast<std::size_t>(points_.owned()));
+    const std::vector<double> ghosts = halo_.exchange(points_, std::span<const double>(values));
+    values.insert(values.end(), ghosts.begin(), ghosts.end());
+  }
   stars_.renumber_ghosts(points_.owned(), halo_.ghost_renumbering());
   if (points_.largest_drift() > 0) // of tiles that were not known before
     for (LocalIndex tile = 0; tile < grid_.tile_count(); ++tile)

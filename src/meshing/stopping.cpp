@@ -4,17 +4,24 @@
 namespace trime::meshing {
 namespace {
 
-constexpr double still = 0.005; // of h
-constexpr std::size_t window = 5;
-constexpr double median_gain = 0.1, good_median = 0.001;
-/// What five sweeps must gain. A coarse mesh costs little and decides over the order of the finer ones; before an
+constexpr double still = 0.005;                // of h
+constexpr int window = 2 * measuring_interval; // sweeps
+constexpr double median_gain = 0.12, good_median = 0.001;
+/// What these sweeps must gain. A coarse mesh costs little and decides over the order of the finer ones; before an
 /// insertion the order is about to be disturbed anyway.
-constexpr double tolerance_last = 0.04, tolerance_before_insertion = 0.1;
-constexpr double tolerance_of_coarse_bars = 0.02, tolerance_of_coarse_cells = 0.01;
+constexpr double tolerance_last = 0.048, tolerance_before_insertion = 0.12;
+constexpr double tolerance_of_coarse_bars = 0.024, tolerance_of_coarse_cells = 0.012;
 constexpr double patience_of_bars = 0.4; // bars settle more slowly than accelerated Voronoi cells
 /// Triangles gain nearly all in a few sweeps.
-constexpr Patience patience_of_triangles{0.07, window + 1, false},
-    patience_of_coarse_triangles{0.03, window + 1, false};
+constexpr Patience patience_of_triangles{0.084, window, false}, patience_of_coarse_triangles{0.036, window, false};
+
+/// The record from before the window, or none if there is no such record yet.
+const SweepRecord* before_window(std::span<const SweepRecord> records) {
+  for (std::size_t k = records.size(); k-- > 0;)
+    if (records[k].sweep <= records.back().sweep - window)
+      return &records[k];
+  return nullptr;
+}
 
 } // namespace
 
@@ -23,8 +30,9 @@ std::optional<StopReason> StopRule::decide(std::span<const SweepRecord> records)
   const SweepRecord& last = records.back();
   if (n > 1 && last.max_move < still)
     return StopReason::converged;
-  if (n >= patience_.earliest) {
-    const SweepRecord& before = records[n - 1 - window];
+  const SweepRecord* const past = before_window(records);
+  if (past && last.sweep - records.front().sweep >= patience_.earliest) {
+    const SweepRecord& before = *past;
     const double least = 1 - patience_.tolerance;
     const bool mean_stalled = last.mean_alpha - 1 >= least * (before.mean_alpha - 1);
     const bool middle_stalled = !patience_.median || last.median_alpha - 1 < good_median ||
@@ -38,11 +46,11 @@ std::optional<StopReason> StopRule::decide(std::span<const SweepRecord> records)
 }
 
 bool median_stalled(std::span<const SweepRecord> records) {
-  const std::size_t n = records.size();
-  if (n == 0)
+  if (records.empty())
     return false;
   const double now = records.back().median_alpha - 1;
-  return now < good_median || (n > window && now >= (1 - median_gain) * (records[n - 1 - window].median_alpha - 1));
+  const SweepRecord* const before = before_window(records);
+  return now < good_median || (before && now >= (1 - median_gain) * (before->median_alpha - 1));
 }
 
 SweepControl::SweepControl(const MeshOptions& options, const std::vector<SweepRecord>& history)

@@ -12,15 +12,18 @@
 
 namespace trime::meshing {
 
+/// Sweeps from one measurement of the quality to the next.
+constexpr int measuring_interval = 3;
+
 /// When a rule has done what it can.
 struct Patience {
-  double tolerance;          ///< least share of alpha - 1 that five sweeps must gain
-  std::size_t earliest = 10; ///< triangulations before it may stall
-  bool median = true;        ///< the median of alpha must have stalled as well
+  double tolerance;   ///< least share of alpha - 1 that six sweeps must gain
+  int earliest = 9;   ///< sweeps before it may stall
+  bool median = true; ///< the median of alpha must have stalled as well
 };
 
 /// @brief Converged: no site moved by more than 0.005 h in the last sweep. Quality stalled: the mean of
-/// alpha - 1 fell by less than the tolerance over the last five sweeps. Sweep cap: the moves since the start of the
+/// alpha - 1 fell by less than the tolerance over the last six sweeps. Sweep cap: the moves since the start of the
 /// run.
 class StopRule {
 public:
@@ -33,7 +36,7 @@ private:
   Patience patience_;
 };
 
-/// @brief The median of alpha - 1 fell by less than a tenth of itself over the last five sweeps, or is below 0.001:
+/// @brief The median of alpha - 1 fell by less than a tenth of itself over the last six sweeps, or is below 0.001:
 /// bars have done what they can.
 bool median_stalled(std::span<const SweepRecord> records);
 

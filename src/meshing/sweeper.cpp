@@ -23,7 +23,8 @@ constexpr double scale_change = 1e-3;
 constexpr int sweeps_of_a_size = 4; // h is evaluated anew after so many sweeps
 constexpr int chunk = 64;           // sites that one thread treats in a row
 constexpr int most_halo_rounds = 100;
-constexpr LocalIndex most_measured = 1024; // sites in one call of the kernel
+constexpr LocalIndex most_measured = 1024;    // sites in one call of the kernel
+constexpr std::size_t bytes_for_measures = 4; // a site: for what is kept of tiles that sleep
 
 const SweepKernels& kernels_of_machine() {
 #if defined(__x86_64__)
@@ -48,6 +49,13 @@ std::size_t at(LocalIndex i) {
 Sweeper::Sweeper(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context)
     : state_(state), builder_(builder), context_(context) {
   classify();
+}
+
+void Sweeper::Counts::follow_by(Counts later) {
+  later.rebuilt += rebuilt;
+  later.pushed += pushed;
+  later.deleted += deleted;
+  *this = later;
 }
 
 /// Does the lemma do for the star of site i? A neighbour without a ring was lost when sites were sorted: it may have
@@ -90,6 +98,8 @@ void Sweeper::classify() {
         2 * std::min(periodic_cap, builder_.cap(largest)) > (1 - 2 * drift_in_tiles_allowed) * side;
   });
   copied_.assign(at(tiles), 0);
+  measured_.clear();
+  is_measured_.clear();
   active_.assign(at(state_.grid().tile_count()), 1);
   all_awake_ = true;
 }
@@ -172,6 +182,8 @@ void Sweeper::run_kernel(const SweepTask& sweep) {
       return;
     }
     copied_[static_cast<std::size_t>(t)] = 0;
+    if (!is_measured_.empty())
+      is_measured_[static_cast<std::size_t>(t)] = 0;
     Work& mine = work[static_cast<std::size_t>(thread)];
     const std::size_t suspects = mine.suspects.size(), irregular = mine.irregular.size(), n = at(end - begin);
     mine.suspects.resize(suspects + n);
@@ -249,6 +261,8 @@ void Sweeper::move_one_by_one(const UpdateRule& rule, std::span<const LocalIndex
     const std::size_t tile = at(tile_of_site(i) - points.first_tile());
     std::atomic_ref(retally_[tile]).store(1, std::memory_order_relaxed);
     std::atomic_ref(copied_[tile]).store(0, std::memory_order_relaxed);
+    if (!is_measured_.empty())
+      std::atomic_ref(is_measured_[tile]).store(0, std::memory_order_relaxed);
   });
 }
 
@@ -421,21 +435,14 @@ void Sweeper::sort() {
   move_and_sort({});
 }
 
-SweepSums Sweeper::measure(double reference_size) {
-  const mesh::BinnedPoints& points = state_.points();
+void Sweeper::measure_tile(const SweepTask& all, LocalIndex tile, double reference_size, std::vector<double>& excesses,
+                           SweepSums& sums) const {
   const QualityKernel kernel = kernels_of_machine().measure;
-  const SweepTask all = task();
   const StarView view = view_of(state_, context_.size);
-  struct Measured {
-    SweepSums sums;
-    std::vector<double> excesses;
-  };
-  std::vector<Measured> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
-  thread_loop((points.owned() + most_measured - 1) / most_measured, 1, [&](std::ptrdiff_t part, int thread) {
-    auto& [sums, excesses] = of_thread[static_cast<std::size_t>(thread)];
-    const LocalIndex begin = static_cast<LocalIndex>(part) * most_measured;
-    const LocalIndex end = std::min(points.owned(), begin + most_measured);
-    excesses.resize(8 * at(most_measured));
+  const auto [first, last] = state_.points().tile_range(tile);
+  for (LocalIndex begin = first; begin < last; begin += most_measured) {
+    const LocalIndex end = std::min(last, begin + most_measured);
+    excesses.resize(std::max(excesses.size(), 8 * at(end - begin)));
     const QualityTally tally = kernel(all, begin, end, 1 / reference_size, excesses.data());
     sums.squared_length_ratio.add_units(tally.squared_lengths);
     sums.squared_size_ratio.add_units(tally.squared_sizes);
@@ -447,10 +454,41 @@ SweepSums Sweeper::measure(double reference_size) {
     for (LocalIndex i = begin; i < end; ++i)
       if (classes_[at(i)] == SiteClass::exact || classes_[at(i)] == SiteClass::fixed)
         measure_star(view, i, reference_size, sums);
+  }
+}
+
+SweepSums Sweeper::measure(double reference_size) {
+  const SweepTask all = task();
+  const LocalIndex first_tile = state_.points().first_tile();
+  const std::size_t tiles = wide_.size();
+  const bool keeps = tiles * sizeof(SweepSums) < bytes_for_measures * at(state_.points().owned());
+  if (keeps && measured_.size() != tiles) {
+    measured_.resize(tiles);
+    is_measured_.assign(tiles, 0);
+  }
+  struct Measured {
+    SweepSums sums;
+    std::vector<double> excesses;
+  };
+  std::vector<Measured> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
+  thread_loop(static_cast<std::ptrdiff_t>(tiles), 1, [&](std::ptrdiff_t t, int thread) {
+    Measured& work = of_thread[static_cast<std::size_t>(thread)];
+    const LocalIndex tile = first_tile + static_cast<LocalIndex>(t);
+    if (!keeps) {
+      measure_tile(all, tile, reference_size, work.excesses, work.sums);
+      return;
+    }
+    SweepSums& sums = measured_[static_cast<std::size_t>(t)];
+    if (!is_measured_[static_cast<std::size_t>(t)]) {
+      sums = {};
+      measure_tile(all, tile, reference_size, work.excesses, sums);
+      is_measured_[static_cast<std::size_t>(t)] = 1;
+    }
+    work.sums.add(sums);
   });
   SweepSums sums;
-  for (const Measured& measured : of_thread)
-    sums.add(measured.sums);
+  for (const Measured& work : of_thread)
+    sums.add(work.sums);
   return sums;
 }
 

@@ -40,6 +40,9 @@ public:
     std::int64_t moving = 0, pushed = 0, deleted = 0;
     double max_move = 0; ///< over h
     FixedSum power;      ///< see SweepSums
+
+    /// Counts of both; the rest is that of the later sweep.
+    void follow_by(Counts later);
   };
 
   /// Certifies the stars and finds where the sites go by `rule`. Collective.
@@ -69,6 +72,8 @@ private:
   void mark(std::vector<LocalIndex>& sites, std::vector<LocalIndex>& list);
   void move_one_by_one(const UpdateRule& rule, std::span<const LocalIndex> sites);
   SweepTally tally_tile(LocalIndex tile) const;
+  void measure_tile(const SweepTask& all, LocalIndex tile, double reference_size, std::vector<double>& excesses,
+                    SweepSums& sums) const;
   SweepTally tally();
   LocalIndex tile_of_site(LocalIndex i) const;
   void note_pushes();
@@ -92,6 +97,8 @@ private:
   std::vector<std::uint8_t> awake_;            // by owned tile
   std::vector<std::uint8_t> copied_;           // by owned tile: its sites have the same places now and next
   std::vector<std::uint8_t> wide_;             // by owned tile: triangles may reach beyond the tiles around it
+  std::vector<SweepSums> measured_;            // by owned tile, if there is room for that
+  std::vector<std::uint8_t> is_measured_;      // by owned tile: and nothing has changed since
   std::vector<std::uint8_t> active_;           // by tile of the container: sites were moved by the last sweep
   RuleParameters waking_rule_;                 // of the last sweep with all tiles awake
   bool all_awake_ = true;                      // in the next sweep

@@ -44,6 +44,7 @@ public:
   /// @brief The values of all ghosts, in ghost order, from the values of the owned sites. @pre refresh was called and
   /// no site has changed since. Collective among neighbours only.
   std::vector<GlobalId> exchange(const mesh::BinnedPoints& points, std::span<const GlobalId> owned_values) const;
+  std::vector<double> exchange(const mesh::BinnedPoints& points, std::span<const double> owned_values) const;
 
   /// Bins that this rank imports, ascending.
   std::span<const mesh::BinRef> imported_bins() const { return imported_; }
@@ -53,6 +54,8 @@ private:
     int rank;
     std::vector<mesh::BinRef> bins; // ascending
   };
+  template <class T>
+  std::vector<T> exchange_values(const mesh::BinnedPoints& points, std::span<const T> owned_values) const;
   std::size_t ghosts_of(const mesh::BinnedPoints& points, const Peer& peer) const;
   void list_bins_around(LocalIndex tile, int margin, std::vector<mesh::BinRef>& wanted) const;
   void note_renumbering(LocalIndex owned, std::span<const std::int32_t> new_counts);
