@@ -146,7 +146,7 @@ SizeSummary summarize_size(std::string description, const mesh::DistributedMesh&
 }
 
 int final_retriangulation(const meshing::MeshResult& result) {
-  return static_cast<int>(result.history.size()) + 1;
+  return result.triangulations + 1;
 }
 
 std::string run_report(const meshing::MeshResult& result, const SizeSummary& size, const Measurements& measured,

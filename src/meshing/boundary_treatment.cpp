@@ -36,14 +36,6 @@ Vec2 into_box(Vec2 p, const mesh::TileGrid& grid) {
 
 } // namespace
 
-void MoveCounts::add(const MoveCounts& other) {
-  moving += other.moving;
-  pushed += other.pushed;
-  deleted += other.deleted;
-  max_move = std::max(max_move, other.max_move);
-  power.add(other.power);
-}
-
 Treated treat_step(const MoveContext& context, const mesh::TileGrid& grid, const mesh::Site& site, double h, Step step,
                    int allowed) {
   step = capped(step, move_cap * h);
@@ -89,12 +81,15 @@ MoveCounts settle_round(SiteState& state, const MoveContext& context, bool delet
         site.lead = treated.lead;
         site.pushes = treated.pushes;
       }
-      of_thread[static_cast<std::size_t>(thread)].add(counts);
+      of_thread[static_cast<std::size_t>(thread)].pushed += counts.pushed;
+      of_thread[static_cast<std::size_t>(thread)].deleted += counts.deleted;
     });
   });
   MoveCounts all;
-  for (const MoveCounts& counts : of_thread)
-    all.add(counts);
+  for (const MoveCounts& counts : of_thread) {
+    all.pushed += counts.pushed;
+    all.deleted += counts.deleted;
+  }
   state.move_sites(sites, deleted);
   return all;
 }

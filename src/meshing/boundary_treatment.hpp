@@ -12,12 +12,7 @@ namespace trime::meshing {
 
 /// What one round did on this rank.
 struct MoveCounts {
-  std::int64_t moving = 0; ///< moved by more than 0.005 h
   std::int64_t pushed = 0, deleted = 0;
-  double max_move = 0; ///< longest move over h
-  FixedSum power;      ///< of the moves, see SweepSums
-
-  void add(const MoveCounts& other);
 };
 
 /// What a round of moves needs to know.

@@ -324,6 +324,7 @@ private:
     const double side = std::max(options_.container.width(), options_.container.height());
     result.checks = certify(context, numbering, {boundary_, meshed_boundary(), side}, result.mesh);
     result.history = std::move(history_);
+    result.triangulations = triangulations_;
     result.stop_reason = stop_reason_;
     result.cleanup = cleanup_;
     result.requested_points = options_.points.value_or(0);

@@ -64,7 +64,7 @@ enum class StopReason { converged, quality_stalled, sweep_cap };
 /// "converged", "quality stalled", "sweep cap".
 std::string to_string(StopReason reason);
 
-/// One line of history.
+/// One line of history: a triangulation whose quality was measured, and what the moves since the last one did.
 struct SweepRecord {
   int sweep = 0;
   GlobalId points = 0;
@@ -125,6 +125,7 @@ struct MeshResult {
   mesh::QualitySummary quality;
   mesh::Checks checks;
   std::vector<SweepRecord> history;
+  int triangulations = 0; ///< sites were triangulated so often: once a stage, and once after every move
   StopReason stop_reason = StopReason::sweep_cap;
   GlobalId requested_points = 0;  ///< 0 if an edge length was asked for
   double edge_length = 0;         ///< uniform size: h; graded: edge length of as many equal triangles

@@ -363,13 +363,15 @@ TEST(Mesher, MeetsTheWishesAndSaysHowItStopped) {
   EXPECT_LT(result.quality.alpha.mean, 1.05);
   EXPECT_GT(result.quality.min_angle_degrees, 20);
   ASSERT_FALSE(result.history.empty());
-  for (std::size_t k = 0; k < result.history.size(); ++k)
-    EXPECT_EQ(result.history[k].sweep, static_cast<int>(k));
-  for (const int cap : {0, 3}) {
+  EXPECT_EQ(result.history.front().sweep, 0);
+  for (std::size_t k = 1; k < result.history.size(); ++k)
+    EXPECT_EQ(result.history[k].sweep, result.history[k - 1].sweep + 3); // the quality is measured every third sweep
+  EXPECT_EQ(result.triangulations, result.history.back().sweep + 1);
+  for (const int cap : {0, 4}) {
     c.options.max_sweeps = cap;
     const MeshResult stopped = run(world, c);
     EXPECT_EQ(stopped.stop_reason, StopReason::sweep_cap);
-    EXPECT_EQ(static_cast<int>(stopped.history.size()), cap + 1);
+    EXPECT_EQ(stopped.history.back().sweep, cap);
     expect_certified(stopped);
   }
 }

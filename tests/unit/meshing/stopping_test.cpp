@@ -30,14 +30,25 @@ TEST(StopRule, TheStartHasNotMovedButIsNotConverged) {
   EXPECT_EQ(StopRule(100, {0.04}).decide(history(2, 1, 0.0051)), std::nullopt);
 }
 
-TEST(StopRule, QualityStallsWhenFiveSweepsBringLessThanTheTolerance) {
+TEST(StopRule, QualityStallsWhenSixSweepsBringLessThanTheTolerance) {
   const StopRule rule(100, {0.04});
   EXPECT_EQ(rule.decide(history(9, 1)), std::nullopt) << "too early to tell";
   EXPECT_EQ(rule.decide(history(10, 1)), StopReason::quality_stalled);
-  EXPECT_EQ(rule.decide(history(10, 0.99)), std::nullopt) << "4.9 % better over five sweeps";
-  EXPECT_EQ(rule.decide(history(10, 0.995)), StopReason::quality_stalled) << "2.5 % better";
+  EXPECT_EQ(rule.decide(history(10, 0.99)), std::nullopt) << "5.9 % better over six sweeps";
+  EXPECT_EQ(rule.decide(history(10, 0.995)), StopReason::quality_stalled) << "3 % better";
   EXPECT_EQ(rule.decide(history(10, 1.1)), StopReason::quality_stalled) << "worse";
   EXPECT_EQ(StopRule(100, {0}).decide(history(10, 0.999)), std::nullopt);
+}
+
+TEST(StopRule, CountsInSweepsHoweverManyAreRecorded) {
+  std::vector<SweepRecord> records;
+  for (const SweepRecord& record : history(13, 0.99))
+    if (record.sweep % 3 == 0)
+      records.push_back(record);
+  EXPECT_EQ(StopRule(100, {0.04}).decide(records), std::nullopt);
+  EXPECT_EQ(StopRule(100, {0.07}).decide(records), StopReason::quality_stalled);
+  records.resize(3); // sweep 6
+  EXPECT_EQ(StopRule(100, {0.07}).decide(records), std::nullopt) << "too early to tell";
 }
 
 TEST(StopRule, TheSweepCapCountsMoves) {
@@ -46,15 +57,15 @@ TEST(StopRule, TheSweepCapCountsMoves) {
   EXPECT_EQ(StopRule(3, {0.04}).decide(history(4, 0.5)), StopReason::sweep_cap);
 }
 
-TEST(MedianStalled, WhenFiveSweepsBringLessThanATenth) {
-  EXPECT_FALSE(median_stalled(history(5, 1)));
-  EXPECT_TRUE(median_stalled(history(6, 0.99)));
-  EXPECT_FALSE(median_stalled(history(6, 0.97)));
+TEST(MedianStalled, WhenSixSweepsBringLessThanAnEighth) {
+  EXPECT_FALSE(median_stalled(history(6, 1)));
+  EXPECT_TRUE(median_stalled(history(7, 0.99)));
+  EXPECT_FALSE(median_stalled(history(7, 0.97)));
   EXPECT_TRUE(median_stalled(history(3, 0.05))) << "nothing left to gain";
 }
 
 TEST(StopRule, PatienceMayBeShortAndLookAtTheMeanAlone) {
-  std::vector<SweepRecord> records = history(6, 1);
+  std::vector<SweepRecord> records = history(7, 1);
   EXPECT_EQ(StopRule(100, {0.07, 6, false}).decide(records), StopReason::quality_stalled);
   EXPECT_EQ(StopRule(100, {0.07, 7, false}).decide(records), std::nullopt);
   records.back().median_alpha = 1 + 0.5 * (records.front().median_alpha - 1);
@@ -100,9 +111,9 @@ TEST(SweepControl, MethodsKeepToTheirRules) {
 TEST(SweepControl, HybridGoesOverWhenTheMedianStalls) {
   const StagedRun run(Method::hybrid, false, true, 0.995);
   EXPECT_TRUE(run.started_with_bars);
-  EXPECT_EQ(run.left_bars, 5);
-  EXPECT_EQ(run.left_cells, 5 + 9) << "ten triangulations of their own before the cells may stall";
-  EXPECT_EQ(run.triangulations, 5 + 9 + 6) << "and six for the triangles";
+  EXPECT_EQ(run.left_bars, 6);
+  EXPECT_EQ(run.left_cells, 6 + 9) << "nine sweeps of their own before the cells may stall";
+  EXPECT_EQ(run.triangulations, 6 + 9 + 6 + 1) << "and six for the triangles";
   EXPECT_EQ(run.reason, StopReason::quality_stalled);
 }
 
@@ -127,7 +138,7 @@ TEST(SweepControl, HybridHasOnlyTrianglesAfterADivision) {
   EXPECT_LT(before, 30U);
   control.begin_stage(false, true);
   std::optional<StopReason> reason;
-  for (const SweepRecord& record : history(60, 0.97)) { // 14 % in five sweeps
+  for (const SweepRecord& record : history(60, 0.97)) { // 17 % in six sweeps
     records.push_back(record);
     EXPECT_EQ(control.mover(), Mover::triangles);
     reason = control.decide();
@@ -136,7 +147,7 @@ TEST(SweepControl, HybridHasOnlyTrianglesAfterADivision) {
   }
   EXPECT_EQ(reason, std::nullopt);
   records.push_back(records.back());
-  records.back().mean_alpha = records[records.size() - 6].mean_alpha;
+  records.back().mean_alpha = records[records.size() - 8].mean_alpha;
   EXPECT_EQ(control.decide(), StopReason::quality_stalled);
 }
 

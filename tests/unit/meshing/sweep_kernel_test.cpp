@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The vector kernels against the rules themselves, star by star: the same bits on every kind of processor.
+#include "meshing/sweep_kernel.hpp"
+
+#include "support/point_sets.hpp"
+#include "trime/core/simd_level.hpp"
+#include "trime/delaunay/star_builder.hpp"
+#include "trime/meshing/update_rule.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace trime::meshing {
+namespace {
+
+using geometry::Vec2;
+using mesh::Site;
+
+constexpr double spacing = 0.03125, cap = 2.5;
+
+class Ramp final : public sizing::SizeField {
+public:
+  double size(Vec2 p) const override { return spacing * (0.8 + 0.4 * p.x * p.y); }
+};
+
+std::vector<const SweepKernels*> kernels() {
+  std::vector<const SweepKernels*> list{&portable_kernels};
+#if defined(__x86_64__)
+  if (simd_level() >= SimdLevel::avx2)
+    list.push_back(&avx2_kernels);
+  if (simd_level() >= SimdLevel::avx512)
+    list.push_back(&avx512_kernels);
+#endif
+  return list;
+}
+
+/// A jittered lattice with its stars; sites whose stars have gaps or long rings are left out, as the sweeps do.
+struct Cloud {
+  Cloud(double jitter, bool is_graded) : grid(geometry::Box{{0, 0}, {1, 1}}, {{}, {}, spacing}), points(grid) {
+    std::vector<Site> sites = testing::hexagonal_lattice(24, spacing);
+    for (std::size_t k = 0; k < sites.size(); ++k) {
+      sites[k].position = testing::unit_lattice().snap(
+          sites[k].position + (jitter * spacing) * (testing::random_vec2(4, k) - Vec2{0.5, 0.5}));
+      sites[k].lead = (0.02 * spacing) * (testing::random_vec2(5, k) - Vec2{0.5, 0.5});
+    }
+    points.assign_owned(sites, 0, grid.tile_count());
+    if (!is_graded) {
+      sizes = mesh::LocalSizes(spacing);
+    } else {
+      for (const Vec2 p : points.positions())
+        sizes.values().push_back(Ramp().size(p));
+    }
+    compute();
+    for (LocalIndex i = 0; i < points.owned(); ++i) {
+      const auto ring = stars.ring(i);
+      const bool local = ring.size() >= 3 && ring.size() <= 8 && std::ranges::find(ring, delaunay::gap) == ring.end();
+      classes.push_back(local ? SiteClass::local : i % 2 ? SiteClass::exact : SiteClass::held);
+    }
+    size = is_graded ? static_cast<const sizing::SizeField*>(&ramp) : &uniform;
+  }
+  void compute() {
+    stars.reset(points.owned());
+    std::vector<mesh::BinRef> missing;
+    delaunay::StarBuilder(testing::unit_lattice(), cap, 1).update(points, stars, sizes, {}, missing);
+  }
+  StarView view() const { return {points, stars, *size, &sizes}; }
+
+  SweepTask task() {
+    points.prepare_advance();
+    SweepTask task;
+    task.positions = points.positions().data();
+    task.leads = points.leads().data();
+    task.rings = stars.all_slots();
+    task.degrees = stars.degrees();
+    task.classes = classes.data();
+    task.sizes = sizes.is_uniform() ? nullptr : sizes.values().data();
+    task.uniform_size = spacing;
+    task.next_positions = points.next_positions().data();
+    task.next_leads = points.next_leads().data();
+    task.lattice_step = testing::unit_lattice().step();
+    task.inverse_lattice_step = testing::unit_lattice().inverse_step();
+    task.box = {{0, 0}, {1, 1}};
+    task.cap_factor = cap;
+    return task;
+  }
+
+  mesh::TileGrid grid;
+  mesh::BinnedPoints points;
+  delaunay::StarTable stars;
+  mesh::LocalSizes sizes;
+  std::vector<SiteClass> classes;
+  sizing::UniformSize uniform{spacing};
+  Ramp ramp;
+  const sizing::SizeField* size;
+};
+
+struct Pass {
+  explicit Pass(LocalIndex n) : suspects(static_cast<std::size_t>(n)), irregular(suspects.size()) {}
+  void run(const SweepKernels& kernel, const SweepTask& task, LocalIndex end) {
+    SweepLeftovers leftovers{suspects.data(), irregular.data()};
+    tally = kernel.sweep(task, 0, end, leftovers);
+    suspects.resize(static_cast<std::size_t>(leftovers.suspect_count));
+    irregular.resize(static_cast<std::size_t>(leftovers.irregular_count));
+  }
+  std::vector<LocalIndex> suspects, irregular;
+  SweepTally tally;
+};
+
+std::vector<std::unique_ptr<UpdateRule>> rules() {
+  std::vector<std::unique_ptr<UpdateRule>> list;
+  list.push_back(std::make_unique<DistMeshRule>());
+  list.push_back(std::make_unique<CvdRule>());
+  list.push_back(std::make_unique<CvdRule>(3));
+  list.push_back(std::make_unique<TriangleRule>());
+  return list;
+}
+
+TEST(SweepKernel, MovesSitesByTheBitsOfTheRules) {
+  for (const bool is_graded : {false, true})
+    for (const auto& rule : rules()) {
+      Cloud cloud(0.3, is_graded);
+      const SweepSums sums = measure(cloud.view(), spacing);
+      for (int sweep = 0; sweep < 3; ++sweep)
+        rule->begin_sweep(sums); // so that there is momentum
+      SweepTask task = cloud.task();
+      task.rule = rule->parameters();
+      std::vector<Pass> passes;
+      for (const SweepKernels* kernel : kernels()) {
+        Pass pass(cloud.points.owned());
+        pass.run(*kernel, task, cloud.points.owned() - 3); // not a whole number of groups
+        int moved = 0, suspects = 0;
+        for (LocalIndex i = 0; i < cloud.points.owned() - 3; ++i) {
+          if (cloud.classes[static_cast<std::size_t>(i)] != SiteClass::local) {
+            EXPECT_EQ(task.next_positions[i], task.positions[i]);
+            EXPECT_EQ(std::ranges::count(pass.suspects, i),
+                      cloud.classes[static_cast<std::size_t>(i)] == SiteClass::exact);
+            continue;
+          }
+          if (std::ranges::count(pass.suspects, i)) { // its triangles are nearly as large as the cap, or flat
+            ++suspects;
+            continue;
+          }
+          const Step step = rule->step(cloud.view(), i);
+          const Vec2 way = step.move + step.lead;
+          if (std::ranges::count(pass.irregular, i)) {
+            EXPECT_GT(std::max(geometry::length(step.move), geometry::length(way)), 0.399 * cloud.view().size(i));
+            continue;
+          }
+          EXPECT_EQ(task.next_positions[i], testing::unit_lattice().snap(task.positions[i] + way));
+          EXPECT_EQ(task.next_leads[i], step.lead);
+          ++moved;
+        }
+        EXPECT_GT(moved, 300);
+        EXPECT_LT(suspects, 30);
+        passes.push_back(pass);
+        EXPECT_EQ(pass.tally.moving, passes[0].tally.moving);
+        EXPECT_EQ(pass.tally.power, passes[0].tally.power);
+        EXPECT_EQ(pass.tally.squared_ratio, passes[0].tally.squared_ratio);
+        EXPECT_EQ(pass.tally.squared_distance, passes[0].tally.squared_distance);
+        EXPECT_EQ(pass.suspects, passes[0].suspects);
+        EXPECT_EQ(pass.irregular, passes[0].irregular);
+      }
+    }
+}
+
+TEST(SweepKernel, LeavesAPerfectLatticeAsItIs) {
+  Cloud cloud(0, false);
+  SweepTask task = cloud.task();
+  CvdRule rule;
+  rule.begin_sweep({});
+  task.rule = rule.parameters();
+  for (const SweepKernels* kernel : kernels()) {
+    Pass pass(cloud.points.owned());
+    pass.run(*kernel, task, cloud.points.owned());
+    int inside = 0;
+    for (LocalIndex i = 0; i < cloud.points.owned(); ++i)
+      if (const Vec2 p = cloud.points.position(i); geometry::length(p - Vec2{0.4, 0.4}) < 0.2) { // not at the rim
+        EXPECT_EQ(task.next_positions[i], p);
+        ++inside;
+      }
+    EXPECT_GT(inside, 50);
+  }
+}
+
+/// Moves sites under their old rings: whatever the kernel still accepts must be the star of emptiness.
+TEST(SweepKernel, FindsTheStarsThatAreNotRightAnyMore) {
+  Cloud cloud(0.3, false);
+  std::vector<Site> sites;
+  for (LocalIndex i = 0; i < cloud.points.owned(); ++i) {
+    sites.push_back(cloud.points.site(i));
+    sites.back().position = testing::unit_lattice().snap(
+        sites.back().position +
+        (0.4 * spacing) * (testing::random_vec2(9, static_cast<std::size_t>(i)) - Vec2{0.5, 0.5}));
+  }
+  std::vector<std::vector<LocalIndex>> before;
+  for (LocalIndex i = 0; i < cloud.points.owned(); ++i)
+    before.emplace_back(cloud.stars.ring(i).begin(), cloud.stars.ring(i).end());
+  cloud.points.prepare_advance();
+  for (LocalIndex i = 0; i < cloud.points.owned(); ++i)
+    cloud.points.next_positions()[static_cast<std::size_t>(i)] = sites[static_cast<std::size_t>(i)].position;
+  cloud.points.advance();
+  for (LocalIndex tile = 0; tile < cloud.grid.tile_count(); ++tile)
+    cloud.points.set_drift(tile, 0.3 * spacing);
+  cloud.points.set_largest_drift(0.3 * spacing);
+  SweepTask task = cloud.task();
+  for (const SweepKernels* kernel : kernels()) {
+    Pass pass(cloud.points.owned());
+    pass.run(*kernel, task, cloud.points.owned());
+    EXPECT_GT(pass.suspects.size(), 50U);
+    std::vector<std::uint8_t> is_suspect(before.size(), 0);
+    for (const LocalIndex i : pass.suspects)
+      is_suspect[static_cast<std::size_t>(i)] = 1;
+    delaunay::StarTable now;
+    now.reset(cloud.points.owned());
+    std::vector<mesh::BinRef> missing;
+    delaunay::StarBuilder(testing::unit_lattice(), cap, 1).update(cloud.points, now, cloud.sizes, {}, missing);
+    int right = 0;
+    for (LocalIndex i = 0; i < cloud.points.owned(); ++i) {
+      const auto& ring = before[static_cast<std::size_t>(i)];
+      if (cloud.classes[static_cast<std::size_t>(i)] != SiteClass::local || is_suspect[static_cast<std::size_t>(i)])
+        continue;
+      // A star that is locally convex is right unless a suspect beside it is not.
+      const bool beside = std::ranges::any_of(ring, [&](LocalIndex j) {
+        return is_suspect[static_cast<std::size_t>(j)] ||
+               cloud.classes[static_cast<std::size_t>(j)] != SiteClass::local;
+      });
+      if (!beside) {
+        EXPECT_TRUE(std::ranges::equal(ring, now.ring(i)));
+        ++right;
+      }
+    }
+    EXPECT_GT(right, 10);
+  }
+}
+
+TEST(QualityKernel, MeasuresAsTheScalarSumsDo) {
+  for (const bool is_graded : {false, true}) {
+    Cloud cloud(0.4, is_graded);
+    const SweepTask task = cloud.task();
+    SweepSums expected;
+    for (LocalIndex i = 0; i < cloud.points.owned(); ++i)
+      if (cloud.classes[static_cast<std::size_t>(i)] == SiteClass::local)
+        measure_star(cloud.view(), i, 0.9 * spacing, expected);
+    for (const SweepKernels* kernel : kernels()) {
+      std::vector<double> excesses(8 * static_cast<std::size_t>(cloud.points.owned()));
+      const QualityTally tally = kernel->measure(task, 0, cloud.points.owned(), 1 / (0.9 * spacing), excesses.data());
+      FixedSum lengths, squares, excess;
+      lengths.add_units(tally.squared_lengths);
+      squares.add_units(tally.squared_sizes);
+      excess.add_units(tally.excess);
+      AlphaBins bins;
+      for (std::int64_t k = 0; k < tally.triangles; ++k)
+        bins.add(excesses[static_cast<std::size_t>(k)]);
+      EXPECT_EQ(lengths.value(), expected.squared_length_ratio.value());
+      EXPECT_EQ(squares.value(), expected.squared_size_ratio.value());
+      EXPECT_EQ(excess.value(), expected.excess_alpha.value());
+      EXPECT_EQ(tally.triangles, expected.triangles);
+      EXPECT_EQ(1 + tally.largest_excess, expected.max_alpha);
+      EXPECT_EQ(bins.counts(), expected.alpha_bins.counts());
+      EXPECT_GT(tally.triangles, 500);
+    }
+  }
+}
+
+} // namespace
+} // namespace trime::meshing
