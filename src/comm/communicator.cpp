@@ -5,6 +5,7 @@
 #include "trime/core/error.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdlib>
 #include <exception>
 #include <limits>
@@ -122,6 +123,44 @@ void Communicator::max(std::span<double> values) const {
   reduce_in_place(values, MPI_DOUBLE, MPI_MAX, native_->comm);
 }
 
+namespace {
+
+/// Reduces blocks of words: how many words there are, how many of them are integers to be summed, these, and doubles of
+/// which the largest count.
+void sum_and_max_of_blocks(void* in, void* inout, int* blocks, MPI_Datatype*) {
+  const auto* from = static_cast<const std::int64_t*>(in);
+  auto* to = static_cast<std::int64_t*>(inout);
+  for (int block = 0; block < *blocks; ++block, from += from[0], to += to[0])
+    for (std::int64_t k = 2; k < from[0]; ++k)
+      if (k < 2 + from[1])
+        to[k] += from[k];
+      else
+        to[k] = std::bit_cast<std::int64_t>(std::max(std::bit_cast<double>(to[k]), std::bit_cast<double>(from[k])));
+}
+
+} // namespace
+
+void Communicator::sum_and_max(std::span<std::int64_t> sums, std::span<double> largest) const {
+  if (size_ == 1)
+    return;
+  std::vector<std::int64_t> words{static_cast<std::int64_t>(2 + sums.size() + largest.size()),
+                                  static_cast<std::int64_t>(sums.size())};
+  words.insert(words.end(), sums.begin(), sums.end());
+  for (const double value : largest)
+    words.push_back(std::bit_cast<std::int64_t>(value));
+  MPI_Datatype block = MPI_DATATYPE_NULL;
+  MPI_Op reduce = MPI_OP_NULL;
+  check(MPI_Type_contiguous(static_cast<int>(words.size()), MPI_INT64_T, &block));
+  check(MPI_Type_commit(&block));
+  check(MPI_Op_create(sum_and_max_of_blocks, 1, &reduce));
+  check(MPI_Allreduce(MPI_IN_PLACE, words.data(), 1, block, reduce, native_->comm));
+  check(MPI_Op_free(&reduce));
+  check(MPI_Type_free(&block));
+  std::copy_n(words.begin() + 2, sums.size(), sums.begin());
+  for (std::size_t k = 0; k < largest.size(); ++k)
+    largest[k] = std::bit_cast<double>(words[2 + sums.size() + k]);
+}
+
 std::int64_t Communicator::sum(std::int64_t value) const {
   reduce_in_place(std::span(&value, 1), MPI_INT64_T, MPI_SUM, native_->comm);
   return value;
@@ -237,6 +276,38 @@ void Communicator::exchange_known(std::span<const Message> outgoing, std::span<M
   for (const Message& message : outgoing)
     post(message, true, tag_known, native_->comm, requests);
   check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
+}
+
+struct Communicator::Exchange::Requests {
+  std::vector<MPI_Request> list;
+};
+
+Communicator::Exchange::Exchange() = default;
+Communicator::Exchange::Exchange(Exchange&&) noexcept = default;
+Communicator::Exchange& Communicator::Exchange::operator=(Exchange&&) noexcept = default;
+Communicator::Exchange::~Exchange() = default;
+
+bool Communicator::Exchange::is_open() const {
+  return requests_ != nullptr;
+}
+
+void Communicator::Exchange::wait() {
+  if (!requests_)
+    return;
+  check(MPI_Waitall(static_cast<int>(requests_->list.size()), requests_->list.data(), MPI_STATUSES_IGNORE));
+  requests_.reset();
+  outgoing_.clear();
+}
+
+Communicator::Exchange Communicator::begin_exchange(std::vector<Message> outgoing, std::span<Message> incoming) const {
+  Exchange exchange;
+  exchange.requests_ = std::make_unique<Exchange::Requests>();
+  exchange.outgoing_ = std::move(outgoing);
+  for (const Message& message : incoming)
+    post(message, false, tag_known, native_->comm, exchange.requests_->list);
+  for (const Message& message : exchange.outgoing_)
+    post(message, true, tag_known, native_->comm, exchange.requests_->list);
+  return exchange;
 }
 
 } // namespace trime::comm

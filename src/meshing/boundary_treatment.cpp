@@ -57,41 +57,48 @@ Treated treat_step(const MoveContext& context, const mesh::TileGrid& grid, const
   return treated;
 }
 
-MoveCounts settle_round(SiteState& state, const MoveContext& context, bool delete_all) {
+bool settle_round(SiteState& state, const MoveContext& context, bool delete_all) {
+  struct Offender {
+    LocalIndex site;
+    Treated treated;
+  };
   const mesh::BinnedPoints& points = state.points();
-  std::vector<mesh::Site> sites(static_cast<std::size_t>(points.owned()));
-  std::vector<std::uint8_t> deleted(sites.size(), 0);
-  std::vector<MoveCounts> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
+  std::vector<std::vector<Offender>> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
   const StarView view = view_of(state, context.size);
   const LocalIndex first_tile = points.first_tile();
   comm::run_agreed(state.comm(), [&] { // the size field may be a user's
     thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t t, int thread) {
       const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
-      MoveCounts counts;
       for (LocalIndex i = begin; i < end; ++i) {
-        mesh::Site& site = sites[static_cast<std::size_t>(i)] = points.site(i);
-        if (site.boundary != mesh::free_site)
+        if (points.boundary(i) != mesh::free_site)
           continue;
         const Treated treated =
-            treat_step(context, state.grid(), site, view.size(i), {}, delete_all ? 0 : pushes_allowed);
-        deleted[static_cast<std::size_t>(i)] = treated.deleted;
-        counts.deleted += treated.deleted;
-        counts.pushed += treated.pushed;
-        site.position = treated.position;
-        site.lead = treated.lead;
-        site.pushes = treated.pushes;
+            treat_step(context, state.grid(), points.site(i), view.size(i), {}, delete_all ? 0 : pushes_allowed);
+        if (treated.pushed || treated.deleted)
+          of_thread[static_cast<std::size_t>(thread)].push_back({i, treated});
       }
-      of_thread[static_cast<std::size_t>(thread)].pushed += counts.pushed;
-      of_thread[static_cast<std::size_t>(thread)].deleted += counts.deleted;
     });
   });
-  MoveCounts all;
-  for (const MoveCounts& counts : of_thread) {
-    all.pushed += counts.pushed;
-    all.deleted += counts.deleted;
-  }
+  std::int64_t offenders = 0;
+  for (const std::vector<Offender>& list : of_thread)
+    offenders += static_cast<std::int64_t>(list.size());
+  if (state.comm().sum(offenders) == 0)
+    return false;
+  std::vector<mesh::Site> sites;
+  sites.reserve(static_cast<std::size_t>(points.owned()));
+  for (LocalIndex i = 0; i < points.owned(); ++i)
+    sites.push_back(points.site(i));
+  std::vector<std::uint8_t> deleted(sites.size(), 0);
+  for (const std::vector<Offender>& list : of_thread)
+    for (const auto& [i, treated] : list) {
+      mesh::Site& site = sites[static_cast<std::size_t>(i)];
+      site.position = treated.position;
+      site.lead = treated.lead;
+      site.pushes = treated.pushes;
+      deleted[static_cast<std::size_t>(i)] = treated.deleted;
+    }
   state.move_sites(sites, deleted);
-  return all;
+  return true;
 }
 
 } // namespace trime::meshing

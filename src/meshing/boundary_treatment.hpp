@@ -10,11 +10,6 @@
 
 namespace trime::meshing {
 
-/// What one round did on this rank.
-struct MoveCounts {
-  std::int64_t pushed = 0, deleted = 0;
-};
-
 /// What a round of moves needs to know.
 struct MoveContext {
   const BoundaryGuard& guard;
@@ -36,8 +31,7 @@ Treated treat_step(const MoveContext& context, const mesh::TileGrid& grid, const
 constexpr int pushes_allowed = 3;
 
 /// @brief One round without any rule: offenders are pushed, or deleted once they have been pushed three times or
-/// `delete_all` is set. Collective. @return counts of this rank; pushed + deleted == 0 everywhere means that all discs
-/// are empty
-MoveCounts settle_round(SiteState& state, const MoveContext& context, bool delete_all);
+/// `delete_all` is set. Collective. @return false if there was none on any rank: all discs are empty
+bool settle_round(SiteState& state, const MoveContext& context, bool delete_all);
 
 } // namespace trime::meshing

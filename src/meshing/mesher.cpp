@@ -252,11 +252,9 @@ private:
   /// Empties the diametral discs of all boundary segments: pushes first, then deletes.
   void settle() {
     const auto time = timers_.scope("settle");
-    for (int round = 0; round < settle_rounds; ++round) {
-      const MoveCounts counts = settle_round(state(), move_context(), round >= settle_pushes);
-      if (comm_.sum(counts.pushed + counts.deleted) == 0)
+    for (int round = 0; round < settle_rounds; ++round)
+      if (!settle_round(state(), move_context(), round >= settle_pushes))
         return;
-    }
   }
 
   /// Mends the worst triangles, patch by patch.

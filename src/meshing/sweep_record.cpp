@@ -46,8 +46,7 @@ SweepSummary summarize_sweep(const comm::Communicator& comm, const Layout& layou
   packer.add(std::int64_t{layout.state->points().owned()});
   for (const std::int64_t count : sums.alpha_bins.counts())
     packer.add(count);
-  comm.sum(packer.values);
-  sums.max_alpha = comm.max(sums.max_alpha);
+  comm.sum_and_max(packer.values, std::span(&sums.max_alpha, 1));
 
   for (FixedSum* sum : {&sums.squared_length_ratio, &sums.squared_size_ratio, &sums.excess_alpha})
     *sum = packer.take_sum();

@@ -327,7 +327,8 @@ void Sweeper::prepare(const UpdateRule& rule) {
     const SweepTally mine = tally();
     std::array<std::int64_t, 7> sums{
         uncertain, rebuilt_, mine.moving, mine.pushed, mine.deleted, mine.power & 0xffffffff, mine.power >> 32};
-    state_.comm().sum(sums);
+    std::array<double, 2> largest{mine.squared_ratio, mine.squared_distance};
+    state_.comm().sum_and_max(sums, largest);
     if (sums[0] > 0) {
       if (round == most_halo_rounds)
         throw InternalError(fmt::format("the halo still grows after {} rounds", round));
@@ -335,8 +336,6 @@ void Sweeper::prepare(const UpdateRule& rule) {
       state_.points().prepare_advance();
       continue;
     }
-    std::array<double, 2> largest{mine.squared_ratio, mine.squared_distance};
-    state_.comm().max(largest);
     counts_ = {};
     counts_.rebuilt = sums[1];
     counts_.moving = sums[2];

@@ -59,6 +59,8 @@ public:
   void sum(std::span<std::int64_t> values) const;
   void min(std::span<double> values) const;
   void max(std::span<double> values) const;
+  /// Sums of the integers and maxima of the others in one reduction. Collective.
+  void sum_and_max(std::span<std::int64_t> sums, std::span<double> largest) const;
   /// Collective.
   std::int64_t sum(std::int64_t value) const;
   std::int64_t min(std::int64_t value) const;
@@ -83,6 +85,25 @@ public:
   /// @brief Exchange between ranks that know each other: `incoming[k].data` must have the size that its peer sends.
   /// Non-blocking sends and receives; empty messages are not sent. Only the ranks named take part.
   void exchange_known(std::span<const Message> outgoing, std::span<Message> incoming) const;
+
+  /// @brief The same in two parts, for work in between: `incoming` must not be touched before the wait. The outgoing
+  /// messages are kept until then.
+  class Exchange {
+  public:
+    Exchange();
+    Exchange(Exchange&&) noexcept;
+    Exchange& operator=(Exchange&&) noexcept;
+    ~Exchange(); ///< @pre waited for, or nothing was begun
+    bool is_open() const;
+    void wait();
+
+  private:
+    friend class Communicator;
+    struct Requests;
+    std::unique_ptr<Requests> requests_;
+    std::vector<Message> outgoing_;
+  };
+  Exchange begin_exchange(std::vector<Message> outgoing, std::span<Message> incoming) const;
 
   /// Implementation handle, for native.hpp.
   struct Native;
