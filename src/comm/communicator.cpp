@@ -284,8 +284,14 @@ struct Communicator::Exchange::Requests {
 
 Communicator::Exchange::Exchange() = default;
 Communicator::Exchange::Exchange(Exchange&&) noexcept = default;
-Communicator::Exchange& Communicator::Exchange::operator=(Exchange&&) noexcept = default;
-Communicator::Exchange::~Exchange() = default;
+Communicator::Exchange& Communicator::Exchange::operator=(Exchange&& other) noexcept {
+  std::swap(requests_, other.requests_);
+  std::swap(outgoing_, other.outgoing_);
+  return *this;
+}
+Communicator::Exchange::~Exchange() {
+  wait(); // MPI must not write to memory that is gone
+}
 
 bool Communicator::Exchange::is_open() const {
   return requests_ != nullptr;

@@ -200,13 +200,14 @@ std::vector<double> Halo::exchange(const mesh::BinnedPoints& points, std::span<c
   return exchange_values(points, owned_values);
 }
 
+bool Halo::begins_tile(const Peer& peer, std::size_t k) {
+  return k == 0 || peer.bins[k].tile != peer.bins[k - 1].tile;
+}
+
 /// For each tile of a peer its drift, then the positions of its sites.
-void Halo::refresh_positions(mesh::BinnedPoints& points) const {
-  TRIME_ASSERT(!grid_->periods().any());
-  const auto begins_tile = [](const Peer& peer, std::size_t k) {
-    return k == 0 || peer.bins[k].tile != peer.bins[k - 1].tile;
-  };
-  std::vector<Message> outgoing, incoming;
+void Halo::begin_positions(const mesh::BinnedPoints& points) {
+  TRIME_ASSERT(!grid_->periods().any() && !exchange_.is_open());
+  std::vector<Message> outgoing;
   for (const Peer& peer : exports_) {
     outgoing.push_back({peer.rank, {}});
     std::vector<std::byte>& data = outgoing.back().data;
@@ -219,17 +220,22 @@ void Halo::refresh_positions(mesh::BinnedPoints& points) const {
       data.insert(data.end(), bytes.begin(), bytes.end());
     }
   }
+  positions_.clear();
   for (const Peer& peer : imports_) {
     std::size_t tiles = 0;
     for (std::size_t k = 0; k < peer.bins.size(); ++k)
       tiles += begins_tile(peer, k);
-    incoming.push_back(
+    positions_.push_back(
         {peer.rank, std::vector<std::byte>(tiles * sizeof(double) + ghosts_of(points, peer) * sizeof(geometry::Vec2))});
   }
-  comm_->exchange_known(outgoing, incoming);
+  exchange_ = comm_->begin_exchange(std::move(outgoing), positions_);
+}
+
+void Halo::finish_positions(mesh::BinnedPoints& points) {
+  exchange_.wait();
   const std::span<geometry::Vec2> ghosts = points.ghost_positions();
-  for (std::size_t next = 0, m = 0; m < incoming.size(); ++m) {
-    const std::byte* from = incoming[m].data.data();
+  for (std::size_t next = 0, m = 0; m < positions_.size(); ++m) {
+    const std::byte* from = positions_[m].data.data();
     const auto take = [&from](void* to, std::size_t size) {
       if (size > 0)
         std::memcpy(to, from, size);
@@ -248,6 +254,7 @@ void Halo::refresh_positions(mesh::BinnedPoints& points) const {
       next += sites;
     }
   }
+  positions_.clear();
 }
 
 } // namespace trime::decomposition

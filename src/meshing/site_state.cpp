@@ -129,22 +129,31 @@ void SiteState::carry_sizes() {
 /// Fetches the ghosts and evaluates h where it is not known.
 void SiteState::refresh(const sizing::SizeField& size) {
   halo_.refresh(points_);
-  evaluate_agreed(size);
+  evaluate_agreed(size, points_.size());
 }
 
-void SiteState::advance(const sizing::SizeField& size, double drift, bool new_sizes) {
+void SiteState::begin_advance(const sizing::SizeField& size, double drift, bool new_sizes) {
   points_.advance();
-  halo_.refresh_positions(points_);
+  halo_.begin_positions(points_);
   points_.set_largest_drift(drift);
-  if (new_sizes) {
+  ghosts_need_sizes_ = new_sizes && !size.is_uniform();
+  if (ghosts_need_sizes_) {
     sizes_.forget();
-    evaluate_agreed(size);
+    sizes_.values().reserve(static_cast<std::size_t>(points_.size()));
+    evaluate_agreed(size, points_.owned());
   }
 }
 
-void SiteState::evaluate_agreed(const sizing::SizeField& size) {
+void SiteState::finish_advance(const sizing::SizeField& size) {
+  halo_.finish_positions(points_);
+  if (ghosts_need_sizes_)
+    evaluate_agreed(size, points_.size());
+  ghosts_need_sizes_ = false;
+}
+
+void SiteState::evaluate_agreed(const sizing::SizeField& size, LocalIndex end) {
   try {
-    comm::run_agreed(comm_, [&] { evaluate_sizes(size); });
+    comm::run_agreed(comm_, [&] { evaluate_sizes(size, end); });
   } catch (...) {
     sizes_.forget();
     carried_.clear();
@@ -154,16 +163,16 @@ void SiteState::evaluate_agreed(const sizing::SizeField& size) {
 
 /// Owned sites are checked in the order of the curve, so that the first bad one does not depend on the ranks; ghosts
 /// are checked by their owners.
-void SiteState::evaluate_sizes(const sizing::SizeField& size) {
+void SiteState::evaluate_sizes(const sizing::SizeField& size, LocalIndex end) {
   if (size.is_uniform()) {
     sizes_ = mesh::LocalSizes(sizing::checked_size(size, {}));
     return;
   }
   const geometry::Periods& periods = grid_.periods();
   std::vector<double>& values = sizes_.values();
-  const LocalIndex first = sizes_.known(0) ? points_.owned() : 0;
-  values.resize(static_cast<std::size_t>(points_.size()));
-  thread_loop(points_.size() - first, size_chunk, [&](std::ptrdiff_t k, int) {
+  const LocalIndex first = std::min(end, sizes_.known(0) ? points_.owned() : 0);
+  values.resize(static_cast<std::size_t>(end));
+  thread_loop(end - first, size_chunk, [&](std::ptrdiff_t k, int) {
     const LocalIndex i = first + static_cast<LocalIndex>(k);
     const double carried =
         static_cast<std::size_t>(i) < carried_.size() ? carried_[static_cast<std::size_t>(i)] : unknown_size;

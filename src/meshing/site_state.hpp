@@ -52,10 +52,12 @@ public:
 
   /// @brief Fetches the ghosts and evaluates h at sites that moved; part of compute_stars. Collective.
   void refresh(const sizing::SizeField& size);
-  /// @brief Moves the owned sites to BinnedPoints::next_positions, without sorting, and the ghosts with them.
-  /// Collective. @param drift bound on how far any site of any rank has come since sites were sorted
-  /// @param new_sizes evaluates h at the new places; else sites keep theirs @pre no periods
-  void advance(const sizing::SizeField& size, double drift, bool new_sizes);
+  /// @brief Moves the owned sites to BinnedPoints::next_positions, without sorting. The ghosts follow on their way:
+  /// nothing about them may be asked until finish_advance. Collective. @pre no periods
+  /// @param drift bound on how far any site of any rank has come since sites were sorted
+  /// @param new_sizes evaluates h at the new places; else sites keep theirs
+  void begin_advance(const sizing::SizeField& size, double drift, bool new_sizes);
+  void finish_advance(const sizing::SizeField& size);
   /// Adds bins to those that this rank knows; local indices of ghosts may change. Collective.
   void fetch(std::span<const mesh::BinRef> missing, const sizing::SizeField& size);
 
@@ -75,10 +77,10 @@ public:
 private:
   void wrap(std::vector<mesh::Site>& sites) const;
   void choose_bins(std::span<const mesh::Site> sites);
-  void evaluate_agreed(const sizing::SizeField& size);
+  void evaluate_agreed(const sizing::SizeField& size, LocalIndex end);
   void remember_sizes(std::span<const mesh::Site> sites);
   void carry_sizes();
-  void evaluate_sizes(const sizing::SizeField& size);
+  void evaluate_sizes(const sizing::SizeField& size, LocalIndex end);
 
   const comm::Communicator& comm_;
   mesh::TileGrid grid_;
@@ -89,6 +91,7 @@ private:
   mesh::LocalSizes sizes_;
   std::vector<delaunay::StarWish> wanted_;
   std::vector<LocalIndex> stays_, sorted_, renumbering_;
+  bool ghosts_need_sizes_ = false;
   std::vector<double> carried_; // h of owned sites from before a move, 0 where they moved
 };
 

@@ -44,6 +44,16 @@ std::size_t at(LocalIndex i) {
   return static_cast<std::size_t>(i);
 }
 
+/// Calls visit(tile) for a tile and those beside it; across a periodic border nothing is beside it.
+template <class Visit>
+void for_tiles_around(const mesh::TileGrid& grid, LocalIndex tile, const Visit& visit) {
+  const mesh::GridPosition here = grid.tile_position(tile);
+  const int column = static_cast<int>(here.x), row = static_cast<int>(here.y);
+  for (int y = std::max(0, row - 1); y <= std::min(grid.tiles_y() - 1, row + 1); ++y)
+    for (int x = std::max(0, column - 1); x <= std::min(grid.tiles_x() - 1, column + 1); ++x)
+      visit(grid.tile_at(x, y));
+}
+
 } // namespace
 
 Sweeper::Sweeper(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context)
@@ -97,31 +107,38 @@ void Sweeper::classify() {
     wide_[static_cast<std::size_t>(t)] =
         2 * std::min(periodic_cap, builder_.cap(largest)) > (1 - 2 * drift_in_tiles_allowed) * side;
   });
+  kinds_.assign(at(tiles), Tiles::inner);
+  for (LocalIndex t = 0; t < tiles; ++t)
+    for_tiles_around(state_.grid(), first_tile + t, [&](LocalIndex other) {
+      if (other < first_tile || other >= points.last_tile())
+        kinds_[at(t)] = Tiles::at_borders;
+    });
   copied_.assign(at(tiles), 0);
   measured_.clear();
   is_measured_.clear();
   active_.assign(at(state_.grid().tile_count()), 1);
+  tallies_.assign(at(tiles), {});
+  retally_.assign(at(tiles), 0);
+  awake_.assign(at(tiles), 1);
   all_awake_ = true;
 }
 
 /// Decides which tiles take part in this sweep.
-void Sweeper::wake_tiles(const RuleParameters& rule) {
+void Sweeper::wake_tiles(const RuleParameters& rule, Tiles which) {
   const auto changed = [](double a, double b) { return std::fabs(a - b) > scale_change * b; };
-  if (all_awake_ || rule.kind != waking_rule_.kind || changed(rule.length_scale, waking_rule_.length_scale) ||
-      changed(rule.area_scale, waking_rule_.area_scale)) {
-    waking_rule_ = rule;
-    awake_.assign(wide_.size(), 1);
-    all_awake_ = false;
-    return;
+  if (which == Tiles::inner) {
+    all_awake_ = all_awake_ || rule.kind != waking_rule_.kind ||
+                 changed(rule.length_scale, waking_rule_.length_scale) ||
+                 changed(rule.area_scale, waking_rule_.area_scale);
+    if (all_awake_)
+      waking_rule_ = rule;
   }
-  const mesh::TileGrid& grid = state_.grid();
   for (std::size_t t = 0; t < awake_.size(); ++t) {
-    const mesh::GridPosition here = grid.tile_position(state_.points().first_tile() + static_cast<LocalIndex>(t));
-    const int column = static_cast<int>(here.x), row = static_cast<int>(here.y);
-    bool awake = wide_[t];
-    for (int y = std::max(0, row - 1); y <= std::min(grid.tiles_y() - 1, row + 1); ++y)
-      for (int x = std::max(0, column - 1); x <= std::min(grid.tiles_x() - 1, column + 1); ++x)
-        awake = awake || active_[at(grid.tile_at(x, y))];
+    if (kinds_[t] != which)
+      continue;
+    bool awake = all_awake_ || wide_[t];
+    for_tiles_around(state_.grid(), state_.points().first_tile() + static_cast<LocalIndex>(t),
+                     [&](LocalIndex other) { awake = awake || active_[at(other)]; });
     awake_[t] = awake;
   }
 }
@@ -164,40 +181,41 @@ SweepTask Sweeper::task() {
   return task;
 }
 
-void Sweeper::run_kernel(const SweepTask& sweep) {
+void Sweeper::run_kernel(const SweepTask& sweep, Tiles which) {
   const mesh::BinnedPoints& points = state_.points();
   const SweepKernel kernel = kernels_of_machine().sweep;
-  const LocalIndex first_tile = points.first_tile(), tiles = points.last_tile() - first_tile;
-  tallies_.assign(at(tiles), {});
-  retally_.assign(at(tiles), 0);
+  const LocalIndex first_tile = points.first_tile();
   std::vector<Work> work(static_cast<std::size_t>(std::max(1, thread_count())));
-  thread_loop(tiles, 1, [&](std::ptrdiff_t t, int thread) {
+  thread_loop(static_cast<std::ptrdiff_t>(awake_.size()), 1, [&](std::ptrdiff_t tile, int thread) {
+    const std::size_t t = static_cast<std::size_t>(tile);
+    if (kinds_[t] != which)
+      return;
     const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
-    if (!awake_[static_cast<std::size_t>(t)]) {
-      if (!copied_[static_cast<std::size_t>(t)]) {
+    tallies_[t] = {};
+    retally_[t] = 0;
+    if (!awake_[t]) {
+      if (!copied_[t]) {
         std::copy(sweep.positions + begin, sweep.positions + end, sweep.next_positions + begin);
         std::fill(sweep.next_leads + begin, sweep.next_leads + end, Vec2{});
       }
-      copied_[static_cast<std::size_t>(t)] = 1;
+      copied_[t] = 1;
       return;
     }
-    copied_[static_cast<std::size_t>(t)] = 0;
+    copied_[t] = 0;
     if (!is_measured_.empty())
-      is_measured_[static_cast<std::size_t>(t)] = 0;
+      is_measured_[t] = 0;
     Work& mine = work[static_cast<std::size_t>(thread)];
     const std::size_t suspects = mine.suspects.size(), irregular = mine.irregular.size(), n = at(end - begin);
     mine.suspects.resize(suspects + n);
     mine.irregular.resize(irregular + n);
     SweepLeftovers leftovers{mine.suspects.data() + suspects, mine.irregular.data() + irregular};
-    tallies_[static_cast<std::size_t>(t)] = kernel(sweep, begin, end, leftovers);
+    tallies_[t] = kernel(sweep, begin, end, leftovers);
     mine.suspects.resize(suspects + static_cast<std::size_t>(leftovers.suspect_count));
     mine.irregular.resize(irregular + static_cast<std::size_t>(leftovers.irregular_count));
-    retally_[static_cast<std::size_t>(t)] = leftovers.suspect_count + leftovers.irregular_count > 0;
+    retally_[t] = leftovers.suspect_count + leftovers.irregular_count > 0;
   });
-  suspects_.clear();
-  irregular_.clear();
-  for (const Work& mine : work) {
-    suspects_.insert(suspects_.end(), mine.suspects.begin(), mine.suspects.end());
+  for (Work& mine : work) {
+    mark(mine.suspects, suspects_);
     irregular_.insert(irregular_.end(), mine.irregular.begin(), mine.irregular.end());
   }
 }
@@ -307,13 +325,16 @@ void Sweeper::prepare(const UpdateRule& rule) {
   state_.points().prepare_advance();
   rebuilt_ = 0;
   checked_.clear();
-  SweepTask all = task();
-  all.rule = rule.parameters();
-  wake_tiles(all.rule);
-  run_kernel(all);
-  std::vector<LocalIndex> first;
-  first.swap(suspects_);
-  mark(first, suspects_);
+  suspects_.clear();
+  irregular_.clear();
+  for (const Tiles which : {Tiles::inner, Tiles::at_borders}) {
+    SweepTask sweep = task();
+    sweep.rule = rule.parameters();
+    wake_tiles(sweep.rule, which);
+    run_kernel(sweep, which);
+    finish_move();
+  }
+  all_awake_ = false;
   for (int round = 0;; ++round) {
     const std::size_t before = checked_.size();
     const std::int64_t uncertain = certify_suspects();
@@ -383,18 +404,31 @@ Sweeper::Counts Sweeper::commit() {
     move_and_sort(deleted);
     return counts_;
   }
-  const std::vector<double> before = points.drifts();
-  for (LocalIndex t = points.first_tile(); t < points.last_tile(); ++t)
-    points.set_drift(t,
-                     points.drift(t) + std::sqrt(tallies_[at(t - points.first_tile())].squared_distance) * (1 + 1e-9));
+  drifts_before_ = points.drifts();
+  for (LocalIndex t = points.first_tile(); t < points.last_tile(); ++t) {
+    const double squared = tallies_[at(t - points.first_tile())].squared_distance;
+    points.set_drift(t, points.drift(t) + std::sqrt(squared) * (1 + 1e-9));
+    active_[at(t)] = squared > 0;
+  }
   const bool new_sizes = ++age_of_sizes_ >= sweeps_of_a_size;
-  state_.advance(context_.size, drift_, new_sizes);
+  state_.begin_advance(context_.size, drift_, new_sizes);
+  under_way_ = true;
   if (new_sizes)
     age_of_sizes_ = 0;
-  for (std::size_t t = 0; t < active_.size(); ++t)
-    active_[t] = points.drifts()[t] > before[t];
   sorted_ = false;
   return counts_;
+}
+
+/// Waits for the ghosts of the last move.
+void Sweeper::finish_move() {
+  if (!under_way_)
+    return;
+  under_way_ = false;
+  state_.finish_advance(context_.size);
+  const mesh::BinnedPoints& points = state_.points();
+  for (std::size_t t = 0; t < active_.size(); ++t)
+    if (const LocalIndex tile = static_cast<LocalIndex>(t); tile < points.first_tile() || tile >= points.last_tile())
+      active_[t] = points.drifts()[t] > drifts_before_[t];
 }
 
 /// @param deleted empty: none
@@ -424,6 +458,7 @@ void Sweeper::discard() {
 }
 
 void Sweeper::sort() {
+  finish_move();
   discard();
   if (sorted_)
     return;

@@ -66,8 +66,11 @@ private:
   SweepTask task();
   void classify();
   SiteClass class_of(LocalIndex i) const;
-  void wake_tiles(const RuleParameters& rule);
-  void run_kernel(const SweepTask& task);
+  /// Tiles whose neighbours all belong to this rank are done while the ghosts are on their way.
+  enum class Tiles { inner, at_borders };
+  void wake_tiles(const RuleParameters& rule, Tiles which);
+  void run_kernel(const SweepTask& task, Tiles which);
+  void finish_move();
   std::int64_t certify_suspects();
   void mark(std::vector<LocalIndex>& sites, std::vector<LocalIndex>& list);
   void move_one_by_one(const UpdateRule& rule, std::span<const LocalIndex> sites);
@@ -99,6 +102,8 @@ private:
   std::vector<std::uint8_t> wide_;             // by owned tile: triangles may reach beyond the tiles around it
   std::vector<SweepSums> measured_;            // by owned tile, if there is room for that
   std::vector<std::uint8_t> is_measured_;      // by owned tile: and nothing has changed since
+  std::vector<Tiles> kinds_;                   // by owned tile
+  std::vector<double> drifts_before_;          // by tile of the container: before the last move
   std::vector<std::uint8_t> active_;           // by tile of the container: sites were moved by the last sweep
   RuleParameters waking_rule_;                 // of the last sweep with all tiles awake
   bool all_awake_ = true;                      // in the next sweep
@@ -110,7 +115,7 @@ private:
   double largest_distance_ = 0;           // of this sweep, over all ranks
   double drift_ = 0, drift_in_sizes_ = 0; // since the last sorting, over all ranks
   int age_of_sizes_ = 0;                  // in sweeps
-  bool sorted_ = true, prepared_ = false;
+  bool sorted_ = true, prepared_ = false, under_way_ = false;
 };
 
 } // namespace trime::meshing

@@ -93,7 +93,7 @@ public:
     Exchange();
     Exchange(Exchange&&) noexcept;
     Exchange& operator=(Exchange&&) noexcept;
-    ~Exchange(); ///< @pre waited for, or nothing was begun
+    ~Exchange(); ///< waits
     bool is_open() const;
     void wait();
 

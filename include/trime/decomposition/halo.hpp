@@ -33,9 +33,10 @@ public:
   void refresh(mesh::BinnedPoints& points);
 
   /// @brief Fetches the positions of the ghosts anew, after their owners moved them without sorting, and the drift
-  /// of their tiles (see BinnedPoints). One message per neighbour, 16 bytes a ghost and 8 a tile. Collective among
-  /// neighbours only. @pre no periods
-  void refresh_positions(mesh::BinnedPoints& points) const;
+  /// of their tiles (see BinnedPoints). One message per neighbour, 16 bytes a ghost and 8 a tile. In two parts: between
+  /// them ghosts must not be looked at. Collective among neighbours only. @pre no periods
+  void begin_positions(const mesh::BinnedPoints& points);
+  void finish_positions(mesh::BinnedPoints& points);
 
   /// @brief New local index by old index - owned for the ghosts of the last refresh, after a growth of the
   /// subscriptions with unchanged sites. Valid until the next refresh.
@@ -57,6 +58,7 @@ private:
   template <class T>
   std::vector<T> exchange_values(const mesh::BinnedPoints& points, std::span<const T> owned_values) const;
   std::size_t ghosts_of(const mesh::BinnedPoints& points, const Peer& peer) const;
+  static bool begins_tile(const Peer& peer, std::size_t k);
   void list_bins_around(LocalIndex tile, int margin, std::vector<mesh::BinRef>& wanted) const;
   void note_renumbering(LocalIndex owned, std::span<const std::int32_t> new_counts);
 
@@ -68,6 +70,8 @@ private:
   std::vector<std::int32_t> counts_;    // ghosts per imported bin at the last refresh
   std::vector<mesh::BinRef> refreshed_; // imported bins at the last refresh
   std::vector<LocalIndex> ghost_renumbering_;
+  std::vector<comm::Message> positions_; // on their way, one message per import
+  comm::Communicator::Exchange exchange_;
 };
 
 } // namespace trime::decomposition
