@@ -7,6 +7,7 @@
 #include <omp.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 
 namespace trime {
@@ -37,6 +38,17 @@ void thread_loop(std::ptrdiff_t n, int chunk, const Body& body) {
     }
   if (thrown)
     std::rethrow_exception(thrown);
+}
+
+/// Sum (mod 2^64) of term(item) over items [0, n): the same for any threads. The terms must not throw.
+template <class Term>
+std::uint64_t thread_sum(std::size_t n, const Term& term) {
+  constexpr std::size_t few = 4096;
+  std::uint64_t sum = 0;
+#pragma omp parallel for schedule(static) reduction(+ : sum) if (n > few)
+  for (std::size_t item = 0; item < n; ++item)
+    sum += term(item);
+  return sum;
 }
 
 } // namespace trime

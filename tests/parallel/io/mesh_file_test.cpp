@@ -44,12 +44,14 @@ mesh::DistributedMesh make_mesh(const comm::Communicator& comm, std::uint64_t se
     mesh.size.push_back(static_cast<float>(i) / 7);
     mesh.fixed.push_back(i % 5 == 0);
   }
+  std::vector<std::array<GlobalId, 3>> ids;
   for (std::int64_t k = 0, i = mesh.triangle_slab.first; k < triangles; ++k, ++i) {
-    mesh.triangles.push_back({vertex(i, 0), vertex(i, 1), vertex(i, 2)});
+    ids.push_back({vertex(i, 0), vertex(i, 1), vertex(i, 2)});
     mesh.alpha.push_back(1 + static_cast<float>(i) / 3);
     mesh.beta.push_back(1 + static_cast<float>(i) / 5);
     mesh.region.push_back(static_cast<std::int32_t>(i % 2));
   }
+  assign_triangles(mesh, ids);
   for (std::int64_t k = 0, i = mesh.facet_slab.first; k < facets; ++k, ++i) {
     mesh.facets.push_back({i, (i + 1) % n_facets});
     mesh.facet_tags.push_back(static_cast<std::int32_t>(1 + i % 3));
