@@ -339,8 +339,8 @@ TEST(SlabFile, ARankThatCannotMakeItsRowsStopsAllRanks) {
   for (const std::int64_t failing_slice : {0, 1, 2}) {
     SlabArray array = counting(comm, failing_slice == 0 ? "/a" : failing_slice == 1 ? "/b" : "/c", many_rows);
     if (comm.rank() == comm.size() - 1)
-      array.fill = [&, slice = 0](std::int64_t, std::int64_t, std::byte*) mutable {
-        if (slice++ == failing_slice)
+      array.fill = [failing_row = failing_slice * many_rows / 3](std::int64_t first, std::int64_t count, std::byte*) {
+        if (first + count > failing_row)
           throw std::bad_alloc();
       };
     try {
@@ -360,13 +360,15 @@ TEST(SlabFile, RowsThatAreReadBackOtherwiseAreToldByAllRanks) {
   const test::TemporaryDirectory directory(comm);
   SlabFile file(comm, directory.path() + "/a.h5");
   SlabArray array = counting(comm, "/a", many_rows);
+  bool written = false;
   if (comm.rank() == comm.size() - 1)
-    array.fill = [right = array.fill, calls = 0](std::int64_t first, std::int64_t count, std::byte* out) mutable {
+    array.fill = [right = array.fill, &written](std::int64_t first, std::int64_t count, std::byte* out) {
       right(first, count, out);
-      if (++calls == 5) // the second slice of the second pass
-        out[count - 1] ^= std::byte{1};
+      if (written && first <= many_rows / 2 && many_rows / 2 < first + count)
+        out[many_rows / 2 - first] ^= std::byte{1};
     };
   file.slab(std::move(array));
+  written = true;
   EXPECT_THROW(file.verify(), FileError);
 }
 
