@@ -10,6 +10,7 @@
 #include "trime/geometry/region.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cmath>
 #include <filesystem>
 
@@ -183,6 +184,7 @@ void read_meshing(const Settings& settings, meshing::MeshOptions& mesh, io::Diag
   mesh.seed = static_cast<std::uint64_t>(settings.integer("meshing", "seed"));
   mesh.max_sweeps = static_cast<int>(settings.integer("meshing", "max_sweeps"));
   mesh.cleanup = settings.boolean("meshing", "cleanup");
+  mesh.verify_stars = std::getenv("TRIME_VERIFY_STARS") != nullptr; // no key: a tool for those who change the sweeps
   mesh.stop_tolerance = settings.optional_number("meshing", "stop_tolerance");
 }
 

@@ -4,6 +4,7 @@
 #include "trime/core/error.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace trime::decomposition {
 namespace {
@@ -164,6 +165,16 @@ void Halo::note_renumbering(LocalIndex owned, std::span<const std::int32_t> new_
   }
 }
 
+/// Ghosts that come from a peer.
+std::size_t Halo::ghosts_of(const mesh::BinnedPoints& points, const Peer& peer) const {
+  std::size_t sites = 0;
+  for (const BinRef& bin : peer.bins) {
+    const auto [begin, end] = points.bin_range(bin);
+    sites += static_cast<std::size_t>(end - begin);
+  }
+  return sites;
+}
+
 std::vector<GlobalId> Halo::exchange(const mesh::BinnedPoints& points, std::span<const GlobalId> owned_values) const {
   std::vector<Message> outgoing, incoming;
   for (const Peer& peer : exports_) {
@@ -174,16 +185,60 @@ std::vector<GlobalId> Halo::exchange(const mesh::BinnedPoints& points, std::span
         append(outgoing.back().data, owned_values[static_cast<std::size_t>(i)]);
     }
   }
-  for (const Peer& peer : imports_) {
-    std::size_t sites = 0;
-    for (const BinRef& bin : peer.bins) {
-      const auto [begin, end] = points.bin_range(bin);
-      sites += static_cast<std::size_t>(end - begin);
-    }
-    incoming.push_back({peer.rank, std::vector<std::byte>(sites * sizeof(GlobalId))});
-  }
+  for (const Peer& peer : imports_)
+    incoming.push_back({peer.rank, std::vector<std::byte>(ghosts_of(points, peer) * sizeof(GlobalId))});
   comm_->exchange_known(outgoing, incoming);
   return concatenate<GlobalId>(incoming);
+}
+
+/// For each tile of a peer its drift, then the positions of its sites.
+void Halo::refresh_positions(mesh::BinnedPoints& points) const {
+  TRIME_ASSERT(!grid_->periods().any());
+  const auto begins_tile = [](const Peer& peer, std::size_t k) {
+    return k == 0 || peer.bins[k].tile != peer.bins[k - 1].tile;
+  };
+  std::vector<Message> outgoing, incoming;
+  for (const Peer& peer : exports_) {
+    outgoing.push_back({peer.rank, {}});
+    std::vector<std::byte>& data = outgoing.back().data;
+    for (std::size_t k = 0; k < peer.bins.size(); ++k) {
+      if (begins_tile(peer, k))
+        append(data, points.drift(peer.bins[k].tile));
+      const auto [begin, end] = points.bin_range({peer.bins[k].tile, peer.bins[k].bin});
+      const auto bytes = std::as_bytes(
+          points.positions().subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)));
+      data.insert(data.end(), bytes.begin(), bytes.end());
+    }
+  }
+  for (const Peer& peer : imports_) {
+    std::size_t tiles = 0;
+    for (std::size_t k = 0; k < peer.bins.size(); ++k)
+      tiles += begins_tile(peer, k);
+    incoming.push_back(
+        {peer.rank, std::vector<std::byte>(tiles * sizeof(double) + ghosts_of(points, peer) * sizeof(geometry::Vec2))});
+  }
+  comm_->exchange_known(outgoing, incoming);
+  const std::span<geometry::Vec2> ghosts = points.ghost_positions();
+  for (std::size_t next = 0, m = 0; m < incoming.size(); ++m) {
+    const std::byte* from = incoming[m].data.data();
+    const auto take = [&from](void* to, std::size_t size) {
+      if (size > 0)
+        std::memcpy(to, from, size);
+      from += size;
+    };
+    for (std::size_t k = 0; k < imports_[m].bins.size(); ++k) {
+      const BinRef& bin = imports_[m].bins[k];
+      if (begins_tile(imports_[m], k)) {
+        double drift = 0;
+        take(&drift, sizeof drift);
+        points.set_drift(bin.tile, drift);
+      }
+      const auto [begin, end] = points.bin_range(bin);
+      const std::size_t sites = static_cast<std::size_t>(end - begin);
+      take(ghosts.data() + next, sites * sizeof(geometry::Vec2));
+      next += sites;
+    }
+  }
 }
 
 } // namespace trime::decomposition

@@ -238,6 +238,45 @@ private:
   std::vector<std::uint8_t> counted_;
 };
 
+/// What all workers found.
+StarPass collect(const std::vector<StarWorker>& workers, std::vector<mesh::BinRef>& missing) {
+  StarPass pass;
+  for (const StarWorker& worker : workers) {
+    pass.rebuilt += worker.pass().rebuilt;
+    pass.uncertain += worker.pass().uncertain;
+    missing.insert(missing.end(), worker.missing().begin(), worker.missing().end());
+  }
+  std::sort(missing.begin(), missing.end());
+  missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
+  return pass;
+}
+
+void copy_ring(std::span<const LocalIndex> from, std::vector<LocalIndex>& to) {
+  to.assign(from.begin(), from.end());
+}
+
+/// The owned members of two rings of a site that have other triangles with it in the one than in the other.
+void list_affected(std::span<const LocalIndex> before, std::span<const LocalIndex> after, LocalIndex owned,
+                   std::vector<LocalIndex>& affected) {
+  if (std::equal(before.begin(), before.end(), after.begin(), after.end()))
+    return;
+  const auto around = [](std::span<const LocalIndex> ring, std::size_t k) {
+    return std::pair(ring[k == 0 ? ring.size() - 1 : k - 1], ring[k + 1 == ring.size() ? 0 : k + 1]);
+  };
+  const auto list = [&](std::span<const LocalIndex> ring, std::span<const LocalIndex> other, bool changed_too) {
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      if (ring[k] < 0 || ring[k] >= owned)
+        continue;
+      const auto found = std::find(other.begin(), other.end(), ring[k]);
+      if (found == other.end() ||
+          (changed_too && around(ring, k) != around(other, static_cast<std::size_t>(found - other.begin()))))
+        affected.push_back(ring[k]);
+    }
+  };
+  list(before, after, true);
+  list(after, before, false);
+}
+
 } // namespace
 
 bool StarBuilder::counts(Vec2 a, Vec2 b, Vec2 c, double cap, const geometry::Periods& periods) {
@@ -265,20 +304,36 @@ StarPass StarBuilder::update(const mesh::BinnedPoints& points, StarTable& stars,
           stars.clear(i);
         stars.set_certain(i, false); // to be computed once it is wanted
       } else if (!stars.certain(i)) {
-        workers[static_cast<std::size_t>(thread)].compute(i,
-                                                          std::min(limit, sizes.known(i) ? cap(sizes[i]) : largest_));
+        workers[static_cast<std::size_t>(thread)].compute(i, cap_at(sizes, i, limit));
       }
     }
   });
-  StarPass pass;
-  for (const StarWorker& worker : workers) {
-    pass.rebuilt += worker.pass().rebuilt;
-    pass.uncertain += worker.pass().uncertain;
-    missing.insert(missing.end(), worker.missing().begin(), worker.missing().end());
-  }
-  std::sort(missing.begin(), missing.end());
-  missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-  return pass;
+  return collect(workers, missing);
+}
+
+StarPass StarBuilder::certify(const mesh::BinnedPoints& points, StarTable& stars, const mesh::LocalSizes& sizes,
+                              std::span<const LocalIndex> sites, std::vector<LocalIndex>& affected,
+                              std::vector<mesh::BinRef>& missing) const {
+  struct Rings {
+    std::vector<LocalIndex> before, after, room, affected;
+  };
+  const std::size_t threads = static_cast<std::size_t>(std::max(1, thread_count()));
+  std::vector<StarWorker> workers;
+  for (std::size_t thread = 0; thread < threads; ++thread)
+    workers.emplace_back(points, stars, lattice_);
+  std::vector<Rings> rings(threads);
+  const double limit = largest_cap(points.grid().periods());
+  thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 64, [&](std::ptrdiff_t k, int thread) {
+    const LocalIndex i = sites[static_cast<std::size_t>(k)];
+    Rings& r = rings[static_cast<std::size_t>(thread)];
+    copy_ring(stars.load(i, r.room), r.before);
+    workers[static_cast<std::size_t>(thread)].compute(i, cap_at(sizes, i, limit));
+    copy_ring(stars.load(i, r.room), r.after);
+    list_affected(r.before, r.after, points.owned(), r.affected);
+  });
+  for (const Rings& r : rings)
+    affected.insert(affected.end(), r.affected.begin(), r.affected.end());
+  return collect(workers, missing);
 }
 
 } // namespace trime::delaunay

@@ -35,6 +35,7 @@ void StarTable::store(LocalIndex i, std::span<const LocalIndex> ring) {
   if (ring.size() <= slots) {
     clear(i);
     std::copy(ring.begin(), ring.end(), rings_[at].begin());
+    repeat(rings_[at], ring.size());
     degree_[at] = static_cast<std::uint8_t>(ring.size());
     return;
   }
@@ -50,6 +51,13 @@ void StarTable::store(LocalIndex i, std::span<const LocalIndex> ring) {
   }
   overflow_[static_cast<std::size_t>(rings_[at][0])].assign(ring.begin(), ring.end());
   degree_[at] = overflowing;
+}
+
+/// Fills the slots behind a ring with the ring again.
+void StarTable::repeat(std::array<LocalIndex, slots>& ring, std::size_t degree) {
+  if (degree > 0)
+    for (std::size_t k = degree; k < slots; ++k)
+      ring[k] = ring[k - degree];
 }
 
 void StarTable::release_overflow(LocalIndex i) {
@@ -84,8 +92,10 @@ void StarTable::renumber(std::span<const LocalIndex> new_index, LocalIndex new_s
       const LocalIndex to = new_index[static_cast<std::size_t>(i)];
       const std::uint8_t n = degree_[static_cast<std::size_t>(i)];
       if (to >= 0 && n != overflowing &&
-          map_ring({rings_[static_cast<std::size_t>(i)].data(), n}, rings_back_[static_cast<std::size_t>(to)].data()))
+          map_ring({rings_[static_cast<std::size_t>(i)].data(), n}, rings_back_[static_cast<std::size_t>(to)].data())) {
+        repeat(rings_back_[static_cast<std::size_t>(to)], n);
         degree_back_[static_cast<std::size_t>(to)] = n;
+      }
     }
   });
   overflow_back_.clear();
@@ -112,8 +122,10 @@ void StarTable::renumber_ghosts(LocalIndex first, std::span<const LocalIndex> ne
       neighbour = new_index[static_cast<std::size_t>(neighbour - first)];
   };
   for (std::size_t i = 0; i < rings_.size(); ++i)
-    if (degree_[i] != overflowing)
+    if (degree_[i] != overflowing) {
       std::for_each_n(rings_[i].begin(), degree_[i], map);
+      repeat(rings_[i], degree_[i]);
+    }
   for (std::vector<LocalIndex>& ring : overflow_)
     std::for_each(ring.begin(), ring.end(), map);
 }

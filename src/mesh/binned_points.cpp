@@ -27,6 +27,10 @@ LocalIndex BinnedPoints::assign_owned(std::span<const Site> sites, LocalIndex fi
   first_tile_ = first_tile;
   last_tile_ = last_tile;
   make_owned_blocks();
+  if (largest_drift_ > 0 || drift_.empty()) {
+    drift_.assign(static_cast<std::size_t>(grid_->tile_count()), 0);
+    largest_drift_ = 0;
+  }
   sort_into_tiles(sites);
   kept_.assign(static_cast<std::size_t>(tiles) + 1, 0);
   thread_loop(tiles, 1, [&](std::ptrdiff_t t, int) {
@@ -209,6 +213,31 @@ void BinnedPoints::assign_ghosts(std::span<const BinRef> bins, std::span<const s
   }
 }
 
+void BinnedPoints::prepare_advance() {
+  next_positions_.resize(positions_.size());
+  next_leads_.resize(leads_.size());
+}
+
+void BinnedPoints::advance() {
+  std::copy(positions_.begin() + owned_, positions_.end(), next_positions_.begin() + owned_);
+  positions_.swap(next_positions_);
+  leads_.swap(next_leads_);
+}
+
+/// How much farther a search has to go for sites that have left their bins: those near `center` were sorted into its
+/// tile or one next to it, unless the search or the drift reaches across a whole tile.
+double BinnedPoints::margin(Vec2 center, double reach) const {
+  const geometry::Box box = grid_->tile_box(0);
+  if (reach + largest_drift_ > std::min(box.width(), box.height()))
+    return largest_drift_;
+  const int column = grid_->tile_of(grid_->fixed_x(center.x)), row = grid_->tile_of(grid_->fixed_y(center.y));
+  double most = 0;
+  for (int y = std::max(0, row - 1); y <= std::min(grid_->tiles_y() - 1, row + 1); ++y)
+    for (int x = std::max(0, column - 1); x <= std::min(grid_->tiles_x() - 1, column + 1); ++x)
+      most = std::max(most, drift(grid_->tile_at(x, y)));
+  return most;
+}
+
 BinnedPoints::Range BinnedPoints::tile_range(LocalIndex tile) const {
   const std::size_t t = static_cast<std::size_t>(tile - first_tile_);
   return {kept_[t], kept_[t + 1]};
@@ -255,6 +284,8 @@ int BinnedPoints::suitable_bin_bits(LocalIndex tile) const {
 void BinnedPoints::release_work_space() {
   for (std::vector<LocalIndex>* list : {&tile_start_, &order_, &sorted_, &tile_of_, &key_})
     std::vector<LocalIndex>().swap(*list);
+  for (std::vector<Vec2>* list : {&next_positions_, &next_leads_})
+    std::vector<Vec2>().swap(*list);
 }
 
 void BinnedPoints::release_moves() {

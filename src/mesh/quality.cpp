@@ -72,17 +72,17 @@ void RatioStatistics::add(std::span<const double> ratios) {
   for (const double ratio : ratios) {
     const double capped = ratio < sum_cap ? ratio : sum_cap; // also catches infinity and NaN
     const double square = (capped - 1) * (capped - 1);
-    sum += FixedSum::steps(capped);
-    roots += FixedSum::steps(std::sqrt(capped));
-    squares += FixedSum::steps(square < sum_cap ? square : sum_cap);
+    sum += FixedSum::units(capped);
+    roots += FixedSum::units(std::sqrt(capped));
+    squares += FixedSum::units(square < sum_cap ? square : sum_cap);
     largest = largest < ratio ? ratio : largest;
   }
   for (const double ratio : ratios)
     ++bins_[bin(ratio < sum_cap ? ratio : sum_cap)];
   count_ += std::ssize(ratios);
-  sum_.add_steps(sum);
-  sum_of_roots_.add_steps(roots);
-  sum_of_squares_.add_steps(squares);
+  sum_.add_units(sum);
+  sum_of_roots_.add_units(roots);
+  sum_of_squares_.add_units(squares);
   max_ = largest;
 }
 

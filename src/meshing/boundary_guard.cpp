@@ -221,6 +221,16 @@ double BoundaryGuard::distance(Vec2 p, double reach) const {
   return found ? std::sqrt(found->squared_distance) : reach;
 }
 
+BoundaryGuard::CellView BoundaryGuard::cells() const {
+  static_assert(sizeof(Cell) == 1);
+  return {is_empty() ? nullptr : reinterpret_cast<const std::uint8_t*>(state_.data()),
+          static_cast<std::uint8_t>(Cell::inside),
+          corner_,
+          inverse_side_,
+          columns_,
+          rows_};
+}
+
 bool BoundaryGuard::may_meet_chord(const geometry::Box& box) const {
   bool found = false;
   for_each_shift(periods_, 0, [&](Vec2 shift) {

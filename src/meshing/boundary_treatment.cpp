@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/boundary_treatment.hpp"
 
+#include "meshing/sweep_kernel.hpp"
 #include "trime/comm/agree.hpp"
 #include "trime/core/thread_loop.hpp"
 
@@ -12,16 +13,15 @@ namespace {
 
 using geometry::Vec2;
 
-constexpr double move_cap = 0.4; // of h
-constexpr double still = 0.005;  // of h
-constexpr int pushes_allowed = 3;
-
 /// The step of a rule, not longer than `limit`: the lead gives way first.
 Step capped(Step step, double limit) {
   const auto cap = [limit](Vec2 v) {
     const double squared = geometry::squared_length(v);
     return squared > limit * limit ? (limit / std::sqrt(squared)) * v : v;
   };
+  const Vec2 way = step.move + step.lead;
+  if (geometry::squared_length(step.move) <= limit * limit && geometry::squared_length(way) <= limit * limit)
+    return step;
   step.move = cap(step.move);
   step.lead = cap(step.move + step.lead) - step.move;
   return step;
@@ -34,56 +34,6 @@ Vec2 into_box(Vec2 p, const mesh::TileGrid& grid) {
           grid.periods().y > 0 ? p.y : std::clamp(p.y, box.min.y, box.max.y)};
 }
 
-constexpr double largest_power = 0x1p10; // of one site, keeps FixedSum within its reach
-
-/// Applies `propose` (local index, h -> Step) to all owned inner sites and treats the boundary.
-template <class Propose>
-MoveCounts move_all(SiteState& state, const MoveContext& context, int allowed, const Propose& propose) {
-  const mesh::BinnedPoints& points = state.points();
-  std::vector<mesh::Site> sites(static_cast<std::size_t>(points.owned()));
-  std::vector<std::uint8_t> deleted(sites.size(), 0);
-  std::vector<MoveCounts> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
-  const StarView view = view_of(state, context.size);
-  const LocalIndex first_tile = points.first_tile();
-  comm::run_agreed(state.comm(), [&] { // the rule and the size field may be a user's
-    thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t t, int thread) {
-      const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
-      MoveCounts counts;
-      for (LocalIndex i = begin; i < end; ++i) {
-        mesh::Site& site = sites[static_cast<std::size_t>(i)] = points.site(i);
-        if (site.boundary != mesh::free_site)
-          continue;
-        const Vec2 from = site.position;
-        const double h = view.size(i);
-        const Step step = propose(i, h);
-        site.position = context.lattice.snap(into_box(from + step.move + step.lead, state.grid()));
-        site.lead = step.lead;
-        counts.power.add(std::clamp(step.power, -largest_power, largest_power));
-        if (const auto pushed = context.guard.correct(site.position, h, context.lattice)) {
-          if (site.pushes >= allowed) {
-            deleted[static_cast<std::size_t>(i)] = 1;
-            ++counts.deleted;
-            continue;
-          }
-          site.position = context.lattice.snap(into_box(*pushed, state.grid()));
-          site.lead = {};
-          ++site.pushes;
-          ++counts.pushed;
-        }
-        const double moved = geometry::length(site.position - from) / h;
-        counts.moving += moved > still;
-        counts.max_move = std::max(counts.max_move, moved);
-      }
-      of_thread[static_cast<std::size_t>(thread)].add(counts);
-    });
-  });
-  MoveCounts all;
-  for (const MoveCounts& counts : of_thread)
-    all.add(counts);
-  state.move_sites(sites, deleted);
-  return all;
-}
-
 } // namespace
 
 void MoveCounts::add(const MoveCounts& other) {
@@ -94,14 +44,59 @@ void MoveCounts::add(const MoveCounts& other) {
   power.add(other.power);
 }
 
-MoveCounts move_by_rule(SiteState& state, const UpdateRule& rule, const MoveContext& context) {
-  const StarView view = view_of(state, context.size);
-  return move_all(state, context, pushes_allowed,
-                  [&](LocalIndex i, double h) { return capped(rule.step(view, i), move_cap * h); });
+Treated treat_step(const MoveContext& context, const mesh::TileGrid& grid, const mesh::Site& site, double h, Step step,
+                   int allowed) {
+  step = capped(step, move_cap * h);
+  if (const Vec2 way = step.move + step.lead; geometry::squared_length(way) < (rest * h) * (rest * h))
+    step = {};
+  const Vec2 way = step.move + step.lead;
+  Treated treated{context.lattice.snap(into_box(site.position + way, grid)), step.lead, site.pushes};
+  const auto pushed = context.guard.correct(treated.position, h, context.lattice);
+  if (!pushed)
+    return treated;
+  if (site.pushes >= allowed) {
+    treated.deleted = true;
+    return treated;
+  }
+  treated.position = context.lattice.snap(into_box(*pushed, grid));
+  treated.lead = {};
+  treated.pushed = true;
+  ++treated.pushes;
+  return treated;
 }
 
 MoveCounts settle_round(SiteState& state, const MoveContext& context, bool delete_all) {
-  return move_all(state, context, delete_all ? 0 : pushes_allowed, [](LocalIndex, double) { return Step{}; });
+  const mesh::BinnedPoints& points = state.points();
+  std::vector<mesh::Site> sites(static_cast<std::size_t>(points.owned()));
+  std::vector<std::uint8_t> deleted(sites.size(), 0);
+  std::vector<MoveCounts> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
+  const StarView view = view_of(state, context.size);
+  const LocalIndex first_tile = points.first_tile();
+  comm::run_agreed(state.comm(), [&] { // the size field may be a user's
+    thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t t, int thread) {
+      const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
+      MoveCounts counts;
+      for (LocalIndex i = begin; i < end; ++i) {
+        mesh::Site& site = sites[static_cast<std::size_t>(i)] = points.site(i);
+        if (site.boundary != mesh::free_site)
+          continue;
+        const Treated treated =
+            treat_step(context, state.grid(), site, view.size(i), {}, delete_all ? 0 : pushes_allowed);
+        deleted[static_cast<std::size_t>(i)] = treated.deleted;
+        counts.deleted += treated.deleted;
+        counts.pushed += treated.pushed;
+        site.position = treated.position;
+        site.lead = treated.lead;
+        site.pushes = treated.pushes;
+      }
+      of_thread[static_cast<std::size_t>(thread)].add(counts);
+    });
+  });
+  MoveCounts all;
+  for (const MoveCounts& counts : of_thread)
+    all.add(counts);
+  state.move_sites(sites, deleted);
+  return all;
 }
 
 } // namespace trime::meshing

@@ -15,7 +15,7 @@ struct MoveCounts {
   std::int64_t moving = 0; ///< moved by more than 0.005 h
   std::int64_t pushed = 0, deleted = 0;
   double max_move = 0; ///< longest move over h
-  FixedSum power;      ///< of the steps, see SweepSums
+  FixedSum power;      ///< of the moves, see SweepSums
 
   void add(const MoveCounts& other);
 };
@@ -27,9 +27,18 @@ struct MoveContext {
   const geometry::Lattice& lattice;
 };
 
-/// @brief One Jacobi move of all inner sites by `rule`, capped at 0.4 h, snapped, kept inside and out of the discs,
-/// then migration and sorting. Collective.
-MoveCounts move_by_rule(SiteState& state, const UpdateRule& rule, const MoveContext& context);
+/// Where a site goes in the end.
+struct Treated {
+  geometry::Vec2 position, lead;
+  std::int32_t pushes = 0; ///< those before included
+  bool pushed = false, deleted = false;
+};
+
+/// @brief The step of a rule, capped at 0.4 h (the lead gives way first), snapped, kept inside and out of the discs: an
+/// offender is pushed, or deleted once it has been pushed as often as is allowed.
+Treated treat_step(const MoveContext& context, const mesh::TileGrid& grid, const mesh::Site& site, double h, Step step,
+                   int pushes_allowed);
+constexpr int pushes_allowed = 3;
 
 /// @brief One round without any rule: offenders are pushed, or deleted once they have been pushed three times or
 /// `delete_all` is set. Collective. @return counts of this rank; pushed + deleted == 0 everywhere means that all discs

@@ -58,7 +58,6 @@ private:
 
   void fill_points(DistributedMesh& mesh) const {
     const std::size_t n = numbering_.order.size();
-    const mesh::LocalSizes& sizes = context_.state.sizes();
     mesh.points.resize(n);
     mesh.boundary.resize(n);
     mesh.size.resize(n);
@@ -69,7 +68,7 @@ private:
       const std::int32_t b = points_.boundary(i);
       mesh.points[k] = points_.position(i);
       mesh.boundary[k] = b < 0 ? 0 : context_.boundary.sites[at(b)].tag;
-      mesh.size[k] = static_cast<float>(sizes[i]);
+      mesh.size[k] = static_cast<float>(context_.size.size(points_.position(i))); // that of the state may be older
       mesh.fixed[k] = b >= 0 ? context_.boundary.sites[at(b)].corner : b == mesh::fixed_site;
     });
     mesh.point_slab = {numbering_.first, numbering_.total};

@@ -74,7 +74,7 @@ struct Extraction {
   mesh::DistributedMesh mesh;
   mesh::QualitySummary quality;
 };
-/// @pre stars and sizes of all sites are certain, halo fresh. O(points); threads.
+/// @pre stars of all sites are certain, bins and halo fresh. O(points); threads.
 /// @throws GeometryError on all ranks together if the size at an edge is not positive and finite. Collective.
 Extraction extract_mesh(const ExtractionContext& context, const decomposition::Numbering& numbering);
 

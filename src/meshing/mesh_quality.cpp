@@ -112,11 +112,11 @@ void QualityMeter::measure_edges() {
   std::int64_t ratios = 0, squares = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const double capped = std::min(most_over_size, geometry::length(to_[k] - from_[k]) / size[k]);
-    ratios += FixedSum::steps(capped);
-    squares += FixedSum::steps(capped * capped);
+    ratios += FixedSum::units(capped);
+    squares += FixedSum::units(capped * capped);
   }
-  sums_.ratio.add_steps(ratios);
-  sums_.squared_ratio.add_steps(squares);
+  sums_.ratio.add_units(ratios);
+  sums_.squared_ratio.add_units(squares);
   sums_.edges += static_cast<std::int64_t>(n);
   edges_ = 0;
 }

@@ -11,6 +11,7 @@
 #include "meshing/site_state.hpp"
 #include "meshing/stopping.hpp"
 #include "meshing/sweep_record.hpp"
+#include "meshing/sweeper.hpp"
 #include "trime/comm/agree.hpp"
 #include "trime/core/error.hpp"
 #include "trime/geometry/lattice.hpp"
@@ -156,32 +157,58 @@ private:
 
   // --- sweeps -------------------------------------------------------------------------------------------------------
 
+  /// Sweeps until the stop rule ends the stage, at the sweep cap at the latest; then sorts.
   void relax(SweepControl& control) {
     control.begin_stage(scheme_->inserts(), scheme_->is_last());
-    MoveCounts moved;
-    for (;;) { // ends at the sweep cap at the latest
-      const delaunay::StarPass pass = stars(Wanted::inner_sites);
-      const SweepSums sums = record_sweep(pass, moved);
-      const auto reason = control.decide();
-      history_.back().by_bars = control.mover() == Mover::bars;
-      log_sweep(reason && scheme_->is_last());
-      show_snapshot();
-      if (reason) {
-        stop_reason_ = *reason;
-        return;
-      }
-      const auto time = timers_.scope("move");
-      control.rule().begin_sweep(sums);
-      moved = move_by_rule(state(), control.rule(), move_context());
-      ++sweeps_;
+    Sweeper::Counts counts;
+    counts.rebuilt = comm_.sum(stars(Wanted::inner_sites).rebuilt);
+    Sweeper sweeper(state(), *builder_, move_context());
+    SweepSums sums = record_sweep(sweeper, counts);
+    begun_.reset();
+    while (!is_done(control, sweeper)) {
+      counts = sweep(sweeper, control, sums);
+      sums = record_sweep(sweeper, counts);
     }
+    const auto time = timers_.scope("sort");
+    sweeper.sort();
+  }
+
+  /// Moves the sites by the rule and certifies the stars at the new places. That is one pass with the search for the
+  /// places after these, which is made anew if the rule changes.
+  Sweeper::Counts sweep(Sweeper& sweeper, SweepControl& control, SweepSums& sums) {
+    const auto time = timers_.scope("sweeps");
+    if (begun_ != control.mover()) {
+      begun_ = control.mover();
+      control.rule().begin_sweep(sums);
+      sweeper.discard();
+    }
+    if (!sweeper.is_prepared())
+      sweeper.prepare(control.rule());
+    const Sweeper::Counts moved = sweeper.commit();
+    ++sweeps_;
+    sums.power = moved.power;
+    control.rule().begin_sweep(sums);
+    sweeper.prepare(control.rule());
+    if (options_.verify_stars)
+      sweeper.verify();
+    return moved;
+  }
+
+  bool is_done(SweepControl& control, Sweeper& sweeper) {
+    const auto reason = control.decide();
+    history_.back().by_bars = control.mover() == Mover::bars;
+    log_sweep(reason && scheme_->is_last());
+    show_snapshot(sweeper);
+    stop_reason_ = reason.value_or(stop_reason_);
+    return reason.has_value();
   }
 
   /// Shows the present triangulation to the observer, if the options ask for it.
-  void show_snapshot() {
+  void show_snapshot(Sweeper& sweeper) {
     const int retriangulation = static_cast<int>(history_.size()), interval = options_.snapshot_interval;
     if (!observer || interval == 0 || !(retriangulation == 1 || (interval > 0 && retriangulation % interval == 0)))
       return;
+    sweeper.sort();
     stars(Wanted::all_sites);
     const auto time = timers_.scope("snapshots");
     const decomposition::Numbering numbering =
@@ -202,9 +229,9 @@ private:
   const SiteState& state() const { return *layout_.state; }
   MoveContext move_context() const { return {*layout_.guard, *layout_.size, lattice_}; }
 
-  SweepSums record_sweep(const delaunay::StarPass& pass, const MoveCounts& moved) {
+  SweepSums record_sweep(Sweeper& sweeper, const Sweeper::Counts& counts) {
     const auto time = timers_.scope("measure");
-    SweepSummary summary = summarize_sweep(comm_, layout_, pass, moved);
+    SweepSummary summary = summarize_sweep(comm_, layout_, sweeper, counts);
     summary.record.sweep = sweeps_;
     summary.record.stage = scheme_->stage();
     summary.record.seconds = timers_.total();
@@ -336,8 +363,9 @@ private:
   std::unique_ptr<LayoutContext> context_;
   std::unique_ptr<PointScheme> scheme_;
   std::vector<SweepRecord> history_;
-  GlobalId placed_ = 0; // points at the beginning of the stage
-  int sweeps_ = 0;      // moves made
+  GlobalId placed_ = 0;        // points at the beginning of the stage
+  int sweeps_ = 0;             // moves made
+  std::optional<Mover> begun_; // the rule that knows the sums for the next move
   CleanupCounts cleanup_;
   StopReason stop_reason_ = StopReason::sweep_cap;
 };

@@ -129,8 +129,22 @@ void SiteState::carry_sizes() {
 
 /// Fetches the ghosts and evaluates h where it is not known: at the sites that moved, at the ghosts alone after the
 /// subscriptions grew.
-void SiteState::refresh_sites(const sizing::SizeField& size) {
+void SiteState::refresh(const sizing::SizeField& size) {
   halo_.refresh(points_);
+  evaluate_agreed(size);
+}
+
+void SiteState::advance(const sizing::SizeField& size, double drift, bool new_sizes) {
+  points_.advance();
+  halo_.refresh_positions(points_);
+  points_.set_largest_drift(drift);
+  if (new_sizes) {
+    sizes_.forget();
+    evaluate_agreed(size);
+  }
+}
+
+void SiteState::evaluate_agreed(const sizing::SizeField& size) {
   try {
     comm::run_agreed(comm_, [&] { evaluate_sizes(size); });
   } catch (...) {
@@ -175,7 +189,7 @@ delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder
 
 delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size,
                                             std::span<const delaunay::StarWish> wanted) {
-  refresh_sites(size);
+  refresh(size);
   delaunay::StarPass all;
   std::vector<mesh::BinRef> missing;
   for (int round = 0; round < max_halo_rounds; ++round) {
@@ -184,16 +198,19 @@ delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder
     all.rebuilt += pass.rebuilt;
     if (comm_.sum(pass.uncertain) == 0)
       return all;
-    subscribe(missing, size);
+    fetch(missing, size);
   }
   throw InternalError(fmt::format("the halo still grows after {} rounds", max_halo_rounds));
 }
 
-/// Fetches more bins; the sites stay as they are.
-void SiteState::subscribe(std::span<const mesh::BinRef> missing, const sizing::SizeField& size) {
+void SiteState::fetch(std::span<const mesh::BinRef> missing, const sizing::SizeField& size) {
   halo_.subscribe(missing);
-  refresh_sites(size);
+  refresh(size);
   stars_.renumber_ghosts(points_.owned(), halo_.ghost_renumbering());
+  if (points_.largest_drift() > 0) // of tiles that were not known before
+    for (LocalIndex tile = 0; tile < grid_.tile_count(); ++tile)
+      if (partition_.owner(tile) != comm_.rank())
+        points_.set_drift(tile, points_.largest_drift());
 }
 
 void SiteState::reveal(std::span<const Disc> discs, const sizing::SizeField& size) {
@@ -204,7 +221,7 @@ void SiteState::reveal(std::span<const Disc> discs, const sizing::SizeField& siz
   std::sort(missing.begin(), missing.end());
   missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
   if (comm_.sum(static_cast<std::int64_t>(missing.size())) > 0)
-    subscribe(missing, size);
+    fetch(missing, size);
 }
 
 void SiteState::release_work_space() {

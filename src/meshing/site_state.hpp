@@ -50,8 +50,18 @@ public:
   /// @pre in a periodic container radii below half a period
   void reveal(std::span<const Disc> discs, const sizing::SizeField& size);
 
+  /// @brief Fetches the ghosts and evaluates h at sites that moved; part of compute_stars. Collective.
+  void refresh(const sizing::SizeField& size);
+  /// @brief Moves the owned sites to BinnedPoints::next_positions, without sorting, and the ghosts with them.
+  /// Collective. @param drift bound on how far any site of any rank has come since sites were sorted
+  /// @param new_sizes evaluates h at the new places; else sites keep theirs @pre no periods
+  void advance(const sizing::SizeField& size, double drift, bool new_sizes);
+  /// Adds bins to those that this rank knows; local indices of ghosts may change. Collective.
+  void fetch(std::span<const mesh::BinRef> missing, const sizing::SizeField& size);
+
   const mesh::TileGrid& grid() const { return grid_; }
   const mesh::BinnedPoints& points() const { return points_; }
+  mesh::BinnedPoints& points() { return points_; }
   const delaunay::StarTable& stars() const { return stars_; }
   delaunay::StarTable& stars() { return stars_; }
   /// h at every known site since the last compute_stars; unknown after a move.
@@ -65,8 +75,7 @@ public:
 private:
   void wrap(std::vector<mesh::Site>& sites) const;
   void choose_bins(std::span<const mesh::Site> sites);
-  void refresh_sites(const sizing::SizeField& size);
-  void subscribe(std::span<const mesh::BinRef> missing, const sizing::SizeField& size);
+  void evaluate_agreed(const sizing::SizeField& size);
   void remember_sizes(std::span<const mesh::Site> sites);
   void carry_sizes();
   void evaluate_sizes(const sizing::SizeField& size);

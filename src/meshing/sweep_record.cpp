@@ -33,39 +33,38 @@ private:
 
 } // namespace
 
-SweepSummary summarize_sweep(const comm::Communicator& comm, const Layout& layout, const delaunay::StarPass& pass,
-                             const MoveCounts& moved) {
+SweepSummary summarize_sweep(const comm::Communicator& comm, const Layout& layout, Sweeper& sweeper,
+                             const Sweeper::Counts& counts) {
   SweepSummary summary;
   SweepSums& sums = summary.sums;
   SweepRecord& record = summary.record;
-  sums = measure(view_of(*layout.state, *layout.size), layout.typical_size);
-  sums.power = moved.power;
+  sums = sweeper.measure(layout.typical_size);
   Packer packer;
-  for (const FixedSum* sum : {&sums.squared_length_ratio, &sums.squared_size_ratio, &sums.excess_alpha, &sums.power})
+  for (const FixedSum* sum : {&sums.squared_length_ratio, &sums.squared_size_ratio, &sums.excess_alpha})
     packer.add(*sum);
-  for (const std::int64_t value : {sums.triangles, std::int64_t{layout.state->points().owned()}, pass.rebuilt,
-                                   moved.moving, moved.pushed, moved.deleted})
-    packer.add(value);
+  packer.add(sums.triangles);
+  packer.add(std::int64_t{layout.state->points().owned()});
   for (const std::int64_t count : sums.alpha_bins.counts())
     packer.add(count);
   comm.sum(packer.values);
-  std::array<double, 2> largest{sums.max_alpha, moved.max_move};
-  comm.max(largest);
+  sums.max_alpha = comm.max(sums.max_alpha);
 
-  for (FixedSum* sum : {&sums.squared_length_ratio, &sums.squared_size_ratio, &sums.excess_alpha, &sums.power})
+  for (FixedSum* sum : {&sums.squared_length_ratio, &sums.squared_size_ratio, &sums.excess_alpha})
     *sum = packer.take_sum();
-  std::int64_t moving = 0;
-  for (std::int64_t* value :
-       {&sums.triangles, &record.points, &record.rebuilt_stars, &moving, &record.pushed, &record.deleted})
-    *value = packer.take();
+  sums.triangles = packer.take();
+  record.points = packer.take();
   for (std::int64_t& count : sums.alpha_bins.counts())
     count = packer.take();
   record.mean_alpha = 1 + (sums.triangles > 0 ? sums.excess_alpha.value() / static_cast<double>(sums.triangles) : 0);
   record.median_alpha = 1 + sums.alpha_bins.median();
-  record.max_alpha = sums.max_alpha = largest[0];
-  record.max_move = largest[1];
+  record.max_alpha = sums.max_alpha;
+  record.max_move = counts.max_move;
+  record.rebuilt_stars = counts.rebuilt;
+  record.pushed = counts.pushed;
+  record.deleted = counts.deleted;
+  sums.power = counts.power;
   const GlobalId inner = record.points - layout.placed_first();
-  record.moving_share = inner > 0 ? static_cast<double>(moving) / static_cast<double>(inner) : 0;
+  record.moving_share = inner > 0 ? static_cast<double>(counts.moving) / static_cast<double>(inner) : 0;
   return summary;
 }
 

@@ -2,8 +2,8 @@
 // What one sweep did, summed over all ranks.
 #pragma once
 
-#include "meshing/boundary_treatment.hpp"
 #include "meshing/layout.hpp"
+#include "meshing/sweeper.hpp"
 #include "trime/meshing/options.hpp"
 #include "trime/meshing/update_rule.hpp"
 
@@ -17,10 +17,11 @@ struct SweepSummary {
   SweepSums sums;
 };
 
-/// @brief Measures the stars of the inner sites. One packed reduction: quality, sums for the rule, and what the last
-/// move did. Leaves `sweep`, `stage`, `by_bars` and `seconds` of the record to the caller. Collective.
-SweepSummary summarize_sweep(const comm::Communicator& comm, const Layout& layout, const delaunay::StarPass& pass,
-                             const MoveCounts& moved);
+/// @brief Measures the stars of the inner sites, with one packed reduction of quality and sums for the rule. Leaves
+/// `sweep`, `stage`, `by_bars` and `seconds` of the record to the caller. Collective.
+/// @param counts of the sweeps since the last record
+SweepSummary summarize_sweep(const comm::Communicator& comm, const Layout& layout, Sweeper& sweeper,
+                             const Sweeper::Counts& counts);
 
 /// The line of the log.
 std::string to_string(const SweepRecord& record);

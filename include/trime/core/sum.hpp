@@ -22,12 +22,13 @@ public:
 
   void add(double term) { value_ += static_cast<std::int64_t>(round_to_integer(term * 0x1p32)); }
   void add(const FixedSum& other) { value_ += other.value_; }
-  /// The multiple of `unit` that add(term) adds: at most 2^50. Loops over many terms may add these first.
-  static std::int64_t steps(double term) {
+  /// The multiple of the unit that add(term) adds: at most 2^50. Loops over many terms may add these first.
+  static std::int64_t units(double term) {
     // The integer is what differs in the last bits: this way processors have it for several terms at a time.
     return std::bit_cast<std::int64_t>(term * 0x1p32 + 0x1.8p52) - std::bit_cast<std::int64_t>(0x1.8p52);
   }
-  void add_steps(std::int64_t steps) { value_ += steps; }
+  /// Adds a multiple of the unit.
+  void add_units(std::int64_t units) { value_ += units; }
   double value() const { return static_cast<double>(value_) * unit; }
 
   /// Low 32 bits and the rest: both parts may be summed over ranks as plain integers before join.

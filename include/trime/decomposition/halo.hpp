@@ -32,6 +32,11 @@ public:
   /// only. Two messages per neighbour: site counts per bin, then the sites (24 bytes each).
   void refresh(mesh::BinnedPoints& points);
 
+  /// @brief Fetches the positions of the ghosts anew, after their owners moved them without sorting, and the drift
+  /// of their tiles (see BinnedPoints). One message per neighbour, 16 bytes a ghost and 8 a tile. Collective among
+  /// neighbours only. @pre no periods
+  void refresh_positions(mesh::BinnedPoints& points) const;
+
   /// @brief New local index by old index - owned for the ghosts of the last refresh, after a growth of the
   /// subscriptions with unchanged sites. Valid until the next refresh.
   std::span<const LocalIndex> ghost_renumbering() const { return ghost_renumbering_; }
@@ -48,6 +53,7 @@ private:
     int rank;
     std::vector<mesh::BinRef> bins; // ascending
   };
+  std::size_t ghosts_of(const mesh::BinnedPoints& points, const Peer& peer) const;
   void list_bins_around(LocalIndex tile, int margin, std::vector<mesh::BinRef>& wanted) const;
   void note_renumbering(LocalIndex owned, std::span<const std::int32_t> new_counts);
 

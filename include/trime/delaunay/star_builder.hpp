@@ -50,6 +50,9 @@ public:
   /// Largest circumradius that counts at a site of size h.
   double cap(double h = std::numeric_limits<double>::infinity()) const { return std::min(largest_, factor_ * h); }
 
+  /// The cap of a star over the size at its site.
+  double cap_factor() const { return factor_; }
+
   /// @brief A quarter of the shorter period, less a little; infinite without periods. No cap is larger: then edges are
   /// shorter than half a period, the neighbour at an edge's other end is the nearest image of its point, and triangles
   /// are told apart by the ids of their vertices.
@@ -63,12 +66,24 @@ public:
   StarPass update(const mesh::BinnedPoints& points, StarTable& stars, const mesh::LocalSizes& sizes,
                   std::span<const StarWish> wanted, std::vector<mesh::BinRef>& missing) const;
 
+  /// @brief Computes the stars of these owned sites, certain or not, each named once. Threads.
+  /// @param affected receives owned sites whose own stars must be looked at again, since a star here has changed beside
+  /// them; some of them more than once
+  /// @param missing as in update
+  StarPass certify(const mesh::BinnedPoints& points, StarTable& stars, const mesh::LocalSizes& sizes,
+                   std::span<const LocalIndex> sites, std::vector<LocalIndex>& affected,
+                   std::vector<mesh::BinRef>& missing) const;
+
   /// @brief True if the triangle a, b, c (any order) counts: circumradius below `cap`, computed in canonical order
   /// of the vertices, so that stars of the same cap agree.
   static bool counts(geometry::Vec2 a, geometry::Vec2 b, geometry::Vec2 c, double cap,
                      const geometry::Periods& periods = {});
 
 private:
+  double cap_at(const mesh::LocalSizes& sizes, LocalIndex i, double limit) const {
+    return std::min(limit, sizes.known(i) ? cap(sizes[i]) : largest_);
+  }
+
   geometry::Lattice lattice_;
   double factor_, largest_;
 };

@@ -18,7 +18,8 @@ constexpr LocalIndex gap = -1;
 
 /// @brief Rings of local indices, starting at the lexicographically smallest neighbour, in 8 fixed slots a site; longer
 /// rings lie in an overflow list. A ring with a gap in it (a site at the rim) has the entry `gap` there, never two
-/// in a row; an empty ring belongs to a site without triangles, or one whose star was not computed.
+/// in a row; an empty ring belongs to a site without triangles, or one whose star was not computed. What a ring leaves
+/// of its 8 slots repeats it, so that loops over pairs of neighbours need not look for its end.
 class StarTable {
 public:
   static constexpr int slots = 8;
@@ -33,6 +34,9 @@ public:
     return n <= slots ? std::span<const LocalIndex>(rings_[at].data(), n)
                       : std::span<const LocalIndex>(overflow_[static_cast<std::size_t>(rings_[at][0])]);
   }
+  /// The slots of all sites, 8 each, and the lengths of the rings (more than 8: not in the slots).
+  const LocalIndex* all_slots() const { return rings_.empty() ? nullptr : rings_[0].data(); }
+  const std::uint8_t* degrees() const { return degree_.data(); }
   /// The ring of site i while other sites are being stored; `room` holds it if it comes from the overflow list.
   std::span<const LocalIndex> load(LocalIndex i, std::vector<LocalIndex>& room) const;
   /// Stores a ring; different sites may be stored concurrently.
@@ -60,6 +64,7 @@ public:
 
 private:
   void release_overflow(LocalIndex i);
+  static void repeat(std::array<LocalIndex, slots>& ring, std::size_t degree);
 
   std::vector<std::array<LocalIndex, slots>> rings_, rings_back_;
   std::vector<std::uint8_t> degree_, degree_back_; // length of the ring; slots + 1 stands for an overflow entry

@@ -7,6 +7,7 @@
 #include "trime/geometry/vec2.hpp"
 #include "trime/mesh/tile_grid.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -92,6 +93,34 @@ public:
   /// bin with a few others on average, with at most four bins a site. O(sites of the tile).
   int suitable_bin_bits(LocalIndex tile) const;
 
+  /// @brief Moves without sorting: the places (and leads) that the owned sites will take at the next `advance`, to be
+  /// filled by the caller. The bins stay those of the last assign_owned; for_each_near then searches as much farther as
+  /// sites may have come since (the drift of their tile).
+  std::span<geometry::Vec2> next_positions() { return next_positions_; }
+  std::span<geometry::Vec2> next_leads() { return next_leads_; }
+  std::span<const geometry::Vec2> next_positions() const { return next_positions_; }
+  std::span<const geometry::Vec2> next_leads() const { return next_leads_; }
+  std::span<const geometry::Vec2> leads() const { return leads_; }
+  /// Makes room for the above.
+  void prepare_advance();
+  /// Moves the owned sites to their next places; the ghosts stay.
+  void advance();
+  /// No site that was sorted into this tile has come farther since.
+  void set_drift(LocalIndex tile, double distance) { drift_[static_cast<std::size_t>(tile)] = distance; }
+  double drift(LocalIndex tile) const { return drift_[static_cast<std::size_t>(tile)]; }
+  const std::vector<double>& drifts() const { return drift_; }
+  /// The largest of all drifts, over all ranks.
+  void set_largest_drift(double distance) { largest_drift_ = distance; }
+  double largest_drift() const { return largest_drift_; }
+  void set_pushes(LocalIndex i, std::int32_t pushes) {
+    pushes_[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::min(pushes, 255));
+  }
+  std::int32_t pushes(LocalIndex i) const { return pushes_[static_cast<std::size_t>(i)]; }
+  /// The ghosts, to be moved by their owners.
+  std::span<geometry::Vec2> ghost_positions() {
+    return std::span(positions_).subspan(static_cast<std::size_t>(owned_));
+  }
+
   /// Frees what the next assign_owned would use again.
   void release_work_space();
   /// Frees what only sites that move have. @post site() must not be called until assign_owned
@@ -105,6 +134,7 @@ private:
   };
   template <class Visit, class Missing>
   void visit_row(BinRef first_bin, int bx0, int bx1, const Visit& visit, const Missing& missing) const;
+  double margin(geometry::Vec2 center, double reach) const;
   void make_owned_blocks();
   std::size_t block_slot(LocalIndex tile, std::int32_t image) const {
     return static_cast<std::size_t>(tile) * static_cast<std::size_t>(images_) + static_cast<std::size_t>(image);
@@ -116,8 +146,11 @@ private:
   LocalIndex owned_ = 0, first_tile_ = 0, last_tile_ = 0;
   std::vector<geometry::Vec2> positions_;
   std::vector<std::int32_t> boundary_;
-  std::vector<std::uint8_t> pushes_;   // owned only
-  std::vector<geometry::Vec2> leads_;  // owned only
+  std::vector<std::uint8_t> pushes_;                        // owned only
+  std::vector<geometry::Vec2> leads_;                       // owned only
+  std::vector<geometry::Vec2> next_positions_, next_leads_; // by local index; of use only while sites move
+  std::vector<double> drift_; // by tile, since the sites were sorted; O(tiles of the container)
+  double largest_drift_ = 0;
   int images_;                         // of a tile
   std::vector<LocalIndex> tile_block_; // by tile and image: index into blocks_, -1 unknown; O(tiles of the container)
   std::vector<Block> blocks_;
@@ -135,6 +168,8 @@ template <class Visit, class Missing>
 void BinnedPoints::for_each_near(geometry::Vec2 center, double reach, const Visit& visit,
                                  const Missing& missing) const {
   const TileGrid& grid = *grid_;
+  if (largest_drift_ > 0)
+    reach += margin(center, reach);
   const std::int64_t x0 = grid.unrolled_x(center.x - reach), x1 = grid.unrolled_x(center.x + reach);
   const std::int64_t y0 = grid.unrolled_y(center.y - reach), y1 = grid.unrolled_y(center.y + reach);
   const int tx0 = grid.tile_of(x0), tx1 = grid.tile_of(x1), ty0 = grid.tile_of(y0), ty1 = grid.tile_of(y1);

@@ -21,6 +21,7 @@ public:
   /// h at site i, domain units. @pre known(i)
   double operator[](LocalIndex i) const { return uniform_ > 0 ? uniform_ : values_[static_cast<std::size_t>(i)]; }
 
+  const std::vector<double>& values() const { return values_; }
   /// The values by local index, to be filled; not used while the size is uniform.
   std::vector<double>& values() { return values_; }
   /// The sites have changed.

@@ -45,6 +45,16 @@ public:
   /// p lies outside, strictly inside some diametral disc, or nearer to a chord than 0.05 of the chord's length.
   bool encroaches(geometry::Vec2 p) const;
 
+  /// The cells as plain numbers, for loops that look for the clear ones themselves; rows of `columns` from `corner` on.
+  struct CellView {
+    const std::uint8_t* states; ///< null without sites: all is clear
+    std::uint8_t clear;         ///< a point in such a cell needs no correction
+    geometry::Vec2 corner;
+    double inverse_side;
+    int columns, rows;
+  };
+  CellView cells() const;
+
   /// May some chord meet the box? Never false if one does.
   bool may_meet_chord(const geometry::Box& box) const;
   /// Chord i of each site, in a periodic container that image whose middle is canonical.

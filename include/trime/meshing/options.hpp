@@ -51,6 +51,8 @@ struct MeshOptions {
   /// are for comparisons.
   int density_exponent = 4;
   bool cleanup = true; ///< mend the worst triangles after the sweeps
+  /// Compare every star after every sweep with one that is computed anew: slow, for tests. @throws InternalError
+  bool verify_stars = false;
   /// @brief Kept bit for bit (on the lattice) and never moved. On the boundary (to within 1e-10 of the container) they
   /// become corners; outside of the shape they are a GeometryError.
   std::vector<FixedPoint> fixed_points;

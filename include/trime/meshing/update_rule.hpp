@@ -7,6 +7,7 @@
 #include "trime/mesh/binned_points.hpp"
 #include "trime/mesh/local_sizes.hpp"
 #include "trime/meshing/alpha_bins.hpp"
+#include "trime/meshing/rule_parameters.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <cstdint>
@@ -50,10 +51,13 @@ struct SweepSums {
   AlphaBins alpha_bins;          ///< of the same triangles
   std::int64_t triangles = 0;
   double max_alpha = 1;
-  FixedSum power; ///< sum of Step::power over the last move
+  FixedSum power; ///< of the last move: sum of -move . (move + lead before) / h^2, each term at most 2^10
 
   void add(const SweepSums& other);
 };
+
+/// Adds the star of the inner site i.
+void measure_star(const StarView& view, LocalIndex i, double reference_size, SweepSums& sums);
 
 /// Sums over the inner owned sites. Threads over tiles. @param reference_size h_ref, any typical size
 SweepSums measure(const StarView& view, double reference_size);
@@ -61,7 +65,6 @@ SweepSums measure(const StarView& view, double reference_size);
 /// What a rule wants of a site: a move to its next iterate, and from there a lead along the way that it came.
 struct Step {
   geometry::Vec2 move, lead;
-  double power = 0; ///< share of this site in SweepSums::power; in units of h^2, so that all sites weigh alike
 };
 
 /// @brief A gather kernel: the new position of a site from its own ring, neighbours in canonical order, old positions
@@ -73,6 +76,8 @@ public:
   virtual void begin_sweep(const SweepSums& sums) = 0;
   /// Step of site i (not capped). Called concurrently.
   virtual Step step(const StarView& view, LocalIndex i) const = 0;
+  /// The same for the vector kernels, which move most sites: they give the same bits.
+  virtual RuleParameters parameters() const = 0;
 };
 
 /// @brief DistMesh (Persson and Strang 2004) as in TriMe++: bars repel where they are shorter than
@@ -82,9 +87,10 @@ class DistMeshRule final : public UpdateRule {
 public:
   void begin_sweep(const SweepSums& sums) override;
   Step step(const StarView& view, LocalIndex i) const override;
+  RuleParameters parameters() const override;
 
 private:
-  static constexpr double time_step = 0.3, pressure = 1.2;
+  static constexpr double pressure = 1.2;
   double length_scale_ = pressure; // L0 / h
 };
 
@@ -96,6 +102,7 @@ public:
   void begin_sweep(const SweepSums& sums);
   /// The step of site i whose plain move is `move`.
   Step step(const StarView& view, LocalIndex i, geometry::Vec2 move) const;
+  double factor() const { return factor_; }
 
 private:
   static constexpr double largest = 0.9;
@@ -120,6 +127,7 @@ public:
   explicit CvdRule(int exponent = 4) : exponent_(exponent) {}
   void begin_sweep(const SweepSums& sums) override;
   Step step(const StarView& view, LocalIndex i) const override;
+  RuleParameters parameters() const override;
   /// Centroid of the cell of site i, relative to the site; zero if the star has a gap.
   geometry::Vec2 centroid(const StarView& view, LocalIndex i) const;
 
@@ -149,9 +157,9 @@ public:
 
   void begin_sweep(const SweepSums& sums) override;
   Step step(const StarView& view, LocalIndex i) const override;
+  RuleParameters parameters() const override;
 
 private:
-  static constexpr double damping = 0.7; // from 0.9 on the shortest waves come to life
   Momentum momentum_;
   double area_scale_ = 1; // W over sqrt(3)/4 h^2
 };

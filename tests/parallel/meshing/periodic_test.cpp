@@ -199,13 +199,15 @@ TEST(PeriodicMesher, APerturbedHexagonalTorusReturns) {
     const delaunay::StarBuilder builder(frame.lattice(), 1);
     DistMeshRule bars;
     CvdRule cells;
-    MoveCounts moved;
     EXPECT_GT(irregularity(testing::gather_all(world, inner_positions(*layout.state)), frame.periods()), 0.3);
+    layout.state->compute_stars(builder, *layout.size, Wanted::inner_sites);
+    Sweeper sweeper(*layout.state, builder, {*layout.guard, *layout.size, frame.lattice()});
+    Sweeper::Counts moved;
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       UpdateRule& rule = sweep < by_bars ? static_cast<UpdateRule&>(bars) : cells;
-      const delaunay::StarPass pass = layout.state->compute_stars(builder, *layout.size, Wanted::inner_sites);
-      rule.begin_sweep(summarize_sweep(world, layout, pass, moved).sums);
-      moved = move_by_rule(*layout.state, rule, {*layout.guard, *layout.size, frame.lattice()});
+      rule.begin_sweep(summarize_sweep(world, layout, sweeper, moved).sums);
+      sweeper.prepare(rule);
+      moved = sweeper.commit();
     }
     EXPECT_LT(irregularity(testing::gather_all(world, inner_positions(*layout.state)), frame.periods()), 1e-3)
         << by_bars;

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One pass over the sites of a tile that certifies their stars at the present positions and moves them: several sites
+// side by side, the same bits for any number of them.
+#pragma once
+
+#include "meshing/rule_formulas.hpp"
+#include "trime/core/types.hpp"
+#include "trime/geometry/vec2.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace trime::meshing {
+
+/// What the pass does with a site.
+enum class SiteClass : std::uint8_t {
+  held,  ///< stays, and has no star: on the boundary
+  fixed, ///< stays, but has a star to be certified by emptiness
+  exact, ///< moves; its star is certified by emptiness, since not all neighbours have stars that this rank keeps
+  local  ///< moves; its star is certified by the stars around it
+};
+
+constexpr double move_cap = 0.4; ///< moves are cut to this, in h
+constexpr double still = 0.005;  ///< sites that move by more are called moving
+constexpr double rest = 1e-6;    ///< shorter moves are not made: most of a lattice then stays as it is, bit for bit
+constexpr double largest_power = 0x1p10; ///< of one site, keeps sums within their reach
+
+/// Plain arrays by local index, and what is the same for all sites.
+struct SweepTask {
+  const geometry::Vec2* positions;
+  const geometry::Vec2* leads;
+  const LocalIndex* rings; ///< 8 slots each, a shorter ring is repeated in them
+  const std::uint8_t* degrees;
+  const SiteClass* classes;
+  const double* sizes = nullptr; ///< null: uniform_size everywhere
+  double uniform_size = 1;
+  geometry::Vec2* next_positions;
+  geometry::Vec2* next_leads;
+
+  RuleParameters rule;
+  double lattice_step = 1, inverse_lattice_step = 1;
+  geometry::Box box;                      ///< that no site leaves
+  double cap_factor = 1, largest_cap = 1; ///< as in StarBuilder::cap
+
+  /// The cells of BoundaryGuard; null where there is no boundary.
+  const std::uint8_t* guard_cells = nullptr;
+  std::uint8_t clear_cell = 0; ///< value of a cell that lies inside and clear of all discs
+  geometry::Vec2 guard_corner;
+  double guard_inverse_side = 1;
+  int guard_columns = 0, guard_rows = 0;
+};
+
+/// What the moves of some sites add up to, in integers: in any order.
+struct SweepTally {
+  std::int64_t moving = 0; ///< moved by more than `still`
+  std::int64_t power = 0;  ///< of the moves, in units of FixedSum, see Momentum
+  std::int64_t pushed = 0, deleted = 0;
+  double squared_ratio = 0;    ///< largest squared move over h^2
+  double squared_distance = 0; ///< largest squared move
+
+  void add(const SweepTally& other) {
+    moving += other.moving;
+    power += other.power;
+    pushed += other.pushed;
+    deleted += other.deleted;
+    squared_ratio = squared_ratio < other.squared_ratio ? other.squared_ratio : squared_ratio;
+    squared_distance = squared_distance < other.squared_distance ? other.squared_distance : squared_distance;
+  }
+};
+
+/// What one site adds to the tally; the vector path computes the same bits.
+template <class V>
+struct SiteTally {
+  V squared_distance, squared_ratio, power;
+
+  /// @param x, y from the old place to the new one @param lead_x, lead_y old lead, and new
+  TRIME_INLINE SiteTally(V x, V y, V lead_x, V lead_y, V next_lead_x, V next_lead_y, V h) {
+    const V inverse = 1.0 / (h * h), move_x = x - next_lead_x, move_y = y - next_lead_y;
+    squared_distance = x * x + y * y;
+    squared_ratio = squared_distance * inverse;
+    const V raw = -(move_x * (move_x + lead_x) + move_y * (move_y + lead_y)) * inverse;
+    const V low = V{} - largest_power, high = V{} + largest_power;
+    const V above = lanes::select(raw > low, raw, low);
+    power = lanes::select(above < high, above, high);
+  }
+};
+
+/// Sites that the pass leaves to others; room for all of them is the caller's.
+struct SweepLeftovers {
+  LocalIndex* suspects;  ///< whose stars must be certified by emptiness before they move
+  LocalIndex* irregular; ///< with good stars, but a long move or one near the boundary
+  std::ptrdiff_t suspect_count = 0, irregular_count = 0;
+};
+
+/// @brief Certifies the local sites of [begin, end) by the Delaunay lemma (a triangulation is Delaunay if every star
+/// winds once, counter-clockwise, and is locally convex: Delaunay 1934) and computes their next positions and leads.
+/// Sites that it does not move keep their place. About 10 ns a site and more for the rule.
+/// @pre the rings of all local sites and their neighbours agree with each other
+/// @return tally of the sites that it moved
+using SweepKernel = SweepTally (*)(const SweepTask& task, LocalIndex begin, LocalIndex end, SweepLeftovers& leftovers);
+
+/// Sums over the stars of some sites, in units of FixedSum; see SweepSums.
+struct QualityTally {
+  std::int64_t squared_lengths = 0, squared_sizes = 0, excess = 0, triangles = 0;
+  double largest_excess = 0;
+
+  void add(const QualityTally& other) {
+    squared_lengths += other.squared_lengths;
+    squared_sizes += other.squared_sizes;
+    excess += other.excess;
+    triangles += other.triangles;
+    largest_excess = largest_excess < other.largest_excess ? other.largest_excess : largest_excess;
+  }
+};
+constexpr double largest_term = 0x1p17, largest_excess_term = 1000; ///< keep sums within their reach
+
+/// @brief Measures the stars of the local sites of [begin, end), at most 1024. A triangle counts at the
+/// lexicographically smallest of its corners. About 15 ns a site.
+/// @param inverse_reference 1 / h_ref of SweepSums
+/// @param excesses receives alpha - 1 of each triangle; room for 8 a site
+using QualityKernel = QualityTally (*)(const SweepTask& task, LocalIndex begin, LocalIndex end,
+                                       double inverse_reference, double* excesses);
+
+/// The kernels for one kind of processor.
+struct SweepKernels {
+  SweepKernel sweep;
+  QualityKernel measure;
+};
+extern const SweepKernels portable_kernels, avx2_kernels, avx512_kernels;
+
+} // namespace trime::meshing

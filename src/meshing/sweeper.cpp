@@ -1,0 +1,474 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meshing/sweeper.hpp"
+
+#include "trime/core/error.hpp"
+#include "trime/core/simd_level.hpp"
+#include "trime/core/thread_loop.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+namespace trime::meshing {
+namespace {
+
+using geometry::Vec2;
+
+/// Sites are sorted again when one may have come so far since the last time, in h or in tiles: searches become long.
+constexpr double drift_in_sizes_allowed = 1, drift_in_tiles_allowed = 0.25;
+/// All tiles awake when a scale of the rule has changed by this share.
+constexpr double scale_change = 1e-3;
+constexpr int sweeps_of_a_size = 4; // h is evaluated anew after so many sweeps
+constexpr int chunk = 64;           // sites that one thread treats in a row
+constexpr int most_halo_rounds = 100;
+constexpr LocalIndex most_measured = 1024; // sites in one call of the kernel
+
+const SweepKernels& kernels_of_machine() {
+#if defined(__x86_64__)
+  switch (simd_level()) {
+  case SimdLevel::avx512:
+    return avx512_kernels;
+  case SimdLevel::avx2:
+    return avx2_kernels;
+  case SimdLevel::portable:
+    break;
+  }
+#endif
+  return portable_kernels;
+}
+
+std::size_t at(LocalIndex i) {
+  return static_cast<std::size_t>(i);
+}
+
+} // namespace
+
+Sweeper::Sweeper(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context)
+    : state_(state), builder_(builder), context_(context) {
+  classify();
+}
+
+/// Does the lemma do for the star of site i? A neighbour without a ring was lost when sites were sorted: it may have
+/// had triangles that this star knows.
+SiteClass Sweeper::class_of(LocalIndex i) const {
+  const mesh::BinnedPoints& points = state_.points();
+  if (const std::int32_t boundary = points.boundary(i); boundary != mesh::free_site)
+    return boundary >= 0 ? SiteClass::held : SiteClass::fixed;
+  const std::span<const LocalIndex> ring = state_.stars().ring(i);
+  if (ring.size() < 3 || ring.size() > delaunay::StarTable::slots)
+    return SiteClass::exact;
+  for (const LocalIndex neighbour : ring)
+    if (neighbour < 0 || neighbour >= points.owned() || points.boundary(neighbour) >= 0 ||
+        state_.stars().degrees()[neighbour] == 0)
+      return SiteClass::exact;
+  return SiteClass::local;
+}
+
+void Sweeper::classify() {
+  const LocalIndex n = state_.points().owned();
+  classes_.resize(at(n));
+  marked_.assign(at(n), 0);
+  fates_.assign(at(n), Fate::moved);
+  thread_loop((n + 4095) / 4096, 1, [&](std::ptrdiff_t part, int) {
+    const LocalIndex begin = static_cast<LocalIndex>(part * 4096), end = std::min(n, begin + 4096);
+    for (LocalIndex i = begin; i < end; ++i)
+      classes_[at(i)] = class_of(i);
+  });
+  const mesh::BinnedPoints& points = state_.points();
+  const LocalIndex first_tile = points.first_tile(), tiles = points.last_tile() - first_tile;
+  const geometry::Box box = state_.grid().tile_box(0);
+  const double side = std::min(box.width(), box.height()), periodic_cap = task().largest_cap;
+  wide_.assign(at(tiles), 0);
+  thread_loop(tiles, 4, [&](std::ptrdiff_t t, int) { // edges are shorter than two caps, sites drift by a part of a tile
+    const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
+    double largest = 0;
+    for (LocalIndex i = begin; i < end; ++i)
+      largest = std::max(largest, state_.sizes()[i]);
+    wide_[static_cast<std::size_t>(t)] =
+        2 * std::min(periodic_cap, builder_.cap(largest)) > (1 - 2 * drift_in_tiles_allowed) * side;
+  });
+  copied_.assign(at(tiles), 0);
+  active_.assign(at(state_.grid().tile_count()), 1);
+  all_awake_ = true;
+}
+
+/// Decides which tiles take part in this sweep.
+void Sweeper::wake_tiles(const RuleParameters& rule) {
+  const auto changed = [](double a, double b) { return std::fabs(a - b) > scale_change * b; };
+  if (all_awake_ || rule.kind != waking_rule_.kind || changed(rule.length_scale, waking_rule_.length_scale) ||
+      changed(rule.area_scale, waking_rule_.area_scale)) {
+    waking_rule_ = rule;
+    awake_.assign(wide_.size(), 1);
+    all_awake_ = false;
+    return;
+  }
+  const mesh::TileGrid& grid = state_.grid();
+  for (std::size_t t = 0; t < awake_.size(); ++t) {
+    const mesh::GridPosition here = grid.tile_position(state_.points().first_tile() + static_cast<LocalIndex>(t));
+    const int column = static_cast<int>(here.x), row = static_cast<int>(here.y);
+    bool awake = wide_[t];
+    for (int y = std::max(0, row - 1); y <= std::min(grid.tiles_y() - 1, row + 1); ++y)
+      for (int x = std::max(0, column - 1); x <= std::min(grid.tiles_x() - 1, column + 1); ++x)
+        awake = awake || active_[at(grid.tile_at(x, y))];
+    awake_[t] = awake;
+  }
+}
+
+SweepTask Sweeper::task() {
+  mesh::BinnedPoints& points = state_.points();
+  SweepTask task;
+  task.positions = points.positions().data();
+  task.leads = points.leads().data();
+  task.rings = state_.stars().all_slots();
+  task.degrees = state_.stars().degrees();
+  task.classes = classes_.data();
+  if (points.size() > 0) {
+    task.sizes = state_.sizes().is_uniform() ? nullptr : state_.sizes().values().data();
+    task.uniform_size = state_.sizes().is_uniform() ? state_.sizes()[0] : 1;
+  }
+  task.next_positions = points.next_positions().data();
+  task.next_leads = points.next_leads().data();
+  task.lattice_step = context_.lattice.step();
+  task.inverse_lattice_step = context_.lattice.inverse_step();
+  const geometry::Periods& periods = state_.grid().periods();
+  task.box = state_.grid().container();
+  if (periods.x > 0) { // no border along this axis
+    task.box.min.x = -std::numeric_limits<double>::infinity();
+    task.box.max.x = std::numeric_limits<double>::infinity();
+  }
+  if (periods.y > 0) {
+    task.box.min.y = -std::numeric_limits<double>::infinity();
+    task.box.max.y = std::numeric_limits<double>::infinity();
+  }
+  task.cap_factor = builder_.cap_factor();
+  task.largest_cap = std::min(builder_.cap(), delaunay::StarBuilder::largest_cap(periods));
+  const BoundaryGuard::CellView cells = context_.guard.cells();
+  task.guard_cells = cells.states;
+  task.clear_cell = cells.clear;
+  task.guard_corner = cells.corner;
+  task.guard_inverse_side = cells.inverse_side;
+  task.guard_columns = cells.columns;
+  task.guard_rows = cells.rows;
+  return task;
+}
+
+void Sweeper::run_kernel(const SweepTask& sweep) {
+  const mesh::BinnedPoints& points = state_.points();
+  const SweepKernel kernel = kernels_of_machine().sweep;
+  const LocalIndex first_tile = points.first_tile(), tiles = points.last_tile() - first_tile;
+  tallies_.assign(at(tiles), {});
+  retally_.assign(at(tiles), 0);
+  std::vector<Work> work(static_cast<std::size_t>(std::max(1, thread_count())));
+  thread_loop(tiles, 1, [&](std::ptrdiff_t t, int thread) {
+    const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
+    if (!awake_[static_cast<std::size_t>(t)]) {
+      if (!copied_[static_cast<std::size_t>(t)]) {
+        std::copy(sweep.positions + begin, sweep.positions + end, sweep.next_positions + begin);
+        std::fill(sweep.next_leads + begin, sweep.next_leads + end, Vec2{});
+      }
+      copied_[static_cast<std::size_t>(t)] = 1;
+      return;
+    }
+    copied_[static_cast<std::size_t>(t)] = 0;
+    Work& mine = work[static_cast<std::size_t>(thread)];
+    const std::size_t suspects = mine.suspects.size(), irregular = mine.irregular.size(), n = at(end - begin);
+    mine.suspects.resize(suspects + n);
+    mine.irregular.resize(irregular + n);
+    SweepLeftovers leftovers{mine.suspects.data() + suspects, mine.irregular.data() + irregular};
+    tallies_[static_cast<std::size_t>(t)] = kernel(sweep, begin, end, leftovers);
+    mine.suspects.resize(suspects + static_cast<std::size_t>(leftovers.suspect_count));
+    mine.irregular.resize(irregular + static_cast<std::size_t>(leftovers.irregular_count));
+    retally_[static_cast<std::size_t>(t)] = leftovers.suspect_count + leftovers.irregular_count > 0;
+  });
+  suspects_.clear();
+  irregular_.clear();
+  for (const Work& mine : work) {
+    suspects_.insert(suspects_.end(), mine.suspects.begin(), mine.suspects.end());
+    irregular_.insert(irregular_.end(), mine.irregular.begin(), mine.irregular.end());
+  }
+}
+
+/// Adds those of `sites` to the list that are not marked yet, and marks them.
+void Sweeper::mark(std::vector<LocalIndex>& sites, std::vector<LocalIndex>& list) {
+  for (const LocalIndex i : sites)
+    if (!marked_[at(i)] && classes_[at(i)] != SiteClass::held) {
+      marked_[at(i)] = 1;
+      list.push_back(i);
+    }
+}
+
+/// Certifies the suspects, then what they have changed beside them, until nothing changes; they are added to checked_.
+/// Returns how many stars miss a bin: they become the suspects of the next call.
+std::int64_t Sweeper::certify_suspects() {
+  std::vector<LocalIndex> affected, next, uncertain;
+  missing_.clear();
+  while (!suspects_.empty()) { // every site is looked at once at most
+    affected.clear();
+    rebuilt_ +=
+        builder_.certify(state_.points(), state_.stars(), state_.sizes(), suspects_, affected, missing_).rebuilt;
+    for (const LocalIndex i : suspects_)
+      if (!state_.stars().certain(i))
+        uncertain.push_back(i);
+    checked_.insert(checked_.end(), suspects_.begin(), suspects_.end());
+    suspects_.clear();
+    mark(affected, suspects_);
+  }
+  suspects_ = uncertain;
+  std::sort(missing_.begin(), missing_.end());
+  missing_.erase(std::unique(missing_.begin(), missing_.end()), missing_.end());
+  return static_cast<std::int64_t>(uncertain.size());
+}
+
+LocalIndex Sweeper::tile_of_site(LocalIndex i) const {
+  const mesh::BinnedPoints& points = state_.points();
+  LocalIndex low = points.first_tile(), high = points.last_tile(); // the tile lies in [low, high)
+  while (high - low > 1) {
+    const LocalIndex middle = low + (high - low) / 2;
+    (points.tile_range(middle).begin <= i ? low : high) = middle;
+  }
+  return low;
+}
+
+/// The moves that the kernel has left, with all that can happen to a site.
+void Sweeper::move_one_by_one(const UpdateRule& rule, std::span<const LocalIndex> sites) {
+  mesh::BinnedPoints& points = state_.points();
+  const StarView view = view_of(state_, context_.size);
+  const std::span<Vec2> positions = points.next_positions(), leads = points.next_leads();
+  thread_loop(static_cast<std::ptrdiff_t>(sites.size()), chunk, [&](std::ptrdiff_t k, int) {
+    const LocalIndex i = sites[static_cast<std::size_t>(k)];
+    classes_[at(i)] = class_of(i);
+    if (classes_[at(i)] == SiteClass::fixed)
+      return;
+    const Treated treated =
+        treat_step(context_, state_.grid(), points.site(i), view.size(i), rule.step(view, i), pushes_allowed);
+    positions[at(i)] = treated.position;
+    leads[at(i)] = treated.lead;
+    fates_[at(i)] = treated.deleted ? Fate::deleted : treated.pushed ? Fate::pushed : Fate::moved;
+    const std::size_t tile = at(tile_of_site(i) - points.first_tile());
+    std::atomic_ref(retally_[tile]).store(1, std::memory_order_relaxed);
+    std::atomic_ref(copied_[tile]).store(0, std::memory_order_relaxed);
+  });
+}
+
+/// What the moves of a tile's sites add up to, from their places alone: the same as the kernel finds.
+SweepTally Sweeper::tally_tile(LocalIndex tile) const {
+  const mesh::BinnedPoints& points = state_.points();
+  const mesh::LocalSizes& sizes = state_.sizes();
+  SweepTally sum;
+  const auto [begin, end] = points.tile_range(tile);
+  for (LocalIndex i = begin; i < end; ++i) {
+    if (classes_[at(i)] == SiteClass::held || classes_[at(i)] == SiteClass::fixed)
+      continue;
+    if (fates_[at(i)] == Fate::deleted) {
+      ++sum.deleted;
+      continue;
+    }
+    sum.pushed += fates_[at(i)] == Fate::pushed;
+    const Vec2 way = points.next_positions()[at(i)] - points.position(i), lead = points.leads()[at(i)],
+               next = points.next_leads()[at(i)];
+    const SiteTally<double> one(way.x, way.y, lead.x, lead.y, next.x, next.y, sizes[i]);
+    sum.moving += one.squared_ratio > still * still;
+    sum.power += static_cast<std::int64_t>(round_to_integer(one.power * 0x1p32));
+    sum.squared_ratio = std::max(sum.squared_ratio, one.squared_ratio);
+    sum.squared_distance = std::max(sum.squared_distance, one.squared_distance);
+  }
+  return sum;
+}
+
+SweepTally Sweeper::tally() {
+  const LocalIndex first_tile = state_.points().first_tile();
+  thread_loop(static_cast<std::ptrdiff_t>(tallies_.size()), 4, [&](std::ptrdiff_t t, int) {
+    if (retally_[static_cast<std::size_t>(t)])
+      tallies_[static_cast<std::size_t>(t)] = tally_tile(first_tile + static_cast<LocalIndex>(t));
+  });
+  SweepTally sum;
+  for (const SweepTally& tally : tallies_)
+    sum.add(tally);
+  return sum;
+}
+
+void Sweeper::prepare(const UpdateRule& rule) {
+  state_.points().prepare_advance();
+  rebuilt_ = 0;
+  checked_.clear();
+  SweepTask all = task();
+  all.rule = rule.parameters();
+  wake_tiles(all.rule);
+  run_kernel(all);
+  std::vector<LocalIndex> first;
+  first.swap(suspects_);
+  mark(first, suspects_);
+  for (int round = 0;; ++round) {
+    const std::size_t before = checked_.size();
+    const std::int64_t uncertain = certify_suspects();
+    std::vector<LocalIndex> to_move(checked_.begin() + static_cast<std::ptrdiff_t>(before), checked_.end());
+    std::erase_if(to_move, [&](LocalIndex i) { return !state_.stars().certain(i); });
+    for (const LocalIndex i : irregular_)
+      if (!marked_[at(i)])
+        to_move.push_back(i);
+    irregular_.clear();
+    move_one_by_one(rule, to_move);
+    const SweepTally mine = tally();
+    std::array<std::int64_t, 7> sums{
+        uncertain, rebuilt_, mine.moving, mine.pushed, mine.deleted, mine.power & 0xffffffff, mine.power >> 32};
+    state_.comm().sum(sums);
+    if (sums[0] > 0) {
+      if (round == most_halo_rounds)
+        throw InternalError(fmt::format("the halo still grows after {} rounds", round));
+      state_.fetch(missing_, context_.size);
+      state_.points().prepare_advance();
+      continue;
+    }
+    std::array<double, 2> largest{mine.squared_ratio, mine.squared_distance};
+    state_.comm().max(largest);
+    counts_ = {};
+    counts_.rebuilt = sums[1];
+    counts_.moving = sums[2];
+    counts_.pushed = sums[3];
+    counts_.deleted = sums[4];
+    counts_.power = FixedSum::join({sums[5], sums[6]});
+    counts_.max_move = std::sqrt(largest[0]);
+    largest_distance_ = std::sqrt(largest[1]);
+    break;
+  }
+  for (const LocalIndex i : checked_)
+    marked_[at(i)] = 0;
+  prepared_ = true;
+}
+
+/// Counts the pushes of the sites that were pushed, and forgets what became of sites.
+void Sweeper::note_pushes() {
+  mesh::BinnedPoints& points = state_.points();
+  thread_loop(static_cast<std::ptrdiff_t>(retally_.size()), 4, [&](std::ptrdiff_t t, int) {
+    if (!retally_[static_cast<std::size_t>(t)])
+      return;
+    const auto [begin, end] = points.tile_range(points.first_tile() + static_cast<LocalIndex>(t));
+    for (LocalIndex i = begin; i < end; ++i) {
+      if (fates_[at(i)] == Fate::pushed)
+        points.set_pushes(i, points.pushes(i) + 1);
+      fates_[at(i)] = Fate::moved;
+    }
+  });
+}
+
+Sweeper::Counts Sweeper::commit() {
+  TRIME_ASSERT(prepared_);
+  prepared_ = false;
+  mesh::BinnedPoints& points = state_.points();
+  const geometry::Box tile = state_.grid().tile_box(0);
+  std::vector<std::uint8_t> deleted;
+  if (counts_.deleted > 0)
+    for (const Fate fate : fates_)
+      deleted.push_back(fate == Fate::deleted);
+  note_pushes();
+  drift_ += largest_distance_ * (1 + 1e-9);
+  drift_in_sizes_ += counts_.max_move;
+  if (counts_.deleted > 0 || state_.grid().periods().any() || drift_in_sizes_ > drift_in_sizes_allowed ||
+      drift_ > drift_in_tiles_allowed * std::min(tile.width(), tile.height())) {
+    move_and_sort(deleted);
+    return counts_;
+  }
+  const std::vector<double> before = points.drifts();
+  for (LocalIndex t = points.first_tile(); t < points.last_tile(); ++t)
+    points.set_drift(t,
+                     points.drift(t) + std::sqrt(tallies_[at(t - points.first_tile())].squared_distance) * (1 + 1e-9));
+  const bool new_sizes = ++age_of_sizes_ >= sweeps_of_a_size;
+  state_.advance(context_.size, drift_, new_sizes);
+  if (new_sizes)
+    age_of_sizes_ = 0;
+  for (std::size_t t = 0; t < active_.size(); ++t)
+    active_[t] = points.drifts()[t] > before[t];
+  sorted_ = false;
+  return counts_;
+}
+
+/// @param deleted empty: none
+void Sweeper::move_and_sort(std::span<const std::uint8_t> deleted) {
+  mesh::BinnedPoints& points = state_.points();
+  std::vector<mesh::Site> sites(at(points.owned()));
+  thread_loop((points.owned() + 4095) / 4096, 1, [&](std::ptrdiff_t part, int) {
+    const LocalIndex begin = static_cast<LocalIndex>(part * 4096), end = std::min(points.owned(), begin + 4096);
+    for (LocalIndex i = begin; i < end; ++i) {
+      mesh::Site& site = sites[at(i)] = points.site(i);
+      site.position = points.next_positions()[at(i)];
+      site.lead = points.next_leads()[at(i)];
+    }
+  });
+  const std::vector<std::uint8_t> none(deleted.empty() ? sites.size() : 0, 0);
+  state_.move_sites(sites, deleted.empty() ? std::span(none) : deleted);
+  state_.refresh(context_.size);
+  drift_ = drift_in_sizes_ = 0;
+  age_of_sizes_ = 0;
+  sorted_ = true;
+  classify();
+}
+
+void Sweeper::discard() {
+  std::fill(fates_.begin(), fates_.end(), Fate::moved);
+  prepared_ = false;
+}
+
+void Sweeper::sort() {
+  discard();
+  if (sorted_)
+    return;
+  mesh::BinnedPoints& points = state_.points();
+  points.prepare_advance();
+  std::copy_n(points.positions().begin(), points.owned(), points.next_positions().begin());
+  std::copy(points.leads().begin(), points.leads().end(), points.next_leads().begin());
+  move_and_sort({});
+}
+
+SweepSums Sweeper::measure(double reference_size) {
+  const mesh::BinnedPoints& points = state_.points();
+  const QualityKernel kernel = kernels_of_machine().measure;
+  const SweepTask all = task();
+  const StarView view = view_of(state_, context_.size);
+  struct Measured {
+    SweepSums sums;
+    std::vector<double> excesses;
+  };
+  std::vector<Measured> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
+  thread_loop((points.owned() + most_measured - 1) / most_measured, 1, [&](std::ptrdiff_t part, int thread) {
+    auto& [sums, excesses] = of_thread[static_cast<std::size_t>(thread)];
+    const LocalIndex begin = static_cast<LocalIndex>(part) * most_measured;
+    const LocalIndex end = std::min(points.owned(), begin + most_measured);
+    excesses.resize(8 * at(most_measured));
+    const QualityTally tally = kernel(all, begin, end, 1 / reference_size, excesses.data());
+    sums.squared_length_ratio.add_units(tally.squared_lengths);
+    sums.squared_size_ratio.add_units(tally.squared_sizes);
+    sums.excess_alpha.add_units(tally.excess);
+    sums.triangles += tally.triangles;
+    sums.max_alpha = std::max(sums.max_alpha, 1 + tally.largest_excess);
+    for (std::int64_t k = 0; k < tally.triangles; ++k)
+      sums.alpha_bins.add(excesses[static_cast<std::size_t>(k)]);
+    for (LocalIndex i = begin; i < end; ++i)
+      if (classes_[at(i)] == SiteClass::exact || classes_[at(i)] == SiteClass::fixed)
+        measure_star(view, i, reference_size, sums);
+  });
+  SweepSums sums;
+  for (const Measured& measured : of_thread)
+    sums.add(measured.sums);
+  return sums;
+}
+
+void Sweeper::verify() const {
+  const mesh::BinnedPoints& points = state_.points();
+  delaunay::StarTable all;
+  all.reset(points.owned());
+  std::vector<LocalIndex> sites, affected;
+  for (LocalIndex i = 0; i < points.owned(); ++i)
+    if (classes_[at(i)] != SiteClass::held)
+      sites.push_back(i);
+  std::vector<mesh::BinRef> missing;
+  builder_.certify(points, all, state_.sizes(), sites, affected, missing);
+  std::int64_t different = 0;
+  for (const LocalIndex i : sites)
+    different += all.certain(i) && !std::ranges::equal(all.ring(i), state_.stars().ring(i));
+  if (const std::int64_t sum = state_.comm().sum(different); sum > 0)
+    throw InternalError(fmt::format("{} stars differ from those computed anew", sum));
+}
+
+} // namespace trime::meshing
