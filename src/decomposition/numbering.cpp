@@ -4,34 +4,102 @@
 #include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace trime::decomposition {
+namespace {
+
+std::size_t at(LocalIndex i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Puts the sites of tiles into canonical order, bin after bin along the curve.
+class TileOrder {
+public:
+  explicit TileOrder(const mesh::BinnedPoints& points) : points_(points), grid_(points.grid()) {}
+
+  /// Fills order[begin, end) of the sites of a tile.
+  void sort(LocalIndex tile, std::vector<LocalIndex>& order) {
+    const int bits = grid_.bin_bits(tile);
+    LocalIndex next = points_.tile_range(tile).begin;
+    list_bins(tile, bits);
+    for (const std::int32_t bin : bins_) {
+      const auto [begin, end] = points_.bin_range({tile, bin});
+      keyed_.clear();
+      for (LocalIndex i = begin; i < end; ++i)
+        keyed_.push_back({end - begin > 1 ? grid_.point_key(points_.position(i)) : 0, i});
+      std::sort(keyed_.begin(), keyed_.end(), [&](const Keyed& a, const Keyed& b) {
+        return a.key != b.key ? a.key < b.key
+                              : geometry::lexicographically_less(points_.position(a.site), points_.position(b.site));
+      });
+      for (const Keyed& site : keyed_)
+        order[at(next++)] = site.site;
+    }
+  }
+
+private:
+  /// The bins along the curve: the key of a bin leads those of its points.
+  void list_bins(LocalIndex tile, int bits) {
+    const mesh::GridPosition corner = grid_.tile_position(tile);
+    const int level = 32 - grid_.tile_shift() + bits;
+    const std::uint32_t side = std::uint32_t{1} << bits;
+    const std::uint64_t mask = (std::uint64_t{1} << (2 * bits)) - 1;
+    bins_.resize(std::size_t{1} << (2 * bits));
+    for (std::uint32_t y = 0; y < side; ++y)
+      for (std::uint32_t x = 0; x < side; ++x)
+        bins_[mesh::hilbert_key((corner.x << bits) | x, (corner.y << bits) | y, level) & mask] =
+            static_cast<std::int32_t>((y << bits) | x);
+  }
+
+  struct Keyed {
+    std::uint64_t key;
+    LocalIndex site;
+  };
+  const mesh::BinnedPoints& points_;
+  const mesh::TileGrid& grid_;
+  std::vector<std::int32_t> bins_;
+  std::vector<Keyed> keyed_;
+};
+
+/// Vertices of the ghosts: our own where they are images of owned points.
+void number_ghosts(const std::vector<GlobalId>& ids, Numbering& numbering) {
+  const GlobalId end = numbering.first + numbering.owned();
+  for (const GlobalId id : ids)
+    if (id < numbering.first || id >= end)
+      numbering.foreign.push_back(id);
+  std::sort(numbering.foreign.begin(), numbering.foreign.end());
+  numbering.foreign.erase(std::unique(numbering.foreign.begin(), numbering.foreign.end()), numbering.foreign.end());
+  const auto place = [&](GlobalId id) {
+    const auto found = std::lower_bound(numbering.foreign.begin(), numbering.foreign.end(), id);
+    return static_cast<LocalIndex>(found - numbering.foreign.begin());
+  };
+  numbering.foreign_below = place(numbering.first);
+  for (const GlobalId id : ids)
+    numbering.site_vertex.push_back(id >= numbering.first && id < end ? static_cast<LocalIndex>(id - numbering.first)
+                                                                      : numbering.owned() + place(id));
+}
+
+} // namespace
 
 Numbering canonical_numbering(const comm::Communicator& comm, const mesh::BinnedPoints& points, const Halo& halo) {
   Numbering result;
-  const std::size_t owned = static_cast<std::size_t>(points.owned());
+  const std::size_t owned = at(points.owned());
   result.first = comm.exclusive_scan(points.owned());
   result.total = comm.sum(std::int64_t{points.owned()});
   result.order.resize(owned);
-  std::iota(result.order.begin(), result.order.end(), 0);
-  std::vector<std::uint64_t> keys(owned);
-  const mesh::TileGrid& grid = points.grid();
-  const LocalIndex first_tile = points.first_tile();
-  thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t t, int) {
-    const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
-    for (LocalIndex i = begin; i < end; ++i)
-      keys[static_cast<std::size_t>(i)] = grid.point_key(points.position(i));
-    std::sort(result.order.begin() + begin, result.order.begin() + end, [&](LocalIndex a, LocalIndex b) {
-      const std::uint64_t ka = keys[static_cast<std::size_t>(a)], kb = keys[static_cast<std::size_t>(b)];
-      return ka != kb ? ka < kb : geometry::lexicographically_less(points.position(a), points.position(b));
-    });
+  result.site_vertex.reserve(at(points.size()));
+  result.site_vertex.resize(owned);
+  std::vector<GlobalId> ids(owned);
+  std::vector<TileOrder> of_thread(static_cast<std::size_t>(std::max(1, thread_count())), TileOrder(points));
+  thread_loop(points.last_tile() - points.first_tile(), 1, [&](std::ptrdiff_t t, int thread) {
+    const LocalIndex tile = points.first_tile() + static_cast<LocalIndex>(t);
+    of_thread[static_cast<std::size_t>(thread)].sort(tile, result.order);
+    const auto [begin, end] = points.tile_range(tile);
+    for (LocalIndex vertex = begin; vertex < end; ++vertex) {
+      result.site_vertex[at(result.order[at(vertex)])] = vertex;
+      ids[at(result.order[at(vertex)])] = result.first + vertex;
+    }
   });
-  result.global_ids.resize(owned);
-  for (std::size_t k = 0; k < owned; ++k)
-    result.global_ids[static_cast<std::size_t>(result.order[k])] = result.first + static_cast<GlobalId>(k);
-  const std::vector<GlobalId> ghosts = halo.exchange(points, result.global_ids);
-  result.global_ids.insert(result.global_ids.end(), ghosts.begin(), ghosts.end());
+  number_ghosts(halo.exchange(points, ids), result);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -39,6 +40,12 @@ hid_t value_type<std::uint8_t>() {
   return H5T_NATIVE_UINT8;
 }
 
+/// Values of type T in a buffer of slices, which is aligned for all of them.
+template <class T>
+T* values_of(std::byte* out) {
+  return reinterpret_cast<T*>(out);
+}
+
 /// An array whose rows are Row values in memory, each made of `columns` (0: one) values of type T.
 template <class T, class Row>
 SlabArray stored(const std::string& path, const mesh::Slab& slab, hsize_t columns, const std::vector<Row>& rows) {
@@ -46,43 +53,52 @@ SlabArray stored(const std::string& path, const mesh::Slab& slab, hsize_t column
   const auto fill = [&rows](std::int64_t first, std::int64_t count, std::byte* out) {
     std::memcpy(out, rows.data() + first, static_cast<std::size_t>(count) * sizeof(Row));
   };
-  const std::size_t values_per_row = sizeof(Row) / sizeof(T);
-  // A flat array of several values per row (Connectivity) is the same bytes with longer indices.
-  const auto flat = static_cast<std::int64_t>(columns == 0 ? values_per_row : 1);
-  if (flat == 1)
-    return {path, value_type<T>(), sizeof(T), columns, slab, static_cast<std::int64_t>(rows.size()), fill};
-  const auto fill_flat = [&rows](std::int64_t first, std::int64_t count, std::byte* out) {
-    std::memcpy(out, reinterpret_cast<const std::byte*>(rows.data()) + first * static_cast<std::int64_t>(sizeof(T)),
-                static_cast<std::size_t>(count) * sizeof(T));
-  };
-  return {path,
-          value_type<T>(),
-          sizeof(T),
-          0,
-          {flat * slab.first, flat * slab.total},
-          flat * static_cast<std::int64_t>(rows.size()),
-          fill_flat};
+  return {path, value_type<T>(), sizeof(T), columns, slab, static_cast<std::int64_t>(rows.size()), fill};
 }
 
 /// An array whose row i (global) is computed.
 template <class T, class Value>
 SlabArray computed(const std::string& path, const mesh::Slab& slab, std::int64_t rows, const Value& value) {
   const auto fill = [first_here = slab.first, value](std::int64_t first, std::int64_t count, std::byte* out) {
-    for (std::int64_t k = 0; k < count; ++k) {
-      const T v = value(first_here + first + k);
-      std::memcpy(out + static_cast<std::size_t>(k) * sizeof v, &v, sizeof v);
-    }
+    T* values = values_of<T>(out);
+    for (std::int64_t k = 0; k < count; ++k)
+      values[k] = value(first_here + first + k);
   };
   return {path, value_type<T>(), sizeof(T), 0, slab, rows, fill};
+}
+
+/// Global ids of the vertices of triangles: three columns, or (0) one long one.
+SlabArray vertex_ids(const std::string& path, const mesh::DistributedMesh& mesh, hsize_t columns) {
+  const std::int64_t ids_per_row = columns == 0 ? 1 : 3, rows_per_triangle = 3 / ids_per_row;
+  const auto fill = [&mesh, ids_per_row](std::int64_t first, std::int64_t count, std::byte* out) {
+    const LocalIndex* vertices = mesh.triangles.data()->data() + ids_per_row * first;
+    std::int64_t* ids = values_of<std::int64_t>(out);
+    if (mesh.foreign.empty())
+      std::transform(vertices, vertices + ids_per_row * count, ids,
+                     [begin = mesh.point_slab.first](LocalIndex vertex) { return begin + vertex; });
+    else
+      std::transform(vertices, vertices + ids_per_row * count, ids,
+                     [&mesh](LocalIndex vertex) { return mesh.global_id(vertex); });
+  };
+  const mesh::Slab& slab = mesh.triangle_slab;
+  return {path,
+          H5T_NATIVE_INT64,
+          sizeof(std::int64_t),
+          columns,
+          {rows_per_triangle * slab.first, rows_per_triangle * slab.total},
+          rows_per_triangle * static_cast<std::int64_t>(mesh.triangles.size()),
+          fill};
 }
 
 /// Points with z = 0, as VTK wants them.
 SlabArray points_in_space(const std::string& path, const mesh::DistributedMesh& mesh) {
   const auto fill = [&points = mesh.points](std::int64_t first, std::int64_t count, std::byte* out) {
-    for (std::int64_t k = 0; k < count; ++k) {
+    double* xyz = values_of<double>(out);
+    for (std::int64_t k = 0; k < count; ++k, xyz += 3) {
       const geometry::Vec2 p = points[static_cast<std::size_t>(first + k)];
-      const double xyz[3] = {p.x, p.y, 0};
-      std::memcpy(out + static_cast<std::size_t>(k) * sizeof xyz, xyz, sizeof xyz);
+      xyz[0] = p.x;
+      xyz[1] = p.y;
+      xyz[2] = 0;
     }
   };
   return {path, H5T_NATIVE_DOUBLE, sizeof(double), 3, mesh.point_slab, static_cast<std::int64_t>(mesh.points.size()),
@@ -104,7 +120,10 @@ void write_fields(SlabFile& file, const std::string& cells, const std::string& p
   file.group(cells);
   file.slab(stored<float>(cells + "/alpha", mesh.triangle_slab, 0, mesh.alpha));
   file.slab(stored<float>(cells + "/beta", mesh.triangle_slab, 0, mesh.beta));
-  file.slab(stored<std::int32_t>(cells + "/region", mesh.triangle_slab, 0, mesh.region));
+  file.slab(mesh.region.empty()
+                ? computed<std::int32_t>(cells + "/region", mesh.triangle_slab, std::ssize(mesh.triangles),
+                                         [](std::int64_t) { return std::int32_t{1}; })
+                : stored<std::int32_t>(cells + "/region", mesh.triangle_slab, 0, mesh.region));
   file.group(points);
   file.slab(stored<std::int32_t>(points + "/boundary", mesh.point_slab, 0, mesh.boundary));
   file.slab(stored<float>(points + "/size", mesh.point_slab, 0, mesh.size));
@@ -121,7 +140,7 @@ void write_vtkhdf(SlabFile& file, const mesh::DistributedMesh& mesh) {
   file.column("/VTKHDF", {"NumberOfCells", std::vector<std::int64_t>{triangles}});
   file.column("/VTKHDF", {"NumberOfConnectivityIds", std::vector<std::int64_t>{3 * triangles}});
   file.slab(points_in_space("/VTKHDF/Points", mesh));
-  file.slab(stored<std::int64_t>("/VTKHDF/Connectivity", mesh.triangle_slab, 0, mesh.triangles));
+  file.slab(vertex_ids("/VTKHDF/Connectivity", mesh, 0));
   file.slab(offsets("/VTKHDF/Offsets", mesh));
   constexpr std::uint8_t vtk_triangle = 5;
   file.slab(computed<std::uint8_t>("/VTKHDF/Types", mesh.triangle_slab,
@@ -133,7 +152,7 @@ void write_vtkhdf(SlabFile& file, const mesh::DistributedMesh& mesh) {
 void write_plain_mesh(SlabFile& file, const mesh::DistributedMesh& mesh) {
   file.group("/Mesh/mesh");
   file.slab(stored<double>("/Mesh/mesh/geometry", mesh.point_slab, 2, mesh.points));
-  file.slab(stored<std::int64_t>("/Mesh/mesh/topology", mesh.triangle_slab, 3, mesh.triangles));
+  file.slab(vertex_ids("/Mesh/mesh/topology", mesh, 3));
   file.attribute("/Mesh/mesh/topology", {"cell_dim", std::int64_t{2}});
   file.attribute("/Mesh/mesh/topology", {"cell_corners", std::int64_t{3}});
   file.group("/geometry");
@@ -210,7 +229,8 @@ void check_shapes(const mesh::DistributedMesh& mesh) {
   TRIME_ASSERT(mesh.boundary.size() == points && mesh.size.size() == points && mesh.fixed.size() == points,
                "{} points, {} boundary, {} size, {} fixed", points, mesh.boundary.size(), mesh.size.size(),
                mesh.fixed.size());
-  TRIME_ASSERT(mesh.alpha.size() == triangles && mesh.beta.size() == triangles && mesh.region.size() == triangles,
+  TRIME_ASSERT(mesh.alpha.size() == triangles && mesh.beta.size() == triangles &&
+                   (mesh.region.empty() || mesh.region.size() == triangles),
                "{} triangles, {} alpha, {} beta, {} region", triangles, mesh.alpha.size(), mesh.beta.size(),
                mesh.region.size());
   TRIME_ASSERT(mesh.facet_tags.size() == facets && mesh.facet_parts.size() == facets, "{} facets, {} tags, {} parts",

@@ -4,6 +4,7 @@
 #include "io/temporary_file.hpp"
 #include "trime/comm/agree.hpp"
 #include "trime/comm/native.hpp"
+#include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -13,8 +14,21 @@
 namespace trime::io {
 namespace {
 
-/// Rows of one collective write: a few MB, far below the 2^31 bytes of an MPI count.
-constexpr std::int64_t slice_rows = std::int64_t{1} << 18;
+/// Rows of one collective write: a few MB, far below the 2^31 bytes of an MPI count; and of what one thread fills.
+constexpr std::int64_t slice_rows = std::int64_t{1} << 18, piece_rows = std::int64_t{1} << 12;
+
+std::int64_t pieces_of(std::int64_t rows) {
+  return (rows + piece_rows - 1) / piece_rows;
+}
+
+/// Rows [first, first + count) of an array, by all threads, while the calling one does `work`.
+template <class Work>
+void fill_beside(const Work& work, const SlabArray& array, std::int64_t first, std::int64_t count, std::byte* out) {
+  thread_loop_beside(work, pieces_of(count), [&](std::ptrdiff_t piece, int) {
+    const std::int64_t begin = piece * piece_rows, rows = std::min(piece_rows, count - begin);
+    array.fill(first + begin, rows, out + static_cast<std::size_t>(begin) * array.row_bytes());
+  });
+}
 
 /// Objects without times of their own, so that equal meshes make equal objects.
 Hdf5Properties dataset_properties() {
@@ -272,31 +286,40 @@ void SlabFile::slab(SlabArray array) {
   arrays_.push_back(std::move(array));
 }
 
-/// Every rank takes part in every slice, with nothing if it has no rows left.
+/// Every rank takes part in every slice, with nothing if it has no rows left. A slice is written while the other
+/// threads make the next.
 void SlabFile::write_slices(hid_t dataset, const SlabArray& array) {
   const std::int64_t longest = comm_.max(array.rows);
-  std::vector<std::byte> buffer;
+  const auto rows_from = [&](std::int64_t first) {
+    return std::clamp<std::int64_t>(array.rows - first, 0, slice_rows);
+  };
+  std::vector<std::byte> buffer, next;
   Hdf5Space in_file, in_memory;
   Hdf5Properties together;
   std::string writing;
   agreed([&] {
-    const std::int64_t rows =
-        std::clamp<std::int64_t>(array.rows, 1, slice_rows); // HDF5 wants a buffer for nothing, too
+    const std::int64_t rows = std::max<std::int64_t>(rows_from(0), 1); // HDF5 wants a buffer for nothing, too
     buffer.resize(static_cast<std::size_t>(rows) * array.row_bytes());
+    next.resize(static_cast<std::size_t>(rows_from(slice_rows)) * array.row_bytes());
     in_file = array_space(static_cast<hsize_t>(array.slab.total), array.columns);
     in_memory = array_space(static_cast<hsize_t>(rows), array.columns);
     together = transfer(comm_, true);
     writing = action("write", array.path);
+    fill_beside([] {}, array, 0, rows_from(0), buffer.data());
   });
   for (std::int64_t first = 0; first < longest; first += slice_rows) {
     agreed([&] {
-      const std::int64_t count = std::clamp<std::int64_t>(array.rows - first, 0, slice_rows);
-      if (count > 0)
-        array.fill(first, count, buffer.data());
+      const std::int64_t count = rows_from(first);
       select_rows(in_file, static_cast<hsize_t>(array.slab.first + first), static_cast<hsize_t>(count), array.columns);
       select_rows(in_memory, 0, static_cast<hsize_t>(count), array.columns);
     });
-    agree_on(H5Dwrite(dataset, array.type, in_memory, in_file, together, buffer.data()), writing);
+    herr_t written = -1;
+    const auto write = [&] { written = H5Dwrite(dataset, array.type, in_memory, in_file, together, buffer.data()); };
+    agreed([&] { // what throws in here comes after the call of HDF5
+      fill_beside(write, array, first + slice_rows, rows_from(first + slice_rows), next.data());
+      checked(written, writing);
+    });
+    std::swap(buffer, next);
   }
 }
 
@@ -305,32 +328,57 @@ void SlabFile::verify() {
   agreed([&] { flushing = "write " + path_ + " to disk"; });
   agree_on(H5Fflush(file_, H5F_SCOPE_GLOBAL), flushing);
   comm_.barrier();
+  if (comm_.is_root())
+    start_writing_back(path_);
   agreed([&] {
     for (const SlabArray& array : arrays_)
       verify_slices(array);
   });
 }
 
-/// Not collective on purpose: another path through MPI-IO than the one that wrote.
-void SlabFile::verify_slices(const SlabArray& array) {
+/// Not collective on purpose: another path through MPI-IO than the one that wrote. A slice is read while the other
+/// threads compare the one before.
+void SlabFile::verify_slices(const SlabArray& array) const {
   if (array.rows == 0)
     return;
   const Hdf5Dataset dataset(H5Dopen2(file_, array.path.c_str(), H5P_DEFAULT), action("open", array.path));
   const Hdf5Properties alone = transfer(comm_, false);
-  const std::size_t bytes = static_cast<std::size_t>(std::min(array.rows, slice_rows)) * array.row_bytes();
-  std::vector<std::byte> held(bytes), read(bytes);
+  const Hdf5Space in_file = array_space(static_cast<hsize_t>(array.slab.total), array.columns);
+  std::vector<std::byte> read, before;
+  for (std::vector<std::byte>* buffer : {&read, &before})
+    buffer->resize(static_cast<std::size_t>(std::min(array.rows, slice_rows)) * array.row_bytes());
+  std::int64_t compared = 0;
   for (std::int64_t first = 0; first < array.rows; first += slice_rows) {
     const std::int64_t count = std::min(array.rows - first, slice_rows);
-    array.fill(first, count, held.data());
-    const Hdf5Space in_file = array_space(static_cast<hsize_t>(array.slab.total), array.columns);
     select_rows(in_file, static_cast<hsize_t>(array.slab.first + first), static_cast<hsize_t>(count), array.columns);
     const Hdf5Space in_memory = array_space(static_cast<hsize_t>(count), array.columns);
-    checked(H5Dread(dataset, array.type, in_memory, in_file, alone, read.data()), action("read back", array.path));
-    if (std::memcmp(held.data(), read.data(), static_cast<std::size_t>(count) * array.row_bytes()) != 0)
+    herr_t status = -1;
+    const auto read_slice = [&] { status = H5Dread(dataset, array.type, in_memory, in_file, alone, read.data()); };
+    compare_beside(read_slice, array, compared, first - compared, before.data());
+    checked(status, action("read back", array.path));
+    std::swap(read, before);
+    compared = first;
+  }
+  compare_beside([] {}, array, compared, array.rows - compared, before.data());
+}
+
+/// The same as fill_beside for rows that were read. @throws FileError if one is another than it should be
+template <class Work>
+void SlabFile::compare_beside(const Work& work, const SlabArray& array, std::int64_t first, std::int64_t count,
+                              const std::byte* read) const {
+  std::vector<std::vector<std::byte>> held(static_cast<std::size_t>(thread_count()));
+  thread_loop_beside(work, pieces_of(count), [&](std::ptrdiff_t piece, int thread) {
+    const std::int64_t begin = piece * piece_rows, rows = std::min(piece_rows, count - begin);
+    const std::size_t bytes = static_cast<std::size_t>(rows) * array.row_bytes();
+    std::vector<std::byte>& expected = held[static_cast<std::size_t>(thread)];
+    expected.resize(bytes);
+    array.fill(first + begin, rows, expected.data());
+    if (std::memcmp(expected.data(), read + static_cast<std::size_t>(begin) * array.row_bytes(), bytes) != 0)
       throw FileError(fmt::format("{}: rows {} to {} of {} were not written as they should be; the file system or the "
                                   "MPI-IO layer is at fault (try another directory, or OMPI_MCA_io=romio321)",
-                                  path_, array.slab.first + first, array.slab.first + first + count, array.path));
-  }
+                                  path_, array.slab.first + first + begin, array.slab.first + first + begin + rows,
+                                  array.path));
+  });
 }
 
 void SlabFile::close() {

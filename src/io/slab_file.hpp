@@ -18,7 +18,7 @@
 namespace trime::io {
 
 /// An array of `slab.total` rows over all ranks. The rows are made on demand, slice by slice, so that no second copy of
-/// an array is held.
+/// an array is held; by several threads at once, while another slice is written or read.
 struct SlabArray {
   std::string path;
   hid_t type = -1;             ///< native type of one value, in memory and in the file
@@ -70,7 +70,10 @@ private:
   template <class Make>
   void small_dataset(const std::string& path, const Make& make);
   void write_slices(hid_t dataset, const SlabArray& array);
-  void verify_slices(const SlabArray& array);
+  void verify_slices(const SlabArray& array) const;
+  template <class Work>
+  void compare_beside(const Work& work, const SlabArray& array, std::int64_t first, std::int64_t count,
+                      const std::byte* read) const;
   std::string action(const std::string& verb, const std::string& what) const;
 
   const comm::Communicator& comm_;

@@ -33,6 +33,9 @@ std::string temporary_name(const std::string& final_path);
 /// do that, compares with the free space. @throws FileError if there is not enough
 void reserve_space(const std::string& path, std::int64_t bytes);
 
+/// Asks the system to bring what has been written to the disk meanwhile. Does not wait, cannot fail.
+void start_writing_back(const std::string& path);
+
 /// Writes a text to `final_path`, whole or not at all. @throws FileError
 void write_text_file(const std::string& final_path, const std::string& text);
 

@@ -73,8 +73,7 @@ private:
       if (!is_here(id))
         ids.push_back(id);
     };
-    for (const auto& triangle : mesh_.triangles)
-      std::for_each(triangle.begin(), triangle.end(), add);
+    std::for_each(mesh_.foreign.begin(), mesh_.foreign.end(), add);
     for (const auto& facet : mesh_.facets)
       std::for_each(facet.begin(), facet.end(), add);
     return ids;
@@ -86,7 +85,7 @@ private:
 
   /// Corners of a triangle of this rank, all beside the first.
   std::array<Vec2, 3> corners(std::int64_t row) const {
-    const auto& triangle = mesh_.triangles[static_cast<std::size_t>(row)];
+    const auto triangle = mesh_.triangle_ids(static_cast<std::size_t>(row));
     const Vec2 first = place_of(triangle[0]);
     return {first, nearest_image(place_of(triangle[1]), first, place_.period),
             nearest_image(place_of(triangle[2]), first, place_.period)};
@@ -127,7 +126,7 @@ private:
   void write_triangles() const {
     const std::size_t count = mesh_.triangles.size();
     write_rows(path("tria_vertex_ids"), count, [&](std::int64_t row, std::string& text) {
-      const auto& [a, b, c] = mesh_.triangles[static_cast<std::size_t>(row)];
+      const auto [a, b, c] = mesh_.triangle_ids(static_cast<std::size_t>(row));
       append(text, mesh_.triangle_slab.first + row, a, b, c);
       text += '\n';
     });
@@ -154,7 +153,7 @@ private:
   void write_edge_file(const std::string& file, const Append& append_edge) const {
     const TextRows both[2] = {rows_of(mesh_.triangles.size(),
                                       [&](std::int64_t row, std::string& text) {
-                                        const auto& ids = mesh_.triangles[static_cast<std::size_t>(row)];
+                                        const auto ids = mesh_.triangle_ids(static_cast<std::size_t>(row));
                                         for (std::size_t k = 0; k < 3; ++k)
                                           if (ids[k] < ids[(k + 1) % 3])
                                             append_edge(ids[k], ids[(k + 1) % 3], text);

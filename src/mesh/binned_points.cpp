@@ -288,4 +288,9 @@ void BinnedPoints::release_work_space() {
     std::vector<Vec2>().swap(*list);
 }
 
+void BinnedPoints::release_moves() {
+  std::vector<std::uint8_t>().swap(pushes_);
+  std::vector<Vec2>().swap(leads_);
+}
+
 } // namespace trime::mesh

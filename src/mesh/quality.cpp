@@ -12,14 +12,6 @@ namespace {
 
 using geometry::Vec2;
 
-struct Edges {
-  double a, b, c;
-};
-
-Edges edges(Vec2 p, Vec2 q, Vec2 r) {
-  return {geometry::length(q - r), geometry::length(r - p), geometry::length(p - q)};
-}
-
 /// Bins of the histogram: [1, 1.01) by 1e-6, [1.01, 2) by 1e-4, [2, 10) by 1e-2, and from there 64 an octave, which are
 /// leading bits of the number itself.
 struct Section {
@@ -37,28 +29,15 @@ constexpr double degrees_per_radian = 57.29577951308232;
 } // namespace
 
 double aspect_ratio(Vec2 p, Vec2 q, Vec2 r) {
-  // With the area A = |cross|/2: abc/(8(s-a)(s-b)(s-c)) = abc s/(8 A^2), which does not cancel for flat triangles.
-  const Edges e = edges(p, q, r);
-  const double twice_area = geometry::cross(q - p, r - p);
-  if (twice_area == 0)
-    return std::numeric_limits<double>::infinity();
-  return std::max(1.0, e.a * e.b * e.c * (e.a + e.b + e.c) / (4 * twice_area * twice_area));
+  return measure_triangle(p, q, r).alpha;
 }
 
 double edge_ratio(Vec2 p, Vec2 q, Vec2 r) {
-  const Edges e = edges(p, q, r);
-  const double shortest = std::min({e.a, e.b, e.c});
-  return shortest > 0 ? std::max({e.a, e.b, e.c}) / shortest : std::numeric_limits<double>::infinity();
+  return measure_triangle(p, q, r).beta;
 }
 
 double min_angle_degrees(Vec2 p, Vec2 q, Vec2 r) {
-  Edges e = edges(p, q, r);
-  if (e.b < e.a)
-    std::swap(e.a, e.b);
-  if (e.c < e.a)
-    std::swap(e.a, e.c); // a is now the shortest, the smallest angle lies opposite
-  const double sine = std::fabs(geometry::cross(q - p, r - p)) / (e.b * e.c);
-  return std::asin(std::min(1.0, sine)) * degrees_per_radian;
+  return std::asin(std::min(1.0, measure_triangle(p, q, r).least_sine)) * degrees_per_radian;
 }
 
 RatioStatistics::RatioStatistics() : bins_(all_bins, 0) {}
@@ -84,13 +63,27 @@ double RatioStatistics::bin_middle(std::size_t bin) {
 }
 
 void RatioStatistics::add(double ratio) {
-  const double capped = ratio < sum_cap ? ratio : sum_cap; // also catches infinity and NaN
-  ++count_;
-  sum_.add(capped);
-  sum_of_roots_.add(std::sqrt(capped));
-  sum_of_squares_.add((capped - 1) * (capped - 1) < sum_cap ? (capped - 1) * (capped - 1) : sum_cap);
-  max_ = std::max(max_, ratio);
-  ++bins_[bin(capped)];
+  add(std::span(&ratio, 1));
+}
+
+void RatioStatistics::add(std::span<const double> ratios) {
+  std::int64_t sum = 0, roots = 0, squares = 0;
+  double largest = max_;
+  for (const double ratio : ratios) {
+    const double capped = ratio < sum_cap ? ratio : sum_cap; // also catches infinity and NaN
+    const double square = (capped - 1) * (capped - 1);
+    sum += FixedSum::units(capped);
+    roots += FixedSum::units(std::sqrt(capped));
+    squares += FixedSum::units(square < sum_cap ? square : sum_cap);
+    largest = largest < ratio ? ratio : largest;
+  }
+  for (const double ratio : ratios)
+    ++bins_[bin(ratio < sum_cap ? ratio : sum_cap)];
+  count_ += std::ssize(ratios);
+  sum_.add_units(sum);
+  sum_of_roots_.add_units(roots);
+  sum_of_squares_.add_units(squares);
+  max_ = largest;
 }
 
 void RatioStatistics::merge(const RatioStatistics& other) {

@@ -3,6 +3,7 @@
 
 #include "trime/core/error.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace trime::mesh {
@@ -25,6 +26,36 @@ void rotate(std::uint32_t side, std::uint32_t& x, std::uint32_t& y, bool right, 
   std::swap(x, y);
 }
 
+/// Quadrants of the curve, and how the pieces in the last of them are turned: 1 stands for x and y exchanged, 2 for
+/// both mirrored.
+struct CurveStep {
+  std::uint8_t key, turn;
+};
+
+constexpr CurveStep curve_step(unsigned x, unsigned y, unsigned turn) {
+  const unsigned right = ((turn & 1) ? y : x) ^ (turn >> 1), upper = ((turn & 1) ? x : y) ^ (turn >> 1);
+  const unsigned quadrant = right ? (upper ? 2 : 3) : upper;
+  return {static_cast<std::uint8_t>(quadrant), static_cast<std::uint8_t>(upper ? turn : turn ^ (right ? 3U : 1U))};
+}
+
+/// Four steps at once, by turn and four bits of x and y each.
+using FourSteps = std::array<std::array<CurveStep, 256>, 4>;
+constexpr FourSteps make_four_steps() {
+  FourSteps table{};
+  for (unsigned turn = 0; turn < 4; ++turn)
+    for (unsigned at = 0; at < 256; ++at) {
+      unsigned key = 0, turned = turn;
+      for (int bit = 3; bit >= 0; --bit) {
+        const CurveStep step = curve_step((at >> (4 + bit)) & 1, (at >> bit) & 1, turned);
+        key = (key << 2) | step.key;
+        turned = step.turn;
+      }
+      table[turn][at] = {static_cast<std::uint8_t>(key), static_cast<std::uint8_t>(turned)};
+    }
+  return table;
+}
+constexpr FourSteps four_steps = make_four_steps();
+
 int auto_cells(double extent, double spacing) {
   const double cell = std::sqrt(points_per_cell * 0.8660254037844386) * spacing;
   return static_cast<int>(std::clamp(std::floor(extent / cell), 1.0, static_cast<double>(max_cells)));
@@ -34,14 +65,17 @@ int auto_cells(double extent, double spacing) {
 
 std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y, int level) {
   std::uint64_t key = 0;
-  for (int bit = level - 1; bit >= 0; --bit) {
-    const bool right = (x >> bit) & 1, upper = (y >> bit) & 1;
-    key = (key << 2) | static_cast<std::uint64_t>(right ? (upper ? 2 : 3) : (upper ? 1 : 0));
-    const std::uint32_t mask = bit == 0 ? 0 : (std::uint32_t{1} << bit) - 1;
-    x &= mask;
-    y &= mask;
-    if (bit > 0)
-      rotate(mask + 1, x, y, right, upper);
+  unsigned turn = 0;
+  int bit = level;
+  for (; bit % 4 != 0; --bit) {
+    const CurveStep step = curve_step((x >> (bit - 1)) & 1, (y >> (bit - 1)) & 1, turn);
+    key = (key << 2) | step.key;
+    turn = step.turn;
+  }
+  for (; bit > 0; bit -= 4) {
+    const CurveStep step = four_steps[turn][(((x >> (bit - 4)) & 15) << 4) | ((y >> (bit - 4)) & 15)];
+    key = (key << 8) | step.key;
+    turn = step.turn;
   }
   return key;
 }

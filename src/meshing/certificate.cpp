@@ -46,36 +46,40 @@ struct ExactArea {
 /// Everything that is counted, mergeable.
 struct Counts {
   std::int64_t points = 0, edges = 0, triangles = 0, facets = 0, listings = 0;
-  std::int64_t hash_of_listings = 0, hash_of_triangles = 0, hash_of_written = 0; // mod 2^64
-  std::int64_t hash_of_facets = 0, hash_of_written_facets = 0;
-  std::int64_t not_positive = 0, not_delaunay = 0, incomplete = 0, unused = 0, corners = 0;
+  std::uint64_t hash_of_listings = 0, hash_of_triangles = 0, hash_of_written = 0;
+  std::uint64_t hash_of_facets = 0, hash_of_written_facets = 0;
+  std::int64_t not_positive = 0, not_delaunay = 0, incomplete = 0, unused = 0, corners = 0, fixed = 0;
   ExactArea area;
 
-  static constexpr std::size_t size = 18;
+  static constexpr std::size_t size = 19;
   std::array<std::int64_t, size> pack() const {
     const auto parts = area.split();
+    const auto bits = [](std::uint64_t hash) { return static_cast<std::int64_t>(hash); };
     return {points,
             edges,
             triangles,
             facets,
             listings,
-            hash_of_listings,
-            hash_of_triangles,
-            hash_of_written,
-            hash_of_facets,
-            hash_of_written_facets,
+            bits(hash_of_listings),
+            bits(hash_of_triangles),
+            bits(hash_of_written),
+            bits(hash_of_facets),
+            bits(hash_of_written_facets),
             not_positive,
             not_delaunay,
             incomplete,
             unused,
             corners,
+            fixed,
             parts[0],
             parts[1],
             parts[2]};
   }
   static Counts unpack(const std::array<std::int64_t, size>& p) {
-    Counts c{p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9], p[10], p[11], p[12], p[13], p[14], {}};
-    c.area = ExactArea::join({p[15], p[16], p[17]});
+    const auto hash = [&](std::size_t k) { return static_cast<std::uint64_t>(p[k]); };
+    Counts c{p[0],    p[1],  p[2],  p[3],  p[4],  hash(5), hash(6), hash(7), hash(8),
+             hash(9), p[10], p[11], p[12], p[13], p[14],   p[15],   {}};
+    c.area = ExactArea::join({p[16], p[17], p[18]});
     return c;
   }
   void add(const Counts& other) {
@@ -88,65 +92,119 @@ struct Counts {
 };
 
 /// Hash of a triangle that does not depend on the vertex from which it is seen.
-std::int64_t triangle_hash(GlobalId a, GlobalId b, GlobalId c) {
-  if (b < a && b < c) {
-    std::swap(a, b);
-    std::swap(b, c);
-  } else if (c < a && c < b) {
-    std::swap(a, c);
-    std::swap(b, c);
-  }
-  return static_cast<std::int64_t>(
-      mix_bits(mix_bits(mix_bits(static_cast<std::uint64_t>(a)) ^ static_cast<std::uint64_t>(b)) ^
-               static_cast<std::uint64_t>(c)));
+std::uint64_t triangle_hash(GlobalId a, GlobalId b, GlobalId c) {
+  const GlobalId first = std::min(std::min(a, b), c); // without a branch: nobody can foresee which
+  const GlobalId second = first == a ? b : first == b ? c : a, third = first == a ? c : first == b ? a : b;
+  return mix_bits(mix_bits(mix_bits(static_cast<std::uint64_t>(first)) ^ static_cast<std::uint64_t>(second)) ^
+                  static_cast<std::uint64_t>(third));
 }
 
-std::int64_t facet_hash(GlobalId first, GlobalId second, std::int32_t tag, std::int32_t part) {
+std::uint64_t facet_hash(GlobalId first, GlobalId second, std::int32_t tag, std::int32_t part) {
   const auto labels = static_cast<std::uint64_t>((std::int64_t{tag} << 32) + part);
-  return static_cast<std::int64_t>(
-      mix_bits(mix_bits(mix_bits(static_cast<std::uint64_t>(first)) ^ static_cast<std::uint64_t>(second)) ^ labels));
+  return mix_bits(mix_bits(mix_bits(static_cast<std::uint64_t>(first)) ^ static_cast<std::uint64_t>(second)) ^ labels);
 }
 
-std::int64_t wrapping_sum(std::int64_t a, std::int64_t b) {
-  return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
-}
+/// Counts at the stars of sites, one after the other. Aligned: no cache line belongs to two threads.
+class alignas(64) StarCounter {
+public:
+  StarCounter(const ExtractionContext& context, const decomposition::Numbering& numbering)
+      : context_(context), numbering_(numbering), points_(context.state.points()), fan_(context, numbering) {}
 
-void count_site(const ExtractionContext& context, const std::vector<GlobalId>& ids, LocalIndex i, Counts& counts) {
+  void count(LocalIndex site) {
+    fan_.load(site);
+    const std::size_t n = fan_.vertices.size();
+    ids_.resize(n);
+    for (std::size_t k = 0; k < n; ++k)
+      ids_[k] = numbering_.global_id(fan_.vertices[k]);
+    ++counts_.points;
+    counts_.incomplete += !fan_.complete;
+    counts_.unused += fan_.triangles == 0;
+    counts_.listings += static_cast<std::int64_t>(fan_.triangles);
+    if (points_.boundary(site) != mesh::free_site)
+      count_kept(site, points_.boundary(site));
+    const LocalIndex own = numbering_.vertex(site);
+    for (std::size_t k = 0; k < fan_.edges; ++k)
+      counts_.edges += fan_.place[k] > own;
+    count_triangles(own, points_.position(site));
+  }
+  const Counts& counts() const { return counts_; }
+
+private:
+  /// Boundary sites and fixed points.
+  void count_kept(LocalIndex site, std::int32_t b) {
+    const Vec2 p = points_.position(site);
+    const bool is_corner = b >= 0 && context_.boundary.sites[at(b)].corner;
+    if (b == mesh::fixed_site || is_corner)
+      counts_.fixed +=
+          std::binary_search(context_.fixed.begin(), context_.fixed.end(), p, geometry::lexicographically_less);
+    if (b < 0 || p != context_.boundary.sites[at(b)].position)
+      return;
+    counts_.corners += is_corner;
+    if (!fan_.complete)
+      return;
+    const BoundarySite& to_next = context_.boundary.sites[at(b)]; // the segment to the next boundary site
+    ++counts_.facets;
+    counts_.hash_of_facets +=
+        facet_hash(numbering_.global_id(numbering_.vertex(site)), ids_[0], to_next.tag, to_next.part);
+  }
+
+  void count_triangles(LocalIndex own, Vec2 p) {
+    const geometry::Periods& periods = points_.grid().periods();
+    const GlobalId id = numbering_.global_id(own);
+    for (std::size_t k = 0; k < fan_.triangles; ++k) {
+      const Vec2 q = fan_.positions[k], r = fan_.positions[k + 1];
+      const std::uint64_t hash = triangle_hash(id, ids_[k], ids_[k + 1]);
+      counts_.hash_of_listings += hash;
+      if (fan_.place[k + 1] < own)
+        continue;
+      if (fan_.place[k] > own) {
+        ++counts_.triangles;
+        counts_.hash_of_triangles += hash;
+        counts_.not_positive += geometry::orient2d(p, q, r) <= 0;
+        counts_.area.add_triangle(p, q, r, context_.lattice);
+      }
+      // The edge to r lies between two triangles: seen from its lower end, once all stars agree on their triangles.
+      if (k + 1 < fan_.triangles || fan_.closed) {
+        const Vec2 s = fan_.positions[k + 2];
+        counts_.not_delaunay += geometry::in_circle(p, q, r, s, context_.lattice, periods) > 0;
+      }
+    }
+  }
+
+  const ExtractionContext& context_;
+  const decomposition::Numbering& numbering_;
+  const mesh::BinnedPoints& points_;
+  FlatFan fan_;
+  std::vector<GlobalId> ids_;
+  Counts counts_;
+};
+
+/// Of this rank: from the stars.
+Counts count_stars(const ExtractionContext& context, const decomposition::Numbering& numbering) {
   const mesh::BinnedPoints& points = context.state.points();
-  const Fan fan = inside_fan(context, i);
-  const Vec2 p = points.position(i);
-  const std::int32_t b = points.boundary(i);
-  ++counts.points;
-  counts.incomplete += !fan.complete;
-  counts.unused += fan.triangles == 0;
-  if (b >= 0) {
-    const BoundarySite& site = context.boundary.sites[at(b)];
-    counts.corners += site.corner && p == site.position;
-    if (fan.complete && p == site.position) { // the segment to the next boundary site
-      ++counts.facets;
-      counts.hash_of_facets =
-          wrapping_sum(counts.hash_of_facets, facet_hash(ids[at(i)], ids[at(fan.neighbour(0))], site.tag, site.part));
-    }
-  }
-  for (std::size_t k = 0; k < fan.triangles; ++k) {
-    const LocalIndex u = fan.neighbour(k), v = fan.neighbour(k + 1);
-    const Vec2 q = points.position(u), r = points.position(v);
-    const std::int64_t hash = triangle_hash(ids[at(i)], ids[at(u)], ids[at(v)]);
-    ++counts.listings;
-    counts.hash_of_listings = wrapping_sum(counts.hash_of_listings, hash);
-    if (ids[at(i)] < ids[at(u)] && ids[at(i)] < ids[at(v)]) {
-      ++counts.triangles;
-      counts.hash_of_triangles = wrapping_sum(counts.hash_of_triangles, hash);
-      counts.not_positive += geometry::orient2d(p, q, r) <= 0;
-      counts.area.add_triangle(p, q, r, context.lattice);
-    }
-    if (k + 1 < fan.triangles || fan.closed) { // the edge to v lies between two triangles
-      const Vec2 s = points.position(fan.neighbour(k + 2));
-      counts.not_delaunay += geometry::in_circle(p, q, r, s, context.lattice, points.grid().periods()) > 0;
-    }
-  }
-  for (std::size_t k = 0; fan.complete && k < fan.edges(); ++k)
-    counts.edges += ids[at(i)] < ids[at(fan.neighbour(k))];
+  std::vector<StarCounter> of_thread(static_cast<std::size_t>(std::max(1, thread_count())),
+                                     StarCounter(context, numbering));
+  thread_loop(points.last_tile() - points.first_tile(), 1, [&](std::ptrdiff_t t, int thread) {
+    const auto [begin, end] = points.tile_range(points.first_tile() + static_cast<LocalIndex>(t));
+    StarCounter& counter = of_thread[static_cast<std::size_t>(thread)];
+    for (LocalIndex i = begin; i < end; ++i)
+      counter.count(i);
+  });
+  Counts counts;
+  for (const StarCounter& counter : of_thread)
+    counts.add(counter.counts());
+  return counts;
+}
+
+/// Of this rank: from the arrays that will be written.
+void add_written(const mesh::DistributedMesh& mesh, Counts& counts) {
+  counts.hash_of_written = thread_sum(mesh.triangles.size(), [&](std::size_t t) {
+    const auto [a, b, c] = mesh.triangle_ids(t);
+    return triangle_hash(a, b, c);
+  });
+  counts.hash_of_written_facets = thread_sum(mesh.facets.size(), [&](std::size_t k) {
+    return facet_hash(mesh.facets[k][0], mesh.facets[k][1], mesh.facet_tags[k], mesh.facet_parts[k]);
+  });
 }
 
 /// @brief Area on the left of all chords. Each loop is unrolled and counts with the area between it and the line from
@@ -177,19 +235,6 @@ ExactArea polygon_area(const BoundarySites& boundary, const geometry::Lattice& l
   return area;
 }
 
-/// Owned sites that are fixed points, where they were asked for. Collective.
-std::int64_t count_fixed(const ExtractionContext& context) {
-  const mesh::BinnedPoints& points = context.state.points();
-  std::int64_t found = 0;
-  for (LocalIndex i = 0; i < points.owned(); ++i) {
-    const std::int32_t b = points.boundary(i);
-    if (b == mesh::fixed_site || (b >= 0 && context.boundary.sites[at(b)].corner))
-      found += std::binary_search(context.fixed.begin(), context.fixed.end(), points.position(i),
-                                  geometry::lexicographically_less);
-  }
-  return context.state.comm().sum(found);
-}
-
 mesh::Check check(const char* name, std::int64_t expected, std::int64_t found, const char* meaning) {
   return {name, static_cast<double>(expected), static_cast<double>(found), expected == found, meaning};
 }
@@ -198,35 +243,21 @@ mesh::Check check(const char* name, std::int64_t expected, std::int64_t found, c
 
 mesh::Checks certify(const ExtractionContext& context, const decomposition::Numbering& numbering,
                      const Expectation& expectation, const mesh::DistributedMesh& mesh) {
-  const mesh::BinnedPoints& points = context.state.points();
-  std::vector<Counts> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
-  thread_loop(points.owned(), 4096, [&](std::ptrdiff_t i, int thread) {
-    count_site(context, numbering.global_ids, static_cast<LocalIndex>(i), of_thread[static_cast<std::size_t>(thread)]);
-  });
-  Counts counts;
-  for (const Counts& c : of_thread)
-    counts.add(c);
-  for (const auto& triangle : mesh.triangles)
-    counts.hash_of_written = wrapping_sum(counts.hash_of_written, triangle_hash(triangle[0], triangle[1], triangle[2]));
-  for (std::size_t k = 0; k < mesh.facets.size(); ++k)
-    counts.hash_of_written_facets =
-        wrapping_sum(counts.hash_of_written_facets,
-                     facet_hash(mesh.facets[k][0], mesh.facets[k][1], mesh.facet_tags[k], mesh.facet_parts[k]));
+  Counts counts = count_stars(context, numbering);
+  add_written(mesh, counts);
   auto packed = counts.pack();
   context.state.comm().sum(packed);
   counts = Counts::unpack(packed);
 
   const std::int64_t segments = static_cast<std::int64_t>(context.boundary.sites.size());
   const ExactArea polygon = polygon_area(context.boundary, context.lattice);
-  const std::int64_t hash_of_thrice =
-      wrapping_sum(counts.hash_of_triangles, wrapping_sum(counts.hash_of_triangles, counts.hash_of_triangles));
   mesh::Checks checks;
   checks.push_back(
       check("incomplete_fans", 0, counts.incomplete, "manifold: each site has one unbroken fan of triangles"));
   checks.push_back(
       check("star_listings", 3 * counts.triangles, counts.listings, "every triangle is listed by its three stars"));
-  checks.push_back(
-      check("star_disagreements", 0, hash_of_thrice != counts.hash_of_listings, "and all three list the same one"));
+  checks.push_back(check("star_disagreements", 0, 3 * counts.hash_of_triangles != counts.hash_of_listings,
+                         "and all three list the same one"));
   checks.push_back(check("written_triangles", counts.triangles,
                          counts.hash_of_written == counts.hash_of_triangles ? mesh.triangle_slab.total : -1,
                          "the triangles to be written are these"));
@@ -244,7 +275,7 @@ mesh::Checks certify(const ExtractionContext& context, const decomposition::Numb
   checks.push_back(check("corners", context.boundary.corners, counts.corners,
                          "corners that are vertices, bit for bit on the lattice"));
   if (!context.fixed.empty())
-    checks.push_back(check("fixed_points", static_cast<std::int64_t>(context.fixed.size()), count_fixed(context),
+    checks.push_back(check("fixed_points", static_cast<std::int64_t>(context.fixed.size()), counts.fixed,
                            "fixed points that are vertices, bit for bit on the lattice"));
   checks.push_back(check("unused_points", 0, counts.unused, "points without a triangle"));
   checks.push_back({"area", polygon.value(context.lattice), counts.area.value(context.lattice),

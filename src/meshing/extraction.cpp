@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/extraction.hpp"
 
+#include "meshing/mesh_quality.hpp"
+#include "trime/comm/agree.hpp"
 #include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
@@ -16,123 +18,156 @@ std::size_t at(LocalIndex i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Triangles and boundary edges that are listed from one site: those whose lowest global id it has.
-struct Emitter {
-  const ExtractionContext& context;
-  const std::vector<GlobalId>& ids;
-
-  template <class Visit>
-  void triangles(LocalIndex i, const Visit& visit) const {
-    const Fan fan = inside_fan(context, i);
-    const GlobalId own = ids[at(i)];
-    for (std::size_t k = 0; k < fan.triangles; ++k) {
-      const LocalIndex a = fan.neighbour(k), b = fan.neighbour(k + 1);
-      if (own < ids[at(a)] && own < ids[at(b)])
-        visit(a, b);
-    }
-  }
-
-  /// Boundary edges (first, second, site from which the edge leads to the next), interior on the left.
-  template <class Visit>
-  void facets(LocalIndex i, const Visit& visit) const {
-    const std::int32_t b = context.state.points().boundary(i);
-    if (b < 0)
-      return;
-    const Fan fan = inside_fan(context, i);
-    if (!fan.complete)
-      return;
-    const LocalIndex next = fan.neighbour(0), previous = fan.neighbour(fan.triangles);
-    const bool with_next = ids[at(i)] < ids[at(next)], with_previous = ids[at(i)] < ids[at(previous)];
-    const BoundarySite& site = context.boundary.sites[at(b)];
-    const auto to_next = [&] { visit(ids[at(i)], ids[at(next)], site); };
-    const auto from_previous = [&] { visit(ids[at(previous)], ids[at(i)], context.boundary.sites[at(site.previous)]); };
-    if (with_next && with_previous && ids[at(previous)] < ids[at(next)]) {
-      from_previous();
-      to_next();
-      return;
-    }
-    if (with_next)
-      to_next();
-    if (with_previous)
-      from_previous();
-  }
+/// Triangles and boundary edges of one tile, or where those of a tile begin.
+struct Places {
+  std::size_t triangles = 0, facets = 0;
 };
 
-/// Prefix sums of per-site counts, by canonical position; the last entry is the total.
-template <class Count>
-std::vector<std::int64_t> starts_of(const std::vector<LocalIndex>& order, const Count& count) {
-  std::vector<std::int64_t> starts(order.size() + 1, 0);
-  thread_loop(static_cast<std::ptrdiff_t>(order.size()), 4096, [&](std::ptrdiff_t k, int) {
-    starts[static_cast<std::size_t>(k) + 1] = count(order[static_cast<std::size_t>(k)]);
-  });
-  for (std::size_t k = 1; k < starts.size(); ++k)
-    starts[k] += starts[k - 1];
-  return starts;
-}
+/// Lists triangles and boundary edges at that of their vertices which has the lowest global id.
+class Extractor {
+public:
+  Extractor(const ExtractionContext& context, const decomposition::Numbering& numbering)
+      : context_(context), numbering_(numbering), points_(context.state.points()) {}
 
-void fill_points(const ExtractionContext& context, const decomposition::Numbering& numbering, DistributedMesh& mesh) {
-  const std::size_t n = numbering.order.size();
-  const mesh::BinnedPoints& points = context.state.points();
-  mesh.points.resize(n);
-  mesh.boundary.resize(n);
-  mesh.size.resize(n);
-  mesh.fixed.resize(n);
-  thread_loop(static_cast<std::ptrdiff_t>(n), 4096, [&](std::ptrdiff_t item, int) {
-    const std::size_t k = static_cast<std::size_t>(item);
-    const LocalIndex i = numbering.order[k];
-    const std::int32_t b = points.boundary(i);
-    mesh.points[k] = points.position(i);
-    mesh.boundary[k] = b < 0 ? 0 : context.boundary.sites[at(b)].tag;
-    mesh.size[k] = static_cast<float>(context.size.size(points.position(i)));
-    mesh.fixed[k] = b >= 0 ? context.boundary.sites[at(b)].corner : b == mesh::fixed_site;
-  });
-  mesh.point_slab = {numbering.first, numbering.total};
-}
-
-void fill_triangles(const ExtractionContext& context, const decomposition::Numbering& numbering,
-                    DistributedMesh& mesh) {
-  const Emitter emitter{context, numbering.global_ids};
-  const mesh::BinnedPoints& points = context.state.points();
-  const std::vector<std::int64_t> starts = starts_of(numbering.order, [&](LocalIndex i) {
-    std::int64_t n = 0;
-    emitter.triangles(i, [&](LocalIndex, LocalIndex) { ++n; });
-    return n;
-  });
-  const std::size_t total = static_cast<std::size_t>(starts.back());
-  mesh.triangles.resize(total);
-  mesh.alpha.resize(total);
-  mesh.beta.resize(total);
-  mesh.region.assign(total, 1);
-  thread_loop(static_cast<std::ptrdiff_t>(numbering.order.size()), 4096, [&](std::ptrdiff_t k, int) {
-    const LocalIndex i = numbering.order[static_cast<std::size_t>(k)];
-    const std::size_t begin = static_cast<std::size_t>(starts[static_cast<std::size_t>(k)]);
-    std::size_t t = begin;
-    emitter.triangles(i, [&](LocalIndex a, LocalIndex b) {
-      const std::array<GlobalId, 3> triangle{numbering.global_ids[at(i)], numbering.global_ids[at(a)],
-                                             numbering.global_ids[at(b)]};
-      const Vec2 p = points.position(i), q = points.position(a), r = points.position(b);
-      std::size_t slot = t++; // insertion sort by the second vertex; a fan has few triangles
-      for (; slot > begin && mesh.triangles[slot - 1][1] > triangle[1]; --slot) {
-        mesh.triangles[slot] = mesh.triangles[slot - 1];
-        mesh.alpha[slot] = mesh.alpha[slot - 1];
-        mesh.beta[slot] = mesh.beta[slot - 1];
-      }
-      mesh.triangles[slot] = triangle;
-      mesh.alpha[slot] = static_cast<float>(mesh::aspect_ratio(p, q, r));
-      mesh.beta[slot] = static_cast<float>(mesh::edge_ratio(p, q, r));
+  Extraction run() {
+    Extraction made;
+    std::vector<QualityMeter> meters(static_cast<std::size_t>(std::max(1, thread_count())),
+                                     QualityMeter(context_.size, points_.grid().periods()));
+    comm::run_agreed(context_.state.comm(), [&] { // the size field is the user's
+      fill_points(made.mesh);
+      const std::vector<Places> begin = places();
+      make_room(begin.back(), made.mesh);
+      std::vector<FlatFan> fans(meters.size(), FlatFan(context_, numbering_));
+      thread_loop(tiles(), 1, [&](std::ptrdiff_t t, int thread) {
+        const auto k = static_cast<std::size_t>(thread);
+        fill_tile(first_tile() + static_cast<LocalIndex>(t), begin[static_cast<std::size_t>(t)], fans[k], meters[k],
+                  made.mesh);
+      });
     });
-  });
-}
+    QualitySums sums;
+    for (const QualityMeter& meter : meters)
+      sums.add(meter.sums());
+    made.quality = summarize(context_.state.comm(), std::move(sums));
+    return made;
+  }
 
-void fill_facets(const ExtractionContext& context, const decomposition::Numbering& numbering, DistributedMesh& mesh) {
-  const Emitter emitter{context, numbering.global_ids};
-  for (const LocalIndex i : numbering.order)
-    emitter.facets(i, [&](GlobalId first, GlobalId second, const BoundarySite& site) {
-      mesh.facets.push_back({first, second});
-      mesh.facet_tags.push_back(site.tag);
-      mesh.facet_parts.push_back(site.part);
+private:
+  LocalIndex first_tile() const { return points_.first_tile(); }
+  LocalIndex tiles() const { return points_.last_tile() - points_.first_tile(); }
+  LocalIndex place(LocalIndex site) const { return numbering_.place(numbering_.vertex(site)); }
+
+  void fill_points(DistributedMesh& mesh) const {
+    const std::size_t n = numbering_.order.size();
+    mesh.points.resize(n);
+    mesh.boundary.resize(n);
+    mesh.size.resize(n);
+    mesh.fixed.resize(n);
+    thread_loop(static_cast<std::ptrdiff_t>(n), 4096, [&](std::ptrdiff_t item, int) {
+      const std::size_t k = static_cast<std::size_t>(item);
+      const LocalIndex i = numbering_.order[k];
+      const std::int32_t b = points_.boundary(i);
+      mesh.points[k] = points_.position(i);
+      mesh.boundary[k] = b < 0 ? 0 : context_.boundary.sites[at(b)].tag;
+      mesh.size[k] = static_cast<float>(context_.size.size(points_.position(i))); // that of the state may be older
+      mesh.fixed[k] = b >= 0 ? context_.boundary.sites[at(b)].corner : b == mesh::fixed_site;
     });
-}
+    mesh.point_slab = {numbering_.first, numbering_.total};
+    mesh.foreign = numbering_.foreign;
+  }
+
+  /// Where each tile begins; the last entry is the end.
+  std::vector<Places> places() const {
+    std::vector<Places> begin(static_cast<std::size_t>(tiles()) + 1);
+    thread_loop(tiles(), 1, [&](std::ptrdiff_t t, int) {
+      const auto [first, last] = points_.tile_range(first_tile() + static_cast<LocalIndex>(t));
+      Places& count = begin[static_cast<std::size_t>(t) + 1];
+      for (LocalIndex i = first; i < last; ++i)
+        count_site(i, count);
+    });
+    for (std::size_t t = 1; t < begin.size(); ++t) {
+      begin[t].triangles += begin[t - 1].triangles;
+      begin[t].facets += begin[t - 1].facets;
+    }
+    return begin;
+  }
+
+  void count_site(LocalIndex i, Places& count) const {
+    const Fan fan = inside_fan(context_, i);
+    if (fan.triangles == 0)
+      return;
+    const LocalIndex own = numbering_.vertex(i);
+    const auto is_above = [&](std::size_t k) { return place(fan.neighbour(k)) > own; };
+    bool above = is_above(0);
+    const bool first_above = above;
+    for (std::size_t k = 1; k <= fan.triangles; ++k) {
+      const bool next_above = k == fan.triangles && fan.closed ? first_above : is_above(k);
+      count.triangles += above && next_above;
+      above = next_above;
+    }
+    if (!fan.closed)
+      count.facets += std::size_t{first_above} + above;
+  }
+
+  static void make_room(Places total, DistributedMesh& mesh) {
+    mesh.triangles.resize(total.triangles);
+    mesh.alpha.resize(total.triangles);
+    mesh.beta.resize(total.triangles);
+    mesh.facets.resize(total.facets);
+    mesh.facet_tags.resize(total.facets);
+    mesh.facet_parts.resize(total.facets);
+  }
+
+  void fill_tile(LocalIndex tile, Places next, FlatFan& fan, QualityMeter& meter, DistributedMesh& mesh) const {
+    meter.write_to(std::span(mesh.alpha).subspan(next.triangles), std::span(mesh.beta).subspan(next.triangles));
+    const auto [first, last] = points_.tile_range(tile);
+    for (LocalIndex vertex = first; vertex < last; ++vertex) {
+      const LocalIndex site = numbering_.order[at(vertex)];
+      fan.load(site);
+      list_triangles(vertex, points_.position(site), fan, meter, next, mesh);
+      for (std::size_t k = 0; k < fan.edges; ++k)
+        if (fan.place[k] > vertex)
+          meter.add_edge(points_.position(site), fan.positions[k]);
+      if (!fan.closed && fan.complete)
+        list_facets(vertex, points_.boundary(site), fan, next, mesh);
+    }
+    meter.finish();
+  }
+
+  /// By the second vertex; a fan has few triangles.
+  static void list_triangles(LocalIndex vertex, Vec2 position, FlatFan& fan, QualityMeter& meter, Places& next,
+                             DistributedMesh& mesh) {
+    for (const std::uint32_t k : fan.triangles_above(vertex)) {
+      mesh.triangles[next.triangles++] = {vertex, fan.vertices[k], fan.vertices[k + 1]};
+      meter.add_triangle(position, fan.positions[k], fan.positions[k + 1]);
+    }
+  }
+
+  /// Of the edges to the next boundary site and from the previous one those whose other end is higher, by their first
+  /// vertex and then the second.
+  void list_facets(LocalIndex vertex, std::int32_t boundary_site, const FlatFan& fan, Places& next,
+                   DistributedMesh& mesh) const {
+    const std::vector<BoundarySite>& sites = context_.boundary.sites;
+    const std::size_t last = fan.triangles;
+    const auto add = [&](LocalIndex from, LocalIndex to, const BoundarySite& site) {
+      mesh.facets[next.facets] = {numbering_.global_id(from), numbering_.global_id(to)};
+      mesh.facet_tags[next.facets] = site.tag;
+      mesh.facet_parts[next.facets++] = site.part;
+    };
+    const auto from_previous = [&] { add(fan.vertices[last], vertex, sites[at(sites[at(boundary_site)].previous)]); };
+    const bool with_next = fan.place[0] > vertex, with_previous = fan.place[last] > vertex;
+    const bool previous_first = with_previous && (!with_next || fan.place[last] < fan.place[0]);
+    if (previous_first)
+      from_previous();
+    if (with_next)
+      add(vertex, fan.vertices[0], sites[at(boundary_site)]);
+    if (with_previous && !previous_first)
+      from_previous();
+  }
+
+  const ExtractionContext& context_;
+  const decomposition::Numbering& numbering_;
+  const mesh::BinnedPoints& points_;
+};
 
 mesh::Slab slab_of(const comm::Communicator& comm, std::size_t count) {
   const std::int64_t n = static_cast<std::int64_t>(count);
@@ -191,16 +226,46 @@ std::int64_t count_incomplete_fans(const ExtractionContext& context) {
   return sum;
 }
 
-DistributedMesh extract_mesh(const ExtractionContext& context, const decomposition::Numbering& numbering) {
+void FlatFan::load(LocalIndex site) {
+  const Fan fan = inside_fan(context_, site);
+  closed = fan.closed;
+  complete = fan.complete;
+  triangles = fan.triangles;
+  edges = complete ? fan.edges() : 0;
+  const std::size_t n = triangles == 0 ? 0 : triangles + (closed ? 2 : 1);
+  vertices.resize(n);
+  place.resize(n);
+  positions.resize(n);
+  const mesh::BinnedPoints& points = context_.state.points();
+  for (std::size_t k = 0; k < n; ++k) {
+    const LocalIndex neighbour = fan.neighbour(k);
+    vertices[k] = numbering_.vertex(neighbour);
+    place[k] = numbering_.place(vertices[k]);
+    positions[k] = points.position(neighbour);
+  }
+}
+
+std::span<const std::uint32_t> FlatFan::triangles_above(LocalIndex own) {
+  above_.resize(triangles + 1);
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < triangles; ++k) { // no branch: nobody can foresee which
+    above_[n] = static_cast<std::uint32_t>(k);
+    n += place[k] > own && place[k + 1] > own;
+  }
+  for (std::size_t end = 1; end < n; ++end)
+    for (std::size_t k = end; k > 0 && place[above_[k]] < place[above_[k - 1]]; --k)
+      std::swap(above_[k], above_[k - 1]);
+  return {above_.data(), n};
+}
+
+Extraction extract_mesh(const ExtractionContext& context, const decomposition::Numbering& numbering) {
   const comm::Communicator& comm = context.state.comm();
-  DistributedMesh mesh;
-  fill_points(context, numbering, mesh);
-  fill_triangles(context, numbering, mesh);
-  fill_facets(context, numbering, mesh);
+  Extraction made = Extractor(context, numbering).run();
+  mesh::DistributedMesh& mesh = made.mesh;
   mesh.triangle_slab = slab_of(comm, mesh.triangles.size());
   mesh.facet_slab = slab_of(comm, mesh.facets.size());
   mesh.hash = static_cast<std::uint64_t>(comm.sum(static_cast<std::int64_t>(partial_hash(mesh))));
-  return mesh;
+  return made;
 }
 
 } // namespace trime::meshing

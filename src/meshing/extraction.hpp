@@ -13,6 +13,7 @@
 #include "trime/sizing/size_field.hpp"
 
 #include <span>
+#include <vector>
 
 namespace trime::meshing {
 
@@ -33,7 +34,11 @@ struct Fan {
   std::size_t first = 0, triangles = 0;
   bool closed = false, complete = false;
 
-  LocalIndex neighbour(std::size_t k) const { return ring[(first + k) % ring.size()]; }
+  /// @pre k <= triangles + 1
+  LocalIndex neighbour(std::size_t k) const {
+    const std::size_t at = first + k;
+    return ring[at < ring.size() ? at : at - ring.size()];
+  }
   /// Number of edges from the site: triangles, plus one for an open fan.
   std::size_t edges() const { return closed ? triangles : triangles + 1; }
 };
@@ -42,11 +47,36 @@ Fan inside_fan(const ExtractionContext& context, LocalIndex i);
 /// Owned sites whose fan is not complete, on this rank.
 std::int64_t count_incomplete_fans(const ExtractionContext& context);
 
-/// @brief The mesh in canonical numbering. @pre stars of all sites are certain, halo fresh. Collective.
-mesh::DistributedMesh extract_mesh(const ExtractionContext& context, const decomposition::Numbering& numbering);
+/// @brief The inside fan of a site as flat lists: vertex and position of its neighbours. Triangle k has the neighbours
+/// k and k + 1; a closed fan ends with its first two neighbours again. Aligned: no cache line belongs to two threads.
+class alignas(64) FlatFan {
+public:
+  FlatFan(const ExtractionContext& context, const decomposition::Numbering& numbering)
+      : context_(context), numbering_(numbering) {}
 
-/// Quality over all ranks. Collective.
-mesh::QualitySummary measure_quality(const ExtractionContext& context, const decomposition::Numbering& numbering);
+  void load(LocalIndex site);
+  /// Triangles whose other vertices have higher places than `own`, by the place of the first of these.
+  std::span<const std::uint32_t> triangles_above(LocalIndex own);
+
+  bool closed = false, complete = false;
+  std::size_t triangles = 0, edges = 0;    ///< edges: of complete fans, else 0
+  std::vector<LocalIndex> vertices, place; ///< place: see Numbering
+  std::vector<geometry::Vec2> positions;
+
+private:
+  const ExtractionContext& context_;
+  const decomposition::Numbering& numbering_;
+  std::vector<std::uint32_t> above_;
+};
+
+/// The mesh in canonical numbering, with its quality.
+struct Extraction {
+  mesh::DistributedMesh mesh;
+  mesh::QualitySummary quality;
+};
+/// @pre stars of all sites are certain, bins and halo fresh. O(points); threads.
+/// @throws GeometryError on all ranks together if the size at an edge is not positive and finite. Collective.
+Extraction extract_mesh(const ExtractionContext& context, const decomposition::Numbering& numbering);
 
 /// What the mesh is to be a mesh of.
 struct Expectation {

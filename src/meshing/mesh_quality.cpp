@@ -1,79 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Quality of the finished mesh, from the certified stars: every triangle and every edge once, over all ranks.
-#include "meshing/extraction.hpp"
-
-#include "trime/comm/agree.hpp"
-#include "trime/core/thread_loop.hpp"
+#include "meshing/mesh_quality.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace trime::meshing {
 namespace {
 
 using geometry::Vec2;
 
-std::size_t at(LocalIndex i) {
-  return static_cast<std::size_t>(i);
-}
-
-/// Mergeable: sums are integers inside, the worst triangle is the lexicographically first of equals.
-struct QualitySums {
-  mesh::RatioStatistics alpha, beta;
-  double min_angle = 60;
-  double worst_alpha = 0;
-  Vec2 worst_place;
-  FixedSum ratio, squared_ratio; ///< L / h over edges
-  std::int64_t edges = 0;
-
-  void add_triangle(Vec2 p, Vec2 q, Vec2 r, const geometry::Periods& periods) {
-    const double a = mesh::aspect_ratio(p, q, r);
-    alpha.add(a);
-    beta.add(mesh::edge_ratio(p, q, r));
-    min_angle = std::min(min_angle, mesh::min_angle_degrees(p, q, r));
-    note_worst(a, periods.wrap((1.0 / 3) * (p + q + r)));
-  }
-  void note_worst(double a, Vec2 place) {
-    if (a > worst_alpha || (a == worst_alpha && geometry::lexicographically_less(place, worst_place))) {
-      worst_alpha = a;
-      worst_place = place;
-    }
-  }
-  void add_edge(double length_over_size) {
-    const double capped = std::min(500.0, length_over_size); // keeps the square within the reach of FixedSum
-    ratio.add(capped);
-    squared_ratio.add(capped * capped);
-    ++edges;
-  }
-  void add(const QualitySums& other) {
-    alpha.merge(other.alpha);
-    beta.merge(other.beta);
-    min_angle = std::min(min_angle, other.min_angle);
-    note_worst(other.worst_alpha, other.worst_place);
-    ratio.add(other.ratio);
-    squared_ratio.add(other.squared_ratio);
-    edges += other.edges;
-  }
-};
-
-void measure_site(const ExtractionContext& context, const std::vector<GlobalId>& ids, LocalIndex i, QualitySums& sums) {
-  const mesh::BinnedPoints& points = context.state.points();
-  const geometry::Periods& periods = points.grid().periods();
-  const Fan fan = inside_fan(context, i);
-  const Vec2 p = points.position(i);
-  for (std::size_t k = 0; k < fan.triangles; ++k) {
-    const LocalIndex a = fan.neighbour(k), b = fan.neighbour(k + 1);
-    if (ids[at(i)] < ids[at(a)] && ids[at(i)] < ids[at(b)])
-      sums.add_triangle(p, points.position(a), points.position(b), periods);
-  }
-  for (std::size_t k = 0; fan.complete && k < fan.edges(); ++k) {
-    const LocalIndex j = fan.neighbour(k);
-    const Vec2 q = points.position(j);
-    if (ids[at(i)] < ids[at(j)])
-      sums.add_edge(geometry::length(q - p) / sizing::checked_size(context.size, periods.wrap(0.5 * (p + q))));
-  }
-}
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double degrees_per_radian = 57.29577951308232;
+constexpr double most_over_size = 500; // keeps the square within the reach of FixedSum
 
 /// The sums of all ranks, on every rank. Collective.
 void reduce(const comm::Communicator& comm, QualitySums& sums) {
@@ -88,39 +26,111 @@ void reduce(const comm::Communicator& comm, QualitySums& sums) {
   sums.ratio = FixedSum::join({packed[0], packed[1]});
   sums.squared_ratio = FixedSum::join({packed[2], packed[3]});
   sums.edges = packed[4];
-  sums.min_angle = comm.min(sums.min_angle);
-  constexpr double nowhere = std::numeric_limits<double>::infinity();
+  sums.least_sine = comm.min(sums.least_sine);
   const double worst = comm.max(sums.worst_alpha);
   const bool here = sums.worst_alpha == worst;
-  const double x = comm.min(here ? sums.worst_place.x : nowhere);
-  const double y = comm.min(here && sums.worst_place.x == x ? sums.worst_place.y : nowhere);
+  const double x = comm.min(here ? sums.worst_place.x : infinity);
+  const double y = comm.min(here && sums.worst_place.x == x ? sums.worst_place.y : infinity);
   sums.worst_alpha = worst;
   sums.worst_place = {x, y};
 }
 
 } // namespace
 
-mesh::QualitySummary measure_quality(const ExtractionContext& context, const decomposition::Numbering& numbering) {
-  std::vector<QualitySums> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
-  comm::run_agreed(context.state.comm(), [&] { // the size field is the user's
-    thread_loop(context.state.points().owned(), 4096, [&](std::ptrdiff_t i, int thread) {
-      measure_site(context, numbering.global_ids, static_cast<LocalIndex>(i),
-                   of_thread[static_cast<std::size_t>(thread)]);
-    });
-  });
-  QualitySums all;
-  for (const QualitySums& sums : of_thread)
-    all.add(sums);
-  reduce(context.state.comm(), all);
+void QualitySums::note_worst(double a, Vec2 place) {
+  if (a > worst_alpha || (a == worst_alpha && geometry::lexicographically_less(place, worst_place))) {
+    worst_alpha = a;
+    worst_place = place;
+  }
+}
 
+void QualitySums::add(const QualitySums& other) {
+  alpha.merge(other.alpha);
+  beta.merge(other.beta);
+  least_sine = std::min(least_sine, other.least_sine);
+  note_worst(other.worst_alpha, other.worst_place);
+  ratio.add(other.ratio);
+  squared_ratio.add(other.squared_ratio);
+  edges += other.edges;
+}
+
+void QualityMeter::add_triangle(Vec2 p, Vec2 q, Vec2 r) {
+  p_.set(triangles_, p);
+  q_.set(triangles_, q);
+  r_.set(triangles_, r);
+  if (++triangles_ == block)
+    measure_triangles();
+}
+
+void QualityMeter::add_edge(Vec2 p, Vec2 q) {
+  from_.set(edges_, p);
+  to_.set(edges_, q);
+  if (++edges_ == block)
+    measure_edges();
+}
+
+void QualityMeter::finish() {
+  measure_triangles();
+  measure_edges();
+}
+
+void QualityMeter::measure_triangles() {
+  const std::size_t n = triangles_;
+  Values alpha, beta, sine;
+  for (std::size_t k = 0; k < n; ++k) {
+    const mesh::TriangleMeasures m = mesh::measure_triangle(p_[k], q_[k], r_[k]);
+    alpha[k] = m.alpha;
+    beta[k] = m.beta;
+    sine[k] = m.least_sine;
+  }
+  double least = sums_.least_sine, worst = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    alpha_[k] = static_cast<float>(alpha[k]);
+    beta_[k] = static_cast<float>(beta[k]);
+    least = std::min(least, sine[k]);
+    worst = std::max(worst, alpha[k]);
+  }
+  sums_.least_sine = least;
+  if (worst >= sums_.worst_alpha)
+    for (std::size_t k = 0; k < n; ++k)
+      if (alpha[k] == worst)
+        sums_.note_worst(worst, periods_.wrap((1.0 / 3) * (p_[k] + q_[k] + r_[k])));
+  sums_.alpha.add(std::span(alpha).first(n));
+  sums_.beta.add(std::span(beta).first(n));
+  write_to(alpha_.subspan(n), beta_.subspan(n));
+  triangles_ = 0;
+}
+
+void QualityMeter::measure_edges() {
+  const std::size_t n = edges_;
+  Values size;
+  if (size_.is_uniform())
+    size.fill(sizing::checked_size(size_, {}));
+  else
+    for (std::size_t k = 0; k < n; ++k)
+      size[k] = sizing::checked_size(size_, periods_.wrap(0.5 * (from_[k] + to_[k])));
+  std::int64_t ratios = 0, squares = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double capped = std::min(most_over_size, geometry::length(to_[k] - from_[k]) / size[k]);
+    ratios += FixedSum::units(capped);
+    squares += FixedSum::units(capped * capped);
+  }
+  sums_.ratio.add_units(ratios);
+  sums_.squared_ratio.add_units(squares);
+  sums_.edges += static_cast<std::int64_t>(n);
+  edges_ = 0;
+}
+
+mesh::QualitySummary summarize(const comm::Communicator& comm, QualitySums sums) {
+  reduce(comm, sums);
   mesh::QualitySummary quality;
-  quality.alpha = all.alpha.summary();
-  quality.beta = all.beta.summary();
-  quality.alpha_histogram = all.alpha.histogram();
-  quality.min_angle_degrees = all.min_angle;
-  quality.worst_place = all.worst_place;
-  const double edges = static_cast<double>(std::max<std::int64_t>(1, all.edges));
-  const double mean = all.ratio.value() / edges, square = all.squared_ratio.value() / edges;
+  quality.alpha = sums.alpha.summary();
+  quality.beta = sums.beta.summary();
+  quality.alpha_histogram = sums.alpha.histogram();
+  quality.min_angle_degrees = std::min(60.0, std::asin(std::min(1.0, sums.least_sine)) * degrees_per_radian);
+  quality.worst_place = sums.worst_place;
+  const double edges = static_cast<double>(std::max<std::int64_t>(1, sums.edges));
+  const double mean = sums.ratio.value() / edges, square = sums.squared_ratio.value() / edges;
   quality.size_mean = mean;
   quality.size_std = mean > 0 ? std::sqrt(std::max(0.0, square / (mean * mean) - 1)) : 0;
   return quality;

@@ -217,10 +217,9 @@ private:
     const auto time = timers_.scope("snapshots");
     const decomposition::Numbering numbering =
         decomposition::canonical_numbering(comm_, state().points(), state().halo());
-    const mesh::QualitySummary quality = measure_quality(extraction(), numbering);
-    const mesh::DistributedMesh mesh = extract_mesh(extraction(), numbering);
+    const Extraction made = extract_mesh(extraction(), numbering);
     const std::vector<LoopSummary> loops = summarize_loops(meshed_boundary(), layout_.boundary);
-    observer({retriangulation, timers_.total(), mesh, quality, loops});
+    observer({retriangulation, timers_.total(), made.mesh, made.quality, loops});
   }
 
   delaunay::StarPass stars(Wanted wanted) {
@@ -317,8 +316,9 @@ private:
     result.components = meshed_boundary().components();
     result.holes = meshed_boundary().holes();
     result.loops = summarize_loops(meshed_boundary(), layout_.boundary);
-    result.quality = measure_quality(context, numbering);
-    result.mesh = extract_mesh(context, numbering);
+    Extraction made = extract_mesh(context, numbering);
+    result.quality = std::move(made.quality);
+    result.mesh = std::move(made.mesh);
     const double side = std::max(options_.container.width(), options_.container.height());
     result.checks = certify(context, numbering, {boundary_, meshed_boundary(), side}, result.mesh);
     result.history = std::move(history_);

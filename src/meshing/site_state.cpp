@@ -3,6 +3,7 @@
 
 #include "trime/comm/agree.hpp"
 #include "trime/core/error.hpp"
+#include "trime/core/free_memory.hpp"
 #include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
@@ -239,9 +240,12 @@ void SiteState::reveal(std::span<const Disc> discs, const sizing::SizeField& siz
 
 void SiteState::release_work_space() {
   points_.release_work_space();
+  points_.release_moves();
   stars_.release_work_space();
   for (std::vector<LocalIndex>* list : {&stays_, &sorted_, &renumbering_})
     std::vector<LocalIndex>().swap(*list);
+  std::vector<delaunay::StarWish>().swap(wanted_);
+  return_free_memory();
 }
 
 } // namespace trime::meshing

@@ -71,7 +71,7 @@ public:
   const decomposition::Halo& halo() const { return halo_; }
   const decomposition::Partition& partition() const { return partition_; }
   const comm::Communicator& comm() const { return comm_; }
-  /// Frees what only further moves would need.
+  /// Frees what only further moves would need: there must be none.
   void release_work_space();
 
 private:

@@ -49,13 +49,14 @@ inline mesh::DistributedMesh holed_square(int n) {
       mesh.fixed.push_back((column == 0 || column == n) && (row == 0 || row == n));
     }
   std::map<std::pair<GlobalId, GlobalId>, int> edges;
+  std::vector<std::array<GlobalId, 3>> triangles;
   for (int row = 0; row < n; ++row)
     for (int column = 0; column < n; ++column) {
       if (row == n / 2 && column == n / 2)
         continue;
       const GlobalId a = id(column, row), b = id(column + 1, row), c = id(column + 1, row + 1), d = id(column, row + 1);
       for (const std::array<GlobalId, 3>& t : {std::array{a, b, c}, std::array{a, c, d}}) {
-        mesh.triangles.push_back(t);
+        triangles.push_back(t);
         for (std::size_t k = 0; k < 3; ++k)
           edges[{t[k], t[(k + 1) % 3]}] = 1;
       }
@@ -70,6 +71,7 @@ inline mesh::DistributedMesh holed_square(int n) {
   mesh.boundary.resize(mesh.points.size());
   for (std::size_t k = 0; k < mesh.facets.size(); ++k)
     mesh.boundary[static_cast<std::size_t>(mesh.facets[k][0])] = mesh.facet_tags[k];
+  assign_triangles(mesh, triangles);
   mesh.alpha.assign(mesh.triangles.size(), 1.2F);
   mesh.beta.assign(mesh.triangles.size(), 1.4F);
   mesh.region.assign(mesh.triangles.size(), 1);
@@ -91,7 +93,7 @@ inline mesh::DistributedMesh slabs_of(const mesh::DistributedMesh& whole, const 
   mesh.boundary = cut(whole.boundary, mesh.point_slab, points);
   mesh.size = cut(whole.size, mesh.point_slab, points);
   mesh.fixed = cut(whole.fixed, mesh.point_slab, points);
-  mesh.triangles = cut(whole.triangles, mesh.triangle_slab, triangles);
+  assign_triangles(mesh, cut(global_triangles(whole), mesh.triangle_slab, triangles));
   mesh.alpha = cut(whole.alpha, mesh.triangle_slab, triangles);
   mesh.beta = cut(whole.beta, mesh.triangle_slab, triangles);
   mesh.region = cut(whole.region, mesh.triangle_slab, triangles);

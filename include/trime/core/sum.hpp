@@ -3,6 +3,7 @@
 // added as an integer. Everything that steers a run is summed this way, over threads and over ranks.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 namespace trime {
@@ -21,6 +22,11 @@ public:
 
   void add(double term) { value_ += static_cast<std::int64_t>(round_to_integer(term * 0x1p32)); }
   void add(const FixedSum& other) { value_ += other.value_; }
+  /// The multiple of the unit that add(term) adds: at most 2^50. Loops over many terms may add these first.
+  static std::int64_t units(double term) {
+    // The integer is what differs in the last bits: this way processors have it for several terms at a time.
+    return std::bit_cast<std::int64_t>(term * 0x1p32 + 0x1.8p52) - std::bit_cast<std::int64_t>(0x1.8p52);
+  }
   /// Adds a multiple of the unit.
   void add_units(std::int64_t units) { value_ += units; }
   double value() const { return static_cast<double>(value_) * unit; }

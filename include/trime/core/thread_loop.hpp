@@ -7,6 +7,7 @@
 #include <omp.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 
 namespace trime {
@@ -37,6 +38,40 @@ void thread_loop(std::ptrdiff_t n, int chunk, const Body& body) {
     }
   if (thrown)
     std::rethrow_exception(thrown);
+}
+
+/// @brief The same while the calling thread does `work`, which may call MPI but must not throw; it joins the loop
+/// afterwards.
+template <class Work, class Body>
+void thread_loop_beside(const Work& work, std::ptrdiff_t n, const Body& body) {
+  std::exception_ptr thrown;
+#pragma omp parallel
+  {
+#pragma omp master
+    work();
+#pragma omp for schedule(dynamic, 1)
+    for (std::ptrdiff_t item = 0; item < n; ++item)
+      try {
+        body(item, omp_get_thread_num());
+      } catch (...) {
+#pragma omp critical(trime_thread_loop)
+        if (!thrown)
+          thrown = std::current_exception();
+      }
+  }
+  if (thrown)
+    std::rethrow_exception(thrown);
+}
+
+/// Sum (mod 2^64) of term(item) over items [0, n): the same for any threads. The terms must not throw.
+template <class Term>
+std::uint64_t thread_sum(std::size_t n, const Term& term) {
+  constexpr std::size_t few = 4096;
+  std::uint64_t sum = 0;
+#pragma omp parallel for schedule(static) reduction(+ : sum) if (n > few)
+  for (std::size_t item = 0; item < n; ++item)
+    sum += term(item);
+  return sum;
 }
 
 } // namespace trime

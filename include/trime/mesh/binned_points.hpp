@@ -123,6 +123,8 @@ public:
 
   /// Frees what the next assign_owned would use again.
   void release_work_space();
+  /// Frees what only sites that move have. @post site() must not be called until assign_owned
+  void release_moves();
 
 private:
   struct Block {           // bins of one tile that is owned or partly known

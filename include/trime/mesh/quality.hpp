@@ -6,8 +6,12 @@
 #include "trime/core/sum.hpp"
 #include "trime/geometry/vec2.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 namespace trime::mesh {
@@ -20,6 +24,23 @@ double edge_ratio(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
 /// Smallest angle in degrees.
 double min_angle_degrees(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
 
+/// All of them at once.
+struct TriangleMeasures {
+  double alpha, beta;
+  double least_sine; ///< of the smallest angle; not a number if all three points are equal
+};
+inline TriangleMeasures measure_triangle(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const double a = geometry::length(q - r), b = geometry::length(r - p), c = geometry::length(p - q);
+  const double twice_area = geometry::cross(q - p, r - p);
+  const double shortest = std::min(std::min(a, b), c), longest = std::max(std::max(a, b), c);
+  // With the area A = |cross|/2: abc/(8(s-a)(s-b)(s-c)) = abc s/(8 A^2), which does not cancel for flat triangles.
+  const double alpha = std::max(1.0, a * b * c * (a + b + c) / (4 * twice_area * twice_area));
+  const double others = a == shortest ? b * c : b == shortest ? c * a : a * b; // the smallest angle lies between them
+  return {twice_area == 0 ? infinity : alpha, shortest > 0 ? longest / shortest : infinity,
+          std::fabs(twice_area) / others};
+}
+
 /// Mean, half-mean ((mean of square roots)^2), standard deviation, median and maximum of a ratio that is at least 1.
 struct RatioSummary {
   double median = 1, mean = 1, max = 1, half_mean = 1, std = 0;
@@ -31,6 +52,8 @@ class RatioStatistics {
 public:
   RatioStatistics();
   void add(double ratio);
+  /// The same as one after the other; at most 4096 of them.
+  void add(std::span<const double> ratios);
   void merge(const RatioStatistics& other);
   RatioSummary summary() const;
   std::int64_t count() const { return count_; }

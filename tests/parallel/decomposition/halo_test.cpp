@@ -135,13 +135,18 @@ TEST(Numbering, IsThatOfOneRankAndFollowsTheHilbertCurve) {
 
     EXPECT_EQ(numbering.total, truth.total);
     EXPECT_EQ(numbering.first, stage.comm.exclusive_scan(stage.points.owned()));
-    ASSERT_EQ(static_cast<LocalIndex>(numbering.global_ids.size()), stage.points.size());
+    ASSERT_EQ(static_cast<LocalIndex>(numbering.site_vertex.size()), stage.points.size());
+    const auto id_of = [&](LocalIndex site) { return numbering.global_id(numbering.vertex(site)); };
     const auto place = [&](GlobalId id) { return stage.truth.position(truth.order[static_cast<std::size_t>(id)]); };
     for (LocalIndex i = 0; i < stage.points.size(); ++i)
-      EXPECT_EQ(place(numbering.global_ids[static_cast<std::size_t>(i)]), stage.points.position(i));
+      EXPECT_EQ(place(id_of(i)), stage.points.position(i));
     for (std::size_t k = 0; k < numbering.order.size(); ++k)
-      EXPECT_EQ(numbering.global_ids[static_cast<std::size_t>(numbering.order[k])],
-                numbering.first + static_cast<GlobalId>(k));
+      EXPECT_EQ(id_of(numbering.order[k]), numbering.first + static_cast<GlobalId>(k));
+    for (LocalIndex i = 0; i < stage.points.size(); ++i)
+      for (LocalIndex j = 0; j < stage.points.size(); j += 17) {
+        const LocalIndex u = numbering.vertex(i), v = numbering.vertex(j);
+        ASSERT_EQ(numbering.place(u) < numbering.place(v), numbering.global_id(u) < numbering.global_id(v));
+      }
     for (GlobalId id = 1; id < truth.total; ++id) {
       const std::uint64_t before = stage.grid.point_key(place(id - 1)), key = stage.grid.point_key(place(id));
       EXPECT_TRUE(before < key || (before == key && geometry::lexicographically_less(place(id - 1), place(id))));

@@ -117,14 +117,14 @@ void expect_torus(const std::vector<Site>& sites, double spacing) {
   const SiteState& state = *owner;
   const mesh::BinnedPoints& points = state.points();
   testing::expect_well_formed(points, state.stars());
-  decomposition::Numbering numbering = decomposition::canonical_numbering(self, points, state.halo());
-  ASSERT_EQ(static_cast<LocalIndex>(numbering.global_ids.size()), points.size());
+  const decomposition::Numbering numbering = decomposition::canonical_numbering(self, points, state.halo());
+  ASSERT_EQ(static_cast<LocalIndex>(numbering.site_vertex.size()), points.size());
+  EXPECT_TRUE(numbering.foreign.empty()); // images are the vertices of their sites
+  const auto id_of = [&](LocalIndex i) { return numbering.global_id(numbering.vertex(i)); };
   std::map<std::array<GlobalId, 3>, int> listings;
   for (LocalIndex i = 0; i < points.owned(); ++i)
     testing::for_each_triangle(state.stars(), i, [&](LocalIndex a, LocalIndex b) {
-      std::array<GlobalId, 3> ids{numbering.global_ids[static_cast<std::size_t>(i)],
-                                  numbering.global_ids[static_cast<std::size_t>(a)],
-                                  numbering.global_ids[static_cast<std::size_t>(b)]};
+      std::array<GlobalId, 3> ids{id_of(i), id_of(a), id_of(b)};
       EXPECT_TRUE(ids[0] != ids[1] && ids[1] != ids[2] && ids[2] != ids[0]);
       std::rotate(ids.begin(), std::min_element(ids.begin(), ids.end()), ids.end());
       ++listings[ids];

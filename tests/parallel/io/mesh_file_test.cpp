@@ -44,12 +44,14 @@ mesh::DistributedMesh make_mesh(const comm::Communicator& comm, std::uint64_t se
     mesh.size.push_back(static_cast<float>(i) / 7);
     mesh.fixed.push_back(i % 5 == 0);
   }
+  std::vector<std::array<GlobalId, 3>> ids;
   for (std::int64_t k = 0, i = mesh.triangle_slab.first; k < triangles; ++k, ++i) {
-    mesh.triangles.push_back({vertex(i, 0), vertex(i, 1), vertex(i, 2)});
+    ids.push_back({vertex(i, 0), vertex(i, 1), vertex(i, 2)});
     mesh.alpha.push_back(1 + static_cast<float>(i) / 3);
     mesh.beta.push_back(1 + static_cast<float>(i) / 5);
     mesh.region.push_back(static_cast<std::int32_t>(i % 2));
   }
+  assign_triangles(mesh, ids);
   for (std::int64_t k = 0, i = mesh.facet_slab.first; k < facets; ++k, ++i) {
     mesh.facets.push_back({i, (i + 1) % n_facets});
     mesh.facet_tags.push_back(static_cast<std::int32_t>(1 + i % 3));
@@ -337,8 +339,8 @@ TEST(SlabFile, ARankThatCannotMakeItsRowsStopsAllRanks) {
   for (const std::int64_t failing_slice : {0, 1, 2}) {
     SlabArray array = counting(comm, failing_slice == 0 ? "/a" : failing_slice == 1 ? "/b" : "/c", many_rows);
     if (comm.rank() == comm.size() - 1)
-      array.fill = [&, slice = 0](std::int64_t, std::int64_t, std::byte*) mutable {
-        if (slice++ == failing_slice)
+      array.fill = [failing_row = failing_slice * many_rows / 3](std::int64_t first, std::int64_t count, std::byte*) {
+        if (first + count > failing_row)
           throw std::bad_alloc();
       };
     try {
@@ -358,13 +360,15 @@ TEST(SlabFile, RowsThatAreReadBackOtherwiseAreToldByAllRanks) {
   const test::TemporaryDirectory directory(comm);
   SlabFile file(comm, directory.path() + "/a.h5");
   SlabArray array = counting(comm, "/a", many_rows);
+  bool written = false;
   if (comm.rank() == comm.size() - 1)
-    array.fill = [right = array.fill, calls = 0](std::int64_t first, std::int64_t count, std::byte* out) mutable {
+    array.fill = [right = array.fill, &written](std::int64_t first, std::int64_t count, std::byte* out) {
       right(first, count, out);
-      if (++calls == 5) // the second slice of the second pass
-        out[count - 1] ^= std::byte{1};
+      if (written && first <= many_rows / 2 && many_rows / 2 < first + count)
+        out[many_rows / 2 - first] ^= std::byte{1};
     };
   file.slab(std::move(array));
+  written = true;
   EXPECT_THROW(file.verify(), FileError);
 }
 

@@ -24,12 +24,25 @@ TEST(MeshHash, TheSharesOfAnySlabsAddUpToTheWhole) {
       DistributedMesh first, second;
       first.points.assign(whole.points.begin(), whole.points.begin() + static_cast<std::ptrdiff_t>(p));
       second.points.assign(whole.points.begin() + static_cast<std::ptrdiff_t>(p), whole.points.end());
-      first.triangles.assign(whole.triangles.begin(), whole.triangles.begin() + static_cast<std::ptrdiff_t>(t));
-      second.triangles.assign(whole.triangles.begin() + static_cast<std::ptrdiff_t>(t), whole.triangles.end());
       second.point_slab.first = static_cast<GlobalId>(p);
       second.triangle_slab.first = static_cast<GlobalId>(t);
+      const auto ids = global_triangles(whole);
+      assign_triangles(first, std::span(ids).first(t));
+      assign_triangles(second, std::span(ids).subspan(t));
       EXPECT_EQ(partial_hash(first) + partial_hash(second), expected);
     }
+}
+
+TEST(DistributedMesh, VerticesOfOtherRanksComeAfterThePoints) {
+  DistributedMesh mesh;
+  mesh.points = {{0, 0}, {1, 0}};
+  mesh.point_slab = {GlobalId{1} << 40, GlobalId{1} << 41};
+  const GlobalId first = mesh.point_slab.first;
+  const std::vector<std::array<GlobalId, 3>> ids{{3, first, first + 1}, {first, first + 7, 3}, {3, 2, first + 7}};
+  assign_triangles(mesh, ids);
+  EXPECT_EQ(mesh.foreign, (std::vector<GlobalId>{2, 3, first + 7}));
+  EXPECT_EQ(mesh.triangles[1], (std::array<LocalIndex, 3>{0, 4, 3}));
+  EXPECT_EQ(global_triangles(mesh), ids);
 }
 
 TEST(MeshHash, SeesEveryChangeButTheSignOfZero) {
