@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which vector instructions the kernels with several builds may use: every build gives the same bits, only the time
+// differs.
+#pragma once
+
+namespace trime {
+
+/// In rising order: what every processor of the platform has; AVX2; AVX-512 with F, DQ, VL and BW.
+enum class SimdLevel { portable, avx2, avx512 };
+
+/// @brief The highest level of this machine, asked once. The environment variable TRIME_SIMD (portable, avx2 or avx512)
+/// lowers it; a level that the machine does not have, and any other value, is ignored.
+SimdLevel simd_level();
+
+/// @brief Lowers the level for tests and comparisons; levels above that of the machine have no effect. Not while other
+/// threads compute.
+void limit_simd_level(SimdLevel limit);
+
+} // namespace trime
