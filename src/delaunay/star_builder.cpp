@@ -3,6 +3,7 @@
 
 #include "delaunay/double2.hpp"
 #include "delaunay/star_kernel.hpp"
+#include "delaunay/tile_wrapper.hpp"
 #include "trime/core/thread_loop.hpp"
 #include "trime/geometry/predicates.hpp"
 
@@ -238,6 +239,42 @@ private:
   std::vector<std::uint8_t> counted_;
 };
 
+/// The stars of one tile after the other: many at once where that can be, the rest one by one.
+class TileWorker {
+public:
+  TileWorker(const mesh::BinnedPoints& points, StarTable& stars, const geometry::Lattice& lattice)
+      : points_(points), stars_(stars), star_(points, stars, lattice), wrapper_(points, stars, lattice, simd_level()) {}
+
+  template <class Cap>
+  void compute(LocalIndex tile, std::span<const StarWish> wanted, const Cap& cap) {
+    const auto [begin, end] = points_.tile_range(tile);
+    caps_.resize(static_cast<std::size_t>(end - begin));
+    for (LocalIndex i = begin; i < end; ++i) {
+      const StarWish wish = wanted.empty() ? StarWish::compute : wanted[static_cast<std::size_t>(i)];
+      if (wish == StarWish::none)
+        stars_.clear(i);
+      if (wish != StarWish::compute)
+        stars_.set_certain(i, false); // to be computed once it is wanted
+      caps_[static_cast<std::size_t>(i - begin)] = wish == StarWish::compute && !stars_.certain(i) ? cap(i) : 0;
+    }
+    rebuilt_ += wrapper_.compute(tile, caps_);
+    for (LocalIndex i = begin; i < end; ++i)
+      if (const double limit = caps_[static_cast<std::size_t>(i - begin)]; limit > 0)
+        star_.compute(i, limit);
+  }
+
+  StarPass pass() const { return {star_.pass().rebuilt + rebuilt_, star_.pass().uncertain}; }
+  const std::vector<mesh::BinRef>& missing() const { return star_.missing(); }
+
+private:
+  const mesh::BinnedPoints& points_;
+  StarTable& stars_;
+  StarWorker star_;
+  TileWrapper wrapper_;
+  std::vector<double> caps_;
+  std::int64_t rebuilt_ = 0;
+};
+
 } // namespace
 
 bool StarBuilder::counts(Vec2 a, Vec2 b, Vec2 c, double cap, const geometry::Periods& periods) {
@@ -251,27 +288,18 @@ double StarBuilder::largest_cap(const geometry::Periods& periods) {
 
 StarPass StarBuilder::update(const mesh::BinnedPoints& points, StarTable& stars, const mesh::LocalSizes& sizes,
                              std::span<const StarWish> wanted, std::vector<mesh::BinRef>& missing) const {
-  std::vector<StarWorker> workers;
+  std::vector<TileWorker> workers;
   for (int thread = 0; thread < std::max(1, thread_count()); ++thread)
     workers.emplace_back(points, stars, lattice_);
   const LocalIndex first_tile = points.first_tile();
   const double limit = largest_cap(points.grid().periods());
-  thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t tile, int thread) {
-    const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(tile));
-    for (LocalIndex i = begin; i < end; ++i) {
-      const StarWish wish = wanted.empty() ? StarWish::compute : wanted[static_cast<std::size_t>(i)];
-      if (wish != StarWish::compute) {
-        if (wish == StarWish::none)
-          stars.clear(i);
-        stars.set_certain(i, false); // to be computed once it is wanted
-      } else if (!stars.certain(i)) {
-        workers[static_cast<std::size_t>(thread)].compute(i,
-                                                          std::min(limit, sizes.known(i) ? cap(sizes[i]) : largest_));
-      }
-    }
+  thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t part, int thread) {
+    const LocalIndex tile = first_tile + static_cast<LocalIndex>(part);
+    workers[static_cast<std::size_t>(thread)].compute(
+        tile, wanted, [&](LocalIndex i) { return std::min(limit, sizes.known(i) ? cap(sizes[i]) : largest_); });
   });
   StarPass pass;
-  for (const StarWorker& worker : workers) {
+  for (const TileWorker& worker : workers) {
     pass.rebuilt += worker.pass().rebuilt;
     pass.uncertain += worker.pass().uncertain;
     missing.insert(missing.end(), worker.missing().begin(), worker.missing().end());

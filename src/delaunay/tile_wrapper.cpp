@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "delaunay/tile_wrapper.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace trime::delaunay {
+namespace {
+
+using geometry::Vec2;
+
+/// How far candidates are looked for beyond the box of the sites, in spacings: a relaxed mesh, a random one, the rest.
+constexpr std::array<double, 3> reaches{1.5, 2.7, 4};
+constexpr int fewest_lanes = 3;   // fewer sites are quicker one by one
+constexpr int longest_pause = 64; // groups
+
+} // namespace
+
+TileWrapper::TileWrapper(const mesh::BinnedPoints& points, StarTable& stars, const geometry::Lattice& lattice,
+                         SimdLevel level)
+    : points_(points), positions_(points.positions().data()), stars_(stars), lattice_(lattice),
+      kernel_(wrap_kernel(level)), group_(std::make_unique<WrapGroup>()) {
+  candidate_.resize(WrapGroup::most_candidates + WrapGroup::padding);
+}
+
+std::int64_t TileWrapper::compute(LocalIndex tile, std::span<double> caps) {
+  const auto [begin, end] = points_.tile_range(tile);
+  const geometry::Box box = points_.grid().tile_box(tile);
+  caps_ = caps;
+  first_site_ = begin;
+  changed_ = 0;
+  if (end - begin < 4)
+    return 0;
+  spacing_ = std::sqrt(box.width() * box.height() / (end - begin));
+  scale_ = std::ldexp(1.0, -std::ilogb(spacing_));
+  order_sites(tile);
+  const int first_level = level_;
+  for (int pass = 0; pass < 2 && !order_.empty(); ++pass) {
+    again_.clear();
+    for (std::size_t k = 0; k < order_.size();) {
+      const Group group = next_group(k);
+      k = group.end;
+      if (skipped_ > 0) {
+        --skipped_;
+        continue;
+      }
+      if (group.end - group.begin >= fewest_lanes && prepare(group)) {
+        kernel_.wrap(*group_);
+        take(group);
+      }
+    }
+    std::swap(order_, again_);
+    if (++level_ == static_cast<int>(reaches.size()))
+      break;
+  }
+  level_ = first_level;
+  if (done_ > 500) { // what most stars need is tried first
+    if (small_ > 0.2 * done_ && level_ + 1 < static_cast<int>(reaches.size()))
+      ++level_;
+    else if (small_ < 1e-4 * done_ && level_ > 0)
+      --level_;
+    small_ = done_ = 0;
+  }
+  return changed_;
+}
+
+/// Snakes through strips of bins, so that a run of sites fills a compact box.
+void TileWrapper::order_sites(LocalIndex tile) {
+  const int side = points_.grid().bins_per_side(tile);
+  const double bin = std::sqrt(static_cast<double>(caps_.size())) / side; // in spacings
+  const int height = std::clamp(static_cast<int>(std::lround(std::sqrt(kernel_.lanes) / bin)), 1, side);
+  order_.clear();
+  bool backwards = false;
+  for (int row = 0; row < side; row += height, backwards = !backwards)
+    for (int k = 0; k < side; ++k)
+      append_column(tile, backwards ? side - 1 - k : k, row, std::min(row + height, side), backwards);
+}
+
+void TileWrapper::append_column(LocalIndex tile, int column, int first_row, int last_row, bool backwards) {
+  const std::size_t begin = order_.size();
+  const int side = points_.grid().bins_per_side(tile);
+  for (int row = first_row; row < last_row; ++row) {
+    const auto [first, last] = points_.bin_range({tile, row * side + column});
+    for (LocalIndex i = first; i < last; ++i) {
+      if (cap(i) <= 0)
+        continue;
+      const double x = positions_[i].x;
+      std::size_t at = order_.size();
+      order_.push_back(i);
+      for (; at > begin && (backwards ? positions_[order_[at - 1]].x < x : positions_[order_[at - 1]].x > x); --at)
+        order_[at] = order_[at - 1];
+      order_[at] = i;
+    }
+  }
+}
+
+TileWrapper::Group TileWrapper::next_group(std::size_t begin) const {
+  const double widest = 2 * std::sqrt(kernel_.lanes) * spacing_;
+  const std::size_t limit = std::min(order_.size(), begin + static_cast<std::size_t>(kernel_.lanes));
+  Group group{begin, begin, {positions_[order_[begin]], positions_[order_[begin]]}};
+  for (; group.end < limit; ++group.end) {
+    const Vec2 p = positions_[order_[group.end]];
+    const geometry::Box grown{{std::min(group.box.min.x, p.x), std::min(group.box.min.y, p.y)},
+                              {std::max(group.box.max.x, p.x), std::max(group.box.max.y, p.y)}};
+    if (grown.width() > widest || grown.height() > widest)
+      break;
+    group.box = grown;
+  }
+  return group;
+}
+
+/// Candidates and sites of a group; false if there are too many candidates.
+bool TileWrapper::prepare(const Group& group) {
+  const double reach = reaches[static_cast<std::size_t>(level_)] * spacing_;
+  center_ = lattice_.snap(Vec2{0.5 * (group.box.min.x + group.box.max.x), 0.5 * (group.box.min.y + group.box.max.y)});
+  collect({0.5 * group.box.width() + reach, 0.5 * group.box.height() + reach});
+  if (group_->candidates > WrapGroup::most_candidates)
+    return false;
+  for (int lane = 0; lane < kernel_.lanes; ++lane) {
+    const std::size_t k = std::min(group.begin + static_cast<std::size_t>(lane), group.end - 1);
+    const Vec2 d = positions_[order_[k]] - center_;
+    group_->site_x[lane] = static_cast<float>(d.x * scale_);
+    group_->site_y[lane] = static_cast<float>(d.y * scale_);
+    group_->cap[lane] = static_cast<float>(0.99 * cap(order_[k]) * scale_);
+  }
+  return true;
+}
+
+void TileWrapper::collect(Vec2 half) {
+  WrapGroup& g = *group_;
+  int n = 0;
+  missing_.clear();
+  const double half_x = half.x * scale_, half_y = half.y * scale_;
+  points_.for_each_near(
+      center_, std::max(half.x, half.y),
+      [&](LocalIndex begin, LocalIndex end) {
+        if (n + (end - begin) > WrapGroup::most_candidates + WrapGroup::padding)
+          n = WrapGroup::most_candidates + 1; // too many
+        if (n > WrapGroup::most_candidates)
+          return;
+        for (LocalIndex j = begin; j < end; ++j) {
+          const double x = (positions_[j].x - center_.x) * scale_, y = (positions_[j].y - center_.y) * scale_;
+          g.x[n] = static_cast<float>(x);
+          g.y[n] = static_cast<float>(y);
+          candidate_[static_cast<std::size_t>(n)] = j;
+          n += (std::fabs(x) <= half_x) & (std::fabs(y) <= half_y);
+        }
+      },
+      [&](mesh::BinRef bin) { missing_.push_back(bin); });
+  g.candidates = n;
+  g.half_x = static_cast<float>(half_x);
+  g.half_y = static_cast<float>(half_y);
+}
+
+/// Can a disc of the star meet a bin that is not known? The star is then left to the search that names such bins.
+bool TileWrapper::meets_missing_bin(int lane) const {
+  const WrapGroup& g = *group_;
+  const mesh::TileGrid& grid = points_.grid();
+  for (const mesh::BinRef& bin : missing_) {
+    const geometry::Box tile = grid.tile_box(bin.tile);
+    const int bits = grid.bin_bits(bin.tile), side = 1 << bits;
+    const Vec2 size{tile.width() / side, tile.height() / side}, shift = grid.shift(bin.image) - center_;
+    const Vec2 low{tile.min.x + (bin.bin & (side - 1)) * size.x, tile.min.y + (bin.bin >> bits) * size.y};
+    const double slack = 1e-3 * std::max(size.x, size.y);
+    if (g.high_x[lane] > (low.x - slack + shift.x) * scale_ &&
+        g.low_x[lane] < (low.x + size.x + slack + shift.x) * scale_ &&
+        g.high_y[lane] > (low.y - slack + shift.y) * scale_ &&
+        g.low_y[lane] < (low.y + size.y + slack + shift.y) * scale_)
+      return true;
+  }
+  return false;
+}
+
+/// Stores the stars that were found; those whose discs leave the box come again.
+void TileWrapper::take(const Group& group) {
+  int undecided = 0;
+  for (std::size_t k = group.begin; k < group.end; ++k) {
+    const int lane = static_cast<int>(k - group.begin);
+    const LocalIndex i = order_[k];
+    const int degree = group_->degree[lane];
+    if (group_->covered[lane] == 0) {
+      again_.push_back(i);
+      ++small_;
+    } else if (degree == 0) {
+      ++undecided;
+    } else if (missing_.empty() || !meets_missing_bin(lane)) {
+      store(i, lane, degree);
+    }
+  }
+  const std::size_t n = group.end - group.begin;
+  done_ += static_cast<double>(n);
+  if (2 * static_cast<std::size_t>(undecided) <= n) {
+    patience_ = 0;
+  } else {
+    patience_ = std::min(longest_pause, 2 * patience_ + 1);
+    skipped_ = patience_;
+  }
+}
+
+/// The ring starts at the lexicographically smallest neighbour.
+void TileWrapper::store(LocalIndex site, int lane, int degree) {
+  std::array<LocalIndex, WrapGroup::most_degree> ring;
+  std::array<LocalIndex, WrapGroup::most_degree> turned;
+  int smallest = 0;
+  Vec2 best{INFINITY, INFINITY};
+  for (int k = 0; k < degree; ++k) {
+    ring[static_cast<std::size_t>(k)] = candidate_[static_cast<std::size_t>(group_->ring[k][lane])];
+    const Vec2 p = positions_[ring[static_cast<std::size_t>(k)]];
+    const bool less = p.x < best.x || (p.x == best.x && p.y < best.y);
+    smallest = less ? k : smallest;
+    best = less ? p : best;
+  }
+  for (int k = 0; k < degree; ++k) {
+    const int from = smallest + k < degree ? smallest + k : smallest + k - degree;
+    turned[static_cast<std::size_t>(k)] = ring[static_cast<std::size_t>(from)];
+  }
+  const std::span<const LocalIndex> found(turned.data(), static_cast<std::size_t>(degree));
+  const std::span<const LocalIndex> last = stars_.load(site, old_ring_);
+  if (!std::equal(found.begin(), found.end(), last.begin(), last.end())) {
+    stars_.store(site, found);
+    ++changed_;
+  }
+  stars_.set_certain(site, true);
+  cap(site) = 0;
+}
+
+} // namespace trime::delaunay
