@@ -1,19 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "delaunay/tile_wrapper.hpp"
 
+#include "delaunay/circumcenter.hpp"
+#include "delaunay/double2.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include <cstdio>
 namespace trime::delaunay {
+struct Stat{ long groups[3]{},lanes[3]{},cov[3]{},tie[3]{},many[3]{},cands[3]{},rounds[3]{}, few[3]{};~Stat(){for(int l=0;l<3;++l)printf("level %d groups %ld lanes %ld cov %ld tie %ld many %ld few %ld cands/group %.1f\n",l,groups[l],lanes[l],cov[l],tie[l],many[l],few[l],(double)cands[l]/(double)groups[l]);}} stat;
 namespace {
 
 using geometry::Vec2;
 
 /// How far candidates are looked for beyond the box of the sites, in spacings: a relaxed mesh, a random one, the rest.
 constexpr std::array<double, 3> reaches{1.5, 2.7, 4};
+constexpr double rounder = 0x3p32; // adding and subtracting it leaves multiples of 2^-19
+constexpr double largest_half = 15.9; // side of a group's box
 constexpr int fewest_lanes = 3;   // fewer sites are quicker one by one
 constexpr int longest_pause = 64; // groups
+
+/// A coordinate as WrapGroup wants it.
+struct Coordinate {
+  double value;
+  float coarse, rest;
+};
+
+inline Coordinate coordinate(double at, double center, double scale) {
+  const double value = (at - center) * scale, coarse = (value + rounder) - rounder;
+  return {value, static_cast<float>(coarse), static_cast<float>(value - coarse)};
+}
 
 } // namespace
 
@@ -46,7 +64,7 @@ std::int64_t TileWrapper::compute(LocalIndex tile, std::span<double> caps) {
         continue;
       }
       if (group.end - group.begin >= fewest_lanes && prepare(group)) {
-        kernel_.wrap(*group_);
+        kernel_.wrap(*group_);stat.groups[level_]++; stat.cands[level_]+=group_->candidates; stat.lanes[level_]+=(long)(group.end-group.begin);
         take(group);
       }
     }
@@ -115,13 +133,16 @@ bool TileWrapper::prepare(const Group& group) {
   const double reach = reaches[static_cast<std::size_t>(level_)] * spacing_;
   center_ = lattice_.snap(Vec2{0.5 * (group.box.min.x + group.box.max.x), 0.5 * (group.box.min.y + group.box.max.y)});
   collect({0.5 * group.box.width() + reach, 0.5 * group.box.height() + reach});
-  if (group_->candidates > WrapGroup::most_candidates)
-    return false;
+  if (group_->candidates > WrapGroup::most_candidates || group_->half_x > largest_half || group_->half_y > largest_half)
+    {stat.many[level_]+=(long)(group.end-group.begin);return false;}
   for (int lane = 0; lane < kernel_.lanes; ++lane) {
     const std::size_t k = std::min(group.begin + static_cast<std::size_t>(lane), group.end - 1);
-    const Vec2 d = positions_[order_[k]] - center_;
-    group_->site_x[lane] = static_cast<float>(d.x * scale_);
-    group_->site_y[lane] = static_cast<float>(d.y * scale_);
+    const Coordinate x = coordinate(positions_[order_[k]].x, center_.x, scale_);
+    const Coordinate y = coordinate(positions_[order_[k]].y, center_.y, scale_);
+    group_->site_x[lane] = x.coarse;
+    group_->site_y[lane] = y.coarse;
+    group_->site_rest_x[lane] = x.rest;
+    group_->site_rest_y[lane] = y.rest;
     group_->cap[lane] = static_cast<float>(0.99 * cap(order_[k]) * scale_);
   }
   return true;
@@ -140,11 +161,14 @@ void TileWrapper::collect(Vec2 half) {
         if (n > WrapGroup::most_candidates)
           return;
         for (LocalIndex j = begin; j < end; ++j) {
-          const double x = (positions_[j].x - center_.x) * scale_, y = (positions_[j].y - center_.y) * scale_;
-          g.x[n] = static_cast<float>(x);
-          g.y[n] = static_cast<float>(y);
+          const Coordinate x = coordinate(positions_[j].x, center_.x, scale_);
+          const Coordinate y = coordinate(positions_[j].y, center_.y, scale_);
+          g.x[n] = x.coarse;
+          g.y[n] = y.coarse;
+          g.rest_x[n] = x.rest;
+          g.rest_y[n] = y.rest;
           candidate_[static_cast<std::size_t>(n)] = j;
-          n += (std::fabs(x) <= half_x) & (std::fabs(y) <= half_y);
+          n += (std::fabs(x.value) <= half_x) & (std::fabs(y.value) <= half_y);
         }
       },
       [&](mesh::BinRef bin) { missing_.push_back(bin); });
@@ -180,10 +204,10 @@ void TileWrapper::take(const Group& group) {
     const LocalIndex i = order_[k];
     const int degree = group_->degree[lane];
     if (group_->covered[lane] == 0) {
-      again_.push_back(i);
+      again_.push_back(i);stat.cov[level_]++;
       ++small_;
-    } else if (degree == 0) {
-      ++undecided;
+    } else if (degree == 0 || !(group_->proven[lane] != 0 || prove(i, lane, degree))) {
+      ++undecided;stat.tie[level_]++;
     } else if (missing_.empty() || !meets_missing_bin(lane)) {
       store(i, lane, degree);
     }
@@ -198,10 +222,52 @@ void TileWrapper::take(const Group& group) {
   }
 }
 
+/// @brief The proof in double precision: no candidate lies in the discs of the ring, save the two of each on its rim.
+/// Triangles of the Delaunay triangulation that follow each other until the first comes again are the whole star.
+bool TileWrapper::prove(LocalIndex site, int lane, int degree) {
+  const Vec2 center = positions_[site];
+  const auto neighbour = [&](int k) {
+    return positions_[candidate_[static_cast<std::size_t>(group_->ring[k][lane])]] - center;
+  };
+  std::array<Vertex, WrapGroup::most_degree> vertices;
+  double r2 = 0;
+  Vec2 a = neighbour(degree - 1);
+  for (int k = 0; k < degree; ++k) {
+    const Vec2 b = neighbour(k);
+    const Vertex v = circumcenter(a.x, a.y, b.x, b.y);
+    if (!v.sound)
+      return false;
+    vertices[static_cast<std::size_t>(k)] = v;
+    r2 = std::max(r2, v.r2);
+    a = b;
+  }
+  std::size_t near = 0;
+  for (int c = 0; c < group_->candidates; ++c) {
+    const Vec2 q = positions_[candidate_[static_cast<std::size_t>(c)]] - center;
+    const double q2 = geometry::squared_length(q);
+    near_x_[near] = q.x;
+    near_y_[near] = q.y;
+    near += (q2 > 0) & (q2 <= 4.0001 * r2);
+  }
+  near_x_[near] = near_y_[near] = NAN;
+  const double size = 2 * std::sqrt(2.001 * r2); // of |q|_1
+  for (int k = 0; k < degree; ++k) {
+    const Vertex& v = vertices[static_cast<std::size_t>(k)];
+    const Double2 tolerance = both(-(v.error * size + 8 * epsilon * size * size));
+    Mask2 inside{0, 0};
+    for (std::size_t c = 0; c < near; c += 2) {
+      const Double2 x = load2(&near_x_[c]), y = load2(&near_y_[c]);
+      inside += both(2) * (both(v.x) * x + both(v.y) * y) - (x * x + y * y) >= tolerance;
+    }
+    if (inside[0] + inside[1] != -2)
+      return false;
+  }
+  return true;
+}
+
 /// The ring starts at the lexicographically smallest neighbour.
 void TileWrapper::store(LocalIndex site, int lane, int degree) {
-  std::array<LocalIndex, WrapGroup::most_degree> ring;
-  std::array<LocalIndex, WrapGroup::most_degree> turned;
+  std::array<LocalIndex, WrapGroup::most_degree> ring{};
   int smallest = 0;
   Vec2 best{INFINITY, INFINITY};
   for (int k = 0; k < degree; ++k) {
@@ -211,14 +277,17 @@ void TileWrapper::store(LocalIndex site, int lane, int degree) {
     smallest = less ? k : smallest;
     best = less ? p : best;
   }
-  for (int k = 0; k < degree; ++k) {
-    const int from = smallest + k < degree ? smallest + k : smallest + k - degree;
-    turned[static_cast<std::size_t>(k)] = ring[static_cast<std::size_t>(from)];
-  }
-  const std::span<const LocalIndex> found(turned.data(), static_cast<std::size_t>(degree));
+  std::rotate(ring.begin(), ring.begin() + smallest, ring.begin() + degree);
+  const std::span<const LocalIndex> found(ring.data(), static_cast<std::size_t>(degree));
   const std::span<const LocalIndex> last = stars_.load(site, old_ring_);
   if (!std::equal(found.begin(), found.end(), last.begin(), last.end())) {
-    stars_.store(site, found);
+    if (degree <= StarTable::slots) {
+      std::array<LocalIndex, StarTable::slots> slots;
+      std::copy_n(ring.begin(), StarTable::slots, slots.begin());
+      stars_.store(site, slots, found.size());
+    } else {
+      stars_.store(site, found);
+    }
     ++changed_;
   }
   stars_.set_certain(site, true);

@@ -7,6 +7,7 @@
 #include "trime/geometry/lattice.hpp"
 #include "trime/mesh/binned_points.hpp"
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -37,6 +38,7 @@ private:
   void collect(geometry::Vec2 half);
   bool meets_missing_bin(int lane) const;
   void take(const Group& group);
+  bool prove(LocalIndex site, int lane, int degree);
   void store(LocalIndex site, int lane, int degree);
   double& cap(LocalIndex i) { return caps_[static_cast<std::size_t>(i - first_site_)]; }
 
@@ -60,6 +62,7 @@ private:
   std::vector<LocalIndex> candidate_;
   std::vector<mesh::BinRef> missing_;
   std::vector<LocalIndex> old_ring_;
+  std::array<double, WrapGroup::most_candidates + 2> near_x_, near_y_;
 
   // Learnt on the way; none of it can change a star.
   int level_ = 0;               // of the reach

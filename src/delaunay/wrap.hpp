@@ -10,8 +10,9 @@
 namespace trime::delaunay {
 
 /// @brief A group of sites and the candidates that they share: all known sites of a box. Lengths are in units of a
-/// length of the caller's, such that neighbours are about 1 apart; coordinates count from the centre of the box and are
-/// rounded to float32.
+/// length of the caller's, such that neighbours are about 1 apart; coordinates count from the centre of the box. Each is
+/// the sum of a multiple of 2^-19 below 16 and a rest rounded to float32: differences of two are then known to 2^-42 and
+/// the rounding of one sum.
 ///
 /// Plain arrays, since the kernels are compiled for different processors and must not share any inline function.
 struct WrapGroup {
@@ -21,12 +22,14 @@ struct WrapGroup {
   float half_x, half_y; ///< of the box: half its sides; no candidate lies outside
   int candidates;
   float x[most_candidates + padding], y[most_candidates + padding];
-  alignas(64) float site_x[most_lanes], site_y[most_lanes]; ///< each is a candidate too, with the same bits
-  alignas(64) float cap[most_lanes];                        ///< circumradii must be smaller
+  float rest_x[most_candidates + padding], rest_y[most_candidates + padding];
+  alignas(64) float site_x[most_lanes], site_y[most_lanes], site_rest_x[most_lanes], site_rest_y[most_lanes];
+  alignas(64) float cap[most_lanes]; ///< circumradii must be smaller
 
   // Out.
   alignas(64) std::int32_t ring[most_degree][most_lanes]; ///< candidates, counter-clockwise
-  alignas(64) std::int32_t degree[most_lanes];            ///< 0: not decided
+  alignas(64) std::int32_t degree[most_lanes];            ///< 0: no ring found
+  alignas(64) std::int32_t proven[most_lanes];            ///< 0: float32 does not decide about the ring
   alignas(64) std::int32_t covered[most_lanes];           ///< 0: a disc leaves the box, or is too large
   alignas(64) float low_x[most_lanes], low_y[most_lanes], high_x[most_lanes], high_y[most_lanes]; ///< hold all discs
 
@@ -34,9 +37,9 @@ struct WrapGroup {
   alignas(64) float u[most_candidates + padding][2 * most_lanes];
 };
 
-/// @brief Finds the stars of the sites of a group. A star with degree > 0 and covered != 0 is the ring of Delaunay
-/// neighbours of its site among all sites, if all sites of the box were candidates: without ties, with all circumradii
-/// below the cap, and with all discs inside the box given by low and high.
+/// @brief Finds the stars of the sites of a group. A star that is proven and covered is the ring of Delaunay neighbours
+/// of its site among all sites, if all sites of the box were candidates: without ties, with all circumradii below the
+/// cap, and with all discs inside the box given by low and high. What is said of the discs is true in any case.
 using WrapFunction = void (*)(WrapGroup& group);
 
 void wrap_portable(WrapGroup& group);

@@ -6,18 +6,19 @@
 // u(q) lies to the right of the line from u(a) to u(b): the star of p is the convex hull of the inverted candidates
 // (Brown 1979), which is wrapped from an extreme point on (Jarvis 1973). One lane is one site; O(candidates x degree).
 //
-// Why a ring is right. With eps = 2^-24, B = half the longer side of the box and U = largest |u|:
-//  * coordinates are rounded to eps B, differences of two so to 3 eps B; the inversion turns a difference into at most
-//    3 eps B |u|^2, and its own operations add 5.5 eps |u|. Every u is known to e = eps (3.2 B U^2 + 5.6 U).
+// Why a ring is right. With eps = 2^-24 and U = largest |u|, at most 10^4:
+//  * a difference of two sites is known to 1.06 eps of itself, as is its inverse; the operations of the inversion add
+//    4.2 eps |u|. Every u is known to 5.4 eps U.
 //  * the wrap follows from vertex to vertex by adding edges, 3.1 eps U more for the vertex that it stands on. Edges are
-//    known to 2 e + 5.2 eps U, products of two edges of length at most 2 U to E = eps U^2 (26 B U + 96).
+//    known to 16 eps U, cross products of two edges of length at most 2 U to E = 76 eps U^2.
 //  * a vertex is followed by the candidate of the smallest angle: each candidate is compared with the best one so far,
-//    the first with the origin (the site itself), by the sign of a cross product. All compared vectors lie in one half
-//    plane, since everything lies strictly to the left of the edge before, and signs are right where the product is
-//    larger than E. So the best one is right if no product was within E, save that of the vertex with itself.
-//  * the first vertex is the extreme one in a direction, by a margin; if the wrap comes back to it, the polygon
-//    is the hull: candidates that were vertices before are on the left by convexity. The origin took part, so
-//    it lies inside, and the ring winds once.
+//    the first with a direction between those to the origin (the site itself) and to the last vertex, by the sign of a
+//    cross product. All these vectors lie in one half plane, since everything lies strictly to the left of the edge
+//    before, and signs are right where the product is larger than E. So the best one is right if no product was within
+//    E, save that of the vertex with itself. That the origin lies to the left of an edge is tested too.
+//  * the first vertex is the extreme one in a direction, by a margin; if the wrap comes back to it, the polygon is the
+//    hull: candidates that were vertices before are on the left by convexity. The origin lies inside, so that the ring
+//    winds once.
 #pragma once
 
 #include "delaunay/wrap.hpp"
@@ -67,15 +68,18 @@ public:
         break;
       ax_ = ax_ + step.wx;
       ay_ = ay_ + step.wy;
+      last_x_ = step.wx;
+      last_y_ = step.wy;
     }
-    undecided |= open | (near != degree);
-    finish(degree & ~undecided, covered, low_x, low_y, high_x, high_y);
+    store(group_.degree, degree & ~(undecided | open));
+    store(group_.proven, near == degree);
+    finish(covered, low_x, low_y, high_x, high_y);
   }
 
 private:
   struct Step {
     Floats wx, wy; // the edge to the best candidate
-    Ints best;     // -1: the origin
+    Ints best;     // negative: none
     Ints near;     // minus the number of undecided comparisons
   };
 
@@ -115,11 +119,13 @@ private:
   void invert() {
     constexpr float large = 1e30f, slope = 0.2915f;
     const Floats site_x = load(group_.site_x), site_y = load(group_.site_y);
+    const Floats rest_x = load(group_.site_rest_x), rest_y = load(group_.site_rest_y);
     Floats first = all(-large), second = all(-large), x = all(0.f), y = all(0.f);
     Floats nearest = all(large), next = all(large); // squared distances; the nearest one is the site itself
     Ints start = all(-1), counter{};
     for (int c = 0; c < n_; ++c) {
-      const Floats dx = group_.x[c] - site_x, dy = group_.y[c] - site_y;
+      const Floats dx = (group_.x[c] - site_x) + (group_.rest_x[c] - rest_x);
+      const Floats dy = (group_.y[c] - site_y) + (group_.rest_y[c] - rest_y);
       const Floats d2 = dx * dx + dy * dy;
       const Floats inverse = 1.f / d2; // the site itself becomes NaN, which no comparison sees
       const Floats ux = dx * inverse, uy = dy * inverse;
@@ -140,6 +146,8 @@ private:
     }
     ax_ = x;
     ay_ = y;
+    last_x_ = all(-slope);
+    last_y_ = all(1.f);
     start_ = start;
     first_ = first;
     second_ = second;
@@ -150,12 +158,10 @@ private:
   Ints set_bounds() {
     constexpr float epsilon = 0x1p-24f;
     const Floats size = 1.001f / square_root(nearest_);
-    const Floats box = all(group_.half_x > group_.half_y ? group_.half_x : group_.half_y);
-    const Floats each = epsilon * (3.2f * box * size * size + 5.6f * size);
-    edge_error_ = 2.5f * each + 12 * epsilon * size;
-    error_ = epsilon * size * size * (26 * box * size + 96);
-    const Floats margin = 3 * each + 8 * epsilon * size;
-    const Ints fine = (first_ - second_ > margin) & (first_ > margin) & (box * size < 1e4f);
+    edge_error_ = 34 * epsilon * size; // of a component and the length together
+    error_ = 76 * epsilon * size * size;
+    const Floats margin = 20 * epsilon * size;
+    const Ints fine = (first_ - second_ > margin) & (first_ > margin) & (size < 1e4f);
     return ~fine;
   }
 
@@ -164,8 +170,8 @@ private:
     Floats wx[chains], wy[chains];
     Ints best[chains], near[chains];
     for (int k = 0; k < chains; ++k) {
-      wx[k] = -ax_;
-      wy[k] = -ay_;
+      wx[k] = -ax_ - 0.37f * last_x_; // into the hull, in a direction that no lattice likes
+      wy[k] = -ay_ - 0.37f * last_y_;
       best[k] = all(-chains - 1);
       near[k] = Ints{};
     }
@@ -196,12 +202,11 @@ private:
     return step;
   }
 
-  void finish(const Ints& degree, const Ints& covered, const Floats& low_x, const Floats& low_y, const Floats& high_x,
+  void finish(const Ints& covered, const Floats& low_x, const Floats& low_y, const Floats& high_x,
               const Floats& high_y) {
     const Floats x = load(group_.site_x), y = load(group_.site_y);
     const float limit_x = group_.half_x * 0.99999f, limit_y = group_.half_y * 0.99999f, grown = 1.00001f;
     const Floats x0 = x + low_x * grown, x1 = x + high_x * grown, y0 = y + low_y * grown, y1 = y + high_y * grown;
-    store(group_.degree, degree);
     store(group_.covered, covered & (x0 > -limit_x) & (x1 < limit_x) & (y0 > -limit_y) & (y1 < limit_y));
     store(group_.low_x, x0);
     store(group_.low_y, y0);
@@ -211,7 +216,9 @@ private:
 
   WrapGroup& group_;
   int n_; // candidates, padded to a multiple of `chains`
-  Floats ax_, ay_, first_, second_, nearest_, error_, edge_error_;
+  Floats ax_, ay_;         // the vertex
+  Floats last_x_, last_y_; // the edge before
+  Floats first_, second_, nearest_, error_, edge_error_;
   Ints start_;
 };
 

@@ -37,6 +37,12 @@ public:
   std::span<const LocalIndex> load(LocalIndex i, std::vector<LocalIndex>& room) const;
   /// Stores a ring; different sites may be stored concurrently.
   void store(LocalIndex i, std::span<const LocalIndex> ring);
+  /// Stores a ring of at most 8 neighbours, given with eight entries (those behind its end do not matter).
+  void store(LocalIndex i, const std::array<LocalIndex, slots>& ring, std::size_t degree) {
+    clear(i);
+    rings_[static_cast<std::size_t>(i)] = ring;
+    degree_[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(degree);
+  }
   /// Empties the ring of site i; concurrently as store.
   void clear(LocalIndex i) {
     if (degree_[static_cast<std::size_t>(i)] > slots)
