@@ -139,6 +139,7 @@ bool TileWrapper::prepare(const Group& group) {
     const std::size_t k = std::min(group.begin + static_cast<std::size_t>(lane), group.end - 1);
     const Coordinate x = coordinate(positions_[order_[k]].x, center_.x, scale_);
     const Coordinate y = coordinate(positions_[order_[k]].y, center_.y, scale_);
+    stars_.expect_store(order_[k]);
     group_->site_x[lane] = x.coarse;
     group_->site_y[lane] = y.coarse;
     group_->site_rest_x[lane] = x.rest;
@@ -267,29 +268,35 @@ bool TileWrapper::prove(LocalIndex site, int lane, int degree) {
 
 /// The ring starts at the lexicographically smallest neighbour.
 void TileWrapper::store(LocalIndex site, int lane, int degree) {
-  std::array<LocalIndex, WrapGroup::most_degree> ring{};
+  const auto neighbour = [&](int k) { return candidate_[static_cast<std::size_t>(group_->ring[k][lane])]; };
   int smallest = 0;
-  Vec2 best{INFINITY, INFINITY};
-  for (int k = 0; k < degree; ++k) {
-    ring[static_cast<std::size_t>(k)] = candidate_[static_cast<std::size_t>(group_->ring[k][lane])];
-    const Vec2 p = positions_[ring[static_cast<std::size_t>(k)]];
+  Vec2 best = positions_[neighbour(0)];
+  for (int k = 1; k < degree; ++k) {
+    const Vec2 p = positions_[neighbour(k)];
     const bool less = p.x < best.x || (p.x == best.x && p.y < best.y);
     smallest = less ? k : smallest;
     best = less ? p : best;
   }
-  std::rotate(ring.begin(), ring.begin() + smallest, ring.begin() + degree);
-  const std::span<const LocalIndex> found(ring.data(), static_cast<std::size_t>(degree));
-  const std::span<const LocalIndex> last = stars_.load(site, old_ring_);
-  if (!std::equal(found.begin(), found.end(), last.begin(), last.end())) {
-    if (degree <= StarTable::slots) {
-      std::array<LocalIndex, StarTable::slots> slots;
-      std::copy_n(ring.begin(), StarTable::slots, slots.begin());
-      stars_.store(site, slots, found.size());
-    } else {
-      stars_.store(site, found);
+  const auto turned = [&](int k) { return neighbour(smallest + k < degree ? smallest + k : smallest + k - degree); };
+  const std::size_t n = static_cast<std::size_t>(degree);
+  bool changed = false;
+  if (n <= StarTable::slots) {
+    changed = stars_.degree(site) != n;
+    LocalIndex* slots = stars_.store_short(site, n);
+    for (int k = 0; k < degree; ++k) {
+      const LocalIndex id = turned(k);
+      changed |= slots[k] != id;
+      slots[k] = id;
     }
-    ++changed_;
+  } else {
+    long_ring_.clear();
+    for (int k = 0; k < degree; ++k)
+      long_ring_.push_back(turned(k));
+    const std::span<const LocalIndex> last = stars_.load(site, old_ring_);
+    changed = !std::equal(last.begin(), last.end(), long_ring_.begin(), long_ring_.end());
+    stars_.store(site, long_ring_);
   }
+  changed_ += changed;
   stars_.set_certain(site, true);
   cap(site) = 0;
 }

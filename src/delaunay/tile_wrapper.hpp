@@ -61,7 +61,7 @@ private:
   double scale_ = 1; // a power of two
   std::vector<LocalIndex> candidate_;
   std::vector<mesh::BinRef> missing_;
-  std::vector<LocalIndex> old_ring_;
+  std::vector<LocalIndex> old_ring_, long_ring_;
   std::array<double, WrapGroup::most_candidates + 2> near_x_, near_y_;
 
   // Learnt on the way; none of it can change a star.

@@ -33,16 +33,20 @@ public:
     return n <= slots ? std::span<const LocalIndex>(rings_[at].data(), n)
                       : std::span<const LocalIndex>(overflow_[static_cast<std::size_t>(rings_[at][0])]);
   }
+  /// Length of the ring of site i; slots + 1 stands for any that is longer than `slots`.
+  std::size_t degree(LocalIndex i) const { return degree_[static_cast<std::size_t>(i)]; }
   /// The ring of site i while other sites are being stored; `room` holds it if it comes from the overflow list.
   std::span<const LocalIndex> load(LocalIndex i, std::vector<LocalIndex>& room) const;
   /// Stores a ring; different sites may be stored concurrently.
   void store(LocalIndex i, std::span<const LocalIndex> ring);
-  /// Stores a ring of at most 8 neighbours, given with eight entries (those behind its end do not matter).
-  void store(LocalIndex i, const std::array<LocalIndex, slots>& ring, std::size_t degree) {
+  /// @brief Place for a ring of at most 8 neighbours, to be written by the caller; until then it holds what it did.
+  LocalIndex* store_short(LocalIndex i, std::size_t degree) {
     clear(i);
-    rings_[static_cast<std::size_t>(i)] = ring;
     degree_[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(degree);
+    return rings_[static_cast<std::size_t>(i)].data();
   }
+  /// Announces that the ring of site i will be written soon.
+  void expect_store(LocalIndex i) const { __builtin_prefetch(&rings_[static_cast<std::size_t>(i)], 1); }
   /// Empties the ring of site i; concurrently as store.
   void clear(LocalIndex i) {
     if (degree_[static_cast<std::size_t>(i)] > slots)
