@@ -48,7 +48,6 @@ public:
     changed_ = false;
     const bool warm = start_warm();
     const bool certain = warm ? finish(0, 0) : start_cold();
-    pass_.rebuilt += !warm;
     pass_.uncertain += !certain;
     stars_.set_certain(i, certain);
     if (!certain)
@@ -206,17 +205,15 @@ private:
         start = k;
       before = after;
     }
-    if (start == n) {
-      stars_.clear(site_);
-      return;
-    }
-    for (std::size_t m = 0, k = start; m < n; ++m, k = k + 1 == n ? 0 : k + 1) {
+    for (std::size_t m = 0, k = start; start < n && m < n; ++m, k = k + 1 == n ? 0 : k + 1) {
       const bool left = counted_[k == 0 ? n - 1 : k - 1], right = counted_[k];
       if (left || right)
         ring.push_back(kernel_.id(k));
       if (!right && (left || right))
         ring.push_back(gap);
     }
+    const std::span<const LocalIndex> last = stars_.load(site_, last_ring_);
+    pass_.rebuilt += !std::equal(ring.begin(), ring.end(), last.begin(), last.end());
     stars_.store(site_, ring);
   }
 
@@ -234,7 +231,7 @@ private:
   std::vector<mesh::BinRef> missing_;
   bool changed_ = false;
   std::span<const LocalIndex> ring_; // the last ring of the site
-  std::vector<LocalIndex> ring_copy_;
+  std::vector<LocalIndex> ring_copy_, last_ring_;
   std::vector<Candidate> near_, far_;
   std::vector<std::uint8_t> counted_;
 };

@@ -3,34 +3,35 @@
 
 #include "delaunay/circumcenter.hpp"
 #include "delaunay/double2.hpp"
+#include "trime/delaunay/star_builder.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
-#include <cstdio>
 namespace trime::delaunay {
-struct Stat{ long groups[3]{},lanes[3]{},cov[3]{},tie[3]{},many[3]{},cands[3]{},rounds[3]{}, few[3]{};~Stat(){for(int l=0;l<3;++l)printf("level %d groups %ld lanes %ld cov %ld tie %ld many %ld few %ld cands/group %.1f\n",l,groups[l],lanes[l],cov[l],tie[l],many[l],few[l],(double)cands[l]/(double)groups[l]);}} stat;
 namespace {
 
 using geometry::Vec2;
 
 /// How far candidates are looked for beyond the box of the sites, in spacings: a relaxed mesh, a random one, the rest.
 constexpr std::array<double, 3> reaches{1.5, 2.7, 4};
-constexpr double rounder = 0x3p32; // adding and subtracting it leaves multiples of 2^-19
+constexpr double rounder = 0x3p32;    // adding and subtracting it leaves multiples of 2^-19
 constexpr double largest_half = 15.9; // side of a group's box
-constexpr int fewest_lanes = 3;   // fewer sites are quicker one by one
-constexpr int longest_pause = 64; // groups
+constexpr double cost_of_search = 5;  // of a star found alone, where one in a relaxed mesh with its last ring costs 1
+constexpr std::size_t fewest = 3;     // sites
+constexpr std::ptrdiff_t few = 32;    // sites for a simple sort
+constexpr int longest_pause = 64;     // groups
 
-/// A coordinate as WrapGroup wants it.
-struct Coordinate {
-  double value;
-  float coarse, rest;
-};
-
-inline Coordinate coordinate(double at, double center, double scale) {
-  const double value = (at - center) * scale, coarse = (value + rounder) - rounder;
-  return {value, static_cast<float>(coarse), static_cast<float>(value - coarse)};
+/// Where a site lies as WrapGroup wants it, and its distances from the centre along the axes.
+inline Double2 write_candidate(Vec2 at, Double2 center, Double2 scale, WrapGroup::Candidate& to) {
+  using Float2 [[gnu::vector_size(8)]] = float;
+  const Double2 value = (load2(&at.x) - center) * scale, coarse = (value + both(rounder)) - both(rounder);
+  const Float2 first = __builtin_convertvector(coarse, Float2), rest = __builtin_convertvector(value - coarse, Float2);
+  std::memcpy(&to.x, &first, sizeof first);
+  std::memcpy(&to.rest_x, &rest, sizeof rest);
+  return value > both(0) ? value : -value;
 }
 
 } // namespace
@@ -48,39 +49,56 @@ std::int64_t TileWrapper::compute(LocalIndex tile, std::span<double> caps) {
   caps_ = caps;
   first_site_ = begin;
   changed_ = 0;
-  if (end - begin < 4)
+  if (std::count_if(caps.begin(), caps.end(), [](double cap) { return cap > 0; }) < static_cast<std::ptrdiff_t>(fewest))
     return 0;
   spacing_ = std::sqrt(box.width() * box.height() / (end - begin));
   scale_ = std::ldexp(1.0, -std::ilogb(spacing_));
   order_sites(tile);
-  const int first_level = level_;
-  for (int pass = 0; pass < 2 && !order_.empty(); ++pass) {
-    again_.clear();
-    for (std::size_t k = 0; k < order_.size();) {
-      const Group group = next_group(k);
-      k = group.end;
-      if (skipped_ > 0) {
-        --skipped_;
-        continue;
-      }
-      if (group.end - group.begin >= fewest_lanes && prepare(group)) {
-        kernel_.wrap(*group_);stat.groups[level_]++; stat.cands[level_]+=group_->candidates; stat.lanes[level_]+=(long)(group.end-group.begin);
-        take(group);
-      }
-    }
+  wrap_groups(reaches[level_]);
+  if (level_ + 1 < reaches.size()) {
     std::swap(order_, again_);
-    if (++level_ == static_cast<int>(reaches.size()))
-      break;
-  }
-  level_ = first_level;
-  if (done_ > 500) { // what most stars need is tried first
-    if (small_ > 0.2 * done_ && level_ + 1 < static_cast<int>(reaches.size()))
-      ++level_;
-    else if (small_ < 1e-4 * done_ && level_ > 0)
-      --level_;
-    small_ = done_ = 0;
+    wrap_groups(reaches[level_ + 1]);
   }
   return changed_;
+}
+
+/// Computes what it can of the sites in order_; those that need a longer reach come into again_.
+void TileWrapper::wrap_groups(double reach) {
+  again_.clear();
+  for (std::size_t k = 0; k < order_.size();) {
+    const Group group = next_group(k);
+    k = group.end;
+    if (skipped_ > 0)
+      --skipped_;
+    else if (pays(group) && prepare(group, reach * spacing_)) {
+      kernel_.wrap(*group_);
+      take(group);
+    }
+  }
+}
+
+/// A group costs about the same for one site as for all lanes. Alone, a star is cheap if its last ring is all but right
+/// and nobody else is near its discs: likely where degrees are those of a relaxed mesh.
+bool TileWrapper::pays(const Group& group) const {
+  double alone = 0;
+  for (std::size_t k = group.begin; k < group.end; ++k) {
+    const std::size_t degree = stars_.degree(order_[k]);
+    alone += degree >= 5 && degree <= 7 ? 1 : cost_of_search;
+  }
+  return group.end - group.begin >= fewest && alone > 3 + 0.77 * kernel_.lanes;
+}
+
+/// What most stars need is tried first.
+void TileWrapper::learn_reach(std::size_t stars, std::size_t larger) {
+  stars_seen_ += static_cast<double>(stars);
+  larger_ += static_cast<double>(larger);
+  if (stars_seen_ < 500)
+    return;
+  if (larger_ > 0.2 * stars_seen_ && level_ + 1 < reaches.size())
+    ++level_;
+  else if (larger_ < 1e-4 * stars_seen_ && level_ > 0)
+    --level_;
+  stars_seen_ = larger_ = 0;
 }
 
 /// Snakes through strips of bins, so that a run of sites fills a compact box.
@@ -100,16 +118,23 @@ void TileWrapper::append_column(LocalIndex tile, int column, int first_row, int 
   const int side = points_.grid().bins_per_side(tile);
   for (int row = first_row; row < last_row; ++row) {
     const auto [first, last] = points_.bin_range({tile, row * side + column});
-    for (LocalIndex i = first; i < last; ++i) {
-      if (cap(i) <= 0)
-        continue;
-      const double x = positions_[i].x;
-      std::size_t at = order_.size();
-      order_.push_back(i);
-      for (; at > begin && (backwards ? positions_[order_[at - 1]].x < x : positions_[order_[at - 1]].x > x); --at)
-        order_[at] = order_[at - 1];
-      order_[at] = i;
-    }
+    for (LocalIndex i = first; i < last; ++i)
+      if (cap(i) > 0)
+        order_.push_back(i);
+  }
+  const double sign = backwards ? -1 : 1;
+  const auto before = [&](LocalIndex i, LocalIndex j) { return sign * positions_[i].x < sign * positions_[j].x; };
+  const auto first = order_.begin() + static_cast<std::ptrdiff_t>(begin);
+  if (order_.end() - first > few) {
+    std::sort(first, order_.end(), before);
+    return;
+  }
+  for (auto next = first; next != order_.end(); ++next) {
+    const LocalIndex i = *next;
+    auto at = next;
+    for (; at != first && before(i, *(at - 1)); --at)
+      *at = *(at - 1);
+    *at = i;
   }
 }
 
@@ -128,23 +153,27 @@ TileWrapper::Group TileWrapper::next_group(std::size_t begin) const {
   return group;
 }
 
-/// Candidates and sites of a group; false if there are too many candidates.
-bool TileWrapper::prepare(const Group& group) {
-  const double reach = reaches[static_cast<std::size_t>(level_)] * spacing_;
+/// Candidates and sites of a group; false if there are too many candidates, or the box is too large.
+bool TileWrapper::prepare(const Group& group, double reach) {
   center_ = lattice_.snap(Vec2{0.5 * (group.box.min.x + group.box.max.x), 0.5 * (group.box.min.y + group.box.max.y)});
-  collect({0.5 * group.box.width() + reach, 0.5 * group.box.height() + reach});
-  if (group_->candidates > WrapGroup::most_candidates || group_->half_x > largest_half || group_->half_y > largest_half)
-    {stat.many[level_]+=(long)(group.end-group.begin);return false;}
+  const Vec2 half{0.5 * group.box.width() + reach, 0.5 * group.box.height() + reach};
+  const double longer = std::max(half.x, half.y);
+  if (longer * scale_ > largest_half || longer > 1.9 * StarBuilder::largest_cap(points_.grid().periods()))
+    return false;
+  collect(half);
+  if (group_->candidates > WrapGroup::most_candidates)
+    return false;
   for (int lane = 0; lane < kernel_.lanes; ++lane) {
     const std::size_t k = std::min(group.begin + static_cast<std::size_t>(lane), group.end - 1);
-    const Coordinate x = coordinate(positions_[order_[k]].x, center_.x, scale_);
-    const Coordinate y = coordinate(positions_[order_[k]].y, center_.y, scale_);
-    stars_.expect_store(order_[k]);
-    group_->site_x[lane] = x.coarse;
-    group_->site_y[lane] = y.coarse;
-    group_->site_rest_x[lane] = x.rest;
-    group_->site_rest_y[lane] = y.rest;
-    group_->cap[lane] = static_cast<float>(0.99 * cap(order_[k]) * scale_);
+    const LocalIndex i = order_[k];
+    WrapGroup::Candidate site;
+    write_candidate(positions_[i], Double2{center_.x, center_.y}, both(scale_), site);
+    group_->site_x[lane] = site.x;
+    group_->site_y[lane] = site.y;
+    group_->site_rest_x[lane] = site.rest_x;
+    group_->site_rest_y[lane] = site.rest_y;
+    group_->cap[lane] = static_cast<float>(0.99 * cap(i) * scale_);
+    stars_.expect_store(i);
   }
   return true;
 }
@@ -153,7 +182,7 @@ void TileWrapper::collect(Vec2 half) {
   WrapGroup& g = *group_;
   int n = 0;
   missing_.clear();
-  const double half_x = half.x * scale_, half_y = half.y * scale_;
+  const Double2 center{center_.x, center_.y}, scale = both(scale_), limit = Double2{half.x, half.y} * scale;
   points_.for_each_near(
       center_, std::max(half.x, half.y),
       [&](LocalIndex begin, LocalIndex end) {
@@ -162,20 +191,15 @@ void TileWrapper::collect(Vec2 half) {
         if (n > WrapGroup::most_candidates)
           return;
         for (LocalIndex j = begin; j < end; ++j) {
-          const Coordinate x = coordinate(positions_[j].x, center_.x, scale_);
-          const Coordinate y = coordinate(positions_[j].y, center_.y, scale_);
-          g.x[n] = x.coarse;
-          g.y[n] = y.coarse;
-          g.rest_x[n] = x.rest;
-          g.rest_y[n] = y.rest;
+          const Mask2 near = write_candidate(positions_[j], center, scale, g.candidate[n]) <= limit;
           candidate_[static_cast<std::size_t>(n)] = j;
-          n += (std::fabs(x.value) <= half_x) & (std::fabs(y.value) <= half_y);
+          n += static_cast<int>(near[0] & near[1] & 1);
         }
       },
       [&](mesh::BinRef bin) { missing_.push_back(bin); });
   g.candidates = n;
-  g.half_x = static_cast<float>(half_x);
-  g.half_y = static_cast<float>(half_y);
+  g.half_x = static_cast<float>(limit[0]);
+  g.half_y = static_cast<float>(limit[1]);
 }
 
 /// Can a disc of the star meet a bin that is not known? The star is then left to the search that names such bins.
@@ -199,25 +223,25 @@ bool TileWrapper::meets_missing_bin(int lane) const {
 
 /// Stores the stars that were found; those whose discs leave the box come again.
 void TileWrapper::take(const Group& group) {
-  int undecided = 0;
+  std::size_t undecided = 0;
+  const std::size_t again_before = again_.size();
   for (std::size_t k = group.begin; k < group.end; ++k) {
     const int lane = static_cast<int>(k - group.begin);
     const LocalIndex i = order_[k];
     const int degree = group_->degree[lane];
     if (group_->covered[lane] == 0) {
-      again_.push_back(i);stat.cov[level_]++;
-      ++small_;
+      again_.push_back(i);
     } else if (degree == 0 || !(group_->proven[lane] != 0 || prove(i, lane, degree))) {
-      ++undecided;stat.tie[level_]++;
+      ++undecided;
     } else if (missing_.empty() || !meets_missing_bin(lane)) {
       store(i, lane, degree);
     }
   }
   const std::size_t n = group.end - group.begin;
-  done_ += static_cast<double>(n);
-  if (2 * static_cast<std::size_t>(undecided) <= n) {
+  learn_reach(n, again_.size() - again_before);
+  if (2 * undecided <= n) {
     patience_ = 0;
-  } else {
+  } else { // ties everywhere
     patience_ = std::min(longest_pause, 2 * patience_ + 1);
     skipped_ = patience_;
   }

@@ -34,7 +34,10 @@ private:
   void order_sites(LocalIndex tile);
   void append_column(LocalIndex tile, int column, int first_row, int last_row, bool backwards);
   Group next_group(std::size_t begin) const;
-  bool prepare(const Group& group);
+  void wrap_groups(double reach);
+  bool pays(const Group& group) const;
+  void learn_reach(std::size_t stars, std::size_t larger);
+  bool prepare(const Group& group, double reach);
   void collect(geometry::Vec2 half);
   bool meets_missing_bin(int lane) const;
   void take(const Group& group);
@@ -65,10 +68,10 @@ private:
   std::array<double, WrapGroup::most_candidates + 2> near_x_, near_y_;
 
   // Learnt on the way; none of it can change a star.
-  int level_ = 0;               // of the reach
-  int skipped_ = 0;             // groups that are still left alone since ties were everywhere
-  int patience_ = 0;            // how many will be, next time
-  double small_ = 0, done_ = 0; // stars that needed more than the reach of the level, and all
+  std::size_t level_ = 0;              // of the reach
+  double stars_seen_ = 0, larger_ = 0; // stars, and those that needed a longer reach
+  int skipped_ = 0;                    // groups that are still left alone since ties were everywhere
+  int patience_ = 0;                   // how many were, last time
 };
 
 } // namespace trime::delaunay

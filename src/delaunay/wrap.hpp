@@ -10,9 +10,9 @@
 namespace trime::delaunay {
 
 /// @brief A group of sites and the candidates that they share: all known sites of a box. Lengths are in units of a
-/// length of the caller's, such that neighbours are about 1 apart; coordinates count from the centre of the box. Each is
-/// the sum of a multiple of 2^-19 below 16 and a rest rounded to float32: differences of two are then known to 2^-42 and
-/// the rounding of one sum.
+/// length of the caller's, such that neighbours are about 1 apart; coordinates count from the centre of the box. Each
+/// is the sum of a multiple of 2^-19 below 16 and a rest rounded to float32: differences of two are then known to 2^-42
+/// and the rounding of one sum.
 ///
 /// Plain arrays, since the kernels are compiled for different processors and must not share any inline function.
 struct WrapGroup {
@@ -21,8 +21,10 @@ struct WrapGroup {
   // In.
   float half_x, half_y; ///< of the box: half its sides; no candidate lies outside
   int candidates;
-  float x[most_candidates + padding], y[most_candidates + padding];
-  float rest_x[most_candidates + padding], rest_y[most_candidates + padding];
+  struct alignas(16) Candidate {
+    float x, y, rest_x, rest_y;
+  };
+  Candidate candidate[most_candidates + padding];
   alignas(64) float site_x[most_lanes], site_y[most_lanes], site_rest_x[most_lanes], site_rest_y[most_lanes];
   alignas(64) float cap[most_lanes]; ///< circumradii must be smaller
 

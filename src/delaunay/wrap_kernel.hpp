@@ -35,7 +35,7 @@ class Wrap {
 public:
   explicit Wrap(WrapGroup& group) : group_(group), n_(group.candidates) {
     for (int k = 0; k < chains; ++k) // rows that no comparison sees
-      group.x[n_ + k] = group.y[n_ + k] = __builtin_nanf("");
+      group.candidate[n_ + k].x = __builtin_nanf("");
     n_ += (chains - n_ % chains) % chains;
     static_assert(chains <= WrapGroup::padding);
   }
@@ -124,8 +124,8 @@ private:
     Floats nearest = all(large), next = all(large); // squared distances; the nearest one is the site itself
     Ints start = all(-1), counter{};
     for (int c = 0; c < n_; ++c) {
-      const Floats dx = (group_.x[c] - site_x) + (group_.rest_x[c] - rest_x);
-      const Floats dy = (group_.y[c] - site_y) + (group_.rest_y[c] - rest_y);
+      const WrapGroup::Candidate& q = group_.candidate[c];
+      const Floats dx = (q.x - site_x) + (q.rest_x - rest_x), dy = (q.y - site_y) + (q.rest_y - rest_y);
       const Floats d2 = dx * dx + dy * dy;
       const Floats inverse = 1.f / d2; // the site itself becomes NaN, which no comparison sees
       const Floats ux = dx * inverse, uy = dy * inverse;
@@ -215,7 +215,7 @@ private:
   }
 
   WrapGroup& group_;
-  int n_; // candidates, padded to a multiple of `chains`
+  int n_;                  // candidates, padded to a multiple of `chains`
   Floats ax_, ay_;         // the vertex
   Floats last_x_, last_y_; // the edge before
   Floats first_, second_, nearest_, error_, edge_error_;
