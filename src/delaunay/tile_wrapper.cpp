@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace trime::delaunay {
 namespace {
@@ -202,23 +203,35 @@ void TileWrapper::collect(Vec2 half) {
   g.half_y = static_cast<float>(limit[1]);
 }
 
+/// Where a bin lies; bins at the rim of the container hold all that lies beyond.
+geometry::Box TileWrapper::box_of(mesh::BinRef bin) const {
+  const mesh::TileGrid& grid = points_.grid();
+  const geometry::Box tile = grid.tile_box(bin.tile);
+  const mesh::GridPosition at = grid.tile_position(bin.tile);
+  const int bits = grid.bin_bits(bin.tile), side = 1 << bits;
+  const auto range = [side](double low, double size, int place, bool first, bool last) {
+    const double width = size / side, slack = 1e-3 * width;
+    return std::pair{first && place == 0 ? -INFINITY : low + place * width - slack,
+                     last && place + 1 == side ? INFINITY : low + (place + 1) * width + slack};
+  };
+  const bool open_x = grid.periods().x == 0, open_y = grid.periods().y == 0;
+  const auto [x0, x1] = range(tile.min.x, tile.width(), bin.bin & (side - 1), open_x && at.x == 0,
+                              open_x && static_cast<int>(at.x) + 1 == grid.tiles_x());
+  const auto [y0, y1] = range(tile.min.y, tile.height(), bin.bin >> bits, open_y && at.y == 0,
+                              open_y && static_cast<int>(at.y) + 1 == grid.tiles_y());
+  const Vec2 shift = grid.shift(bin.image);
+  return {Vec2{x0, y0} + shift, Vec2{x1, y1} + shift};
+}
+
 /// Can a disc of the star meet a bin that is not known? The star is then left to the search that names such bins.
 bool TileWrapper::meets_missing_bin(int lane) const {
   const WrapGroup& g = *group_;
-  const mesh::TileGrid& grid = points_.grid();
-  for (const mesh::BinRef& bin : missing_) {
-    const geometry::Box tile = grid.tile_box(bin.tile);
-    const int bits = grid.bin_bits(bin.tile), side = 1 << bits;
-    const Vec2 size{tile.width() / side, tile.height() / side}, shift = grid.shift(bin.image) - center_;
-    const Vec2 low{tile.min.x + (bin.bin & (side - 1)) * size.x, tile.min.y + (bin.bin >> bits) * size.y};
-    const double slack = 1e-3 * std::max(size.x, size.y);
-    if (g.high_x[lane] > (low.x - slack + shift.x) * scale_ &&
-        g.low_x[lane] < (low.x + size.x + slack + shift.x) * scale_ &&
-        g.high_y[lane] > (low.y - slack + shift.y) * scale_ &&
-        g.low_y[lane] < (low.y + size.y + slack + shift.y) * scale_)
-      return true;
-  }
-  return false;
+  const Vec2 low = center_ + (1 / scale_) * Vec2{g.low_x[lane], g.low_y[lane]};
+  const Vec2 high = center_ + (1 / scale_) * Vec2{g.high_x[lane], g.high_y[lane]};
+  return std::any_of(missing_.begin(), missing_.end(), [&](const mesh::BinRef& bin) {
+    const geometry::Box box = box_of(bin);
+    return low.x < box.max.x && high.x > box.min.x && low.y < box.max.y && high.y > box.min.y;
+  });
 }
 
 /// Stores the stars that were found; those whose discs leave the box come again.

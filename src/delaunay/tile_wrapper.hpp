@@ -39,6 +39,7 @@ private:
   void learn_reach(std::size_t stars, std::size_t larger);
   bool prepare(const Group& group, double reach);
   void collect(geometry::Vec2 half);
+  geometry::Box box_of(mesh::BinRef bin) const;
   bool meets_missing_bin(int lane) const;
   void take(const Group& group);
   bool prove(LocalIndex site, int lane, int degree);

@@ -113,6 +113,38 @@ TEST(Wrap, StarsAreTheSameOnEveryLevelAndOneByOne) {
   }
 }
 
+/// A star whose discs meet a bin that is not known is not certain, even if all its neighbours are known.
+TEST(Wrap, OnlyStarsWithoutUnknownBinsInTheirDiscsAreCertain) {
+  const std::vector<Site> sites = testing::random_sites(6000, 14);
+  const mesh::TileGrid grid(geometry::Box{{0, 0}, {1, 1}}, {{}, {}, 0.0138, true});
+  mesh::BinnedPoints whole(grid), part(grid);
+  whole.assign_owned(sites, 0, grid.tile_count());
+  const LocalIndex half = grid.tile_count() / 2;
+  std::vector<Site> mine;
+  for (LocalIndex i = 0; i < whole.tile_range(half - 1).end; ++i)
+    mine.push_back(whole.site(i));
+  part.assign_owned(mine, 0, half); // same order as in the whole: indices are equal
+  const StarBuilder builder(unit_lattice(), 0.1);
+  for (const SimdLevel level : levels) {
+    const AtLevel at(level);
+    StarTable right, found;
+    std::vector<mesh::BinRef> missing;
+    right.reset(whole.owned());
+    builder.update(whole, right, {}, {}, missing);
+    EXPECT_TRUE(missing.empty());
+    found.reset(part.owned());
+    const StarPass pass = builder.update(part, found, {}, {}, missing);
+    EXPECT_GT(pass.uncertain, 50);
+    EXPECT_GT(part.owned() - pass.uncertain, 1500);
+    for (LocalIndex i = 0; i < part.owned(); ++i) {
+      if (!found.certain(i))
+        continue;
+      const std::span<const LocalIndex> ring = found.ring(i), expected = right.ring(i);
+      EXPECT_TRUE(std::equal(ring.begin(), ring.end(), expected.begin(), expected.end())) << "site " << i;
+    }
+  }
+}
+
 WrapGroup::Candidate candidate(Vec2 p) {
   const double x = std::round(p.x * 0x1p19) * 0x1p-19, y = std::round(p.y * 0x1p19) * 0x1p-19;
   return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(p.x - x), static_cast<float>(p.y - y)};
