@@ -10,15 +10,12 @@
 //  * a difference of two sites is known to 1.06 eps of itself, as is its inverse; the operations of the inversion add
 //    4.2 eps |u|. Every u is known to 5.4 eps U.
 //  * the wrap follows from vertex to vertex by adding edges, 3.1 eps U more for the vertex that it stands on. Edges are
-//    known to 16 eps U, cross products of two edges of length at most 2 U to E = 76 eps U^2.
-//  * a vertex is followed by the candidate of the smallest angle: each candidate is compared with the best one so far,
-//    the first with a direction between those to the origin (the site itself) and to the last vertex, by the sign of a
-//    cross product. All these vectors lie in one half plane, since everything lies strictly to the left of the edge
-//    before, and signs are right where the product is larger than E. So the best one is right if no product was within
-//    E, save that of the vertex with itself. That the origin lies to the left of an edge is tested too.
-//  * the first vertex is the extreme one in a direction, by a margin; if the wrap comes back to it, the polygon is the
-//    hull: candidates that were vertices before are on the left by convexity. The origin lies inside, so that the ring
-//    winds once.
+//    known to 16 eps U, and cross products of an edge with what leads from its first vertex to a candidate, as
+//    they are evaluated here, to E = 80 eps U^2.
+//  * how the next vertex is searched does not matter: afterwards each edge is tested against all candidates. If only
+//    two, its ends, are not more than E to its left, and the origin (the site itself) is, then it is an edge of the
+//    hull around the origin. Edges of the hull that follow each other until the first vertex comes again are the whole
+//    hull.
 #pragma once
 
 #include "delaunay/wrap.hpp"
@@ -42,12 +39,13 @@ public:
 
   void run() {
     invert();
-    Ints undecided = set_bounds(), open = ~undecided, covered = ~Ints{};
+    Ints open = set_bounds(), covered = ~Ints{}, proven = ~Ints{}, degree{};
     Floats low_x{}, low_y{}, high_x{}, high_y{};
-    Ints near{}, degree{};
     const Floats cap = load(group_.cap);
     for (int round = 0; round < WrapGroup::most_degree; ++round) {
       const Step step = advance();
+      proven &= (step.right == -2) | ~tested_;
+      tested_ = open;
       // Distances of the edge's disc from the site: circumcentre plus and minus radius along the axes, rounded outward.
       const Floats turned = ax_ * step.wy - ay_ * step.wx;
       const Floats half = 0.5f / (turned - error_), slack = edge_error_;
@@ -58,21 +56,20 @@ public:
       low_y = open ? lower(low_y, (-step.wx - length) * half) : low_y;
       high_y = open ? upper(high_y, (length - step.wx) * half) : high_y;
       covered &= sound | ~open;
-      near = open ? near - step.near : near;
       degree -= open;
       store(group_.ring[round], step.best);
-      undecided |= open & (step.best < 0);
-      open &= step.best != start_;
-      open &= ~undecided;
-      if (!any(open))
-        break;
+      edge_x_ = step.wx;
+      edge_y_ = step.wy;
+      limit_ = error_ - turned;
       ax_ = ax_ + step.wx;
       ay_ = ay_ + step.wy;
-      last_x_ = step.wx;
-      last_y_ = step.wy;
+      open &= (step.best != start_) & (step.best >= 0);
+      if (!any(open))
+        break;
     }
-    store(group_.degree, degree & ~(undecided | open));
-    store(group_.proven, near == degree);
+    proven &= (count_right() == -2) | ~tested_;
+    store(group_.degree, degree & ~open);
+    store(group_.proven, proven);
     finish(covered, low_x, low_y, high_x, high_y);
   }
 
@@ -80,7 +77,7 @@ private:
   struct Step {
     Floats wx, wy; // the edge to the best candidate
     Ints best;     // negative: none
-    Ints near;     // minus the number of undecided comparisons
+    Ints right;    // minus the number of candidates that are not to the left of the edge before
   };
 
   template <class V>
@@ -98,7 +95,6 @@ private:
   static Ints all(std::int32_t v) { return v - Ints{}; }
   static Floats lower(const Floats& a, const Floats& b) { return a < b ? a : b; }
   static Floats upper(const Floats& a, const Floats& b) { return a > b ? a : b; }
-  static Floats magnitude(const Floats& v) { return reinterpret_cast<Floats>(reinterpret_cast<Ints>(v) & 0x7fffffff); }
   static Floats square_root(const Floats& v) {
     alignas(64) float lane[lanes];
     store(lane, v);
@@ -115,12 +111,12 @@ private:
     return found != 0;
   }
 
-  /// Inverts all candidates and finds the extreme one in a direction that no lattice likes; second places show margins.
+  /// Inverts all candidates and finds the extreme one in a direction that no lattice likes.
   void invert() {
     constexpr float large = 1e30f, slope = 0.2915f;
     const Floats site_x = load(group_.site_x), site_y = load(group_.site_y);
     const Floats rest_x = load(group_.site_rest_x), rest_y = load(group_.site_rest_y);
-    Floats first = all(-large), second = all(-large), x = all(0.f), y = all(0.f);
+    Floats first = all(-large), x = all(0.f), y = all(0.f);
     Floats nearest = all(large), next = all(large); // squared distances; the nearest one is the site itself
     Ints start = all(-1), counter{};
     for (int c = 0; c < n_; ++c) {
@@ -135,8 +131,6 @@ private:
       next = farther < next ? farther : next;
       nearest = d2 < nearest ? d2 : nearest;
       const Floats height = ux + slope * uy;
-      const Floats loser = first < height ? first : height;
-      second = loser > second ? loser : second;
       const Ints wins = height > first;
       first = wins ? height : first;
       x = wins ? ux : x;
@@ -146,60 +140,64 @@ private:
     }
     ax_ = x;
     ay_ = y;
-    last_x_ = all(-slope);
-    last_y_ = all(1.f);
+    edge_x_ = all(-slope);
+    edge_y_ = all(1.f);
+    limit_ = all(0.f);
     start_ = start;
-    first_ = first;
-    second_ = second;
     nearest_ = next;
   }
 
-  /// The bounds of the head of this file; returns the lanes that cannot be decided.
+  /// The bounds of the head of this file; returns the lanes that can be decided.
   Ints set_bounds() {
     constexpr float epsilon = 0x1p-24f;
     const Floats size = 1.001f / square_root(nearest_);
     edge_error_ = 34 * epsilon * size; // of a component and the length together
-    error_ = 76 * epsilon * size * size;
-    const Floats margin = 20 * epsilon * size;
-    const Ints fine = (first_ - second_ > margin) & (first_ > margin) & (size < 1e4f);
-    return ~fine;
+    error_ = 80 * epsilon * size * size;
+    return size < 1e4f;
   }
 
-  /// The next edge of the hull, from the vertex at (ax_, ay_) on.
+  /// The next edge of the hull, from the vertex at (ax_, ay_) on, and the test of the edge before.
   Step advance() const {
     Floats wx[chains], wy[chains];
-    Ints best[chains], near[chains];
+    Ints best[chains], right[chains];
     for (int k = 0; k < chains; ++k) {
-      wx[k] = -ax_ - 0.37f * last_x_; // into the hull, in a direction that no lattice likes
-      wy[k] = -ay_ - 0.37f * last_y_;
+      wx[k] = -ax_ - 0.37f * edge_x_; // into the hull, left of all candidates that may follow
+      wy[k] = -ay_ - 0.37f * edge_y_;
       best[k] = all(-chains - 1);
-      near[k] = Ints{};
+      right[k] = Ints{};
     }
     Ints counter{};
-    const Floats error = error_, least = -error_, ax = ax_, ay = ay_;
+    const Floats least = -error_, ax = ax_, ay = ay_, edge_x = edge_x_, edge_y = edge_y_, limit = limit_;
     for (int c = 0; c < n_; c += chains) {
 #pragma GCC unroll 8
       for (int k = 0; k < chains; ++k) {
-        const Floats vx = load(group_.u[c + k]) - ax, vy = load(group_.u[c + k] + lanes) - ay;
-        const Floats turned = wx[k] * vy - wy[k] * vx;
-        near[k] += magnitude(turned) <= error;
-        const Ints wins = turned < least; // never the vertex itself
+        const Floats ux = load(group_.u[c + k]), uy = load(group_.u[c + k] + lanes);
+        right[k] += edge_x * uy - edge_y * ux <= limit;
+        const Floats vx = ux - ax, vy = uy - ay;
+        const Ints wins = wx[k] * vy - wy[k] * vx < least; // never the vertex itself
         wx[k] = wins ? vx : wx[k];
         wy[k] = wins ? vy : wy[k];
         best[k] = wins ? counter : best[k];
       }
       counter = counter + chains;
     }
-    Step step{wx[0], wy[0], best[0], near[0]};
+    Step step{wx[0], wy[0], best[0], right[0]};
     for (int k = 1; k < chains; ++k) {
-      const Floats turned = step.wx * wy[k] - step.wy * wx[k];
-      step.near += near[k] + (magnitude(turned) <= error);
-      const Ints wins = turned < 0;
+      step.right += right[k];
+      const Ints wins = step.wx * wy[k] - step.wy * wx[k] < 0;
       step.wx = wins ? wx[k] : step.wx;
       step.wy = wins ? wy[k] : step.wy;
       step.best = wins ? best[k] + k : step.best;
     }
     return step;
+  }
+
+  /// The test of the last edge.
+  Ints count_right() const {
+    Ints right[2]{};
+    for (int c = 0; c < n_; ++c)
+      right[c & 1] += edge_x_ * load(group_.u[c] + lanes) - edge_y_ * load(group_.u[c]) <= limit_;
+    return right[0] + right[1];
   }
 
   void finish(const Ints& covered, const Floats& low_x, const Floats& low_y, const Floats& high_x,
@@ -215,11 +213,11 @@ private:
   }
 
   WrapGroup& group_;
-  int n_;                  // candidates, padded to a multiple of `chains`
-  Floats ax_, ay_;         // the vertex
-  Floats last_x_, last_y_; // the edge before
-  Floats first_, second_, nearest_, error_, edge_error_;
-  Ints start_;
+  int n_;                          // candidates, padded to a multiple of `chains`
+  Floats ax_, ay_;                 // the vertex
+  Floats edge_x_, edge_y_, limit_; // the edge before, and its cross product with what does not lie on its left
+  Floats nearest_, error_, edge_error_;
+  Ints start_, tested_{}; // lanes where there is an edge before
 };
 
 } // namespace
