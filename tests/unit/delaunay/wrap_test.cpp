@@ -3,6 +3,7 @@
 #include "delaunay/wrap.hpp"
 
 #include "support/star_checks.hpp"
+#include "trime/core/angle.hpp"
 #include "trime/delaunay/star_builder.hpp"
 
 #include <gtest/gtest.h>
@@ -150,7 +151,7 @@ WrapGroup::Candidate candidate(Vec2 p) {
   return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(p.x - x), static_cast<float>(p.y - y)};
 }
 
-/// A group around the origin, seen by the sites of the lowest numbers.
+/// A group around the origin, seen by the first site in all lanes.
 std::unique_ptr<WrapGroup> group_of(const std::vector<Vec2>& places, float cap) {
   auto group = std::make_unique<WrapGroup>();
   group->half_x = group->half_y = 4;
@@ -158,7 +159,7 @@ std::unique_ptr<WrapGroup> group_of(const std::vector<Vec2>& places, float cap) 
   for (std::size_t k = 0; k < places.size(); ++k)
     group->candidate[k] = candidate(places[k]);
   for (int lane = 0; lane < WrapGroup::most_lanes; ++lane) {
-    const WrapGroup::Candidate& c = group->candidate[static_cast<std::size_t>(lane) % places.size()];
+    const WrapGroup::Candidate& c = group->candidate[0];
     group->site_x[lane] = c.x;
     group->site_y[lane] = c.y;
     group->site_rest_x[lane] = c.rest_x;
@@ -204,13 +205,18 @@ TEST(Wrap, FindsARingWithItsDiscs) {
 }
 
 TEST(Wrap, ClaimsNothingAtTiesGapsCapsAndTheRimOfTheBox) {
-  std::vector<Vec2> tied = flower; // the mirror image of the origin in the middle of an edge of its ring, and near it
-  tied.push_back({1.0 + 0.6, 0.1 + 0.9});
-  tied[1] = {1, 0};
-  tied[2] = {0, 1};
-  for (const double shift : {0.0, 1e-9, -1e-9}) {
-    tied.back() = {1, 1 + shift};
-    with_each_kernel(tied, 4, [](const WrapGroup& group) { EXPECT_FALSE(group.degree[0] > 0 && group.proven[0]); });
+  for (int turn = 0; turn < 24;
+       ++turn) { // a fourth site on the circle of each edge of the ring, the first and the last
+    const double c = std::cos(turn * pi / 12), s = std::sin(turn * pi / 12);
+    for (const double shift : {0.0, 1e-9, -1e-9}) {
+      std::vector<Vec2> tied = flower;
+      tied[1] = {1, 0};
+      tied[2] = {0, 1};
+      tied.push_back({1, 1 + shift});
+      for (Vec2& p : tied)
+        p = {c * p.x - s * p.y, s * p.x + c * p.y};
+      with_each_kernel(tied, 4, [](const WrapGroup& group) { EXPECT_FALSE(group.degree[0] > 0 && group.proven[0]); });
+    }
   }
   const auto claims = [](const WrapGroup& group) { return group.degree[0] > 0 && group.proven[0] && group.covered[0]; };
   with_each_kernel(flower, 0.6f, [&](const WrapGroup& group) { EXPECT_FALSE(claims(group)) << "cap"; });
