@@ -3,6 +3,7 @@
 
 #include "delaunay/double2.hpp"
 #include "delaunay/star_kernel.hpp"
+#include "delaunay/tile_wrapper.hpp"
 #include "trime/core/thread_loop.hpp"
 #include "trime/geometry/predicates.hpp"
 
@@ -47,7 +48,6 @@ public:
     changed_ = false;
     const bool warm = start_warm();
     const bool certain = warm ? finish(0, 0) : start_cold();
-    pass_.rebuilt += !warm;
     pass_.uncertain += !certain;
     stars_.set_certain(i, certain);
     if (!certain)
@@ -205,17 +205,15 @@ private:
         start = k;
       before = after;
     }
-    if (start == n) {
-      stars_.clear(site_);
-      return;
-    }
-    for (std::size_t m = 0, k = start; m < n; ++m, k = k + 1 == n ? 0 : k + 1) {
+    for (std::size_t m = 0, k = start; start < n && m < n; ++m, k = k + 1 == n ? 0 : k + 1) {
       const bool left = counted_[k == 0 ? n - 1 : k - 1], right = counted_[k];
       if (left || right)
         ring.push_back(kernel_.id(k));
       if (!right && (left || right))
         ring.push_back(gap);
     }
+    const std::span<const LocalIndex> last = stars_.load(site_, last_ring_);
+    pass_.rebuilt += !std::equal(ring.begin(), ring.end(), last.begin(), last.end());
     stars_.store(site_, ring);
   }
 
@@ -233,15 +231,16 @@ private:
   std::vector<mesh::BinRef> missing_;
   bool changed_ = false;
   std::span<const LocalIndex> ring_; // the last ring of the site
-  std::vector<LocalIndex> ring_copy_;
+  std::vector<LocalIndex> ring_copy_, last_ring_;
   std::vector<Candidate> near_, far_;
   std::vector<std::uint8_t> counted_;
 };
 
 /// What all workers found.
-StarPass collect(const std::vector<StarWorker>& workers, std::vector<mesh::BinRef>& missing) {
+template <class Worker>
+StarPass collect(const std::vector<Worker>& workers, std::vector<mesh::BinRef>& missing) {
   StarPass pass;
-  for (const StarWorker& worker : workers) {
+  for (const Worker& worker : workers) {
     pass.rebuilt += worker.pass().rebuilt;
     pass.uncertain += worker.pass().uncertain;
     missing.insert(missing.end(), worker.missing().begin(), worker.missing().end());
@@ -277,6 +276,43 @@ void list_affected(std::span<const LocalIndex> before, std::span<const LocalInde
   list(after, before, false);
 }
 
+/// The stars of one tile after the other: many at once where that can be, the rest one by one.
+class TileWorker {
+public:
+  TileWorker(const mesh::BinnedPoints& points, StarTable& stars, const geometry::Lattice& lattice)
+      : points_(points), stars_(stars), star_(points, stars, lattice), wrapper_(points, stars, lattice, simd_level()) {}
+
+  template <class Cap>
+  void compute(LocalIndex tile, std::span<const StarWish> wanted, const Cap& cap) {
+    const auto [begin, end] = points_.tile_range(tile);
+    caps_.resize(static_cast<std::size_t>(end - begin));
+    for (LocalIndex i = begin; i < end; ++i) {
+      const StarWish wish = wanted.empty() ? StarWish::compute : wanted[static_cast<std::size_t>(i)];
+      if (wish == StarWish::none)
+        stars_.clear(i);
+      if (wish != StarWish::compute)
+        stars_.set_certain(i, false); // to be computed once it is wanted
+      caps_[static_cast<std::size_t>(i - begin)] = wish == StarWish::compute && !stars_.certain(i) ? cap(i) : 0;
+    }
+    if (points_.largest_drift() == 0) // it trusts the bins
+      rebuilt_ += wrapper_.compute(tile, caps_);
+    for (LocalIndex i = begin; i < end; ++i)
+      if (const double limit = caps_[static_cast<std::size_t>(i - begin)]; limit > 0)
+        star_.compute(i, limit);
+  }
+
+  StarPass pass() const { return {star_.pass().rebuilt + rebuilt_, star_.pass().uncertain}; }
+  const std::vector<mesh::BinRef>& missing() const { return star_.missing(); }
+
+private:
+  const mesh::BinnedPoints& points_;
+  StarTable& stars_;
+  StarWorker star_;
+  TileWrapper wrapper_;
+  std::vector<double> caps_;
+  std::int64_t rebuilt_ = 0;
+};
+
 } // namespace
 
 bool StarBuilder::counts(Vec2 a, Vec2 b, Vec2 c, double cap, const geometry::Periods& periods) {
@@ -290,23 +326,15 @@ double StarBuilder::largest_cap(const geometry::Periods& periods) {
 
 StarPass StarBuilder::update(const mesh::BinnedPoints& points, StarTable& stars, const mesh::LocalSizes& sizes,
                              std::span<const StarWish> wanted, std::vector<mesh::BinRef>& missing) const {
-  std::vector<StarWorker> workers;
+  std::vector<TileWorker> workers;
   for (int thread = 0; thread < std::max(1, thread_count()); ++thread)
     workers.emplace_back(points, stars, lattice_);
   const LocalIndex first_tile = points.first_tile();
   const double limit = largest_cap(points.grid().periods());
-  thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t tile, int thread) {
-    const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(tile));
-    for (LocalIndex i = begin; i < end; ++i) {
-      const StarWish wish = wanted.empty() ? StarWish::compute : wanted[static_cast<std::size_t>(i)];
-      if (wish != StarWish::compute) {
-        if (wish == StarWish::none)
-          stars.clear(i);
-        stars.set_certain(i, false); // to be computed once it is wanted
-      } else if (!stars.certain(i)) {
-        workers[static_cast<std::size_t>(thread)].compute(i, cap_at(sizes, i, limit));
-      }
-    }
+  thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t part, int thread) {
+    const LocalIndex tile = first_tile + static_cast<LocalIndex>(part);
+    workers[static_cast<std::size_t>(thread)].compute(tile, wanted,
+                                                      [&](LocalIndex i) { return cap_at(sizes, i, limit); });
   });
   return collect(workers, missing);
 }

@@ -37,10 +37,21 @@ public:
   /// The slots of all sites, 8 each, and the lengths of the rings (more than 8: not in the slots).
   const LocalIndex* all_slots() const { return rings_.empty() ? nullptr : rings_[0].data(); }
   const std::uint8_t* degrees() const { return degree_.data(); }
+  /// Length of the ring of site i; slots + 1 stands for any that is longer than `slots`.
+  std::size_t degree(LocalIndex i) const { return degree_[static_cast<std::size_t>(i)]; }
   /// The ring of site i while other sites are being stored; `room` holds it if it comes from the overflow list.
   std::span<const LocalIndex> load(LocalIndex i, std::vector<LocalIndex>& room) const;
   /// Stores a ring; different sites may be stored concurrently.
   void store(LocalIndex i, std::span<const LocalIndex> ring);
+  /// @brief The 8 slots for a ring of 1 to 8 neighbours, to be written and repeated by the caller; until then they hold
+  /// what they did.
+  LocalIndex* store_short(LocalIndex i, std::size_t degree) {
+    clear(i);
+    degree_[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(degree);
+    return rings_[static_cast<std::size_t>(i)].data();
+  }
+  /// Announces that the ring of site i will be written soon.
+  void expect_store(LocalIndex i) const { __builtin_prefetch(&rings_[static_cast<std::size_t>(i)], 1); }
   /// Empties the ring of site i; concurrently as store.
   void clear(LocalIndex i) {
     if (degree_[static_cast<std::size_t>(i)] > slots)
