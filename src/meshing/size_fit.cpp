@@ -235,7 +235,7 @@ private:
     return trial;
   }
 
-  /// @brief A factor not far from the result, and the slope there, without layouts. From above: large factors make few
+  /// @brief A factor not far from the result, without layouts. From above: large factors make few
   /// points, so no round costs more than the last.
   double estimated_factor(double uniform, double factor) {
     const CountEstimate estimate(context_, points_, reference_spacing * uniform,
@@ -254,6 +254,7 @@ private:
       last_factor = factor;
       factor = guess;
     }
+    power_ = -2;
     return factor;
   }
 
