@@ -127,7 +127,7 @@ sizing::ScaledSize CountEstimate::scaled(double factor) const {
 double CountEstimate::crowding(double factor) const {
   constexpr double sparse = 0.38, most = 16;
   const std::optional<double> sites = boundary_points(scaled(factor));
-    fprintf(stderr, "CROWD corners %g sites %g\n", corners_, sites.value_or(-1));
+  fprintf(stderr, "CROWD corners %g sites %g\n", corners_, sites.value_or(-1));
   if (!sites)
     return 1;
   const double share = corners_ / (sparse * *sites);
