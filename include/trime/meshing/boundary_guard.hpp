@@ -8,6 +8,7 @@
 #include "trime/geometry/segment_grid.hpp"
 #include "trime/meshing/boundary_sites.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -35,6 +36,8 @@ public:
   bool inside(geometry::Vec2 p) const;
   /// Distance to the nearest chord, or `reach` if that is farther.
   double distance(geometry::Vec2 p, double reach) const;
+  /// A lower bound of the distance, `reach` if it is not below that; for p in the container, by one look-up.
+  double distance_below(geometry::Vec2 p, double reach) const { return std::min(reach, clear_way(p)); }
   /// @brief Where an interior site at p with local size h must go; nothing if p is inside and in no closed diametral
   /// disc.
   ///
