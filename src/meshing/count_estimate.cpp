@@ -98,7 +98,7 @@ CountEstimate::CountEstimate(const LayoutContext& context, double points, double
   comm::run_agreed(context.comm,
                    [&] { polygon = polygon_of(context.fixed.boundary(), context.lattice, spacing, lengths_); });
   corners_ = count_corners(context.fixed.boundary(), context.options.corner_angle);
-  if (!polygon.sites.empty() || context.boundary.periods.any())
+  if (!polygon.sites.empty() || context.boundary.covers_torus)
     reference_ = lay_reference(context, std::move(polygon), points, coarsening);
 }
 
@@ -127,8 +127,7 @@ sizing::ScaledSize CountEstimate::scaled(double factor) const {
 double CountEstimate::crowding(double factor) const {
   constexpr double sparse = 0.38, most = 16;
   const std::optional<double> sites = boundary_points(scaled(factor));
-  fprintf(stderr, "CROWD corners %g sites %g\n", corners_, sites.value_or(-1));
-  if (!sites)
+  if (!sites || !(*sites > 0))
     return 1;
   const double share = corners_ / (sparse * *sites);
   return std::clamp(share * share, 1.0, most);
