@@ -162,13 +162,13 @@ Layout lay_reference(const LayoutContext& context, BoundarySites polygon, double
   return layout;
 }
 
-Layout try_boundary(const LayoutContext& context, const FittedSize& start, const Lowering& lowering, double expected,
+Layout try_boundary(const LayoutContext& context, double factor, const Lowering& lowering, double expected,
                     double grid_coarsening) {
   constexpr double times_points = 1.5, at_least = 1000;
   const std::optional<GlobalId>& points = context.options.points;
   const std::size_t affordable =
       points ? static_cast<std::size_t>(std::max(at_least, times_points * static_cast<double>(*points))) : unlimited;
-  return lay(context, {start, 1, expected, grid_coarsening, lowering, affordable});
+  return lay(context, {{factor, {}}, 1, expected, grid_coarsening, lowering, affordable});
 }
 
 TileRange even_share(const Layout& layout, const comm::Communicator& comm) {

@@ -86,8 +86,7 @@ struct Lowering {
 
 /// @brief lay_boundary in search of a factor. If the boundary takes far more points than were asked for, its sites are
 /// not finished (`overfull`), and the layout has neither guard nor state. Collective.
-/// @param start factor, and the limits that are known from one near to it
-Layout try_boundary(const LayoutContext& context, const FittedSize& start, const Lowering& lowering, double expected,
+Layout try_boundary(const LayoutContext& context, double factor, const Lowering& lowering, double expected,
                     double grid_coarsening = 1);
 
 /// The tiles that this rank fills with sites: an even share, before anything is known of their number.

@@ -21,9 +21,8 @@ constexpr double reference_spacing = 0.25; // of the size of a uniform mesh
 constexpr double reference_coarsening = 4; // of the integral, at least
 constexpr int estimate_rounds = 6;
 constexpr double estimate_precision = 0.02; // of the factor
-constexpr double near_factor = 0.1;         // in logarithms: with the same limits
+constexpr double near_factor = 0.1;         // in logarithms: no rough trials any more
 constexpr double crowded_power = -0.5;      // of the factor, that the points follow where limits hold many of them
-constexpr double scaled_power = -1.3;       // the same if the limits grow with it
 constexpr double many_points = 64, least_share = 0.5; // the latter of the points asked for
 
 /// The boundary takes too many points at one size, and at the next larger there are less than half of those asked for:
@@ -106,7 +105,7 @@ std::optional<Layout> lay_affordable_boundary(const LayoutContext& context, doub
   constexpr int growth_rounds = 24;
   constexpr double growth = 1.3;
   for (int round = 0; round < growth_rounds; ++round) {
-    Layout layout = try_boundary(context, {h, {}}, {most_lowering_rounds, false}, expected);
+    Layout layout = try_boundary(context, h, {}, expected);
     const double held = static_cast<double>(layout.placed_first());
     if (!context.options.points || layout.placed_first() <= *context.options.points) {
       const double size = layout.size->size({}), area = context.boundary.area + layout.boundary.dropped.change;
@@ -213,20 +212,12 @@ private:
     double points = 0;
   };
 
-  /// @brief Close to a factor whose limits are known they grow and shrink with the size: no new ones are looked for,
-  /// except for those that a rough trial has spared.
+  /// @brief The limits of the size are looked for anew: those of another factor would keep corners that this one leaves
+  /// out.
   /// @param rough one round of looking for limits may do
-  Trial try_factor(double factor, bool rough = false) {
+  Trial try_factor(double factor, bool rough = false) const {
     Trial trial;
-    if (!(limits_.factor > 0) || std::fabs(std::log(factor / limits_.factor)) > near_factor)
-      limits_ = {factor, {}, 0};
-    FittedSize start{factor, limits_.known};
-    for (sizing::SizeLimit& limit : start.limits)
-      limit.size *= factor / limits_.factor;
-    const int rounds = most_lowering_rounds - limits_.rounds;
-    trial.fit.layout = try_boundary(context_, start, {rounds, rough}, points_, coarsening_);
-    if (rounds > 0)
-      limits_ = {factor, trial.fit.layout.fitted.limits, trial.fit.layout.lowered_enough ? most_lowering_rounds : 1};
+    trial.fit.layout = try_boundary(context_, factor, {most_lowering_rounds, rough}, points_, coarsening_);
     if (!trial.fit.layout.boundary.overfull) {
       trial.totals = wanted_inside(context_, trial.fit.layout, coarsening_);
       trial.fit.inner = std::floor(trial.totals.sites);
@@ -264,14 +255,14 @@ private:
     std::optional<Trial> trial;
   };
   /// @brief Where limits lower the size much, they hold many points that no estimate knows of: rough trials until the
-  /// limits are those of a factor near the result.
+  /// factor is near the result.
   Approach approached(double factor) {
     constexpr int rough_rounds = 6;
     constexpr double growth = 1.05; // of the points, by the rounds of looking for limits that a rough trial spares
     double last = 0, last_factor = 0;
     for (int round = 0; round < rough_rounds; ++round) {
       Trial trial = try_factor(factor, true);
-      if (limits_.rounds == most_lowering_rounds || trial.fit.layout.boundary.overfull)
+      if (trial.fit.layout.lowered_enough || trial.fit.layout.boundary.overfull)
         return {factor, std::move(trial)};
       if (round == 0)
         power_ = crowded_power;
@@ -282,7 +273,6 @@ private:
       if (std::fabs(std::log(guess / last_factor)) < near_factor)
         break;
     }
-    power_ = scaled_power;
     return {factor, std::nullopt};
   }
 
@@ -374,11 +364,6 @@ private:
   const LayoutContext& context_;
   double points_, coarsening_;
   double power_ = -2; // of the factor, that the number of points follows; less where corners hold many of them
-  struct {
-    double factor = 0; ///< with which they were found; 0: not yet
-    std::vector<sizing::SizeLimit> known;
-    int rounds = 0; ///< in which they were looked for
-  } limits_;
 };
 
 } // namespace
