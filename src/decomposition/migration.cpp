@@ -1,15 +1,55 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/decomposition/migration.hpp"
 
+#include "trime/core/thread_loop.hpp"
+
+#include <algorithm>
+#include <functional>
 #include <map>
+#include <numeric>
 
 namespace trime::decomposition {
+namespace {
+
+/// Parts of a list that threads count at the same time; their sum does not depend on how many there are.
+int part_count(std::ptrdiff_t n) {
+  constexpr std::ptrdiff_t least = 1 << 14; // items of a part
+  return static_cast<int>(std::clamp<std::ptrdiff_t>(n / least, 1, thread_count()));
+}
+
+bool all_stay(const mesh::TileGrid& grid, LocalIndex first, LocalIndex last, std::span<const mesh::Site> sites) {
+  if (first == 0 && last == grid.tile_count())
+    return true;
+  const std::ptrdiff_t n = std::ssize(sites);
+  const int parts = part_count(n);
+  std::vector<std::uint8_t> stay(static_cast<std::size_t>(parts), 1);
+  thread_loop(parts, 1, [&](std::ptrdiff_t part, int) {
+    for (std::ptrdiff_t i = n * part / parts; i < n * (part + 1) / parts; ++i)
+      if (const LocalIndex tile = grid.place(sites[static_cast<std::size_t>(i)].position).tile;
+          tile < first || tile >= last) {
+        stay[static_cast<std::size_t>(part)] = 0;
+        return;
+      }
+  });
+  return std::find(stay.begin(), stay.end(), 0) == stay.end();
+}
+
+} // namespace
 
 std::vector<std::int64_t> tile_weights(const comm::Communicator& comm, const mesh::TileGrid& grid,
                                        std::span<const mesh::Site> sites) {
-  std::vector<std::int64_t> weights(static_cast<std::size_t>(grid.tile_count()), 0);
-  for (const mesh::Site& site : sites)
-    ++weights[static_cast<std::size_t>(grid.place(site.position).tile)];
+  const std::ptrdiff_t n = std::ssize(sites);
+  const int parts = part_count(n);
+  std::vector<std::vector<std::int64_t>> of_part(static_cast<std::size_t>(parts));
+  thread_loop(parts, 1, [&](std::ptrdiff_t part, int) {
+    std::vector<std::int64_t>& weights = of_part[static_cast<std::size_t>(part)];
+    weights.assign(static_cast<std::size_t>(grid.tile_count()), 0);
+    for (std::ptrdiff_t i = n * part / parts; i < n * (part + 1) / parts; ++i)
+      ++weights[static_cast<std::size_t>(grid.place(sites[static_cast<std::size_t>(i)].position).tile)];
+  });
+  std::vector<std::int64_t> weights = std::move(of_part.front());
+  for (std::size_t part = 1; part < of_part.size(); ++part)
+    std::transform(weights.begin(), weights.end(), of_part[part].begin(), weights.begin(), std::plus<>());
   comm.sum(weights);
   return weights;
 }
@@ -18,13 +58,18 @@ void migrate(const comm::Communicator& comm, const mesh::TileGrid& grid, const P
              std::vector<mesh::Site>& sites, std::vector<LocalIndex>* stays) {
   const LocalIndex first = partition.first_tile(comm.rank()), last = partition.last_tile(comm.rank());
   std::map<int, std::vector<mesh::Site>> leaving; // by rank, ascending
-  if (stays)
-    stays->assign(sites.size(), -1);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < sites.size(); ++i) {
+  const bool none_leaves = all_stay(grid, first, last, sites);
+  if (stays) {
+    stays->resize(sites.size());
+    std::iota(stays->begin(), stays->end(), 0);
+  }
+  std::size_t kept = none_leaves ? sites.size() : 0;
+  for (std::size_t i = kept; i < sites.size(); ++i) {
     const LocalIndex tile = grid.place(sites[i].position).tile;
     if (tile < first || tile >= last) {
       leaving[partition.owner(tile)].push_back(sites[i]);
+      if (stays)
+        (*stays)[i] = -1;
       continue;
     }
     if (stays)

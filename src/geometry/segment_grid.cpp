@@ -56,8 +56,8 @@ double power_of_two_above(double v) {
 } // namespace
 
 double SegmentGrid::Placed::squared_distance(Vec2 p) const {
-  const double dx = std::fmax(0.0, std::fmax(corner.x - p.x, p.x - (corner.x + side)));
-  const double dy = std::fmax(0.0, std::fmax(corner.y - p.y, p.y - (corner.y + side)));
+  const double dx = std::max(0.0, std::max(corner.x - p.x, p.x - (corner.x + side)));
+  const double dy = std::max(0.0, std::max(corner.y - p.y, p.y - (corner.y + side)));
   return dx * dx + dy * dy;
 }
 
@@ -196,16 +196,32 @@ bool SegmentGrid::inside(Vec2 p) const {
   return parity;
 }
 
-void SegmentGrid::nearest_in(const Placed& place, Vec2 p, Nearest& best) const {
-  const Cell& cell = cells_[place.cell];
-  if (!cell.split) {
-    for (LocalIndex k = cell.first; k < cell.first + cell.count; ++k) {
-      const LocalIndex index = cell_segment_[k];
-      const double d = geometry::squared_distance(p, segments_[index]);
-      if (d < best.squared_distance || (d == best.squared_distance && (best.segment < 0 || index < best.segment)))
-        best = {index, d};
-    }
-    return;
+void SegmentGrid::look_in_leaf(const Cell& cell, Vec2 p, Nearest& best) const {
+  for (LocalIndex k = cell.first; k < cell.first + cell.count; ++k) {
+    const LocalIndex index = cell_segment_[k];
+    const double d = geometry::squared_distance(p, segments_[index]);
+    if (d < best.squared_distance || (d == best.squared_distance && (best.segment < 0 || index < best.segment)))
+      best = {index, d};
+  }
+}
+
+/// Mostly one child alone lies within reach: the way down is a loop then.
+void SegmentGrid::nearest_in(Placed place, Vec2 p, Nearest& best) const {
+  int i0 = 0, i1 = 0, j0 = 0, j1 = 0;
+  for (;;) {
+    if (!cells_[place.cell].split)
+      return look_in_leaf(cells_[place.cell], p, best);
+    // Slightly more than the distance: rounding must not hide a segment that is as near.
+    const double inverse = 4 / place.side;
+    const double x = (p.x - place.corner.x) * inverse, y = (p.y - place.corner.y) * inverse;
+    const double reach = std::sqrt(best.squared_distance) * inverse * (1 + 1e-12) + 1e-12;
+    i0 = static_cast<int>(std::clamp(x - reach, 0.0, 3.0));
+    i1 = static_cast<int>(std::clamp(x + reach, 0.0, 3.0));
+    j0 = static_cast<int>(std::clamp(y - reach, 0.0, 3.0));
+    j1 = static_cast<int>(std::clamp(y + reach, 0.0, 3.0));
+    if (i0 != i1 || j0 != j1)
+      break;
+    place = place.child(cells_[place.cell].first, i0, j0);
   }
   struct Entry {
     double squared_distance;
@@ -213,16 +229,17 @@ void SegmentGrid::nearest_in(const Placed& place, Vec2 p, Nearest& best) const {
   };
   std::array<Entry, 16> entries;
   int n = 0;
-  for (int k = 0; k < 16; ++k) {
-    const Placed child = place.child(cell.first, k & 3, k >> 2);
-    if (cells_[child.cell].split || cells_[child.cell].count > 0)
-      entries[n++] = {child.squared_distance(p), child};
-  }
-  std::sort(entries.begin(), entries.begin() + n, [](const Entry& a, const Entry& b) {
-    return a.squared_distance < b.squared_distance ||
-           (a.squared_distance == b.squared_distance && a.place.cell < b.place.cell);
-  });
-  // Slightly more than the distance: rounding must not hide a segment that is as near.
+  for (int j = j0; j <= j1; ++j)
+    for (int i = i0; i <= i1; ++i) {
+      const Placed child = place.child(cells_[place.cell].first, i, j);
+      if (!cells_[child.cell].split && cells_[child.cell].count == 0)
+        continue;
+      const Entry entry{child.squared_distance(p), child};
+      int at = n++;
+      for (; at > 0 && entry.squared_distance < entries[at - 1].squared_distance; --at)
+        entries[at] = entries[at - 1];
+      entries[at] = entry;
+    }
   for (int k = 0; k < n && entries[k].squared_distance <= best.squared_distance * (1 + 1e-12); ++k)
     nearest_in(entries[k].place, p, best);
 }

@@ -3,6 +3,7 @@
 
 #include "chord_closure.hpp"
 #include "trime/core/error.hpp"
+#include "trime/core/thread_loop.hpp"
 #include "trime/geometry/diametral.hpp"
 
 #include <algorithm>
@@ -20,6 +21,8 @@ constexpr double near_share = 0.05; // of the chord length: closer sites encroac
 constexpr double push_share = 0.6;  // of the chord length, from its middle
 constexpr double cells_per_chord = 64;
 constexpr double most_cells = 0x1p22;
+constexpr int strip_rows = 64;     // of cells, for one thread
+constexpr int most_clearance = 15; // cells; beyond that they are not counted
 constexpr double entries = 0x1p22, entries_per_chord = 64, most_entries = 0x1p25; // of all cell lists together
 
 std::vector<Segment> chords_of(const BoundarySites& sites) {
@@ -60,7 +63,7 @@ BoundaryGuard::BoundaryGuard(const BoundarySites& sites, const geometry::Lattice
     close_chords(window, lattice);
   }
   list_discs();
-  classify_clear_cells(lattice);
+  classify_cells(lattice);
 }
 
 /// Chooses the cells: around all discs, or one period long. Returns the box that holds all cells; it has no end along
@@ -121,52 +124,138 @@ void BoundaryGuard::close_chords(const geometry::Box& window, const geometry::La
   inverted_ = !closed_.inside(periods_.wrap(lattice.snap(middle + 0.25 * geometry::left_normal(first.b - first.a))));
 }
 
-/// Lists the discs of each cell by counting, summing and filling.
+/// Lists the discs of each cell by counting, summing and filling, strips of rows at the same time.
 void BoundaryGuard::list_discs() {
-  const std::size_t count = static_cast<std::size_t>(columns_) * rows_;
-  cell_start_.assign(count + 1, 0);
-  for (LocalIndex k = 0; k < disc_count(); ++k)
-    for_each_cell_of(disc(k), [&](std::size_t cell) { ++cell_start_[cell + 1]; });
-  for (std::size_t cell = 0; cell < count; ++cell)
-    cell_start_[cell + 1] += cell_start_[cell];
-  cell_chord_.resize(cell_start_.back());
-  std::vector<LocalIndex> place(cell_start_.begin(), cell_start_.end() - 1);
-  for (LocalIndex k = 0; k < disc_count(); ++k)
-    for_each_cell_of(disc(k), [&](std::size_t cell) { cell_chord_[place[cell]++] = k; });
+  const auto strips = static_cast<std::size_t>((rows_ - 1) / strip_rows + 1);
+  std::vector<std::vector<LocalIndex>> discs_of(strips);
+  for (LocalIndex k = 0; k < disc_count(); ++k) {
+    const Segment& s = disc(k);
+    const auto [first, last] = rows_of(0.5 * (s.a.y + s.b.y), reach_of(s));
+    for (int strip = first / strip_rows; strip <= last / strip_rows; ++strip)
+      discs_of[static_cast<std::size_t>(strip)].push_back(k);
+  }
+  const auto for_each_strip = [&](const auto& body) {
+    thread_loop(static_cast<std::ptrdiff_t>(strips), 1, [&](std::ptrdiff_t k, int) {
+      const int first = static_cast<int>(k) * strip_rows, last = std::min(rows_, first + strip_rows);
+      body(static_cast<std::size_t>(k), first, last);
+    });
+  };
+  const auto cells_before = [this](int row) { return static_cast<std::size_t>(row) * columns_; };
+  cell_start_.assign(cells_before(rows_) + 1, 0);
+  std::vector<LocalIndex> entries_of(strips + 1, 0);
+  for_each_strip([&](std::size_t strip, int first, int last) {
+    for (const LocalIndex k : discs_of[strip])
+      for_each_cell_of(disc(k), first, last, [&](std::size_t cell) { ++cell_start_[cell]; });
+    for (std::size_t cell = cells_before(first); cell < cells_before(last); ++cell)
+      entries_of[strip + 1] += cell_start_[cell];
+  });
+  for (std::size_t strip = 0; strip < strips; ++strip)
+    entries_of[strip + 1] += entries_of[strip];
+  cell_chord_.resize(static_cast<std::size_t>(entries_of.back()));
+  cell_start_.back() = entries_of.back();
+  // Each list is filled from its end; then its start is known.
+  for_each_strip([&](std::size_t strip, int first, int last) {
+    LocalIndex end = entries_of[strip];
+    for (std::size_t cell = cells_before(first); cell < cells_before(last); ++cell)
+      cell_start_[cell] = end += cell_start_[cell];
+    for (auto k = discs_of[strip].rbegin(); k != discs_of[strip].rend(); ++k)
+      for_each_cell_of(disc(*k), first, last,
+                       [&](std::size_t cell) { cell_chord_[static_cast<std::size_t>(--cell_start_[cell])] = *k; });
+  });
 }
 
-/// Calls visit(cell) for the cells that the disc of a chord, a little enlarged, may meet.
+/// First and last row that a disc, a little enlarged, may meet.
+std::pair<int, int> BoundaryGuard::rows_of(double middle, double reach) const {
+  const auto row = [this](double y) {
+    return static_cast<int>(std::clamp((y - corner_.y) * inverse_side_, 0.0, rows_ - 1.0));
+  };
+  const double enlarged = reach + 1e-9 * side_;
+  return {row(middle - enlarged), row(middle + enlarged)};
+}
+
+/// Calls visit(cell) for the cells of rows [first, last) that the disc of a chord, a little enlarged, may meet.
 template <class Visit>
-void BoundaryGuard::for_each_cell_of(const Segment& s, const Visit& visit) const {
+void BoundaryGuard::for_each_cell_of(const Segment& s, int first, int last, const Visit& visit) const {
   const Vec2 middle = 0.5 * (s.a + s.b) - corner_;
   const double reach = reach_of(s) + 1e-9 * side_;
-  const auto index = [this](double v, int n) { return std::clamp(static_cast<int>(v * inverse_side_), 0, n - 1); };
-  const int i0 = index(middle.x - reach, columns_), i1 = index(middle.x + reach, columns_);
-  const int j0 = index(middle.y - reach, rows_), j1 = index(middle.y + reach, rows_);
-  for (int j = j0; j <= j1; ++j)
+  const auto column = [this](double x) { return static_cast<int>(std::clamp(x * inverse_side_, 0.0, columns_ - 1.0)); };
+  const auto [low, high] = rows_of(0.5 * (s.a.y + s.b.y), reach_of(s));
+  const int i0 = column(middle.x - reach), i1 = column(middle.x + reach);
+  for (int j = std::max(low, first); j <= std::min(high, last - 1); ++j) {
+    const double dy = std::max(0.0, std::max(j * side_ - middle.y, middle.y - (j + 1) * side_));
     for (int i = i0; i <= i1; ++i) {
-      const double dx = std::fmax(0.0, std::fmax(i * side_ - middle.x, middle.x - (i + 1) * side_));
-      const double dy = std::fmax(0.0, std::fmax(j * side_ - middle.y, middle.y - (j + 1) * side_));
+      const double dx = std::max(0.0, std::max(i * side_ - middle.x, middle.x - (i + 1) * side_));
       if (dx * dx + dy * dy <= reach * reach)
         visit(static_cast<std::size_t>(j) * columns_ + i);
     }
+  }
+}
+
+/// Strips of rows at the same time, each with as many rows around it as the clearance can reach.
+void BoundaryGuard::classify_cells(const geometry::Lattice& lattice) {
+  state_.assign(static_cast<std::size_t>(columns_) * rows_, near_disc);
+  thread_loop((rows_ - 1) / strip_rows + 1, 1, [&](std::ptrdiff_t strip, int) {
+    const int first = static_cast<int>(strip) * strip_rows, last = std::min(rows_, first + strip_rows);
+    const int low = std::max(0, first - most_clearance), high = std::min(rows_, last + most_clearance);
+    std::vector<std::int8_t> clearance = clearance_of(low, high);
+    for (int j = first; j < last; ++j)
+      classify_row(j, &clearance[static_cast<std::size_t>(j - low) * columns_], lattice);
+  });
+}
+
+/// @brief Chessboard distance of each cell of rows [low, high) to the nearest of them with a disc (Rosenfeld and Pfaltz
+/// 1966). What lies beyond the border of a periodic axis is not known, and may be a disc.
+std::vector<std::int8_t> BoundaryGuard::clearance_of(int low, int high) const {
+  const std::size_t width = static_cast<std::size_t>(columns_), rows = static_cast<std::size_t>(high - low);
+  std::vector<std::int8_t> clearance(width * rows);
+  const std::size_t offset = static_cast<std::size_t>(low) * width;
+  for (std::size_t cell = 0; cell < clearance.size(); ++cell)
+    clearance[cell] = cell_start_[offset + cell + 1] > cell_start_[offset + cell] ? 0 : most_clearance;
+  constexpr auto next = [](std::int8_t v) { return static_cast<std::int8_t>(v + 1); };
+  const std::int8_t beyond = periods_.x > 0 ? 0 : most_clearance;
+  const auto look_aside = [&](std::int8_t* row, const std::int8_t* other, bool border) {
+    if (other == nullptr) {
+      if (border && periods_.y > 0)
+        for (std::size_t i = 0; i < width; ++i)
+          row[i] = std::min(row[i], std::int8_t{1});
+      return;
+    }
+    row[0] = std::min(row[0], next(std::min(other[0], other[1])));
+    for (std::size_t i = 1; i + 1 < width; ++i)
+      row[i] = std::min(row[i], next(std::min(std::min(other[i - 1], other[i]), other[i + 1])));
+    row[width - 1] = std::min(row[width - 1], next(std::min(other[width - 2], other[width - 1])));
+  };
+  for (std::size_t j = 0; j < rows; ++j) {
+    std::int8_t* row = &clearance[j * width];
+    look_aside(row, j > 0 ? row - width : nullptr, low == 0);
+    std::int8_t before = beyond;
+    for (std::size_t i = 0; i < width; ++i)
+      before = row[i] = std::min(row[i], next(before));
+  }
+  for (std::size_t j = rows; j-- > 0;) {
+    std::int8_t* row = &clearance[j * width];
+    look_aside(row, j + 1 < rows ? row + width : nullptr, high == rows_);
+    std::int8_t behind = beyond;
+    for (std::size_t i = width; i-- > 0;)
+      behind = row[i] = std::min(row[i], next(behind));
+  }
+  return clearance;
 }
 
 /// A cell without disc meets no chord, so one point decides for all of it, and for its clear right neighbours.
-void BoundaryGuard::classify_clear_cells(const geometry::Lattice& lattice) {
-  state_.assign(static_cast<std::size_t>(columns_) * rows_, Cell::near);
-  for (int j = 0; j < rows_; ++j)
-    for (int i = 0; i < columns_; ++i) {
-      const std::size_t cell = static_cast<std::size_t>(j) * columns_ + i;
-      if (cell_start_[cell + 1] > cell_start_[cell])
-        continue;
-      if (i > 0 && state_[cell - 1] != Cell::near) {
-        state_[cell] = state_[cell - 1];
-        continue;
-      }
-      const Vec2 center = lattice.snap(corner_ + Vec2{(i + 0.5) * side_, (j + 0.5) * side_});
-      state_[cell] = inside_polygon(center) ? Cell::inside : Cell::outside;
+void BoundaryGuard::classify_row(int j, const std::int8_t* clearance, const geometry::Lattice& lattice) {
+  const std::size_t first = static_cast<std::size_t>(j) * columns_;
+  bool inside = false, known = false;
+  for (int i = 0; i < columns_; ++i) {
+    if (clearance[i] == 0) {
+      known = false;
+      continue;
     }
+    if (!known)
+      inside = inside_polygon(lattice.snap(corner_ + Vec2{(i + 0.5) * side_, (j + 0.5) * side_}));
+    known = true;
+    state_[first + static_cast<std::size_t>(i)] = inside ? clearance[i] : static_cast<std::int8_t>(-clearance[i]);
+  }
 }
 
 std::int64_t BoundaryGuard::cell_at(Vec2 p) const {
@@ -176,9 +265,9 @@ std::int64_t BoundaryGuard::cell_at(Vec2 p) const {
   return static_cast<std::int64_t>(y) * columns_ + static_cast<std::int64_t>(x);
 }
 
-BoundaryGuard::Cell BoundaryGuard::state_at(Vec2 p) const {
+int BoundaryGuard::state_at(Vec2 p) const {
   const std::int64_t cell = cell_at(p);
-  return cell >= 0 ? state_[cell] : is_empty() ? Cell::inside : Cell::outside;
+  return cell >= 0 ? state_[static_cast<std::size_t>(cell)] : is_empty() ? 1 : -1;
 }
 
 std::span<const LocalIndex> BoundaryGuard::chords_at(std::int64_t cell) const {
@@ -193,8 +282,8 @@ bool BoundaryGuard::inside_polygon(Vec2 p) const {
 
 bool BoundaryGuard::inside(Vec2 p) const {
   p = periods_.wrap(p);
-  const Cell state = state_at(p);
-  return state == Cell::near ? inside_polygon(p) : state == Cell::inside;
+  const int state = state_at(p);
+  return state == near_disc ? inside_polygon(p) : state > 0;
 }
 
 /// Middles of chords are canonical: of a point that is, one image to each side is enough.
@@ -217,18 +306,21 @@ std::optional<BoundaryGuard::NearChord> BoundaryGuard::nearest(Vec2 p, double re
 }
 
 double BoundaryGuard::distance(Vec2 p, double reach) const {
-  const auto found = nearest(periods_.wrap(p), reach);
+  p = periods_.wrap(p);
+  if (clear_way(p) >= reach)
+    return reach;
+  const auto found = nearest(p, reach);
   return found ? std::sqrt(found->squared_distance) : reach;
 }
 
 BoundaryGuard::CellView BoundaryGuard::cells() const {
-  static_assert(sizeof(Cell) == 1);
-  return {is_empty() ? nullptr : reinterpret_cast<const std::uint8_t*>(state_.data()),
-          static_cast<std::uint8_t>(Cell::inside),
-          corner_,
-          inverse_side_,
-          columns_,
-          rows_};
+  return {is_empty() ? nullptr : state_.data(), corner_, inverse_side_, columns_, rows_};
+}
+
+/// From a cell n cells away from all discs it is at least n - 1 of their sides to any chord.
+double BoundaryGuard::clear_way(Vec2 p) const {
+  constexpr double rounding = 1 - 1e-6;
+  return (std::abs(state_at(p)) - 1) * (side_ * rounding);
 }
 
 bool BoundaryGuard::may_meet_chord(const geometry::Box& box) const {
@@ -245,10 +337,10 @@ bool BoundaryGuard::may_meet_chord(const geometry::Box& box) const {
 
 std::optional<Vec2> BoundaryGuard::correct(Vec2 image, double h, const geometry::Lattice& lattice) const {
   const Vec2 p = periods_.wrap(image), shift = image - p;
-  const Cell state = state_at(p);
-  if (state == Cell::inside)
+  const int state = state_at(p);
+  if (state > 0)
     return std::nullopt;
-  const bool p_inside = state == Cell::near && inside_polygon(p);
+  const bool p_inside = state == near_disc && inside_polygon(p);
   const LocalIndex deepest = p_inside ? deepest_disc(p) : -1;
   if (p_inside && deepest < 0)
     return std::nullopt;
@@ -289,9 +381,9 @@ LocalIndex BoundaryGuard::deepest_disc(Vec2 p) const {
 bool BoundaryGuard::encroaches(Vec2 p) const {
   p = periods_.wrap(p);
   const std::int64_t cell = cell_at(p);
-  const Cell state = state_at(p);
-  if (state != Cell::near)
-    return state == Cell::outside;
+  const int state = state_at(p);
+  if (state != near_disc)
+    return state < 0;
   for (const LocalIndex k : chords_at(cell)) {
     const Segment& chord = disc(k);
     if (geometry::diametral_side(chord.a, chord.b, p) < 0)
@@ -304,8 +396,8 @@ bool BoundaryGuard::encroaches(Vec2 p) const {
 }
 
 std::size_t BoundaryGuard::memory_bytes() const {
-  return chords_.memory_bytes() + closed_.memory_bytes() + images_.capacity() * sizeof(Segment) +
-         state_.capacity() * sizeof(Cell) + (cell_start_.capacity() + cell_chord_.capacity()) * sizeof(LocalIndex);
+  return chords_.memory_bytes() + closed_.memory_bytes() + images_.capacity() * sizeof(Segment) + state_.capacity() +
+         (cell_start_.capacity() + cell_chord_.capacity()) * sizeof(LocalIndex);
 }
 
 } // namespace trime::meshing

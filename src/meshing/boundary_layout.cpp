@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "boundary_layout.hpp"
 
+#include "chunked.hpp"
 #include "site_path.hpp"
 
 #include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"
+#include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -70,15 +72,11 @@ struct Turning {
 };
 
 std::vector<Turning> find_turnings(const LoopMetric& metric, double corner_angle) {
-  const auto& pieces = metric.loop().pieces;
+  const double least = std::fmin(corner_angle, always_a_corner);
   std::vector<Turning> turnings;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (!(metric.loop().turn_degrees(i) > std::fmin(corner_angle, always_a_corner)))
-      continue;
-    const geometry::Piece& before = pieces[(i + pieces.size() - 1) % pieces.size()];
-    const Vec2 in = before.tangent(before.length()), out = pieces[i].tangent(0);
-    turnings.push_back({i, metric.piece_t(i), angle_of(geometry::cross(in, out), geometry::dot(in, out))});
-  }
+  for (std::size_t i = 0; i < metric.loop().pieces.size(); ++i)
+    if (const double turn = metric.turn(i); std::fabs(turn) * (180 / pi) > least)
+      turnings.push_back({i, metric.piece_t(i), turn});
   return turnings;
 }
 
@@ -172,8 +170,9 @@ void make_shells(const LoopMetric& metric, const Arms& arms, Corner& corner) {
 /// A stretch between two fixed places that is divided at equal quantiles.
 struct Stretch {
   double from, to;
-  long intervals;
-  bool ragged = false; // its sites are chosen, not quantiles
+  long intervals;             // 0: not known yet
+  bool ragged = false;        // its sites are chosen, not quantiles
+  const Corner* at = nullptr; // the corner where it starts, if it does at one
 };
 
 long intervals_of(const LoopMetric& metric, double from, double to) {
@@ -192,14 +191,14 @@ std::vector<Stretch> stretches_of(const LoopMetric& metric, const Junctions& jun
     return has(from, to) || has(from - metric.total(), to - metric.total());
   };
   if (corners.empty())
-    return {{0, metric.total(), std::max(3L, intervals_of(metric, 0, metric.total()))}};
+    return {{0, metric.total(), std::max(3L, intervals_of(metric, 0, metric.total())), false, nullptr}};
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const bool last = k + 1 == corners.size();
     const Corner &corner = corners[k], &next = corners[last ? 0 : k + 1];
     double from = corner.t;
     const auto add = [&](double to, bool shell) {
       const bool chosen = !shell && ragged(from, to);
-      stretches.push_back({from, to, shell || chosen ? 1 : intervals_of(metric, from, to), chosen});
+      stretches.push_back({from, to, shell || chosen ? 1 : 0, chosen, from == corner.t ? &corner : nullptr});
       from = to;
     };
     const double shift = last ? metric.total() : 0;
@@ -211,6 +210,11 @@ std::vector<Stretch> stretches_of(const LoopMetric& metric, const Junctions& jun
     for (std::size_t j = next.behind.size(); j > 0; --j)
       add(j > 1 ? next.behind[j - 2] + shift : end, true);
   }
+  thread_loop(std::ssize(stretches), 16, [&](std::ptrdiff_t k, int) {
+    Stretch& stretch = stretches[static_cast<std::size_t>(k)];
+    if (stretch.intervals == 0)
+      stretch.intervals = intervals_of(metric, stretch.from, stretch.to);
+  });
   return stretches;
 }
 
@@ -227,36 +231,32 @@ void ensure_polygon(std::vector<Stretch>& stretches) {
   }
 }
 
-/// The sites of one loop as they come up.
+/// Appends the sites of a stretch to a list.
 class Layouter {
 public:
   Layouter(const LoopMetric& metric, const geometry::Lattice& lattice, double corner_angle,
-           const FeatureTolerance& tolerance, const Junctions& junctions)
-      : metric_(metric), lattice_(lattice), tolerance_(tolerance), corners_(junctions.kept),
-        corner_angle_(corner_angle) {}
+           const FeatureTolerance& tolerance, std::vector<LoopSite>& sites)
+      : metric_(metric), lattice_(lattice), tolerance_(tolerance), corner_angle_(corner_angle), sites_(sites) {}
 
   /// The start of a stretch and what lies in it, without its end.
   void add(const Stretch& stretch, bool closed) {
+    add_start(stretch);
     if (stretch.ragged)
       add_chosen(stretch, closed);
-    for (long j = 0; j < stretch.intervals && !stretch.ragged; ++j)
+    for (long j = 1; j < stretch.intervals && !stretch.ragged; ++j)
       add_site(stretch.from +
-                   (stretch.to - stretch.from) * (static_cast<double>(j) / static_cast<double>(stretch.intervals)),
-               j == 0);
-  }
-
-  std::vector<LoopSite> sorted() {
-    std::sort(sites_.begin(), sites_.end(), [](const LoopSite& a, const LoopSite& b) { return a.t < b.t; });
-    return std::move(sites_);
+               (stretch.to - stretch.from) * (static_cast<double>(j) / static_cast<double>(stretch.intervals)));
   }
 
 private:
-  void add_site(double t, bool first) {
-    if (first && next_corner_ < corners_.size() && t == corners_[next_corner_].t) {
-      const Corner& corner = corners_[next_corner_++];
-      sites_.push_back({t, corner.position, corner.sharp ? SiteKind::sharp_corner : SiteKind::corner});
-      return;
-    }
+  void add_start(const Stretch& stretch) {
+    if (stretch.at == nullptr)
+      return add_site(stretch.from);
+    sites_.push_back(
+        {stretch.from, stretch.at->position, stretch.at->sharp ? SiteKind::sharp_corner : SiteKind::corner});
+  }
+
+  void add_site(double t) {
     t = t >= metric_.total() ? t - metric_.total() : t;
     const Vec2 p = metric_.point(t);
     check_size(p);
@@ -266,7 +266,6 @@ private:
   void add_chosen(const Stretch& stretch, bool closed) {
     const std::vector<Place> places = places_between(metric_, stretch.from, stretch.to, lattice_, tolerance_);
     const std::vector<LocalIndex> path = shortest_site_path(places, closed);
-    add_site(stretch.from, true);
     for (std::size_t k = 1; k + 1 < path.size(); ++k) {
       const Place& place = places[static_cast<std::size_t>(path[k])];
       check_size(place.position);
@@ -292,10 +291,8 @@ private:
   const LoopMetric& metric_;
   const geometry::Lattice& lattice_;
   const FeatureTolerance& tolerance_;
-  const std::vector<Corner>& corners_;
   double corner_angle_;
-  std::size_t next_corner_ = 0;
-  std::vector<LoopSite> sites_;
+  std::vector<LoopSite>& sites_;
 };
 
 } // namespace
@@ -312,17 +309,23 @@ std::vector<LoopSite> lay_out_loop(const LoopMetric& metric, const geometry::Lat
                                    const FeatureTolerance& tolerance) {
   Junctions junctions = find_junctions(metric, corner_angle, tolerance.share);
   std::vector<Corner>& corners = junctions.kept;
-  for (std::size_t k = 0; k < corners.size(); ++k)
+  thread_loop(std::ssize(corners), 16, [&](std::ptrdiff_t item, int) {
+    const auto k = static_cast<std::size_t>(item);
     if (corners[k].sharp)
       make_shells(metric, arms_of(corners, k, metric.total()), corners[k]);
+  });
   std::vector<Stretch> stretches = stretches_of(metric, junctions);
   ensure_polygon(stretches);
   FeatureTolerance capped = tolerance;
   capped.most = most_of_extent * extent_of(metric.loop());
-  Layouter layouter(metric, lattice, corner_angle, capped, junctions);
-  for (const Stretch& stretch : stretches)
-    layouter.add(stretch, stretches.size() == 1 && !metric.loop().winds());
-  return layouter.sorted();
+  const bool closed = stretches.size() == 1 && !metric.loop().winds();
+  constexpr std::ptrdiff_t few = 4; // stretches that one thread divides in a row
+  std::vector<LoopSite> sites =
+      gather_in_order<LoopSite>(std::ssize(stretches), few, [&](std::ptrdiff_t k, std::vector<LoopSite>& list) {
+        Layouter(metric, lattice, corner_angle, capped, list).add(stretches[static_cast<std::size_t>(k)], closed);
+      });
+  std::sort(sites.begin(), sites.end(), [](const LoopSite& a, const LoopSite& b) { return a.t < b.t; });
+  return sites;
 }
 
 } // namespace trime::meshing

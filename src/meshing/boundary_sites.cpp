@@ -4,6 +4,7 @@
 
 #include "boundary_layout.hpp"
 #include "chord_curve.hpp"
+#include "chunked.hpp"
 #include "loop_metric.hpp"
 #include "segment_watch.hpp"
 #include "site_tree.hpp"
@@ -21,11 +22,12 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr int full_rounds = 20;                // later rounds look only at segments near the new sites
-constexpr double shortest_in_steps = 0x1p11;   // a shorter part is not divided
-constexpr double largest_turn = pi / 3 + 1e-6; // of the curve between neighbouring sites
-constexpr double smooth_junction = pi / 360;   // where two pieces of one circle meet
-constexpr double most_deviation = 1.25;        // of the tolerance; the layout keeps within 1.1 of it
+constexpr std::ptrdiff_t segments_in_a_row = 64; // by one thread
+constexpr int full_rounds = 20;                  // later rounds look only at segments near the new sites
+constexpr double shortest_in_steps = 0x1p11;     // a shorter part is not divided
+constexpr double largest_turn = pi / 3 + 1e-6;   // of the curve between neighbouring sites
+constexpr double smooth_junction = pi / 360;     // where two pieces of one circle meet
+constexpr double most_deviation = 1.25;          // of the tolerance; the layout keeps within 1.1 of it
 constexpr double junction_turn = pi / 4; // a junction that turns by more becomes a site when its segment is divided
 
 double nearest_power_of_two(double v) {
@@ -109,7 +111,14 @@ private:
     LocalIndex junction = -1; // the piece that starts there
   };
   CutPlace cut_place(const Site& a, const Site& b, double end) const;
-  void note_left_out(const Site& a, BoundarySites& out) const;
+  /// A site of the result, without its neighbours, and what is told of its segment.
+  struct Segment {
+    BoundarySite site;
+    double squared_length = 0;
+    LocalIndex left_out = 0; ///< corners between the site and its next
+    double deviation = 0;    ///< of them, over the local size
+  };
+  Segment segment_of(LocalIndex k) const;
   [[noreturn]] void fail(const Cut& cut) const;
 
   const Site& next(const Site& site) const { return sites_[site.next]; }
@@ -165,30 +174,26 @@ std::vector<Refiner::Cut> Refiner::find_cuts(const std::vector<LocalIndex>& fres
   for (; !trees_.empty() && trees_.back().size() <= 2 * items.size(); trees_.pop_back())
     items.insert(items.end(), trees_.back().items().begin(), trees_.back().items().end());
   trees_.emplace_back(std::move(items));
-  std::vector<Cut> cuts;
-  const auto look = [&](LocalIndex k, bool fresh) {
-    LocalIndex intruder = -1;
-    if (!fresh)
-      intruder = find_intruder(newest, k);
-    for (std::size_t tree = 0; fresh && tree < trees_.size() && intruder < 0; ++tree)
-      intruder = find_intruder(trees_[tree], k);
-    const LocalIndex point = fresh && intruder < 0 ? find_intruder(inside_tree_, k, true) : -1;
-    if (intruder >= 0 || point >= 0 || (fresh && curve_offends(k)))
-      cuts.push_back({k, intruder, point});
-  };
   std::vector<LocalIndex> fresh = fresh_segments;
   std::sort(fresh.begin(), fresh.end());
-  const auto is_fresh = [&](LocalIndex k) { return std::binary_search(fresh.begin(), fresh.end(), k); };
-  if (rounds_ < full_rounds) {
-    for (LocalIndex k = 0, f = 0; k < static_cast<LocalIndex>(sites_.size()); ++k) {
-      const bool hit = f < std::ssize(fresh) && fresh[f] == k;
-      f += hit ? 1 : 0;
-      look(k, hit);
-    }
-    return cuts;
-  }
+  const auto look = [&](LocalIndex k, std::vector<Cut>& cuts) {
+    const bool is_fresh = std::binary_search(fresh.begin(), fresh.end(), k);
+    LocalIndex intruder = -1;
+    if (!is_fresh)
+      intruder = find_intruder(newest, k);
+    for (std::size_t tree = 0; is_fresh && tree < trees_.size() && intruder < 0; ++tree)
+      intruder = find_intruder(trees_[tree], k);
+    const LocalIndex point = is_fresh && intruder < 0 ? find_intruder(inside_tree_, k, true) : -1;
+    if (intruder >= 0 || point >= 0 || (is_fresh && curve_offends(k)))
+      cuts.push_back({k, intruder, point});
+  };
+  if (rounds_ < full_rounds)
+    return gather_in_order<Cut>(std::ssize(sites_), segments_in_a_row, [&](std::ptrdiff_t k, std::vector<Cut>& cuts) {
+      look(static_cast<LocalIndex>(k), cuts);
+    });
+  std::vector<Cut> cuts;
   for (const LocalIndex k : candidates(fresh_sites, fresh))
-    look(k, is_fresh(k));
+    look(k, cuts);
   return cuts;
 }
 
@@ -324,49 +329,70 @@ void Refiner::fail(const Cut& cut) const {
       from.x, from.y, cause, shortest_in_steps * lattice_.step(), rounds_, geometry::length(to - from)));
 }
 
-/// Corners between a site and its next.
-void Refiner::note_left_out(const Site& a, BoundarySites& out) const {
-  const PartSummary part = summarize(a);
-  if (tolerance_.share == 0 || part.sharpest_turn <= corner_angle_ * (pi / 180))
-    return;
-  const LoopMetric& metric = metrics_[a.loop];
-  out.left_out += metric.corners_between(a.t, end_t(a), corner_angle_ * (pi / 180));
-  out.deviation = std::fmax(out.deviation, tolerance_.share * part.deviation / tolerance_.at(a.position));
+/// Of the segment that starts at a site.
+Refiner::Segment Refiner::segment_of(LocalIndex k) const {
+  const Site& site = sites_[k];
+  const LoopMetric& metric = metrics_[site.loop];
+  const geometry::Periods& periods = boundary_.periods;
+  const Vec2 canonical = periods.wrap(site.position), end = end_of(site) + (canonical - site.position);
+  const auto [piece, along] = metric.place(site.t);
+  Segment out;
+  out.site = {canonical, 0, 0, metric.loop().tag, site.kind != SiteKind::plain, end - periods.wrap(end), piece, along};
+  out.squared_length = geometry::squared_length(end - canonical);
+  if (tolerance_.share == 0)
+    return out;
+  const double turn = corner_angle_ * (pi / 180);
+  if (const PartSummary part = summarize(site); part.sharpest_turn > turn) {
+    out.left_out = metric.corners_between(site.t, end_t(site), turn);
+    out.deviation = tolerance_.share * part.deviation / tolerance_.at(site.position);
+  }
+  return out;
 }
 
 BoundarySites Refiner::result() const {
-  const geometry::Periods& periods = boundary_.periods;
   BoundarySites out;
-  out.periods = periods;
-  out.sites.reserve(sites_.size());
+  out.periods = boundary_.periods;
   out.halvings = halvings_;
   out.rounds = rounds_;
   out.overfull = overfull_;
+  std::vector<LocalIndex> order;
+  order.reserve(sites_.size());
+  for (const LocalIndex first : loop_first_) {
+    out.loop_start.push_back(static_cast<LocalIndex>(order.size()));
+    LocalIndex k = first;
+    do {
+      order.push_back(k);
+      k = sites_[k].next;
+    } while (k != first);
+  }
+  out.loop_start.push_back(static_cast<LocalIndex>(order.size()));
+  const std::vector<Segment> segments =
+      gather_in_order<Segment>(std::ssize(order), segments_in_a_row, [&](std::ptrdiff_t k, std::vector<Segment>& list) {
+        list.push_back(segment_of(order[static_cast<std::size_t>(k)]));
+      });
+  out.sites.reserve(segments.size());
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t loop = 0; loop < loop_first_.size(); ++loop) {
-    const auto first = static_cast<LocalIndex>(out.sites.size());
-    out.loop_start.push_back(first);
-    LocalIndex k = loop_first_[loop];
-    do {
-      const Site& site = sites_[k];
-      const auto index = static_cast<LocalIndex>(out.sites.size());
-      const Vec2 canonical = periods.wrap(site.position), end = end_of(site) + (canonical - site.position);
-      const auto [piece, along] = metrics_[loop].place(site.t);
-      out.sites.push_back({canonical, index - 1, index + 1, metrics_[loop].loop().tag, site.kind != SiteKind::plain,
-                           end - periods.wrap(end), piece, along});
-      out.corners += site.kind != SiteKind::plain;
-      out.sharp_corners += site.kind == SiteKind::sharp_corner;
-      note_left_out(site, out);
-      shortest = std::fmin(shortest, geometry::squared_length(end - canonical));
-      k = site.next;
-    } while (k != loop_first_[loop]);
-    out.sites[first].previous = static_cast<LocalIndex>(out.sites.size()) - 1;
-    out.sites.back().next = first;
+    const LocalIndex first = out.loop_start[loop], end = out.loop_start[loop + 1];
+    for (LocalIndex k = first; k < end; ++k) {
+      const Segment& segment = segments[k];
+      out.sites.push_back(segment.site);
+      out.sites.back().previous = k == first ? end - 1 : k - 1;
+      out.sites.back().next = k + 1 == end ? first : k + 1;
+      const SiteKind kind = sites_[order[k]].kind;
+      out.corners += kind != SiteKind::plain;
+      out.sharp_corners += kind == SiteKind::sharp_corner;
+      out.left_out += segment.left_out;
+      out.deviation = std::fmax(out.deviation, segment.deviation);
+      shortest = std::fmin(shortest, segment.squared_length);
+    }
   }
-  out.loop_start.push_back(static_cast<LocalIndex>(out.sites.size()));
   out.shortest = std::sqrt(shortest);
   out.dropped = dropped_;
-  name_parts(dropped_.any() ? boundary_without(boundary_, dropped_) : boundary_, out);
+  if (dropped_.any())
+    name_parts(boundary_without(boundary_, dropped_), out);
+  else
+    name_parts(boundary_, out);
   return out;
 }
 

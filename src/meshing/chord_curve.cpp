@@ -154,11 +154,13 @@ std::vector<ChordCurve> compare_chords(const geometry::Boundary& boundary, const
 
 void name_parts(const geometry::Boundary& boundary, BoundarySites& sites) {
   assert_same_loops(boundary, sites);
-  for (std::size_t loop = 0; loop < boundary.loops.size(); ++loop)
-    for (LocalIndex k = sites.loop_start[loop]; k < sites.loop_start[loop + 1]; ++k) {
-      BoundarySite& site = sites.sites[k];
-      site.part = part_in_the_middle(boundary.loops[loop], site, sites.sites[site.next]);
-    }
+  for (std::size_t loop = 0; loop < boundary.loops.size(); ++loop) {
+    const LocalIndex first = sites.loop_start[loop];
+    thread_loop(sites.loop_start[loop + 1] - first, 256, [&](std::ptrdiff_t k, int) {
+      BoundarySite& site = sites.sites[static_cast<std::size_t>(first + k)];
+      site.part = part_in_the_middle(boundary.loops[loop], site, sites.sites[static_cast<std::size_t>(site.next)]);
+    });
+  }
 }
 
 double area_of_loops(const geometry::Boundary& boundary) {

@@ -6,8 +6,10 @@
 #include "trime/core/sum.hpp"
 #include "trime/meshing/start.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 namespace trime::meshing {
 
@@ -37,8 +39,8 @@ public:
   /// that the tile would get more than 2^27 cells
   template <class Visit>
   void for_each_cell(LocalIndex tile, const Visit& visit) const {
-    std::int64_t cells = 0;
-    divide({grid_.tile_box(tile), 0, 0, false}, visit, cells);
+    Work work;
+    divide({grid_.tile_box(tile), 0, 0, false, {}}, visit, work);
   }
 
 private:
@@ -49,16 +51,79 @@ private:
   /// Every bin is looked into, wherever its tile's middle lies: sizes may jump.
   int least_levels() const { return grid_.typical_bin_bits() + 1; }
 
+  /// The chords near a part, as a range of Work::chords: all that are nearer to it than `reach`; none are known if that
+  /// is negative.
+  struct NearChords {
+    std::size_t first = 0, last = 0;
+    double reach = -1;
+  };
   struct Part {
     geometry::Box box;
     std::uint64_t key;
     int level;
-    bool clear; ///< a larger part around it is clear of the boundary and its strip, and inside
+    bool clear;      ///< a larger part around it is clear of the boundary and its strip, and inside
+    NearChords near; ///< of the part that it is a quarter of
   };
+  struct Work {
+    std::int64_t cells = 0;
+    std::vector<LocalIndex> chords; ///< a stack: those of a part lie on those of the larger ones around it
+  };
+  static constexpr std::size_t most_chords = 48; ///< more are left to the tree of all chords
+
+  static double half_diagonal(const geometry::Box& box) {
+    return 0.5 * std::sqrt(box.width() * box.width() + box.height() * box.height());
+  }
+
+  /// @brief Distance from the middle p of a part to the nearest chord, or half its diagonal and `free` if that is less.
+  /// Leaves the chords that its quarters need in part.near.
+  double distance(Part& part, geometry::Vec2 p, double free, Work& work) const {
+    const double half = half_diagonal(part.box), reach = half + free;
+    const double far = guard_.distance_below(p, reach);
+    if (far >= reach)
+      return far;
+    if (part.near.reach < free)
+      part.near = collect(part.box, 2 * free, work);
+    if (part.near.reach < free)
+      return guard_.distance(p, reach);
+    const NearChords outer = part.near;
+    const double limit = (half + outer.reach) * (1 + 1e-9);
+    double nearest = reach * reach;
+    part.near.first = work.chords.size();
+    for (std::size_t k = outer.first; k < outer.last; ++k) {
+      const LocalIndex chord = work.chords[k];
+      const double squared = geometry::squared_distance(p, guard_.chords().segments()[static_cast<std::size_t>(chord)]);
+      nearest = std::min(nearest, squared);
+      if (squared <= limit * limit)
+        work.chords.push_back(chord);
+    }
+    part.near.last = work.chords.size();
+    return nearest < reach * reach ? std::sqrt(nearest) : reach;
+  }
+
+  /// The chords of the tree, if they are few. In a periodic container their images are left to the guard.
+  NearChords collect(const geometry::Box& box, double reach, Work& work) const {
+    const geometry::Vec2 margin{reach * (1 + 1e-9), reach * (1 + 1e-9)};
+    if (grid_.periods().any())
+      return {};
+    const std::size_t first = work.chords.size();
+    guard_.chords().for_each_near({box.min - margin, box.max + margin}, [&](LocalIndex chord) {
+      work.chords.push_back(chord);
+      return work.chords.size() < first + 2 * most_chords;
+    });
+    const auto begin = work.chords.begin() + static_cast<std::ptrdiff_t>(first);
+    const bool all = work.chords.size() < first + 2 * most_chords;
+    std::sort(begin, work.chords.end());
+    work.chords.erase(std::unique(begin, work.chords.end()), work.chords.end());
+    if (all && work.chords.size() <= first + most_chords)
+      return {first, work.chords.size(), reach};
+    work.chords.resize(first);
+    return {};
+  }
 
   template <class Visit>
-  void divide(const Part& part, const Visit& visit, std::int64_t& cells) const {
+  void divide(Part part, const Visit& visit, Work& work) const {
     const geometry::Box& box = part.box;
+    const std::size_t chords_before = work.chords.size();
     const geometry::Vec2 p = lattice_.snap(0.5 * (box.min + box.max));
     const double h = size_.size(p);
     const bool valid = sizing::is_valid_size(h);
@@ -66,25 +131,26 @@ private:
     if (!valid && inside && grid_.container().contains(p))
       sizing::fail_for_size(p, h);
     const double free = valid && inside ? strip * h : 0; // outside the shape any value will do
-    double distance = INFINITY;
+    double to_boundary = INFINITY;
     bool clear = part.clear;
     if (!clear) {
-      const double reach = 0.5 * std::hypot(box.width(), box.height()) + free;
-      distance = guard_.distance(p, reach);
-      clear = distance >= reach;
+      to_boundary = distance(part, p, free, work);
+      clear = to_boundary >= half_diagonal(box) + free;
       if (clear && !inside)
-        return;
+        return work.chords.resize(chords_before);
     }
     const double sites = valid ? box.width() * box.height() / (row_height * h * h) : 0;
-    if (++cells > most_cells || (part.level == most_levels && sites > most_in_smallest))
+    if (++work.cells > most_cells || (part.level == most_levels && sites > most_in_smallest))
       fail_for_small_size(p, h);
     if (part.level < most_levels && (part.level < least_levels() || sites > (clear ? most_inside_ : most_near_))) {
       for (std::uint64_t quarter = 0; quarter < 4; ++quarter)
-        divide({quarter_of(box, part.key, part.level, quarter), 4 * part.key + quarter, part.level + 1, clear}, visit,
-               cells);
-      return;
+        divide(
+            {quarter_of(box, part.key, part.level, quarter), 4 * part.key + quarter, part.level + 1, clear, part.near},
+            visit, work);
+      return work.chords.resize(chords_before);
     }
-    if (!clear && (distance < free || !inside))
+    work.chords.resize(chords_before);
+    if (!clear && (to_boundary < free || !inside))
       return;
     if (grid_.container().contains(p))
       visit(Cell{box, part.key, part.level, h, std::llround(weight_unit * sites)});

@@ -21,13 +21,18 @@ void agreed_loop(const comm::Communicator& comm, std::ptrdiff_t n, const Body& b
 }
 
 /// Weights of the tiles of this rank before each, and the total at the end.
+/// @param kept receives the cells of each tile; may be empty
 std::vector<std::int64_t> weights_before(const comm::Communicator& comm, const TileRange& tiles,
-                                         const DensitySampler& sampler) {
+                                         const DensitySampler& sampler,
+                                         std::span<std::vector<DensitySampler::Cell>> kept) {
   std::vector<std::int64_t> before(static_cast<std::size_t>(tiles.last - tiles.first) + 1, 0);
   agreed_loop(comm, tiles.last - tiles.first, [&](std::ptrdiff_t t) {
     std::int64_t& weight = before[static_cast<std::size_t>(t) + 1];
-    sampler.for_each_cell(tiles.first + static_cast<LocalIndex>(t),
-                          [&](const DensitySampler::Cell& cell) { weight += cell.weight; });
+    sampler.for_each_cell(tiles.first + static_cast<LocalIndex>(t), [&](const DensitySampler::Cell& cell) {
+      weight += cell.weight;
+      if (!kept.empty())
+        kept[static_cast<std::size_t>(t)].push_back(cell);
+    });
   });
   for (std::size_t t = 1; t < before.size(); ++t)
     before[t] += before[t - 1];
@@ -65,8 +70,11 @@ DensityTotals integrate_density(const comm::Communicator& comm, const TileRange&
 std::vector<mesh::Site> hilbert_start(const comm::Communicator& comm, const TileRange& tiles,
                                       const BoundaryGuard& guard, const sizing::SizeField& size,
                                       const geometry::Lattice& lattice, std::int64_t n, std::uint64_t seed) {
+  constexpr std::int64_t few = 1 << 15; // sites whose cells are kept, about half a KiB each
   const DensitySampler sampler(tiles.grid, guard, size, lattice);
-  const std::vector<std::int64_t> before = weights_before(comm, tiles, sampler);
+  std::vector<std::vector<DensitySampler::Cell>> kept(n <= few ? static_cast<std::size_t>(tiles.last - tiles.first)
+                                                               : 0);
+  const std::vector<std::int64_t> before = weights_before(comm, tiles, sampler, kept);
   const std::int64_t total = comm.sum(before.back()), first = comm.exclusive_scan(before.back());
   if (total == 0 || n <= 0)
     return {};
@@ -78,7 +86,7 @@ std::vector<mesh::Site> hilbert_start(const comm::Communicator& comm, const Tile
     const LocalIndex tile = tiles.first + static_cast<LocalIndex>(t);
     std::int64_t running = first + before[static_cast<std::size_t>(t)];
     std::int64_t j = static_cast<std::int64_t>((Int128{2} * running * n + total - 1) / (Int128{2} * total));
-    sampler.for_each_cell(tile, [&](const DensitySampler::Cell& cell) {
+    const auto visit = [&](const DensitySampler::Cell& cell) {
       const std::uint64_t stream = mix_bits(static_cast<std::uint64_t>(tile) * 64 + cell.level) + cell.key;
       running += cell.weight;
       for (std::uint64_t slot = 0; j < n && (Int128{2} * j + 1) * total < Int128{2} * running * n; ++j, slot += 2) {
@@ -87,7 +95,12 @@ std::vector<mesh::Site> hilbert_start(const comm::Communicator& comm, const Tile
                          random_unit(seed, RandomPurpose::site_position, stream, slot + 1) * cell.box.height()};
         of_tile[static_cast<std::size_t>(t)].push_back({lattice.snap(p)});
       }
-    });
+    };
+    if (kept.empty())
+      sampler.for_each_cell(tile, visit);
+    else
+      for (const DensitySampler::Cell& cell : kept[static_cast<std::size_t>(t)])
+        visit(cell);
   });
   std::vector<mesh::Site> all;
   for (const std::vector<mesh::Site>& list : of_tile)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace trime::meshing {
@@ -18,6 +19,7 @@ constexpr double clearance = 0.45; // of the spacing: experiments give 0.4 to 0.
 /// Which bins of a tile have a chord of the boundary within a margin: only there distances need a look.
 class NearBins {
 public:
+  NearBins() = default;
   NearBins(const mesh::TileGrid& grid, LocalIndex tile, const BoundaryGuard& guard, double margin)
       : side_(grid.bins_per_side(tile)), near_(static_cast<std::size_t>(side_) * side_, 0) {
     const geometry::Box box = grid.tile_box(tile);
@@ -34,7 +36,7 @@ public:
   bool at(int bin) const { return near_[static_cast<std::size_t>(bin)] != 0; }
 
 private:
-  int side_;
+  int side_ = 0;
   std::vector<std::uint8_t> near_;
 };
 
@@ -95,9 +97,21 @@ RowLattice LatticeStart::rows_of(double spacing) const {
   return rows;
 }
 
+/// @brief Is all of a tile, and a margin around it, inside the shape? Never true if not. Its sites then need no look at
+/// the boundary; and since coordinates ascend or descend along a row, those of a row are the ones between two of them.
+bool LatticeStart::is_clear(const mesh::TileGrid& grid, LocalIndex tile, double margin) const {
+  if (periods_.any())
+    return false;
+  const geometry::Box box = grid.tile_box(tile);
+  const Vec2 middle = lattice_.snap(0.5 * (box.min + box.max));
+  const double reach = 0.5 * std::hypot(box.width(), box.height()) + 2 * margin;
+  return guard_.distance(middle, reach) >= reach && guard_.inside(middle);
+}
+
 /// Visits the lattice sites of one tile, row by row. A site belongs to the tile of its snapped coordinates; rows and
 /// columns reach a little beyond the tile's box, so rounding cannot lose any. Rows and columns of a periodic lattice
 /// are reduced to the first so many, so that a site has one position from wherever it is seen.
+/// @param visit visit(first, last, site): the sites site(first) .. site(last) of one row
 template <class Visit>
 void LatticeStart::for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile, const RowLattice& rows, double spacing,
                                     const Visit& visit) const {
@@ -112,7 +126,8 @@ void LatticeStart::for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile,
     begin = std::min(begin, geometry::dot(corner - rows.origin, rows.along));
     end = std::max(end, geometry::dot(corner - rows.origin, rows.along));
   }
-  const NearBins near(grid, tile, guard_, free);
+  const bool clear = is_clear(grid, tile, spacing);
+  const NearBins near = clear ? NearBins() : NearBins(grid, tile, guard_, free);
   const auto last_of = [](std::int64_t first, double limit, std::int64_t period) {
     const auto last = static_cast<std::int64_t>(std::ceil(limit));
     return period > 0 ? std::min(last, first + period - 1) : last;
@@ -128,51 +143,69 @@ void LatticeStart::for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile,
     const auto [first, last] = periods_.any() ? std::pair{begin, end} : clip_line(start, rows.along, box);
     if (!(first <= last))
       continue;
-    const auto first_column = static_cast<std::int64_t>(std::floor(first / rows.spacing - shift));
-    for (std::int64_t i = first_column; i <= last_of(first_column, last / rows.spacing - shift, rows.columns); ++i) {
-      const std::int64_t column = reduced(i, rows.columns);
-      const Vec2 p =
-          periods_.wrap(lattice_.snap(start + ((static_cast<double>(column) + shift) * rows.spacing) * rows.along));
-      if (!grid.container().contains(p))
+    auto column = static_cast<std::int64_t>(std::floor(first / rows.spacing - shift));
+    std::int64_t last_column = last_of(column, last / rows.spacing - shift, rows.columns);
+    const auto site = [&](std::int64_t i) {
+      const double along = (static_cast<double>(reduced(i, rows.columns)) + shift) * rows.spacing;
+      return periods_.wrap(lattice_.snap(start + along * rows.along));
+    };
+    const auto in_tile = [&](Vec2 p) { return grid.container().contains(p) && grid.place(p).tile == tile; };
+    if (clear) {
+      while (column <= last_column && !in_tile(site(column)))
+        ++column;
+      while (column < last_column && !in_tile(site(last_column)))
+        --last_column;
+      if (column <= last_column)
+        visit(column, last_column, site);
+      continue;
+    }
+    for (; column <= last_column; ++column) {
+      const Vec2 p = site(column);
+      if (!in_tile(p) || !guard_.inside(p))
         continue;
-      const mesh::TileGrid::Place place = grid.place(p);
-      if (place.tile != tile || !guard_.inside(p))
+      if (near.at(grid.place(p).bin) && (guard_.distance(p, free) < free || guard_.encroaches(p)))
         continue;
-      if (near.at(place.bin) && (guard_.distance(p, free) < free || guard_.encroaches(p)))
-        continue;
-      visit(p);
+      visit(column, column, site);
     }
   }
 }
 
 std::vector<mesh::Site> LatticeStart::sites(const TileRange& tiles, double spacing) const {
-  std::vector<std::vector<mesh::Site>> of_tile(static_cast<std::size_t>(tiles.last - tiles.first));
   const RowLattice rows = rows_of(spacing);
   if (!(rows.spacing > 0))
     return {};
+  std::vector<std::int64_t> before = counts(tiles, rows, spacing);
+  before.push_back(0);
+  std::exclusive_scan(before.begin(), before.end(), before.begin(), std::int64_t{0});
+  std::vector<mesh::Site> all(static_cast<std::size_t>(before.back()));
   thread_loop(tiles.last - tiles.first, 1, [&](std::ptrdiff_t t, int) {
+    auto to = all.begin() + static_cast<std::ptrdiff_t>(before[static_cast<std::size_t>(t)]);
     for_each_in_tile(tiles.grid, tiles.first + static_cast<LocalIndex>(t), rows, spacing,
-                     [&](Vec2 p) { of_tile[static_cast<std::size_t>(t)].push_back({p}); });
+                     [&](std::int64_t column, std::int64_t last, const auto& site) {
+                       for (; column <= last; ++column, ++to)
+                         to->position = site(column);
+                     });
   });
-  std::vector<mesh::Site> all;
-  for (const std::vector<mesh::Site>& list : of_tile)
-    all.insert(all.end(), list.begin(), list.end());
   return all;
 }
 
-std::int64_t LatticeStart::count(const TileRange& tiles, double spacing) const {
+std::vector<std::int64_t> LatticeStart::counts(const TileRange& tiles, const RowLattice& rows, double spacing) const {
   std::vector<std::int64_t> of_tile(static_cast<std::size_t>(tiles.last - tiles.first), 0);
+  thread_loop(tiles.last - tiles.first, 1, [&](std::ptrdiff_t t, int) {
+    for_each_in_tile(tiles.grid, tiles.first + static_cast<LocalIndex>(t), rows, spacing,
+                     [&](std::int64_t column, std::int64_t last, const auto&) {
+                       of_tile[static_cast<std::size_t>(t)] += last - column + 1;
+                     });
+  });
+  return of_tile;
+}
+
+std::int64_t LatticeStart::count(const TileRange& tiles, double spacing) const {
   const RowLattice rows = rows_of(spacing);
   if (!(rows.spacing > 0))
     return 0;
-  thread_loop(tiles.last - tiles.first, 1, [&](std::ptrdiff_t t, int) {
-    for_each_in_tile(tiles.grid, tiles.first + static_cast<LocalIndex>(t), rows, spacing,
-                     [&](Vec2) { ++of_tile[static_cast<std::size_t>(t)]; });
-  });
-  std::int64_t all = 0;
-  for (const std::int64_t n : of_tile)
-    all += n;
-  return all;
+  const std::vector<std::int64_t> of_tile = counts(tiles, rows, spacing);
+  return std::accumulate(of_tile.begin(), of_tile.end(), std::int64_t{0});
 }
 
 } // namespace trime::meshing

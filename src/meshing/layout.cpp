@@ -14,8 +14,7 @@ namespace {
 constexpr double row_height = 0.8660254037844386;
 constexpr double emptiest_grid = 64;  // areas of the shape that the grid covers with cells as small as its triangles
 constexpr double least_perimeter = 3; // of islands and lakes that stay, in local sizes
-constexpr int lowering_rounds = 3;
-constexpr double gradation = 0.2; // of the size around places where it is lowered
+constexpr double gradation = 0.2;     // of the size around places where it is lowered
 
 /// The part of the container grid around the shape: what lies beyond holds no site. One whole period along periodic
 /// axes. Cells that were given keep their size.
@@ -71,22 +70,33 @@ void lay_sites(const LayoutContext& context, std::size_t affordable, Layout& lay
 }
 
 /// Where chords come out short, or a channel is narrow, the size is lowered and the boundary laid anew.
-void lower_size(const LayoutContext& context, std::size_t affordable, Layout& layout) {
-  for (int round = 0; round < lowering_rounds && !layout.boundary.overfull; ++round) {
+void lower_size(const LayoutContext& context, const Lowering& lowering, std::size_t affordable, Layout& layout) {
+  constexpr double much = 0.05;
+  for (int round = 0; round < lowering.rounds && !layout.boundary.overfull; ++round) {
     const std::vector<sizing::SizeLimit> more = size_limits(layout.boundary, *layout.size, *layout.asked_size);
     if (more.empty())
       return;
+    const double before = static_cast<double>(layout.boundary.sites.size());
     layout.fitted.limits.insert(layout.fitted.limits.end(), more.begin(), more.end());
     set_sizes(context, layout);
     lay_sites(context, affordable, layout);
+    const double after = static_cast<double>(layout.boundary.sites.size());
+    layout.lowered_enough = !lowering.rough || round > 0 || after < (1 + much) * before;
+    if (!layout.lowered_enough)
+      return;
   }
+}
+
+/// Edge length of so many equal triangles' vertices, the boundary not counted.
+double typical_size(const LayoutContext& context, double expected) {
+  return std::sqrt(context.boundary.area / (row_height * std::max(1.0, expected)));
 }
 
 /// What a layout is asked to be.
 struct LayoutRequest {
   FittedSize fitted;
   double coarsening, expected, grid_coarsening;
-  bool lowers; // the size, where the boundary needs it
+  Lowering lowering;
   std::size_t affordable;
 };
 constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
@@ -96,7 +106,7 @@ Layout lay(const LayoutContext& context, const LayoutRequest& request) {
   Layout layout;
   layout.fitted = request.fitted;
   layout.coarsening = request.coarsening;
-  layout.typical_size = std::sqrt(context.boundary.area / (row_height * std::max(1.0, request.expected)));
+  layout.typical_size = typical_size(context, request.expected);
   const MeshOptions& options = context.options;
   layout.asked_size =
       std::make_unique<sizing::ScaledSize>(context.relative_size, request.fitted.factor, options.min_size.value_or(0),
@@ -106,8 +116,8 @@ Layout lay(const LayoutContext& context, const LayoutRequest& request) {
     if (layout.asked_size->is_uniform())
       layout.typical_size = request.coarsening * sizing::checked_size(*layout.asked_size, {});
     lay_sites(context, request.affordable, layout);
-    if (request.lowers && !layout.asked_size->is_uniform())
-      lower_size(context, request.affordable, layout);
+    if (!layout.asked_size->is_uniform())
+      lower_size(context, request.lowering, request.affordable, layout);
     if (layout.boundary.overfull)
       return;
     layout.guard = std::make_unique<BoundaryGuard>(layout.boundary, context.lattice);
@@ -127,19 +137,38 @@ double estimated_size(double area, double perimeter, double n) {
 }
 
 Layout lay_boundary(const LayoutContext& context, double factor, double expected, double grid_coarsening) {
-  return lay(context, {{factor, {}}, 1, expected, grid_coarsening, true, unlimited});
+  return lay(context, {{factor, {}}, 1, expected, grid_coarsening, {}, unlimited});
 }
 
 Layout lay_stage(const LayoutContext& context, const FittedSize& fitted, double coarsening, double expected) {
-  return lay(context, {fitted, coarsening, expected, 1, false, unlimited});
+  return lay(context, {fitted, coarsening, expected, 1, {0, false}, unlimited});
 }
 
-Layout try_boundary(const LayoutContext& context, double factor, double expected, double grid_coarsening) {
+Layout lay_again(const LayoutContext& context, Layout layout, double expected) {
+  const auto time = context.timers.scope("boundary");
+  if (!layout.asked_size->is_uniform())
+    layout.typical_size = typical_size(context, expected);
+  layout.state = make_state(context, layout, layout.typical_size);
+  return layout;
+}
+
+Layout lay_reference(const LayoutContext& context, BoundarySites polygon, double expected, double grid_coarsening) {
+  Layout layout;
+  layout.boundary = std::move(polygon);
+  layout.typical_size = typical_size(context, expected);
+  comm::run_agreed(context.comm,
+                   [&] { layout.guard = std::make_unique<BoundaryGuard>(layout.boundary, context.lattice); });
+  layout.state = make_state(context, layout, grid_coarsening * layout.typical_size);
+  return layout;
+}
+
+Layout try_boundary(const LayoutContext& context, double factor, const Lowering& lowering, double expected,
+                    double grid_coarsening) {
   constexpr double times_points = 1.5, at_least = 1000;
   const std::optional<GlobalId>& points = context.options.points;
   const std::size_t affordable =
       points ? static_cast<std::size_t>(std::max(at_least, times_points * static_cast<double>(*points))) : unlimited;
-  return lay(context, {{factor, {}}, 1, expected, grid_coarsening, true, affordable});
+  return lay(context, {{factor, {}}, 1, expected, grid_coarsening, lowering, affordable});
 }
 
 TileRange even_share(const Layout& layout, const comm::Communicator& comm) {

@@ -42,6 +42,7 @@ struct FittedSize {
 /// All that the sweeps of a stage start from. Only `state` differs from rank to rank.
 struct Layout {
   FittedSize fitted;
+  bool lowered_enough = true;                      ///< no limits are left to be looked for: see Lowering
   double coarsening = 1;                           ///< h of this stage over that of the last
   double typical_size = 1;                         ///< edge length of as many equal triangles
   std::unique_ptr<sizing::ScaledSize> asked_size;  ///< of the last stage
@@ -70,9 +71,23 @@ Layout lay_boundary(const LayoutContext& context, double factor, double expected
 /// The same at a size that was found before, or `coarsening` times it. Collective.
 Layout lay_stage(const LayoutContext& context, const FittedSize& fitted, double coarsening, double expected);
 
+/// The layout of a stage once more, with an empty container grid for another number of points. Collective.
+Layout lay_again(const LayoutContext& context, Layout layout, double expected);
+
+/// A polygon that stands for the boundary, for integrals over the shape: no layout for a mesh. Collective.
+Layout lay_reference(const LayoutContext& context, BoundarySites polygon, double expected, double grid_coarsening);
+
+/// How long limits of the size are looked for.
+inline constexpr int most_lowering_rounds = 3;
+struct Lowering {
+  int rounds = most_lowering_rounds; ///< at most
+  bool rough = false;                ///< where the first round changes much, it is the only one
+};
+
 /// @brief lay_boundary in search of a factor. If the boundary takes far more points than were asked for, its sites are
 /// not finished (`overfull`), and the layout has neither guard nor state. Collective.
-Layout try_boundary(const LayoutContext& context, double factor, double expected, double grid_coarsening = 1);
+Layout try_boundary(const LayoutContext& context, double factor, const Lowering& lowering, double expected,
+                    double grid_coarsening = 1);
 
 /// The tiles that this rank fills with sites: an even share, before anything is known of their number.
 TileRange even_share(const Layout& layout, const comm::Communicator& comm);

@@ -3,6 +3,7 @@
 
 #include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"
+#include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,54 +16,103 @@ using geometry::Vec2;
 namespace {
 
 constexpr std::size_t max_knots = std::size_t{1} << 27;
+constexpr std::size_t run_length = 64; // pieces that one thread measures in a row
 
 double signed_turn(const Piece& before, const Piece& after) {
   const Vec2 in = before.tangent(before.length()), out = after.tangent(0);
   return angle_of(geometry::cross(in, out), geometry::dot(in, out));
 }
 
+[[noreturn]] void fail_for_knots(Vec2 p, double h) {
+  throw GeometryError(fmt::format("the element size near ({}, {}) is {}: the boundary would get more than {} sites; "
+                                  "ask for fewer points or a larger edge length",
+                                  p.x, p.y, h, max_knots / 2));
+}
+
 } // namespace
 
+/// Runs of pieces at the same time; each piece is measured from its own start, so that the sums do not depend on the
+/// runs.
 LoopMetric::LoopMetric(const geometry::Loop& loop, const sizing::SizeField& size, const geometry::Periods& periods)
     : loop_(loop), size_(size), periods_(periods) {
   const std::size_t n = loop.pieces.size();
   TRIME_ASSERT(n > 0);
-  knots_.push_back({0, 0, 0, 0});
-  for (std::size_t i = 0; i < n; ++i) {
-    piece_t_.push_back(knots_.back().t);
-    turn_.push_back(signed_turn(loop.pieces[(i + n - 1) % n], loop.pieces[i]));
-    add_piece(static_cast<LocalIndex>(i));
-  }
-  piece_t_.push_back(total());
+  turn_.resize(n);
+  std::vector<Run> runs((n - 1) / run_length + 1);
+  thread_loop(std::ssize(runs), 1, [&](std::ptrdiff_t r, int) {
+    Run& run = runs[static_cast<std::size_t>(r)];
+    const std::size_t first = static_cast<std::size_t>(r) * run_length, last = std::min(n, first + run_length);
+    double h = this->size(loop.pieces[first].start);
+    for (std::size_t i = first; i < last; ++i) {
+      turn_[i] = signed_turn(loop.pieces[(i + n - 1) % n], loop.pieces[i]);
+      h = add_piece(static_cast<LocalIndex>(i), h, run.knots);
+      run.ends.push_back(run.knots.size());
+    }
+  });
+  join(runs);
 }
 
-/// Steps of half the local size, Simpson's rule on each; one step does for a uniform size.
-void LoopMetric::add_piece(LocalIndex i) {
+void LoopMetric::join(const std::vector<Run>& runs) {
+  std::vector<double> arc_of_piece;
+  std::vector<std::size_t> knots_before;
+  double t = 0, arc = 0;
+  std::size_t count = 1;
+  for (const Run& run : runs)
+    for (std::size_t k = 0; k < run.ends.size(); ++k) {
+      const Knot& end = run.knots[run.ends[k] - 1];
+      piece_t_.push_back(t);
+      arc_of_piece.push_back(arc);
+      knots_before.push_back(count);
+      t += end.t;
+      arc += end.arc;
+      count += run.ends[k] - (k > 0 ? run.ends[k - 1] : 0);
+      if (const Vec2 p = loop_.pieces[static_cast<std::size_t>(end.piece)].start; count > max_knots)
+        fail_for_knots(p, size(p));
+    }
+  piece_t_.push_back(t);
+  knots_.resize(count);
+  knots_.front() = {0, 0, 0, 0};
+  thread_loop(std::ssize(runs), 1, [&](std::ptrdiff_t r, int) {
+    const Run& run = runs[static_cast<std::size_t>(r)];
+    std::size_t piece = static_cast<std::size_t>(r) * run_length, knot = 0;
+    for (std::size_t k = 0; k < run.ends.size(); ++k, ++piece)
+      for (Knot* to = &knots_[knots_before[piece]]; knot < run.ends[k]; ++knot, ++to) {
+        const Knot& from = run.knots[knot];
+        const bool is_end = knot + 1 == run.ends[k]; // where the next piece starts
+        *to = {is_end ? piece_t_[piece + 1] : piece_t_[piece] + from.t, arc_of_piece[piece] + from.arc, from.piece,
+               from.s};
+        if (is_end && piece + 1 < loop_.pieces.size()) {
+          to->piece = static_cast<LocalIndex>(piece + 1);
+          to->s = 0;
+        }
+      }
+  });
+}
+
+/// @brief Steps of half the local size, Simpson's rule on each; one step does for a uniform size.
+/// @param h size at the start. @return size at the end
+double LoopMetric::add_piece(LocalIndex i, double h, std::vector<Knot>& knots) const {
   const Piece& piece = loop_.pieces[i];
   const double whole = piece.length();
   if (!(whole > 0))
     throw GeometryError(fmt::format("boundary piece {} at ({}, {}) has no length: expected pieces of positive length; "
                                     "remove the repeated point",
                                     i, piece.start.x, piece.start.y));
-  double s = 0, h = size(piece.start);
-  knots_.back().piece = i;
-  knots_.back().s = 0;
+  double s = 0, t = 0;
   while (s < whole) {
     double step = size_.is_uniform() ? whole : 0.5 * h;
     if (s + 1.25 * step >= whole)
       step = whole - s;
     const double end = step == whole - s ? whole : s + step;
     const double middle = size(piece.point(s + 0.5 * step)), last = size(piece.point(end));
-    const double integral = step * (1 / h + 4 / middle + 1 / last) / 6;
-    knots_.push_back({knots_.back().t + integral, knots_.back().arc + step, i, end});
-    if (knots_.size() > max_knots)
-      throw GeometryError(
-          fmt::format("the element size near ({}, {}) is {}: the boundary would get more than {} sites; "
-                      "ask for fewer points or a larger edge length",
-                      piece.start.x, piece.start.y, h, max_knots / 2));
+    t += step * (1 / h + 4 / middle + 1 / last) / 6;
+    knots.push_back({t, end, i, end});
+    if (knots.size() > max_knots)
+      fail_for_knots(piece.start, h);
     s = end;
     h = last;
   }
+  return h;
 }
 
 LocalIndex LoopMetric::knot_before(double t) const {

@@ -30,7 +30,8 @@ struct LoopPlace {
 
 class LoopMetric {
 public:
-  /// Keeps references to `loop` and `size`. @throws GeometryError if the size asks for more than 2^27 samples
+  /// Keeps references to `loop` and `size`. All threads work. @throws GeometryError if the size asks for more than 2^27
+  /// samples
   LoopMetric(const geometry::Loop& loop, const sizing::SizeField& size, const geometry::Periods& periods);
 
   /// The size at a place of the unrolled loop. @throws GeometryError if it is not positive and finite
@@ -39,6 +40,8 @@ public:
   double total() const { return knots_.back().t; }
   /// t of the start of piece i.
   double piece_t(std::size_t i) const { return piece_t_[i]; }
+  /// Signed turn at the start of piece i, radians.
+  double turn(std::size_t i) const { return turn_[i]; }
   /// The first piece that starts at t or behind it, 0 <= t < total(); the number of pieces if none does.
   LocalIndex first_junction_from(double t) const;
   const geometry::Loop& loop() const { return loop_; }
@@ -70,7 +73,13 @@ private:
   };
   template <class Visit>
   void for_each_turn(double t0, double t1, const Visit& visit) const;
-  void add_piece(LocalIndex i);
+  /// Knots of some pieces behind their starts, t and arc from the start of each piece.
+  struct Run {
+    std::vector<Knot> knots;
+    std::vector<std::size_t> ends; // of the knots of each piece
+  };
+  double add_piece(LocalIndex i, double h, std::vector<Knot>& knots) const;
+  void join(const std::vector<Run>& runs);
   double arc(double t) const;
   LocalIndex knot_before(double t) const;
 

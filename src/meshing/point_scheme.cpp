@@ -97,8 +97,11 @@ Layout PointScheme::first_of_divisions() {
   const double points = fit.inner + static_cast<double>(fit.layout.placed_first());
   Layout layout;
   double inner = 0;
+  const double on_boundary = static_cast<double>(fit.layout.boundary.sites.size());
+  while (last_stage_ > 0 && std::ldexp(fit.inner, -2 * last_stage_) < std::ldexp(on_boundary, -last_stage_))
+    --last_stage_; // the share of the strip and of corners only grows
   for (;; --last_stage_) {
-    layout = lay_stage(context_, fit.layout.fitted, std::ldexp(1.0, last_stage_), std::ldexp(points, -2 * last_stage_));
+    layout = lay_coarsened(fit.layout, std::ldexp(points, -2 * last_stage_));
     inner = wanted_inside(context_, layout, 2).sites;
     if (last_stage_ == 0 || inner >= static_cast<double>(layout.placed_first()))
       break;
@@ -112,8 +115,17 @@ Layout PointScheme::first_of_divisions() {
                           options_.start == Start::coarse_to_fine ? "asked for" : "the size is graded");
   if (last_stage_ == 0 && options_.points && shortage_.empty())
     inner = expected_points() - static_cast<double>(layout.placed_first());
+  fitted_ = std::move(fit.layout);
   place_along_curve(layout, inner);
   return layout;
+}
+
+/// The present stage of divisions. What the last one needs is kept for it.
+Layout PointScheme::lay_coarsened(Layout& fitted, double expected) {
+  const double coarsening = std::ldexp(1.0, last_stage_ - stage_);
+  if (coarsening == 1)
+    return lay_again(context_, std::move(fitted), expected);
+  return lay_stage(context_, fitted.fitted, coarsening, expected);
 }
 
 void PointScheme::place_along_curve(Layout& layout, double inner) const {
@@ -148,7 +160,7 @@ Layout PointScheme::divide(const Layout& previous) {
   const comm::Communicator& comm = context_.comm;
   const ExtractionContext old{*previous.state, previous.boundary, *previous.size, context_.lattice};
   const GlobalId before = comm.sum(std::int64_t{previous.state->points().owned()});
-  Layout layout = lay_stage(context_, previous.fitted, previous.coarsening / 2, 4 * static_cast<double>(before));
+  Layout layout = lay_coarsened(fitted_, 4 * static_cast<double>(before));
   const auto time = context_.timers.scope("start");
   std::vector<mesh::Site> sites = split_edges(old);
   clear_strip(layout, sites);

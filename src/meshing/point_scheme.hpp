@@ -41,6 +41,7 @@ private:
   Layout first_of_lattice();
   Layout first_of_insertion();
   Layout first_of_divisions();
+  Layout lay_coarsened(Layout& fitted, double expected);
   void place_along_curve(Layout& layout, double inner) const;
   /// The next stages after `previous`.
   Layout divide(const Layout& previous);
@@ -50,6 +51,7 @@ private:
   const MeshOptions& options_;
   Kind kind_ = Kind::lattice;
   int stage_ = 0, last_stage_ = 0;
+  Layout fitted_;         // of the last stage of divisions, until it begins
   double points_now_ = 0; // that the current stage aims at (insertion)
   std::string reason_, shortage_;
 };

@@ -79,19 +79,32 @@ public:
         add_chord(from, to);
     }
     first_[n - 1] = first_[n] = static_cast<LocalIndex>(chords_.size());
-    into_.resize(n);
+    into_first_.assign(n + 1, 0);
+    for (const Chord& chord : chords_)
+      ++into_first_[static_cast<std::size_t>(chord.to) + 1];
+    for (std::size_t place = 0; place < n; ++place)
+      into_first_[place + 1] += into_first_[place];
+    into_.resize(chords_.size());
+    std::vector<LocalIndex> next(into_first_.begin(), into_first_.end() - 1);
     for (std::size_t c = 0; c < chords_.size(); ++c)
-      into_[static_cast<std::size_t>(chords_[c].to)].push_back(static_cast<LocalIndex>(c));
+      into_[static_cast<std::size_t>(next[static_cast<std::size_t>(chords_[c].to)]++)] = static_cast<LocalIndex>(c);
   }
 
   std::vector<LocalIndex> run() {
     for (Chord& chord : chords_)
       if (chord.from == 0)
         chord.least = chord.cost;
-    for (std::size_t place = 1; place + 1 < places_.size(); ++place)
+    for (std::size_t place = 1; place + 1 < places_.size(); ++place) {
+      const std::span<LocalIndex> before = into(place);
+      std::sort(before.begin(), before.end(), [this](LocalIndex a, LocalIndex b) { // cheapest first
+        const double u = chords_[static_cast<std::size_t>(a)].least, v = chords_[static_cast<std::size_t>(b)].least;
+        return u < v || (u == v && a < b);
+      });
       for (LocalIndex c = first_[place]; c < first_[place + 1]; ++c)
-        for (const LocalIndex p : into_[place])
-          extend(p, c);
+        for (const LocalIndex p : before)
+          if (!extend(p, c))
+            break;
+    }
     return path_to(best_end());
   }
 
@@ -126,30 +139,36 @@ private:
   }
 
   double joint_cost(const Chord& in, const Chord& out) const {
-    static const FanCosts fan_costs;
     // From the way out to the way back, on the left.
     const double dot = -geometry::dot(out.along, in.along), cross = -geometry::cross(out.along, in.along);
     const double shorter = std::fmin(in.length, out.length);
     const bool encroaches = dot > shorter * shorter;
-    return fan_costs(dot, cross) + ratio_weight * mismatch(in.length / out.length) + (encroaches ? encroachment : 0);
+    return fan_costs_(dot, cross) + ratio_weight * mismatch(in.length / out.length) + (encroaches ? encroachment : 0);
   }
 
-  void extend(LocalIndex p, LocalIndex c) {
+  std::span<LocalIndex> into(std::size_t place) {
+    return std::span(into_).subspan(static_cast<std::size_t>(into_first_[place]),
+                                    static_cast<std::size_t>(into_first_[place + 1] - into_first_[place]));
+  }
+
+  /// False if neither this way nor a more expensive one can be better than the best that is known.
+  bool extend(LocalIndex p, LocalIndex c) {
     const Chord& in = chords_[static_cast<std::size_t>(p)];
     Chord& out = chords_[static_cast<std::size_t>(c)];
     if (!(in.least + out.cost < out.least))
-      return;
+      return false;
     const double cost = in.least + out.cost + joint_cost(in, out);
     if (cost < out.least) {
       out.least = cost;
       out.before = p;
     }
+    return true;
   }
 
-  LocalIndex best_end() const {
+  LocalIndex best_end() {
     LocalIndex best = -1;
     double least = std::numeric_limits<double>::infinity();
-    for (const LocalIndex c : into_.back()) {
+    for (const LocalIndex c : into(places_.size() - 1)) {
       const Chord& chord = chords_[static_cast<std::size_t>(c)];
       double cost = chord.least;
       if (closed_) {
@@ -177,11 +196,17 @@ private:
     return path;
   }
 
+  static const FanCosts& fan_costs() {
+    static const FanCosts costs;
+    return costs;
+  }
+
+  const FanCosts& fan_costs_ = fan_costs();
   std::span<const Place> places_;
   bool closed_;
   std::vector<Chord> chords_;
   std::vector<LocalIndex> first_;             // chord of each place
-  std::vector<std::vector<LocalIndex>> into_; // chords that end in each place
+  std::vector<LocalIndex> into_first_, into_; // chords that end in each place
 };
 
 } // namespace

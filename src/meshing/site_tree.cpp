@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "site_tree.hpp"
 
+#include "trime/core/thread_loop.hpp"
 #include "trime/geometry/diametral.hpp"
 
 #include <algorithm>
@@ -10,13 +11,37 @@ namespace trime::meshing {
 
 using geometry::Vec2;
 
+namespace {
+constexpr int serial_levels = 5;            // levels of the tree that are built one after the other, for all threads
+constexpr std::size_t worth_threads = 2048; // items
+} // namespace
+
 SiteTree::SiteTree(std::vector<Item> items) : items_(std::move(items)), split_y_(items_.size(), 0) {
-  build(0, items_.size());
+  std::vector<Range> parts{{0, items_.size()}};
+  for (int level = 0; level < serial_levels && items_.size() > worth_threads; ++level) {
+    std::vector<Range> next(2 * parts.size(), Range{0, 0});
+    thread_loop(std::ssize(parts), 1, [&](std::ptrdiff_t item, int) {
+      const auto k = static_cast<std::size_t>(item);
+      const std::size_t middle = split(parts[k]);
+      next[2 * k] = {parts[k].low, middle};
+      next[2 * k + 1] = {middle + 1, parts[k].high};
+    });
+    parts = std::move(next);
+  }
+  thread_loop(std::ssize(parts), 1, [&](std::ptrdiff_t k, int) { build(parts[static_cast<std::size_t>(k)]); });
 }
 
-void SiteTree::build(std::size_t low, std::size_t high) {
-  if (high - low <= leaf_size)
-    return;
+void SiteTree::build(Range range) {
+  while (range.high - range.low > leaf_size) {
+    const std::size_t middle = split(range);
+    build({range.low, middle});
+    range.low = middle + 1;
+  }
+}
+
+/// Puts the item in its place that splits a range; returns that place.
+std::size_t SiteTree::split(Range range) {
+  const auto [low, high] = range;
   geometry::Box box;
   for (std::size_t k = low; k < high; ++k)
     box.include(items_[k].position);
@@ -28,8 +53,7 @@ void SiteTree::build(std::size_t low, std::size_t high) {
   };
   std::nth_element(items_.begin() + low, items_.begin() + middle, items_.begin() + high, less);
   split_y_[middle] = by_y;
-  build(low, middle);
-  build(middle + 1, high);
+  return middle;
 }
 
 LocalIndex SiteTree::find_in_disc(Vec2 a, Vec2 b, LocalIndex index_a, LocalIndex index_b) const {
@@ -39,9 +63,6 @@ LocalIndex SiteTree::find_in_disc(Vec2 a, Vec2 b, LocalIndex index_a, LocalIndex
   const auto in_disc = [&](const Item& item) {
     return !(item.index == index_a && item.position == a) && !(item.index == index_b && item.position == b) &&
            (geometry::diametral_side(a, b, item.position) <= 0 || item.position == a || item.position == b);
-  };
-  struct Range {
-    std::size_t low, high;
   };
   std::array<Range, 64> stack; // each level leaves at most one range waiting
   int top = 0;

@@ -11,7 +11,7 @@
 
 namespace trime::meshing {
 
-/// Immutable; O(n log n) to build.
+/// Immutable; O(n log n) to build, by all threads.
 class SiteTree {
 public:
   struct Item {
@@ -32,7 +32,11 @@ public:
   const std::vector<Item>& items() const { return items_; }
 
 private:
-  void build(std::size_t low, std::size_t high);
+  struct Range {
+    std::size_t low, high;
+  };
+  std::size_t split(Range range);
+  void build(Range range);
   template <class Visit>
   void visit_within(geometry::Vec2 center, double radius, std::size_t low, std::size_t high, const Visit& visit) const {
     if (high - low <= leaf_size) {

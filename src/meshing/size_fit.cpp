@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/size_fit.hpp"
 
+#include "meshing/count_estimate.hpp"
 #include "trime/comm/agree.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace trime::meshing {
 namespace {
@@ -14,7 +16,13 @@ namespace {
 constexpr double row_height = 0.8660254037844386;
 constexpr int boundary_rounds = 3, spacing_rounds = 12, density_rounds = 40, saturated_rounds = 8;
 constexpr double same_spacing = 0.02;
-constexpr double close_enough = 0.004;                // of the points asked for
+constexpr double close_enough = 0.004;     // of the points asked for
+constexpr double reference_spacing = 0.25; // of the size of a uniform mesh
+constexpr double reference_coarsening = 4; // of the integral, at least
+constexpr int estimate_rounds = 6;
+constexpr double estimate_precision = 0.02; // of the factor
+constexpr double near_factor = 0.1;         // in logarithms: no rough trials any more
+constexpr double crowded_power = -0.5;      // of the factor, that the points follow where limits hold many of them
 constexpr double many_points = 64, least_share = 0.5; // the latter of the points asked for
 
 /// The boundary takes too many points at one size, and at the next larger there are less than half of those asked for:
@@ -97,7 +105,7 @@ std::optional<Layout> lay_affordable_boundary(const LayoutContext& context, doub
   constexpr int growth_rounds = 24;
   constexpr double growth = 1.3;
   for (int round = 0; round < growth_rounds; ++round) {
-    Layout layout = try_boundary(context, h, expected);
+    Layout layout = try_boundary(context, h, {}, expected);
     const double held = static_cast<double>(layout.placed_first());
     if (!context.options.points || layout.placed_first() <= *context.options.points) {
       const double size = layout.size->size({}), area = context.boundary.area + layout.boundary.dropped.change;
@@ -204,9 +212,12 @@ private:
     double points = 0;
   };
 
-  Trial try_factor(double factor) const {
+  /// @brief The limits of the size are looked for anew: those of another factor would keep corners that this one leaves
+  /// out.
+  /// @param rough one round of looking for limits may do
+  Trial try_factor(double factor, bool rough = false) const {
     Trial trial;
-    trial.fit.layout = try_boundary(context_, factor, points_, coarsening_);
+    trial.fit.layout = try_boundary(context_, factor, {most_lowering_rounds, rough}, points_, coarsening_);
     if (!trial.fit.layout.boundary.overfull) {
       trial.totals = wanted_inside(context_, trial.fit.layout, coarsening_);
       trial.fit.inner = std::floor(trial.totals.sites);
@@ -215,11 +226,61 @@ private:
     return trial;
   }
 
-  /// From above: large factors make few points, so no trial costs more than the result.
+  /// @brief A factor not far from the result, without layouts. From above: large factors make few
+  /// points, so no round costs more than the last.
+  double estimated_factor(double uniform, double factor) {
+    const CountEstimate estimate(context_, points_, reference_spacing * uniform,
+                                 std::fmax(coarsening_, reference_coarsening));
+    double last = 0, last_factor = 0;
+    for (int round = 0; round < estimate_rounds; ++round) {
+      const std::optional<double> points = estimate.points(factor);
+      if (!points || !(*points > 0))
+        return factor;
+      const double guess = next_factor(factor, *points, last_factor, last);
+      if (std::fabs(guess / factor - 1) < estimate_precision) {
+        power_ = -2;
+        return guess * estimate.crowding(guess);
+      }
+      last = *points;
+      last_factor = factor;
+      factor = guess;
+    }
+    power_ = -2;
+    return factor;
+  }
+
+  /// A factor to go on from, and what came of it, if that is known.
+  struct Approach {
+    double factor;
+    std::optional<Trial> trial;
+  };
+  /// @brief Where limits lower the size much, they hold many points that no estimate knows of: rough trials until the
+  /// factor is near the result.
+  Approach approached(double factor) {
+    constexpr int rough_rounds = 6;
+    constexpr double growth = 1.05; // of the points, by the rounds of looking for limits that a rough trial spares
+    double last = 0, last_factor = 0;
+    for (int round = 0; round < rough_rounds; ++round) {
+      Trial trial = try_factor(factor, true);
+      if (trial.fit.layout.lowered_enough || trial.fit.layout.boundary.overfull)
+        return {factor, std::move(trial)};
+      if (round == 0)
+        power_ = crowded_power;
+      const double points = growth * trial.points, guess = next_factor(factor, points, last_factor, last);
+      last = points;
+      last_factor = factor;
+      factor = guess;
+      if (std::fabs(std::log(guess / last_factor)) < near_factor)
+        break;
+    }
+    return {factor, std::nullopt};
+  }
+
   /// @param uniform size of a uniform mesh of so many points
   /// @param smallest size for a factor of 1: where even that is far larger than the container, nothing will change
-  DensityFit for_points(double uniform, double smallest) const {
-    double factor = uniform / smallest;
+  DensityFit for_points(double uniform, double smallest) {
+    Approach approach = approached(estimated_factor(uniform, uniform / smallest));
+    double factor = approach.factor;
     const geometry::Box& container = context_.options.container;
     const double extent = std::max(container.width(), container.height()); // no site fits into such sizes
     const double largest = 64 * (container.width() + container.height()) / smallest;
@@ -228,7 +289,7 @@ private:
     int saturated = 0; // rounds in a row that changed nothing; the first ones may be too coarse for a site inside
     Trial best;
     for (int round = 0; round < density_rounds; ++round) {
-      Trial trial = try_factor(factor);
+      Trial trial = approach.trial ? *std::exchange(approach.trial, std::nullopt) : try_factor(factor);
       const double points = trial.points;
       const bool trial_overfull = trial.fit.layout.boundary.overfull;
       if (points > points_)
@@ -251,11 +312,11 @@ private:
       if (high < INFINITY && low > (1 - 1e-4) * high)
         break;
       if (high == INFINITY) {
-        factor = std::max(guess, (trial_overfull ? 1.5 : 1.02) * factor);
+        factor = std::max(guess, (trial_overfull ? 1.5 : 1.002) * factor);
         if (factor > largest)
           fail_for_few_points(context_, fewest);
       } else if (low == 0) {
-        factor = std::min(guess, 0.98 * factor);
+        factor = std::min(guess, 0.998 * factor);
       } else {
         const double margin = 0.1 * (high - low);
         factor = std::clamp(guess, low + margin, high - margin);
@@ -270,17 +331,16 @@ private:
     return std::move(best.fit);
   }
 
-  /// The count is nearly linear in factor^-2; the sites that corners and narrow places hold are its constant part,
-  /// which the last trial tells.
-  double next_factor(double factor, double points, double last_factor, double last) const {
-    const double goal = (1 - 0.4 * close_enough) * points_, u = 1 / (factor * factor);
-    const double slope = last_factor > 0 ? (points - last) / (u - 1 / (last_factor * last_factor)) : 0;
-    const double along = slope > 0 ? u + (goal - points) / slope : 0;
-    // In the first round, or where the trial tells nothing: proportional.
-    return along > u / 16 && along < 16 * u ? 1 / std::sqrt(along) : factor * std::sqrt(points / goal);
+  /// The count falls like a power of the factor, which the last two trials tell.
+  double next_factor(double factor, double points, double last_factor, double last) {
+    constexpr double flattest = -0.15, steepest = -3, farthest = 4;
+    const double goal = (1 - 0.4 * close_enough) * points_;
+    if (last_factor > 0 && factor != last_factor && points > 0 && last > 0)
+      power_ = std::clamp(std::log(points / last) / std::log(factor / last_factor), steepest, flattest);
+    return factor * std::clamp(std::pow(goal / points, 1 / power_), 1 / farthest, farthest);
   }
 
-  DensityFit for_edge_length(double factor) const {
+  DensityFit for_edge_length(double factor) {
     constexpr int rounds = 12;
     const double wanted = *context_.options.edge_length;
     Trial trial = try_factor(factor);
@@ -303,6 +363,7 @@ private:
 
   const LayoutContext& context_;
   double points_, coarsening_;
+  double power_ = -2; // of the factor, that the number of points follows; less where corners hold many of them
 };
 
 } // namespace

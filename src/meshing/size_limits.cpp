@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "size_limits.hpp"
 
+#include "chunked.hpp"
 #include "site_tree.hpp"
 
 #include <algorithm>
@@ -17,6 +18,7 @@ constexpr double short_factor = 1.2; // limit over the length of a short chord: 
 constexpr double narrow_gap = 0.65;  // of the local size: sites that are nearer across the inside
 constexpr double least_share = 0.05; // of the size that is asked for: no limit is lower
 constexpr double lens_offset = 0.134, lens_radius = 0.5176; // of the chord: circle that sees it at 75 degrees
+constexpr std::ptrdiff_t sites_in_a_row = 64;               // by one thread
 constexpr double width_share = 1.15;                        // chord of an equilateral triangle over its height
 
 class LimitFinder {
@@ -25,26 +27,29 @@ public:
       : boundary_(boundary), size_(size), asked_(asked), tree_(items_of(boundary)) {}
 
   std::vector<sizing::SizeLimit> run() const {
-    std::vector<sizing::SizeLimit> limits;
+    return gather_in_order<sizing::SizeLimit>(
+        std::ssize(boundary_.sites), sites_in_a_row,
+        [&](std::ptrdiff_t k, std::vector<sizing::SizeLimit>& limits) { look(static_cast<LocalIndex>(k), limits); });
+  }
+
+private:
+  /// At a site and at its chord.
+  void look(LocalIndex k, std::vector<sizing::SizeLimit>& limits) const {
     const auto add = [&](Vec2 place, double limit, double h) {
       if (limit < 0.95 * h)
         limits.push_back({place, std::fmax(limit, least_share * asked_.size(place))});
     };
-    for (LocalIndex k = 0; k < static_cast<LocalIndex>(boundary_.sites.size()); ++k) {
-      const geometry::Segment chord = boundary_.chord(k);
-      const double at_site = sizing::checked_size(size_, chord.a);
-      add(chord.a, gap_across(k, narrow_gap * at_site), at_site);
-      if (is_near_sharp(k))
-        continue; // in a wedge chords are short at any size
-      const Vec2 middle = boundary_.periods.wrap(0.5 * (chord.a + chord.b));
-      const double length = geometry::length(chord.b - chord.a), h = sizing::checked_size(size_, middle);
-      const double limit = length < short_chord * h ? short_factor * length : h;
-      add(middle, std::fmin(limit, width_share * width_across(k, chord, length)), h);
-    }
-    return limits;
+    const geometry::Segment chord = boundary_.chord(k);
+    const double at_site = sizing::checked_size(size_, chord.a);
+    add(chord.a, gap_across(k, narrow_gap * at_site), at_site);
+    if (is_near_sharp(k))
+      return; // in a wedge chords are short at any size
+    const Vec2 middle = boundary_.periods.wrap(0.5 * (chord.a + chord.b));
+    const double length = geometry::length(chord.b - chord.a), h = sizing::checked_size(size_, middle);
+    const double limit = length < short_chord * h ? short_factor * length : h;
+    add(middle, std::fmin(limit, width_share * width_across(k, chord, length)), h);
   }
 
-private:
   static std::vector<SiteTree::Item> items_of(const BoundarySites& boundary) {
     std::vector<SiteTree::Item> items;
     for (std::size_t k = 0; k < boundary.sites.size(); ++k)

@@ -42,9 +42,8 @@ struct SweepTask {
   geometry::Box box;                      ///< that no site leaves
   double cap_factor = 1, largest_cap = 1; ///< as in StarBuilder::cap
 
-  /// The cells of BoundaryGuard; null where there is no boundary.
-  const std::uint8_t* guard_cells = nullptr;
-  std::uint8_t clear_cell = 0; ///< value of a cell that lies inside and clear of all discs
+  /// BoundaryGuard::CellView.
+  const std::int8_t* guard_cells = nullptr;
   geometry::Vec2 guard_corner;
   double guard_inverse_side = 1;
   int guard_columns = 0, guard_rows = 0;

@@ -167,7 +167,7 @@ TRIME_INLINE void sweep_group(const SweepTask& task, const Group& group, LocalIn
         continue;
       const bool known = column[l] >= 0 && row[l] >= 0 && column[l] < task.guard_columns && row[l] < task.guard_rows;
       if (!known || task.guard_cells[static_cast<std::int64_t>(row[l]) * task.guard_columns +
-                                     static_cast<std::int64_t>(column[l])] != task.clear_cell)
+                                     static_cast<std::int64_t>(column[l])] <= 0)
         moved &= ~(1U << l);
     }
   }

@@ -173,7 +173,6 @@ SweepTask Sweeper::task() {
   task.largest_cap = std::min(builder_.cap(), delaunay::StarBuilder::largest_cap(periods));
   const BoundaryGuard::CellView cells = context_.guard.cells();
   task.guard_cells = cells.states;
-  task.clear_cell = cells.clear;
   task.guard_corner = cells.corner;
   task.guard_inverse_side = cells.inverse_side;
   task.guard_columns = cells.columns;

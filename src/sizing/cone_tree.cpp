@@ -24,7 +24,8 @@ double ConeTree::Node::lower_bound(Vec2 p, double slope) const {
   return slope * std::sqrt(box.squared_distance(p)) + least;
 }
 
-ConeTree::ConeTree(std::vector<Cone> cones, double slope) : cones_(std::move(cones)), slope_(slope) {
+ConeTree::ConeTree(std::vector<Cone> cones, double slope)
+    : cones_(std::move(cones)), slope_(slope), inverse_slope_(1 / slope) {
   if (cones_.empty())
     return;
   leaves_ = 1;
@@ -51,29 +52,37 @@ void ConeTree::sort(std::size_t node, std::size_t first_leaf, std::size_t last_l
   sort(2 * node + 1, middle, last_leaf);
 }
 
+/// Roots are taken for those cones only that are lower than all before; the nearer box comes first.
 double ConeTree::value(Vec2 p, double bound, double slack) const {
   if (cones_.empty())
     return bound;
+  // Squared distance within which a cone of this height is lower than the bound; negative if none is.
+  const auto squared_reach = [this](double height, double below) {
+    const double reach = (below - height) * inverse_slope_;
+    return reach > 0 ? reach * reach : -1;
+  };
   struct Entry {
     std::size_t node;
-    double lower_bound;
+    double squared_distance;
   };
   std::array<Entry, 64> stack; // deeper than any tree in memory
   std::size_t size = 0;
-  stack[size++] = {1, nodes_[1].lower_bound(p, slope_)};
+  const double share = 1 / (1 + slack);
+  stack[size++] = {1, nodes_[1].box.squared_distance(p)};
   while (size > 0) {
     const Entry entry = stack[--size];
-    if (entry.lower_bound * (1 + slack) >= bound)
+    if (entry.squared_distance >= squared_reach(nodes_[entry.node].least, bound * share))
       continue;
     if (entry.node >= leaves_) {
       const std::size_t leaf = entry.node - leaves_, last = first_of(leaf + 1);
       for (std::size_t k = first_of(leaf); k < last; ++k)
-        bound = std::min(bound, cones_[k].value(p, slope_));
+        if (squared_length(p - cones_[k].apex) < squared_reach(cones_[k].height, bound))
+          bound = std::min(bound, cones_[k].value(p, slope_));
       continue;
     }
-    Entry near{2 * entry.node, nodes_[2 * entry.node].lower_bound(p, slope_)};
-    Entry far{2 * entry.node + 1, nodes_[2 * entry.node + 1].lower_bound(p, slope_)};
-    if (far.lower_bound < near.lower_bound)
+    Entry near{2 * entry.node, nodes_[2 * entry.node].box.squared_distance(p)};
+    Entry far{2 * entry.node + 1, nodes_[2 * entry.node + 1].box.squared_distance(p)};
+    if (far.squared_distance < near.squared_distance)
       std::swap(near, far);
     stack[size++] = far;
     stack[size++] = near;

@@ -52,7 +52,7 @@ private:
   std::vector<Node>
       nodes_; // heap order: the root is 1, the children of k are 2k and 2k+1; the last `leaves_` are leaves
   std::size_t leaves_ = 0;
-  double slope_ = 1;
+  double slope_ = 1, inverse_slope_ = 1;
 };
 
 } // namespace trime::sizing

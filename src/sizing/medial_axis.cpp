@@ -15,6 +15,7 @@ namespace {
 constexpr double fan_step = 20 * pi / 180; // between the rays from a vertex
 constexpr double straight = 5 * pi / 180;  // a turn that needs no fan
 constexpr int most_shrinks = 50;
+constexpr double first_share = 1.0 / 16, first_growth = 4; // of the container's diagonal: most balls are small
 constexpr double empty_share = 1 - 1e-3;   // of its radius: so far a ball's centre is from the boundary if it is empty
 constexpr double nearly_empty_share = 0.7; // the same for a ball with nothing but noise in it
 
@@ -52,14 +53,18 @@ bool axis_ends_at(Vec2 before, Vec2 after) {
 
 std::optional<Vec2> medial_point(const NormalRay& ray, const PieceLocator& boundary, const Images& images) {
   const geometry::Box& container = images.container();
-  double radius = geometry::length(container.max - container.min);
-  const double smallest = 1e-12 * radius;
+  const double largest = geometry::length(container.max - container.min), smallest = 1e-12 * largest;
+  const auto center_of = [&](double of) { return ray.origin + of * ray.normal; };
+  const auto nearest = [&](double of) { return boundary.nearest(images.wrap(center_of(of)), empty_share * of); };
+  double radius = first_share * largest;
+  std::optional<Vec2> near = nearest(radius);
+  for (; !near && radius < largest; near = nearest(radius))
+    radius = std::min(largest, first_growth * radius);
   // The ball before the last, unless it sees the boundary at a small angle only.
   std::optional<Vec2> found;
   bool touches = false;
-  for (int round = 0; round < most_shrinks; ++round) {
-    const Vec2 center = ray.origin + radius * ray.normal, wrapped = images.wrap(center);
-    const std::optional<Vec2> near = boundary.nearest(wrapped, empty_share * radius);
+  for (int round = 0; round < most_shrinks; ++round, near = nearest(radius)) {
+    const Vec2 center = center_of(radius), wrapped = images.wrap(center);
     if (touches && (!near || length(*near - wrapped) >= nearly_empty_share * radius))
       found = wrapped;
     if (!near)

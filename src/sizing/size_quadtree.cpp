@@ -31,7 +31,7 @@ struct SizeQuadtree::Block {
 /// Builds one block, top down. Every cell passes on only those cones that can be the lowest somewhere in it.
 class SizeQuadtree::Builder {
 public:
-  explicit Builder(const Source& source) : source_(source) {}
+  explicit Builder(const Source& source) : source_(source), inverse_slope_(1 / source.slope) {}
 
   Block build(Vec2 corner, double side) {
     const Vec2 center = corner + Vec2{0.5 * side, 0.5 * side};
@@ -56,10 +56,17 @@ private:
     int level;
   };
 
-  double lowest(std::size_t first, Vec2 p) const {
-    double low = source_.cap;
+  /// Is the cone at p at most so high? Takes no root.
+  bool is_below(const Cone& cone, Vec2 p, double height) const {
+    const double reach = (height - cone.height) * inverse_slope_;
+    return reach >= 0 && squared_length(p - cone.apex) <= reach * reach;
+  }
+
+  double lowest(std::size_t first, Vec2 p) const { return lowest(first, p, source_.cap); }
+  double lowest(std::size_t first, Vec2 p, double low) const {
     for (std::size_t k = first; k < cones_.size(); ++k)
-      low = std::min(low, cones_[k].value(p, source_.slope));
+      if (is_below(cones_[k], p, low))
+        low = std::min(low, cones_[k].value(p, source_.slope));
     return low;
   }
 
@@ -70,16 +77,11 @@ private:
 
   /// Pushes those cones of the cell that may be the lowest in it; returns the value at its centre.
   double push_cones(const Cell& cell, Vec2 center) {
-    const std::size_t last = cones_.size();
-    heights_.clear();
-    double low = source_.cap;
-    for (std::size_t k = cell.first; k < last; ++k) {
-      heights_.push_back(cones_[k].value(center, source_.slope));
-      low = std::min(low, heights_.back());
-    }
+    const double low = lowest(cell.first, center);
     const double bound = (low + 2 * half_diagonal * cell.side * source_.slope) * rounding;
+    const std::size_t last = cones_.size();
     for (std::size_t k = cell.first; k < last; ++k)
-      if (heights_[k - cell.first] <= bound)
+      if (is_below(cones_[k], center, bound))
         cones_.push_back(Cone(cones_[k]));
     return low;
   }
@@ -132,9 +134,9 @@ private:
   }
 
   const Source& source_;
+  const double inverse_slope_;
   Block block_;
   std::vector<Cone> cones_; // a stack: the cones of a cell lie on those of its parents
-  std::vector<double> heights_;
 };
 
 SizeQuadtree::SizeQuadtree(const comm::Communicator& comm, const Source& source) : box_(source.box) {

@@ -22,19 +22,22 @@ inline void set_thread_count(int threads) {
   omp_set_num_threads(threads);
 }
 
-/// Calls body(item, thread) for item in [0, n), dynamically, `chunk` items at a time. Rethrows the first exception of a
-/// body, after all others are done.
+/// Calls body(item, thread) for item in [0, n), dynamically, `chunk` items at a time. Rethrows the exception of the
+/// lowest item that throws, after all others are done: the same one on any number of threads.
 template <class Body>
 void thread_loop(std::ptrdiff_t n, int chunk, const Body& body) {
   std::exception_ptr thrown;
+  std::ptrdiff_t thrower = n;
 #pragma omp parallel for schedule(dynamic, chunk) if (n > chunk)
   for (std::ptrdiff_t item = 0; item < n; ++item)
     try {
       body(item, omp_get_thread_num());
     } catch (...) { // an exception must not cross the end of a parallel region
 #pragma omp critical(trime_thread_loop)
-      if (!thrown)
+      if (item < thrower) {
+        thrower = item;
         thrown = std::current_exception();
+      }
     }
   if (thrown)
     std::rethrow_exception(thrown);

@@ -67,7 +67,8 @@ private:
   };
   class Builder;
 
-  void nearest_in(const Placed& place, Vec2 p, Nearest& best) const;
+  void look_in_leaf(const Cell& cell, Vec2 p, Nearest& best) const;
+  void nearest_in(Placed place, Vec2 p, Nearest& best) const;
   template <class Visit>
   bool visit_near(const Placed& place, const Box& box, const Visit& visit) const;
 

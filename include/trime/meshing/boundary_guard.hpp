@@ -8,9 +8,11 @@
 #include "trime/geometry/segment_grid.hpp"
 #include "trime/meshing/boundary_sites.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace trime::meshing {
@@ -19,8 +21,9 @@ namespace trime::meshing {
 /// next.
 ///
 /// A flat grid of about 64 cells a chord (at most 2^22) says of each cell that it lies inside or outside, clear of all
-/// discs, or lists the discs that reach into it: far from the boundary every query reads one byte. Points must lie on
-/// the lattice of the sites. Immutable and thread-safe; O(B log B) to build.
+/// discs, and how many cells away from them, or lists the discs that reach into it: far from the boundary every query
+/// reads one byte. Points must lie on the lattice of the sites. Immutable and thread-safe; O(B log B) to build, by all
+/// threads.
 ///
 /// In a periodic container any image of a point may be asked for, and all images of the chords count. There the chords
 /// and images that meet one image of the container are closed outside of it, so that the even-odd rule holds within up
@@ -33,6 +36,8 @@ public:
   bool inside(geometry::Vec2 p) const;
   /// Distance to the nearest chord, or `reach` if that is farther.
   double distance(geometry::Vec2 p, double reach) const;
+  /// A lower bound of the distance, `reach` if it is not below that; for p in the container, by one look-up.
+  double distance_below(geometry::Vec2 p, double reach) const { return std::min(reach, clear_way(p)); }
   /// @brief Where an interior site at p with local size h must go; nothing if p is inside and in no closed diametral
   /// disc.
   ///
@@ -47,8 +52,7 @@ public:
 
   /// The cells as plain numbers, for loops that look for the clear ones themselves; rows of `columns` from `corner` on.
   struct CellView {
-    const std::uint8_t* states; ///< null without sites: all is clear
-    std::uint8_t clear;         ///< a point in such a cell needs no correction
+    const std::int8_t* states; ///< a point in a cell above 0 needs no correction; null without sites: nor does any
     geometry::Vec2 corner;
     double inverse_side;
     int columns, rows;
@@ -62,7 +66,7 @@ public:
   std::size_t memory_bytes() const;
 
 private:
-  enum class Cell : std::uint8_t { near, inside, outside }; // near: a disc may reach into the cell
+  static constexpr std::int8_t near_disc = 0; ///< state of a cell that a disc may reach into
 
   /// A chord or an image of one.
   struct NearChord {
@@ -83,12 +87,17 @@ private:
   LocalIndex chord_count() const { return static_cast<LocalIndex>(chords_.segments().size()); }
   bool is_empty() const { return chords_.segments().empty(); }
   LocalIndex disc_count() const { return chord_count() + static_cast<LocalIndex>(images_.size()); }
-  void classify_clear_cells(const geometry::Lattice& lattice);
+  void classify_cells(const geometry::Lattice& lattice);
+  std::vector<std::int8_t> clearance_of(int low, int high) const;
+  void classify_row(int j, const std::int8_t* clearance, const geometry::Lattice& lattice);
+  std::pair<int, int> rows_of(double middle, double reach) const;
   template <class Visit>
-  void for_each_cell_of(const geometry::Segment& chord, const Visit& visit) const;
+  void for_each_cell_of(const geometry::Segment& chord, int first, int last, const Visit& visit) const;
   /// Index of the cell of p; -1 outside of the grid, where nothing is near.
   std::int64_t cell_at(geometry::Vec2 p) const;
-  Cell state_at(geometry::Vec2 p) const;
+  int state_at(geometry::Vec2 p) const;
+  /// A distance that no chord is nearer to p.
+  double clear_way(geometry::Vec2 p) const;
   /// Numbers for disc() of the chords whose discs may hold p.
   std::span<const LocalIndex> chords_at(std::int64_t cell) const;
   /// The number for disc() of the closed diametral disc in which p lies deepest, lowest on ties; -1 if in none.
@@ -102,7 +111,7 @@ private:
   geometry::Vec2 corner_;
   double side_ = 1, inverse_side_ = 1; // of a cell
   int columns_ = 0, rows_ = 0;
-  std::vector<Cell> state_;
+  std::vector<std::int8_t> state_; // inside > 0, outside < 0; its amount: so many cells to the next one near a disc
   std::vector<LocalIndex> cell_start_, cell_chord_; // the chords near each cell, ascending
 };
 

@@ -38,6 +38,8 @@ public:
 
 private:
   RowLattice rows_of(double spacing) const;
+  bool is_clear(const mesh::TileGrid& grid, LocalIndex tile, double margin) const;
+  std::vector<std::int64_t> counts(const TileRange& tiles, const RowLattice& rows, double spacing) const;
   template <class Visit>
   void for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile, const RowLattice& rows, double spacing,
                         const Visit& visit) const;
