@@ -3,9 +3,11 @@
 
 #include "meshing/sweep_kernel.hpp"
 #include "trime/comm/agree.hpp"
+#include "trime/core/random.hpp"
 #include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace trime::meshing {
@@ -36,6 +38,11 @@ Vec2 into_box(Vec2 p, const mesh::TileGrid& grid) {
 
 } // namespace
 
+bool is_chosen(Vec2 p, int round) {
+  return random_unit(static_cast<std::uint64_t>(round), RandomPurpose::deletion, std::bit_cast<std::uint64_t>(p.x),
+                     std::bit_cast<std::uint64_t>(p.y)) < 1.0 / 3;
+}
+
 Treated treat_step(const MoveContext& context, const mesh::TileGrid& grid, const mesh::Site& site, double h, Step step,
                    int allowed) {
   step = capped(step, move_cap * h);
@@ -46,18 +53,15 @@ Treated treat_step(const MoveContext& context, const mesh::TileGrid& grid, const
   const auto pushed = context.guard.correct(treated.position, h, context.lattice);
   if (!pushed)
     return treated;
-  if (site.pushes >= allowed) {
-    treated.deleted = true;
-    return treated;
-  }
+  treated.deleted = site.pushes >= allowed;
   treated.position = context.lattice.snap(into_box(*pushed, grid));
   treated.lead = {};
-  treated.pushed = true;
+  treated.pushed = !treated.deleted;
   ++treated.pushes;
   return treated;
 }
 
-bool settle_round(SiteState& state, const MoveContext& context, bool delete_all) {
+bool settle_round(SiteState& state, const MoveContext& context, int round, bool delete_all) {
   struct Offender {
     LocalIndex site;
     Treated treated;
@@ -72,8 +76,12 @@ bool settle_round(SiteState& state, const MoveContext& context, bool delete_all)
       for (LocalIndex i = begin; i < end; ++i) {
         if (points.boundary(i) != mesh::free_site)
           continue;
-        const Treated treated =
+        Treated treated =
             treat_step(context, state.grid(), points.site(i), view.size(i), {}, delete_all ? 0 : pushes_allowed);
+        if (treated.deleted && !delete_all && !is_chosen(points.position(i), round)) {
+          treated.deleted = false;
+          treated.pushed = true;
+        }
         if (treated.pushed || treated.deleted)
           of_thread[static_cast<std::size_t>(thread)].push_back({i, treated});
       }

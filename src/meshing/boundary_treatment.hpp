@@ -25,13 +25,19 @@ struct Treated {
 };
 
 /// @brief The step of a rule, capped at 0.4 h (the lead gives way first), snapped, kept inside and out of the discs: an
-/// offender is pushed, or deleted once it has been pushed as often as is allowed.
+/// offender is pushed; it is to be deleted once it has been pushed as often as is allowed, and goes to where it were
+/// pushed until it is.
 Treated treat_step(const MoveContext& context, const mesh::TileGrid& grid, const mesh::Site& site, double h, Step step,
                    int pushes_allowed);
 constexpr int pushes_allowed = 3;
 
-/// @brief One round without any rule: offenders are pushed, or deleted once they have been pushed three times or
-/// `delete_all` is set. Collective. @return false if there was none on any rank: all discs are empty
-bool settle_round(SiteState& state, const MoveContext& context, bool delete_all);
+/// @brief Is it the turn of the site at p to be deleted? One in three is chosen in each round, by a hash of its place:
+/// where sites are crowded, room that one leaves may be enough for the others.
+bool is_chosen(geometry::Vec2 p, int round);
+
+/// @brief One round without any rule: offenders are pushed; once they have been pushed three times, or if
+/// `delete_all` is set, they are deleted: all at once, or those that are chosen. Collective. @return false if there was
+/// none on any rank: all discs are empty
+bool settle_round(SiteState& state, const MoveContext& context, int round, bool delete_all);
 
 } // namespace trime::meshing

@@ -252,7 +252,7 @@ private:
   void settle() {
     const auto time = timers_.scope("settle");
     for (int round = 0; round < settle_rounds; ++round)
-      if (!settle_round(state(), move_context(), round >= settle_pushes))
+      if (!settle_round(state(), move_context(), round, round >= settle_pushes))
         return;
   }
 

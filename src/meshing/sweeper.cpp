@@ -21,6 +21,7 @@ constexpr double drift_in_sizes_allowed = 1, drift_in_tiles_allowed = 0.25;
 /// All tiles awake when a scale of the rule has changed by this share.
 constexpr double scale_change = 1e-3;
 constexpr int sweeps_of_a_size = 4; // h is evaluated anew after so many sweeps
+constexpr int sweeps_of_a_sort = 4; // sites that are to be deleted may wait so long for the next sorting
 constexpr int chunk = 64;           // sites that one thread treats in a row
 constexpr int most_halo_rounds = 100;
 constexpr LocalIndex most_measured = 1024;    // sites in one call of the kernel
@@ -292,10 +293,7 @@ SweepTally Sweeper::tally_tile(LocalIndex tile) const {
   for (LocalIndex i = begin; i < end; ++i) {
     if (classes_[at(i)] == SiteClass::held || classes_[at(i)] == SiteClass::fixed)
       continue;
-    if (fates_[at(i)] == Fate::deleted) {
-      ++sum.deleted;
-      continue;
-    }
+    sum.deleted += fates_[at(i)] == Fate::deleted;
     sum.pushed += fates_[at(i)] == Fate::pushed;
     const Vec2 way = points.next_positions()[at(i)] - points.position(i), lead = points.leads()[at(i)],
                next = points.next_leads()[at(i)];
@@ -379,7 +377,7 @@ void Sweeper::note_pushes() {
       return;
     const auto [begin, end] = points.tile_range(points.first_tile() + static_cast<LocalIndex>(t));
     for (LocalIndex i = begin; i < end; ++i) {
-      if (fates_[at(i)] == Fate::pushed)
+      if (fates_[at(i)] != Fate::moved)
         points.set_pushes(i, points.pushes(i) + 1);
       fates_[at(i)] = Fate::moved;
     }
@@ -391,18 +389,25 @@ Sweeper::Counts Sweeper::commit() {
   prepared_ = false;
   mesh::BinnedPoints& points = state_.points();
   const geometry::Box tile = state_.grid().tile_box(0);
-  std::vector<std::uint8_t> deleted;
-  if (counts_.deleted > 0)
-    for (const Fate fate : fates_)
-      deleted.push_back(fate == Fate::deleted);
-  note_pushes();
   drift_ += largest_distance_ * (1 + 1e-9);
   drift_in_sizes_ += counts_.max_move;
-  if (counts_.deleted > 0 || state_.grid().periods().any() || drift_in_sizes_ > drift_in_sizes_allowed ||
+  ++age_of_order_;
+  ++moves_;
+  const bool deletes = counts_.deleted > 0 && age_of_order_ >= sweeps_of_a_sort;
+  if (deletes || state_.grid().periods().any() || drift_in_sizes_ > drift_in_sizes_allowed ||
       drift_ > drift_in_tiles_allowed * std::min(tile.width(), tile.height())) {
+    std::vector<std::uint8_t> deleted(fates_.size(), 0);
+    counts_.deleted = 0;
+    for (LocalIndex i = 0; i < points.owned(); ++i)
+      if (fates_[at(i)] == Fate::deleted && is_chosen(points.position(i), moves_))
+        counts_.deleted += deleted[at(i)] = 1;
+    counts_.deleted = state_.comm().sum(counts_.deleted);
+    note_pushes();
     move_and_sort(deleted);
     return counts_;
   }
+  note_pushes();
+  counts_.deleted = 0; // they wait
   drifts_before_ = points.drifts();
   for (LocalIndex t = points.first_tile(); t < points.last_tile(); ++t) {
     const double squared = tallies_[at(t - points.first_tile())].squared_distance;
@@ -446,7 +451,7 @@ void Sweeper::move_and_sort(std::span<const std::uint8_t> deleted) {
   state_.move_sites(sites, deleted.empty() ? std::span(none) : deleted);
   state_.refresh(context_.size);
   drift_ = drift_in_sizes_ = 0;
-  age_of_sizes_ = 0;
+  age_of_sizes_ = age_of_order_ = 0;
   sorted_ = true;
   classify();
 }

@@ -112,9 +112,10 @@ private:
   std::vector<mesh::BinRef> missing_;
   std::int64_t rebuilt_ = 0; // of this rank in this sweep
   Counts counts_;
-  double largest_distance_ = 0;           // of this sweep, over all ranks
-  double drift_ = 0, drift_in_sizes_ = 0; // since the last sorting, over all ranks
-  int age_of_sizes_ = 0;                  // in sweeps
+  double largest_distance_ = 0;             // of this sweep, over all ranks
+  double drift_ = 0, drift_in_sizes_ = 0;   // since the last sorting, over all ranks
+  int age_of_sizes_ = 0, age_of_order_ = 0; // in sweeps
+  int moves_ = 0;
   bool sorted_ = true, prepared_ = false, under_way_ = false;
 };
 

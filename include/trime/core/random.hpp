@@ -7,7 +7,7 @@
 namespace trime {
 
 /// What a random number is for; keeps streams apart.
-enum class RandomPurpose : std::uint64_t { site_position = 1, test = 99 };
+enum class RandomPurpose : std::uint64_t { site_position = 1, deletion = 2, test = 99 };
 
 /// Finaliser of splitmix64 (Steele, Lea, Flood 2014): a bijection that spreads every input bit.
 constexpr std::uint64_t mix_bits(std::uint64_t z) {
