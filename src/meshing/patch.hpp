@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surroundings of a bad triangle and the changes that are tried there. One thread; knows nothing of ranks.
+// The surroundings of bad triangles and the changes that are tried there. One thread; knows nothing of ranks.
 #pragma once
 
 #include "meshing/boundary_curve.hpp"
@@ -7,7 +7,6 @@
 #include "trime/geometry/lattice.hpp"
 #include "trime/geometry/periods.hpp"
 #include "trime/mesh/binned_points.hpp"
-#include "trime/meshing/boundary_guard.hpp"
 
 #include <array>
 #include <cstdint>
@@ -17,74 +16,93 @@
 
 namespace trime::meshing {
 
-/// A site near the bad triangle, at that image of it which lies there.
+/// A site near a bad triangle, at that image of it which lies there.
 struct PatchSite {
   geometry::Vec2 position;
-  double size;           ///< h there
-  std::int32_t boundary; ///< see mesh::Site
-  double tolerance = 0;  ///< on the boundary: how far a new chord may pass from a curve with corners between
+  double size;            ///< h there
+  std::int32_t boundary;  ///< see mesh::Site
+  std::int32_t rests = 0; ///< nothing helped here the last time
+  LocalIndex loop = -1;   ///< of a site on the boundary; -1: the sites of the loops follow each other
+  std::int32_t unused = 0;
+  double tolerance = 0; ///< on the boundary: how far a new chord may pass from a curve with corners between
 };
 
-/// What becomes of a site: where it goes, or that it is deleted; or a new site (`from` says nothing then); or that
-/// nothing helps there.
+/// What becomes of a site: where it goes, or that it is deleted; or a new site (`from` says nothing then).
 struct SiteEdit {
-  enum class Kind : std::int32_t { move, remove, insert, none };
+  enum class Kind : std::int32_t { move, remove, insert };
   geometry::Vec2 from, to;
   Kind kind = Kind::move;
   std::int32_t boundary = mesh::free_site; ///< index of the boundary site; for a new one, of the site before it
-  double arc = 0;                          ///< of the new place on the boundary; none: h at the middle, else 0
+  double arc = 0;                          ///< of the new place on the boundary
   std::uint64_t patch = 0;                 ///< set by who collects them
+};
+
+/// What is known of a site after a patch has been tried.
+struct SiteVerdict {
+  geometry::Vec2 position; ///< as it is now
+  double size;
+  double alpha;       ///< of its worst triangle if that is bad, else 0
+  std::int64_t rests; ///< nothing helped for its bad triangles, and it has not moved much since
+};
+
+/// What comes of a patch.
+struct PatchResult {
+  std::vector<SiteEdit> edits;       ///< empty if nothing was better
+  std::vector<SiteVerdict> verdicts; ///< of the sites that have or had bad triangles
+  int failures = 0;                  ///< bad triangles in the middle of the patch that stay
+  bool put_off = false;              ///< set by who does not carry it out
 };
 
 /// What is tried, and when it is kept.
 struct PatchOptions {
   /// h at the middle: nothing changes within it from the rim of what is read, so a patch may begin that much nearer.
   static constexpr double clearance = 2.8;
-  double reach = 6; ///< sites within this many h of the middle are read
-  /// A hexagonal lattice has 130 there. Where the boundary crowds many more, as in spikes far below h, nothing is
+  double reach = 8; ///< sites within this many h of the middle are read
+  /// A hexagonal lattice has 360 there. Where the boundary crowds many more, as in spikes far below h, nothing is
   /// tried.
-  std::size_t most_sites = 500;
+  std::size_t most_sites = 600;
   double bad_alpha = 1.07; ///< triangles above it are bad
-  /// Insertions and deletions are tried where moves alone leave a triangle above it, or help nothing.
+  /// Insertions and deletions are tried where moves alone leave a triangle above it.
   double operate_alpha = 1.09;
-  int trial_sweeps = 6;      ///< over the free sites after an operation
-  std::size_t finalists = 4; ///< operations that go beyond the first sweeps, near the middle
-  double tolerance = 0;      ///< of PatchSite, in sizes as they are asked for
+  double very_bad_alpha = 1.25; ///< more is tried for triangles above it
+  double again_alpha = 1.15;    ///< the same, when patches are tried again
+  int moving_sweeps = 8;        ///< over the sites of bad triangles and their neighbours
+  int trial_sweeps = 3;         ///< over the free sites around, of the best operations
+  std::size_t finalists = 4;    ///< operations that go beyond the first sweeps, near the middle
+  double tolerance = 0;         ///< of PatchSite, in sizes as they are asked for
 };
 
 /// What a patch may do with the number of sites.
 struct PatchBudget {
   GlobalId may_insert = 100; ///< so many more than it deletes
   GlobalId may_delete = 2;
+  bool is_again = false;        ///< whether the patch has been tried before
   double deletion_handicap = 1; ///< factor on the sum of a trial with fewer sites: above 1 if sites are scarce
 };
 
-/// @brief Improves the triangles around a place by moving the free sites near it, and by insertions and deletions
-/// followed by such moves; where nothing else helps, by smaller triangles. Sites on the boundary that are no corners
-/// take part: they slide along their curve, come and go.
+/// @brief Improves all triangles around a place: first by moves of the sites of bad ones, then, from the worst one on,
+/// by insertions and deletions followed by such moves; where nothing else helps, by smaller triangles. Sites on the
+/// boundary that are no corners take part: they slide along their curve, come and go.
 ///
-/// A trial counts as better if the sum over the triangles of (alpha - 1)^2, bad ones weighing more, falls by 2 % at
-/// least and the largest alpha does not rise; one with smaller triangles if the largest alpha falls by a tenth of its
-/// excess. Moves lower the StarEnergy of one site after the other by Newton steps.
+/// An operation counts as better if the sum over the triangles near it of (alpha - 1)^2, bad ones weighing more, falls
+/// by 2 % at least and the largest alpha does not rise; one with smaller triangles if the largest alpha falls by a
+/// tenth of its excess. Moves lower the StarEnergy of one site after the other by Newton steps.
 /// Nobody enters the diametral disc of a boundary segment, and no segment comes to stand for a curve that leaves its
 /// disc, or that turns by more than 60 degrees and strays by more than the tolerance. Only + - * / sqrt and exact
 /// predicates inside: a pure function of the sites.
 class PatchOptimizer {
 public:
-  PatchOptimizer(const BoundarySites& boundary, const BoundaryCurve& curve, const BoundaryGuard& guard,
-                 const geometry::Lattice& lattice, const PatchOptions& options)
-      : boundary_(boundary), curve_(curve), guard_(guard), lattice_(lattice), options_(options),
-        base_(lattice, boundary.periods), trial_(base_), best_(base_), finalists_(options.finalists, Finalist{base_}) {}
+  PatchOptimizer(const BoundarySites& boundary, const BoundaryCurve& curve, const geometry::Lattice& lattice,
+                 const PatchOptions& options)
+      : boundary_(boundary), curve_(curve), lattice_(lattice), options_(options), start_(lattice, boundary.periods),
+        now_(start_), trial_(start_), best_(start_), finalists_(options.finalists, Finalist{start_}) {}
 
   /// @brief Tries everything once.
   /// @param sites in lexicographic order; all that lie within `options.reach` times `size` of `center`
-  /// @param edits receives the changes, if one was better; else Kind::none for the center and the corners of the bad
-  /// triangle
-  /// @return whether one was
-  bool improve(geometry::Vec2 center, double size, std::span<const PatchSite> sites, const PatchBudget& budget,
-               std::vector<SiteEdit>& edits);
+  PatchResult improve(geometry::Vec2 center, double size, std::span<const PatchSite> sites, const PatchBudget& budget);
 
 private:
+  using Corners = std::array<LocalIndex, 3>;
   enum class Role : std::uint8_t { gone, held, scored, free }; // scored: held, but its triangles count
   struct Score {
     double sum = 0, max = 1;
@@ -108,20 +126,26 @@ private:
   struct Patch {
     Patch(const geometry::Lattice& lattice, const geometry::Periods& periods) : mesh(lattice, periods) {}
     LocalIndex add(geometry::Vec2 p, double h, const BoundaryVertex& on_boundary, Role its_role);
+    bool on_boundary(LocalIndex v) const { return boundary[at(v)].site >= 0; }
+    bool is_chord(LocalIndex from, LocalIndex to) const { return boundary[at(from)].next == to; }
 
     PatchMesh mesh;
     std::vector<Role> role;
     std::vector<double> size;
     std::vector<BoundaryVertex> boundary;
     bool broken = false;
-    bool divided = false; // chords were: the guard knows larger discs
   };
   struct Finalist {
     Patch patch;
     double sum = 0, handicap = 1;
   };
-  struct Best {     // among the trials of a patch
-    double first;   // sum that a trial had to fall below at first
+  /// The place of the trials, and the best of them.
+  struct Contest {
+    Corners corners;
+    geometry::Vec2 middle;
+    double alpha;   // of the triangle
+    double size;    // h there
+    double first;   // sum that a trial has to fall below at first
     double least;   // and now
     double before;  // largest alpha at the beginning
     double largest; // now
@@ -133,47 +157,70 @@ private:
   void link_boundary();
   bool counts(const Patch& patch, const PatchMesh::Triangle& triangle) const;
   bool lies_inside(const Patch& patch, const PatchMesh::Triangle& triangle) const;
-  Score score(const Patch& patch) const;
-  const PatchMesh::Triangle* worst_triangle() const;
-  void list_operations();
-  void list_at_boundary(const PatchMesh::Triangle& worst);
-  bool is_within(const PatchBudget& budget) const;
-  bool apply(const Operation& operation);
-  bool remove(LocalIndex v);
-  void try_refining(const PatchBudget& budget, Best& best);
-  bool refine();
-  bool divide_where_encroached();
-  bool is_clear(const Patch& patch, geometry::Vec2 p, double h) const;
-  bool is_within_reach(geometry::Vec2 p, double h) const;
-  bool insert(geometry::Vec2 place);
-  bool insert_on_boundary(LocalIndex before);
-  double begin_trial(double handicap, const Best& best);
-  void finish_trial(Patch& trial, double handicap, Best& best);
-  void enter_finals(double sum, double handicap);
-  void try_everything(const PatchBudget& budget, Best& best);
-  void relax(Patch& patch, int sweeps, double radius);
-  void relax_vertex(Patch& patch, LocalIndex v);
+  double alpha(const Patch& patch, const PatchMesh::Triangle& triangle) const;
+  void add_to(Score& score, double alpha) const;
+  geometry::Vec2 middle_of(const Patch& patch, const Corners& corners) const;
+  bool is_in_core(geometry::Vec2 p) const;
+  void collect_edits(std::vector<SiteEdit>& edits) const;
+  void collect_verdicts(PatchResult& result);
+  LocalIndex missing_chords(const Patch& patch) const;
+  bool chords_hold(const Patch& patch) const;
+
+  // patch_moves.cpp
+  void move_bad_sites();
+  bool mark_bad_sites(Score& score);
+  void relax(Patch& patch, std::span<const LocalIndex> vertices);
+  bool relax_vertex(Patch& patch, LocalIndex v);
   void slide_vertex(Patch& patch, LocalIndex v);
   bool stands_for_curve(const BoundaryVertex& from, const BoundaryVertex& to, const geometry::Segment& chord,
                         double size) const;
+  bool keeps_clear(const Patch& patch, geometry::Vec2 to) const;
   bool leaves_discs_empty(const Patch& patch, LocalIndex v, geometry::Vec2 to) const;
-  bool is_crossed(const Patch& patch) const;
-  bool chords_hold(const Patch& patch) const;
-  void collect_edits(std::vector<SiteEdit>& edits) const;
+
+  // patch_trials.cpp
+  void operate(const PatchBudget& budget);
+  bool is_settled(const Corners& corners) const;
+  bool rest(const Corners& corners) const;
+  void wake_moved(const Patch& before);
+  std::optional<Corners> worst_untried(double above) const;
+  bool try_at(const Corners& worst, const PatchBudget& budget);
+  void list_near(const Contest& contest);
+  Score score_near(const Patch& patch) const;
+  void list_operations(const Contest& contest);
+  void list_at_boundary(const Contest& contest);
+  bool is_within(const PatchBudget& budget) const;
+  bool apply(const Operation& operation);
+  bool remove(LocalIndex v);
+  bool insert(geometry::Vec2 place);
+  bool insert_on_boundary(LocalIndex before);
+  std::optional<geometry::Segment> entered_disc(const Patch& patch, geometry::Vec2 p) const;
+  bool is_within_reach(geometry::Vec2 p, double h) const;
+  void relax_near(Patch& patch, std::span<const LocalIndex> near);
+  double begin_trial(double handicap, const Contest& contest);
+  void enter_finals(double sum, double handicap, std::size_t places);
+  void finish_trial(Patch& trial, double handicap, Contest& contest);
+  void try_everything(const PatchBudget& budget, Contest& contest);
+  void try_refining(const PatchBudget& budget, Contest& contest);
+  bool refine(const Corners& worst);
+  bool divide_where_encroached();
 
   const BoundarySites& boundary_;
   const BoundaryCurve& curve_;
-  const BoundaryGuard& guard_;
   geometry::Lattice lattice_;
   PatchOptions options_;
-  Patch base_, trial_, best_;
+  Patch start_, now_, trial_, best_;
   std::vector<Finalist> finalists_; // by sum; infinite: none
   geometry::Vec2 center_;
   double size_ = 1;
-  double longest_bent_ = 1;       // h: limit of chords of curves, in the present trials
-  mutable bool too_long_ = false; // a chord failed only by this limit
+  double place_size_ = 1;           // h at the place of the present trials
+  LocalIndex missing_at_start_ = 0; // chords that are no edges
+  bool is_thorough_ = false;        // the present trials are for a very bad triangle
+  double longest_bent_ = 1;         // h: limit of chords of curves, in the present trials
   std::vector<Operation> operations_;
-  std::vector<LocalIndex> ring_;
+  std::vector<Corners> tried_;                                       // very bad ones
+  std::vector<LocalIndex> ring_, shifted_, movers_, nearest_, near_; // vertices: work space, and those to move
+  std::vector<std::uint8_t> rests_, mark_, in_score_;                // by vertex
+  std::vector<double> worst_before_, worst_after_;                   // by vertex: alpha
   std::vector<geometry::Vec2> around_;
 };
 

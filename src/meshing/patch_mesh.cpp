@@ -5,6 +5,7 @@
 #include "trime/geometry/predicates.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace trime::meshing {
 namespace {
@@ -16,6 +17,18 @@ constexpr int next(int k) {
 }
 constexpr int previous(int k) {
   return k == 0 ? 2 : k - 1;
+}
+
+/// @brief geometry::in_circle, decided here where the determinant is far from 0: with the largest squared distance L
+/// the products add up to 3 L^2 at most, so the rounding error stays below 2^-48 L^2 (Shewchuk 1997, bound A).
+inline bool holds(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const geometry::Lattice& lattice, const geometry::Periods& periods) {
+  const double ax = a.x - d.x, ay = a.y - d.y, bx = b.x - d.x, by = b.y - d.y, cx = c.x - d.x, cy = c.y - d.y;
+  const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
+  const double determinant = a2 * (bx * cy - cx * by) + b2 * (cx * ay - ax * cy) + c2 * (ax * by - bx * ay);
+  const double largest = std::fmax(a2, std::fmax(b2, c2)), sure = 0x1p-46 * largest * largest;
+  if (determinant > sure || determinant < -sure)
+    return determinant > 0;
+  return geometry::in_circle(a, b, c, d, lattice, periods) > 0;
 }
 
 } // namespace
@@ -54,7 +67,7 @@ LocalIndex PatchMesh::locate(Vec2 p) const {
 
 bool PatchMesh::disc_holds(LocalIndex t, Vec2 p) const {
   const auto& v = triangle(t).vertex;
-  return geometry::in_circle(position(v[0]), position(v[1]), position(v[2]), p, lattice_, periods_) > 0;
+  return holds(position(v[0]), position(v[1]), position(v[2]), p, lattice_, periods_);
 }
 
 /// Lists the triangles whose discs hold p, and the rim around them.
@@ -220,11 +233,37 @@ void PatchMesh::legalize() {
       ++m;
     if (!disc_holds(t, position(other.vertex[static_cast<std::size_t>(m)])))
       continue;
-    flip(t, k);
-    for (const LocalIndex changed : {t, u})
-      for (int side = 0; side < 3; ++side)
-        suspects_.push_back({changed, side});
+    flip(t, k); // the edge between t and u is right now
+    suspects_.push_back({t, 0});
+    suspects_.push_back({t, 2});
+    suspects_.push_back({u, 0});
+    suspects_.push_back({u, 1});
   }
+}
+
+void PatchMesh::restore(std::span<const LocalIndex> shifted) {
+  is_shifted_.resize(positions_.size(), 0);
+  for (const LocalIndex v : shifted)
+    is_shifted_[static_cast<std::size_t>(v)] = 1;
+  const auto is_shifted = [&](LocalIndex u) { return is_shifted_[static_cast<std::size_t>(u)] != 0; };
+  for (const LocalIndex v : shifted) { // each edge once
+    const LocalIndex first = corner_of(v);
+    LocalIndex t = first;
+    do {
+      const Triangle& at = triangle(t);
+      const int k = place_in(t, v);
+      const LocalIndex u = at.vertex[static_cast<std::size_t>(next(k))];
+      const LocalIndex w = at.vertex[static_cast<std::size_t>(previous(k))];
+      if (!is_shifted(u) && !is_shifted(w))
+        suspects_.push_back({t, k});
+      if (!is_shifted(u) || v < u)
+        suspects_.push_back({t, previous(k)}); // the edge v-u
+      t = at.neighbour[static_cast<std::size_t>(next(k))];
+    } while (t != first && t >= 0);
+  }
+  for (const LocalIndex v : shifted)
+    is_shifted_[static_cast<std::size_t>(v)] = 0;
+  legalize();
 }
 
 bool PatchMesh::move(LocalIndex v, Vec2 to) {

@@ -8,6 +8,7 @@
 #include "trime/geometry/vec2.hpp"
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -41,6 +42,11 @@ public:
   bool remove(LocalIndex v);
   /// Moves vertex v. @return false, and nothing is done, if a triangle around v would turn over
   bool move(LocalIndex v, geometry::Vec2 to);
+  /// @brief Puts vertex v elsewhere within its star and leaves the edges as they are: restore must follow.
+  /// @pre no triangle around v turns over
+  void shift(LocalIndex v, geometry::Vec2 to) { positions_[static_cast<std::size_t>(v)] = to; }
+  /// Flips edges around these vertices, all that have been shifted, until the triangulation is Delaunay again.
+  void restore(std::span<const LocalIndex> shifted);
   /// Takes vertex v out and puts it in again elsewhere, where no vertex is: also past triangles of no area.
   /// @return false if it cannot be done; then the mesh is not to be used any more
   bool replace(LocalIndex v, geometry::Vec2 to);
@@ -86,6 +92,7 @@ private:
   std::vector<LocalIndex> cavity_;
   std::vector<Rim> rim_;
   std::vector<Side> suspects_;
+  std::vector<std::uint8_t> is_shifted_; // by vertex, all 0 between calls
   mutable std::vector<LocalIndex> ring_;
 };
 

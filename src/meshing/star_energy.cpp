@@ -11,6 +11,8 @@ namespace {
 
 constexpr double c = 0.28867513459481287; // 1 / (2 sqrt(3)): eta = c (a^2 + b^2 + c^2) / (2 area)
 
+constexpr double weight_of_bad = 10; // of the fourth power
+
 /// eta of the triangle p, a, b: (sum of squared edges) / (4 sqrt(3) area); negative if turned over.
 double eta(Vec2 p, Vec2 a, Vec2 b) {
   const double sum =
@@ -18,9 +20,9 @@ double eta(Vec2 p, Vec2 a, Vec2 b) {
   return c * sum / geometry::cross(a - p, b - p);
 }
 
-double power_of_excess(double value) {
+double energy_of(double value) {
   const double excess = value - 1;
-  return excess * excess * (excess * excess);
+  return excess * excess * (1 + weight_of_bad * (excess * excess));
 }
 
 } // namespace
@@ -31,7 +33,7 @@ double star_energy(Vec2 p, std::span<const Vec2> ring, bool closed) {
     const double value = eta(p, ring[k], ring[k + 1 == ring.size() ? 0 : k + 1]);
     if (!(value >= 1 - 1e-9))
       return INFINITY;
-    sum += power_of_excess(value);
+    sum += energy_of(value);
   }
   return sum;
 }
@@ -50,8 +52,9 @@ EnergyModel star_energy_model(Vec2 p, std::span<const Vec2> ring, bool closed) {
     const double hxx = 4 * c * inverse + w * (v * of_area.x * of_area.x - 2 * of_sum.x * of_area.x);
     const double hyy = 4 * c * inverse + w * (v * of_area.y * of_area.y - 2 * of_sum.y * of_area.y);
     const double hxy = w * (v * of_area.x * of_area.y - of_sum.x * of_area.y - of_sum.y * of_area.x);
-    const double first = 4 * excess * excess * excess, second = 12 * excess * excess;
-    model.value += power_of_excess(value);
+    const double square = weight_of_bad * (excess * excess);
+    const double first = excess * (2 + 4 * square), second = 2 + 12 * square;
+    model.value += energy_of(value);
     model.gradient = model.gradient + first * g;
     model.xx += second * g.x * g.x + first * hxx;
     model.xy += second * g.x * g.y + first * hxy;

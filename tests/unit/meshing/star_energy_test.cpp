@@ -74,7 +74,8 @@ TEST(StarEnergy, EquilateralTrianglesHaveNone) {
     EXPECT_GT(star_energy(0.3 * (testing::random_vec2(4, k) - Vec2{0.5, 0.5}), hexagon(), true), 1e-20);
   // Half of a right-angled square: (1 + 1 + 2) / (4 sqrt(3) / 2) = 2 / sqrt(3)
   const std::vector<Vec2> legs{{1, 0}, {0, 1}};
-  EXPECT_NEAR(star_energy({}, legs, false), std::pow(2 / std::sqrt(3.0) - 1, 4), 1e-15);
+  const double excess = 2 / std::sqrt(3.0) - 1;
+  EXPECT_NEAR(star_energy({}, legs, false), std::pow(excess, 2) + 10 * std::pow(excess, 4), 1e-15);
 }
 
 TEST(StarEnergy, IsFreeOfScaleAndOfPlace) {

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meshing/cleanup_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::meshing {
+namespace {
+
+using geometry::Vec2;
+
+constexpr int passes = 6;
+enum class Status : std::int32_t { open, chosen, out };
+
+/// A contender of some rank.
+struct Copy {
+  Contender contender;
+  std::int32_t rank, index;
+  bool is_same(const Copy& other) const { return rank == other.rank && index == other.index; }
+};
+bool comes_before(const Copy& a, const Copy& b) {
+  return a.rank != b.rank ? a.rank < b.rank : a.index < b.index;
+}
+struct Report {
+  std::int32_t rank, index;
+  Status status;
+};
+
+bool is_first(const Contender& a, const Contender& b) {
+  return a.order != b.order ? a.order < b.order : geometry::lexicographically_less(a.place, b.place);
+}
+
+/// The own contenders and copies of those of other ranks that some of them exclude.
+class Choice {
+public:
+  Choice(const comm::Communicator& comm, const CleanupSites& sites, const geometry::Periods& periods,
+         std::span<const Contender> contenders)
+      : comm_(comm), periods_(periods), own_(contenders.size()) {
+    for (std::size_t k = 0; k < own_; ++k)
+      all_.push_back({contenders[k], comm.rank(), static_cast<std::int32_t>(k)});
+    exchange_copies(sites);
+    status_.assign(all_.size(), Status::open);
+    list_rivals();
+  }
+
+  void pass() {
+    std::vector<Status> next = status_;
+    for (std::size_t k = 0; k < own_; ++k) {
+      if (status_[k] != Status::open)
+        continue;
+      bool first = true;
+      for (const std::uint32_t r : rivals_[k]) {
+        if (status_[r] == Status::chosen)
+          next[k] = Status::out;
+        first &= status_[r] == Status::out || is_first(all_[k].contender, all_[r].contender);
+      }
+      if (first && next[k] == Status::open)
+        next[k] = Status::chosen;
+    }
+    status_ = std::move(next);
+    exchange_reports();
+  }
+
+  std::vector<std::size_t> chosen() const {
+    std::vector<std::size_t> list;
+    for (std::size_t k = 0; k < own_; ++k)
+      if (status_[k] == Status::chosen)
+        list.push_back(k);
+    return list;
+  }
+
+private:
+  bool are_rivals(const Contender& a, const Contender& b) const {
+    const double separation = std::fmax(a.separation, b.separation);
+    return geometry::squared_length(periods_.nearest_image(b.place, a.place) - a.place) < separation * separation;
+  }
+
+  /// Who reaches to the tiles of another rank tells it; there, whoever is a rival answers.
+  void exchange_copies(const CleanupSites& sites) {
+    if (comm_.size() == 1)
+      return;
+    std::map<int, std::vector<Copy>> calls, answers;
+    for (std::size_t k = 0; k < own_; ++k)
+      for (const int rank : sites.ranks_near({all_[k].contender.place, all_[k].contender.separation})) {
+        calls[rank].push_back(all_[k]);
+        told_.push_back({rank, static_cast<std::int32_t>(k), Status::open});
+      }
+    std::vector<Copy> copies = send(comm_, calls);
+    for (const Copy& caller : copies)
+      for (std::size_t k = 0; k < own_; ++k)
+        if (are_rivals(all_[k].contender, caller.contender)) {
+          answers[caller.rank].push_back(all_[k]);
+          told_.push_back({caller.rank, static_cast<std::int32_t>(k), Status::open});
+        }
+    const std::vector<Copy> answered = send(comm_, answers);
+    copies.insert(copies.end(), answered.begin(), answered.end());
+    std::sort(copies.begin(), copies.end(), comes_before);
+    copies.erase(std::unique(copies.begin(), copies.end(), [](const Copy& a, const Copy& b) { return a.is_same(b); }),
+                 copies.end());
+    all_.insert(all_.end(), copies.begin(), copies.end());
+  }
+
+  /// Pairs are found by the one with the larger separation, along x.
+  void list_rivals() {
+    rivals_.resize(all_.size());
+    std::vector<std::uint32_t> by_x(all_.size());
+    for (std::size_t k = 0; k < by_x.size(); ++k)
+      by_x[k] = static_cast<std::uint32_t>(k);
+    const auto x_of = [&](std::uint32_t k) { return all_[k].contender.place.x; };
+    std::sort(by_x.begin(), by_x.end(), [&](std::uint32_t a, std::uint32_t b) { return x_of(a) < x_of(b); });
+    for (const std::uint32_t k : by_x) {
+      const Contender& own = all_[k].contender;
+      const double reach = periods_.x > 0 ? INFINITY : own.separation;
+      auto other = std::lower_bound(by_x.begin(), by_x.end(), own.place.x - reach,
+                                    [&](std::uint32_t a, double x) { return x_of(a) < x; });
+      for (; other != by_x.end() && x_of(*other) <= own.place.x + reach; ++other) {
+        const Contender& its = all_[*other].contender;
+        const bool is_its_turn = own.separation > its.separation || (own.separation == its.separation && k < *other);
+        if (is_its_turn && are_rivals(own, its)) {
+          rivals_[k].push_back(*other);
+          rivals_[*other].push_back(k);
+        }
+      }
+    }
+  }
+
+  void exchange_reports() {
+    if (comm_.size() == 1)
+      return;
+    std::map<int, std::vector<Report>> reports;
+    for (const Report& told : told_)
+      reports[told.rank].push_back({comm_.rank(), told.index, status_[static_cast<std::size_t>(told.index)]});
+    for (const Report& report : send(comm_, reports)) {
+      const auto place = std::lower_bound(all_.begin() + static_cast<std::ptrdiff_t>(own_), all_.end(),
+                                          Copy{{}, report.rank, report.index}, comes_before);
+      status_[static_cast<std::size_t>(place - all_.begin())] = report.status;
+    }
+  }
+
+  const comm::Communicator& comm_;
+  const geometry::Periods& periods_;
+  std::size_t own_;       // the first of all_
+  std::vector<Copy> all_; // the others by rank and index
+  std::vector<Status> status_;
+  std::vector<std::vector<std::uint32_t>> rivals_;
+  std::vector<Report> told_; // which rank has a copy of which own one
+};
+
+} // namespace
+
+std::vector<std::size_t> choose_apart(const comm::Communicator& comm, const CleanupSites& sites,
+                                      const geometry::Periods& periods, std::span<const Contender> contenders) {
+  Choice choice(comm, sites, periods, contenders);
+  for (int pass = 0; pass < passes; ++pass)
+    choice.pass();
+  return choice.chosen();
+}
+
+} // namespace trime::meshing

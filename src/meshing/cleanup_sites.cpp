@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meshing/cleanup_sites.hpp"
+
+#include "trime/comm/agree.hpp"
+#include "trime/core/error.hpp"
+
+#include <algorithm>
+
+namespace trime::meshing {
+namespace {
+
+using geometry::Vec2;
+
+std::size_t at(LocalIndex i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// A question to another rank, and a part of the answer: which disc, by its index at the rank that asks.
+struct Question {
+  Disc disc;
+  std::int32_t rank, index;
+};
+struct Answer {
+  PatchSite site;
+  std::int64_t index;
+};
+
+} // namespace
+
+CleanupSites::CleanupSites(const comm::Communicator& comm, const SiteState& state, const sizing::SizeField& size)
+    : comm_(comm), state_(state), size_(size), fates_(at(state.points().owned()), Fate::in_place),
+      added_(at(state.points().last_tile() - state.points().first_tile())) {}
+
+/// Calls visit(tile) for the tiles that meet the square around a disc.
+template <class Visit>
+void CleanupSites::for_each_tile(const Disc& disc, const Visit& visit) const {
+  const mesh::TileGrid& grid = state_.grid();
+  const Vec2 reach{disc.radius, disc.radius}, low = disc.center - reach, high = disc.center + reach;
+  const int x1 = grid.tile_of(grid.unrolled_x(high.x)), y1 = grid.tile_of(grid.unrolled_y(high.y));
+  for (int y = grid.tile_of(grid.unrolled_y(low.y)); y <= y1; ++y)
+    for (int x = grid.tile_of(grid.unrolled_x(low.x)); x <= x1; ++x)
+      visit(grid.tile_image_at(x, y).tile);
+}
+
+std::vector<int> CleanupSites::ranks_near(const Disc& disc) const {
+  std::vector<int> ranks;
+  if (comm_.size() == 1)
+    return ranks;
+  for_each_tile(disc, [&](LocalIndex tile) { ranks.push_back(state_.partition().owner(tile)); });
+  std::sort(ranks.begin(), ranks.end());
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  std::erase(ranks, comm_.rank());
+  return ranks;
+}
+
+/// Of this rank.
+void CleanupSites::collect(const Disc& disc, std::size_t most, std::vector<PatchSite>& sites) const {
+  const mesh::BinnedPoints& points = state_.points();
+  const geometry::Periods& periods = state_.grid().periods();
+  const auto add = [&](Vec2 canonical, double size, std::int32_t boundary, bool rests) {
+    const Vec2 p = periods.nearest_image(canonical, disc.center);
+    if (geometry::squared_length(p - disc.center) < disc.radius * disc.radius)
+      sites.push_back({p, size, boundary, rests});
+  };
+  const auto add_range = [&](LocalIndex begin, LocalIndex end) {
+    for (LocalIndex j = begin; j < std::min(end, points.owned()) && sites.size() <= most; ++j)
+      if (fates_[at(j)] != Fate::gone)
+        add(points.position(j), state_.sizes()[j], points.boundary(j), fates_[at(j)] == Fate::rests);
+  };
+  std::vector<LocalIndex> tiles;
+  for_each_tile(disc, [&](LocalIndex tile) {
+    if (tile >= points.first_tile() && tile < points.last_tile())
+      tiles.push_back(tile);
+  });
+  std::sort(tiles.begin(), tiles.end());
+  tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end()); // two images of one
+  if (!periods.any())
+    points.for_each_near(disc.center, disc.radius, add_range, [](mesh::BinRef) {});
+  for (const LocalIndex tile : tiles) {
+    if (periods.any()) {
+      const auto [begin, end] = points.tile_range(tile);
+      add_range(begin, end);
+    }
+    for (const Added& site : added_in(tile))
+      add(site.position, site.size, site.boundary, site.rests);
+  }
+}
+
+std::vector<std::vector<PatchSite>> CleanupSites::around(std::span<const Disc> discs, std::size_t most) const {
+  std::vector<std::vector<PatchSite>> sites(discs.size());
+  std::map<int, std::vector<Question>> questions;
+  for (std::size_t k = 0; k < discs.size(); ++k) {
+    collect(discs[k], most, sites[k]);
+    for (const int rank : ranks_near(discs[k]))
+      questions[rank].push_back({discs[k], comm_.rank(), static_cast<std::int32_t>(k)});
+  }
+  std::map<int, std::vector<Answer>> answers;
+  std::vector<PatchSite> found;
+  for (const Question& question : send(comm_, questions)) {
+    found.clear();
+    collect(question.disc, most, found);
+    for (const PatchSite& site : found)
+      answers[question.rank].push_back({site, question.index});
+  }
+  for (const Answer& answer : send(comm_, answers))
+    sites[static_cast<std::size_t>(answer.index)].push_back(answer.site);
+  return sites;
+}
+
+/// The owned site of the state that is still there, or -1.
+LocalIndex CleanupSites::find_in_state(Vec2 p) const {
+  const mesh::BinnedPoints& points = state_.points();
+  LocalIndex found = -1;
+  points.for_each_near(
+      p, 0,
+      [&](LocalIndex begin, LocalIndex end) {
+        for (LocalIndex j = begin; j < end && j < points.owned(); ++j)
+          if (points.position(j) == p && fates_[at(j)] != Fate::gone)
+            found = j;
+      },
+      [](mesh::BinRef) {});
+  return found;
+}
+
+CleanupSites::Added& CleanupSites::find_added(Vec2 p) {
+  std::vector<Added>& added = added_in(state_.grid().place(p).tile);
+  const auto found = std::find_if(added.begin(), added.end(), [&](const Added& site) { return site.position == p; });
+  TRIME_ASSERT(found != added.end(), "no site at ({}, {})", p.x, p.y);
+  return *found;
+}
+
+/// @return the index of the owned site that it was at the beginning, or -1
+LocalIndex CleanupSites::take_out(Vec2 p) {
+  if (const LocalIndex i = find_in_state(p); i >= 0) {
+    fates_[at(i)] = Fate::gone;
+    return i;
+  }
+  Added& added = find_added(p);
+  const LocalIndex origin = added.origin;
+  std::vector<Added>& list = added_in(state_.grid().place(p).tile);
+  added = list.back();
+  list.pop_back();
+  return origin;
+}
+
+void CleanupSites::set_rest(Vec2 p, bool rests) {
+  if (const LocalIndex i = find_in_state(p); i >= 0)
+    fates_[at(i)] = rests ? Fate::rests : Fate::in_place;
+  else
+    find_added(p).rests = rests;
+}
+
+void CleanupSites::apply(std::span<const SiteEdit> edits) {
+  std::vector<LocalIndex> origins(edits.size(), -1);
+  for (std::size_t k = 0; k < edits.size(); ++k) // first all that go: one may come where another was
+    if (edits[k].kind != SiteEdit::Kind::insert && owner(edits[k].from) == comm_.rank())
+      origins[k] = take_out(edits[k].from);
+  comm::run_agreed(comm_, [&] {
+    for (std::size_t k = 0; k < edits.size(); ++k)
+      if (edits[k].kind != SiteEdit::Kind::remove && owner(edits[k].to) == comm_.rank())
+        added_in(state_.grid().place(edits[k].to).tile)
+            .push_back({edits[k].to, sizing::checked_size(size_, edits[k].to), edits[k].boundary, origins[k]});
+  });
+}
+
+void CleanupSites::finish(SiteState& state, std::span<const LocalIndex> new_index) const {
+  const mesh::BinnedPoints& points = state.points();
+  const auto renumbered = [&](std::int32_t boundary) {
+    return boundary >= 0 ? new_index[static_cast<std::size_t>(boundary)] : boundary;
+  };
+  std::vector<mesh::Site> sites;
+  sites.reserve(at(points.owned()));
+  std::vector<std::uint8_t> deleted(at(points.owned()), 0);
+  for (LocalIndex i = 0; i < points.owned(); ++i) {
+    sites.push_back(points.site(i));
+    sites.back().lead = {};
+    deleted[at(i)] = fates_[at(i)] == Fate::gone;
+    sites.back().boundary = !deleted[at(i)] ? renumbered(sites.back().boundary) : mesh::free_site;
+  }
+  for (const std::vector<Added>& list : added_)
+    for (const Added& added : list)
+      if (added.origin >= 0) {
+        sites[at(added.origin)].position = added.position;
+        sites[at(added.origin)].boundary = renumbered(added.boundary);
+        deleted[at(added.origin)] = 0;
+      } else {
+        sites.push_back({added.position, renumbered(added.boundary)});
+        deleted.push_back(0);
+      }
+  state.move_sites(sites, deleted);
+}
+
+} // namespace trime::meshing

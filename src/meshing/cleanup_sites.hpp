@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sites while the clean-up edits some: those of the state, and what has become of them since.
+#pragma once
+
+#include "meshing/patch.hpp"
+#include "meshing/site_state.hpp"
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+namespace trime::meshing {
+
+/// Sends each rank its list; what arrives, own items first. Collective.
+template <class T>
+std::vector<T> send(const comm::Communicator& comm, const std::map<int, std::vector<T>>& by_rank) {
+  std::vector<comm::Message> outgoing;
+  std::vector<T> all;
+  for (const auto& [rank, list] : by_rank)
+    if (rank == comm.rank())
+      all = list;
+    else
+      outgoing.push_back({rank, comm::to_bytes(std::span<const T>(list))});
+  if (comm.size() == 1)
+    return all;
+  for (const comm::Message& message : comm.exchange_any(outgoing)) {
+    const std::vector<T> arrived = comm::from_bytes<T>(message.data);
+    all.insert(all.end(), arrived.begin(), arrived.end());
+  }
+  return all;
+}
+
+/// @brief Owned sites of a state that stays as it is: which are still in place, and those that have come since. Edits
+/// cost what they touch; the state learns of them at the end. Sites belong to the owner of the tile they lie in.
+class CleanupSites {
+public:
+  /// References must outlive the object. @pre sizes of the owned sites are known
+  CleanupSites(const comm::Communicator& comm, const SiteState& state, const sizing::SizeField& size);
+
+  /// The other ranks with tiles that a disc meets, ascending. @pre in a periodic container: the radius below the period
+  std::vector<int> ranks_near(const Disc& disc) const;
+  int owner(geometry::Vec2 p) const { return state_.partition().owner(state_.grid().place(p).tile); }
+
+  /// @brief The sites in each disc, at the images that lie there, in no particular order; of more than `most` in a disc
+  /// only some, but more than `most`. Collective.
+  std::vector<std::vector<PatchSite>> around(std::span<const Disc> discs, std::size_t most) const;
+
+  /// Carries out edits in canonical places, with the boundary's indices as they are now: what concerns the owned
+  /// sites. Collective, throws on all ranks together if the size field does.
+  void apply(std::span<const SiteEdit> edits);
+
+  /// Whether nothing helps at an owned site.
+  void set_rest(geometry::Vec2 p, bool rests);
+
+  /// The state with all edits. @param new_index of the boundary's sites. Collective.
+  void finish(SiteState& state, std::span<const LocalIndex> new_index) const;
+
+private:
+  struct Added {
+    geometry::Vec2 position;
+    double size;
+    std::int32_t boundary;
+    LocalIndex origin; // index of the owned site that it was, -1 if new here
+    bool rests = false;
+  };
+  enum class Fate : std::uint8_t { gone, in_place, rests };
+  template <class Visit>
+  void for_each_tile(const Disc& disc, const Visit& visit) const;
+  void collect(const Disc& disc, std::size_t most, std::vector<PatchSite>& sites) const;
+  LocalIndex find_in_state(geometry::Vec2 p) const;
+  Added& find_added(geometry::Vec2 p);
+  LocalIndex take_out(geometry::Vec2 p);
+  std::vector<Added>& added_in(LocalIndex tile) {
+    return added_[static_cast<std::size_t>(tile - state_.points().first_tile())];
+  }
+  const std::vector<Added>& added_in(LocalIndex tile) const {
+    return added_[static_cast<std::size_t>(tile - state_.points().first_tile())];
+  }
+
+  const comm::Communicator& comm_;
+  const SiteState& state_;
+  const sizing::SizeField& size_;
+  std::vector<Fate> fates_;               // by owned site
+  std::vector<std::vector<Added>> added_; // by owned tile
+};
+
+} // namespace trime::meshing
