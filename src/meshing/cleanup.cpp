@@ -24,7 +24,8 @@ constexpr int contender_cell = 2; // log2 of a cell's width, in once to twice h
 constexpr std::size_t most_collected = 20000;
 constexpr int narrowings = 5;
 constexpr double narrowing_factor = 0.75;
-constexpr double reserved = 0.001; // of the sites
+constexpr double reserved = 0.004;    // of the sites
+constexpr GlobalId most_refined = 40; // sites, by one patch
 constexpr int stages = 3;
 constexpr GlobalId least_budget = 10;  // of sites, for a patch, if there are so many
 constexpr double largest_loss = 0.005; // of the sites
@@ -179,9 +180,10 @@ void Cleanup::find_tolerances(std::span<const LocalIndex> boundary_sites) {
   });
 }
 
-/// For more sites. A few are kept for the last stages.
+/// For more sites. Some are kept for places where nothing but smaller triangles helps.
 GlobalId Cleanup::room() const {
-  const GlobalId reserve = stage_ > 1 ? 0 : 1 + static_cast<GlobalId>(reserved * static_cast<double>(most_sites_));
+  const GlobalId reserve =
+      stage_ == stages ? 0 : 1 + static_cast<GlobalId>(reserved * static_cast<double>(most_sites_));
   return most_sites_ - sites_ - reserve;
 }
 
@@ -194,7 +196,11 @@ PatchBudget Cleanup::budget(std::size_t own_patches) const {
   const GlobalId spare = sites_ - least_sites_;
   const bool crowded = static_cast<double>(room()) < scarcity * static_cast<double>(most_sites_);
   const bool scarce = static_cast<double>(sites_) < (1 - scarcity) * static_cast<double>(wanted_sites_);
-  return {share(room()), share(spare), stage_ > 1, crowded ? handicap_if_crowded : scarce ? handicap_if_scarce : 1};
+  const GlobalId may_refine = std::min(most_refined, most_sites_ - sites_);
+  return {share(room()), may_refine, share(spare), stage_ > 1,
+          crowded  ? handicap_if_crowded
+          : scarce ? handicap_if_scarce
+                   : 1};
 }
 
 std::vector<PatchResult> Cleanup::try_patches(std::span<const Contender> chosen) {
@@ -250,8 +256,8 @@ void Cleanup::keep_within_limits(std::span<const Contender> chosen, std::vector<
       if (sign * gain_of(results[k].edits) > 0 && !(chosen[k].order < threshold))
         results[k] = {{}, {}, 0, true};
   };
-  if (gains[0] - gains[1] > std::max<GlobalId>(0, room()))
-    limit(1, std::max<GlobalId>(0, room()) + gains[1]);
+  if (const GlobalId most = std::max<GlobalId>(0, most_sites_ - sites_); gains[0] - gains[1] > most)
+    limit(1, most + gains[1]);
   else if (gains[1] - gains[0] > sites_ - least_sites_)
     limit(-1, sites_ - least_sites_ + gains[0]);
 }

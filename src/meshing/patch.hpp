@@ -75,6 +75,7 @@ struct PatchOptions {
 /// What a patch may do with the number of sites.
 struct PatchBudget {
   GlobalId may_insert = 100; ///< so many more than it deletes
+  GlobalId may_refine = 100; ///< the same where smaller triangles are the last resort
   GlobalId may_delete = 2;
   bool is_again = false;        ///< whether the patch has been tried before
   double deletion_handicap = 1; ///< factor on the sum of a trial with fewer sites: above 1 if sites are scarce
@@ -86,7 +87,7 @@ struct PatchBudget {
 ///
 /// An operation counts as better if the sum over the triangles near it of (alpha - 1)^2, bad ones weighing more, falls
 /// by 2 % at least and the largest alpha does not rise; one with smaller triangles if the largest alpha falls by a
-/// tenth of its excess. Moves lower the StarEnergy of one site after the other by Newton steps.
+/// twentieth of its excess. Moves lower the StarEnergy of one site after the other by Newton steps.
 /// Nobody enters the diametral disc of a boundary segment, and no segment comes to stand for a curve that leaves its
 /// disc, or that turns by more than 60 degrees and strays by more than the tolerance. Only + - * / sqrt and exact
 /// predicates inside: a pure function of the sites.
@@ -188,7 +189,7 @@ private:
   Score score_near(const Patch& patch) const;
   void list_operations(const Contest& contest);
   void list_at_boundary(const Contest& contest);
-  bool is_within(const PatchBudget& budget) const;
+  bool is_within(GlobalId may_insert, const PatchBudget& budget) const;
   bool apply(const Operation& operation);
   bool remove(LocalIndex v);
   bool insert(geometry::Vec2 place);
@@ -203,6 +204,7 @@ private:
   void try_refining(const PatchBudget& budget, Contest& contest);
   bool refine(const Corners& worst);
   bool divide_where_encroached();
+  bool is_behind(LocalIndex v);
 
   const BoundarySites& boundary_;
   const BoundaryCurve& curve_;

@@ -21,7 +21,7 @@ constexpr double score_reach = 4.4;                      // h: triangles of site
 constexpr double most_off_middle = 0.3;                  // of a chord, where it is divided
 constexpr double push_share = 0.6;                       // of a chord: how far from its middle an insertion keeps
 constexpr double bent_at_first = 1.01, bent_at_last = 1.25, bend_alpha = 1.1; // see patch_moves.cpp
-constexpr double refine_alpha = 1.3, refine_gain = 0.1;                       // of the excess of alpha
+constexpr double refine_alpha = 1.3, refine_gain = 0.05;                      // of the excess of alpha
 constexpr int refine_sweeps = 20;
 constexpr LocalIndex most_refined = 40; // new sites on the boundary
 constexpr std::size_t few_finalists = 2;
@@ -183,10 +183,10 @@ void PatchOptimizer::list_at_boundary(const Contest& contest) {
 }
 
 /// Has the trial a number of sites that is allowed?
-bool PatchOptimizer::is_within(const PatchBudget& budget) const {
+bool PatchOptimizer::is_within(GlobalId may_insert, const PatchBudget& budget) const {
   const GlobalId removed = std::count(trial_.role.begin(), trial_.role.end(), Role::gone);
   const GlobalId gain = trial_.mesh.vertices() - start_.mesh.vertices() - removed;
-  return gain <= budget.may_insert && -gain <= budget.may_delete;
+  return gain <= may_insert && -gain <= budget.may_delete;
 }
 
 /// Carries it out on the trial. @return false if it cannot be done
@@ -329,7 +329,7 @@ void PatchOptimizer::try_everything(const PatchBudget& budget, Contest& contest)
   for (const Operation& operation : operations_) {
     trial_ = now_;
     const double handicap = operation.inserts() ? 1 : budget.deletion_handicap;
-    if (apply(operation) && is_within(budget))
+    if (apply(operation) && is_within(budget.may_insert, budget))
       enter_finals(begin_trial(handicap, contest), handicap, places);
   }
   for (Finalist& finalist : finalists_)
@@ -340,7 +340,7 @@ void PatchOptimizer::try_everything(const PatchBudget& budget, Contest& contest)
 /// Smaller triangles where nothing else helps: more of them, so their largest alpha decides and not the sum.
 void PatchOptimizer::try_refining(const PatchBudget& budget, Contest& contest) {
   trial_ = now_;
-  if (!refine(contest.corners) || !is_within(budget))
+  if (!refine(contest.corners) || !is_within(std::max(budget.may_insert, budget.may_refine), budget))
     return;
   for (int sweep = 0; sweep < refine_sweeps; ++sweep)
     relax_near(trial_, near_);
@@ -375,9 +375,22 @@ bool PatchOptimizer::refine(const Corners& worst) {
   }
   if (!divide_where_encroached())
     return false;
-  for (const Vec2 middle : middles)
-    insert(middle); // where there is room
+  for (const Vec2 middle : middles) // where there is room
+    if (insert(middle) && is_behind(trial_.mesh.vertices() - 1) && !remove(trial_.mesh.vertices() - 1))
+      return false;
   return true;
+}
+
+/// Does the vertex lie outside, beyond a chord of the trial? So may the middle of an edge when the boundary comes
+/// nearer to its curve.
+bool PatchOptimizer::is_behind(LocalIndex v) {
+  trial_.mesh.collect_ring(v, ring_);
+  for (std::size_t k = 0; k < ring_.size(); ++k) {
+    const LocalIndex from = ring_[k], to = ring_[k + 1 == ring_.size() ? 0 : k + 1];
+    if (from >= PatchMesh::frame && to >= PatchMesh::frame && trial_.is_chord(to, from))
+      return true;
+  }
+  return false;
 }
 
 /// Divides chords with a vertex of the boundary in their discs.

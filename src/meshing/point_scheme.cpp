@@ -10,6 +10,7 @@
 namespace trime::meshing {
 namespace {
 
+constexpr double pieces_share = 0.1; // points for the clean-up, of the pieces of the boundary
 constexpr double row_height = 0.8660254037844386;
 constexpr double growth = 1.6; // of the number of points by one insertion
 constexpr int most_insertions = 64;
@@ -26,9 +27,21 @@ PointScheme::PointScheme(const LayoutContext& context) : context_(context), opti
   choose();
 }
 
+/// Points that are left to the clean-up, for smaller triangles where the boundary is ragged: a share of the number of
+/// its pieces, and of the points at most.
+GlobalId PointScheme::reserve() const {
+  constexpr double most = 0.004;
+  double pieces = 0;
+  for (const geometry::Loop& loop : context_.boundary.loops)
+    pieces += static_cast<double>(loop.pieces.size());
+  if (!options_.points || !options_.cleanup)
+    return 0;
+  return static_cast<GlobalId>(std::fmin(most * static_cast<double>(*options_.points), pieces_share * pieces));
+}
+
 double PointScheme::expected_points() const {
   if (options_.points)
-    return static_cast<double>(*options_.points);
+    return static_cast<double>(*options_.points - reserve());
   const double h = *options_.edge_length, area = context_.boundary.area;
   return std::max(3.0, area / (row_height * h * h) + 0.5 * context_.boundary.length() / h);
 }
@@ -165,7 +178,7 @@ Layout PointScheme::divide(const Layout& previous) {
   std::vector<mesh::Site> sites = split_edges(old);
   clear_strip(layout, sites);
   if (options_.points && is_last()) {
-    const std::int64_t most = std::max<std::int64_t>(0, *options_.points - layout.placed_first());
+    const std::int64_t most = std::max<std::int64_t>(0, *options_.points - reserve() - layout.placed_first());
     trim(comm, layout, most, sites);
     const std::int64_t missing = most - comm.sum(static_cast<std::int64_t>(sites.size()));
     if (shortage_.empty() && static_cast<double>(missing) > small_shortage * static_cast<double>(*options_.points))

@@ -37,6 +37,7 @@ private:
   enum class Kind { lattice, hilbert, coarse_to_fine, insertion };
 
   void choose();
+  GlobalId reserve() const;
   double expected_points() const;
   Layout first_of_lattice();
   Layout first_of_insertion();
