@@ -47,6 +47,7 @@ public:
     }
     settle();
     clean_up();
+    settle(); // chords that the clean-up has moved, where sizes are steep
     complete_stars();
     return extract();
   }

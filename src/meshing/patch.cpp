@@ -192,11 +192,12 @@ bool PatchOptimizer::chords_hold(const Patch& patch) const {
       const Vec2 a = patch.mesh.position(forward ? from : to), b = patch.mesh.position(forward ? to : from);
       if (forward && first.changed && !stands_for_curve(first, patch.boundary[at(to)], {a, b}, patch.size[at(from)]))
         return false;
-      if (apex < PatchMesh::frame)
+      if (apex < PatchMesh::frame ||
+          !(first.changed || has_moved(apex))) // near the rim, not all that lies between is known
         continue;
       if (backward && !patch.on_boundary(apex))
         return false;
-      if ((first.changed || has_moved(apex)) && geometry::diametral_side(a, b, patch.mesh.position(apex)) <= 0)
+      if (geometry::diametral_side(a, b, patch.mesh.position(apex)) <= 0)
         return false;
     }
   return missing_chords(patch) <= missing_at_start_;
