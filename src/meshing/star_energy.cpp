@@ -11,7 +11,7 @@ namespace {
 
 constexpr double c = 0.28867513459481287; // 1 / (2 sqrt(3)): eta = c (a^2 + b^2 + c^2) / (2 area)
 
-constexpr double weight_of_bad = 30; // of the fourth power
+constexpr double weight_of_bad = 10; // of the fourth power
 
 /// eta of the triangle p, a, b: (sum of squared edges) / (4 sqrt(3) area); negative if turned over.
 double eta(Vec2 p, Vec2 a, Vec2 b) {
