@@ -10,8 +10,8 @@
 #include "trime/geometry/region.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
 namespace trime::app {
