@@ -9,7 +9,7 @@ constexpr int window = 2 * measuring_interval; // sweeps
 constexpr double median_gain = 0.12, good_median = 0.001;
 /// What these sweeps must gain. A coarse mesh costs little and decides over the order of the finer ones; before an
 /// insertion the order is about to be disturbed anyway.
-constexpr double tolerance_last = 0.048, tolerance_before_insertion = 0.12;
+constexpr double tolerance_last = 0.04, tolerance_before_insertion = 0.12;
 constexpr double tolerance_of_coarse_bars = 0.024, tolerance_of_coarse_cells = 0.012;
 constexpr double patience_of_bars = 0.4; // bars settle more slowly than accelerated Voronoi cells
 /// Triangles gain nearly all in a few sweeps.

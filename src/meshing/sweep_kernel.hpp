@@ -126,5 +126,7 @@ struct SweepKernels {
   QualityKernel measure;
 };
 extern const SweepKernels portable_kernels, avx2_kernels, avx512_kernels;
+/// Those for this machine, see simd_level().
+const SweepKernels& sweep_kernels();
 
 } // namespace trime::meshing

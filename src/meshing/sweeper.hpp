@@ -82,6 +82,9 @@ private:
   void note_pushes();
   void move_and_sort(std::span<const std::uint8_t> deleted);
 
+  /// Sites are sorted again, too, when one may have come that far, in tiles.
+  static constexpr double drift_allowed = 0.25;
+
   /// What a thread collects.
   struct Work {
     std::vector<LocalIndex> suspects, irregular;

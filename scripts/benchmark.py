@@ -1,0 +1,167 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Times whole runs, one program alone or two against each other.
+
+Every case runs `--repeats` times after one run that is dropped; with `--against` the two programs take turns, and the
+ratio is that of their medians. Seconds are those of the program, from the start of main to the end with the file
+written; MPI's own start and end are in the column of the command. "ns" are nanoseconds of all cores per point and
+sweep, for stars, moves, measuring and sorting together. Prints a table in Markdown.
+
+  scripts/benchmark.py                                         # squares of 1e5 and 1e6 points
+  scripts/benchmark.py --data DIR --cases all                  # with DIR/poker.xy and DIR/north_america.xy
+  scripts/benchmark.py --against ../old/trime_mpi --cases "square 1e5"
+  scripts/benchmark.py --gmsh --cases "square 1e5"             # Gmsh's Frontal-Delaunay of as many vertices beside it
+"""
+import argparse
+import os
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+from quality_table import COAST, POKER, automatic
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+SQUARE = "[shape]\nregion = domain\n"
+CASES = {
+    "square 1e4": (SQUARE, 10_000),
+    "square 1e5": (SQUARE, 100_000),
+    "square 1e6": (SQUARE, 1_000_000),
+    "square 1e7": (SQUARE, 10_000_000),
+    "poker 1e5": (POKER + automatic(0.1), 100_000),
+    "coast 2e4": (COAST + automatic(0.2), 20_000),
+    "coast 1e6": (COAST + automatic(0.2), 1_000_000),
+}
+SWEEPING = ("stars", "measure", "sweeps", "sort", "move")
+
+
+def text_of(pattern, report, what):
+    found = re.search(pattern, report, re.MULTILINE)
+    if not found:
+        sys.exit(f"benchmark.py: no {what} in the report of the program:\n{report}")
+    return found.groups()
+
+
+def run(program, config, points, threads, directory, overrides):
+    """One run: its figures by name."""
+    file = directory / "case.ini"
+    file.write_text(f"{config}[meshing]\npoints = {points}\n[output]\ndirectory = {directory}\nname = m\n"
+                    "overwrite = true\n", encoding="utf-8")
+    begun = time.perf_counter()
+    done = subprocess.run([str(program), str(file), *overrides], capture_output=True, text=True, check=False,
+                          env=os.environ | {"OMP_NUM_THREADS": str(threads)})
+    command = time.perf_counter() - begun
+    if done.returncode != 0:
+        sys.exit(f"benchmark.py: {program} ended with {done.returncode}:\n{done.stdout}{done.stderr}")
+    report = done.stdout
+    phases = {name.strip(): float(mean) for name, mean in
+              re.findall(r"^  ([a-z][a-z -]*?) +[\d.]+ +([\d.]+) +[\d.]+ +[\d.]+ %$", report, re.MULTILINE)}
+    made, = text_of(r"^(\d+) points, \d+ triangles", report, "number of points")
+    sweeps, = text_of(r"^Stopped after (\d+) sweeps", report, "number of sweeps")
+    mean, worst = text_of(r"^  alpha +[\d.]+ +([\d.]+) +([\d.]+)", report, "quality")
+    return {"seconds": float(text_of(r"^  total +([\d.]+)", report, "time")[0]), "command": command,
+            "points": int(made), "sweeps": int(sweeps), "mean": float(mean), "worst": float(worst),
+            "bytes": float(text_of(r"([\d.]+) bytes per point", report, "memory")[0]), "phases": phases,
+            "sweeping": sum(phases.get(name, 0.0) for name in SWEEPING)}
+
+
+def median_of(runs):
+    middle = dict(runs[-1])
+    for name in ("seconds", "command", "sweeping"):
+        middle[name] = statistics.median(one[name] for one in runs)
+    middle["phases"] = {name: statistics.median(one["phases"].get(name, 0.0) for one in runs)
+                        for name in runs[-1]["phases"]}
+    return middle
+
+
+def gmsh_run(points):
+    """Seconds and largest alpha of Gmsh's Frontal-Delaunay for about as many vertices on the unit square."""
+    import gmsh  # pylint: disable=import-outside-toplevel
+    import numpy  # pylint: disable=import-outside-toplevel
+    gmsh.initialize(["gmsh", "-nopopup"], interruptible=False)
+    gmsh.option.setNumber("General.Verbosity", 0)
+    size = (1 / (0.8660254 * points)) ** 0.5
+    gmsh.model.occ.addRectangle(0, 0, 0, 1, 1)
+    gmsh.model.occ.synchronize()
+    for name, value in (("Mesh.Algorithm", 6), ("Mesh.MeshSizeMin", size), ("Mesh.MeshSizeMax", size)):
+        gmsh.option.setNumber(name, value)
+    begun = time.perf_counter()
+    gmsh.model.mesh.generate(2)
+    seconds = time.perf_counter() - begun
+    tags, places, _ = gmsh.model.mesh.getNodes()
+    index = numpy.zeros(int(tags.max()) + 1, dtype=int)
+    index[tags] = numpy.arange(len(tags))
+    _, corners = gmsh.model.mesh.getElementsByType(2)
+    p = places.reshape(-1, 3)[:, :2][index[corners].reshape(-1, 3)]
+    gmsh.finalize()
+    a, b, c = (numpy.hypot(*(p[:, k] - p[:, (k + 1) % 3]).T) for k in range(3))
+    area = 0.5 * numpy.abs(numpy.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]))
+    alpha = a * b * c * (a + b + c) / (16 * area ** 2)
+    return {"seconds": seconds, "points": len(tags), "mean": float(alpha.mean()), "worst": float(alpha.max())}
+
+
+def row(name, who, result, threads, note=""):
+    share = {key: 100 * value / result["seconds"] for key, value in result["phases"].items()}
+    setup = sum(share.get(key, 0.0) for key in ("shape", "size field", "boundary", "start"))
+    per_sweep = 1e9 * threads * result["sweeping"] / result["points"] / max(1, result["sweeps"])
+    print(f"| {name} | {who} | {result['points']} | {result['seconds']:.3f} | {result['command']:.3f} "
+          f"| {result['points'] / result['seconds']:.3g} | {result['sweeps']} | {per_sweep:.0f} | {setup:.0f} % "
+          f"| {share.get('clean-up', 0.0):.0f} % | {share.get('extract', 0.0):.0f} % | {share.get('output', 0.0):.0f} % "
+          f"| {result['bytes']:.0f} | {result['mean']:.4f} | {result['worst']:.3f} | {note} |", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "release" / "trime_mpi")
+    parser.add_argument("--against", type=pathlib.Path, help="another build of the program")
+    parser.add_argument("--gmsh", action="store_true", help="square cases: Gmsh beside it (Debian: python3-gmsh)")
+    parser.add_argument("--data", type=pathlib.Path, help="directory with poker.xy and north_america.xy")
+    parser.add_argument("--cases", default="square 1e5,square 1e6", help="comma-separated, or all; " + ", ".join(CASES))
+    parser.add_argument("--repeats", type=int, default=5)
+    parser.add_argument("--threads", type=int, default=os.cpu_count())
+    parser.add_argument("overrides", nargs="*", help="section.key=value")
+    arguments = parser.parse_args()
+    names = list(CASES) if arguments.cases == "all" else [name.strip() for name in arguments.cases.split(",")]
+    for name in names:
+        if name not in CASES:
+            parser.error(f"there is no case '{name}'; known: {', '.join(CASES)}")
+        if "{data}" in CASES[name][0] and not arguments.data:
+            parser.error(f"'{name}' needs --data")
+    programs = [("this", arguments.program)] + ([("other", arguments.against)] if arguments.against else [])
+    for _, program in programs:
+        if not program.is_file():
+            parser.error(f"{program} is not there; --program names another one")
+    print("| case | program | points | seconds | command | points/s | sweeps | ns | set-up | clean-up | extract | output "
+          "| bytes/point | mean | max alpha | |\n" + "|---" * 16 + "|")
+    for name in names:
+        config, points = CASES[name]
+        if arguments.data:
+            config = config.replace("{data}", str(arguments.data.resolve()))
+        runs = {who: [] for who, _ in programs}
+        others = []
+        with tempfile.TemporaryDirectory(prefix="trime-benchmark-") as work:
+            for repeat in range(arguments.repeats + 1):
+                for who, program in programs:
+                    result = run(program.resolve(), config, points, arguments.threads, pathlib.Path(work),
+                                 arguments.overrides)
+                    if repeat > 0:
+                        runs[who].append(result)
+                if arguments.gmsh and config == SQUARE and repeat > 0:
+                    others.append(gmsh_run(runs["this"][-1]["points"]))
+        ours = median_of(runs["this"])
+        row(name, "this", ours, arguments.threads)
+        if arguments.against:
+            theirs = median_of(runs["other"])
+            row(name, "other", theirs, arguments.threads, f"takes {theirs['seconds'] / ours['seconds']:.2f} times as long")
+        if others:
+            seconds = statistics.median(one["seconds"] for one in others)
+            print(f"| {name} | Gmsh Frontal-Delaunay | {others[-1]['points']} | {seconds:.3f} " + "| " * 10 +
+                  f"| {others[-1]['mean']:.4f} | {others[-1]['worst']:.3f} | takes {seconds / ours['seconds']:.1f} times "
+                  "as long |", flush=True)
+
+
+if __name__ == "__main__":
+    main()

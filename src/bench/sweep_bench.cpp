@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The passes of a sweep over a relaxed mesh where nothing changes any more: certified update and move, and the quality,
+// for each kind of processor. Arguments: number of points; rule (0 bars, 1 cells, 2 triangles).
+#include "bench/bench_points.hpp"
+#include "meshing/sweep_kernel.hpp"
+#include "trime/core/simd_level.hpp"
+#include "trime/delaunay/star_builder.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+
+namespace trime::bench {
+namespace {
+
+using meshing::SiteClass;
+using meshing::SweepKernels;
+using meshing::SweepTask;
+
+/// A jittered lattice with its stars.
+struct Stage {
+  explicit Stage(const benchmark::State& state)
+      : n(state.range(0)), grid(unit_square, {{}, {}, spacing_of(n)}), points(grid), lattice(unit_square),
+        sizes(spacing_of(n)) {
+    points.assign_owned(jittered_lattice(n, 0.15), 0, grid.tile_count());
+    std::vector<std::uint8_t> bits;
+    for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile)
+      bits.push_back(static_cast<std::uint8_t>(points.suitable_bin_bits(tile)));
+    grid.set_bin_bits(bits);
+    points.assign_owned(jittered_lattice(n, 0.15), 0, grid.tile_count());
+    stars.reset(points.owned());
+    std::vector<mesh::BinRef> missing;
+    delaunay::StarBuilder(lattice, 2.5, 1).update(points, stars, sizes, {}, missing);
+    points.prepare_advance();
+    for (LocalIndex i = 0; i < points.owned(); ++i) {
+      const auto ring = stars.ring(i);
+      classes.push_back(ring.size() < 3 || ring.size() > 8 || std::ranges::find(ring, delaunay::gap) != ring.end()
+                            ? SiteClass::held
+                            : SiteClass::local);
+    }
+    task.positions = points.positions().data();
+    task.leads = points.leads().data();
+    task.rings = stars.all_slots();
+    task.degrees = stars.degrees();
+    task.classes = classes.data();
+    task.uniform_size = sizes[0];
+    task.next_positions = points.next_positions().data();
+    task.next_leads = points.next_leads().data();
+    task.rule.kind = static_cast<meshing::RuleParameters::Kind>(state.range(1));
+    task.rule.length_scale = 1.2;
+    task.rule.momentum = 0.5;
+    task.lattice_step = lattice.step();
+    task.inverse_lattice_step = lattice.inverse_step();
+    task.box = unit_square;
+    task.cap_factor = 2.5;
+  }
+
+  std::int64_t n;
+  mesh::TileGrid grid;
+  mesh::BinnedPoints points;
+  geometry::Lattice lattice;
+  mesh::LocalSizes sizes;
+  delaunay::StarTable stars;
+  std::vector<SiteClass> classes;
+  SweepTask task;
+};
+
+void per_point(benchmark::State& state, double points) {
+  state.counters["ns_per_point"] =
+      benchmark::Counter(points * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void certify_and_move(benchmark::State& state, const SweepKernels& kernels) {
+  Stage stage(state);
+  std::vector<LocalIndex> suspects(static_cast<std::size_t>(stage.points.owned())), irregular(suspects.size());
+  for (auto _ : state)
+    for (LocalIndex tile = 0; tile < stage.grid.tile_count(); ++tile) {
+      const auto [begin, end] = stage.points.tile_range(tile);
+      meshing::SweepLeftovers leftovers{suspects.data(), irregular.data()};
+      benchmark::DoNotOptimize(kernels.sweep(stage.task, begin, end, leftovers));
+    }
+  per_point(state, static_cast<double>(stage.points.owned()));
+}
+
+void measure(benchmark::State& state, const SweepKernels& kernels) {
+  Stage stage(state);
+  constexpr LocalIndex most = 1024;
+  std::vector<double> excesses(8 * most);
+  for (auto _ : state)
+    for (LocalIndex begin = 0; begin < stage.points.owned(); begin += most)
+      benchmark::DoNotOptimize(kernels.measure(stage.task, begin, std::min(stage.points.owned(), begin + most),
+                                               1 / stage.sizes[0], excesses.data()));
+  per_point(state, static_cast<double>(stage.points.owned()));
+}
+
+[[maybe_unused]] const bool registered = [] {
+  struct Level {
+    const char* name;
+    SimdLevel level;
+    const SweepKernels* kernels;
+  };
+  std::vector<Level> levels{{"portable", SimdLevel::portable, &meshing::portable_kernels}};
+#if defined(__x86_64__)
+  levels.push_back({"avx2", SimdLevel::avx2, &meshing::avx2_kernels});
+  levels.push_back({"avx512", SimdLevel::avx512, &meshing::avx512_kernels});
+#endif
+  for (const Level& level : levels) {
+    if (level.level > simd_level())
+      continue;
+    const SweepKernels& kernels = *level.kernels;
+    auto* sweep = benchmark::RegisterBenchmark((std::string("certify_and_move/") + level.name).c_str(),
+                                               [&kernels](benchmark::State& s) { certify_and_move(s, kernels); });
+    sweep->ArgNames({"points", "rule"})->Unit(benchmark::kMillisecond)->UseRealTime();
+    for (const std::int64_t n : {100000, 1000000})
+      for (const std::int64_t rule : {0, 1, 2})
+        sweep->Args({n, rule});
+    benchmark::RegisterBenchmark((std::string("measure_quality/") + level.name).c_str(),
+                                 [&kernels](benchmark::State& s) { measure(s, kernels); })
+        ->ArgNames({"points", "rule"})
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime()
+        ->Args({1000000, 1});
+  }
+  return true;
+}();
+
+} // namespace
+} // namespace trime::bench
