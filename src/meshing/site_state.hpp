@@ -52,6 +52,8 @@ public:
 
   /// @brief Fetches the ghosts and evaluates h at sites that moved; part of compute_stars. Collective.
   void refresh(const sizing::SizeField& size);
+  /// h is evaluated anew at the next move, also of sites that stay: theirs may be older than their place.
+  void forget_sizes() { sizes_.forget(); }
   /// @brief Moves the owned sites to BinnedPoints::next_positions, without sorting. The ghosts follow on their way:
   /// nothing about them may be asked until finish_advance. Collective. @pre no periods
   /// @param drift bound on how far any site of any rank has come since sites were sorted

@@ -267,6 +267,7 @@ void Sweeper::move_and_sort(std::span<const std::uint8_t> deleted) {
     }
   });
   const std::vector<std::uint8_t> none(deleted.empty() ? sites.size() : 0, 0);
+  state_.forget_sizes();
   state_.move_sites(sites, deleted.empty() ? std::span(none) : deleted);
   state_.refresh(context_.size);
   drift_ = drift_in_sizes_ = 0;
