@@ -77,30 +77,33 @@ def median_of(runs):
     return middle
 
 
-def gmsh_run(points):
-    """Seconds and largest alpha of Gmsh's Frontal-Delaunay for about as many vertices on the unit square."""
-    import gmsh  # pylint: disable=import-outside-toplevel
-    import numpy  # pylint: disable=import-outside-toplevel
-    gmsh.initialize(["gmsh", "-nopopup"], interruptible=False)
-    gmsh.option.setNumber("General.Verbosity", 0)
+def gmsh_run(points, directory):
+    """Seconds (meshing alone) and quality of Gmsh's Frontal-Delaunay for about as many vertices on the unit square."""
     size = (1 / (0.8660254 * points)) ** 0.5
-    gmsh.model.occ.addRectangle(0, 0, 0, 1, 1)
-    gmsh.model.occ.synchronize()
-    for name, value in (("Mesh.Algorithm", 6), ("Mesh.MeshSizeMin", size), ("Mesh.MeshSizeMax", size)):
-        gmsh.option.setNumber(name, value)
-    begun = time.perf_counter()
-    gmsh.model.mesh.generate(2)
-    seconds = time.perf_counter() - begun
-    tags, places, _ = gmsh.model.mesh.getNodes()
-    index = numpy.zeros(int(tags.max()) + 1, dtype=int)
-    index[tags] = numpy.arange(len(tags))
-    _, corners = gmsh.model.mesh.getElementsByType(2)
-    p = places.reshape(-1, 3)[:, :2][index[corners].reshape(-1, 3)]
-    gmsh.finalize()
-    a, b, c = (numpy.hypot(*(p[:, k] - p[:, (k + 1) % 3]).T) for k in range(3))
-    area = 0.5 * numpy.abs(numpy.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]))
-    alpha = a * b * c * (a + b + c) / (16 * area ** 2)
-    return {"seconds": seconds, "points": len(tags), "mean": float(alpha.mean()), "worst": float(alpha.max())}
+    (directory / "g.geo").write_text(f"h = {size!r};\nPoint(1) = {{0, 0, 0, h}};\nPoint(2) = {{1, 0, 0, h}};\n"
+                                     "Point(3) = {1, 1, 0, h};\nPoint(4) = {0, 1, 0, h};\nLine(1) = {1, 2};\n"
+                                     "Line(2) = {2, 3};\nLine(3) = {3, 4};\nLine(4) = {4, 1};\n"
+                                     "Curve Loop(1) = {1, 2, 3, 4};\nPlane Surface(1) = {1};\n", encoding="utf-8")
+    done = subprocess.run(["gmsh", "-2", "-v", "4", "-algo", "front2d", "-format", "msh22", "-o", directory / "g.msh",
+                           directory / "g.geo"], capture_output=True, text=True, check=True)
+    seconds = float(text_of(r"Done meshing 2D \(Wall ([\d.e-]+)s", done.stdout, "time of Gmsh")[0])
+    lines = (directory / "g.msh").read_text(encoding="ascii").split("\n")
+    start = lines.index("$Nodes") + 2
+    place = {}
+    for line in lines[start:start + int(lines[start - 1])]:
+        tag, x, y, _ = line.split()
+        place[tag] = complex(float(x), float(y))
+    start = lines.index("$Elements") + 2
+    alphas = []
+    for line in lines[start:start + int(lines[start - 1])]:
+        entry = line.split()
+        if entry[1] != "2":
+            continue
+        p, q, r = (place[tag] for tag in entry[-3:])
+        a, b, c = abs(p - q), abs(q - r), abs(r - p)
+        twice_area = ((q - p).conjugate() * (r - p)).imag
+        alphas.append(a * b * c * (a + b + c) / (4 * twice_area * twice_area))
+    return {"seconds": seconds, "points": len(place), "mean": statistics.fmean(alphas), "worst": max(alphas)}
 
 
 def row(name, who, result, threads, note=""):
@@ -117,7 +120,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "release" / "trime_mpi")
     parser.add_argument("--against", type=pathlib.Path, help="another build of the program")
-    parser.add_argument("--gmsh", action="store_true", help="square cases: Gmsh beside it (Debian: python3-gmsh)")
+    parser.add_argument("--gmsh", action="store_true", help="square cases: Gmsh beside it (Debian: gmsh)")
     parser.add_argument("--data", type=pathlib.Path, help="directory with poker.xy and north_america.xy")
     parser.add_argument("--cases", default="square 1e5,square 1e6", help="comma-separated, or all; " + ", ".join(CASES))
     parser.add_argument("--repeats", type=int, default=5)
@@ -150,7 +153,7 @@ def main():
                     if repeat > 0:
                         runs[who].append(result)
                 if arguments.gmsh and config == SQUARE and repeat > 0:
-                    others.append(gmsh_run(runs["this"][-1]["points"]))
+                    others.append(gmsh_run(runs["this"][-1]["points"], pathlib.Path(work)))
         ours = median_of(runs["this"])
         row(name, "this", ours, arguments.threads)
         if arguments.against:

@@ -72,9 +72,9 @@ def run(program, directory, name, config, points, method, overrides):
         found = dict(group.attrs)
         found.update({key: value for key, value in group["quality"].attrs.items()})
         stages = group["history/stage"][:]
-        points_of_sweep = group["history/points"][:]
-        found["final_sweeps"] = int((stages == stages.max()).sum()) - 1
-        found["all_points_sweeps"] = points_of_sweep[1:].sum() / max(1, int(found["points"]))
+        sweeps, points_of_sweep = group["history/sweep"][:], group["history/points"][:]
+        found["final_sweeps"] = int(sweeps[-1] - sweeps[stages == stages.max()][0])
+        found["all_points_sweeps"] = ((sweeps[1:] - sweeps[:-1]) * points_of_sweep[1:]).sum() / max(1, int(found["points"]))
     return found
 
 
