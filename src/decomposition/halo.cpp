@@ -4,7 +4,6 @@
 #include "trime/core/error.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace trime::decomposition {
 namespace {

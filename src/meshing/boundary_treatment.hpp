@@ -25,8 +25,8 @@ struct Treated {
 };
 
 /// @brief The step of a rule, capped at 0.4 h (the lead gives way first), snapped, kept inside and out of the discs: an
-/// offender is pushed; it is to be deleted once it has been pushed as often as is allowed, and goes to where it were
-/// pushed until it is.
+/// offender is pushed; once it has been pushed as often as is allowed it is to be deleted, and goes where a push would
+/// take it until that happens.
 Treated treat_step(const MoveContext& context, const mesh::TileGrid& grid, const mesh::Site& site, double h, Step step,
                    int pushes_allowed);
 constexpr int pushes_allowed = 3;

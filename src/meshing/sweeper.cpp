@@ -51,7 +51,7 @@ void Sweeper::mark(std::vector<LocalIndex>& sites, std::vector<LocalIndex>& list
 /// Certifies the suspects, then what they have changed beside them, until nothing changes; they are added to checked_.
 /// Returns how many stars miss a bin: they become the suspects of the next call.
 std::int64_t Sweeper::certify_suspects() {
-  std::vector<LocalIndex> affected, next, uncertain;
+  std::vector<LocalIndex> affected, uncertain;
   missing_.clear();
   while (!suspects_.empty()) { // every site is looked at once at most
     affected.clear();
@@ -236,8 +236,10 @@ Sweeper::Counts Sweeper::commit() {
   const bool new_sizes = ++age_of_sizes_ >= sweeps_of_a_size;
   state_.begin_advance(context_.size, drift_, new_sizes);
   under_way_ = true;
-  if (new_sizes)
+  if (new_sizes) {
     age_of_sizes_ = 0;
+    all_awake_ = all_awake_ || !state_.sizes().is_uniform(); // h has changed where nothing moves, too
+  }
   sorted_ = false;
   return counts_;
 }

@@ -17,9 +17,9 @@ using geometry::Vec2;
 namespace {
 
 constexpr double spacing_share = 0.35;  // of the local feature size: largest distance of samples with medial points
-constexpr double envelope_error = 0.03; // of the field between two samples, as a share of it
+constexpr double envelope_error = 0.02; // of the field between two samples, as a share of it
 constexpr double nearest_slack = 1e-3;  // of local feature sizes: all balls of a polygon like a disc have one centre
-constexpr double thinning_error = 0.02; // of the field, for leaving out samples much like the one before
+constexpr double thinning_error = 0.01; // of the field, for leaving out samples much like the one before
 constexpr int first_samples = 32;       // along a line as long as the container
 constexpr int most_rounds = 40;
 

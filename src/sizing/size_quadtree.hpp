@@ -25,7 +25,7 @@ public:
     double least_side; ///< smaller cells are not split
   };
   /// Largest error of a cell at the middles of its edges and in its centre, as a share of the value.
-  static constexpr double tolerance = 0.03;
+  static constexpr double tolerance = 0.01;
   /// The longer side of the box has so many blocks, each of them a quadtree of its own.
   static constexpr int blocks_along = 64;
   static constexpr int most_levels = 20; ///< below a block

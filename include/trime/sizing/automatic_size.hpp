@@ -33,10 +33,10 @@ class SizeQuadtree;
 /// corners; samples are as dense as the local feature size asks.
 ///
 /// The field is kept in a quadtree: exact values at the corners of a cell, bilinear inside, cells split until the
-/// interpolant is within 3 % at the middles of edges and cells. K is the exact bound of s, and of the values at
+/// interpolant is within 1 % at the middles of edges and cells. K is the exact bound of s, and of the values at
 /// corners: |s(a) - s(b)| <= K |a - b|. It is not one of the interpolant: inside a cell either component of its
 /// gradient is at most K, so that the gradient can be up to sqrt(2) K long, along a diagonal (in practice a little
-/// above K), and where cells of different size meet the field may jump, by that 3 % twice.
+/// above K), and where cells of different size meet the field may jump, by that 1 % twice.
 class AutomaticSize final : public SizeField {
 public:
   /// @brief O(n log n + cells) for n boundary samples; work is shared by ranks and threads, the result is the same bits

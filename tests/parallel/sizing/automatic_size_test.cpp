@@ -162,7 +162,7 @@ TEST(AutomaticSize, IsNeverBelowTheFeatureFloor) {
   const AutomaticSize field = make(boundary, options(0.2, 0.01));
   EXPECT_GE(field.least(), 0.01);
   EXPECT_NEAR(field.least(), 0.01, 1e-4);
-  EXPECT_NEAR(field.size({0.4, 0.5}), 0.01, 4e-4);
+  EXPECT_NEAR(field.size({0.4, 0.5}), 0.01, 2e-4);
   EXPECT_NEAR(field.size({0.3, 0.5}), 0.01 + 0.2 * 0.1, 5e-4);
 }
 
