@@ -53,9 +53,10 @@ void ConeTree::sort(std::size_t node, std::size_t first_leaf, std::size_t last_l
 }
 
 /// Roots are taken for those cones only that are lower than all before; the nearer box comes first.
-double ConeTree::value(Vec2 p, double bound, double slack) const {
+ConeTree::Found ConeTree::find(Vec2 p, double bound, double slack) const {
+  Found found{bound, cones_.size()};
   if (cones_.empty())
-    return bound;
+    return found;
   // Squared distance within which a cone of this height is lower than the bound; negative if none is.
   const auto squared_reach = [this](double height, double below) {
     const double reach = (below - height) * inverse_slope_;
@@ -71,13 +72,14 @@ double ConeTree::value(Vec2 p, double bound, double slack) const {
   stack[size++] = {1, nodes_[1].box.squared_distance(p)};
   while (size > 0) {
     const Entry entry = stack[--size];
-    if (entry.squared_distance >= squared_reach(nodes_[entry.node].least, bound * share))
+    if (entry.squared_distance >= squared_reach(nodes_[entry.node].least, found.value * share))
       continue;
     if (entry.node >= leaves_) {
       const std::size_t leaf = entry.node - leaves_, last = first_of(leaf + 1);
       for (std::size_t k = first_of(leaf); k < last; ++k)
-        if (squared_length(p - cones_[k].apex) < squared_reach(cones_[k].height, bound))
-          bound = std::min(bound, cones_[k].value(p, slope_));
+        if (squared_length(p - cones_[k].apex) < squared_reach(cones_[k].height, found.value))
+          if (const double value = cones_[k].value(p, slope_); value < found.value)
+            found = {value, k};
       continue;
     }
     Entry near{2 * entry.node, nodes_[2 * entry.node].box.squared_distance(p)};
@@ -87,7 +89,16 @@ double ConeTree::value(Vec2 p, double bound, double slack) const {
     stack[size++] = far;
     stack[size++] = near;
   }
-  return bound;
+  return found;
+}
+
+double ConeTree::value(Vec2 p, double bound, double slack) const {
+  return find(p, bound, slack).value;
+}
+
+LocalIndex ConeTree::lowest(Vec2 p, double bound) const {
+  const std::size_t cone = find(p, bound, 0).cone;
+  return cone < cones_.size() ? static_cast<LocalIndex>(cone) : -1;
 }
 
 void ConeTree::collect(Vec2 p, double bound, std::vector<LocalIndex>& found) const {

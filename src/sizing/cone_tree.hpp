@@ -31,6 +31,17 @@ public:
   /// @param slack share by which the answer may be too high, for points that are nearly as near to many cones
   double value(geometry::Vec2 p, double bound = std::numeric_limits<double>::infinity(), double slack = 0) const;
 
+  /// The index of the cone that is lowest at p, below `bound`; -1 if there is none.
+  LocalIndex lowest(geometry::Vec2 p, double bound) const;
+
+  /// Calls visit(index) for the cones, in the order of the tree, without those below nodes with skip(box, least): box
+  /// of their apexes, least of their heights.
+  template <class Skip, class Visit>
+  void visit_unless(const Skip& skip, const Visit& visit) const {
+    if (!cones_.empty())
+      visit_unless(1, skip, visit);
+  }
+
   /// Appends to `found` the indices of all cones whose value at p is at most `bound`, in the order of the tree.
   void collect(geometry::Vec2 p, double bound, std::vector<LocalIndex>& found) const;
 
@@ -45,6 +56,23 @@ private:
 
     double lower_bound(geometry::Vec2 p, double slope) const;
   };
+  template <class Skip, class Visit>
+  void visit_unless(std::size_t node, const Skip& skip, const Visit& visit) const {
+    if (skip(nodes_[node].box, nodes_[node].least))
+      return;
+    if (node < leaves_) {
+      visit_unless(2 * node, skip, visit);
+      visit_unless(2 * node + 1, skip, visit);
+    } else {
+      for (std::size_t k = first_of(node - leaves_); k < first_of(node - leaves_ + 1); ++k)
+        visit(static_cast<LocalIndex>(k));
+    }
+  }
+  struct Found {
+    double value;
+    std::size_t cone; ///< how many there are if none is lower
+  };
+  Found find(geometry::Vec2 p, double bound, double slack) const;
   std::size_t first_of(std::size_t leaf) const { return cones_.size() * leaf / leaves_; }
   void sort(std::size_t node, std::size_t first_leaf, std::size_t last_leaf);
 

@@ -12,8 +12,8 @@ using geometry::Vec2;
 namespace {
 
 constexpr double half_diagonal = 0.70710678118654757; // of a unit square
-constexpr double rounding = 1 + 1e-12;
-constexpr int row = 3; // points of a row of the 3 x 3 of a cell
+constexpr double rounding = 1 + 1e-12;                // of distances
+constexpr int row = 3;                                // points of a row of the 3 x 3 of a cell
 constexpr std::array<int, 4> corners{0, 2, 6, 8};
 
 /// Corners of a quarter of a cell among the points of the cell.
@@ -51,92 +51,138 @@ CellPart CellBuilder::build(const CellPlace& place, std::int64_t columns, std::i
   return std::move(part_);
 }
 
-/// Candidates of a group of blocks.
+void CellBuilder::Level::reserve(std::size_t cones) {
+  if (cones <= capacity)
+    return;
+  capacity = 2 * cones;
+  numbers.resize(capacity * (points + 3));
+}
+
+/// The cones of a group of blocks.
 void CellBuilder::collect(const CellPlace& place) {
-  const Vec2 middle = grid_.corner({place.level + 1, 2 * place.i + 1, 2 * place.j + 1});
-  const double low = source_.cones.value(middle, source_.cap);
+  constexpr int along = 4; // points where the lowest cones are sought: between the blocks
+  std::array<Vec2, 4> ends;
+  for (int k = 0; k < 4; ++k)
+    ends[k] = grid_.corner({place.level, place.i + (k & 1), place.j + (k >> 1)});
+  struct Winner {
+    std::array<double, 4> distance; // times the slope, from the corners
+    double height;
+    LocalIndex index;
+  };
+  std::vector<Winner> winners;
+  const auto cones = source_.cones.cones();
+  for (int j = 0; j <= along; ++j)
+    for (int i = 0; i <= along; ++i) {
+      const double x = ends[0].x + (ends[3].x - ends[0].x) * i / along,
+                   y = ends[0].y + (ends[3].y - ends[0].y) * j / along;
+      const LocalIndex index = source_.cones.lowest({x, y}, std::numeric_limits<double>::infinity());
+      if (index < 0 || std::any_of(winners.begin(), winners.end(), [&](const Winner& w) { return w.index == index; }))
+        continue;
+      Winner winner{{}, cones[index].height, index};
+      for (int k = 0; k < 4; ++k)
+        winner.distance[k] = source_.slope * length(ends[k] - cones[index].apex) * rounding;
+      winners.push_back(winner);
+    }
+  const auto covered = [&](const std::array<double, 4>& squared, double height) {
+    std::array<double, 4> distance;
+    for (int k = 0; k < 4; ++k)
+      distance[k] = source_.slope * std::sqrt(squared[k]);
+    return std::any_of(winners.begin(), winners.end(), [&](const Winner& w) {
+      const double higher = std::max(0.0, w.height - height);
+      return w.distance[0] + higher <= distance[0] && w.distance[1] + higher <= distance[1] &&
+             w.distance[2] + higher <= distance[2] && w.distance[3] + higher <= distance[3];
+    });
+  };
+  const auto from_box = [&](const Box& apexes, double least) {
+    return covered({apexes.squared_distance(ends[0]), apexes.squared_distance(ends[1]),
+                    apexes.squared_distance(ends[2]), apexes.squared_distance(ends[3])},
+                   least);
+  };
   found_.clear();
-  source_.cones.collect(middle, (low + 2 * half_diagonal * grid_.side_at(place.level) * source_.slope) * rounding,
-                        found_);
+  source_.cones.visit_unless(from_box, [&](LocalIndex k) { found_.push_back(k); });
   Level& level = level_of(place);
-  Candidates& cones = level.cones;
-  cones.x.clear();
-  cones.y.clear();
-  cones.height.clear();
+  level.reserve(found_.size());
+  level.count = 0;
   for (const LocalIndex k : found_) {
-    const Cone& cone = source_.cones.cones()[k];
-    cones.x.push_back(cone.apex.x);
-    cones.y.push_back(cone.apex.y);
-    cones.height.push_back(cone.height);
+    const Cone& cone = cones[k];
+    level.x()[level.count] = cone.apex.x;
+    level.y()[level.count] = cone.apex.y;
+    level.height()[level.count++] = cone.height;
   }
   for (int k = 0; k < 4; ++k)
-    evaluate(level, corners[k], grid_.corner({place.level, place.i + (k & 1), place.j + (k >> 1)}));
-  evaluate(level, center, middle);
+    evaluate(level, corners[k], ends[k]);
+  evaluate(level, center, grid_.corner({place.level + 1, 2 * place.i + 1, 2 * place.j + 1}));
 }
 
 void CellBuilder::evaluate(Level& level, int point, Vec2 p) const {
-  const std::size_t count = level.cones.size();
-  std::vector<double>& at = level.cones.at[point];
-  at.resize(count);
-  const double* const x = level.cones.x.data();
-  const double* const y = level.cones.y.data();
-  const double* const height = level.cones.height.data();
+  double* const at = level.at(point);
+  const double* const x = level.x();
+  const double* const y = level.y();
+  const double* const height = level.height();
   const double slope = source_.slope;
-  for (std::size_t k = 0; k < count; ++k)
+  for (std::size_t k = 0; k < level.count; ++k)
     at[k] = slope * geometry::length({p.x - x[k], p.y - y[k]}) + height[k];
-  const auto lowest = std::min_element(at.begin(), at.end());
-  level.lowest[point] = static_cast<std::size_t>(lowest - at.begin());
-  level.low[point] = lowest == at.end() ? source_.cap : std::min(source_.cap, *lowest);
+  find_lowest(level, point);
 }
 
-void CellBuilder::pass_on(const Level& level, int quarter, Level& below) {
-  const Candidates& cones = level.cones;
-  const std::size_t count = cones.size();
-  const std::array<int, 4> from = corners_of_quarter(quarter);
-  const double* const height = cones.height.data();
-  const std::array<const double*, 4> at{cones.at[from[0]].data(), cones.at[from[1]].data(), cones.at[from[2]].data(),
-                                        cones.at[from[3]].data()};
-  covered_.assign(count, 0);
-  const std::array<int, 5> winners_at{from[0], from[1], from[2], from[3], first_quarter + quarter};
-  for (std::size_t n = 0; n < winners_at.size() && count > 0; ++n) {
-    const std::size_t winner = level.lowest[winners_at[n]];
-    if (std::any_of(winners_at.begin(), winners_at.begin() + n,
-                    [&](int before) { return level.lowest[before] == winner; }))
-      continue;
-    const double v0 = at[0][winner], v1 = at[1][winner], v2 = at[2][winner], v3 = at[3][winner];
-    const double own = height[winner];
-    const char before = covered_[winner];
-    char* const covered = covered_.data();
-    for (std::size_t k = 0; k < count; ++k) {
-      const double higher = std::max(0.0, height[k] - own);
-      covered[k] |=
-          static_cast<char>(static_cast<int>(v0 + higher <= at[0][k]) & static_cast<int>(v1 + higher <= at[1][k]) &
-                            static_cast<int>(v2 + higher <= at[2][k]) & static_cast<int>(v3 + higher <= at[3][k]));
+void CellBuilder::find_lowest(Level& level, int point) const {
+  const double* const at = level.at(point);
+  double low = std::numeric_limits<double>::infinity();
+  std::size_t lowest = 0;
+  for (std::size_t k = 0; k < level.count; ++k)
+    if (at[k] < low) {
+      low = at[k];
+      lowest = k;
     }
-    covered_[winner] = before;
+  level.lowest[point] = lowest;
+  level.low[point] = std::min(low, source_.cap);
+}
+
+/// Marks what a cone covers in a cell, or would if all others were higher by their slack.
+void CellBuilder::cover(Level& level, const std::array<int, 4>& at, std::size_t by, const double* slack) {
+  const double* const height = level.height();
+  const double *const at0 = level.at(at[0]), *const at1 = level.at(at[1]), *const at2 = level.at(at[2]),
+                      *const at3 = level.at(at[3]);
+  const double v0 = at0[by], v1 = at1[by], v2 = at2[by], v3 = at3[by];
+  const double own = height[by];
+  const std::int64_t before = covered_[by];
+  std::int64_t* const covered = covered_.data();
+  for (std::size_t k = 0; k < level.count; ++k) {
+    const double difference = own - height[k];
+    double lower = difference < 0 ? difference : 0;
+    if (slack != nullptr)
+      lower = lower < slack[k] ? slack[k] : lower;
+    const bool all =
+        (v0 <= at0[k] + lower) & (v1 <= at1[k] + lower) & (v2 <= at2[k] + lower) & (v3 <= at3[k] + lower);
+    covered[k] |= all ? 1 : 0;
   }
-  Candidates& kept = below.cones;
-  kept.x.clear();
-  kept.y.clear();
-  kept.height.clear();
-  const std::array<int, 5> to{corners[0], corners[1], corners[2], corners[3], center};
-  for (int n = 0; n < 5; ++n) {
-    kept.at[to[n]].clear();
-    below.low[to[n]] = level.low[winners_at[n]];
+  covered_[by] = before;
+}
+
+void CellBuilder::pass_on(Level& level, int quarter, Level& below) {
+  const std::array<int, 4> ends = corners_of_quarter(quarter);
+  const std::array<int, 5> from{ends[0], ends[1], ends[2], ends[3], first_quarter + quarter};
+  constexpr std::array<int, 5> to{corners[0], corners[1], corners[2], corners[3], center};
+  covered_.assign(level.count, 0);
+  for (std::size_t n = 0; n < from.size() && level.count > 1; ++n) {
+    const std::size_t by = level.lowest[from[n]];
+    if (std::none_of(from.begin(), from.begin() + n, [&](int before) { return level.lowest[before] == by; }))
+      cover(level, ends, by, nullptr);
   }
-  for (std::size_t k = 0; k < count; ++k) {
+  below.reserve(level.count);
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < level.count; ++k) {
     if (covered_[k] != 0)
       continue;
     for (int n = 0; n < 5; ++n)
-      kept.at[to[n]].push_back(cones.at[winners_at[n]][k]);
-    kept.x.push_back(cones.x[k]);
-    kept.y.push_back(cones.y[k]);
-    kept.height.push_back(height[k]);
+      below.at(to[n])[count] = level.at(from[n])[k];
+    below.x()[count] = level.x()[k];
+    below.y()[count] = level.y()[k];
+    below.height()[count++] = level.height()[k];
   }
-  for (int n = 0; n < 5; ++n) {
-    const std::vector<double>& values = kept.at[to[n]];
-    below.lowest[to[n]] = static_cast<std::size_t>(std::min_element(values.begin(), values.end()) - values.begin());
-  }
+  below.count = count;
+  for (const int point : to)
+    find_lowest(below, point);
 }
 
 void CellBuilder::evaluate_inside(Level& level, const CellPlace& place) const {
@@ -173,16 +219,14 @@ CellNode CellBuilder::build_cell(const CellPlace& place) {
   Level& level = level_of(place);
   const double side = grid_.side_at(place.level);
   const double least = std::min({level.low[0], level.low[2], level.low[6], level.low[8]});
-  // No point of the cell is farther from its nearest corner than half the diagonal.
-  if (source_.slope * half_diagonal * side <= limits_.tolerance * least)
+  const double change = source_.slope * half_diagonal * side; // to the nearest corner at most
+  if (change <= limits_.tolerance * least)
     return bilinear_leaf(level);
-  if (level.cones.size() <= limits_.most_cones && is_low(level))
+  if (choose_cones(level, place, limits_.tolerance * (least - change)) && is_low(level))
     return cones_leaf(level, place);
   if (side <= source_.least_side || place.level >= limits_.most_levels)
     return bilinear_leaf(level);
   evaluate_inside(level, place);
-  if (is_smooth(level))
-    return bilinear_leaf(level);
   const auto node = static_cast<CellNode>(quarters_.size());
   quarters_.emplace_back();
   for (int k = 0; k < 4; ++k) {
@@ -192,6 +236,41 @@ CellNode CellBuilder::build_cell(const CellPlace& place) {
     quarters_[node][k] = quarter;
   }
   return node;
+}
+
+/// A few cones that are together higher by `slack` at most than all: those that are the lowest at the corners first,
+/// so that the field is exact there.
+bool CellBuilder::choose_cones(Level& level, const CellPlace& place, double slack) {
+  chosen_.clear();
+  covered_.assign(level.count, 0);
+  const Box cell = grid_.box(place);
+  const double bend = 0.25 * source_.slope * cell.width() * cell.width();
+  slack_.resize(level.count);
+  for (std::size_t k = 0; k < level.count; ++k) {
+    const double distance = std::sqrt(cell.squared_distance({level.x()[k], level.y()[k]}));
+    slack_[k] = distance > 0 ? slack - bend / distance : -1e300;
+  }
+  const auto choose = [&](std::size_t cone) {
+    if (std::find(chosen_.begin(), chosen_.end(), cone) != chosen_.end())
+      return;
+    chosen_.push_back(cone);
+    cover(level, corners, cone, slack_.data());
+  };
+  for (const int point : corners)
+    choose(level.lowest[point]);
+  const double* const at = level.at(center);
+  while (chosen_.size() <= limits_.most_cones) {
+    for (const std::size_t k : chosen_)
+      covered_[k] = 1;
+    std::size_t next = level.count;
+    for (std::size_t k = 0; k < level.count; ++k)
+      if (covered_[k] == 0 && (next == level.count || at[k] < at[next]))
+        next = k;
+    if (next == level.count)
+      return true;
+    choose(next);
+  }
+  return false;
 }
 
 CellNode CellBuilder::bilinear_leaf(const Level& level) {
@@ -205,51 +284,26 @@ CellNode CellBuilder::bilinear_leaf(const Level& level) {
   return CellLeaf::bilinear(first).node();
 }
 
-CellNode CellBuilder::cones_leaf(const Level& level, const CellPlace& place) {
-  const Candidates& cones = level.cones;
-  const std::size_t first = part_.numbers.size(), count = cones.size();
-  for (std::size_t k = 0; k < count; ++k)
-    part_.numbers.insert(part_.numbers.end(), {cones.x[k], cones.y[k], cones.height[k]});
-  const auto lowest_at = [&](Vec2 p) {
-    return lowest_cone(&part_.numbers[first], count, p, source_.slope, source_.cap);
-  };
-  const Box cell = grid_.box(place);
-  part_.least = std::min(part_.least, lowest_at(lowest_point(&part_.numbers[first], count, cell, source_.slope)));
+CellNode CellBuilder::cones_leaf(Level& level, const CellPlace& place) {
+  const std::size_t first = part_.numbers.size(), count = chosen_.size();
+  for (const std::size_t k : chosen_)
+    part_.numbers.insert(part_.numbers.end(), {level.x()[k], level.y()[k], level.height()[k]});
+  const double* const cones = &part_.numbers[first];
+  const Vec2 lowest = lowest_point(cones, count, grid_.box(place), source_.slope);
+  part_.least = std::min(part_.least, lowest_cone(cones, count, lowest, source_.slope, source_.cap));
   for (const int corner : corners) {
-    const auto at = cones.at[corner].begin();
-    const double value = std::min(source_.cap, *std::min_element(at, at + static_cast<std::ptrdiff_t>(count)));
-    part_.least = std::min(part_.least, value);
-    part_.largest = std::max(part_.largest, value);
+    part_.least = std::min(part_.least, level.low[corner]);
+    part_.largest = std::max(part_.largest, level.low[corner]);
   }
   ++part_.leaves;
   return CellLeaf::with_cones(first, count).node();
 }
 
 /// Cones are highest at corners of the cell, but between them the field can be higher than at all its corners.
-bool CellBuilder::is_low(const Level& level) const {
-  const auto& at = level.cones.at;
-  for (std::size_t k = 0; k < level.cones.size(); ++k)
-    if (std::max({at[0][k], at[2][k], at[6][k], at[8][k]}) <= limits_.highest)
-      return true;
-  return source_.cap <= limits_.highest;
-}
-
-/// A ridge between cones may pass by the middles of edges and cell, so that the quarters are asked too.
-bool CellBuilder::is_smooth(const Level& level) const {
-  const auto& low = level.low;
-  const auto within = [&](int point, double interpolated) {
-    return std::fabs(low[point] - interpolated) <= limits_.tolerance * low[point];
-  };
-  if (!(within(center, 0.25 * (low[0] + low[2] + low[6] + low[8])) && within(1, 0.5 * (low[0] + low[2])) &&
-        within(7, 0.5 * (low[6] + low[8])) && within(3, 0.5 * (low[0] + low[6])) && within(5, 0.5 * (low[2] + low[8]))))
-    return false;
-  for (int k = 0; k < 4; ++k) {
-    const double x = (k & 1) != 0 ? 0.75 : 0.25, y = (k >> 1) != 0 ? 0.75 : 0.25;
-    const double below = low[0] + x * (low[2] - low[0]), above = low[6] + x * (low[8] - low[6]);
-    if (!within(first_quarter + k, below + y * (above - below)))
-      return false;
-  }
-  return true;
+bool CellBuilder::is_low(Level& level) const {
+  return source_.cap <= limits_.highest || std::any_of(chosen_.begin(), chosen_.end(), [&](std::size_t k) {
+           return std::max({level.at(0)[k], level.at(2)[k], level.at(6)[k], level.at(8)[k]}) <= limits_.highest;
+         });
 }
 
 /// Joins each node of the plain quadtree of a block with its children.

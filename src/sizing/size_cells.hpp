@@ -94,52 +94,57 @@ struct CellPart {
 /// @brief Builds groups of blocks, top down. Every cell passes on to its quarters only those cones that can be the
 /// lowest somewhere in them, so that lists are short and no tree of cones is asked again.
 ///
-/// A cone is left out of a cell if one that is lowest at a corner or in the centre of the cell is lower everywhere in
-/// it. That shows at the corners alone: where |x - a| - |x - b| >= c is convex for c >= 0 (one side of a branch of a
-/// hyperbola). For c < 0 it is asked with 0, which is more.
+/// A cone a covers a cone b in a cell if it is lower everywhere in it. That shows at the corners alone: where
+/// |x - b| - |x - a| >= c is convex for c >= 0 (one side of a branch of a hyperbola). For c < 0 it is asked with 0,
+/// which is more.
 class CellBuilder {
 public:
   struct Limits {
-    double tolerance; ///< largest error of a bilinear cell at the points where it is checked, as a share of the value
+    double tolerance; ///< largest error of a cell, as a share of the value
     int most_levels;  ///< below a block; even
     std::size_t most_cones;
     double highest; ///< what cells of cones must not exceed
   };
   CellBuilder(const SizeSource& source, const CellGrid& grid, const Limits& limits)
-      : source_(source), grid_(grid), limits_(limits), levels_(static_cast<std::size_t>(limits.most_levels) + 8) {}
+      : source_(source), grid_(grid), limits_(limits), levels_(static_cast<std::size_t>(limits.most_levels) + top) {}
 
   /// The blocks of the cell, of level <= 0. Those in columns and rows from `columns` and `rows` on are left out.
   CellPart build(const CellPlace& place, std::int64_t columns, std::int64_t rows);
 
 private:
-  /// Points of a cell at which the cones are evaluated: 3 x 3 row by row, then the centres of the quarters.
+  static constexpr int top = 8; ///< no group is larger than a cell of level -8
+  /// Points of a cell at which cones are evaluated: 3 x 3 row by row, then the centres of the quarters.
   static constexpr int points = 13, center = 4, first_quarter = 9;
-  /// The cones that may be the lowest in a cell.
-  struct Candidates {
-    std::vector<double> x, y, height;
-    std::array<std::vector<double>, points> at; ///< values
-    std::size_t size() const { return x.size(); }
-  };
-  /// The cell of a level that is being built.
+  /// The cell of a level that is being built, with the cones that may be the lowest in it, as arrays side by side.
   struct Level {
-    Candidates cones;
+    std::size_t count = 0, capacity = 0;
+    std::vector<double> numbers;
     std::array<double, points> low{};         ///< values of the field
-    std::array<std::size_t, points> lowest{}; ///< which candidate it is
+    std::array<std::size_t, points> lowest{}; ///< which cone it is
+
+    void reserve(std::size_t cones);
+    double* array(int k) { return &numbers[capacity * static_cast<std::size_t>(k)]; }
+    double* x() { return array(points); }
+    double* y() { return array(points + 1); }
+    double* height() { return array(points + 2); }
+    double* at(int point) { return array(point); } ///< values of the cones
   };
   /// Of a plain quadtree; two levels at once come later.
   using Quarters = std::array<CellNode, 4>;
 
-  Level& level_of(const CellPlace& place) { return levels_[static_cast<std::size_t>(place.level + 8)]; }
-  void evaluate(Level& level, int point, geometry::Vec2 p) const;
+  Level& level_of(const CellPlace& place) { return levels_[static_cast<std::size_t>(place.level + top)]; }
   void collect(const CellPlace& place);
-  void pass_on(const Level& level, int quarter, Level& below);
+  void evaluate(Level& level, int point, geometry::Vec2 p) const;
+  void find_lowest(Level& level, int point) const;
   void evaluate_inside(Level& level, const CellPlace& place) const;
+  void cover(Level& level, const std::array<int, 4>& corners, std::size_t by, const double* slack);
+  void pass_on(Level& level, int quarter, Level& below);
   void build_blocks(const CellPlace& place);
   CellNode build_cell(const CellPlace& place);
+  bool choose_cones(Level& level, const CellPlace& place, double slack);
   CellNode bilinear_leaf(const Level& level);
-  CellNode cones_leaf(const Level& level, const CellPlace& place);
-  bool is_low(const Level& level) const;
-  bool is_smooth(const Level& level) const;
+  CellNode cones_leaf(Level& level, const CellPlace& place);
+  bool is_low(Level& level) const;
   CellNode in_pairs(CellNode node);
 
   const SizeSource& source_;
@@ -147,8 +152,10 @@ private:
   Limits limits_;
   std::vector<Level> levels_;
   std::vector<Quarters> quarters_;
-  std::vector<char> covered_;
+  std::vector<std::int64_t> covered_; ///< of the cones of a cell: not 0 if another covers it
+  std::vector<double> slack_;
   std::vector<LocalIndex> found_;
+  std::vector<std::size_t> chosen_; ///< cones of a leaf
   CellPart part_;
   std::int64_t first_column_ = 0, first_row_ = 0, columns_ = 0, rows_ = 0; ///< of blocks
 };
