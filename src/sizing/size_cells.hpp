@@ -2,6 +2,7 @@
 // The cells of a quadtree of the size field: how they are stored, and how those of some blocks are built.
 #pragma once
 
+#include "sizing/cone_kernel.hpp"
 #include "sizing/cone_tree.hpp"
 
 #include <array>
@@ -27,6 +28,8 @@ struct SizeSource {
 struct CellPlace {
   int level;
   std::int64_t i, j;
+
+  CellPlace quarter(int k) const { return {level + 1, 2 * i + (k & 1), 2 * j + (k >> 1)}; }
 };
 
 /// Squares over a rectangle, divided by halves. A point has one set of bits as corner of cells of any level.
@@ -91,71 +94,55 @@ struct CellPart {
   double least = std::numeric_limits<double>::infinity(), largest = 0; ///< bounds of the field
 };
 
-/// @brief Builds groups of blocks, top down. Every cell passes on to its quarters only those cones that can be the
-/// lowest somewhere in them, so that lists are short and no tree of cones is asked again.
-///
-/// A cone a covers a cone b in a cell if it is lower everywhere in it. That shows at the corners alone: where
-/// |x - b| - |x - a| >= c is convex for c >= 0 (one side of a branch of a hyperbola). For c < 0 it is asked with 0,
-/// which is more.
+/// Builds groups of blocks, top down. Every cell passes on to its quarters only those cones that can be the lowest
+/// somewhere in them, so that lists are short and no tree of cones is asked again.
 class CellBuilder {
 public:
   struct Limits {
     double tolerance; ///< largest error of a cell, as a share of the value
     int most_levels;  ///< below a block; even
-    std::size_t most_cones;
-    double highest; ///< what cells of cones must not exceed
+    int most_cones;   ///< in a cell
+    double highest;   ///< what cells of cones must not exceed
   };
   CellBuilder(const SizeSource& source, const CellGrid& grid, const Limits& limits)
-      : source_(source), grid_(grid), limits_(limits), levels_(static_cast<std::size_t>(limits.most_levels) + top) {}
+      : source_(source), grid_(grid), limits_(limits), kernel_(cone_kernel(simd_level())),
+        levels_(static_cast<std::size_t>(limits.most_levels) + top) {}
 
   /// The blocks of the cell, of level <= 0. Those in columns and rows from `columns` and `rows` on are left out.
   CellPart build(const CellPlace& place, std::int64_t columns, std::int64_t rows);
 
 private:
   static constexpr int top = 8; ///< no group is larger than a cell of level -8
-  /// Points of a cell at which cones are evaluated: 3 x 3 row by row, then the centres of the quarters.
-  static constexpr int points = 13, center = 4, first_quarter = 9;
-  /// The cell of a level that is being built, with the cones that may be the lowest in it, as arrays side by side.
+  /// The cell of a level that is being built.
   struct Level {
-    std::size_t count = 0, capacity = 0;
-    std::vector<double> numbers;
-    std::array<double, points> low{};         ///< values of the field
-    std::array<std::size_t, points> lowest{}; ///< which cone it is
+    ConeList cones;
+    std::vector<double> numbers; ///< of the cones
 
-    void reserve(std::size_t cones);
-    double* array(int k) { return &numbers[capacity * static_cast<std::size_t>(k)]; }
-    double* x() { return array(points); }
-    double* y() { return array(points + 1); }
-    double* height() { return array(points + 2); }
-    double* at(int point) { return array(point); } ///< values of the cones
+    void reserve(std::int64_t count);
   };
   /// Of a plain quadtree; two levels at once come later.
   using Quarters = std::array<CellNode, 4>;
 
-  Level& level_of(const CellPlace& place) { return levels_[static_cast<std::size_t>(place.level + top)]; }
+  ConeList& cones_of(const CellPlace& place, std::int64_t room = 0);
+  std::array<geometry::Vec2, 4> corners_of(const CellPlace& place) const;
+  CornerValues values(const ConeList& cones) const;
   void collect(const CellPlace& place);
-  void evaluate(Level& level, int point, geometry::Vec2 p) const;
-  void find_lowest(Level& level, int point) const;
-  void evaluate_inside(Level& level, const CellPlace& place) const;
-  void cover(Level& level, const std::array<int, 4>& corners, std::size_t by, const double* slack);
-  void pass_on(Level& level, int quarter, Level& below);
+  void evaluate_inside(ConeList& cones, const CellPlace& place) const;
   void build_blocks(const CellPlace& place);
   CellNode build_cell(const CellPlace& place);
-  bool choose_cones(Level& level, const CellPlace& place, double slack);
-  CellNode bilinear_leaf(const Level& level);
-  CellNode cones_leaf(Level& level, const CellPlace& place);
-  bool is_low(Level& level) const;
+  CellNode bilinear_leaf(const ConeList& cones);
+  CellNode cones_leaf(const ConeList& cones, const CellPlace& place, int count);
+  int choose_cones(const ConeList& cones, const CellPlace& place, double slack);
+  void include_in_range(const CornerValues& corners);
   CellNode in_pairs(CellNode node);
 
   const SizeSource& source_;
   CellGrid grid_;
   Limits limits_;
+  ConeKernel kernel_;
   std::vector<Level> levels_;
   std::vector<Quarters> quarters_;
-  std::vector<std::int64_t> covered_; ///< of the cones of a cell: not 0 if another covers it
-  std::vector<double> slack_;
-  std::vector<LocalIndex> found_;
-  std::vector<std::size_t> chosen_; ///< cones of a leaf
+  ConeChoice choice_;
   CellPart part_;
   std::int64_t first_column_ = 0, first_row_ = 0, columns_ = 0, rows_ = 0; ///< of blocks
 };

@@ -19,8 +19,8 @@ public:
   static constexpr double tolerance = 0.01;
   /// The longer side of the box has so many blocks, each of them a quadtree of its own.
   static constexpr int blocks_along = 64;
-  static constexpr int most_levels = 20;       ///< below a block
-  static constexpr std::size_t most_cones = 8; ///< in a cell that is not split for them
+  static constexpr int most_levels = 20; ///< below a block
+  static constexpr int most_cones = 8;   ///< in a cell that is not split for them
 
   /// @brief Groups of blocks are dealt to the ranks and threads; every rank gets the whole tree. Collective.
   SizeQuadtree(const comm::Communicator& comm, const Source& source);
