@@ -6,6 +6,7 @@
 #include "sizing/shared_work.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace trime::sizing {
@@ -20,7 +21,10 @@ constexpr double spacing_share = 0.35;  // of the local feature size: largest di
 constexpr double envelope_error = 0.02; // of the field between two samples, as a share of it
 constexpr double nearest_slack = 1e-3;  // of local feature sizes: all balls of a polygon like a disc have one centre
 constexpr double thinning_error = 0.01; // of the field, for leaving out samples much like the one before
-constexpr int first_samples = 32;       // along a line as long as the container
+constexpr double first_radius_share = 1.0 / 32; // of the container: first radius that is tried along a run of rays
+constexpr double radius_growth = 1.5;           // from the ball of one ray to the first that the next tries
+constexpr std::size_t ray_run = 64;
+constexpr int first_samples = 32; // along a line as long as the container
 constexpr int most_rounds = 40;
 
 /// All images within reach.
@@ -134,10 +138,17 @@ private:
       Vec2 point;
       bool there;
     };
-    const std::vector<Found> found = compute_shared<Found>(comm_, rays_.size(), [&](std::size_t k) {
-      const std::optional<Vec2> point = medial_point(rays_[k], locator_, images_);
-      return Found{point.value_or(Vec2{}), point.has_value()};
-    });
+    const double first_radius = std::max(floor_, first_radius_share * images_.container().width());
+    const auto find_run = [&](std::size_t first, std::size_t last, Found* found) {
+      std::array<double, 2> radius{first_radius, first_radius}; // to the left and to the right
+      for (std::size_t k = first; k < last; ++k) {
+        double& start = radius[rays_[k].side];
+        const std::optional<Vec2> point = medial_point(rays_[k], locator_, images_, start);
+        start = std::max(floor_, radius_growth * start);
+        *found++ = {point.value_or(Vec2{}), point.has_value()};
+      }
+    };
+    const std::vector<Found> found = compute_shared_runs<Found>(comm_, rays_.size(), ray_run, find_run);
     std::vector<Cone> points = std::move(corners_);
     corners_.clear();
     rays_.clear();
