@@ -13,12 +13,6 @@ using geometry::Vec2;
 
 namespace {
 
-Vec2 nearest_on_segment(Vec2 p, Vec2 a, Vec2 b) {
-  const Vec2 d = b - a;
-  const double along = dot(p - a, d), whole = squared_length(d);
-  return along <= 0 ? a : along >= whole ? b : a + (along / whole) * d;
-}
-
 Vec2 nearest_on_arc(Vec2 p, const Piece& arc) {
   const Vec2 q = p - arc.center;
   const double from_center = geometry::length(q);
@@ -30,7 +24,7 @@ Vec2 nearest_on_arc(Vec2 p, const Piece& arc) {
 } // namespace
 
 PieceLocator::PieceLocator(const geometry::Boundary& boundary, const Images& images) {
-  std::vector<Box> runs;
+  std::vector<Box> boxes;
   for (const geometry::Loop& loop : boundary.loops)
     for (const Piece& piece : loop.pieces)
       if (piece.circular)
@@ -44,32 +38,59 @@ PieceLocator::PieceLocator(const geometry::Boundary& boundary, const Images& ima
         box = {box.min + shift, box.max + shift};
         if (!images.in_reach(box))
           continue;
-        if (items_.size() % run_length == 0)
-          runs.emplace_back();
-        runs.back().include(box.min);
-        runs.back().include(box.max);
+        boxes.push_back(box);
         items_.push_back({piece.start + shift, piece.end + shift, shift, index});
       }
   }
-  std::size_t leaves = 1;
-  while (leaves < runs.size())
-    leaves *= 2;
-  boxes_.resize(2 * leaves);
-  std::copy(runs.begin(), runs.end(), boxes_.begin() + static_cast<std::ptrdiff_t>(leaves));
-  for (std::size_t k = leaves - 1; k >= 1; --k)
-    for (const Box& child : {boxes_[2 * k], boxes_[2 * k + 1]})
-      if (child.min.x <= child.max.x) {
-        boxes_[k].include(child.min);
-        boxes_[k].include(child.max);
-      }
+  for (std::size_t first = 0; first < items_.size(); first += BoxTree::width)
+    add_run(first);
+  tree_ = BoxTree(
+      items_.size(), [&](std::size_t k) { return boxes[k]; }, [](std::size_t) { return 0.0; });
 }
 
-void PieceLocator::visit(std::size_t run, Vec2 p, Best& best) const {
-  const std::size_t last = std::min(items_.size(), (run + 1) * run_length);
-  for (std::size_t k = run * run_length; k < last; ++k) {
+void PieceLocator::add_run(std::size_t first) {
+  Run run{};
+  run.a_x.fill(std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t k = first; k < std::min(items_.size(), first + BoxTree::width); ++k) {
     const Item& item = items_[k];
-    const Vec2 point = item.arc < 0 ? nearest_on_segment(p, item.a, item.b)
-                                    : nearest_on_arc(p - item.shift, arcs_[item.arc]) + item.shift;
+    if (item.arc >= 0) {
+      run.has_arcs = true;
+      continue;
+    }
+    const Vec2 d = item.b - item.a;
+    const double square = squared_length(d);
+    run.a_x[k - first] = item.a.x;
+    run.a_y[k - first] = item.a.y;
+    run.d_x[k - first] = d.x;
+    run.d_y[k - first] = d.y;
+    run.inverse_square[k - first] = square > 0 ? 1 / square : 0;
+  }
+  runs_.push_back(run);
+}
+
+void PieceLocator::visit(std::size_t first, std::size_t last, Vec2 p, Best& best) const {
+  using Lanes = BoxTree::Lanes;
+  const Run& run = runs_[first / BoxTree::width];
+  for (std::size_t k = 0; k < BoxTree::width; k += 2) {
+    const Lanes a_x = BoxTree::load(run.a_x, k), a_y = BoxTree::load(run.a_y, k);
+    const Lanes d_x = BoxTree::load(run.d_x, k), d_y = BoxTree::load(run.d_y, k);
+    const Lanes along = ((p.x - a_x) * d_x + (p.y - a_y) * d_y) * BoxTree::load(run.inverse_square, k);
+    const Lanes positive = along > 0 ? along : Lanes{}, t = positive < 1 ? positive : Lanes{} + 1;
+    const Lanes x = a_x + t * d_x, y = a_y + t * d_y;
+    const Lanes squared = (x - p.x) * (x - p.x) + (y - p.y) * (y - p.y);
+    if (lanes::bits(squared < best.squared_distance) == 0)
+      continue;
+    for (int lane = 0; lane < 2; ++lane)
+      if (squared[lane] < best.squared_distance)
+        best = {{x[lane], y[lane]}, squared[lane]};
+  }
+  if (!run.has_arcs)
+    return;
+  for (std::size_t k = first; k < last; ++k) {
+    const Item& item = items_[k];
+    if (item.arc < 0)
+      continue;
+    const Vec2 point = nearest_on_arc(p - item.shift, arcs_[item.arc]) + item.shift;
     const double distance = squared_length(point - p);
     if (distance < best.squared_distance)
       best = {point, distance};
@@ -77,30 +98,10 @@ void PieceLocator::visit(std::size_t run, Vec2 p, Best& best) const {
 }
 
 std::optional<Vec2> PieceLocator::nearest(Vec2 p, double reach) const {
-  struct Entry {
-    std::size_t node;
-    double squared_distance;
-  };
-  std::array<Entry, 64> stack; // deeper than any tree in memory
-  const std::size_t leaves = boxes_.size() / 2;
   Best best{{}, reach * reach};
-  std::size_t size = 0;
-  stack[size++] = {1, 0.0};
-  while (size > 0) {
-    const Entry entry = stack[--size];
-    if (entry.squared_distance * (1 + 2 * slack) >= best.squared_distance)
-      continue;
-    if (entry.node >= leaves) {
-      visit(entry.node - leaves, p, best);
-      continue;
-    }
-    Entry near{2 * entry.node, boxes_[2 * entry.node].squared_distance(p)};
-    Entry far{2 * entry.node + 1, boxes_[2 * entry.node + 1].squared_distance(p)};
-    if (far.squared_distance < near.squared_distance)
-      std::swap(near, far);
-    stack[size++] = far;
-    stack[size++] = near;
-  }
+  tree_.search(
+      p, [&](BoxTree::Lanes) { return BoxTree::Lanes{} + best.squared_distance * (1 / (1 + 2 * slack)); },
+      [&](std::size_t first, std::size_t last) { visit(first, last, p, best); });
   return best.squared_distance < reach * reach ? std::optional(best.point) : std::nullopt;
 }
 

@@ -2,16 +2,18 @@
 // Nearest point of a boundary and of its periodic images.
 #pragma once
 
+#include "sizing/box_tree.hpp"
 #include "sizing/images.hpp"
 #include "trime/core/types.hpp"
 #include "trime/geometry/boundary.hpp"
 
+#include <array>
 #include <optional>
 #include <vector>
 
 namespace trime::sizing {
 
-/// Boxes around runs of consecutive pieces, in a binary hierarchy. Immutable; queries are thread-safe.
+/// Boxes around runs of consecutive pieces, and around those. Immutable; queries are thread-safe.
 class PieceLocator {
 public:
   /// O(M) time for M pieces.
@@ -23,21 +25,27 @@ public:
   std::optional<geometry::Vec2> nearest(geometry::Vec2 p, double reach) const;
 
 private:
-  static constexpr std::size_t run_length = 4;
   struct Item {
     geometry::Vec2 a, b;  ///< of a segment
     geometry::Vec2 shift; ///< of an arc, already added to a segment
     LocalIndex arc;       ///< into arcs_, or -1 for a segment
   };
+  /// The segments a + t d, 0 <= t <= 1, of a leaf; arcs are marked by NaN.
+  struct alignas(64) Run {
+    std::array<double, BoxTree::width> a_x, a_y, d_x, d_y, inverse_square;
+    bool has_arcs;
+  };
   struct Best {
     geometry::Vec2 point;
     double squared_distance;
   };
-  void visit(std::size_t run, geometry::Vec2 p, Best& best) const;
+  void add_run(std::size_t first);
+  void visit(std::size_t first, std::size_t last, geometry::Vec2 p, Best& best) const;
 
   std::vector<Item> items_;
   std::vector<geometry::Piece> arcs_;
-  std::vector<geometry::Box> boxes_; // heap order: the root is 1; the runs are the leaves
+  std::vector<Run> runs_; // of items
+  BoxTree tree_;
 };
 
 } // namespace trime::sizing
