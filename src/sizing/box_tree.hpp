@@ -117,9 +117,10 @@ void BoxTree::search(geometry::Vec2 p, const Limit& limit, const Visit& visit) c
     const Node& node = levels_[entry.level - 1][entry.node];
     const std::size_t bottom = size;
     for (std::size_t child = 0; child < width; child += 2) {
-      const auto larger = [](Lanes a, Lanes b) { return a > b ? a : b; };
-      const Lanes dx = larger(larger(load(node.min_x, child) - p.x, p.x - load(node.max_x, child)), Lanes{});
-      const Lanes dy = larger(larger(load(node.min_y, child) - p.y, p.y - load(node.max_y, child)), Lanes{});
+      const Lanes dx =
+          lanes::larger(lanes::larger(load(node.min_x, child) - p.x, p.x - load(node.max_x, child)), Lanes{});
+      const Lanes dy =
+          lanes::larger(lanes::larger(load(node.min_y, child) - p.y, p.y - load(node.max_y, child)), Lanes{});
       const Lanes squared = dx * dx + dy * dy, number = load(node.number, child);
       const unsigned near = lanes::bits(squared < limit(number));
       for (unsigned k = 0; k < 2; ++k)
