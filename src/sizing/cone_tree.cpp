@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace trime::sizing {
 
@@ -50,34 +51,25 @@ std::vector<Cone> in_order(const std::vector<Cone>& cones) {
 
 } // namespace
 
-ConeTree::ConeTree(const std::vector<Cone>& cones, double slope)
-    : cones_(in_order(cones)), slope_(slope), inverse_slope_(1 / slope) {
-  tree_ = BoxTree(
-      cones_.size(),
-      [&](std::size_t k) {
-        return geometry::Box{cones_[k].apex, cones_[k].apex};
-      },
-      [&](std::size_t k) { return cones_[k].height; });
+ConeTree::ConeTree(const std::vector<Cone>& cones, double slope) : cones_(in_order(cones)), slope_(slope) {
+  tree_ = BoxTree(cones_.size(), [&](std::size_t k) {
+    return BoxTree::Item{{cones_[k].apex, cones_[k].apex}, cones_[k].height};
+  });
+  ConeLeaf none{};
+  std::fill(std::begin(none.height), std::end(none.height), std::numeric_limits<double>::infinity());
+  leaves_.resize((cones_.size() + BoxTree::width - 1) / BoxTree::width, none);
+  for (std::size_t k = 0; k < cones_.size(); ++k) {
+    ConeLeaf& leaf = leaves_[k / BoxTree::width];
+    leaf.x[k % BoxTree::width] = cones_[k].apex.x;
+    leaf.y[k % BoxTree::width] = cones_[k].apex.y;
+    leaf.height[k % BoxTree::width] = cones_[k].height;
+  }
 }
 
-/// Roots are taken for those cones only that are lower than all before; the nearer box comes first.
-ConeTree::Found ConeTree::find(Vec2 p, double bound, double slack) const {
-  Found found{bound, cones_.size()};
-  const double share = 1 / (1 + slack);
-  // Squared distance within which a cone of this height is lower than the bound; negative if none is.
-  const auto limit = [&](BoxTree::Lanes least) {
-    const BoxTree::Lanes reach = (found.value * share - least) * inverse_slope_;
-    return reach > 0 ? reach * reach : BoxTree::Lanes{} - 1;
-  };
-  tree_.search(p, limit, [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k) {
-      const double reach = (found.value - cones_[k].height) * inverse_slope_;
-      if (reach > 0 && squared_length(p - cones_[k].apex) < reach * reach)
-        if (const double value = cones_[k].value(p, slope_); value < found.value)
-          found = {value, k};
-    }
-  });
-  return found;
+LowestCone ConeTree::find(Vec2 p, double bound, double slack) const {
+  LowestCone lowest{bound, -1};
+  kernel_.lowest(tree_.levels(), leaves_.data(), slope_, p.x, p.y, 1 / (1 + slack), lowest);
+  return lowest;
 }
 
 double ConeTree::value(Vec2 p, double bound, double slack) const {
@@ -85,8 +77,7 @@ double ConeTree::value(Vec2 p, double bound, double slack) const {
 }
 
 LocalIndex ConeTree::lowest(Vec2 p, double bound) const {
-  const std::size_t cone = find(p, bound, 0).cone;
-  return cone < cones_.size() ? static_cast<LocalIndex>(cone) : -1;
+  return static_cast<LocalIndex>(find(p, bound, 0).cone);
 }
 
 void ConeTree::collect(Vec2 p, double bound, std::vector<LocalIndex>& found) const {

@@ -24,7 +24,7 @@ struct Cone {
 class ConeTree {
 public:
   ConeTree() = default;
-  /// O(n log n), about 32 bytes per cone.
+  /// O(n log n), about 60 bytes per cone.
   ConeTree(const std::vector<Cone>& cones, double slope);
 
   /// @brief The least of `bound` and the values of all cones at p. A good bound makes it faster. O(log n) for points
@@ -49,15 +49,13 @@ public:
   std::span<const Cone> cones() const { return cones_; }
 
 private:
-  struct Found {
-    double value;
-    std::size_t cone; ///< how many there are if none is lower
-  };
-  Found find(geometry::Vec2 p, double bound, double slack) const;
+  LowestCone find(geometry::Vec2 p, double bound, double slack) const;
 
-  std::vector<Cone> cones_; // along a Hilbert curve
-  BoxTree tree_;            // of apexes, with heights
-  double slope_ = 1, inverse_slope_ = 1;
+  std::vector<Cone> cones_;      // along a Hilbert curve
+  std::vector<ConeLeaf> leaves_; // the same, eight at a time
+  BoxTree tree_;                 // of apexes, with heights
+  double slope_ = 1;
+  SearchKernel kernel_ = search_kernel(simd_level());
 };
 
 } // namespace trime::sizing

@@ -2,8 +2,9 @@
 #include "sizing/piece_locator.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 namespace trime::sizing {
 
@@ -23,86 +24,56 @@ Vec2 nearest_on_arc(Vec2 p, const Piece& arc) {
 
 } // namespace
 
-PieceLocator::PieceLocator(const geometry::Boundary& boundary, const Images& images) {
-  std::vector<Box> boxes;
-  for (const geometry::Loop& loop : boundary.loops)
-    for (const Piece& piece : loop.pieces)
-      if (piece.circular)
-        arcs_.push_back(piece);
-  for (const Vec2 shift : images.shifts()) {
-    LocalIndex arc = 0;
+PieceLocator::PieceLocator(const geometry::Boundary& boundary, const Images& images)
+    : kernel_(search_kernel(simd_level())) {
+  struct Segment {
+    Vec2 a, b;
+    Box box;
+  };
+  std::vector<Segment> segments;
+  for (const Vec2 shift : images.shifts())
     for (const geometry::Loop& loop : boundary.loops)
       for (const Piece& piece : loop.pieces) {
-        const LocalIndex index = piece.circular ? arc++ : -1;
         Box box = piece.covering_box();
         box = {box.min + shift, box.max + shift};
         if (!images.in_reach(box))
           continue;
-        boxes.push_back(box);
-        items_.push_back({piece.start + shift, piece.end + shift, shift, index});
+        if (piece.circular)
+          arcs_.push_back({piece, shift, box});
+        else
+          segments.push_back({piece.start + shift, piece.end + shift, box});
       }
-  }
-  for (std::size_t first = 0; first < items_.size(); first += BoxTree::width)
-    add_run(first);
-  tree_ = BoxTree(
-      items_.size(), [&](std::size_t k) { return boxes[k]; }, [](std::size_t) { return 0.0; });
-}
-
-void PieceLocator::add_run(std::size_t first) {
-  Run run{};
-  run.a_x.fill(std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t k = first; k < std::min(items_.size(), first + BoxTree::width); ++k) {
-    const Item& item = items_[k];
-    if (item.arc >= 0) {
-      run.has_arcs = true;
-      continue;
-    }
-    const Vec2 d = item.b - item.a;
+  arc_tree_ = BoxTree(arcs_.size(), [&](std::size_t k) { return BoxTree::Item{arcs_[k].box, 0}; });
+  segment_tree_ = BoxTree(segments.size(), [&](std::size_t k) { return BoxTree::Item{segments[k].box, 0}; });
+  SegmentLeaf none{};
+  std::fill(std::begin(none.a_x), std::end(none.a_x), std::numeric_limits<double>::quiet_NaN());
+  segments_.resize((segments.size() + BoxTree::width - 1) / BoxTree::width, none);
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    SegmentLeaf& leaf = segments_[k / BoxTree::width];
+    const std::size_t place = k % BoxTree::width;
+    const Vec2 a = segments[k].a, d = segments[k].b - a;
     const double square = squared_length(d);
-    run.a_x[k - first] = item.a.x;
-    run.a_y[k - first] = item.a.y;
-    run.d_x[k - first] = d.x;
-    run.d_y[k - first] = d.y;
-    run.inverse_square[k - first] = square > 0 ? 1 / square : 0;
-  }
-  runs_.push_back(run);
-}
-
-void PieceLocator::visit(std::size_t first, std::size_t last, Vec2 p, Best& best) const {
-  using Lanes = BoxTree::Lanes;
-  const Run& run = runs_[first / BoxTree::width];
-  for (std::size_t k = 0; k < BoxTree::width; k += 2) {
-    const Lanes a_x = BoxTree::load(run.a_x, k), a_y = BoxTree::load(run.a_y, k);
-    const Lanes d_x = BoxTree::load(run.d_x, k), d_y = BoxTree::load(run.d_y, k);
-    const Lanes along = ((p.x - a_x) * d_x + (p.y - a_y) * d_y) * BoxTree::load(run.inverse_square, k);
-    const Lanes positive = along > 0 ? along : Lanes{}, t = positive < 1 ? positive : Lanes{} + 1;
-    const Lanes x = a_x + t * d_x, y = a_y + t * d_y;
-    const Lanes squared = (x - p.x) * (x - p.x) + (y - p.y) * (y - p.y);
-    if (lanes::bits(squared < best.squared_distance) == 0)
-      continue;
-    for (int lane = 0; lane < 2; ++lane)
-      if (squared[lane] < best.squared_distance)
-        best = {{x[lane], y[lane]}, squared[lane]};
-  }
-  if (!run.has_arcs)
-    return;
-  for (std::size_t k = first; k < last; ++k) {
-    const Item& item = items_[k];
-    if (item.arc < 0)
-      continue;
-    const Vec2 point = nearest_on_arc(p - item.shift, arcs_[item.arc]) + item.shift;
-    const double distance = squared_length(point - p);
-    if (distance < best.squared_distance)
-      best = {point, distance};
+    leaf.a_x[place] = a.x;
+    leaf.a_y[place] = a.y;
+    leaf.d_x[place] = d.x;
+    leaf.d_y[place] = d.y;
+    leaf.inverse_square[place] = square > 0 ? 1 / square : 0;
   }
 }
 
 std::optional<Vec2> PieceLocator::nearest(Vec2 p, double reach) const {
-  Best best{{}, reach * reach};
-  tree_.search(
-      p, [&](BoxTree::Lanes) { return BoxTree::Lanes{} + best.squared_distance * (1 / (1 + 2 * slack)); },
-      [&](std::size_t first, std::size_t last) { visit(first, last, p, best); });
-  return best.squared_distance < reach * reach ? std::optional(best.point) : std::nullopt;
+  constexpr double share = 1 / (1 + 2 * slack);
+  NearestPoint best{0, 0, reach * reach};
+  kernel_.nearest(segment_tree_.levels(), segments_.data(), p.x, p.y, share, best);
+  const auto is_far = [&](const Box& box, double) {
+    return !(box.squared_distance(p) < best.squared_distance * share);
+  };
+  arc_tree_.visit_unless(is_far, [&](std::size_t k) {
+    const Vec2 point = nearest_on_arc(p - arcs_[k].shift, arcs_[k].piece) + arcs_[k].shift;
+    if (const double squared = squared_length(point - p); squared < best.squared_distance)
+      best = {point.x, point.y, squared};
+  });
+  return best.squared_distance < reach * reach ? std::optional(Vec2{best.x, best.y}) : std::nullopt;
 }
 
 } // namespace trime::sizing

@@ -7,7 +7,6 @@
 #include "trime/core/types.hpp"
 #include "trime/geometry/boundary.hpp"
 
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -25,27 +24,17 @@ public:
   std::optional<geometry::Vec2> nearest(geometry::Vec2 p, double reach) const;
 
 private:
-  struct Item {
-    geometry::Vec2 a, b;  ///< of a segment
-    geometry::Vec2 shift; ///< of an arc, already added to a segment
-    LocalIndex arc;       ///< into arcs_, or -1 for a segment
+  /// A circular piece or one of its images.
+  struct Arc {
+    geometry::Piece piece;
+    geometry::Vec2 shift;
+    geometry::Box box;
   };
-  /// The segments a + t d, 0 <= t <= 1, of a leaf; arcs are marked by NaN.
-  struct alignas(64) Run {
-    std::array<double, BoxTree::width> a_x, a_y, d_x, d_y, inverse_square;
-    bool has_arcs;
-  };
-  struct Best {
-    geometry::Vec2 point;
-    double squared_distance;
-  };
-  void add_run(std::size_t first);
-  void visit(std::size_t first, std::size_t last, geometry::Vec2 p, Best& best) const;
-
-  std::vector<Item> items_;
-  std::vector<geometry::Piece> arcs_;
-  std::vector<Run> runs_; // of items
-  BoxTree tree_;
+  std::vector<SegmentLeaf> segments_;
+  BoxTree segment_tree_;
+  std::vector<Arc> arcs_;
+  BoxTree arc_tree_;
+  SearchKernel kernel_;
 };
 
 } // namespace trime::sizing
