@@ -17,6 +17,7 @@ using geometry::Vec2;
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double spacing_share = 0.35;  // of the local feature size: largest distance of samples with medial points
 constexpr double envelope_error = 0.02; // of the field between two samples, as a share of it
 constexpr double nearest_slack = 1e-3;  // of local feature sizes: all balls of a polygon like a disc have one centre
@@ -121,16 +122,22 @@ private:
     if (axis_ends_at(in, out))
       corners_.push_back({images_.wrap(after.start), 0});
     if (with_sample) {
-      samples_.push_back({after.start, unknown_});
+      samples_.push_back({after.start, infinity});
       append_rays(after.start, in, out, rays_);
     }
     return static_cast<LocalIndex>(samples_.size()) - 1;
   }
-  LocalIndex add_sample(const Piece& piece, double along) {
+  LocalIndex add_sample(const Piece& piece, double along, double most = infinity) {
     const Vec2 p = piece.point(along);
-    samples_.push_back({p, unknown_});
+    samples_.push_back({p, most});
     append_rays(p, piece.tangent(along), rays_);
     return static_cast<LocalIndex>(samples_.size()) - 1;
+  }
+
+  /// The local feature size changes by no more than the distance.
+  double upper_bound(const Interval& interval, double along) const {
+    return std::min(samples_[interval.first].height + (along - interval.from),
+                    samples_[interval.last].height + (interval.to - along));
   }
 
   void find_medial_points() {
@@ -163,7 +170,8 @@ private:
     const std::vector<double> sizes = compute_shared<double>(comm_, samples_.size(), [&](std::size_t k) {
       const Vec2 p = images_.wrap(samples_[k].apex);
       double size = samples_[k].height;
-      for (std::size_t tree = k < known_ ? medial_trees_.size() - 1 : 0; tree < medial_trees_.size(); ++tree)
+      std::size_t tree = k < known_ ? medial_trees_.size() - 1 : 0;
+      for (; tree < medial_trees_.size() && size > floor_; ++tree)
         size = medial_trees_[tree].value(p, size, nearest_slack);
       return size;
     });
@@ -181,7 +189,7 @@ private:
         continue;
       }
       const double middle = 0.5 * (interval.from + interval.to);
-      const LocalIndex sample = add_sample(*interval.piece, middle);
+      const LocalIndex sample = add_sample(*interval.piece, middle, upper_bound(interval, middle));
       next.push_back({interval.piece, interval.from, middle, interval.first, sample});
       next.push_back({interval.piece, middle, interval.to, sample, interval.last});
     }
@@ -194,8 +202,10 @@ private:
       const double size = std::max(std::min(samples_[interval.first].height, samples_[interval.last].height), floor_);
       const double length = interval.to - interval.from;
       const double parts = std::ceil(length * slope_ / (2 * envelope_error * size));
-      for (double k = 1; k < parts; ++k)
-        samples_.push_back({interval.piece->point(interval.from + length * (k / parts)), unknown_});
+      for (double k = 1; k < parts; ++k) {
+        const double along = interval.from + length * (k / parts);
+        samples_.push_back({interval.piece->point(along), upper_bound(interval, along)});
+      }
     }
   }
 
@@ -203,7 +213,6 @@ private:
   const geometry::Boundary& boundary_;
   const Images& images_;
   double floor_, slope_;
-  double unknown_ = std::numeric_limits<double>::infinity();
   PieceLocator locator_;
   std::vector<Cone> samples_, corners_;
   std::vector<Interval> intervals_;

@@ -61,9 +61,9 @@ PieceLocator::PieceLocator(const geometry::Boundary& boundary, const Images& ima
   }
 }
 
-std::optional<Vec2> PieceLocator::nearest(Vec2 p, double reach) const {
+std::optional<PieceLocator::Nearest> PieceLocator::nearest(Vec2 p, double reach) const {
   constexpr double share = 1 / (1 + 2 * slack);
-  NearestPoint best{0, 0, reach * reach};
+  NearestPoint best{0, 0, reach * reach, -1};
   kernel_.nearest(segment_tree_.levels(), segments_.data(), p.x, p.y, share, best);
   const auto is_far = [&](const Box& box, double) {
     return !(box.squared_distance(p) < best.squared_distance * share);
@@ -71,9 +71,17 @@ std::optional<Vec2> PieceLocator::nearest(Vec2 p, double reach) const {
   arc_tree_.visit_unless(is_far, [&](std::size_t k) {
     const Vec2 point = nearest_on_arc(p - arcs_[k].shift, arcs_[k].piece) + arcs_[k].shift;
     if (const double squared = squared_length(point - p); squared < best.squared_distance)
-      best = {point.x, point.y, squared};
+      best = {point.x, point.y, squared, -1};
   });
-  return best.squared_distance < reach * reach ? std::optional(Vec2{best.x, best.y}) : std::nullopt;
+  if (!(best.squared_distance < reach * reach))
+    return std::nullopt;
+  const Vec2 point{best.x, best.y};
+  if (best.segment < 0)
+    return Nearest{point, point, point};
+  const SegmentLeaf& leaf = segments_[static_cast<std::size_t>(best.segment) / BoxTree::width];
+  const std::size_t k = static_cast<std::size_t>(best.segment) % BoxTree::width;
+  const Vec2 start{leaf.a_x[k], leaf.a_y[k]};
+  return Nearest{point, start, start + Vec2{leaf.d_x[k], leaf.d_y[k]}};
 }
 
 } // namespace trime::sizing

@@ -20,8 +20,12 @@ public:
   /// Share by which a point that is taken for the nearest may be farther: from the centre of a circle of many segments
   /// all are nearly as near, and to look at each would take for ever.
   static constexpr double slack = 5e-4;
+  /// A boundary point, and the segment it lies on; the same point three times if that is an arc.
+  struct Nearest {
+    geometry::Vec2 point, segment_start, segment_end;
+  };
   /// Nearest boundary point to p that is nearer than `reach`, if there is any. O(log M) for curves.
-  std::optional<geometry::Vec2> nearest(geometry::Vec2 p, double reach) const;
+  std::optional<Nearest> nearest(geometry::Vec2 p, double reach) const;
 
 private:
   /// A circular piece or one of its images.

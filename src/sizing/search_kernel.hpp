@@ -35,6 +35,7 @@ struct alignas(64) ConeLeaf {
 
 struct NearestPoint {
   double x, y, squared_distance;
+  std::int64_t segment; ///< on which it lies; the leaf, times 8, and the place in it
 };
 
 struct LowestCone {

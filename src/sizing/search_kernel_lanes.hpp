@@ -17,7 +17,7 @@ public:
   static void nearest(const BoxLevels& levels, const SegmentLeaf* leaves, double x, double y, double share,
                       NearestPoint& best) {
     const auto limit = [&](auto number) { return number * 0 + best.squared_distance * share; };
-    search(levels, x, y, limit, [&](std::int64_t leaf) { visit(leaves[leaf], x, y, best); });
+    search(levels, x, y, limit, [&](std::int64_t leaf) { visit(leaves[leaf], leaf, x, y, best); });
   }
 
   static void lowest(const BoxLevels& levels, const ConeLeaf* leaves, double slope, double x, double y, double share,
@@ -90,7 +90,7 @@ private:
     }
   }
 
-  TRIME_INLINE static void visit(const SegmentLeaf& leaf, double x, double y, NearestPoint& best) {
+  TRIME_INLINE static void visit(const SegmentLeaf& leaf, std::int64_t index, double x, double y, NearestPoint& best) {
     for (int k = 0; k < box_width; k += n) {
       const V a_x = load(leaf.a_x + k), a_y = load(leaf.a_y + k), d_x = load(leaf.d_x + k), d_y = load(leaf.d_y + k);
       const V along = ((x - a_x) * d_x + (y - a_y) * d_y) * load(leaf.inverse_square + k);
@@ -100,7 +100,7 @@ private:
       for (unsigned near = lanes::bits(squared < best.squared_distance); near != 0; near &= near - 1) {
         const int lane = __builtin_ctz(near);
         if (squared[lane] < best.squared_distance)
-          best = {q_x[lane], q_y[lane], squared[lane]};
+          best = {q_x[lane], q_y[lane], squared[lane], index * box_width + k + lane};
       }
     }
   }
