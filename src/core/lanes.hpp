@@ -64,6 +64,24 @@ TRIME_INLINE V square_root(V v) {
   return r;
 }
 
+/// The larger of each lane; b where they do not compare.
+template <class V>
+TRIME_INLINE V larger(V a, V b) {
+#ifdef __SSE2__
+  if constexpr (sizeof(V) == 16)
+    return (V)_mm_max_pd((__m128d)a, (__m128d)b);
+#endif
+#ifdef __AVX__
+  if constexpr (sizeof(V) == 32)
+    return (V)_mm256_max_pd((__m256d)a, (__m256d)b);
+#endif
+#ifdef __AVX512F__
+  if constexpr (sizeof(V) == 64)
+    return (V)_mm512_maskz_max_pd(0xff, (__m512d)a, (__m512d)b);
+#endif
+  return a > b ? a : b;
+}
+
 /// One bit a lane.
 template <class M>
 TRIME_INLINE unsigned bits(M mask) {

@@ -6,6 +6,7 @@
 #include "sizing/shared_work.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace trime::sizing {
@@ -16,11 +17,15 @@ using geometry::Vec2;
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double spacing_share = 0.35;  // of the local feature size: largest distance of samples with medial points
 constexpr double envelope_error = 0.02; // of the field between two samples, as a share of it
 constexpr double nearest_slack = 1e-3;  // of local feature sizes: all balls of a polygon like a disc have one centre
 constexpr double thinning_error = 0.01; // of the field, for leaving out samples much like the one before
-constexpr int first_samples = 32;       // along a line as long as the container
+constexpr double first_radius_share = 1.0 / 32; // of the container: first radius that is tried along a run of rays
+constexpr double radius_growth = 1.5;           // from the ball of one ray to the first that the next tries
+constexpr std::size_t ray_run = 64;
+constexpr int first_samples = 32; // along a line as long as the container
 constexpr int most_rounds = 40;
 
 /// All images within reach.
@@ -117,16 +122,22 @@ private:
     if (axis_ends_at(in, out))
       corners_.push_back({images_.wrap(after.start), 0});
     if (with_sample) {
-      samples_.push_back({after.start, unknown_});
+      samples_.push_back({after.start, infinity});
       append_rays(after.start, in, out, rays_);
     }
     return static_cast<LocalIndex>(samples_.size()) - 1;
   }
-  LocalIndex add_sample(const Piece& piece, double along) {
+  LocalIndex add_sample(const Piece& piece, double along, double most = infinity) {
     const Vec2 p = piece.point(along);
-    samples_.push_back({p, unknown_});
+    samples_.push_back({p, most});
     append_rays(p, piece.tangent(along), rays_);
     return static_cast<LocalIndex>(samples_.size()) - 1;
+  }
+
+  /// The local feature size changes by no more than the distance.
+  double upper_bound(const Interval& interval, double along) const {
+    return std::min(samples_[interval.first].height + (along - interval.from),
+                    samples_[interval.last].height + (interval.to - along));
   }
 
   void find_medial_points() {
@@ -134,10 +145,17 @@ private:
       Vec2 point;
       bool there;
     };
-    const std::vector<Found> found = compute_shared<Found>(comm_, rays_.size(), [&](std::size_t k) {
-      const std::optional<Vec2> point = medial_point(rays_[k], locator_, images_);
-      return Found{point.value_or(Vec2{}), point.has_value()};
-    });
+    const double first_radius = std::max(floor_, first_radius_share * images_.container().width());
+    const auto find_run = [&](std::size_t first, std::size_t last, Found* found) {
+      std::array<double, 2> radius{first_radius, first_radius}; // to the left and to the right
+      for (std::size_t k = first; k < last; ++k) {
+        double& start = radius[rays_[k].side];
+        const std::optional<Vec2> point = medial_point(rays_[k], locator_, images_, start);
+        start = std::max(floor_, radius_growth * start);
+        *found++ = {point.value_or(Vec2{}), point.has_value()};
+      }
+    };
+    const std::vector<Found> found = compute_shared_runs<Found>(comm_, rays_.size(), ray_run, find_run);
     std::vector<Cone> points = std::move(corners_);
     corners_.clear();
     rays_.clear();
@@ -152,7 +170,8 @@ private:
     const std::vector<double> sizes = compute_shared<double>(comm_, samples_.size(), [&](std::size_t k) {
       const Vec2 p = images_.wrap(samples_[k].apex);
       double size = samples_[k].height;
-      for (std::size_t tree = k < known_ ? medial_trees_.size() - 1 : 0; tree < medial_trees_.size(); ++tree)
+      std::size_t tree = k < known_ ? medial_trees_.size() - 1 : 0;
+      for (; tree < medial_trees_.size() && size > floor_; ++tree)
         size = medial_trees_[tree].value(p, size, nearest_slack);
       return size;
     });
@@ -170,7 +189,7 @@ private:
         continue;
       }
       const double middle = 0.5 * (interval.from + interval.to);
-      const LocalIndex sample = add_sample(*interval.piece, middle);
+      const LocalIndex sample = add_sample(*interval.piece, middle, upper_bound(interval, middle));
       next.push_back({interval.piece, interval.from, middle, interval.first, sample});
       next.push_back({interval.piece, middle, interval.to, sample, interval.last});
     }
@@ -183,8 +202,10 @@ private:
       const double size = std::max(std::min(samples_[interval.first].height, samples_[interval.last].height), floor_);
       const double length = interval.to - interval.from;
       const double parts = std::ceil(length * slope_ / (2 * envelope_error * size));
-      for (double k = 1; k < parts; ++k)
-        samples_.push_back({interval.piece->point(interval.from + length * (k / parts)), unknown_});
+      for (double k = 1; k < parts; ++k) {
+        const double along = interval.from + length * (k / parts);
+        samples_.push_back({interval.piece->point(along), upper_bound(interval, along)});
+      }
     }
   }
 
@@ -192,7 +213,6 @@ private:
   const geometry::Boundary& boundary_;
   const Images& images_;
   double floor_, slope_;
-  double unknown_ = std::numeric_limits<double>::infinity();
   PieceLocator locator_;
   std::vector<Cone> samples_, corners_;
   std::vector<Interval> intervals_;

@@ -2,8 +2,8 @@
 #include "sizing/cone_tree.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
 
 namespace trime::sizing {
 
@@ -11,105 +11,83 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr std::size_t leaf_size = 8; // cones, at most
+/// Place along a Hilbert curve through a square of 2^16 by 2^16 cells.
+std::uint32_t hilbert_place(std::uint32_t x, std::uint32_t y) {
+  constexpr std::uint32_t side = 1u << 16;
+  std::uint32_t place = 0;
+  for (std::uint32_t half = side / 2; half > 0; half /= 2) {
+    const bool right = (x & half) != 0, above = (y & half) != 0;
+    place = 4 * place + (right ? (above ? 2 : 3) : (above ? 1 : 0));
+    if (!above) {
+      if (right) {
+        x = side - 1 - x;
+        y = side - 1 - y;
+      }
+      std::swap(x, y);
+    }
+  }
+  return place;
+}
 
-bool before(const Cone& a, const Cone& b, bool by_x) {
-  const Vec2 p = by_x ? a.apex : Vec2{a.apex.y, a.apex.x}, q = by_x ? b.apex : Vec2{b.apex.y, b.apex.x};
-  return p == q ? a.height < b.height : geometry::lexicographically_less(p, q);
+/// In the order of a Hilbert curve through their box; cones in one of its cells keep their order.
+std::vector<Cone> in_order(const std::vector<Cone>& cones) {
+  geometry::Box box;
+  for (const Cone& cone : cones)
+    box.include(cone.apex);
+  const double cells = 65535 / std::max({box.width(), box.height(), std::numeric_limits<double>::min()});
+  std::vector<std::uint64_t> keys(cones.size());
+  for (std::size_t k = 0; k < cones.size(); ++k) {
+    const Vec2 place = cells * (cones[k].apex - box.min);
+    keys[k] =
+        (std::uint64_t{hilbert_place(static_cast<std::uint32_t>(place.x), static_cast<std::uint32_t>(place.y))} << 32) +
+        k;
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<Cone> sorted(cones.size());
+  for (std::size_t k = 0; k < cones.size(); ++k)
+    sorted[k] = cones[static_cast<std::uint32_t>(keys[k])];
+  return sorted;
 }
 
 } // namespace
 
-double ConeTree::Node::lower_bound(Vec2 p, double slope) const {
-  return slope * std::sqrt(box.squared_distance(p)) + least;
-}
-
-ConeTree::ConeTree(std::vector<Cone> cones, double slope)
-    : cones_(std::move(cones)), slope_(slope), inverse_slope_(1 / slope) {
-  if (cones_.empty())
-    return;
-  leaves_ = 1;
-  while (leaves_ * leaf_size < cones_.size())
-    leaves_ *= 2;
-  nodes_.resize(2 * leaves_);
-  sort(1, 0, leaves_);
-}
-
-void ConeTree::sort(std::size_t node, std::size_t first_leaf, std::size_t last_leaf) {
-  const auto at = [&](std::size_t leaf) { return cones_.begin() + static_cast<std::ptrdiff_t>(first_of(leaf)); };
-  const auto first = at(first_leaf), last = at(last_leaf);
-  Node& here = nodes_[node];
-  for (auto cone = first; cone != last; ++cone) {
-    here.box.include(cone->apex);
-    here.least = std::min(here.least, cone->height);
+ConeTree::ConeTree(const std::vector<Cone>& cones, double slope) : cones_(in_order(cones)), slope_(slope) {
+  tree_ = BoxTree(cones_.size(), [&](std::size_t k) {
+    return BoxTree::Item{{cones_[k].apex, cones_[k].apex}, cones_[k].height};
+  });
+  ConeLeaf none{};
+  std::fill(std::begin(none.height), std::end(none.height), std::numeric_limits<double>::infinity());
+  leaves_.resize((cones_.size() + BoxTree::width - 1) / BoxTree::width, none);
+  for (std::size_t k = 0; k < cones_.size(); ++k) {
+    ConeLeaf& leaf = leaves_[k / BoxTree::width];
+    leaf.x[k % BoxTree::width] = cones_[k].apex.x;
+    leaf.y[k % BoxTree::width] = cones_[k].apex.y;
+    leaf.height[k % BoxTree::width] = cones_[k].height;
   }
-  if (last_leaf - first_leaf == 1)
-    return;
-  const std::size_t middle = (first_leaf + last_leaf) / 2;
-  const bool by_x = here.box.width() >= here.box.height();
-  std::nth_element(first, at(middle), last, [by_x](const Cone& a, const Cone& b) { return before(a, b, by_x); });
-  sort(2 * node, first_leaf, middle);
-  sort(2 * node + 1, middle, last_leaf);
 }
 
-/// Roots are taken for those cones only that are lower than all before; the nearer box comes first.
+LowestCone ConeTree::find(Vec2 p, double bound, double slack) const {
+  LowestCone lowest{bound, -1};
+  kernel_.lowest(tree_.levels(), leaves_.data(), slope_, p.x, p.y, 1 / (1 + slack), lowest);
+  return lowest;
+}
+
 double ConeTree::value(Vec2 p, double bound, double slack) const {
-  if (cones_.empty())
-    return bound;
-  // Squared distance within which a cone of this height is lower than the bound; negative if none is.
-  const auto squared_reach = [this](double height, double below) {
-    const double reach = (below - height) * inverse_slope_;
-    return reach > 0 ? reach * reach : -1;
-  };
-  struct Entry {
-    std::size_t node;
-    double squared_distance;
-  };
-  std::array<Entry, 64> stack; // deeper than any tree in memory
-  std::size_t size = 0;
-  const double share = 1 / (1 + slack);
-  stack[size++] = {1, nodes_[1].box.squared_distance(p)};
-  while (size > 0) {
-    const Entry entry = stack[--size];
-    if (entry.squared_distance >= squared_reach(nodes_[entry.node].least, bound * share))
-      continue;
-    if (entry.node >= leaves_) {
-      const std::size_t leaf = entry.node - leaves_, last = first_of(leaf + 1);
-      for (std::size_t k = first_of(leaf); k < last; ++k)
-        if (squared_length(p - cones_[k].apex) < squared_reach(cones_[k].height, bound))
-          bound = std::min(bound, cones_[k].value(p, slope_));
-      continue;
-    }
-    Entry near{2 * entry.node, nodes_[2 * entry.node].box.squared_distance(p)};
-    Entry far{2 * entry.node + 1, nodes_[2 * entry.node + 1].box.squared_distance(p)};
-    if (far.squared_distance < near.squared_distance)
-      std::swap(near, far);
-    stack[size++] = far;
-    stack[size++] = near;
-  }
-  return bound;
+  return find(p, bound, slack).value;
+}
+
+LocalIndex ConeTree::lowest(Vec2 p, double bound) const {
+  return static_cast<LocalIndex>(find(p, bound, 0).cone);
 }
 
 void ConeTree::collect(Vec2 p, double bound, std::vector<LocalIndex>& found) const {
-  if (cones_.empty())
-    return;
-  std::array<std::size_t, 64> stack;
-  std::size_t size = 0;
-  stack[size++] = 1;
-  while (size > 0) {
-    const std::size_t node = stack[--size];
-    if (!(nodes_[node].lower_bound(p, slope_) <= bound))
-      continue;
-    if (node < leaves_) {
-      stack[size++] = 2 * node + 1;
-      stack[size++] = 2 * node;
-      continue;
-    }
-    const std::size_t last = first_of(node - leaves_ + 1);
-    for (std::size_t k = first_of(node - leaves_); k < last; ++k)
-      if (cones_[k].value(p, slope_) <= bound)
-        found.push_back(static_cast<LocalIndex>(k));
-  }
+  const auto above = [&](const geometry::Box& box, double least) {
+    return !(slope_ * std::sqrt(box.squared_distance(p)) + least <= bound);
+  };
+  visit_unless(above, [&](LocalIndex k) {
+    if (cones_[k].value(p, slope_) <= bound)
+      found.push_back(k);
+  });
 }
 
 } // namespace trime::sizing

@@ -15,7 +15,7 @@ namespace {
 constexpr double fan_step = 20 * pi / 180; // between the rays from a vertex
 constexpr double straight = 5 * pi / 180;  // a turn that needs no fan
 constexpr int most_shrinks = 50;
-constexpr double first_share = 1.0 / 16, first_growth = 4; // of the container's diagonal: most balls are small
+constexpr double first_growth = 4;         // of a first ball that is empty
 constexpr double empty_share = 1 - 1e-3;   // of its radius: so far a ball's centre is from the boundary if it is empty
 constexpr double nearly_empty_share = 0.7; // the same for a ball with nothing but noise in it
 
@@ -28,12 +28,37 @@ Vec2 turned(Vec2 v, double angle) {
   return {t.cos * v.x - t.sin * v.y, t.sin * v.x + t.cos * v.y};
 }
 
+/// Where a ball through the origin touches, seen from there.
+struct Contact {
+  Vec2 chord;
+  double radius;
+};
+
+/// The ball that touches the inside of a segment, with its centre on the ray from the origin along `normal`; nothing if
+/// there is none.
+std::optional<Contact> contact_with(Vec2 a, Vec2 b, Vec2 normal) {
+  const Vec2 d = b - a;
+  const double squared = squared_length(d);
+  if (!(squared > 0))
+    return std::nullopt;
+  Vec2 to_origin = (1 / std::sqrt(squared)) * left_normal(d); // unit normal of the segment
+  double distance = -dot(a, to_origin);
+  if (distance < 0) {
+    distance = -distance;
+    to_origin = -1 * to_origin;
+  }
+  const double radius = distance / (1 - dot(normal, to_origin));
+  const Vec2 chord = radius * (normal - to_origin);
+  const double place = dot(chord - a, d);
+  return distance > 0 && place > 0 && place < squared ? std::optional(Contact{chord, radius}) : std::nullopt;
+}
+
 } // namespace
 
 void append_rays(Vec2 p, Vec2 tangent, std::vector<NormalRay>& rays) {
   const Vec2 normal = left_normal(tangent);
-  rays.push_back({p, normal});
-  rays.push_back({p, -1 * normal});
+  rays.push_back({p, normal, 0});
+  rays.push_back({p, -1 * normal, 1});
 }
 
 void append_rays(Vec2 p, Vec2 before, Vec2 after, std::vector<NormalRay>& rays) {
@@ -43,21 +68,22 @@ void append_rays(Vec2 p, Vec2 before, Vec2 after, std::vector<NormalRay>& rays) 
   const Vec2 normal = turn < 0 ? left_normal(before) : -1 * left_normal(before); // to the side of the fan
   const int steps = static_cast<int>(std::ceil(std::fabs(turn) / fan_step));
   for (int k = 0; k <= steps; ++k)
-    rays.push_back({p, turned(normal, turn * k / steps)});
-  rays.push_back({p, turned(-1 * normal, 0.5 * turn)});
+    rays.push_back({p, turned(normal, turn * k / steps), turn < 0 ? 0 : 1});
+  rays.push_back({p, turned(-1 * normal, 0.5 * turn), turn < 0 ? 1 : 0});
 }
 
 bool axis_ends_at(Vec2 before, Vec2 after) {
   return std::fabs(signed_turn(before, after)) >= separation_degrees * (pi / 180) * (1 - 1e-9);
 }
 
-std::optional<Vec2> medial_point(const NormalRay& ray, const PieceLocator& boundary, const Images& images) {
+std::optional<Vec2> medial_point(const NormalRay& ray, const PieceLocator& boundary, const Images& images,
+                                 double& radius) {
   const geometry::Box& container = images.container();
   const double largest = geometry::length(container.max - container.min), smallest = 1e-12 * largest;
   const auto center_of = [&](double of) { return ray.origin + of * ray.normal; };
   const auto nearest = [&](double of) { return boundary.nearest(images.wrap(center_of(of)), empty_share * of); };
-  double radius = first_share * largest;
-  std::optional<Vec2> near = nearest(radius);
+  radius = std::min(radius, largest);
+  std::optional<PieceLocator::Nearest> near = nearest(radius);
   for (; !near && radius < largest; near = nearest(radius))
     radius = std::min(largest, first_growth * radius);
   // The ball before the last, unless it sees the boundary at a small angle only.
@@ -65,16 +91,18 @@ std::optional<Vec2> medial_point(const NormalRay& ray, const PieceLocator& bound
   bool touches = false;
   for (int round = 0; round < most_shrinks; ++round, near = nearest(radius)) {
     const Vec2 center = center_of(radius), wrapped = images.wrap(center);
-    if (touches && (!near || length(*near - wrapped) >= nearly_empty_share * radius))
+    if (touches && (!near || length(near->point - wrapped) >= nearly_empty_share * radius))
       found = wrapped;
     if (!near)
       break;
-    const Vec2 chord = *near + (center - wrapped) - ray.origin;
+    const Vec2 shift = center - wrapped - ray.origin, chord = near->point + shift;
     const double along = dot(chord, ray.normal), squared = squared_length(chord);
     if (!(along > 0) || squared <= smallest * smallest)
       break;
-    radius = std::min(radius, 0.5 * squared / along);
-    touches = squared >= radius * radius; // a chord as long as the radius is seen at 60 degrees from the centre
+    const Contact contact = contact_with(near->segment_start + shift, near->segment_end + shift, ray.normal)
+                                .value_or(Contact{chord, 0.5 * squared / along});
+    radius = std::min(radius, contact.radius);
+    touches = squared_length(contact.chord) >= radius * radius; // so long a chord is seen at 60 degrees from the centre
   }
   return found && images.in_container(*found) ? found : std::nullopt;
 }

@@ -13,6 +13,7 @@ namespace trime::sizing {
 /// A boundary point and a unit vector normal to the boundary there, to one of its sides.
 struct NormalRay {
   geometry::Vec2 origin, normal;
+  int side; ///< 0 to the left of the boundary, 1 to the right
 };
 
 /// Least angle, in degrees, at which a medial point sees its two nearest boundary points; below it is noise. A corner
@@ -28,7 +29,9 @@ bool axis_ends_at(geometry::Vec2 before, geometry::Vec2 after);
 
 /// @brief Centre of the largest empty ball that touches the boundary at the ray's origin, on the ray's side; nothing if
 /// it is larger than the container's diagonal, lies outside of the container, or is noise.
-/// About 5 to 10 queries of the nearest boundary point.
-std::optional<geometry::Vec2> medial_point(const NormalRay& ray, const PieceLocator& boundary, const Images& images);
+/// About 4 queries of the nearest boundary point.
+/// @param radius in: the first radius to try; out: that of the ball
+std::optional<geometry::Vec2> medial_point(const NormalRay& ray, const PieceLocator& boundary, const Images& images,
+                                           double& radius);
 
 } // namespace trime::sizing

@@ -2,8 +2,9 @@
 #include "sizing/piece_locator.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 namespace trime::sizing {
 
@@ -12,12 +13,6 @@ using geometry::Piece;
 using geometry::Vec2;
 
 namespace {
-
-Vec2 nearest_on_segment(Vec2 p, Vec2 a, Vec2 b) {
-  const Vec2 d = b - a;
-  const double along = dot(p - a, d), whole = squared_length(d);
-  return along <= 0 ? a : along >= whole ? b : a + (along / whole) * d;
-}
 
 Vec2 nearest_on_arc(Vec2 p, const Piece& arc) {
   const Vec2 q = p - arc.center;
@@ -29,79 +24,64 @@ Vec2 nearest_on_arc(Vec2 p, const Piece& arc) {
 
 } // namespace
 
-PieceLocator::PieceLocator(const geometry::Boundary& boundary, const Images& images) {
-  std::vector<Box> runs;
-  for (const geometry::Loop& loop : boundary.loops)
-    for (const Piece& piece : loop.pieces)
-      if (piece.circular)
-        arcs_.push_back(piece);
-  for (const Vec2 shift : images.shifts()) {
-    LocalIndex arc = 0;
+PieceLocator::PieceLocator(const geometry::Boundary& boundary, const Images& images)
+    : kernel_(search_kernel(simd_level())) {
+  struct Segment {
+    Vec2 a, b;
+    Box box;
+  };
+  std::vector<Segment> segments;
+  for (const Vec2 shift : images.shifts())
     for (const geometry::Loop& loop : boundary.loops)
       for (const Piece& piece : loop.pieces) {
-        const LocalIndex index = piece.circular ? arc++ : -1;
         Box box = piece.covering_box();
         box = {box.min + shift, box.max + shift};
         if (!images.in_reach(box))
           continue;
-        if (items_.size() % run_length == 0)
-          runs.emplace_back();
-        runs.back().include(box.min);
-        runs.back().include(box.max);
-        items_.push_back({piece.start + shift, piece.end + shift, shift, index});
+        if (piece.circular)
+          arcs_.push_back({piece, shift, box});
+        else
+          segments.push_back({piece.start + shift, piece.end + shift, box});
       }
-  }
-  std::size_t leaves = 1;
-  while (leaves < runs.size())
-    leaves *= 2;
-  boxes_.resize(2 * leaves);
-  std::copy(runs.begin(), runs.end(), boxes_.begin() + static_cast<std::ptrdiff_t>(leaves));
-  for (std::size_t k = leaves - 1; k >= 1; --k)
-    for (const Box& child : {boxes_[2 * k], boxes_[2 * k + 1]})
-      if (child.min.x <= child.max.x) {
-        boxes_[k].include(child.min);
-        boxes_[k].include(child.max);
-      }
-}
-
-void PieceLocator::visit(std::size_t run, Vec2 p, Best& best) const {
-  const std::size_t last = std::min(items_.size(), (run + 1) * run_length);
-  for (std::size_t k = run * run_length; k < last; ++k) {
-    const Item& item = items_[k];
-    const Vec2 point = item.arc < 0 ? nearest_on_segment(p, item.a, item.b)
-                                    : nearest_on_arc(p - item.shift, arcs_[item.arc]) + item.shift;
-    const double distance = squared_length(point - p);
-    if (distance < best.squared_distance)
-      best = {point, distance};
+  arc_tree_ = BoxTree(arcs_.size(), [&](std::size_t k) { return BoxTree::Item{arcs_[k].box, 0}; });
+  segment_tree_ = BoxTree(segments.size(), [&](std::size_t k) { return BoxTree::Item{segments[k].box, 0}; });
+  SegmentLeaf none{};
+  std::fill(std::begin(none.a_x), std::end(none.a_x), std::numeric_limits<double>::quiet_NaN());
+  segments_.resize((segments.size() + BoxTree::width - 1) / BoxTree::width, none);
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    SegmentLeaf& leaf = segments_[k / BoxTree::width];
+    const std::size_t place = k % BoxTree::width;
+    const Vec2 a = segments[k].a, d = segments[k].b - a;
+    const double square = squared_length(d);
+    leaf.a_x[place] = a.x;
+    leaf.a_y[place] = a.y;
+    leaf.d_x[place] = d.x;
+    leaf.d_y[place] = d.y;
+    leaf.inverse_square[place] = square > 0 ? 1 / square : 0;
   }
 }
 
-std::optional<Vec2> PieceLocator::nearest(Vec2 p, double reach) const {
-  struct Entry {
-    std::size_t node;
-    double squared_distance;
+std::optional<PieceLocator::Nearest> PieceLocator::nearest(Vec2 p, double reach) const {
+  constexpr double share = 1 / (1 + 2 * slack);
+  NearestPoint best{0, 0, reach * reach, -1};
+  kernel_.nearest(segment_tree_.levels(), segments_.data(), p.x, p.y, share, best);
+  const auto is_far = [&](const Box& box, double) {
+    return !(box.squared_distance(p) < best.squared_distance * share);
   };
-  std::array<Entry, 64> stack; // deeper than any tree in memory
-  const std::size_t leaves = boxes_.size() / 2;
-  Best best{{}, reach * reach};
-  std::size_t size = 0;
-  stack[size++] = {1, 0.0};
-  while (size > 0) {
-    const Entry entry = stack[--size];
-    if (entry.squared_distance * (1 + 2 * slack) >= best.squared_distance)
-      continue;
-    if (entry.node >= leaves) {
-      visit(entry.node - leaves, p, best);
-      continue;
-    }
-    Entry near{2 * entry.node, boxes_[2 * entry.node].squared_distance(p)};
-    Entry far{2 * entry.node + 1, boxes_[2 * entry.node + 1].squared_distance(p)};
-    if (far.squared_distance < near.squared_distance)
-      std::swap(near, far);
-    stack[size++] = far;
-    stack[size++] = near;
-  }
-  return best.squared_distance < reach * reach ? std::optional(best.point) : std::nullopt;
+  arc_tree_.visit_unless(is_far, [&](std::size_t k) {
+    const Vec2 point = nearest_on_arc(p - arcs_[k].shift, arcs_[k].piece) + arcs_[k].shift;
+    if (const double squared = squared_length(point - p); squared < best.squared_distance)
+      best = {point.x, point.y, squared, -1};
+  });
+  if (!(best.squared_distance < reach * reach))
+    return std::nullopt;
+  const Vec2 point{best.x, best.y};
+  if (best.segment < 0)
+    return Nearest{point, point, point};
+  const SegmentLeaf& leaf = segments_[static_cast<std::size_t>(best.segment) / BoxTree::width];
+  const std::size_t k = static_cast<std::size_t>(best.segment) % BoxTree::width;
+  const Vec2 start{leaf.a_x[k], leaf.a_y[k]};
+  return Nearest{point, start, start + Vec2{leaf.d_x[k], leaf.d_y[k]}};
 }
 
 } // namespace trime::sizing

@@ -12,228 +12,157 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr double half_diagonal = 0.70710678118654757; // of a unit square
-constexpr double rounding = 1 + 1e-12;
+/// A node of one group of blocks as a node among all.
+CellNode moved(CellNode node, std::size_t first_child, std::size_t first_number) {
+  if (node >= 0)
+    return node + static_cast<CellNode>(first_child);
+  CellLeaf leaf = CellLeaf::of(node);
+  leaf.first += first_number;
+  return leaf.node();
+}
 
-bool within(double exact, double interpolated) {
-  return std::fabs(exact - interpolated) <= SizeQuadtree::tolerance * exact;
+std::size_t groups_of(std::size_t blocks, int level) {
+  const std::size_t along = std::size_t{1} << -level;
+  return (blocks + along - 1) / along;
 }
 
 } // namespace
 
-/// The quadtree of one block, with indices of its own.
-struct SizeQuadtree::Block {
-  Node root = 0;
-  std::vector<Children> children;
-  std::vector<CornerValues> leaves;
-};
-
-/// Builds one block, top down. Every cell passes on only those cones that can be the lowest somewhere in it.
-class SizeQuadtree::Builder {
-public:
-  explicit Builder(const Source& source) : source_(source), inverse_slope_(1 / source.slope) {}
-
-  Block build(Vec2 corner, double side) {
-    const Vec2 center = corner + Vec2{0.5 * side, 0.5 * side};
-    const double low = source_.cones.value(center, source_.cap);
-    std::vector<LocalIndex> near;
-    source_.cones.collect(center, (low + 2 * half_diagonal * side * source_.slope) * rounding, near);
-    for (const LocalIndex k : near)
-      cones_.push_back(source_.cones.cones()[k]);
-    const double right = corner.x + side, top = corner.y + side;
-    const CornerValues values{lowest(0, corner), lowest(0, {right, corner.y}), lowest(0, {corner.x, top}),
-                              lowest(0, {right, top})};
-    block_.root = build_cell({corner, side, values, 0, 0});
-    return std::move(block_);
-  }
-
-private:
-  struct Cell {
-    Vec2 corner;
-    double side;
-    CornerValues values;
-    std::size_t first; ///< its cones are the last on the stack, from here
-    int level;
-  };
-
-  /// Is the cone at p at most so high? Takes no root.
-  bool is_below(const Cone& cone, Vec2 p, double height) const {
-    const double reach = (height - cone.height) * inverse_slope_;
-    return reach >= 0 && squared_length(p - cone.apex) <= reach * reach;
-  }
-
-  double lowest(std::size_t first, Vec2 p) const { return lowest(first, p, source_.cap); }
-  double lowest(std::size_t first, Vec2 p, double low) const {
-    for (std::size_t k = first; k < cones_.size(); ++k)
-      if (is_below(cones_[k], p, low))
-        low = std::min(low, cones_[k].value(p, source_.slope));
-    return low;
-  }
-
-  Node leaf(const Cell& cell) {
-    block_.leaves.push_back(cell.values);
-    return ~static_cast<Node>(block_.leaves.size() - 1);
-  }
-
-  /// Pushes those cones of the cell that may be the lowest in it; returns the value at its centre.
-  double push_cones(const Cell& cell, Vec2 center) {
-    const double low = lowest(cell.first, center);
-    const double bound = (low + 2 * half_diagonal * cell.side * source_.slope) * rounding;
-    const std::size_t last = cones_.size();
-    for (std::size_t k = cell.first; k < last; ++k)
-      if (is_below(cones_[k], center, bound))
-        cones_.push_back(Cone(cones_[k]));
-    return low;
-  }
-
-  Node build_cell(const Cell& cell) {
-    const auto& [v0, v1, v2, v3] = cell.values;
-    const double least = std::min(std::min(v0, v1), std::min(v2, v3));
-    // No point of the cell is farther from its nearest corner than half the diagonal.
-    if (source_.slope * half_diagonal * cell.side <= tolerance * least || cell.side <= source_.least_side ||
-        cell.level >= most_levels)
-      return leaf(cell);
-    const double half = 0.5 * cell.side;
-    const double left = cell.corner.x, below = cell.corner.y, right = left + cell.side, above = below + cell.side;
-    const Vec2 center{left + half, below + half};
-    const std::size_t first = cones_.size();
-    const double middle = push_cones(cell, center);
-    const double south = lowest(first, {center.x, below}), north = lowest(first, {center.x, above});
-    const double west = lowest(first, {left, center.y}), east = lowest(first, {right, center.y});
-    Node node;
-    const bool smooth = within(middle, 0.25 * (v0 + v1 + v2 + v3)) && within(south, 0.5 * (v0 + v1)) &&
-                        within(north, 0.5 * (v2 + v3)) && within(west, 0.5 * (v0 + v2)) &&
-                        within(east, 0.5 * (v1 + v3)) && (cones_.size() - first < 2 || within_quarters(cell, first));
-    if (smooth) {
-      node = leaf(cell);
-    } else {
-      node = static_cast<Node>(block_.children.size());
-      block_.children.emplace_back();
-      const int level = cell.level + 1;
-      const Children children{build_cell({cell.corner, half, {v0, south, west, middle}, first, level}),
-                              build_cell({{center.x, below}, half, {south, v1, middle, east}, first, level}),
-                              build_cell({{left, center.y}, half, {west, middle, v2, north}, first, level}),
-                              build_cell({center, half, {middle, east, north, v3}, first, level})};
-      block_.children[node] = children;
-    }
-    cones_.resize(first);
-    return node;
-  }
-
-  /// A ridge between cones may pass by the middles of edges and cell.
-  bool within_quarters(const Cell& cell, std::size_t first) const {
-    const auto& [v0, v1, v2, v3] = cell.values;
-    for (const double y : {0.25, 0.75})
-      for (const double x : {0.25, 0.75}) {
-        const double below = v0 + x * (v1 - v0), above = v2 + x * (v3 - v2);
-        const double exact = lowest(first, cell.corner + cell.side * Vec2{x, y});
-        if (!within(exact, below + y * (above - below)))
-          return false;
-      }
-    return true;
-  }
-
-  const Source& source_;
-  const double inverse_slope_;
-  Block block_;
-  std::vector<Cone> cones_; // a stack: the cones of a cell lie on those of its parents
-};
-
-SizeQuadtree::SizeQuadtree(const comm::Communicator& comm, const Source& source) : box_(source.box) {
-  side_ = std::max(box_.width(), box_.height()) / blocks_along;
-  inverse_side_ = 1 / side_;
+SizeQuadtree::SizeQuadtree(const comm::Communicator& comm, const Source& source)
+    : box_(source.box), slope_(source.slope), cap_(source.cap) {
+  static_assert(most_levels % 2 == 0, "two levels are looked up at once");
+  static_assert(most_cones + 2 <= CellLeaf::kinds);
+  grid_ = {box_.min, std::max(box_.width(), box_.height()) / blocks_along};
+  inverse_side_ = 1 / grid_.side;
   nx_ = static_cast<std::size_t>(std::clamp(std::ceil(box_.width() * inverse_side_), 1.0, 1.0 * blocks_along));
   ny_ = static_cast<std::size_t>(std::clamp(std::ceil(box_.height() * inverse_side_), 1.0, 1.0 * blocks_along));
+  groups_x_ = groups_of(nx_, group_level);
+  groups_y_ = groups_of(ny_, group_level);
   const auto ranks = static_cast<std::size_t>(comm.size()), rank = static_cast<std::size_t>(comm.rank());
-  std::vector<Block> mine;
+  std::vector<CellPart> mine;
   comm::run_agreed(comm, [&] {
-    const std::size_t count = nx_ * ny_;
+    const std::size_t count = groups_x_ * groups_y_;
     mine.resize(rank < count ? (count - rank - 1) / ranks + 1 : 0);
-    thread_loop(static_cast<std::ptrdiff_t>(mine.size()), 4, [&](std::ptrdiff_t k, int) {
-      const std::size_t block = rank + static_cast<std::size_t>(k) * ranks;
-      const Vec2 place{static_cast<double>(block % nx_), static_cast<double>(block / nx_)};
-      mine[k] = Builder(source).build(box_.min + side_ * place, side_);
+    const CellBuilder::Limits limits{tolerance, most_levels, most_cones, highest_corner(source)};
+    std::vector<CellBuilder> builders(static_cast<std::size_t>(thread_count()), CellBuilder(source, grid_, limits));
+    thread_loop(static_cast<std::ptrdiff_t>(mine.size()), 1, [&](std::ptrdiff_t k, int thread) {
+      const std::size_t group = rank + static_cast<std::size_t>(k) * ranks;
+      mine[k] =
+          builders[thread].build(group_place(group), static_cast<std::int64_t>(nx_), static_cast<std::int64_t>(ny_));
     });
   });
   assemble(comm, std::move(mine));
 }
 
-void SizeQuadtree::assemble(const comm::Communicator& comm, std::vector<Block> mine) {
-  struct Size {
-    std::int64_t children, leaves;
-    Node root;
+CellPlace SizeQuadtree::group_place(std::size_t group) const {
+  return {group_level, static_cast<std::int64_t>(group % groups_x_), static_cast<std::int64_t>(group / groups_x_)};
+}
+
+/// No corner of a group is higher.
+double SizeQuadtree::highest_corner(const Source& source) const {
+  const std::size_t along = std::size_t{1} << -group_level;
+  double highest = 0;
+  for (std::size_t j = 0; j <= groups_y_; ++j)
+    for (std::size_t i = 0; i <= groups_x_; ++i) {
+      const Vec2 corner = grid_.corner({0, static_cast<std::int64_t>(std::min(along * i, nx_)),
+                                        static_cast<std::int64_t>(std::min(along * j, ny_))});
+      highest = std::max(highest, source.cones.value(corner, source.cap));
+    }
+  return highest;
+}
+
+/// The same arrays on any number of ranks: groups one after the other.
+void SizeQuadtree::assemble(const comm::Communicator& comm, std::vector<CellPart> mine) {
+  struct Summary {
+    std::size_t roots, children, numbers;
+    std::int64_t leaves;
+    double least, largest;
   };
-  std::vector<Size> sizes;
-  std::vector<Children> children;
-  std::vector<CornerValues> leaves;
-  for (Block& block : mine) {
-    sizes.push_back({std::ssize(block.children), std::ssize(block.leaves), block.root});
-    children.insert(children.end(), block.children.begin(), block.children.end());
-    leaves.insert(leaves.end(), block.leaves.begin(), block.leaves.end());
-    block = {};
+  std::vector<Summary> summaries;
+  CellPart joined;
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  for (CellPart& part : mine) {
+    summaries.push_back(
+        {part.roots.size(), part.children.size(), part.numbers.size(), part.leaves, part.least, part.largest});
+    append(joined.roots, part.roots);
+    append(joined.children, part.children);
+    append(joined.numbers, part.numbers);
+    part = {};
   }
-  sizes = gather_everywhere(comm, std::move(sizes));
-  children = gather_everywhere(comm, std::move(children));
-  leaves = gather_everywhere(comm, std::move(leaves));
-  // Rank by rank as gathered; to be put in the order of the blocks, so that the arrays do not depend on the ranks.
-  const auto ranks = static_cast<std::size_t>(comm.size());
-  std::vector<std::size_t> position(nx_ * ny_), first_child(nx_ * ny_), first_leaf(nx_ * ny_);
-  std::size_t next = 0, next_child = 0, next_leaf = 0;
-  for (std::size_t rank = 0; rank < ranks; ++rank)
-    for (std::size_t block = rank; block < nx_ * ny_; block += ranks) {
-      position[block] = next;
-      first_child[block] = next_child;
-      first_leaf[block] = next_leaf;
-      next_child += static_cast<std::size_t>(sizes[next].children);
-      next_leaf += static_cast<std::size_t>(sizes[next].leaves);
-      ++next;
+  summaries = gather_everywhere(comm, std::move(summaries));
+  joined.roots = gather_everywhere(comm, std::move(joined.roots));
+  joined.children = gather_everywhere(comm, std::move(joined.children));
+  joined.numbers = gather_everywhere(comm, std::move(joined.numbers));
+  if (joined.numbers.size() >= CellLeaf::most_numbers)
+    throw InternalError(
+        fmt::format("the size field needs {} numbers; {} are possible", joined.numbers.size(), CellLeaf::most_numbers));
+  struct Start {
+    const Summary* summary;
+    std::size_t root, child, number;
+  };
+  const std::size_t groups = groups_x_ * groups_y_;
+  std::vector<Start> starts(groups);
+  Start next{summaries.data(), 0, 0, 0};
+  for (std::size_t rank = 0; rank < static_cast<std::size_t>(comm.size()); ++rank)
+    for (std::size_t group = rank; group < groups; group += static_cast<std::size_t>(comm.size())) {
+      starts[group] = next;
+      next = {next.summary + 1, next.root + next.summary->roots, next.child + next.summary->children,
+              next.number + next.summary->numbers};
     }
-  children_.reserve(children.size());
-  leaves_.reserve(leaves.size());
-  for (std::size_t block = 0; block < nx_ * ny_; ++block) {
-    const Size& size = sizes[position[block]];
-    const auto child_offset = static_cast<Node>(children_.size()), leaf_offset = static_cast<Node>(leaves_.size());
-    const auto moved = [&](Node node) { return node >= 0 ? node + child_offset : node - leaf_offset; };
-    roots_.push_back(moved(size.root));
-    for (std::size_t k = 0; k < static_cast<std::size_t>(size.children); ++k) {
-      const Children& old = children[first_child[block] + k];
-      children_.push_back({moved(old[0]), moved(old[1]), moved(old[2]), moved(old[3])});
+  const std::size_t along = std::size_t{1} << -group_level;
+  roots_.resize(nx_ * ny_);
+  children_.reserve(joined.children.size());
+  numbers_.reserve(joined.numbers.size());
+  for (std::size_t group = 0; group < groups; ++group) {
+    const Start& start = starts[group];
+    const Summary& summary = *start.summary;
+    const std::size_t child = children_.size(), number = numbers_.size();
+    const std::size_t i = along * (group % groups_x_), j = along * (group / groups_x_);
+    const std::size_t columns = std::min(along, nx_ - i);
+    for (std::size_t k = 0; k < summary.roots; ++k)
+      roots_[(j + k / columns) * nx_ + i + k % columns] = moved(joined.roots[start.root + k], child, number);
+    for (std::size_t k = 0; k < summary.children; ++k) {
+      children_.push_back(joined.children[start.child + k]);
+      for (CellNode& node : children_.back())
+        node = moved(node, child, number);
     }
-    const auto from = leaves.begin() + static_cast<std::ptrdiff_t>(first_leaf[block]);
-    leaves_.insert(leaves_.end(), from, from + size.leaves);
+    const auto from = joined.numbers.begin() + static_cast<std::ptrdiff_t>(start.number);
+    numbers_.insert(numbers_.end(), from, from + static_cast<std::ptrdiff_t>(summary.numbers));
+    leaf_count_ += static_cast<std::size_t>(summary.leaves);
+    least_ = std::min(least_, summary.least);
+    largest_ = std::max(largest_, summary.largest);
   }
-  least_ = leaves_.front()[0];
-  largest_ = least_;
-  for (const CornerValues& values : leaves_)
-    for (const double value : values) {
-      least_ = std::min(least_, value);
-      largest_ = std::max(largest_, value);
-    }
 }
 
 double SizeQuadtree::value(Vec2 p) const {
-  // Block, and place in it, 0..1; the order of the arguments of max sends NaN to the first block.
-  double x = std::min(std::max(0.0, (p.x - box_.min.x) * inverse_side_), box_.width() * inverse_side_);
-  double y = std::min(std::max(0.0, (p.y - box_.min.y) * inverse_side_), box_.height() * inverse_side_);
-  const std::size_t i = std::min(static_cast<std::size_t>(x), nx_ - 1);
-  const std::size_t j = std::min(static_cast<std::size_t>(y), ny_ - 1);
-  x -= static_cast<double>(i);
-  y -= static_cast<double>(j);
-  Node node = roots_[j * nx_ + i];
+  // The order of the arguments of max sends NaN to the first block.
+  const Vec2 q{std::min(std::max(box_.min.x, p.x), box_.max.x), std::min(std::max(box_.min.y, p.y), box_.max.y)};
+  constexpr double finest = 1 << most_levels; // cells along a block
+  const double x = (q.x - box_.min.x) * inverse_side_, y = (q.y - box_.min.y) * inverse_side_;
+  const auto column =
+      std::min(static_cast<std::uint32_t>(x * finest), (static_cast<std::uint32_t>(nx_) << most_levels) - 1);
+  const auto row =
+      std::min(static_cast<std::uint32_t>(y * finest), (static_cast<std::uint32_t>(ny_) << most_levels) - 1);
+  int shift = most_levels;
+  CellNode node = roots_[(row >> shift) * nx_ + (column >> shift)];
   while (node >= 0) {
-    const bool right = x >= 0.5, above = y >= 0.5;
-    x = 2 * x - (right ? 1 : 0);
-    y = 2 * y - (above ? 1 : 0);
-    node = children_[node][(right ? 1 : 0) + (above ? 2 : 0)];
+    shift -= 2;
+    node = children_[node][(column >> shift & 3) + 4 * (row >> shift & 3)];
   }
-  const CornerValues& v = leaves_[~node];
-  const double below = v[0] + x * (v[1] - v[0]), above = v[2] + x * (v[3] - v[2]);
-  return below + y * (above - below);
+  const CellLeaf leaf = CellLeaf::of(node);
+  if (!leaf.is_bilinear())
+    return cones_value(leaf, q);
+  shift += leaf.levels_up();
+  const double along = static_cast<double>(1 << (most_levels - shift)); // cells of this level along a block
+  const double* const v = &numbers_[leaf.first];
+  const double s = x * along - static_cast<double>(column >> shift), t = y * along - static_cast<double>(row >> shift);
+  const double below = v[0] + s * (v[1] - v[0]), above = v[2] + s * (v[3] - v[2]);
+  return below + t * (above - below);
 }
 
 std::size_t SizeQuadtree::memory_bytes() const {
-  return roots_.capacity() * sizeof(Node) + children_.capacity() * sizeof(Children) +
-         leaves_.capacity() * sizeof(CornerValues);
+  return roots_.capacity() * sizeof(CellNode) + children_.capacity() * sizeof(CellChildren) +
+         numbers_.capacity() * sizeof(double);
 }
 
 } // namespace trime::sizing

@@ -1,80 +1,96 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lower envelope of cones over a rectangle as a quadtree of bilinear cells, for fast look-up.
+// The lower envelope of cones over a rectangle as a quadtree for fast look-up: cells with a few cones, which are exact,
+// and bilinear cells where many cones make one smooth field.
 #pragma once
 
-#include "sizing/cone_tree.hpp"
+#include "sizing/size_cells.hpp"
 #include "trime/comm/communicator.hpp"
 
-#include <array>
-#include <span>
+#include <vector>
 
 namespace trime::sizing {
-
-/// Values at the corners of a cell: lower left, lower right, upper left, upper right.
-using CornerValues = std::array<double, 4>;
 
 /// Immutable after construction; queries are thread-safe.
 class SizeQuadtree {
 public:
-  /// What the tree is made from.
-  struct Source {
-    const ConeTree& cones;
-    double slope;      ///< of the cones
-    double cap;        ///< the field is the lower of the envelope and this
-    geometry::Box box; ///< where it is defined
-    double least_side; ///< smaller cells are not split
-  };
-  /// Largest error of a cell at the middles of its edges and in its centre, as a share of the value.
+  using Source = SizeSource;
+  /// Largest error of a bilinear cell at the middles of its edges and quarters and in its centre, as a share of the
+  /// value.
   static constexpr double tolerance = 0.01;
   /// The longer side of the box has so many blocks, each of them a quadtree of its own.
   static constexpr int blocks_along = 64;
   static constexpr int most_levels = 20; ///< below a block
+  static constexpr int most_cones = 8;   ///< in a cell that is not split for them
 
-  /// @brief Blocks are dealt to the ranks and threads; every rank gets the whole tree. Collective.
+  /// @brief Groups of blocks are dealt to the ranks and threads; every rank gets the whole tree. Collective.
   SizeQuadtree(const comm::Communicator& comm, const Source& source);
 
   /// Value at p, or at the nearest point of the box.
   double value(geometry::Vec2 p) const;
   double least() const { return least_; }
   double largest() const { return largest_; }
-  std::size_t leaf_count() const { return leaves_.size(); }
+  std::size_t leaf_count() const { return leaf_count_; }
   std::size_t memory_bytes() const;
 
-  /// Calls visit(cell, values) for every cell that is not split.
+  /// @brief Calls visit(cell, values) for every cell that is not split, and once more for the lowest point of each cell
+  /// of cones, as a cell without extent.
   template <class Visit>
   void for_each_leaf(const Visit& visit) const {
-    for (std::size_t k = 0; k < roots_.size(); ++k) {
-      const geometry::Vec2 corner =
-          box_.min + side_ * geometry::Vec2{static_cast<double>(k % nx_), static_cast<double>(k / nx_)};
-      visit_leaves(roots_[k], corner, side_, visit);
-    }
+    for (std::size_t k = 0; k < roots_.size(); ++k)
+      visit_leaves(roots_[k], {0, static_cast<std::int64_t>(k % nx_), static_cast<std::int64_t>(k / nx_)}, visit);
   }
-
-  /// A node is the index of four children, or the complement of the index of a leaf.
-  using Node = std::int32_t;
-  using Children = std::array<Node, 4>; ///< in the order of CornerValues
 
 private:
-  struct Block;
-  class Builder;
-  void assemble(const comm::Communicator& comm, std::vector<Block> mine);
-
-  template <class Visit>
-  void visit_leaves(Node node, geometry::Vec2 corner, double side, const Visit& visit) const {
-    if (node < 0)
-      return visit(geometry::Box{corner, corner + geometry::Vec2{side, side}}, leaves_[~node]);
-    const double half = 0.5 * side;
-    for (int k = 0; k < 4; ++k)
-      visit_leaves(children_[node][k], corner + half * geometry::Vec2{double(k & 1), double(k >> 1)}, half, visit);
+  /// The blocks of a cell of this level are built together.
+  static constexpr int group_level = -2;
+  void assemble(const comm::Communicator& comm, std::vector<CellPart> mine);
+  CellPlace group_place(std::size_t group) const;
+  double highest_corner(const Source& source) const;
+  double cones_value(CellLeaf leaf, geometry::Vec2 p) const {
+    return lowest_cone(&numbers_[leaf.first], leaf.cones(), p, slope_, cap_);
   }
 
+  template <class Visit>
+  void visit_leaves(CellNode node, const CellPlace& place, const Visit& visit) const;
+
   geometry::Box box_;
-  std::size_t nx_ = 1, ny_ = 1;
-  double side_ = 1, inverse_side_ = 1; ///< of a block
-  std::vector<Node> roots_;            ///< of the blocks, row by row
-  std::vector<Children> children_;
-  std::vector<CornerValues> leaves_;
-  double least_ = 0, largest_ = 0;
+  CellGrid grid_;
+  double inverse_side_ = 1; ///< of a block
+  double slope_, cap_;
+  std::size_t nx_ = 1, ny_ = 1, groups_x_ = 1, groups_y_ = 1;
+  std::vector<CellNode> roots_; ///< of the blocks, row by row
+  std::vector<CellChildren> children_;
+  std::vector<double> numbers_; ///< of the leaves
+  std::size_t leaf_count_ = 0;
+  double least_ = std::numeric_limits<double>::infinity(), largest_ = 0;
 };
+
+template <class Visit>
+void SizeQuadtree::visit_leaves(CellNode node, const CellPlace& place, const Visit& visit) const {
+  if (node >= 0) {
+    const CellChildren& children = children_[node];
+    for (int k = 0; k < 4; ++k) {
+      const int first = 2 * (k & 1) + 8 * (k >> 1); // of the children in this quarter
+      const CellPlace quarter{place.level + 1, 2 * place.i + (k & 1), 2 * place.j + (k >> 1)};
+      if (children[first] < 0 && children[first] == children[first + 1])
+        visit_leaves(children[first], quarter, visit);
+      else
+        for (int m = 0; m < 4; ++m)
+          visit_leaves(children[first + (m & 1) + 4 * (m >> 1)],
+                       {place.level + 2, 2 * quarter.i + (m & 1), 2 * quarter.j + (m >> 1)}, visit);
+    }
+    return;
+  }
+  const CellLeaf leaf = CellLeaf::of(node);
+  const geometry::Box cell = grid_.box(place);
+  const double* const numbers = &numbers_[leaf.first];
+  if (leaf.is_bilinear())
+    return visit(cell, CornerValues{numbers[0], numbers[1], numbers[2], numbers[3]});
+  visit(cell, CornerValues{cones_value(leaf, cell.min), cones_value(leaf, {cell.max.x, cell.min.y}),
+                           cones_value(leaf, {cell.min.x, cell.max.y}), cones_value(leaf, cell.max)});
+  const geometry::Vec2 point = lowest_point(numbers, leaf.cones(), cell, slope_);
+  const double low = cones_value(leaf, point);
+  visit(geometry::Box{point, point}, CornerValues{low, low, low, low});
+}
 
 } // namespace trime::sizing
