@@ -80,7 +80,6 @@ TEST(PatchOptimizer, ChangesNothingNearTheRimHoweverSmallTheTrianglesThere) {
 TEST(PatchOptimizer, DeletesOneTooMany) {
   Stage stage(far_square());
   stage.options.bad_alpha = stage.options.operate_alpha = 1.02;
-  stage.options.moving_sweeps = 0; // moves alone would spread the hole until nothing bad is left
   add_lattice(stage);
   const Vec2 extra = unit_lattice().snap(middle + h * Vec2{0.5, 0.3});
   stage.add(extra);
@@ -93,7 +92,6 @@ TEST(PatchOptimizer, DeletesOneTooMany) {
 TEST(PatchOptimizer, InsertsOneThatIsMissing) {
   Stage stage(far_square());
   stage.options.bad_alpha = stage.options.operate_alpha = 1.02;
-  stage.options.moving_sweeps = 0; // moves alone would spread the hole until nothing bad is left
   add_lattice(stage);
   const Vec2 hole = stage.take_nearest(middle);
   Vec2 center{9, 9}; // the first of the hexagon around the hole
