@@ -268,12 +268,14 @@ std::vector<SiteEdit> Cleanup::collect(std::span<const Contender> chosen, const 
   const geometry::Periods& periods = state_.grid().periods();
   std::vector<SiteEdit> all;
   counts.patches = static_cast<std::int64_t>(chosen.size());
-  for (const PatchResult& result : results) {
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const PatchResult& result = results[k];
     counts.better += !result.edits.empty();
     counts.left += result.edits.empty() && !result.put_off;
     for (SiteEdit edit : result.edits) {
       edit.from = periods.wrap(edit.from);
       edit.to = periods.wrap(edit.to);
+      edit.patch = hash_of(chosen[k].place, 0);
       counts.moved += edit.kind == SiteEdit::Kind::move;
       counts.inserted += edit.kind == SiteEdit::Kind::insert;
       counts.deleted += edit.kind == SiteEdit::Kind::remove;
@@ -309,7 +311,7 @@ void Cleanup::edit_the_boundary(std::vector<SiteEdit>& edits) {
       const BoundaryEdit::Kind kind = edit.kind == SiteEdit::Kind::move     ? BoundaryEdit::Kind::slide
                                       : edit.kind == SiteEdit::Kind::remove ? BoundaryEdit::Kind::remove
                                                                             : BoundaryEdit::Kind::insert;
-      own.push_back({edit.boundary, kind, edit.arc, edit.to, 0});
+      own.push_back({edit.boundary, kind, edit.arc, edit.to, edit.patch});
     }
   const std::size_t before = chain_.sites().sites.size();
   const std::vector<LocalIndex> changed =

@@ -34,6 +34,7 @@ struct SiteEdit {
   Kind kind = Kind::move;
   std::int32_t boundary = mesh::free_site; ///< index of the boundary site; for a new one, of the site before it
   double arc = 0;                          ///< of the new place on the boundary
+  std::uint64_t patch = 0;                 ///< set by who collects them
 };
 
 /// What is known of a site after a patch has been tried.
