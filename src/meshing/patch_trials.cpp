@@ -15,6 +15,7 @@ constexpr double least_gain = 0.02;
 /// After each of the first sweeps a trial is given up that is so much worse than what it has to be, and in the last
 /// ones if it is than the best.
 constexpr double hopeless_at_first = 3, hopeless_then = 1.5, hopeless_at_last = 1.3;
+constexpr double excellent = 0.6;                     // of what a trial has to be: no others are tried then
 constexpr double nearest_reach = 2, near_reach = 3.2; // h: sites that move in the first sweeps, and in the last
 constexpr double score_reach = 4.4;                   // h: triangles of sites that count
 constexpr double bent_at_first = 1.01, bent_at_last = 1.25, bend_alpha = 1.1; // see patch_moves.cpp
@@ -80,7 +81,7 @@ bool PatchOptimizer::try_at(const Corners& worst, const PatchBudget& budget, boo
   for (const LocalIndex v : worst)
     contest.size += now_.size[at(v)] / 3;
   place_size_ = contest.size;
-  is_thorough_ = contest.alpha > (budget.is_again ? options_.again_alpha : options_.very_bad_alpha);
+  is_thorough_ = !is_first && contest.alpha > (budget.is_again ? options_.again_alpha : options_.very_bad_alpha);
   // Rather longer chords on curves than a bad triangle.
   longest_bent_ = contest.alpha >= bend_alpha ? bent_at_last : bent_at_first;
   list_near(contest);
@@ -109,7 +110,7 @@ bool PatchOptimizer::set_bar_by_moves(Contest& contest) {
   moves.patch = now_;
   for (int sweep = 0; sweep < 2; ++sweep)
     relax_near(moves.patch, nearest_);
-  for (int sweep = 0; sweep < 2 * options_.trial_sweeps; ++sweep)
+  for (int sweep = 0; sweep < options_.trial_sweeps; ++sweep)
     relax_near(moves.patch, near_);
   if (moves.patch.broken || !chords_hold(moves.patch))
     return true;
@@ -177,7 +178,8 @@ double PatchOptimizer::sum_near(const Patch& patch) {
     const auto& vertex = triangles[t].vertex;
     if (vertex[0] < 0)
       continue;
-    if (t < old.size() && vertex == old[t].vertex &&
+    if (t < old.size() && vertex[0] == old[t].vertex[0] && vertex[1] == old[t].vertex[1] &&
+        vertex[2] == old[t].vertex[2] &&
         !(mark_[at(vertex[0])] | mark_[at(vertex[1])] | mark_[at(vertex[2])]))
       sum += terms_[t];
     else if ((is_near(vertex[0]) || is_near(vertex[1]) || is_near(vertex[2])) && counts(patch, triangles[t]))
@@ -263,6 +265,8 @@ void PatchOptimizer::try_everything(const PatchBudget& budget, Contest& contest)
     const double handicap = operation.inserts() ? 1 : budget.deletion_handicap;
     if (apply(operation) && is_within(budget.may_insert, budget))
       run(trial_, handicap, hopeless_at_first, contest, runners);
+    if (runners.front().sum < excellent * contest.first)
+      break;
   }
   for (Runner& runner : runners)
     if (runner.sum < INFINITY)
