@@ -65,6 +65,7 @@ struct PatchOptions {
   /// Insertions and deletions are tried where moves alone leave a triangle above it.
   double operate_alpha = 1.09;
   double very_bad_alpha = 1.25; ///< more is tried for triangles above it
+  double first_alpha = 1.35;    ///< operations come before moves for triangles above it
   double again_alpha = 1.15;    ///< the same, when patches are tried again
   int moving_sweeps = 8;        ///< over the sites of bad triangles and their neighbours
   int trial_sweeps = 3;         ///< over the free sites around, of the best operations

@@ -14,7 +14,7 @@ using geometry::Vec2;
 constexpr double least_gain = 0.02;
 /// After each of the first sweeps a trial is given up that is so much worse than what it has to be, and in the last
 /// ones if it is than the best.
-constexpr double hopeless_at_first = 3, hopeless_then = 1.5, hopeless_at_last = 1.3;
+constexpr double hopeless_at_first = 3, hopeless_then = 1.5, hopeless_at_last = 1.2;
 constexpr double excellent = 0.6;                     // of what a trial has to be: no others are tried then
 constexpr double nearest_reach = 2, near_reach = 3.2; // h: sites that move in the first sweeps, and in the last
 constexpr double score_reach = 4.4;                   // h: triangles of sites that count
@@ -33,7 +33,7 @@ void PatchOptimizer::operate_first(const PatchBudget& budget) {
   longest_bent_ = bent_at_first;
   tried_.clear();
   for (int k = 0; k < most_tried; ++k) {
-    const std::optional<Corners> worst = worst_untried(options_.very_bad_alpha);
+    const std::optional<Corners> worst = worst_untried(options_.first_alpha);
     if (!worst)
       return;
     if (!try_at(*worst, budget, true))
@@ -179,8 +179,7 @@ double PatchOptimizer::sum_near(const Patch& patch) {
     if (vertex[0] < 0)
       continue;
     if (t < old.size() && vertex[0] == old[t].vertex[0] && vertex[1] == old[t].vertex[1] &&
-        vertex[2] == old[t].vertex[2] &&
-        !(mark_[at(vertex[0])] | mark_[at(vertex[1])] | mark_[at(vertex[2])]))
+        vertex[2] == old[t].vertex[2] && !(mark_[at(vertex[0])] | mark_[at(vertex[1])] | mark_[at(vertex[2])]))
       sum += terms_[t];
     else if ((is_near(vertex[0]) || is_near(vertex[1]) || is_near(vertex[2])) && counts(patch, triangles[t]))
       add_to(changed, alpha(patch, triangles[t]));
@@ -281,10 +280,11 @@ void PatchOptimizer::try_refining(const PatchBudget& budget, Contest& contest) {
   trial_ = now_;
   if (!refine(contest.corners) || !is_within(std::max(budget.may_insert, budget.may_refine), budget))
     return;
-  for (int sweep = 0; sweep < refine_sweeps; ++sweep)
+  for (int sweep = 0; sweep < refine_sweeps; ++sweep) {
     relax_near(trial_, near_);
-  if (trial_.broken)
-    return;
+    if (trial_.broken || (sweep == refine_sweeps / 2 && !(score_near(trial_).max < contest.largest)))
+      return;
+  }
   const double largest = score_near(trial_).max;
   if (largest - 1 > (1 - refine_gain) * (contest.largest - 1) || !chords_hold(trial_))
     return;
