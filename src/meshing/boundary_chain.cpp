@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/boundary_chain.hpp"
 
+#include "trime/core/error.hpp"
+
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -35,7 +37,23 @@ void BoundaryChain::close_chord(LocalIndex site) {
   its.next_shift = sites_.periods.nearest_image(end, its.position) - end;
 }
 
+/// Patches that do not overlap change each site once, and a chord is divided by one of them.
+/// @param edits by site, insertions into a chord by their way
+void BoundaryChain::check_apart(std::span<const BoundaryEdit> edits) {
+  for (std::size_t k = 1; k < edits.size(); ++k) {
+    const BoundaryEdit &one = edits[k - 1], &other = edits[k];
+    const bool divides = other.kind == BoundaryEdit::Kind::insert;
+    if (one.site == other.site && (!divides || one.patch != other.patch || one.arc == other.arc))
+      throw InternalError(
+          fmt::format("two changes of one boundary site or chord, at ({}, {})", other.position.x, other.position.y));
+  }
+}
+
 std::vector<LocalIndex> BoundaryChain::apply(std::vector<BoundaryEdit> edits) {
+  const auto divisions = std::stable_partition(
+      edits.begin(), edits.end(), [](const BoundaryEdit& edit) { return edit.kind != BoundaryEdit::Kind::insert; });
+  std::sort(edits.begin(), divisions, [](const BoundaryEdit& a, const BoundaryEdit& b) { return a.site < b.site; });
+  check_apart({edits.begin(), divisions});
   std::vector<LocalIndex> changed;
   for (const BoundaryEdit& edit : edits) {
     if (edit.kind == BoundaryEdit::Kind::slide) {
@@ -58,6 +76,7 @@ std::vector<LocalIndex> BoundaryChain::apply(std::vector<BoundaryEdit> edits) {
   std::sort(edits.begin(), edits.end(), [&](const BoundaryEdit& a, const BoundaryEdit& b) {
     return a.site != b.site ? a.site < b.site : way(a) > way(b); // the last comes first: each goes behind `site`
   });
+  check_apart(edits);
   for (const BoundaryEdit& edit : edits) {
     const auto made = static_cast<LocalIndex>(sites_.sites.size());
     BoundarySite site = sites_.sites[at(edit.site)];

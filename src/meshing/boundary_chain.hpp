@@ -5,6 +5,7 @@
 #include "meshing/boundary_curve.hpp"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace trime::meshing {
@@ -22,7 +23,8 @@ public:
 
   /// @brief Carries out edits; several new sites of one chord stand in the order of their arcs. O(edits log edits)
   /// @pre neighbouring sites lie within half a period of each other; a loop keeps 3 sites
-  /// @return the indices that have changed or are new
+  /// @throws InternalError if a site is changed twice, or a chord divided by two patches
+  /// @return the indices that have changed or are new, each as often as it has changed
   std::vector<LocalIndex> apply(std::vector<BoundaryEdit> edits);
 
   /// Carries all changes over. @return by index in the chain the new index, -1 if the site is gone
@@ -32,6 +34,7 @@ private:
   enum class Fate : std::uint8_t { untouched, moved, gone };
   void place(LocalIndex site, double arc, geometry::Vec2 position);
   void close_chord(LocalIndex site);
+  static void check_apart(std::span<const BoundaryEdit> edits);
 
   const BoundaryCurve& curve_;
   BoundarySites sites_;

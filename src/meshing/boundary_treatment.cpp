@@ -61,31 +61,44 @@ Treated treat_step(const MoveContext& context, const mesh::TileGrid& grid, const
   return treated;
 }
 
-bool settle_round(SiteState& state, const MoveContext& context, int round, bool delete_all) {
+namespace {
+
+constexpr int settle_rounds = 12, settle_pushes = 8;
+
+/// @brief All rounds of one site that no rule moves: pushed, then deleted when it is its turn, at last in any case.
+/// Nobody else moves its discs, so it needs nobody else. @return nothing if it may stay where it is
+std::optional<Treated> settled(const MoveContext& context, const mesh::TileGrid& grid, mesh::Site site, double h) {
+  std::optional<Treated> last;
+  for (int round = 0; round < settle_rounds; ++round) {
+    const bool delete_all = round >= settle_pushes;
+    Treated treated = treat_step(context, grid, site, h, {}, delete_all ? 0 : pushes_allowed);
+    if (!treated.deleted && !treated.pushed)
+      return last;
+    treated.deleted &= delete_all || is_chosen(site.position, round);
+    last = treated;
+    if (treated.deleted)
+      return last;
+    site = {grid.periods().wrap(treated.position), site.boundary, treated.pushes, treated.lead};
+  }
+  return last;
+}
+
+} // namespace
+
+bool settle_sites(SiteState& state, const MoveContext& context, double typical_size) {
   struct Offender {
     LocalIndex site;
     Treated treated;
   };
   const mesh::BinnedPoints& points = state.points();
   std::vector<std::vector<Offender>> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
-  const StarView view = view_of(state, context.size);
   const LocalIndex first_tile = points.first_tile();
-  comm::run_agreed(state.comm(), [&] { // the size field may be a user's
-    thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t t, int thread) {
-      const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
-      for (LocalIndex i = begin; i < end; ++i) {
-        if (points.boundary(i) != mesh::free_site)
-          continue;
-        Treated treated =
-            treat_step(context, state.grid(), points.site(i), view.size(i), {}, delete_all ? 0 : pushes_allowed);
-        if (treated.deleted && !delete_all && !is_chosen(points.position(i), round)) {
-          treated.deleted = false;
-          treated.pushed = true;
-        }
-        if (treated.pushed || treated.deleted)
-          of_thread[static_cast<std::size_t>(thread)].push_back({i, treated});
-      }
-    });
+  thread_loop(points.last_tile() - first_tile, 8, [&](std::ptrdiff_t t, int thread) {
+    const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
+    for (LocalIndex i = begin; i < end; ++i)
+      if (points.boundary(i) == mesh::free_site)
+        if (const auto treated = settled(context, state.grid(), points.site(i), typical_size))
+          of_thread[static_cast<std::size_t>(thread)].push_back({i, *treated});
   });
   std::int64_t offenders = 0;
   for (const std::vector<Offender>& list : of_thread)

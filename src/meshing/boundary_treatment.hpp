@@ -35,9 +35,11 @@ constexpr int pushes_allowed = 3;
 /// where sites are crowded, room that one leaves may be enough for the others.
 bool is_chosen(geometry::Vec2 p, int round);
 
-/// @brief One round without any rule: offenders are pushed; once they have been pushed three times, or if
-/// `delete_all` is set, they are deleted: all at once, or those that are chosen. Collective. @return false if there was
-/// none on any rank: all discs are empty
-bool settle_round(SiteState& state, const MoveContext& context, int round, bool delete_all);
+/// @brief Empties the discs of all boundary segments where no rule moves sites: offenders are pushed; once they have
+/// been pushed three times, and are still or again in a disc, they are deleted when it is their turn, in the end all of
+/// them. Every site by itself, since segments stay. Collective.
+/// @param typical_size any typical h: where searches begin
+/// @return false if there was no offender on any rank: all discs were empty
+bool settle_sites(SiteState& state, const MoveContext& context, double typical_size);
 
 } // namespace trime::meshing

@@ -123,47 +123,59 @@ void Cleanup::set_candidate(const Candidate& candidate) {
   else if (candidate.alpha > 0) {
     candidate_at_[key] = static_cast<std::uint32_t>(candidates_.size());
     candidates_.push_back(candidate);
-  }
+  } else
+    return;
+  Candidate& set = known != candidate_at_.end() ? candidates_[known->second] : candidates_.back();
+  if (set.alpha > 0)
+    set.cell = cell_key(set.place, set.size);
+  else
+    set.tried = 0; // as if it had been dropped
 }
 
 /// Nothing was better at a place: it is not tried again in this stage.
 void Cleanup::settle(Vec2 p) {
   const auto known = candidate_at_.find(hash_of(p, 0));
-  if (known != candidate_at_.end())
+  if (known != candidate_at_.end() && candidates_[known->second].alpha > 0)
     candidates_[known->second].tried = stage_;
+}
+
+/// Takes out those that are none any more, once they are many.
+void Cleanup::drop_the_good() {
+  const auto is_good = [](const Candidate& candidate) { return !(candidate.alpha > 0); };
+  if (2 * std::count_if(candidates_.begin(), candidates_.end(), is_good) <
+      static_cast<std::ptrdiff_t>(candidates_.size()))
+    return;
+  std::erase_if(candidates_, is_good);
+  candidate_at_.clear();
+  for (std::size_t k = 0; k < candidates_.size(); ++k)
+    candidate_at_[hash_of(candidates_[k].place, 0)] = static_cast<std::uint32_t>(k);
 }
 
 /// The worst one of each cell, and of the equally bad ones the first.
 std::vector<Contender> Cleanup::list_contenders() {
+  drop_the_good();
   const geometry::Periods& periods = state_.grid().periods();
   const double limit =
       largest_share_of_period * std::min(periods.x > 0 ? periods.x : INFINITY, periods.y > 0 ? periods.y : INFINITY);
   const double separation = 2 * options_.reach - PatchOptions::clearance;
-  std::size_t kept = 0;
-  for (const Candidate& candidate : candidates_)
-    if (candidate.alpha > 0 && separation * candidate.size < limit)
-      candidates_[kept++] = candidate;
-  candidates_.resize(kept);
-  candidate_at_.clear();
-  std::unordered_map<std::uint64_t, std::size_t> worst;
-  const auto takes_part = [&](const Candidate& candidate) {
-    return candidate.tried < stage_ && (stage_ == 1 || candidate.alpha > options_.again_alpha);
-  };
-  for (std::size_t k = 0; k < candidates_.size(); ++k) {
-    const Candidate& own = candidates_[k];
-    candidate_at_[hash_of(own.place, 0)] = static_cast<std::uint32_t>(k);
-    if (!takes_part(own))
+  std::unordered_map<std::uint64_t, const Candidate*> worst;
+  for (const Candidate& own : candidates_) {
+    if (!(own.alpha > 0) || own.tried >= stage_ || !(stage_ == 1 || own.alpha > options_.again_alpha) ||
+        !(separation * own.size < limit))
       continue;
-    const auto [known, is_new] = worst.try_emplace(cell_key(own.place, own.size), k);
-    const Candidate& other = candidates_[known->second];
+    const auto [known, is_new] = worst.try_emplace(own.cell, &own);
+    const Candidate& other = *known->second;
     if (!is_new && (own.alpha > other.alpha ||
                     (own.alpha == other.alpha && geometry::lexicographically_less(own.place, other.place))))
-      known->second = k;
+      known->second = &own;
   }
   std::vector<Contender> contenders;
-  for (const Candidate& own : candidates_)
-    if (takes_part(own) && &own == &candidates_[worst.at(cell_key(own.place, own.size))])
-      contenders.push_back({own.place, separation * own.size, order_of(own.alpha, hash_of(own.place, 1 + round_))});
+  contenders.reserve(worst.size());
+  for (const auto& [cell, own] : worst)
+    contenders.push_back({own->place, separation * own->size, order_of(own->alpha, hash_of(own->place, 1 + round_))});
+  // In an order of their own: that of a map is nobody's.
+  std::sort(contenders.begin(), contenders.end(),
+            [](const Contender& a, const Contender& b) { return geometry::lexicographically_less(a.place, b.place); });
   return contenders;
 }
 
@@ -268,12 +280,14 @@ std::vector<SiteEdit> Cleanup::collect(std::span<const Contender> chosen, const 
   const geometry::Periods& periods = state_.grid().periods();
   std::vector<SiteEdit> all;
   counts.patches = static_cast<std::int64_t>(chosen.size());
-  for (const PatchResult& result : results) {
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const PatchResult& result = results[k];
     counts.better += !result.edits.empty();
     counts.left += result.edits.empty() && !result.put_off;
     for (SiteEdit edit : result.edits) {
       edit.from = periods.wrap(edit.from);
       edit.to = periods.wrap(edit.to);
+      edit.patch = hash_of(chosen[k].place, 0);
       counts.moved += edit.kind == SiteEdit::Kind::move;
       counts.inserted += edit.kind == SiteEdit::Kind::insert;
       counts.deleted += edit.kind == SiteEdit::Kind::remove;
@@ -309,7 +323,7 @@ void Cleanup::edit_the_boundary(std::vector<SiteEdit>& edits) {
       const BoundaryEdit::Kind kind = edit.kind == SiteEdit::Kind::move     ? BoundaryEdit::Kind::slide
                                       : edit.kind == SiteEdit::Kind::remove ? BoundaryEdit::Kind::remove
                                                                             : BoundaryEdit::Kind::insert;
-      own.push_back({edit.boundary, kind, edit.arc, edit.to, 0});
+      own.push_back({edit.boundary, kind, edit.arc, edit.to, edit.patch});
     }
   const std::size_t before = chain_.sites().sites.size();
   const std::vector<LocalIndex> changed =

@@ -44,11 +44,13 @@ private:
     geometry::Vec2 place;
     double size, alpha; // alpha 0: none any more
     int tried = 0;      // number of the last stage in which nothing helped
+    std::uint64_t cell = 0;
   };
   std::uint64_t cell_key(geometry::Vec2 p, double h) const;
   void find_candidates();
   void set_candidate(const Candidate& candidate);
   void settle(geometry::Vec2 p);
+  void drop_the_good();
   std::vector<Contender> list_contenders();
   void find_tolerances(std::span<const LocalIndex> boundary_sites);
   PatchBudget budget(std::size_t own_patches) const;

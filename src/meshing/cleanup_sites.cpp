@@ -3,6 +3,7 @@
 
 #include "trime/comm/agree.hpp"
 #include "trime/core/error.hpp"
+#include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
 
@@ -89,8 +90,10 @@ void CleanupSites::collect(const Disc& disc, std::size_t most, std::vector<Patch
 std::vector<std::vector<PatchSite>> CleanupSites::around(std::span<const Disc> discs, std::size_t most) const {
   std::vector<std::vector<PatchSite>> sites(discs.size());
   std::map<int, std::vector<Question>> questions;
-  for (std::size_t k = 0; k < discs.size(); ++k) {
-    collect(discs[k], most, sites[k]);
+  thread_loop(static_cast<std::ptrdiff_t>(discs.size()), 16, [&](std::ptrdiff_t k, int) {
+    collect(discs[static_cast<std::size_t>(k)], most, sites[static_cast<std::size_t>(k)]);
+  });
+  for (std::size_t k = 0; k < discs.size() && comm_.size() > 1; ++k) {
     for (const int rank : ranks_near(discs[k]))
       questions[rank].push_back({discs[k], comm_.rank(), static_cast<std::int32_t>(k)});
   }
@@ -155,12 +158,17 @@ void CleanupSites::apply(std::span<const SiteEdit> edits) {
   for (std::size_t k = 0; k < edits.size(); ++k) // first all that go: one may come where another was
     if (edits[k].kind != SiteEdit::Kind::insert && owner(edits[k].from) == comm_.rank())
       origins[k] = take_out(edits[k].from);
+  std::vector<double> sizes(edits.size(), 0);
   comm::run_agreed(comm_, [&] {
-    for (std::size_t k = 0; k < edits.size(); ++k)
-      if (edits[k].kind != SiteEdit::Kind::remove && owner(edits[k].to) == comm_.rank())
-        added_in(state_.grid().place(edits[k].to).tile)
-            .push_back({edits[k].to, sizing::checked_size(size_, edits[k].to), edits[k].boundary, origins[k]});
+    thread_loop(static_cast<std::ptrdiff_t>(edits.size()), 64, [&](std::ptrdiff_t item, int) {
+      const SiteEdit& edit = edits[static_cast<std::size_t>(item)];
+      if (edit.kind != SiteEdit::Kind::remove && owner(edit.to) == comm_.rank())
+        sizes[static_cast<std::size_t>(item)] = sizing::checked_size(size_, edit.to);
+    });
   });
+  for (std::size_t k = 0; k < edits.size(); ++k)
+    if (sizes[k] > 0)
+      added_in(state_.grid().place(edits[k].to).tile).push_back({edits[k].to, sizes[k], edits[k].boundary, origins[k]});
 }
 
 void CleanupSites::finish(SiteState& state, std::span<const LocalIndex> new_index) const {

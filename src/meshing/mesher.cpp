@@ -27,7 +27,6 @@ namespace {
 constexpr double cap_in_sizes = 2.5;  // circumradius that counts, in h: a relaxed mesh has 0.6, a start up to 1.5
 constexpr GlobalId few_points = 2000; // below, the cap is the whole container
 constexpr int cap_doublings = 10;     // to 2500 h: a void that no start can leave
-constexpr int settle_rounds = 12, settle_pushes = 8;
 
 } // namespace
 
@@ -251,9 +250,7 @@ private:
   /// Empties the diametral discs of all boundary segments: pushes first, then deletes.
   void settle() {
     const auto time = timers_.scope("settle");
-    for (int round = 0; round < settle_rounds; ++round)
-      if (!settle_round(state(), move_context(), round, round >= settle_pushes))
-        return;
+    settle_sites(state(), move_context(), layout_.typical_size);
   }
 
   /// Mends the worst triangles, patch by patch.

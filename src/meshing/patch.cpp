@@ -28,6 +28,9 @@ LocalIndex PatchOptimizer::Patch::add(Vec2 p, double h, const BoundaryVertex& on
   role.push_back(its_role);
   size.push_back(h);
   boundary.push_back(on_boundary);
+  if (on_boundary.site >= 0)
+    rim.push_back(v);
+  ++gain;
   return v;
 }
 
@@ -43,6 +46,7 @@ bool PatchOptimizer::build(Vec2 center, double size, std::span<const PatchSite> 
   start_.role.assign(PatchMesh::frame, Role::held);
   start_.size.assign(PatchMesh::frame, size);
   start_.boundary.assign(PatchMesh::frame, {});
+  start_.rim.clear();
   rests_.assign(PatchMesh::frame, 0);
   for (const PatchSite& site : sites) {
     const double distance = geometry::length(site.position - center);
@@ -65,6 +69,7 @@ bool PatchOptimizer::build(Vec2 center, double size, std::span<const PatchSite> 
     if (start_.add(site.position, site.size, on_boundary, role) >= 0)
       rests_.push_back(site.rests != 0);
   }
+  start_.gain = 0;
   link_boundary();
   missing_at_start_ = missing_chords(start_);
   return std::find(start_.role.begin(), start_.role.end(), Role::free) != start_.role.end();
@@ -72,22 +77,17 @@ bool PatchOptimizer::build(Vec2 center, double size, std::span<const PatchSite> 
 
 /// Joins neighbours along the boundary. Who has none in the patch is held.
 void PatchOptimizer::link_boundary() {
-  std::vector<LocalIndex>& on_boundary = movers_;
-  on_boundary.clear();
-  for (LocalIndex v = PatchMesh::frame; v < start_.mesh.vertices(); ++v)
-    if (start_.on_boundary(v))
-      on_boundary.push_back(v);
-  for (const LocalIndex v : on_boundary) {
+  for (const LocalIndex v : start_.rim) {
     BoundaryVertex& own = start_.boundary[at(v)];
     const geometry::Segment chord = boundary_.chord(own.site);
     const Vec2 end = start_.mesh.position(v) + (chord.b - chord.a);
-    for (const LocalIndex u : on_boundary)
+    for (const LocalIndex u : start_.rim)
       if (start_.boundary[at(u)].site == boundary_.sites[at(own.site)].next && start_.mesh.position(u) == end) {
         own.next = u;
         start_.boundary[at(u)].previous = v;
       }
   }
-  for (const LocalIndex v : on_boundary) {
+  for (const LocalIndex v : start_.rim) {
     const BoundaryVertex& own = start_.boundary[at(v)];
     if (own.next < 0 || own.previous < 0)
       start_.role[at(v)] = std::min(start_.role[at(v)], Role::scored);
@@ -165,11 +165,9 @@ bool PatchOptimizer::is_in_core(Vec2 p) const {
 /// How many chords of the boundary are no edges.
 LocalIndex PatchOptimizer::missing_chords(const Patch& patch) const {
   LocalIndex missing = 0;
-  for (LocalIndex v = PatchMesh::frame; v < patch.mesh.vertices(); ++v)
-    missing += patch.role[at(v)] != Role::gone && patch.boundary[at(v)].next >= 0;
-  for (const PatchMesh::Triangle& triangle : patch.mesh.triangles())
-    for (std::size_t k = 0; k < 3 && triangle.vertex[0] >= 0; ++k)
-      missing -= patch.is_chord(triangle.vertex[k], triangle.vertex[(k + 1) % 3]);
+  for (const LocalIndex v : patch.rim)
+    missing += patch.role[at(v)] != Role::gone && patch.boundary[at(v)].next >= 0 &&
+               !patch.mesh.apexes(v, patch.boundary[at(v)].next);
   return missing;
 }
 
@@ -181,26 +179,28 @@ bool PatchOptimizer::chords_hold(const Patch& patch) const {
   const auto has_moved = [&](LocalIndex u) {
     return u >= start_.mesh.vertices() || patch.mesh.position(u) != start_.mesh.position(u);
   };
-  for (const PatchMesh::Triangle& triangle : patch.mesh.triangles())
-    for (std::size_t k = 0; k < 3 && triangle.vertex[0] >= 0; ++k) {
-      const LocalIndex from = triangle.vertex[k], to = triangle.vertex[(k + 1) % 3];
-      const bool forward = patch.is_chord(from, to), backward = patch.is_chord(to, from);
-      if (!forward && !backward)
-        continue;
-      const LocalIndex apex = triangle.vertex[(k + 2) % 3];
-      const BoundaryVertex& first = patch.boundary[at(forward ? from : to)];
-      const Vec2 a = patch.mesh.position(forward ? from : to), b = patch.mesh.position(forward ? to : from);
-      if (forward && first.changed && !stands_for_curve(first, patch.boundary[at(to)], {a, b}, patch.size[at(from)]))
-        return false;
-      if (apex < PatchMesh::frame ||
-          !(first.changed || has_moved(apex))) // near the rim, not all that lies between is known
-        continue;
-      if (backward && !patch.on_boundary(apex))
-        return false;
-      if (geometry::diametral_side(a, b, patch.mesh.position(apex)) <= 0)
+  LocalIndex missing = 0;
+  for (const LocalIndex v : patch.rim) {
+    const BoundaryVertex& own = patch.boundary[at(v)];
+    if (own.next < 0 || patch.role[at(v)] == Role::gone)
+      continue;
+    const auto apexes = patch.mesh.apexes(v, own.next);
+    if (!apexes) {
+      ++missing;
+      continue;
+    }
+    const Vec2 a = patch.mesh.position(v), b = patch.mesh.position(own.next);
+    if (own.changed && !stands_for_curve(own, patch.boundary[at(own.next)], {a, b}, patch.size[at(v)]))
+      return false;
+    for (const LocalIndex apex : {apexes->left, apexes->right}) {
+      if (apex < PatchMesh::frame || !(own.changed || has_moved(apex)))
+        continue; // near the rim, not all that lies between is known
+      if ((apex == apexes->right && !patch.on_boundary(apex)) ||
+          geometry::diametral_side(a, b, patch.mesh.position(apex)) <= 0)
         return false;
     }
-  return missing_chords(patch) <= missing_at_start_;
+  }
+  return missing <= missing_at_start_;
 }
 
 /// The difference between the sites and what they have become.
@@ -273,6 +273,8 @@ PatchResult PatchOptimizer::improve(Vec2 center, double size, std::span<const Pa
     return result;
   }
   now_ = start_;
+  if (!budget.is_again)
+    operate_first(budget);
   move_bad_sites();
   wake_moved(start_);
   operate(budget);

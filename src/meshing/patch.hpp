@@ -65,10 +65,12 @@ struct PatchOptions {
   /// Insertions and deletions are tried where moves alone leave a triangle above it.
   double operate_alpha = 1.09;
   double very_bad_alpha = 1.25; ///< more is tried for triangles above it
+  double first_alpha = 1.35;    ///< operations come before moves for triangles above it
   double again_alpha = 1.15;    ///< the same, when patches are tried again
   int moving_sweeps = 8;        ///< over the sites of bad triangles and their neighbours
   int trial_sweeps = 3;         ///< over the free sites around, of the best operations
-  std::size_t finalists = 4;    ///< operations that go beyond the first sweeps, near the middle
+  std::size_t runners = 6;      ///< operations that go beyond the first sweep, near the middle
+  std::size_t finalists = 4;    ///< operations that go beyond the second
   double tolerance = 0;         ///< of PatchSite, in sizes as they are asked for
 };
 
@@ -96,7 +98,8 @@ public:
   PatchOptimizer(const BoundarySites& boundary, const BoundaryCurve& curve, const geometry::Lattice& lattice,
                  const PatchOptions& options)
       : boundary_(boundary), curve_(curve), lattice_(lattice), options_(options), start_(lattice, boundary.periods),
-        now_(start_), trial_(start_), best_(start_), finalists_(options.finalists, Finalist{start_}) {}
+        now_(start_), trial_(start_), best_(start_), runners_(options.runners, Runner{start_}),
+        finalists_(options.finalists, Runner{start_}) {}
 
   /// @brief Tries everything once.
   /// @param sites in lexicographic order; all that lie within `options.reach` times `size` of `center`
@@ -134,11 +137,13 @@ private:
     std::vector<Role> role;
     std::vector<double> size;
     std::vector<BoundaryVertex> boundary;
+    std::vector<LocalIndex> rim; // vertices on the boundary, gone ones included
+    GlobalId gain = 0;           // of sites, since the start
     bool broken = false;
   };
-  struct Finalist {
+  struct Runner { // a trial that is still in the contest
     Patch patch;
-    double sum = 0, handicap = 1;
+    double sum = 0, handicap = 1; // infinite: none
   };
   /// The place of the trials, and the best of them.
   struct Contest {
@@ -178,28 +183,32 @@ private:
   bool keeps_clear(const Patch& patch, geometry::Vec2 to) const;
   bool leaves_discs_empty(const Patch& patch, LocalIndex v, geometry::Vec2 to) const;
 
-  // patch_trials.cpp
+  // patch_trials.cpp, patch_operations.cpp
+  void operate_first(const PatchBudget& budget);
   void operate(const PatchBudget& budget);
   bool is_settled(const Corners& corners) const;
   bool rest(const Corners& corners) const;
   void wake_moved(const Patch& before);
   std::optional<Corners> worst_untried(double above) const;
-  bool try_at(const Corners& worst, const PatchBudget& budget);
+  bool try_at(const Corners& worst, const PatchBudget& budget, bool is_first);
+  bool set_bar_by_moves(Contest& contest);
   void list_near(const Contest& contest);
+  void note_terms();
+  double sum_near(const Patch& patch);
   Score score_near(const Patch& patch) const;
   void list_operations(const Contest& contest);
   void list_at_boundary(const Contest& contest);
-  bool is_within(GlobalId may_insert, const PatchBudget& budget) const;
   bool apply(const Operation& operation);
   bool remove(LocalIndex v);
   bool insert(geometry::Vec2 place);
   bool insert_on_boundary(LocalIndex before);
   std::optional<geometry::Segment> entered_disc(const Patch& patch, geometry::Vec2 p) const;
   bool is_within_reach(geometry::Vec2 p, double h) const;
+  bool is_within(GlobalId may_insert, const PatchBudget& budget) const;
   void relax_near(Patch& patch, std::span<const LocalIndex> near);
-  double begin_trial(double handicap, const Contest& contest);
-  void enter_finals(double sum, double handicap, std::size_t places);
-  void finish_trial(Patch& trial, double handicap, Contest& contest);
+  void run(Patch& patch, double handicap, double share, const Contest& contest, std::span<Runner> list);
+  static void enter(std::span<Runner> list, Patch& patch, double sum, double handicap);
+  void finish(Runner& finalist, Contest& contest);
   void try_everything(const PatchBudget& budget, Contest& contest);
   void try_refining(const PatchBudget& budget, Contest& contest);
   bool refine(const Corners& worst);
@@ -211,7 +220,7 @@ private:
   geometry::Lattice lattice_;
   PatchOptions options_;
   Patch start_, now_, trial_, best_;
-  std::vector<Finalist> finalists_; // by sum; infinite: none
+  std::vector<Runner> runners_, finalists_; // by sum
   geometry::Vec2 center_;
   double size_ = 1;
   double place_size_ = 1;           // h at the place of the present trials
@@ -223,6 +232,7 @@ private:
   std::vector<LocalIndex> ring_, shifted_, movers_, nearest_, near_; // vertices: work space, and those to move
   std::vector<std::uint8_t> rests_, mark_, in_score_;                // by vertex
   std::vector<double> worst_before_, worst_after_;                   // by vertex: alpha
+  std::vector<double> terms_;                                        // by triangle: what it adds to the sum of now_
   std::vector<geometry::Vec2> around_;
 };
 

@@ -25,7 +25,7 @@ inline bool holds(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const geometry::Lattice& latti
   const double ax = a.x - d.x, ay = a.y - d.y, bx = b.x - d.x, by = b.y - d.y, cx = c.x - d.x, cy = c.y - d.y;
   const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
   const double determinant = a2 * (bx * cy - cx * by) + b2 * (cx * ay - ax * cy) + c2 * (ax * by - bx * ay);
-  const double largest = std::fmax(a2, std::fmax(b2, c2)), sure = 0x1p-46 * largest * largest;
+  const double largest = std::max(a2, std::max(b2, c2)), sure = 0x1p-46 * largest * largest;
   if (determinant > sure || determinant < -sure)
     return determinant > 0;
   return geometry::in_circle(a, b, c, d, lattice, periods) > 0;
@@ -173,8 +173,30 @@ void PatchMesh::collect_ring(LocalIndex v, std::vector<LocalIndex>& ring) const 
 }
 
 LocalIndex PatchMesh::degree(LocalIndex v) const {
-  collect_ring(v, ring_);
-  return static_cast<LocalIndex>(ring_.size());
+  LocalIndex count = 0;
+  const LocalIndex first = corner_of_[static_cast<std::size_t>(v)];
+  LocalIndex t = first;
+  do {
+    ++count;
+    t = triangle(t).neighbour[static_cast<std::size_t>(next(place_in(t, v)))];
+  } while (t != first && t >= 0);
+  return count;
+}
+
+std::optional<PatchMesh::Apexes> PatchMesh::apexes(LocalIndex from, LocalIndex to) const {
+  const LocalIndex first = corner_of_[static_cast<std::size_t>(from)];
+  LocalIndex t = first;
+  do {
+    const int k = place_in(t, from);
+    const Triangle& left = triangle(t);
+    if (left.vertex[static_cast<std::size_t>(next(k))] == to) {
+      const LocalIndex u = left.neighbour[static_cast<std::size_t>(previous(k))];
+      return Apexes{left.vertex[static_cast<std::size_t>(previous(k))],
+                    u < 0 ? -1 : triangle(u).vertex[static_cast<std::size_t>(next(place_in(u, from)))]};
+    }
+    t = left.neighbour[static_cast<std::size_t>(next(k))];
+  } while (t != first && t >= 0);
+  return std::nullopt;
 }
 
 /// The edge of triangle t opposite of its vertex k, between the triangles (a, b, c) and (d, c, b), becomes a-d.

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -57,6 +58,12 @@ public:
   /// The neighbours of v, counter-clockwise, replacing the content of `ring`.
   void collect_ring(LocalIndex v, std::vector<LocalIndex>& ring) const;
   LocalIndex degree(LocalIndex v) const;
+  /// The vertices opposite of the edge between two vertices: left of the way, and right of it (-1 beyond the frame).
+  struct Apexes {
+    LocalIndex left, right;
+  };
+  /// Nothing if the two are no neighbours.
+  std::optional<Apexes> apexes(LocalIndex from, LocalIndex to) const;
 
 private:
   struct Side { // the edge of triangle t opposite of its vertex k

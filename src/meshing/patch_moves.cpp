@@ -117,7 +117,7 @@ bool PatchOptimizer::relax_vertex(Patch& patch, LocalIndex v) {
     if (geometry::squared_length(step) < shortest_step * shortest_step * h * h)
       return false;
     const Vec2 to = lattice_.snap(from + step);
-    if (!(star_energy(to, around_, true) < model.value) || !keeps_clear(patch, to))
+    if (!(star_energy(to, around_, true, model.value) < model.value) || !keeps_clear(patch, to))
       continue;
     if (is_flat) { // the signs of the areas are not certain
       patch.mesh.move(v, to);
@@ -133,7 +133,7 @@ bool PatchOptimizer::relax_vertex(Patch& patch, LocalIndex v) {
 bool PatchOptimizer::keeps_clear(const Patch& patch, Vec2 to) const {
   if (geometry::length(to - center_) > (options_.reach - PatchOptions::clearance + most_outwards) * size_)
     return false;
-  for (std::size_t k = 0; k < ring_.size(); ++k) {
+  for (std::size_t k = 0; k < ring_.size() && !patch.rim.empty(); ++k) {
     const LocalIndex u = ring_[k], w = ring_[k + 1 == ring_.size() ? 0 : k + 1];
     if ((patch.is_chord(u, w) || patch.is_chord(w, u)) &&
         geometry::diametral_side(patch.mesh.position(u), patch.mesh.position(w), to) <= 0)
@@ -176,7 +176,7 @@ void PatchOptimizer::slide_vertex(Patch& patch, LocalIndex v) {
     const Vec2 to = boundary_.periods.nearest_image(lattice_.snap(curve_.place(own.loop, arc).point), from);
     BoundaryVertex moved = own;
     moved.arc = arc >= length ? arc - length : arc < 0 ? arc + length : arc;
-    if (!(star_energy(to, around_, false) < model.value) || !leaves_discs_empty(patch, v, to) ||
+    if (!(star_energy(to, around_, false, model.value) < model.value) || !leaves_discs_empty(patch, v, to) ||
         !stands_for_curve(moved, patch.boundary[at(own.next)], {to, around_.front()}, h) ||
         !stands_for_curve(patch.boundary[at(own.previous)], moved, {around_.back(), to}, patch.size[at(own.previous)]))
       continue;

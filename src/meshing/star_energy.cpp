@@ -10,55 +10,59 @@ using geometry::Vec2;
 namespace {
 
 constexpr double c = 0.28867513459481287; // 1 / (2 sqrt(3)): eta = c (a^2 + b^2 + c^2) / (2 area)
+constexpr double sin_60 = 0.8660254037844386;
 
 constexpr double weight_of_bad = 10; // of the fourth power
 
-/// eta of the triangle p, a, b: (sum of squared edges) / (4 sqrt(3) area); negative if turned over.
-double eta(Vec2 p, Vec2 a, Vec2 b) {
-  const double sum =
-      geometry::squared_length(p - a) + geometry::squared_length(p - b) + geometry::squared_length(a - b);
-  return c * sum / geometry::cross(a - p, b - p);
+Vec2 turned_by_60(Vec2 v) {
+  return {0.5 * v.x - sin_60 * v.y, sin_60 * v.x + 0.5 * v.y};
 }
 
-double energy_of(double value) {
-  const double excess = value - 1;
+double energy_of(double excess) {
   return excess * excess * (1 + weight_of_bad * (excess * excess));
 }
 
 } // namespace
 
-double star_energy(Vec2 p, std::span<const Vec2> ring, bool closed) {
+// A triangle has its corners at p, p + u and p + v. With w = u turned by 60 degrees - v, the sum of its squared edges
+// is 2 w.w + 2 sqrt(3) (u x v), so that eta - 1 = 2 c w.w / (u x v): nothing cancels, however good the triangle is.
+
+double star_energy(Vec2 p, std::span<const Vec2> ring, bool closed, double limit) {
   double sum = 0;
-  for (std::size_t k = 0; k < ring.size() - !closed; ++k) {
-    const double value = eta(p, ring[k], ring[k + 1 == ring.size() ? 0 : k + 1]);
-    if (!(value >= 1 - 1e-9))
+  Vec2 u = (closed ? ring.back() : ring.front()) - p;
+  for (std::size_t k = !closed; k < ring.size(); ++k) {
+    const Vec2 v = ring[k] - p;
+    const double area = geometry::cross(u, v);
+    if (!(area > 0))
       return INFINITY;
-    sum += energy_of(value);
+    sum += energy_of(2 * c * geometry::squared_length(turned_by_60(u) - v) / area);
+    if (!(sum < limit))
+      return INFINITY;
+    u = v;
   }
   return sum;
 }
 
 EnergyModel star_energy_model(Vec2 p, std::span<const Vec2> ring, bool closed) {
   EnergyModel model;
-  for (std::size_t k = 0; k < ring.size() - !closed; ++k) {
-    const Vec2 a = ring[k], b = ring[k + 1 == ring.size() ? 0 : k + 1];
-    const double inverse = 1 / geometry::cross(a - p, b - p);
-    const double sum =
-        geometry::squared_length(p - a) + geometry::squared_length(p - b) + geometry::squared_length(a - b);
-    const Vec2 of_sum = 2 * ((p - a) + (p - b)), of_area{a.y - b.y, b.x - a.x};
-    const double value = c * sum * inverse, excess = value - 1;
-    const Vec2 g = c * inverse * (of_sum - (sum * inverse) * of_area);
-    const double w = c * inverse * inverse, v = 2 * sum * inverse;
-    const double hxx = 4 * c * inverse + w * (v * of_area.x * of_area.x - 2 * of_sum.x * of_area.x);
-    const double hyy = 4 * c * inverse + w * (v * of_area.y * of_area.y - 2 * of_sum.y * of_area.y);
-    const double hxy = w * (v * of_area.x * of_area.y - of_sum.x * of_area.y - of_sum.y * of_area.x);
+  Vec2 u = (closed ? ring.back() : ring.front()) - p;
+  for (std::size_t k = !closed; k < ring.size(); ++k) {
+    const Vec2 v = ring[k] - p, w = turned_by_60(u) - v;
+    const double inverse = 1 / geometry::cross(u, v), scale = 2 * c * inverse;
+    const double excess = scale * geometry::squared_length(w);
+    const Vec2 of_square = 2 * turned_by_60(w), of_area = inverse * Vec2{u.y - v.y, v.x - u.x}; // relative to the area
+    const Vec2 g = scale * of_square - excess * of_area;
+    const double hxx = 2 * (scale - g.x * of_area.x);
+    const double hyy = 2 * (scale - g.y * of_area.y);
+    const double hxy = -(g.x * of_area.y + g.y * of_area.x);
     const double square = weight_of_bad * (excess * excess);
     const double first = excess * (2 + 4 * square), second = 2 + 12 * square;
-    model.value += energy_of(value);
+    model.value += energy_of(excess);
     model.gradient = model.gradient + first * g;
     model.xx += second * g.x * g.x + first * hxx;
     model.xy += second * g.x * g.y + first * hxy;
     model.yy += second * g.y * g.y + first * hyy;
+    u = v;
   }
   return model;
 }

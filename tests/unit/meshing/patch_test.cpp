@@ -80,7 +80,6 @@ TEST(PatchOptimizer, ChangesNothingNearTheRimHoweverSmallTheTrianglesThere) {
 TEST(PatchOptimizer, DeletesOneTooMany) {
   Stage stage(far_square());
   stage.options.bad_alpha = stage.options.operate_alpha = 1.02;
-  stage.options.moving_sweeps = 0; // moves alone would spread the hole until nothing bad is left
   add_lattice(stage);
   const Vec2 extra = unit_lattice().snap(middle + h * Vec2{0.5, 0.3});
   stage.add(extra);
@@ -93,7 +92,6 @@ TEST(PatchOptimizer, DeletesOneTooMany) {
 TEST(PatchOptimizer, InsertsOneThatIsMissing) {
   Stage stage(far_square());
   stage.options.bad_alpha = stage.options.operate_alpha = 1.02;
-  stage.options.moving_sweeps = 0; // moves alone would spread the hole until nothing bad is left
   add_lattice(stage);
   const Vec2 hole = stage.take_nearest(middle);
   Vec2 center{9, 9}; // the first of the hexagon around the hole
@@ -197,6 +195,34 @@ TEST(PatchOptimizer, SitesOfAStraightBoundaryComeAndGo) {
     EXPECT_GE(count(edits, one_more ? Kind::remove : Kind::insert, true), 1);
     EXPECT_LT(worst_alpha(stage, edits, middle, 3 * h), 1.03);
   }
+}
+
+/// As near to each other as Cleanup chooses them: then no two of them change one site, or divide one chord.
+TEST(PatchOptimizer, PatchesThatKeepApartShareNoChord) {
+  Stage stage(half_plane());
+  std::vector<LocalIndex> inserted;
+  std::vector<BoundaryEdit> holes;
+  for (std::size_t k = 0; k < stage.sites_on.sites.size(); k += 3)
+    if (const Vec2 p = stage.sites_on.sites[k].position; p.y == 0.5 && std::fabs(p.x - 0.5) < 12.5 * h)
+      holes.push_back({static_cast<LocalIndex>(k), BoundaryEdit::Kind::remove, 0, {}});
+  edit_boundary(stage.sites_on, stage.curve, holes, inserted);
+  stage.guard = BoundaryGuard(stage.sites_on, unit_lattice());
+  stage.add_boundary();
+  for (int j = 1; j <= 9; ++j)
+    for (int i = -15; i <= 15; ++i)
+      if (std::abs(i) <= 14 - (j & 1))
+        stage.add(middle + h * Vec2{i + 0.5 * (j & 1), std::sqrt(0.75) * j});
+  const PatchOptions options;
+  const double half = 0.5 * (2 * options.reach - PatchOptions::clearance) * h;
+  std::vector<LocalIndex> left, right;
+  for (const auto& [list, side] : {std::pair{&left, -half}, {&right, half}})
+    for (const SiteEdit& edit : stage.improve(unit_lattice().snap(middle + Vec2{side, 0})))
+      if (edit.boundary >= 0)
+        list->push_back(edit.boundary);
+  EXPECT_FALSE(left.empty());
+  EXPECT_FALSE(right.empty());
+  for (const LocalIndex site : left)
+    EXPECT_EQ(std::count(right.begin(), right.end(), site), 0);
 }
 
 /// Where sites slide on circles and across the start of the loop.
