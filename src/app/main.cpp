@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // trime_mpi: starts and ends MPI, and turns errors into messages and exit codes. The only try of the program.
+#include "app/large_arrays.hpp"
 #include "app/program.hpp"
 #include "trime/io/mesh_file.hpp"
 
@@ -76,6 +77,7 @@ ExitCode run(int argc, char** argv, const trime::comm::Communicator& comm) {
 } // namespace
 
 int main(int argc, char** argv) {
+  trime::app::prepare_large_arrays();
   const trime::comm::Environment environment(argc, argv);
   const trime::comm::Communicator comm = trime::comm::Communicator::world();
   handle_signals(comm.is_root());
