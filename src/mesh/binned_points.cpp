@@ -88,7 +88,8 @@ void BinnedPoints::prepare_to_stay() {
   thread_loop((owned_ + 4095) / 4096, 1, [&](std::ptrdiff_t part, int) {
     const std::ptrdiff_t begin = part * 4096, end = std::min<std::ptrdiff_t>(owned_, begin + 4096);
     std::copy(positions_.begin() + begin, positions_.begin() + end, next_positions_.begin() + begin);
-    std::copy(leads_.begin() + begin, leads_.begin() + end, next_leads_.begin() + begin);
+    if (has_leads_)
+      std::copy(leads_.begin() + begin, leads_.begin() + end, next_leads_.begin() + begin);
   });
 }
 
@@ -155,15 +156,19 @@ int BinnedPoints::suitable_bin_bits(LocalIndex tile) const {
   return suitable;
 }
 
-void BinnedPoints::release_next() {
-  release(next_positions_);
+void BinnedPoints::release_leads() {
+  has_leads_ = false;
+  release(leads_);
   release(next_leads_);
+  release(next_positions_);
 }
 
 void BinnedPoints::release_moves() {
-  release_next();
+  release_leads();
   release(pushes_);
-  release(leads_);
+  release(bin_begin_);
+  release(bin_end_);
+  release(bin_known_);
 }
 
 } // namespace trime::mesh

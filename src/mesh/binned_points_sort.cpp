@@ -60,7 +60,9 @@ public:
   Vec2 position(LocalIndex i) const { return i < owned_ ? points_.next_positions_[at(i)] : more_.position(i - owned_); }
   std::int32_t boundary(LocalIndex i) const { return i < owned_ ? points_.boundary(i) : more_.boundary(i - owned_); }
   std::int32_t pushes(LocalIndex i) const { return i < owned_ ? points_.pushes(i) : more_.pushes(i - owned_); }
-  Vec2 lead(LocalIndex i) const { return i < owned_ ? points_.next_leads_[at(i)] : more_.lead(i - owned_); }
+  Vec2 lead(LocalIndex i) const {
+    return !points_.has_leads_ ? Vec2{} : i < owned_ ? points_.next_leads_[at(i)] : more_.lead(i - owned_);
+  }
 
 private:
   const BinnedPoints& points_;
@@ -73,6 +75,7 @@ LocalIndex BinnedPoints::assign_owned(std::span<const Site> sites, LocalIndex fi
                                       std::vector<LocalIndex>* new_index) {
   first_tile_ = first_tile;
   last_tile_ = last_tile;
+  has_leads_ = true;
   const ListedSites list(sites);
   const LocalIndex dropped = find_order(list);
   take_places(list);
@@ -130,10 +133,11 @@ template <class Sites>
 void BinnedPoints::take_places(const Sites& sites) {
   owned_ = kept_.back();
   positions_.resize(at(owned_));
-  leads_.resize(at(owned_));
+  leads_.resize(has_leads_ ? at(owned_) : 0);
   for_each_in_order(kept_, tile_start_, order_, [&](std::size_t k, LocalIndex from) {
     positions_[k] = sites.position(from);
-    leads_[k] = sites.lead(from);
+    if (has_leads_)
+      leads_[k] = sites.lead(from);
   });
 }
 

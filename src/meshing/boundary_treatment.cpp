@@ -98,7 +98,8 @@ bool settle_round(SiteState& state, const MoveContext& context, int round, bool 
     for (const auto& [i, treated] : list) {
       const std::size_t at = static_cast<std::size_t>(i);
       state.points().next_positions()[at] = treated.position;
-      state.points().next_leads()[at] = treated.lead;
+      if (!state.points().next_leads().empty())
+        state.points().next_leads()[at] = treated.lead;
       state.points().set_pushes(i, treated.pushes);
       deleted[at] = treated.deleted;
     }

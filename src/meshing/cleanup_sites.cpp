@@ -172,7 +172,6 @@ void CleanupSites::finish(SiteState& state, std::span<const LocalIndex> new_inde
   std::vector<std::uint8_t> deleted(at(points.owned()), 0);
   for (LocalIndex i = 0; i < points.owned(); ++i) {
     deleted[at(i)] = fates_[at(i)] == Fate::gone;
-    points.next_leads()[at(i)] = {};
     points.set_boundary(i, !deleted[at(i)] ? renumbered(points.boundary(i)) : mesh::free_site);
   }
   std::vector<mesh::Site> more;

@@ -70,7 +70,7 @@ public:
   /// @pre site i is owned
   Site site(LocalIndex i) const {
     const std::size_t at = static_cast<std::size_t>(i);
-    return {positions_[at], boundary_[at], pushes_[at], leads_[at]};
+    return {positions_[at], boundary_[at], pushes_[at], leads_.empty() ? geometry::Vec2{} : leads_[at]};
   }
   Ghost ghost(LocalIndex i) const { return {position(i), boundary(i)}; }
 
@@ -111,7 +111,7 @@ public:
   /// What would travel with an owned site to its next place. @pre it has one
   Site next_site(LocalIndex i) const {
     const std::size_t at = static_cast<std::size_t>(i);
-    return {next_positions_[at], boundary_[at], pushes_[at], next_leads_[at]};
+    return {next_positions_[at], boundary_[at], pushes_[at], next_leads_.empty() ? geometry::Vec2{} : next_leads_[at]};
   }
   /// @brief Sorts the owned sites at their next places, but for those that are gone (by local index; empty: none), and
   /// more of them besides; as assign_owned does, with the same tiles. The next places are used up. Needs 9 bytes a site
@@ -136,9 +136,11 @@ public:
     return std::span(positions_).subspan(static_cast<std::size_t>(owned_));
   }
 
-  /// Frees the next places.
-  void release_next();
-  /// Frees what only sites that move have. @post site() must not be called until assign_owned
+  /// Frees the leads, and those of arriving sites are forgotten: no rule moves the sites any more. @post site() says 0;
+  /// leads() and next_leads() are empty, until assign_owned
+  void release_leads();
+  /// Frees what only sites that move have, and the bins. @post nothing but positions, boundary and tile_range may be
+  /// asked for, until assign_owned
   void release_moves();
 
 private:
@@ -188,6 +190,7 @@ private:
   std::vector<Block> blocks_;
   std::vector<LocalIndex> bin_begin_, bin_end_;
   std::vector<std::uint8_t> bin_known_;
+  bool has_leads_ = true;
   LocalIndex owned_blocks_ = 0;
   std::size_t owned_bins_ = 0;
   std::vector<LocalIndex> kept_; // first owned site of each owned tile, and the end
