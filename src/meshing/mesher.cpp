@@ -167,13 +167,13 @@ private:
     counts.rebuilt = comm_.sum(stars(Wanted::inner_sites).rebuilt);
     Sweeper sweeper(state(), *builder_, move_context());
     SweepSums sums = record_sweep(sweeper, counts);
-    show_snapshot(sweeper);
+    show_snapshot();
     begun_.reset();
     while (!is_done(control)) {
       counts = {};
       do {
         counts.follow_by(sweep(sweeper, control, sums));
-        show_snapshot(sweeper);
+        show_snapshot();
       } while (sweeps_ - history_.back().sweep < measuring_interval && sweeps_ < options_.max_sweeps);
       sums = record_sweep(sweeper, counts);
     }
@@ -211,17 +211,16 @@ private:
     return reason.has_value();
   }
 
-  /// Shows the present triangulation to the observer, if the options ask for it.
-  void show_snapshot(Sweeper& sweeper) {
+  /// Shows the present triangulation to the observer, if the options ask for it; the run goes on as without that.
+  void show_snapshot() {
     const int retriangulation = ++triangulations_, interval = options_.snapshot_interval;
     if (!observer || interval == 0 || !(retriangulation == 1 || (interval > 0 && retriangulation % interval == 0)))
       return;
-    sweeper.sort();
-    stars(Wanted::all_sites);
     const auto time = timers_.scope("snapshots");
-    const decomposition::Numbering numbering =
-        decomposition::canonical_numbering(comm_, state().points(), state().halo());
-    const Extraction made = extract_mesh(extraction(), numbering);
+    SiteState shown(state()); // the sites of the sweeps are not sorted, and some of their stars not certain
+    shown.compute_stars(*builder_, *layout_.size, Wanted::all_sites);
+    const decomposition::Numbering numbering = decomposition::canonical_numbering(comm_, shown.points(), shown.halo());
+    const Extraction made = extract_mesh(extraction(shown), numbering);
     const std::vector<LoopSummary> loops = summarize_loops(meshed_boundary(), layout_.boundary);
     observer({retriangulation, timers_.total(), made.mesh, made.quality, loops});
   }
@@ -277,7 +276,10 @@ private:
 
   // --- the mesh -----------------------------------------------------------------------------------------------------
 
-  ExtractionContext extraction() const { return {state(), layout_.boundary, *layout_.size, lattice_, fixed_->all()}; }
+  ExtractionContext extraction() const { return extraction(state()); }
+  ExtractionContext extraction(const SiteState& state) const {
+    return {state, layout_.boundary, *layout_.size, lattice_, fixed_->all()};
+  }
 
   /// Throws if triangles of a periodic container reach around it: then their ids do not tell them apart.
   void check_periods() {

@@ -39,6 +39,15 @@ SiteState::SiteState(const comm::Communicator& comm, const geometry::Box& box, c
     : comm_(comm), grid_(box, grid_options), partition_(grid_.tile_count(), comm.size()), points_(grid_),
       halo_(comm, grid_) {}
 
+SiteState::SiteState(const SiteState& other)
+    : comm_(other.comm_), grid_(other.grid_), partition_(other.partition_), points_(grid_), halo_(comm_, grid_) {
+  std::vector<mesh::Site> sites;
+  sites.reserve(static_cast<std::size_t>(other.points_.owned()));
+  for (LocalIndex i = 0; i < other.points_.owned(); ++i)
+    sites.push_back(other.points_.site(i));
+  distribute(std::move(sites));
+}
+
 /// Into the container, where it is periodic.
 void SiteState::wrap(std::vector<mesh::Site>& sites) const {
   const geometry::Periods& periods = grid_.periods();

@@ -29,6 +29,9 @@ class SiteState {
 public:
   /// @param box that holds all sites, now and later
   SiteState(const comm::Communicator& comm, const geometry::Box& box, const mesh::GridOptions& grid_options);
+  /// @brief The sites of another state at their present places, sorted, without stars; that state stays as it is.
+  /// Collective.
+  explicit SiteState(const SiteState& other);
 
   /// First sites, from any ranks: partitions the tiles by their counts. Collective.
   /// @throws ConfigError on all ranks if one would own more sites than a local index can count

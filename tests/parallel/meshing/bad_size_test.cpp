@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Size fields that fail: an error with place and value, on all ranks together, whoever meets it.
 #include "support/distributed.hpp"
+#include "support/plain_shapes.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/formula.hpp"
 #include "trime/geometry/shape.hpp"
@@ -30,11 +31,7 @@ MeshOptions with_points(GlobalId points, Start start = Start::automatic) {
 }
 
 MeshResult run(const comm::Communicator& comm, const sizing::SizeField& size, const MeshOptions& options) {
-  const geometry::Frame frame(geometry::Box{{0, 0}, {1, 1}});
-  const geometry::RegionShape square({geometry::Part::rectangle("s", {{0.1, 0.1}, {0.9, 0.9}}, frame)}, "s", frame);
-  Log log(LogLevel::silent, false);
-  TimerTable timers;
-  return Mesher(comm, square.boundary(), size, options, log, timers).run();
+  return testing::mesh_silently(comm, testing::square().boundary(), size, options);
 }
 
 /// The message of an error of this class, on every rank; empty if there was none.

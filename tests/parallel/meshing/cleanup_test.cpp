@@ -2,7 +2,7 @@
 // The clean-up on whole meshes: the tail is gone, all is certified, and the same on any ranks and threads.
 #include "support/distributed.hpp"
 #include "support/periodic_shapes.hpp"
-#include "trime/meshing/mesher.hpp"
+#include "support/plain_shapes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,26 +17,18 @@ using geometry::Frame;
 using geometry::Part;
 using geometry::RegionShape;
 using geometry::Vec2;
+using testing::disc;
+using testing::expect_certified;
+using testing::mesh_silently;
+using testing::square;
+using testing::triangle;
+using testing::unit_frame;
 
-const Frame& unit_frame() {
-  static const Frame frame(Box{{0, 0}, {1, 1}});
-  return frame;
-}
-RegionShape square() {
-  return RegionShape({Part::rectangle("s", {{0.1, 0.1}, {0.9, 0.9}}, unit_frame())}, "s", unit_frame());
-}
-RegionShape disc() {
-  return RegionShape({Part::circle("d", {0.5, 0.5}, 0.4, unit_frame())}, "d", unit_frame());
-}
 RegionShape square_with_hole() {
   return RegionShape({Part::rectangle("s", {{0.1, 0.1}, {0.9, 0.9}}, unit_frame()),
                       Part::circle("h", {0.45, 0.55}, 0.15, unit_frame())},
                      "difference(s, h)", unit_frame());
 }
-RegionShape triangle() {
-  return RegionShape({Part::triangle("t", {Vec2{0.1, 0.1}, {0.9, 0.2}, {0.4, 0.8}}, unit_frame())}, "t", unit_frame());
-}
-
 /// Finer towards the hole.
 class GradedSize final : public sizing::SizeField {
 public:
@@ -51,8 +43,6 @@ struct Case {
 };
 
 MeshResult run(const comm::Communicator& comm, const Case& c, bool cleanup = true) {
-  Log log(LogLevel::silent, false);
-  TimerTable timers;
   MeshOptions options;
   options.points = c.points;
   options.max_sweeps = c.max_sweeps;
@@ -60,12 +50,7 @@ MeshResult run(const comm::Communicator& comm, const Case& c, bool cleanup = tru
   const sizing::UniformSize uniform;
   const GradedSize graded;
   const sizing::SizeField& size = c.graded ? static_cast<const sizing::SizeField&>(graded) : uniform;
-  return Mesher(comm, c.shape.boundary(), size, options, log, timers).run();
-}
-
-void expect_certified(const MeshResult& result) {
-  for (const mesh::Check& check : result.checks)
-    EXPECT_TRUE(check.passed) << check.name << ": expected " << check.expected << ", found " << check.found;
+  return mesh_silently(comm, c.shape.boundary(), size, options);
 }
 
 std::vector<std::int64_t> listed(const CleanupCounts& counts) {
@@ -156,13 +141,11 @@ TEST(Cleanup, ASmallCircleIsNoFeatureThatMayBeLeftOut) {
                           "difference(s, h)", unit_frame());
   for (const double size : {0.05, 0.055})
     for (const double tolerance : {0.1, 0.3}) {
-      Log log(LogLevel::silent, false);
-      TimerTable timers;
       MeshOptions options;
       options.edge_length = size;
       options.feature_tolerance = tolerance;
       const sizing::UniformSize uniform;
-      expect_certified(Mesher(world, shape.boundary(), uniform, options, log, timers).run());
+      expect_certified(mesh_silently(world, shape.boundary(), uniform, options));
     }
 }
 

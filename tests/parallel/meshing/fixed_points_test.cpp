@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fixed points on all ranks: every one is a vertex bit for bit, the mesh is certified and does not depend on the ranks.
 #include "support/distributed.hpp"
+#include "support/plain_shapes.hpp"
 #include "trime/core/random.hpp"
-#include "trime/geometry/shape.hpp"
-#include "trime/meshing/mesher.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,19 +12,13 @@
 namespace trime::meshing {
 namespace {
 
-using geometry::Part;
 using geometry::RegionShape;
 using geometry::Vec2;
-
-const geometry::Frame& unit_frame() {
-  static const geometry::Frame frame(geometry::Box{{0, 0}, {1, 1}});
-  return frame;
-}
+using testing::mesh_silently;
+using testing::unit_frame;
 
 RegionShape ring() {
-  return RegionShape(
-      {Part::circle("d", {0.5, 0.5}, 0.4, unit_frame()), Part::circle("h", {0.5, 0.5}, 0.1, unit_frame())},
-      "difference(d, h)", unit_frame());
+  return testing::disc_with_hole({0.5, 0.5}, 0.1);
 }
 
 class GradedSize final : public sizing::SizeField {
@@ -53,16 +46,13 @@ MeshResult run(const comm::Communicator& comm, const sizing::SizeField& size) {
   options.max_sweeps = 10;
   for (const Vec2 p : wanted_points())
     options.fixed_points.push_back({p, "test"});
-  Log log(LogLevel::silent, false);
-  TimerTable timers;
-  return Mesher(comm, ring().boundary(), size, options, log, timers).run();
+  return mesh_silently(comm, ring().boundary(), size, options);
 }
 
 void expect_fixed_points(const sizing::SizeField& size) {
   const comm::Communicator world = comm::Communicator::world();
   const MeshResult result = run(world, size);
-  for (const mesh::Check& check : result.checks)
-    EXPECT_TRUE(check.passed) << check.name << ": expected " << check.expected << ", found " << check.found;
+  testing::expect_certified(result);
   EXPECT_TRUE(std::any_of(result.checks.begin(), result.checks.end(), [](const mesh::Check& check) {
     return check.name == "fixed_points" && check.found == static_cast<double>(wanted_points().size());
   }));
@@ -101,13 +91,11 @@ TEST(FixedPointsInMesh, ManyOfThemLeaveRoomForAllPoints) {
     if (radius > 0.12 && radius < 0.38)
       options.fixed_points.push_back({p, "test"});
   }
-  Log log(LogLevel::silent, false);
-  TimerTable timers;
   for (const bool graded : {false, true}) {
     const sizing::UniformSize uniform;
     const GradedSize slope;
     const sizing::SizeField& size = graded ? static_cast<const sizing::SizeField&>(slope) : uniform;
-    const MeshResult result = Mesher(world, ring().boundary(), size, options, log, timers).run();
+    const MeshResult result = mesh_silently(world, ring().boundary(), size, options);
     EXPECT_LE(result.mesh.point_slab.total, 2000);
     EXPECT_GE(result.mesh.point_slab.total, 1960) << graded;
   }
@@ -116,16 +104,13 @@ TEST(FixedPointsInMesh, ManyOfThemLeaveRoomForAllPoints) {
 TEST(FixedPointsInMesh, FarFromOthersTrianglesStayGood) {
   // Every fixed point is at least two sizes from any other thing: the worst triangle is no worse than usual.
   const comm::Communicator world = comm::Communicator::world();
-  const RegionShape square({Part::rectangle("s", {{0.1, 0.1}, {0.9, 0.9}}, unit_frame())}, "s", unit_frame());
   MeshOptions options;
   options.points = 2000;
   options.method = Method::distmesh;
   for (const Vec2 p : {Vec2{0.31, 0.42}, {0.55, 0.27}, {0.7, 0.713}})
     options.fixed_points.push_back({p, "test"});
-  Log log(LogLevel::silent, false);
-  TimerTable timers;
   const sizing::UniformSize size;
-  const MeshResult result = Mesher(world, square.boundary(), size, options, log, timers).run();
+  const MeshResult result = mesh_silently(world, testing::square().boundary(), size, options);
   EXPECT_LT(result.quality.alpha.mean, 1.05);
   EXPECT_LT(result.quality.alpha.max, 2.2);
 }

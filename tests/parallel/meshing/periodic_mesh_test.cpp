@@ -3,6 +3,7 @@
 // any ranks and threads.
 #include "support/distributed.hpp"
 #include "support/periodic_shapes.hpp"
+#include "support/plain_shapes.hpp"
 #include "trime/core/error.hpp"
 #include "trime/meshing/mesher.hpp"
 
@@ -15,6 +16,7 @@ namespace {
 
 using geometry::RegionShape;
 using geometry::Vec2;
+using testing::expect_certified;
 
 /// Periodic along both axes.
 class WavySize final : public sizing::SizeField {
@@ -34,11 +36,6 @@ MeshResult run(const comm::Communicator& comm, const RegionShape& shape, Method 
   const WavySize wavy;
   const sizing::SizeField& size = graded ? static_cast<const sizing::SizeField&>(wavy) : uniform;
   return Mesher(comm, shape.boundary(), size, options, log, timers).run();
-}
-
-void expect_certified(const MeshResult& result) {
-  for (const mesh::Check& check : result.checks)
-    EXPECT_TRUE(check.passed) << check.name << ": expected " << check.expected << ", found " << check.found;
 }
 
 TEST(PeriodicMesh, IsCertifiedAndTheSameEverywhere) {

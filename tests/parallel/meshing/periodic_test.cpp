@@ -6,6 +6,7 @@
 #include "meshing/sweep_record.hpp"
 #include "support/distributed.hpp"
 #include "support/periodic_shapes.hpp"
+#include "support/plain_shapes.hpp"
 #include "trime/core/random.hpp"
 #include "trime/meshing/mesher.hpp"
 
@@ -32,9 +33,7 @@ MeshOptions options_for(const Frame& frame, GlobalId points, Method method) {
 
 MeshResult run(const comm::Communicator& comm, const RegionShape& shape, const MeshOptions& options,
                const sizing::SizeField& size) {
-  Log log(LogLevel::silent, false);
-  TimerTable timers;
-  return Mesher(comm, shape.boundary(), size, options, log, timers).run();
+  return testing::mesh_silently(comm, shape.boundary(), size, options);
 }
 
 double check_of(const MeshResult& result, const std::string& name) {
@@ -45,8 +44,7 @@ double check_of(const MeshResult& result, const std::string& name) {
 }
 
 void expect_certified(const RegionShape& shape, const MeshResult& result) {
-  for (const mesh::Check& check : result.checks)
-    EXPECT_TRUE(check.passed) << check.name << ": expected " << check.expected << ", found " << check.found;
+  testing::expect_certified(result);
   EXPECT_EQ(check_of(result, "euler_characteristic"), shape.boundary().euler_characteristic());
   const double torus = shape.frame().periods().x * shape.frame().periods().y;
   if (shape.boundary().loops.empty()) {

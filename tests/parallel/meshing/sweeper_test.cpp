@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sweeps whose stars are certified by the Delaunay lemma: every star is that of emptiness, after every sweep.
 #include "support/distributed.hpp"
+#include "support/plain_shapes.hpp"
 #include "trime/core/simd_level.hpp"
 #include "trime/geometry/shape.hpp"
 #include "trime/meshing/mesher.hpp"
@@ -44,12 +45,10 @@ MeshResult run(const comm::Communicator& comm, const Case& c, GlobalId points, b
   options.max_sweeps = 40;
   options.cleanup = false;
   options.verify_stars = verify;
-  Log log(LogLevel::silent, false);
-  TimerTable timers;
   const sizing::UniformSize uniform;
   const GradedSize graded;
   const sizing::SizeField& size = c.graded ? static_cast<const sizing::SizeField&>(graded) : uniform;
-  return Mesher(comm, shape.boundary(), size, options, log, timers).run();
+  return testing::mesh_silently(comm, shape.boundary(), size, options);
 }
 
 std::vector<Case> cases() {
