@@ -2,6 +2,7 @@
 // trime_mpi: starts and ends MPI, and turns errors into messages and exit codes. The only try of the program.
 #include "app/large_arrays.hpp"
 #include "app/program.hpp"
+#include "trime/core/free_memory.hpp"
 #include "trime/io/mesh_file.hpp"
 
 #include <unistd.h>
@@ -66,8 +67,7 @@ ExitCode run(int argc, char** argv, const trime::comm::Communicator& comm) {
       print_error(error.what());
     return error.code();
   } catch (const std::bad_alloc&) {
-    leave_alone("out of memory; ask for fewer points, or use more nodes (about 300 bytes per point are needed)",
-                ExitCode::out_of_memory);
+    leave_alone(trime::out_of_memory_text(), ExitCode::out_of_memory);
   } catch (const std::exception& error) {
     leave_alone(std::string("internal error: ") + error.what() + "; please report this with the config",
                 ExitCode::internal_error);
