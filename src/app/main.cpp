@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // trime_mpi: starts and ends MPI, and turns errors into messages and exit codes. The only try of the program.
+#include "app/large_arrays.hpp"
 #include "app/program.hpp"
+#include "trime/core/free_memory.hpp"
 #include "trime/io/mesh_file.hpp"
 
 #include <unistd.h>
@@ -65,8 +67,7 @@ ExitCode run(int argc, char** argv, const trime::comm::Communicator& comm) {
       print_error(error.what());
     return error.code();
   } catch (const std::bad_alloc&) {
-    leave_alone("out of memory; ask for fewer points, or use more nodes (about 300 bytes per point are needed)",
-                ExitCode::out_of_memory);
+    leave_alone(trime::out_of_memory_text(), ExitCode::out_of_memory);
   } catch (const std::exception& error) {
     leave_alone(std::string("internal error: ") + error.what() + "; please report this with the config",
                 ExitCode::internal_error);
@@ -76,6 +77,7 @@ ExitCode run(int argc, char** argv, const trime::comm::Communicator& comm) {
 } // namespace
 
 int main(int argc, char** argv) {
+  trime::app::prepare_large_arrays();
   const trime::comm::Environment environment(argc, argv);
   const trime::comm::Communicator comm = trime::comm::Communicator::world();
   handle_signals(comm.is_root());

@@ -8,6 +8,7 @@
 #include "app/run_report.hpp"
 #include "app/shape_builder.hpp"
 #include "app/size_builder.hpp"
+#include "trime/core/free_memory.hpp"
 #include "trime/core/thread_loop.hpp"
 #include "trime/io/mesh_series.hpp"
 #include "trime/meshing/mesher.hpp"
@@ -41,7 +42,6 @@ double expected_points(const RunOptions& options, const geometry::Boundary& boun
 /// What --validate and --dry-run say in place of a mesh.
 std::string estimate(const RunOptions& options, const geometry::Boundary& boundary, const Placement& placement,
                      bool with_decomposition) {
-  constexpr double bytes_per_point = 300, bytes_per_process = 28 * 0x1p20;
   const double points = expected_points(options, boundary);
   std::string text = fmt::format(
       "shape: area {:.6g}, boundary length {:.6g}, {} component{}, {} hole{}\n", boundary.area, boundary.length(),

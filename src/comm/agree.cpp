@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/comm/agree.hpp"
 
+#include "trime/core/free_memory.hpp"
+
 #include <new>
 
 namespace trime::comm {
@@ -43,8 +45,7 @@ void run_agreed(const Communicator& comm, const std::function<void()>& work) {
   } catch (const Error& e) {
     error = e;
   } catch (const std::bad_alloc&) {
-    error = Error(ExitCode::out_of_memory,
-                  "out of memory; ask for fewer points, or use more nodes (about 300 bytes per point are needed)");
+    error = Error(ExitCode::out_of_memory, out_of_memory_text());
   } catch (const std::exception& e) {
     error = InternalError(e.what());
   }

@@ -6,7 +6,16 @@
 #include <malloc.h>
 #endif
 
+#include <fmt/format.h>
+
 namespace trime {
+
+std::string out_of_memory_text() {
+  return fmt::format(
+      "out of memory; ask for fewer points, or use more nodes (about {:.0f} bytes per point are needed, and what the "
+      "shape and the size field take on each rank)",
+      bytes_per_point);
+}
 
 void return_free_memory() {
 #ifdef __GLIBC__

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <numeric>
 
 namespace trime::decomposition {
 namespace {
@@ -55,25 +54,17 @@ std::vector<std::int64_t> tile_weights(const comm::Communicator& comm, const mes
 }
 
 void migrate(const comm::Communicator& comm, const mesh::TileGrid& grid, const Partition& partition,
-             std::vector<mesh::Site>& sites, std::vector<LocalIndex>* stays) {
+             std::vector<mesh::Site>& sites) {
   const LocalIndex first = partition.first_tile(comm.rank()), last = partition.last_tile(comm.rank());
   std::map<int, std::vector<mesh::Site>> leaving; // by rank, ascending
   const bool none_leaves = all_stay(grid, first, last, sites);
-  if (stays) {
-    stays->resize(sites.size());
-    std::iota(stays->begin(), stays->end(), 0);
-  }
   std::size_t kept = none_leaves ? sites.size() : 0;
   for (std::size_t i = kept; i < sites.size(); ++i) {
     const LocalIndex tile = grid.place(sites[i].position).tile;
     if (tile < first || tile >= last) {
       leaving[partition.owner(tile)].push_back(sites[i]);
-      if (stays)
-        (*stays)[i] = -1;
       continue;
     }
-    if (stays)
-      (*stays)[i] = static_cast<LocalIndex>(kept);
     sites[kept++] = sites[i];
   }
   sites.resize(kept);

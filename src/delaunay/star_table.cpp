@@ -15,6 +15,10 @@ constexpr int chunk = 4096;
 
 void StarTable::reset(LocalIndex n) {
   rings_.resize(static_cast<std::size_t>(n));
+  thread_loop((n + chunk - 1) / chunk, 1, [&](std::ptrdiff_t part, int) { // slots always hold indices that exist
+    const std::ptrdiff_t end = std::min<std::ptrdiff_t>(n, (part + 1) * chunk);
+    std::fill(rings_.begin() + part * chunk, rings_.begin() + end, std::array<LocalIndex, slots>{});
+  });
   degree_.assign(static_cast<std::size_t>(n), 0);
   certain_.assign(static_cast<std::size_t>(n), 0);
   overflow_.clear();
@@ -68,8 +72,8 @@ void StarTable::release_overflow(LocalIndex i) {
 }
 
 void StarTable::renumber(std::span<const LocalIndex> new_index, LocalIndex new_size) {
-  rings_back_.resize(static_cast<std::size_t>(new_size));
-  degree_back_.assign(static_cast<std::size_t>(new_size), 0);
+  UnsetVector<std::array<LocalIndex, slots>> rings(static_cast<std::size_t>(new_size));
+  std::vector<std::uint8_t> degrees(static_cast<std::size_t>(new_size), 0);
   certain_.assign(static_cast<std::size_t>(new_size), 0);
   const LocalIndex old_size = static_cast<LocalIndex>(degree_.size());
   const auto mapped = [&](LocalIndex neighbour) {
@@ -92,27 +96,30 @@ void StarTable::renumber(std::span<const LocalIndex> new_index, LocalIndex new_s
       const LocalIndex to = new_index[static_cast<std::size_t>(i)];
       const std::uint8_t n = degree_[static_cast<std::size_t>(i)];
       if (to >= 0 && n != overflowing &&
-          map_ring({rings_[static_cast<std::size_t>(i)].data(), n}, rings_back_[static_cast<std::size_t>(to)].data())) {
-        repeat(rings_back_[static_cast<std::size_t>(to)], n);
-        degree_back_[static_cast<std::size_t>(to)] = n;
+          map_ring({rings_[static_cast<std::size_t>(i)].data(), n}, rings[static_cast<std::size_t>(to)].data())) {
+        repeat(rings[static_cast<std::size_t>(to)], n);
+        degrees[static_cast<std::size_t>(to)] = n;
       }
     }
   });
-  overflow_back_.clear();
+  for (std::size_t to = 0; to < degrees.size(); ++to)
+    if (degrees[to] == 0)
+      rings[to] = {};
+  std::vector<std::vector<LocalIndex>> overflow;
   for (LocalIndex i = 0; i < old_size; ++i) {
     const LocalIndex to = new_index[static_cast<std::size_t>(i)];
     if (to < 0 || degree_[static_cast<std::size_t>(i)] != overflowing)
       continue;
     std::vector<LocalIndex> moved(overflow_[static_cast<std::size_t>(rings_[static_cast<std::size_t>(i)][0])]);
     if (map_ring(moved, moved.data())) {
-      rings_back_[static_cast<std::size_t>(to)][0] = static_cast<LocalIndex>(overflow_back_.size());
-      degree_back_[static_cast<std::size_t>(to)] = overflowing;
-      overflow_back_.push_back(std::move(moved));
+      rings[static_cast<std::size_t>(to)][0] = static_cast<LocalIndex>(overflow.size());
+      degrees[static_cast<std::size_t>(to)] = overflowing;
+      overflow.push_back(std::move(moved));
     }
   }
-  std::swap(rings_, rings_back_);
-  std::swap(degree_, degree_back_);
-  std::swap(overflow_, overflow_back_);
+  rings_ = std::move(rings);
+  degree_ = std::move(degrees);
+  overflow_ = std::move(overflow);
   free_overflow_.clear();
 }
 
@@ -128,12 +135,6 @@ void StarTable::renumber_ghosts(LocalIndex first, std::span<const LocalIndex> ne
     }
   for (std::vector<LocalIndex>& ring : overflow_)
     std::for_each(ring.begin(), ring.end(), map);
-}
-
-void StarTable::release_work_space() {
-  std::vector<std::array<LocalIndex, slots>>().swap(rings_back_);
-  std::vector<std::uint8_t>().swap(degree_back_);
-  std::vector<std::vector<LocalIndex>>().swap(overflow_back_);
 }
 
 } // namespace trime::delaunay

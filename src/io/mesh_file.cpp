@@ -240,7 +240,7 @@ void check_shapes(const mesh::DistributedMesh& mesh) {
 /// Rank 0: final names, and the views that belong to them.
 WrittenFiles publish(TemporaryFile& temporary, const MeshFileOptions& options, const mesh::DistributedMesh& mesh) {
   const std::string h5 = options.path(".h5"), xdmf = options.path(".xdmf"), vtkhdf = options.path(".vtkhdf");
-  temporary.publish(h5);
+  temporary.rename_to(h5);
   WrittenFiles written{{h5}, 0};
   struct stat status {};
   if (stat(h5.c_str(), &status) == 0)
@@ -249,15 +249,16 @@ WrittenFiles publish(TemporaryFile& temporary, const MeshFileOptions& options, c
   unlink(xdmf.c_str());
   unlink(vtkhdf.c_str());
   if (options.xdmf) {
-    write_text_file(xdmf,
-                    xdmf_text({options.name + ".h5", field_group(options, "CellData"),
-                               field_group(options, "PointData"), mesh.point_slab.total, mesh.triangle_slab.total, 0}));
+    write_one_text_file(
+        xdmf, xdmf_text({options.name + ".h5", field_group(options, "CellData"), field_group(options, "PointData"),
+                         mesh.point_slab.total, mesh.triangle_slab.total, 0}));
     written.paths.push_back(xdmf);
   }
   if (options.vtkhdf) {
     replace_link(options.name + ".h5", vtkhdf);
     written.paths.push_back(vtkhdf);
   }
+  synchronise_directory(h5);
   return written;
 }
 

@@ -14,8 +14,8 @@
 namespace trime::io {
 namespace {
 
-/// Rows of one collective write: a few MB, far below the 2^31 bytes of an MPI count; and of what one thread fills.
-constexpr std::int64_t slice_rows = std::int64_t{1} << 18, piece_rows = std::int64_t{1} << 12;
+/// Rows of one collective write: 1 or 2 MB, which stay in the caches; and of what one thread fills.
+constexpr std::int64_t slice_rows = std::int64_t{1} << 16, piece_rows = std::int64_t{1} << 12;
 
 std::int64_t pieces_of(std::int64_t rows) {
   return (rows + piece_rows - 1) / piece_rows;
@@ -283,6 +283,8 @@ void SlabFile::slab(SlabArray array) {
       H5Dcreate2(file_, array.path.c_str(), array.type, space, H5P_DEFAULT, creation, H5P_DEFAULT));
   agree_on(dataset, making);
   write_slices(dataset, array);
+  if (comm_.is_root() && array.slab.total > slice_rows)
+    start_writing_back(path_);
   arrays_.push_back(std::move(array));
 }
 
@@ -293,19 +295,18 @@ void SlabFile::write_slices(hid_t dataset, const SlabArray& array) {
   const auto rows_from = [&](std::int64_t first) {
     return std::clamp<std::int64_t>(array.rows - first, 0, slice_rows);
   };
-  std::vector<std::byte> buffer, next;
   Hdf5Space in_file, in_memory;
   Hdf5Properties together;
   std::string writing;
   agreed([&] {
     const std::int64_t rows = std::max<std::int64_t>(rows_from(0), 1); // HDF5 wants a buffer for nothing, too
-    buffer.resize(static_cast<std::size_t>(rows) * array.row_bytes());
-    next.resize(static_cast<std::size_t>(rows_from(slice_rows)) * array.row_bytes());
+    slice_.resize(static_cast<std::size_t>(rows) * array.row_bytes());
+    other_slice_.resize(slice_.size());
     in_file = array_space(static_cast<hsize_t>(array.slab.total), array.columns);
     in_memory = array_space(static_cast<hsize_t>(rows), array.columns);
     together = transfer(comm_, true);
     writing = action("write", array.path);
-    fill_beside([] {}, array, 0, rows_from(0), buffer.data());
+    fill_beside([] {}, array, 0, rows_from(0), slice_.data());
   });
   for (std::int64_t first = 0; first < longest; first += slice_rows) {
     agreed([&] {
@@ -314,12 +315,12 @@ void SlabFile::write_slices(hid_t dataset, const SlabArray& array) {
       select_rows(in_memory, 0, static_cast<hsize_t>(count), array.columns);
     });
     herr_t written = -1;
-    const auto write = [&] { written = H5Dwrite(dataset, array.type, in_memory, in_file, together, buffer.data()); };
+    const auto write = [&] { written = H5Dwrite(dataset, array.type, in_memory, in_file, together, slice_.data()); };
     agreed([&] { // what throws in here comes after the call of HDF5
-      fill_beside(write, array, first + slice_rows, rows_from(first + slice_rows), next.data());
+      fill_beside(write, array, first + slice_rows, rows_from(first + slice_rows), other_slice_.data());
       checked(written, writing);
     });
-    std::swap(buffer, next);
+    std::swap(slice_, other_slice_);
   }
 }
 
@@ -338,14 +339,13 @@ void SlabFile::verify() {
 
 /// Not collective on purpose: another path through MPI-IO than the one that wrote. A slice is read while the other
 /// threads compare the one before.
-void SlabFile::verify_slices(const SlabArray& array) const {
+void SlabFile::verify_slices(const SlabArray& array) {
   if (array.rows == 0)
     return;
   const Hdf5Dataset dataset(H5Dopen2(file_, array.path.c_str(), H5P_DEFAULT), action("open", array.path));
   const Hdf5Properties alone = transfer(comm_, false);
   const Hdf5Space in_file = array_space(static_cast<hsize_t>(array.slab.total), array.columns);
-  std::vector<std::byte> read, before;
-  for (std::vector<std::byte>* buffer : {&read, &before})
+  for (UnsetVector<std::byte>* buffer : {&slice_, &other_slice_})
     buffer->resize(static_cast<std::size_t>(std::min(array.rows, slice_rows)) * array.row_bytes());
   std::int64_t compared = 0;
   for (std::int64_t first = 0; first < array.rows; first += slice_rows) {
@@ -353,24 +353,24 @@ void SlabFile::verify_slices(const SlabArray& array) const {
     select_rows(in_file, static_cast<hsize_t>(array.slab.first + first), static_cast<hsize_t>(count), array.columns);
     const Hdf5Space in_memory = array_space(static_cast<hsize_t>(count), array.columns);
     herr_t status = -1;
-    const auto read_slice = [&] { status = H5Dread(dataset, array.type, in_memory, in_file, alone, read.data()); };
-    compare_beside(read_slice, array, compared, first - compared, before.data());
+    const auto read_slice = [&] { status = H5Dread(dataset, array.type, in_memory, in_file, alone, slice_.data()); };
+    compare_beside(read_slice, array, compared, first - compared, other_slice_.data());
     checked(status, action("read back", array.path));
-    std::swap(read, before);
+    std::swap(slice_, other_slice_);
     compared = first;
   }
-  compare_beside([] {}, array, compared, array.rows - compared, before.data());
+  compare_beside([] {}, array, compared, array.rows - compared, other_slice_.data());
 }
 
 /// The same as fill_beside for rows that were read. @throws FileError if one is another than it should be
 template <class Work>
 void SlabFile::compare_beside(const Work& work, const SlabArray& array, std::int64_t first, std::int64_t count,
-                              const std::byte* read) const {
-  std::vector<std::vector<std::byte>> held(static_cast<std::size_t>(thread_count()));
+                              const std::byte* read) {
+  expected_.resize(static_cast<std::size_t>(thread_count()));
   thread_loop_beside(work, pieces_of(count), [&](std::ptrdiff_t piece, int thread) {
     const std::int64_t begin = piece * piece_rows, rows = std::min(piece_rows, count - begin);
     const std::size_t bytes = static_cast<std::size_t>(rows) * array.row_bytes();
-    std::vector<std::byte>& expected = held[static_cast<std::size_t>(thread)];
+    UnsetVector<std::byte>& expected = expected_[static_cast<std::size_t>(thread)];
     expected.resize(bytes);
     array.fill(first + begin, rows, expected.data());
     if (std::memcmp(expected.data(), read + static_cast<std::size_t>(begin) * array.row_bytes(), bytes) != 0)

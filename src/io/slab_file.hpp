@@ -6,6 +6,7 @@
 
 #include "io/hdf5_handle.hpp"
 #include "trime/comm/communicator.hpp"
+#include "trime/core/unset_vector.hpp"
 #include "trime/io/metadata.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
 
@@ -70,16 +71,18 @@ private:
   template <class Make>
   void small_dataset(const std::string& path, const Make& make);
   void write_slices(hid_t dataset, const SlabArray& array);
-  void verify_slices(const SlabArray& array) const;
+  void verify_slices(const SlabArray& array);
   template <class Work>
   void compare_beside(const Work& work, const SlabArray& array, std::int64_t first, std::int64_t count,
-                      const std::byte* read) const;
+                      const std::byte* read);
   std::string action(const std::string& verb, const std::string& what) const;
 
   const comm::Communicator& comm_;
   std::string path_;
   Hdf5File file_;
   std::vector<SlabArray> arrays_;
+  UnsetVector<std::byte> slice_, other_slice_;   // the one that is written or was read, and the next
+  std::vector<UnsetVector<std::byte>> expected_; // by thread: what should have been read
 };
 
 } // namespace trime::io

@@ -62,6 +62,11 @@ TemporaryFile::~TemporaryFile() {
 }
 
 void TemporaryFile::publish(const std::string& final_path) {
+  rename_to(final_path);
+  synchronise_directory(final_path);
+}
+
+void TemporaryFile::rename_to(const std::string& final_path) {
   struct stat status {};
   if (stat(path_.c_str(), &status) == 0 && truncate(path_.c_str(), status.st_size) != 0)
     throw FileError(fmt::format("cannot write {}: {}", path_, system_error()));
@@ -70,7 +75,10 @@ void TemporaryFile::publish(const std::string& final_path) {
     throw FileError(fmt::format("cannot rename {} to {}: {}", path_, final_path, system_error()));
   published_ = true;
   active = false;
-  synchronise(directory_of(final_path), O_RDONLY | O_DIRECTORY);
+}
+
+void synchronise_directory(const std::string& path) {
+  synchronise(directory_of(path), O_RDONLY | O_DIRECTORY);
 }
 
 void remove_temporary_file() noexcept {
@@ -114,6 +122,11 @@ void start_writing_back(const std::string& path) {
 }
 
 void write_text_file(const std::string& final_path, const std::string& text) {
+  write_one_text_file(final_path, text);
+  synchronise_directory(final_path);
+}
+
+void write_one_text_file(const std::string& final_path, const std::string& text) {
   TemporaryFile temporary(temporary_name(final_path));
   std::FILE* file = std::fopen(temporary.path().c_str(), "wb");
   if (!file)
@@ -122,7 +135,7 @@ void write_text_file(const std::string& final_path, const std::string& text) {
   const bool closed = std::fclose(file) == 0;
   if (!written || !closed)
     throw FileError(fmt::format("cannot write {}: {}", temporary.path(), system_error()));
-  temporary.publish(final_path);
+  temporary.rename_to(final_path);
 }
 
 void replace_link(const std::string& target, const std::string& path) {

@@ -17,8 +17,10 @@ public:
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   const std::string& path() const { return path_; }
-  /// Gives back reserved space, brings the bytes to the disk, then renames, then brings the directory to the disk.
-  /// @throws FileError
+  /// Gives back reserved space, brings the bytes to the disk, then renames. @throws FileError
+  /// @post synchronise_directory will do the rest
+  void rename_to(const std::string& final_path);
+  /// The same, then brings the directory to the disk. @throws FileError
   void publish(const std::string& final_path);
 
 private:
@@ -33,11 +35,16 @@ std::string temporary_name(const std::string& final_path);
 /// do that, compares with the free space. @throws FileError if there is not enough
 void reserve_space(const std::string& path, std::int64_t bytes);
 
+/// Brings the names of files beside this one to the disk. @throws FileError
+void synchronise_directory(const std::string& path);
+
 /// Asks the system to bring what has been written to the disk meanwhile. Does not wait, cannot fail.
 void start_writing_back(const std::string& path);
 
 /// Writes a text to `final_path`, whole or not at all. @throws FileError
 void write_text_file(const std::string& final_path, const std::string& text);
+/// The same as one of several files. @post synchronise_directory will do the rest
+void write_one_text_file(const std::string& final_path, const std::string& text);
 
 /// Makes or replaces the symbolic link `path` to `target` (relative to the directory of `path`). @throws FileError
 void replace_link(const std::string& target, const std::string& path);

@@ -105,20 +105,18 @@ bool settle_sites(SiteState& state, const MoveContext& context, double typical_s
     offenders += static_cast<std::int64_t>(list.size());
   if (state.comm().sum(offenders) == 0)
     return false;
-  std::vector<mesh::Site> sites;
-  sites.reserve(static_cast<std::size_t>(points.owned()));
-  for (LocalIndex i = 0; i < points.owned(); ++i)
-    sites.push_back(points.site(i));
-  std::vector<std::uint8_t> deleted(sites.size(), 0);
+  state.points().prepare_to_stay();
+  std::vector<std::uint8_t> deleted(static_cast<std::size_t>(points.owned()), 0);
   for (const std::vector<Offender>& list : of_thread)
     for (const auto& [i, treated] : list) {
-      mesh::Site& site = sites[static_cast<std::size_t>(i)];
-      site.position = treated.position;
-      site.lead = treated.lead;
-      site.pushes = treated.pushes;
-      deleted[static_cast<std::size_t>(i)] = treated.deleted;
+      const std::size_t at = static_cast<std::size_t>(i);
+      state.points().next_positions()[at] = treated.position;
+      if (!state.points().next_leads().empty())
+        state.points().next_leads()[at] = treated.lead;
+      state.points().set_pushes(i, treated.pushes);
+      deleted[at] = treated.deleted;
     }
-  state.move_sites(sites, deleted);
+  state.move_sites(std::move(deleted));
   return true;
 }
 

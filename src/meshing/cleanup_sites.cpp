@@ -172,30 +172,27 @@ void CleanupSites::apply(std::span<const SiteEdit> edits) {
 }
 
 void CleanupSites::finish(SiteState& state, std::span<const LocalIndex> new_index) const {
-  const mesh::BinnedPoints& points = state.points();
+  mesh::BinnedPoints& points = state.points();
   const auto renumbered = [&](std::int32_t boundary) {
     return boundary >= 0 ? new_index[static_cast<std::size_t>(boundary)] : boundary;
   };
-  std::vector<mesh::Site> sites;
-  sites.reserve(at(points.owned()));
+  points.prepare_to_stay();
   std::vector<std::uint8_t> deleted(at(points.owned()), 0);
   for (LocalIndex i = 0; i < points.owned(); ++i) {
-    sites.push_back(points.site(i));
-    sites.back().lead = {};
     deleted[at(i)] = fates_[at(i)] == Fate::gone;
-    sites.back().boundary = !deleted[at(i)] ? renumbered(sites.back().boundary) : mesh::free_site;
+    points.set_boundary(i, !deleted[at(i)] ? renumbered(points.boundary(i)) : mesh::free_site);
   }
+  std::vector<mesh::Site> more;
   for (const std::vector<Added>& list : added_)
     for (const Added& added : list)
       if (added.origin >= 0) {
-        sites[at(added.origin)].position = added.position;
-        sites[at(added.origin)].boundary = renumbered(added.boundary);
+        points.next_positions()[at(added.origin)] = added.position;
+        points.set_boundary(added.origin, renumbered(added.boundary));
         deleted[at(added.origin)] = 0;
       } else {
-        sites.push_back({added.position, renumbered(added.boundary)});
-        deleted.push_back(0);
+        more.push_back({added.position, renumbered(added.boundary)});
       }
-  state.move_sites(sites, deleted);
+  state.move_sites(std::move(deleted), std::move(more));
 }
 
 } // namespace trime::meshing

@@ -6,6 +6,7 @@
 #include "trime/core/random.hpp"
 #include "trime/core/thread_loop.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace trime::meshing {
@@ -80,12 +81,14 @@ std::vector<mesh::Site> hilbert_start(const comm::Communicator& comm, const Tile
     return {};
 
   // Site j sits where the running weight passes (2j + 1) total / (2n).
-  const std::size_t count = before.size() - 1;
-  std::vector<std::vector<mesh::Site>> of_tile(count);
-  agreed_loop(comm, static_cast<std::ptrdiff_t>(count), [&](std::ptrdiff_t t) {
+  const auto sites_before = [&](std::int64_t weight) {
+    return std::min(n, static_cast<std::int64_t>((Int128{2} * weight * n + total - 1) / (Int128{2} * total)));
+  };
+  const std::int64_t first_site = sites_before(first);
+  std::vector<mesh::Site> all(static_cast<std::size_t>(sites_before(first + before.back()) - first_site));
+  agreed_loop(comm, std::ssize(before) - 1, [&](std::ptrdiff_t t) {
     const LocalIndex tile = tiles.first + static_cast<LocalIndex>(t);
-    std::int64_t running = first + before[static_cast<std::size_t>(t)];
-    std::int64_t j = static_cast<std::int64_t>((Int128{2} * running * n + total - 1) / (Int128{2} * total));
+    std::int64_t running = first + before[static_cast<std::size_t>(t)], j = sites_before(running);
     const auto visit = [&](const DensitySampler::Cell& cell) {
       const std::uint64_t stream = mix_bits(static_cast<std::uint64_t>(tile) * 64 + cell.level) + cell.key;
       running += cell.weight;
@@ -93,7 +96,7 @@ std::vector<mesh::Site> hilbert_start(const comm::Communicator& comm, const Tile
         const Vec2 p{cell.box.min.x + random_unit(seed, RandomPurpose::site_position, stream, slot) * cell.box.width(),
                      cell.box.min.y +
                          random_unit(seed, RandomPurpose::site_position, stream, slot + 1) * cell.box.height()};
-        of_tile[static_cast<std::size_t>(t)].push_back({lattice.snap(p)});
+        all[static_cast<std::size_t>(j - first_site)].position = lattice.snap(p);
       }
     };
     if (kept.empty())
@@ -102,9 +105,6 @@ std::vector<mesh::Site> hilbert_start(const comm::Communicator& comm, const Tile
       for (const DensitySampler::Cell& cell : kept[static_cast<std::size_t>(t)])
         visit(cell);
   });
-  std::vector<mesh::Site> all;
-  for (const std::vector<mesh::Site>& list : of_tile)
-    all.insert(all.end(), list.begin(), list.end());
   return all;
 }
 

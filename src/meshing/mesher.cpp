@@ -14,6 +14,7 @@
 #include "meshing/sweeper.hpp"
 #include "trime/comm/agree.hpp"
 #include "trime/core/error.hpp"
+#include "trime/core/free_memory.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/meshing/update_rule.hpp"
 
@@ -74,6 +75,7 @@ private:
 
   void set_up(Layout layout) {
     layout_ = std::move(layout);
+    return_free_memory();
     if (dropped().any())
       remaining_ = boundary_without(fixed_->boundary(), dropped());
     placed_ = comm_.sum(std::int64_t{state().points().owned()});
@@ -176,6 +178,7 @@ private:
     }
     const auto time = timers_.scope("sort");
     sweeper.sort();
+    state().points().release_leads();
   }
 
   /// Moves the sites by the rule and certifies the stars at the new places. That is one pass with the search for the
@@ -308,10 +311,10 @@ private:
 
   MeshResult extract() {
     const auto time = timers_.scope("extract");
-    state().release_work_space();
     const ExtractionContext context = extraction();
     const decomposition::Numbering numbering =
         decomposition::canonical_numbering(comm_, state().points(), state().halo());
+    state().release_work_space();
     MeshResult result;
     result.components = meshed_boundary().components();
     result.holes = meshed_boundary().holes();

@@ -64,6 +64,7 @@ void SiteState::distribute(std::vector<mesh::Site> sites) {
   decomposition::migrate(comm_, grid_, partition_, sites);
   choose_bins(sites);
   points_.assign_owned(sites, partition_.first_tile(comm_.rank()), partition_.last_tile(comm_.rank()));
+  release(sites);
   sizes_.forget();
   carried_.clear();
   stars_.reset(points_.owned());
@@ -83,56 +84,81 @@ void SiteState::choose_bins(std::span<const mesh::Site> sites) {
   grid_.set_bin_bits({bits.begin(), bits.end()});
 }
 
-void SiteState::move_sites(std::vector<mesh::Site>& sites, std::span<const std::uint8_t> deleted) {
-  const std::size_t before = sites.size(), old = static_cast<std::size_t>(points_.owned());
-  wrap(sites);
-  remember_sizes(sites);
-  renumbering_.assign(before, -1);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < before; ++i)
-    if (!deleted[i]) {
-      renumbering_[i] = static_cast<LocalIndex>(kept);
-      sites[kept++] = sites[i];
-    }
-  sites.resize(kept);
-  decomposition::migrate(comm_, grid_, partition_, sites, &stays_);
-  points_.assign_owned(sites, partition_.first_tile(comm_.rank()), partition_.last_tile(comm_.rank()), &sorted_);
-  for (LocalIndex& index : renumbering_)
-    if (index >= 0)
-      index = stays_[static_cast<std::size_t>(index)];
-  for (LocalIndex& index : renumbering_)
-    if (index >= 0)
-      index = sorted_[static_cast<std::size_t>(index)];
+void SiteState::move_sites(std::vector<std::uint8_t> gone, std::vector<mesh::Site> more) {
+  const std::size_t before = static_cast<std::size_t>(points_.owned());
+  wrap_next();
+  wrap(more);
+  remember_sizes();
+  list_leaving(gone, more);
+  decomposition::migrate(comm_, grid_, partition_, more);
+  std::vector<LocalIndex> new_index;
+  points_.sort_moved(gone, more, new_index);
+  new_index.resize(before);
   sizes_.forget();
-  renumbering_.resize(old);
-  carry_sizes();
-  stars_.renumber(renumbering_, points_.owned());
+  carry_sizes(new_index);
+  stars_.renumber(new_index, points_.owned());
+}
+
+/// Into the container, where it is periodic.
+void SiteState::wrap_next() {
+  const geometry::Periods& periods = grid_.periods();
+  if (periods.any())
+    for (geometry::Vec2& place : points_.next_positions().first(static_cast<std::size_t>(points_.owned())))
+      place = periods.wrap(place);
+}
+
+/// Sites whose next places belong to other ranks are gone here.
+void SiteState::list_leaving(std::vector<std::uint8_t>& gone, std::vector<mesh::Site>& leaving) const {
+  if (comm_.size() == 1)
+    return;
+  gone.resize(static_cast<std::size_t>(points_.owned()), 0);
+  const LocalIndex first_tile = points_.first_tile(), last_tile = points_.last_tile();
+  std::vector<std::vector<mesh::Site>> of_tile(static_cast<std::size_t>(last_tile - first_tile)); // that they come from
+  thread_loop(last_tile - first_tile, 4, [&](std::ptrdiff_t t, int) {
+    const auto [begin, end] = points_.tile_range(first_tile + static_cast<LocalIndex>(t));
+    for (LocalIndex i = begin; i < end; ++i) {
+      std::uint8_t& is_gone = gone[static_cast<std::size_t>(i)];
+      if (is_gone)
+        continue;
+      const LocalIndex tile = grid_.tile_at(points_.next_positions()[static_cast<std::size_t>(i)]);
+      if (tile < first_tile || tile >= last_tile) {
+        is_gone = 1;
+        of_tile[static_cast<std::size_t>(t)].push_back(points_.next_site(i));
+      }
+    }
+  });
+  for (const std::vector<mesh::Site>& list : of_tile)
+    leaving.insert(leaving.end(), list.begin(), list.end());
 }
 
 /// h of the owned sites that stay where they are, if most do.
-void SiteState::remember_sizes(std::span<const mesh::Site> sites) {
+void SiteState::remember_sizes() {
   carried_.clear();
   if (points_.owned() == 0 || !sizes_.known(0) || sizes_.is_uniform())
     return;
-  const auto stays = [&](LocalIndex i) { return sites[static_cast<std::size_t>(i)].position == points_.position(i); };
+  const auto stays = [&](LocalIndex i) {
+    return points_.next_positions()[static_cast<std::size_t>(i)] == points_.position(i);
+  };
   LocalIndex staying = 0;
   for (LocalIndex i = 0; i < points_.owned(); ++i)
     staying += stays(i);
   if (staying <= points_.owned() / 2)
     return;
+  carried_ = std::move(sizes_.values());
   carried_.resize(static_cast<std::size_t>(points_.owned()));
   for (LocalIndex i = 0; i < points_.owned(); ++i)
-    carried_[static_cast<std::size_t>(i)] = stays(i) ? sizes_[i] : unknown_size;
+    if (!stays(i))
+      carried_[static_cast<std::size_t>(i)] = unknown_size;
 }
 
 /// The same by their new indices.
-void SiteState::carry_sizes() {
+void SiteState::carry_sizes(std::span<const LocalIndex> new_index) {
   if (carried_.empty())
     return;
   std::vector<double> carried(static_cast<std::size_t>(points_.owned()), unknown_size);
-  for (std::size_t i = 0; i < renumbering_.size(); ++i)
-    if (renumbering_[i] >= 0)
-      carried[static_cast<std::size_t>(renumbering_[i])] = carried_[i];
+  for (std::size_t i = 0; i < new_index.size(); ++i)
+    if (new_index[i] >= 0)
+      carried[static_cast<std::size_t>(new_index[i])] = carried_[i];
   carried_ = std::move(carried);
 }
 
@@ -248,12 +274,11 @@ void SiteState::reveal(std::span<const Disc> discs, const sizing::SizeField& siz
 }
 
 void SiteState::release_work_space() {
-  points_.release_work_space();
   points_.release_moves();
-  stars_.release_work_space();
-  for (std::vector<LocalIndex>* list : {&stays_, &sorted_, &renumbering_})
-    std::vector<LocalIndex>().swap(*list);
-  std::vector<delaunay::StarWish>().swap(wanted_);
+  sizes_.forget();
+  release(sizes_.values());
+  release(carried_);
+  release(wanted_);
   return_free_memory();
 }
 

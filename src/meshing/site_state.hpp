@@ -36,9 +36,9 @@ public:
   /// First sites, from any ranks: partitions the tiles by their counts. Collective.
   /// @throws ConfigError on all ranks if one would own more sites than a local index can count
   void distribute(std::vector<mesh::Site> sites);
-  /// @brief The owned sites moved: `sites[i]` is owned site i, or deleted where `deleted[i]`; more sites than are owned
-  /// are new. Migrates, sorts, keeps the rings. Collective.
-  void move_sites(std::vector<mesh::Site>& sites, std::span<const std::uint8_t> deleted);
+  /// @brief The owned sites go to BinnedPoints::next_positions, but for those that are gone (by local index; empty:
+  /// none); more sites come, whoever owns their places. Migrates, sorts, keeps the rings. Collective.
+  void move_sites(std::vector<std::uint8_t> gone = {}, std::vector<mesh::Site> more = {});
 
   /// @brief Refreshes the halo and the sizes and computes the wanted stars, asking for more bins until every one is
   /// certain. Collective.
@@ -81,10 +81,12 @@ public:
 
 private:
   void wrap(std::vector<mesh::Site>& sites) const;
+  void wrap_next();
+  void list_leaving(std::vector<std::uint8_t>& gone, std::vector<mesh::Site>& leaving) const;
   void choose_bins(std::span<const mesh::Site> sites);
   void evaluate_agreed(const sizing::SizeField& size, LocalIndex end);
-  void remember_sizes(std::span<const mesh::Site> sites);
-  void carry_sizes();
+  void remember_sizes();
+  void carry_sizes(std::span<const LocalIndex> new_index);
   void evaluate_sizes(const sizing::SizeField& size, LocalIndex end);
 
   const comm::Communicator& comm_;
@@ -95,7 +97,6 @@ private:
   delaunay::StarTable stars_;
   mesh::LocalSizes sizes_;
   std::vector<delaunay::StarWish> wanted_;
-  std::vector<LocalIndex> stays_, sorted_, renumbering_;
   bool ghosts_need_sizes_ = false;
   std::vector<double> carried_; // h of owned sites from before a move, 0 where they moved
 };

@@ -222,7 +222,7 @@ Sweeper::Counts Sweeper::commit() {
         counts_.deleted += deleted[at(i)] = 1;
     counts_.deleted = state_.comm().sum(counts_.deleted);
     note_pushes();
-    move_and_sort(deleted);
+    move_and_sort(std::move(deleted));
     return counts_;
   }
   note_pushes();
@@ -257,20 +257,9 @@ void Sweeper::finish_move() {
 }
 
 /// @param deleted empty: none
-void Sweeper::move_and_sort(std::span<const std::uint8_t> deleted) {
-  mesh::BinnedPoints& points = state_.points();
-  std::vector<mesh::Site> sites(at(points.owned()));
-  thread_loop((points.owned() + 4095) / 4096, 1, [&](std::ptrdiff_t part, int) {
-    const LocalIndex begin = static_cast<LocalIndex>(part * 4096), end = std::min(points.owned(), begin + 4096);
-    for (LocalIndex i = begin; i < end; ++i) {
-      mesh::Site& site = sites[at(i)] = points.site(i);
-      site.position = points.next_positions()[at(i)];
-      site.lead = points.next_leads()[at(i)];
-    }
-  });
-  const std::vector<std::uint8_t> none(deleted.empty() ? sites.size() : 0, 0);
+void Sweeper::move_and_sort(std::vector<std::uint8_t> deleted) {
   state_.forget_sizes();
-  state_.move_sites(sites, deleted.empty() ? std::span(none) : deleted);
+  state_.move_sites(std::move(deleted));
   state_.refresh(context_.size);
   drift_ = drift_in_sizes_ = 0;
   age_of_sizes_ = age_of_order_ = 0;
@@ -288,10 +277,7 @@ void Sweeper::sort() {
   discard();
   if (sorted_)
     return;
-  mesh::BinnedPoints& points = state_.points();
-  points.prepare_advance();
-  std::copy_n(points.positions().begin(), points.owned(), points.next_positions().begin());
-  std::copy(points.leads().begin(), points.leads().end(), points.next_leads().begin());
+  state_.points().prepare_to_stay();
   move_and_sort({});
 }
 

@@ -80,7 +80,7 @@ private:
   SweepTally tally();
   LocalIndex tile_of_site(LocalIndex i) const;
   void note_pushes();
-  void move_and_sort(std::span<const std::uint8_t> deleted);
+  void move_and_sort(std::vector<std::uint8_t> deleted);
 
   /// Sites are sorted again, too, when one may have come that far, in tiles.
   static constexpr double drift_allowed = 0.25;

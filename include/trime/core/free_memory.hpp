@@ -1,8 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory that was freed, back to the system: the C library keeps pieces of up to 32 MB for later.
+// How much memory a run needs, and memory that was freed, back to the system: the C library keeps some for later.
 #pragma once
 
+#include <string>
+
 namespace trime {
+
+/// What a run needs at its peak, over all ranks, beside the libraries, the shape and the size field: a little more than
+/// is measured (130 on the square, 140 where the size varies).
+inline constexpr double bytes_per_point = 150;
+/// The program with its libraries.
+inline constexpr double bytes_per_process = 32 * 0x1p20;
+
+/// What a user can do who has no memory left.
+std::string out_of_memory_text();
 
 /// @brief Returns freed memory, for the end of a stage whose arrays the next does not need. A few ms; does nothing
 /// where the C library has no such call.

@@ -16,8 +16,7 @@ std::vector<std::int64_t> tile_weights(const comm::Communicator& comm, const mes
 
 /// @brief Gives every site to the owner of its tile. Sites that stay keep their order and position in the list's front;
 /// arrivals follow, ordered by sending rank. Collective.
-/// @param stays if not null: for each input site its index among those that stay, or -1
 void migrate(const comm::Communicator& comm, const mesh::TileGrid& grid, const Partition& partition,
-             std::vector<mesh::Site>& sites, std::vector<LocalIndex>* stays = nullptr);
+             std::vector<mesh::Site>& sites);
 
 } // namespace trime::decomposition

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "trime/core/types.hpp"
+#include "trime/core/unset_vector.hpp"
 
 #include <array>
 #include <cstdint>
@@ -64,23 +65,21 @@ public:
   void set_certain(LocalIndex i, bool certain) { certain_[static_cast<std::size_t>(i)] = certain; }
 
   /// @brief Moves the rings to a new numbering of the owned sites. Rings with a neighbour that has no new index (a
-  /// ghost, a deleted or migrated site) become empty. All stars become uncertain. O(n); threads.
+  /// ghost, a deleted or migrated site) become empty. All stars become uncertain. Holds two sets of rings for as long
+  /// as it takes. O(n); threads.
   /// @param new_index by old index of an owned site: its new index or -1
   void renumber(std::span<const LocalIndex> new_index, LocalIndex new_size);
   /// Renumbers ghosts in place: old local index i >= first becomes new_index[i - first].
   void renumber_ghosts(LocalIndex first, std::span<const LocalIndex> new_index);
 
-  /// Frees the second set of rings that renumber uses.
-  void release_work_space();
-
 private:
   void release_overflow(LocalIndex i);
   static void repeat(std::array<LocalIndex, slots>& ring, std::size_t degree);
 
-  std::vector<std::array<LocalIndex, slots>> rings_, rings_back_;
-  std::vector<std::uint8_t> degree_, degree_back_; // length of the ring; slots + 1 stands for an overflow entry
+  UnsetVector<std::array<LocalIndex, slots>> rings_;
+  std::vector<std::uint8_t> degree_; // length of the ring; slots + 1 stands for an overflow entry
   std::vector<std::uint8_t> certain_;
-  std::vector<std::vector<LocalIndex>> overflow_, overflow_back_;
+  std::vector<std::vector<LocalIndex>> overflow_;
   std::vector<LocalIndex> free_overflow_; // entries of overflow_ without a site
   std::unique_ptr<std::mutex> overflow_mutex_ = std::make_unique<std::mutex>();
 };

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "trime/core/types.hpp"
+#include "trime/core/unset_vector.hpp"
 #include "trime/geometry/vec2.hpp"
 #include "trime/mesh/tile_grid.hpp"
 
@@ -69,7 +70,7 @@ public:
   /// @pre site i is owned
   Site site(LocalIndex i) const {
     const std::size_t at = static_cast<std::size_t>(i);
-    return {positions_[at], boundary_[at], pushes_[at], leads_[at]};
+    return {positions_[at], boundary_[at], pushes_[at], leads_.empty() ? geometry::Vec2{} : leads_[at]};
   }
   Ghost ghost(LocalIndex i) const { return {position(i), boundary(i)}; }
 
@@ -101,10 +102,23 @@ public:
   std::span<const geometry::Vec2> next_positions() const { return next_positions_; }
   std::span<const geometry::Vec2> next_leads() const { return next_leads_; }
   std::span<const geometry::Vec2> leads() const { return leads_; }
-  /// Makes room for the above.
+  /// Makes room for the above; what it holds is not set.
   void prepare_advance();
+  /// The next places are the present ones, until the caller changes some.
+  void prepare_to_stay();
   /// Moves the owned sites to their next places; the ghosts stay.
   void advance();
+  /// What would travel with an owned site to its next place. @pre it has one
+  Site next_site(LocalIndex i) const {
+    const std::size_t at = static_cast<std::size_t>(i);
+    return {next_positions_[at], boundary_[at], pushes_[at], next_leads_.empty() ? geometry::Vec2{} : next_leads_[at]};
+  }
+  /// @brief Sorts the owned sites at their next places, but for those that are gone (by local index; empty: none), and
+  /// more of them besides; as assign_owned does, with the same tiles. The next places are used up. Needs 9 bytes a site
+  /// more than the sites and their next places.
+  /// @param new_index for each owned site, then for each of `more`, its new local index, -1 if gone or dropped
+  /// @pre all lie in the owned tiles
+  void sort_moved(std::span<const std::uint8_t> gone, std::span<const Site> more, std::vector<LocalIndex>& new_index);
   /// No site that was sorted into this tile has come farther since.
   void set_drift(LocalIndex tile, double distance) { drift_[static_cast<std::size_t>(tile)] = distance; }
   double drift(LocalIndex tile) const { return drift_[static_cast<std::size_t>(tile)]; }
@@ -115,15 +129,18 @@ public:
   void set_pushes(LocalIndex i, std::int32_t pushes) {
     pushes_[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::min(pushes, 255));
   }
+  void set_boundary(LocalIndex i, std::int32_t boundary) { boundary_[static_cast<std::size_t>(i)] = boundary; }
   std::int32_t pushes(LocalIndex i) const { return pushes_[static_cast<std::size_t>(i)]; }
   /// The ghosts, to be moved by their owners.
   std::span<geometry::Vec2> ghost_positions() {
     return std::span(positions_).subspan(static_cast<std::size_t>(owned_));
   }
 
-  /// Frees what the next assign_owned would use again.
-  void release_work_space();
-  /// Frees what only sites that move have. @post site() must not be called until assign_owned
+  /// Frees the leads, and those of arriving sites are forgotten: no rule moves the sites any more. @post site() says 0;
+  /// leads() and next_leads() are empty, until assign_owned
+  void release_leads();
+  /// Frees what only sites that move have, and the bins. @post nothing but positions, boundary and tile_range may be
+  /// asked for, until assign_owned
   void release_moves();
 
 private:
@@ -139,16 +156,33 @@ private:
   std::size_t block_slot(LocalIndex tile, std::int32_t image) const {
     return static_cast<std::size_t>(tile) * static_cast<std::size_t>(images_) + static_cast<std::size_t>(image);
   }
-  void sort_into_tiles(std::span<const Site> sites);
-  LocalIndex sort_tile(std::span<const Site> sites, LocalIndex tile);
+
+  class ListedSites;
+  class MovedSites;
+  struct TileWork {
+    std::vector<int> bin;
+    std::vector<LocalIndex> sorted;
+  };
+  template <class Sites>
+  LocalIndex find_order(const Sites& sites);
+  template <class Sites>
+  void sort_into_tiles(const Sites& sites);
+  template <class Sites>
+  LocalIndex sort_tile(const Sites& sites, LocalIndex tile, TileWork& work);
+  template <class Sites>
+  void take_places(const Sites& sites);
+  template <class Sites>
+  void take_labels(const Sites& sites);
+  void list_new_indices(LocalIndex before, std::vector<LocalIndex>& new_index) const;
+  void forget_order();
 
   const TileGrid* grid_;
   LocalIndex owned_ = 0, first_tile_ = 0, last_tile_ = 0;
-  std::vector<geometry::Vec2> positions_;
-  std::vector<std::int32_t> boundary_;
-  std::vector<std::uint8_t> pushes_;                        // owned only
-  std::vector<geometry::Vec2> leads_;                       // owned only
-  std::vector<geometry::Vec2> next_positions_, next_leads_; // by local index; of use only while sites move
+  UnsetVector<geometry::Vec2> positions_;
+  UnsetVector<std::int32_t> boundary_;
+  UnsetVector<std::uint8_t> pushes_;                        // owned only
+  UnsetVector<geometry::Vec2> leads_;                       // owned only
+  UnsetVector<geometry::Vec2> next_positions_, next_leads_; // by local index; of use only while sites move
   std::vector<double> drift_; // by tile, since the sites were sorted; O(tiles of the container)
   double largest_drift_ = 0;
   int images_;                         // of a tile
@@ -156,12 +190,13 @@ private:
   std::vector<Block> blocks_;
   std::vector<LocalIndex> bin_begin_, bin_end_;
   std::vector<std::uint8_t> bin_known_;
+  bool has_leads_ = true;
   LocalIndex owned_blocks_ = 0;
   std::size_t owned_bins_ = 0;
   std::vector<LocalIndex> kept_; // first owned site of each owned tile, and the end
-  // Work space of assign_owned, kept between calls.
-  std::vector<LocalIndex> tile_start_, order_, sorted_, tile_of_;
-  std::vector<std::int32_t> key_;
+  // While sites are sorted: where the sites of each tile begin in the order, which holds their old indices.
+  std::vector<LocalIndex> tile_start_;
+  UnsetVector<LocalIndex> order_;
 };
 
 template <class Visit, class Missing>

@@ -109,10 +109,13 @@ public:
     int bin;
   };
   Place place(geometry::Vec2 p) const {
-    const std::uint32_t x = fixed_x(p.x), y = fixed_y(p.y);
-    const LocalIndex tile = tile_at(tile_of(x), tile_of(y));
-    const int bits = bin_bits(tile);
-    return {tile, (bin_of(y, bits) << bits) | bin_of(x, bits)};
+    const LocalIndex tile = tile_at(p);
+    return {tile, bin_at(p, bin_bits(tile))};
+  }
+  LocalIndex tile_at(geometry::Vec2 p) const { return tile_at(tile_of(fixed_x(p.x)), tile_of(fixed_y(p.y))); }
+  /// The bin of a point in its tile, for a tile of 2^bits x 2^bits bins.
+  int bin_at(geometry::Vec2 p, int bits) const {
+    return (bin_of(fixed_y(p.y), bits) << bits) | bin_of(fixed_x(p.x), bits);
   }
   /// Hilbert key of a point to 32 bits per axis: the canonical order of the mesh, ties lexicographic.
   std::uint64_t point_key(geometry::Vec2 p) const { return hilbert_key(fixed_x(p.x), fixed_y(p.y), 32); }

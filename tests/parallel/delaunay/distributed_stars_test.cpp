@@ -2,6 +2,7 @@
 // Stars computed on several ranks are those of one rank, from the start and while sites move and migrate.
 #include "meshing/site_state.hpp"
 #include "support/distributed.hpp"
+#include "support/moved_sites.hpp"
 #include "support/star_checks.hpp"
 
 #include <gtest/gtest.h>
@@ -52,7 +53,7 @@ void shake(SiteState& state, double step, std::uint64_t round) {
   std::vector<std::uint8_t> deleted(sites.size(), 0);
   for (std::size_t k = 0; k < sites.size(); ++k)
     deleted[k] = state.grid().point_key(sites[k].position) % 97 == round; // some die on the way
-  state.move_sites(sites, deleted);
+  testing::move_sites(state, sites, deleted);
 }
 
 void expect_equal_stars(const std::vector<Site>& sites, double spacing, const StarBuilder& builder, double step,

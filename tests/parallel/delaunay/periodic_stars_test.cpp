@@ -3,6 +3,7 @@
 // the triangles of a torus.
 #include "meshing/site_state.hpp"
 #include "support/distributed.hpp"
+#include "support/moved_sites.hpp"
 #include "support/star_checks.hpp"
 #include "trime/decomposition/numbering.hpp"
 
@@ -163,7 +164,7 @@ void shake(SiteState& state, double step, std::uint64_t round) {
         unit_lattice().snap(site.position + step * (testing::random_vec2(20 + round, key) - Vec2{0.5, 0.5}));
     sites.push_back(site);
   }
-  state.move_sites(sites, std::vector<std::uint8_t>(sites.size(), 0));
+  testing::move_sites(state, sites, std::vector<std::uint8_t>(sites.size(), 0));
 }
 
 TEST(PeriodicStars, AreTheSameOnAnyRanksAndThreadsWhileSitesMove) {

@@ -3,6 +3,7 @@
 #include "meshing/site_state.hpp"
 
 #include "support/distributed.hpp"
+#include "support/moved_sites.hpp"
 #include "support/periodic_shapes.hpp"
 #include "support/star_checks.hpp"
 
@@ -100,7 +101,7 @@ TEST(SiteState, SitesComeAndGoInOneMove) {
       }
       all.insert(all.end(), added.begin(), added.end());
       deleted.resize(all.size(), 0);
-      of.move_sites(all, deleted);
+      testing::move_sites(of, all, deleted);
     };
     const std::vector<Site> added = testing::random_sites(150, 50 + round);
     change(state, testing::dealt(world, added));
@@ -154,7 +155,7 @@ TEST(SiteState, SizesOfSitesThatStayAreNotEvaluatedAgain) {
     const std::vector<Site> added = testing::dealt(world, testing::random_sites(20, 50 + round));
     sites.insert(sites.end(), added.begin(), added.end());
     deleted.resize(sites.size(), 0);
-    state.move_sites(sites, deleted);
+    testing::move_sites(state, sites, deleted);
     const std::int64_t changed = world.sum(std::int64_t{moved}) + 20;
     size.count = 0;
     state.compute_stars(builder, size, Wanted::all_sites);
@@ -182,7 +183,7 @@ TEST(SiteState, OnlyTheStarsThatAreWishedForAreComputed) {
       if (moved.back().position == center)
         moved.back().position = to;
     }
-    of->move_sites(moved, std::vector<std::uint8_t>(moved.size(), 0));
+    testing::move_sites(*of, moved, std::vector<std::uint8_t>(moved.size(), 0));
   }
   std::vector<StarWish> wanted;
   for (LocalIndex i = 0; i < state.points().owned(); ++i)

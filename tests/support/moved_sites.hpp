@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Help for tests that move all sites of a state at once.
+#pragma once
+
+#include "meshing/site_state.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace trime::testing {
+
+/// sites[i] is what becomes of owned site i, or it goes where deleted[i] is set; more sites than are owned are new.
+/// Only positions may differ from the owned sites. Collective.
+inline void move_sites(meshing::SiteState& state, std::span<const mesh::Site> sites,
+                       std::span<const std::uint8_t> deleted) {
+  const std::size_t owned = static_cast<std::size_t>(state.points().owned());
+  state.points().prepare_to_stay();
+  for (std::size_t i = 0; i < owned; ++i)
+    state.points().next_positions()[i] = sites[i].position;
+  std::vector<mesh::Site> more;
+  for (std::size_t i = owned; i < sites.size(); ++i)
+    if (!deleted[i])
+      more.push_back(sites[i]);
+  state.move_sites({deleted.begin(), deleted.begin() + static_cast<std::ptrdiff_t>(owned)}, more);
+}
+
+} // namespace trime::testing
