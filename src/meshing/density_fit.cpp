@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -85,10 +86,12 @@ private:
       limits_.clear();
       limit_rounds_ = 0;
     }
-    FittedSize fitted{factor, limits_};
+    FittedSize fitted{factor, limits_, samples_};
     for (sizing::SizeLimit& limit : fitted.limits)
       limit.size *= factor / limits_factor_;
-    return try_boundary(context_, fitted, points_);
+    Layout layout = try_boundary(context_, fitted, points_);
+    samples_ = layout.fitted.samples;
+    return layout;
   }
 
   /// Looks for more limits, a few times. True if there are any: for other trials, this one was laid without them.
@@ -143,8 +146,8 @@ private:
     return factor;
   }
 
-  /// @brief The trial as it is if its sites are nearly as many as wanted, or with a size so little larger or smaller that
-  /// the sites inside make up the difference: those on the boundary may stay.
+  /// @brief The trial as it is if its sites are nearly as many as wanted, or with a size so little larger or smaller
+  /// that the sites inside make up the difference: those on the boundary may stay.
   std::optional<DensityFit> accepted(Trial& trial) const {
     constexpr double least_scale = 0.98, most_scale = 1.02;
     if (trial.fit.layout.boundary.overfull)
@@ -180,7 +183,7 @@ private:
       if (first) {
         crowded =
             static_cast<double>(limits_.size()) > crowded_share * static_cast<double>(layout.boundary.sites.size());
-          continue;
+        continue;
       }
       const double growth = crowded ? growth_to_come[limit_rounds_] : 1;
       search_.expect(crowded ? crowded_power : -2); // trials with other limits tell nothing
@@ -270,6 +273,7 @@ private:
   std::vector<sizing::SizeLimit> limits_; // found so far
   double limits_factor_ = 0;              // for which the search for them began
   int limit_rounds_ = 0;                  // of that search
+  std::shared_ptr<const SizeSamples> samples_;
 };
 
 } // namespace

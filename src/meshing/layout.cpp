@@ -57,20 +57,34 @@ void set_sizes(const LayoutContext& context, Layout& layout) {
       std::make_unique<sizing::ScaledSize>(context.relative_size, layout.fitted.factor, options.min_size.value_or(0),
                                            options.max_size.value_or(std::numeric_limits<double>::infinity()));
   const auto& limits = layout.fitted.limits;
-  if (limits.empty())
-    layout.lowered_size = std::make_unique<sizing::ScaledSize>(*layout.asked_size, 1);
-  else
+  const sizing::SizeField* within = layout.asked_size.get();
+  if (limits.empty()) {
+    layout.lowered_size.reset();
+  } else {
     layout.lowered_size =
         std::make_unique<sizing::LoweredSize>(*layout.asked_size, limits, gradation, context.boundary.periods);
-  layout.size = std::make_unique<sizing::ScaledSize>(*layout.lowered_size, layout.coarsening);
+    within = layout.lowered_size.get();
+  }
+  layout.size = std::make_unique<sizing::ScaledSize>(*within, layout.coarsening);
 }
 
 void lay_sites(const LayoutContext& context, std::size_t affordable, Layout& layout) {
   const sizing::ScaledSize asked(*layout.asked_size, layout.coarsening);
   const bool keeps_all = context.options.keep_features;
-  const FeatureRule rule{keeps_all ? 0 : context.options.feature_tolerance, keeps_all ? 0 : least_perimeter, &asked};
-  layout.boundary = make_boundary_sites(context.fixed.boundary(), *layout.size, context.lattice,
-                                        context.options.corner_angle, context.fixed.inside(), rule, affordable);
+  const FeatureRule rule{keeps_all ? 0 : context.options.feature_tolerance, keeps_all ? 0 : least_perimeter, nullptr};
+  const auto make = [&](const BoundarySizes& sizes) {
+    return make_boundary_sites(context.fixed.boundary(), sizes, context.lattice, context.options.corner_angle,
+                               context.fixed.inside(), rule, affordable);
+  };
+  if (layout.size->is_uniform()) {
+    layout.boundary = make({*layout.size, asked});
+    return;
+  }
+  std::shared_ptr<const SizeSamples>& samples = layout.fitted.samples;
+  if (!samples || !samples->serve(layout.fitted.factor))
+    samples = std::make_shared<SizeSamples>(context.fixed.boundary(), context.relative_size, *layout.asked_size);
+  layout.boundary =
+      make({*layout.size, asked, {*samples, *layout.asked_size, layout.lowered_size.get(), layout.coarsening}});
 }
 
 /// Edge length of so many equal triangles' vertices, the boundary not counted.
@@ -113,6 +127,7 @@ Layout lay_boundary(const LayoutContext& context, double factor, double expected
     const std::vector<sizing::SizeLimit> more =
         round < most_lowering_rounds ? further_limits(context, layout) : std::vector<sizing::SizeLimit>{};
     fitted.limits.insert(fitted.limits.end(), more.begin(), more.end());
+    fitted.samples = layout.fitted.samples;
     if (more.empty()) {
       complete(context, layout);
       return layout;
@@ -156,7 +171,8 @@ std::vector<sizing::SizeLimit> further_limits(const LayoutContext& context, cons
   const auto time = context.timers.scope("boundary");
   std::vector<sizing::SizeLimit> more;
   if (!trial.asked_size->is_uniform() && !trial.boundary.overfull)
-    comm::run_agreed(context.comm, [&] { more = size_limits(trial.boundary, *trial.size, *trial.asked_size); });
+    comm::run_agreed(context.comm,
+                     [&] { more = size_limits(trial.boundary, *trial.size, *trial.asked_size, gradation); });
   return more;
 }
 

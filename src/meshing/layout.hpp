@@ -3,6 +3,7 @@
 // their distribution; and how sites are placed for it.
 #pragma once
 
+#include "meshing/boundary_sizes.hpp"
 #include "meshing/fixed_points.hpp"
 #include "meshing/site_state.hpp"
 #include "trime/core/log.hpp"
@@ -35,18 +36,19 @@ struct LayoutContext {
 
 /// What the size field of the last stage follows from.
 struct FittedSize {
-  double factor = 1;                     ///< of the relative size; for a uniform field h itself
-  std::vector<sizing::SizeLimit> limits; ///< where the boundary needs smaller triangles than that asks for
+  double factor = 1;                            ///< of the relative size; for a uniform field h itself
+  std::vector<sizing::SizeLimit> limits;        ///< where the boundary needs smaller triangles than that asks for
+  std::shared_ptr<const SizeSamples> samples{}; ///< of the relative size, on the boundary; made when they are needed
 };
 
 /// All that the sweeps of a stage start from. Only `state` differs from rank to rank.
 struct Layout {
   FittedSize fitted;
-  double coarsening = 1;                           ///< h of this stage over that of the last
-  double typical_size = 1;                         ///< edge length of as many equal triangles
-  std::unique_ptr<sizing::ScaledSize> asked_size;  ///< of the last stage
-  std::unique_ptr<sizing::SizeField> lowered_size; ///< the same within the limits
-  std::unique_ptr<sizing::SizeField> size;         ///< of this stage
+  double coarsening = 1;                             ///< h of this stage over that of the last
+  double typical_size = 1;                           ///< edge length of as many equal triangles
+  std::unique_ptr<sizing::ScaledSize> asked_size;    ///< of the last stage
+  std::unique_ptr<sizing::LoweredSize> lowered_size; ///< the same within the limits; null without any
+  std::unique_ptr<sizing::SizeField> size;           ///< of this stage
   BoundarySites boundary;
   std::unique_ptr<BoundaryGuard> guard;
   std::unique_ptr<SiteState> state;
@@ -78,8 +80,8 @@ Layout lay_reference(const LayoutContext& context, BoundarySites polygon, double
 /// So often limits of the size are looked for.
 inline constexpr int most_lowering_rounds = 3;
 
-/// @brief Boundary sites alone, with neither guard nor state, in search of a size. If the boundary takes far more points
-/// than were asked for, its sites are not finished (`overfull`). Collective.
+/// @brief Boundary sites alone, with neither guard nor state, in search of a size. If the boundary takes far more
+/// points than were asked for, its sites are not finished (`overfull`). Collective.
 Layout try_boundary(const LayoutContext& context, const FittedSize& fitted, double expected);
 
 /// Where the sites of a trial ask for smaller triangles than its size: limits to be added. Collective.
