@@ -152,7 +152,7 @@ void make_shells(const LoopMetric& metric, const Arms& arms, Corner& corner) {
   Vec2 ahead_point = corner.position, behind_point = corner.position;
   const double longest = metric.total() + 2; // in local sizes: each turn of the loop covers about one
   for (int shell = 0; shell < longest; ++shell) {
-    radius += 0.5 * (metric.size(ahead_point) + metric.size(behind_point));
+    radius += 0.5 * (metric.size(ahead) + metric.size(behind));
     const auto next_ahead = metric.first_at_radius(ahead, arms.ahead_end, corner.position, radius);
     const auto next_behind = metric.first_at_radius(behind, arms.behind_end, corner.position, radius);
     if (!next_ahead || !next_behind || *next_ahead > arms.ahead_limit || *next_behind < arms.behind_limit)
@@ -161,7 +161,7 @@ void make_shells(const LoopMetric& metric, const Arms& arms, Corner& corner) {
     corner.behind.push_back(behind = *next_behind);
     ahead_point = metric.point(ahead);
     behind_point = metric.point(behind);
-    const double h = std::fmin(metric.size(ahead_point), metric.size(behind_point));
+    const double h = std::fmin(metric.size(ahead), metric.size(behind));
     if (geometry::length(ahead_point - behind_point) >= h)
       return;
   }
@@ -259,7 +259,7 @@ private:
   void add_site(double t) {
     t = t >= metric_.total() ? t - metric_.total() : t;
     const Vec2 p = metric_.point(t);
-    check_size(p);
+    check_size(t, p);
     sites_.push_back({t, lattice_.snap(p), SiteKind::plain});
   }
 
@@ -268,7 +268,7 @@ private:
     const std::vector<LocalIndex> path = shortest_site_path(places, closed);
     for (std::size_t k = 1; k + 1 < path.size(); ++k) {
       const Place& place = places[static_cast<std::size_t>(path[k])];
-      check_size(place.position);
+      check_size(place.t, place.position);
       const bool round = place.t >= metric_.total();
       sites_.push_back({place.junction >= 0 ? metric_.piece_t(static_cast<std::size_t>(place.junction)) // exactly
                         : round             ? place.t - metric_.total()
@@ -280,12 +280,12 @@ private:
     }
   }
 
-  void check_size(Vec2 p) const {
-    const double least = smallest_size_in_steps * lattice_.step();
-    if (metric_.size(p) < least)
+  void check_size(double t, Vec2 p) const {
+    const double least = smallest_size_in_steps * lattice_.step(), h = metric_.size(t);
+    if (h < least)
       throw GeometryError(fmt::format("element size on the boundary at ({}, {}): expected at least {} (the resolution "
                                       "of the container), found {}; use a larger edge length or fewer points",
-                                      p.x, p.y, least, metric_.size(p)));
+                                      p.x, p.y, least, h));
   }
 
   const LoopMetric& metric_;

@@ -52,39 +52,39 @@ std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Layout
 
 /// The sizes of a stage from what `layout.fitted` says.
 void set_sizes(const LayoutContext& context, Layout& layout) {
+  const MeshOptions& options = context.options;
+  layout.asked_size =
+      std::make_unique<sizing::ScaledSize>(context.relative_size, layout.fitted.factor, options.min_size.value_or(0),
+                                           options.max_size.value_or(std::numeric_limits<double>::infinity()));
   const auto& limits = layout.fitted.limits;
-  if (limits.empty())
-    layout.lowered_size = std::make_unique<sizing::ScaledSize>(*layout.asked_size, 1);
-  else
+  const sizing::SizeField* within = layout.asked_size.get();
+  if (limits.empty()) {
+    layout.lowered_size.reset();
+  } else {
     layout.lowered_size =
         std::make_unique<sizing::LoweredSize>(*layout.asked_size, limits, gradation, context.boundary.periods);
-  layout.size = std::make_unique<sizing::ScaledSize>(*layout.lowered_size, layout.coarsening);
+    within = layout.lowered_size.get();
+  }
+  layout.size = std::make_unique<sizing::ScaledSize>(*within, layout.coarsening);
 }
 
 void lay_sites(const LayoutContext& context, std::size_t affordable, Layout& layout) {
   const sizing::ScaledSize asked(*layout.asked_size, layout.coarsening);
   const bool keeps_all = context.options.keep_features;
-  const FeatureRule rule{keeps_all ? 0 : context.options.feature_tolerance, keeps_all ? 0 : least_perimeter, &asked};
-  layout.boundary = make_boundary_sites(context.fixed.boundary(), *layout.size, context.lattice,
-                                        context.options.corner_angle, context.fixed.inside(), rule, affordable);
-}
-
-/// Where chords come out short, or a channel is narrow, the size is lowered and the boundary laid anew.
-void lower_size(const LayoutContext& context, const Lowering& lowering, std::size_t affordable, Layout& layout) {
-  constexpr double much = 0.05;
-  for (int round = 0; round < lowering.rounds && !layout.boundary.overfull; ++round) {
-    const std::vector<sizing::SizeLimit> more = size_limits(layout.boundary, *layout.size, *layout.asked_size);
-    if (more.empty())
-      return;
-    const double before = static_cast<double>(layout.boundary.sites.size());
-    layout.fitted.limits.insert(layout.fitted.limits.end(), more.begin(), more.end());
-    set_sizes(context, layout);
-    lay_sites(context, affordable, layout);
-    const double after = static_cast<double>(layout.boundary.sites.size());
-    layout.lowered_enough = !lowering.rough || round > 0 || after < (1 + much) * before;
-    if (!layout.lowered_enough)
-      return;
+  const FeatureRule rule{keeps_all ? 0 : context.options.feature_tolerance, keeps_all ? 0 : least_perimeter, nullptr};
+  const auto make = [&](const BoundarySizes& sizes) {
+    return make_boundary_sites(context.fixed.boundary(), sizes, context.lattice, context.options.corner_angle,
+                               context.fixed.inside(), rule, affordable);
+  };
+  if (layout.size->is_uniform()) {
+    layout.boundary = make({*layout.size, asked});
+    return;
   }
+  std::shared_ptr<const SizeSamples>& samples = layout.fitted.samples;
+  if (!samples || !samples->serve(layout.fitted.factor))
+    samples = std::make_shared<SizeSamples>(context.fixed.boundary(), context.relative_size, *layout.asked_size);
+  layout.boundary =
+      make({*layout.size, asked, {*samples, *layout.asked_size, layout.lowered_size.get(), layout.coarsening}});
 }
 
 /// Edge length of so many equal triangles' vertices, the boundary not counted.
@@ -92,42 +92,26 @@ double typical_size(const LayoutContext& context, double expected) {
   return std::sqrt(context.boundary.area / (row_height * std::max(1.0, expected)));
 }
 
-/// What a layout is asked to be.
-struct LayoutRequest {
-  FittedSize fitted;
-  double coarsening, expected, grid_coarsening;
-  Lowering lowering;
-  std::size_t affordable;
-};
-constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-
-Layout lay(const LayoutContext& context, const LayoutRequest& request) {
+/// Sites alone.
+/// @param affordable so many of them
+Layout lay_bare(const LayoutContext& context, const FittedSize& fitted, double coarsening, double expected,
+                std::size_t affordable) {
   const auto time = context.timers.scope("boundary");
   Layout layout;
-  layout.fitted = request.fitted;
-  layout.coarsening = request.coarsening;
-  layout.typical_size = typical_size(context, request.expected);
-  const MeshOptions& options = context.options;
-  layout.asked_size =
-      std::make_unique<sizing::ScaledSize>(context.relative_size, request.fitted.factor, options.min_size.value_or(0),
-                                           options.max_size.value_or(std::numeric_limits<double>::infinity()));
+  layout.fitted = fitted;
+  layout.coarsening = coarsening;
+  layout.typical_size = typical_size(context, expected);
   set_sizes(context, layout);
   comm::run_agreed(context.comm, [&] {
     if (layout.asked_size->is_uniform())
-      layout.typical_size = request.coarsening * sizing::checked_size(*layout.asked_size, {});
-    lay_sites(context, request.affordable, layout);
-    if (!layout.asked_size->is_uniform())
-      lower_size(context, request.lowering, request.affordable, layout);
-    if (layout.boundary.overfull)
-      return;
-    layout.guard = std::make_unique<BoundaryGuard>(layout.boundary, context.lattice);
-    context.fixed.check_inside(*layout.guard);
+      layout.typical_size = coarsening * sizing::checked_size(*layout.asked_size, {});
+    lay_sites(context, affordable, layout);
   });
   layout.fixed_inside = static_cast<GlobalId>(context.fixed.inside().size());
-  if (!layout.boundary.overfull)
-    layout.state = make_state(context, layout, request.grid_coarsening * layout.typical_size);
   return layout;
 }
+
+constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
 
 } // namespace
 
@@ -136,12 +120,25 @@ double estimated_size(double area, double perimeter, double n) {
   return (b + std::sqrt(b * b + 4 * a * n)) / (2 * n);
 }
 
-Layout lay_boundary(const LayoutContext& context, double factor, double expected, double grid_coarsening) {
-  return lay(context, {{factor, {}}, 1, expected, grid_coarsening, {}, unlimited});
+Layout lay_boundary(const LayoutContext& context, double factor, double expected) {
+  FittedSize fitted{factor, {}};
+  for (int round = 0;; ++round) {
+    Layout layout = lay_bare(context, fitted, 1, expected, unlimited);
+    const std::vector<sizing::SizeLimit> more =
+        round < most_lowering_rounds ? further_limits(context, layout) : std::vector<sizing::SizeLimit>{};
+    fitted.limits.insert(fitted.limits.end(), more.begin(), more.end());
+    fitted.samples = layout.fitted.samples;
+    if (more.empty()) {
+      complete(context, layout);
+      return layout;
+    }
+  }
 }
 
 Layout lay_stage(const LayoutContext& context, const FittedSize& fitted, double coarsening, double expected) {
-  return lay(context, {fitted, coarsening, expected, 1, {0, false}, unlimited});
+  Layout layout = lay_bare(context, fitted, coarsening, expected, unlimited);
+  complete(context, layout);
+  return layout;
 }
 
 Layout lay_again(const LayoutContext& context, Layout layout, double expected) {
@@ -162,13 +159,40 @@ Layout lay_reference(const LayoutContext& context, BoundarySites polygon, double
   return layout;
 }
 
-Layout try_boundary(const LayoutContext& context, double factor, const Lowering& lowering, double expected,
-                    double grid_coarsening) {
+Layout try_boundary(const LayoutContext& context, const FittedSize& fitted, double expected) {
   constexpr double times_points = 1.5, at_least = 1000;
   const std::optional<GlobalId>& points = context.options.points;
   const std::size_t affordable =
       points ? static_cast<std::size_t>(std::max(at_least, times_points * static_cast<double>(*points))) : unlimited;
-  return lay(context, {{factor, {}}, 1, expected, grid_coarsening, lowering, affordable});
+  return lay_bare(context, fitted, 1, expected, affordable);
+}
+
+std::vector<sizing::SizeLimit> further_limits(const LayoutContext& context, const Layout& trial) {
+  const auto time = context.timers.scope("boundary");
+  std::vector<sizing::SizeLimit> more;
+  if (!trial.asked_size->is_uniform() && !trial.boundary.overfull)
+    comm::run_agreed(context.comm,
+                     [&] { more = size_limits(trial.boundary, *trial.size, *trial.asked_size, gradation); });
+  return more;
+}
+
+void complete(const LayoutContext& context, Layout& trial, double grid_coarsening) {
+  const auto time = context.timers.scope("boundary");
+  if (trial.boundary.overfull)
+    return;
+  comm::run_agreed(context.comm, [&] {
+    trial.guard = std::make_unique<BoundaryGuard>(trial.boundary, context.lattice);
+    context.fixed.check_inside(*trial.guard);
+  });
+  trial.state = make_state(context, trial, grid_coarsening * trial.typical_size);
+}
+
+void rescale(const LayoutContext& context, Layout& layout, double scale) {
+  const auto time = context.timers.scope("boundary");
+  layout.fitted.factor *= scale;
+  for (sizing::SizeLimit& limit : layout.fitted.limits)
+    limit.size *= scale;
+  set_sizes(context, layout);
 }
 
 TileRange even_share(const Layout& layout, const comm::Communicator& comm) {

@@ -3,6 +3,7 @@
 // their distribution; and how sites are placed for it.
 #pragma once
 
+#include "meshing/boundary_sizes.hpp"
 #include "meshing/fixed_points.hpp"
 #include "meshing/site_state.hpp"
 #include "trime/core/log.hpp"
@@ -35,19 +36,19 @@ struct LayoutContext {
 
 /// What the size field of the last stage follows from.
 struct FittedSize {
-  double factor = 1;                     ///< of the relative size; for a uniform field h itself
-  std::vector<sizing::SizeLimit> limits; ///< where the boundary needs smaller triangles than that asks for
+  double factor = 1;                            ///< of the relative size; for a uniform field h itself
+  std::vector<sizing::SizeLimit> limits;        ///< where the boundary needs smaller triangles than that asks for
+  std::shared_ptr<const SizeSamples> samples{}; ///< of the relative size, on the boundary; made when they are needed
 };
 
 /// All that the sweeps of a stage start from. Only `state` differs from rank to rank.
 struct Layout {
   FittedSize fitted;
-  bool lowered_enough = true;                      ///< no limits are left to be looked for: see Lowering
-  double coarsening = 1;                           ///< h of this stage over that of the last
-  double typical_size = 1;                         ///< edge length of as many equal triangles
-  std::unique_ptr<sizing::ScaledSize> asked_size;  ///< of the last stage
-  std::unique_ptr<sizing::SizeField> lowered_size; ///< the same within the limits
-  std::unique_ptr<sizing::SizeField> size;         ///< of this stage
+  double coarsening = 1;                             ///< h of this stage over that of the last
+  double typical_size = 1;                           ///< edge length of as many equal triangles
+  std::unique_ptr<sizing::ScaledSize> asked_size;    ///< of the last stage
+  std::unique_ptr<sizing::LoweredSize> lowered_size; ///< the same within the limits; null without any
+  std::unique_ptr<sizing::SizeField> size;           ///< of this stage
   BoundarySites boundary;
   std::unique_ptr<BoundaryGuard> guard;
   std::unique_ptr<SiteState> state;
@@ -64,9 +65,8 @@ double estimated_size(double area, double perimeter, double n);
 
 /// @brief Boundary sites for a size, and an empty container grid for about `expected` points. The size is lowered where
 /// the boundary needs smaller triangles, see size_limits, and the boundary laid anew, in a few rounds. Collective.
-/// @param grid_coarsening the grid's spacing over that of the points: above 1 for a layout that will hold none
 /// @throws GeometryError as make_boundary_sites, on all ranks together
-Layout lay_boundary(const LayoutContext& context, double factor, double expected, double grid_coarsening = 1);
+Layout lay_boundary(const LayoutContext& context, double factor, double expected);
 
 /// The same at a size that was found before, or `coarsening` times it. Collective.
 Layout lay_stage(const LayoutContext& context, const FittedSize& fitted, double coarsening, double expected);
@@ -77,17 +77,22 @@ Layout lay_again(const LayoutContext& context, Layout layout, double expected);
 /// A polygon that stands for the boundary, for integrals over the shape: no layout for a mesh. Collective.
 Layout lay_reference(const LayoutContext& context, BoundarySites polygon, double expected, double grid_coarsening);
 
-/// How long limits of the size are looked for.
+/// So often limits of the size are looked for.
 inline constexpr int most_lowering_rounds = 3;
-struct Lowering {
-  int rounds = most_lowering_rounds; ///< at most
-  bool rough = false;                ///< where the first round changes much, it is the only one
-};
 
-/// @brief lay_boundary in search of a factor. If the boundary takes far more points than were asked for, its sites are
-/// not finished (`overfull`), and the layout has neither guard nor state. Collective.
-Layout try_boundary(const LayoutContext& context, double factor, const Lowering& lowering, double expected,
-                    double grid_coarsening = 1);
+/// @brief Boundary sites alone, with neither guard nor state, in search of a size. If the boundary takes far more
+/// points than were asked for, its sites are not finished (`overfull`). Collective.
+Layout try_boundary(const LayoutContext& context, const FittedSize& fitted, double expected);
+
+/// Where the sites of a trial ask for smaller triangles than its size: limits to be added. Collective.
+std::vector<sizing::SizeLimit> further_limits(const LayoutContext& context, const Layout& trial);
+
+/// Guard and empty container grid of a trial, unless it is overfull. Collective.
+/// @param grid_coarsening the grid's spacing over that of the points: above 1 for a layout that will hold none
+void complete(const LayoutContext& context, Layout& trial, double grid_coarsening = 1);
+
+/// @brief Another size of the same layout, so little larger or smaller that its sites may stay. Local.
+void rescale(const LayoutContext& context, Layout& layout, double scale);
 
 /// The tiles that this rank fills with sites: an even share, before anything is known of their number.
 TileRange even_share(const Layout& layout, const comm::Communicator& comm);

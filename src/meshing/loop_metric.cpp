@@ -31,28 +31,50 @@ double signed_turn(const Piece& before, const Piece& after) {
 
 } // namespace
 
+/// Sizes at places along the loop, cheapest in ascending order.
+class LoopMetric::Walk {
+public:
+  Walk(const LoopMetric& metric, std::size_t loop, const BoundarySizes& sizes)
+      : metric_(metric), loop_(loop), sizes_(sizes) {}
+  SizePair at(LocalIndex piece, double along, double whole) {
+    const Vec2 p = metric_.loop_.pieces[static_cast<std::size_t>(piece)].point(along);
+    return sizes_.at({loop_, piece, along, whole, metric_.periods_.wrap(p)}, cursor_);
+  }
+  bool is_uniform() const { return sizes_.is_uniform(); }
+
+private:
+  const LoopMetric& metric_;
+  std::size_t loop_;
+  const BoundarySizes& sizes_;
+  SizeSamples::Cursor cursor_;
+};
+
 /// Runs of pieces at the same time; each piece is measured from its own start, so that the sums do not depend on the
 /// runs.
-LoopMetric::LoopMetric(const geometry::Loop& loop, const sizing::SizeField& size, const geometry::Periods& periods)
-    : loop_(loop), size_(size), periods_(periods) {
-  const std::size_t n = loop.pieces.size();
+LoopMetric::LoopMetric(const geometry::Boundary& boundary, std::size_t loop, const BoundarySizes& sizes)
+    : loop_(boundary.loops[loop]), periods_(boundary.periods) {
+  const std::size_t n = loop_.pieces.size();
   TRIME_ASSERT(n > 0);
   turn_.resize(n);
   std::vector<Run> runs((n - 1) / run_length + 1);
+  SizePair at_start;
   thread_loop(std::ssize(runs), 1, [&](std::ptrdiff_t r, int) {
     Run& run = runs[static_cast<std::size_t>(r)];
     const std::size_t first = static_cast<std::size_t>(r) * run_length, last = std::min(n, first + run_length);
-    double h = this->size(loop.pieces[first].start);
+    Walk walk(*this, loop, sizes);
+    SizePair now = walk.at(static_cast<LocalIndex>(first), 0, loop_.pieces[first].length());
+    if (r == 0)
+      at_start = now;
     for (std::size_t i = first; i < last; ++i) {
-      turn_[i] = signed_turn(loop.pieces[(i + n - 1) % n], loop.pieces[i]);
-      h = add_piece(static_cast<LocalIndex>(i), h, run.knots);
+      turn_[i] = signed_turn(loop_.pieces[(i + n - 1) % n], loop_.pieces[i]);
+      now = add_piece(static_cast<LocalIndex>(i), now, walk, run.knots);
       run.ends.push_back(run.knots.size());
     }
   });
-  join(runs);
+  join(runs, at_start);
 }
 
-void LoopMetric::join(const std::vector<Run>& runs) {
+void LoopMetric::join(const std::vector<Run>& runs, SizePair at_start) {
   std::vector<double> arc_of_piece;
   std::vector<std::size_t> knots_before;
   double t = 0, arc = 0;
@@ -67,11 +89,11 @@ void LoopMetric::join(const std::vector<Run>& runs) {
       arc += end.arc;
       count += run.ends[k] - (k > 0 ? run.ends[k - 1] : 0);
       if (const Vec2 p = loop_.pieces[static_cast<std::size_t>(end.piece)].start; count > max_knots)
-        fail_for_knots(p, size(p));
+        fail_for_knots(p, end.sizes.size);
     }
   piece_t_.push_back(t);
   knots_.resize(count);
-  knots_.front() = {0, 0, 0, 0};
+  knots_.front() = {0, 0, 0, 0, at_start};
   thread_loop(std::ssize(runs), 1, [&](std::ptrdiff_t r, int) {
     const Run& run = runs[static_cast<std::size_t>(r)];
     std::size_t piece = static_cast<std::size_t>(r) * run_length, knot = 0;
@@ -80,7 +102,7 @@ void LoopMetric::join(const std::vector<Run>& runs) {
         const Knot& from = run.knots[knot];
         const bool is_end = knot + 1 == run.ends[k]; // where the next piece starts
         *to = {is_end ? piece_t_[piece + 1] : piece_t_[piece] + from.t, arc_of_piece[piece] + from.arc, from.piece,
-               from.s};
+               from.s, from.sizes};
         if (is_end && piece + 1 < loop_.pieces.size()) {
           to->piece = static_cast<LocalIndex>(piece + 1);
           to->s = 0;
@@ -89,9 +111,10 @@ void LoopMetric::join(const std::vector<Run>& runs) {
   });
 }
 
-/// @brief Steps of half the local size, Simpson's rule on each; one step does for a uniform size.
-/// @param h size at the start. @return size at the end
-double LoopMetric::add_piece(LocalIndex i, double h, std::vector<Knot>& knots) const {
+/// @brief Steps of half the local size, linear between their ends, Simpson's rule on each; one step does for a uniform
+/// size.
+/// @param sizes at the start. @return sizes at the end
+SizePair LoopMetric::add_piece(LocalIndex i, SizePair sizes, Walk& walk, std::vector<Knot>& knots) const {
   const Piece& piece = loop_.pieces[i];
   const double whole = piece.length();
   if (!(whole > 0))
@@ -100,19 +123,19 @@ double LoopMetric::add_piece(LocalIndex i, double h, std::vector<Knot>& knots) c
                                     i, piece.start.x, piece.start.y));
   double s = 0, t = 0;
   while (s < whole) {
-    double step = size_.is_uniform() ? whole : 0.5 * h;
+    const double h = sizes.size;
+    double step = walk.is_uniform() ? whole : 0.5 * h;
     if (s + 1.25 * step >= whole)
       step = whole - s;
     const double end = step == whole - s ? whole : s + step;
-    const double middle = size(piece.point(s + 0.5 * step)), last = size(piece.point(end));
-    t += step * (1 / h + 4 / middle + 1 / last) / 6;
-    knots.push_back({t, end, i, end});
+    sizes = walk.at(i, end, whole);
+    t += step * (1 / h + 8 / (h + sizes.size) + 1 / sizes.size) / 6;
+    knots.push_back({t, end, i, end, sizes});
     if (knots.size() > max_knots)
       fail_for_knots(piece.start, h);
     s = end;
-    h = last;
   }
-  return h;
+  return sizes;
 }
 
 LocalIndex LoopMetric::knot_before(double t) const {
@@ -126,6 +149,15 @@ LoopPlace LoopMetric::place(double t) const {
   const Knot &low = knots_[k], &high = knots_[k + 1];
   const double share = std::clamp((t - low.t) / (high.t - low.t), 0.0, 1.0);
   return {low.piece, low.s + share * (high.arc - low.arc)};
+}
+
+SizePair LoopMetric::sizes(double t) const {
+  t -= t >= total() ? total() : t < 0 ? -total() : 0;
+  const LocalIndex k = knot_before(t);
+  const Knot &low = knots_[k], &high = knots_[k + 1];
+  const double share = std::clamp((t - low.t) / (high.t - low.t), 0.0, 1.0);
+  return {low.sizes.size + share * (high.sizes.size - low.sizes.size),
+          low.sizes.asked + share * (high.sizes.asked - low.sizes.asked)};
 }
 
 Vec2 LoopMetric::point(double t) const {

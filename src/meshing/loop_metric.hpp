@@ -2,10 +2,11 @@
 // One loop of the boundary measured in local element sizes: the coordinate t along it is the integral of ds/h.
 #pragma once
 
+#include "boundary_sizes.hpp"
+
 #include "trime/core/types.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/periods.hpp"
-#include "trime/sizing/size_field.hpp"
 
 #include <optional>
 #include <vector>
@@ -30,12 +31,13 @@ struct LoopPlace {
 
 class LoopMetric {
 public:
-  /// Keeps references to `loop` and `size`. All threads work. @throws GeometryError if the size asks for more than 2^27
-  /// samples
-  LoopMetric(const geometry::Loop& loop, const sizing::SizeField& size, const geometry::Periods& periods);
+  /// Of one loop of the boundary. Keeps a reference to it. All threads work. @throws GeometryError if the size asks for
+  /// more than 2^27 samples
+  LoopMetric(const geometry::Boundary& boundary, std::size_t loop, const BoundarySizes& sizes);
 
-  /// The size at a place of the unrolled loop. @throws GeometryError if it is not positive and finite
-  double size(geometry::Vec2 p) const { return sizing::checked_size(size_, periods_.wrap(p)); }
+  /// The sizes at t, linear between places half a size apart; t up to one turn ahead or behind.
+  SizePair sizes(double t) const;
+  double size(double t) const { return sizes(t).size; }
   /// Length of the whole loop in t; coordinates below are taken modulo it, points move on by the winding.
   double total() const { return knots_.back().t; }
   /// t of the start of piece i.
@@ -64,6 +66,7 @@ private:
     double arc; // arc length from the start of the loop
     LocalIndex piece;
     double s; // arc length in the piece
+    SizePair sizes;
   };
   struct Turn {
     double t;
@@ -78,13 +81,13 @@ private:
     std::vector<Knot> knots;
     std::vector<std::size_t> ends; // of the knots of each piece
   };
-  double add_piece(LocalIndex i, double h, std::vector<Knot>& knots) const;
-  void join(const std::vector<Run>& runs);
+  class Walk;
+  SizePair add_piece(LocalIndex i, SizePair sizes, Walk& walk, std::vector<Knot>& knots) const;
+  void join(const std::vector<Run>& runs, SizePair at_start);
   double arc(double t) const;
   LocalIndex knot_before(double t) const;
 
   const geometry::Loop& loop_;
-  const sizing::SizeField& size_;
   geometry::Periods periods_;
   std::vector<Knot> knots_;     // ascending in t; the last closes the loop
   std::vector<double> piece_t_; // pieces + 1

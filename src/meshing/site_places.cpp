@@ -98,8 +98,9 @@ std::vector<Place> places_between(const LoopMetric& metric, double t0, double t1
                                   const FeatureTolerance& tolerance) {
   std::vector<Place> junctions = junctions_between(metric, t0, t1, lattice);
   const auto measure = [&](Place& place) {
-    place.size = metric.size(place.position);
-    place.tolerance = tolerance.at(place.position);
+    const SizePair sizes = metric.sizes(place.t);
+    place.size = sizes.size;
+    place.tolerance = tolerance.at(sizes.asked);
   };
   for (Place& place : junctions)
     measure(place);

@@ -15,12 +15,10 @@ namespace trime::meshing {
 
 /// How far chords may pass from the boundary: `share` of the local size as it was asked for.
 struct FeatureTolerance {
-  const sizing::SizeField* size; ///< as it was asked for, not lowered
-  double share;                  ///< 0: every corner is kept
-  geometry::Periods periods{};
+  double share;                                          ///< 0: every corner is kept
   double most = std::numeric_limits<double>::infinity(); ///< a length: a size far above the shape gives no licence
 
-  double at(geometry::Vec2 p) const { return std::fmin(most, share * sizing::checked_size(*size, periods.wrap(p))); }
+  double at(double asked_size) const { return std::fmin(most, share * asked_size); }
 };
 
 /// @brief Junctions between t0 and t1, and places at most a quarter of the local size apart between them; both ends.

@@ -132,11 +132,28 @@ private:
   const SiteTree tree_;
 };
 
+/// Without limits that another of those next to them in the list implies. What that one implies the limit that implied
+/// it does, too.
+std::vector<sizing::SizeLimit> without_implied(const std::vector<sizing::SizeLimit>& limits, double gradation) {
+  constexpr std::ptrdiff_t neighbours = 32; // to each side
+  const std::ptrdiff_t n = std::ssize(limits);
+  return gather_in_order<sizing::SizeLimit>(n, sites_in_a_row, [&](std::ptrdiff_t k, auto& kept) {
+    const sizing::SizeLimit& limit = limits[static_cast<std::size_t>(k)];
+    for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(0, k - neighbours); j < std::min(n, k + neighbours + 1); ++j) {
+      const sizing::SizeLimit& other = limits[static_cast<std::size_t>(j)];
+      const double reach = limit.size - other.size;
+      if (reach > 0 && gradation * gradation * geometry::squared_length(limit.place - other.place) <= reach * reach)
+        return;
+    }
+    kept.push_back(limit);
+  });
+}
+
 } // namespace
 
 std::vector<sizing::SizeLimit> size_limits(const BoundarySites& boundary, const sizing::SizeField& size,
-                                           const sizing::SizeField& asked) {
-  return LimitFinder(boundary, size, asked).run();
+                                           const sizing::SizeField& asked, double gradation) {
+  return without_implied(LimitFinder(boundary, size, asked).run(), gradation);
 }
 
 } // namespace trime::meshing

@@ -28,7 +28,11 @@ LoweredSize::~LoweredSize() = default;
 
 double LoweredSize::size(geometry::Vec2 p) const {
   const double size = field_.size(p);
-  return is_valid_size(size) ? cones_->value(periods_.wrap(p), size) : size;
+  return is_valid_size(size) ? lowered(p, size) : size;
+}
+
+double LoweredSize::lowered(geometry::Vec2 p, double field_size) const {
+  return cones_->value(periods_.wrap(p), field_size);
 }
 
 } // namespace trime::sizing

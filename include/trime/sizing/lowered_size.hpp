@@ -27,6 +27,8 @@ public:
   ~LoweredSize() override;
   /// O(log n) near a few limits. What is no valid size comes through as it is.
   double size(geometry::Vec2 p) const override;
+  /// The same where the field is known to have a valid value.
+  double lowered(geometry::Vec2 p, double field_size) const;
   bool is_uniform() const override { return false; }
 
 private:

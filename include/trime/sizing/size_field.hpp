@@ -57,11 +57,14 @@ public:
   /// What is no valid size comes through as it is, for the caller to find.
   double size(geometry::Vec2 p) const override {
     const double relative = field_.size(p);
-    if (!is_valid_size(relative))
-      return relative;
+    return is_valid_size(relative) ? scaled(relative) : relative;
+  }
+  /// The size where the field has a valid value.
+  double scaled(double relative) const {
     const double size = factor_ * relative;
     return size < min_size_ ? min_size_ : size > max_size_ ? max_size_ : size;
   }
+  double factor() const { return factor_; }
   bool is_uniform() const override { return field_.is_uniform(); }
 
 private:
