@@ -74,8 +74,8 @@ bool settle_round(SiteState& state, const MoveContext& context, int round, bool 
     thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t t, int thread) {
       const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
       for (LocalIndex i = begin; i < end; ++i) {
-        if (points.boundary(i) != mesh::free_site)
-          continue;
+        if (points.boundary(i) != mesh::free_site || context.guard.is_clear(points.position(i)))
+          continue; // h there is not asked for
         Treated treated =
             treat_step(context, state.grid(), points.site(i), view.size(i), {}, delete_all ? 0 : pushes_allowed);
         if (treated.deleted && !delete_all && !is_chosen(points.position(i), round)) {

@@ -163,7 +163,7 @@ private:
     control.begin_stage(scheme_->inserts(), scheme_->is_last());
     Sweeper::Counts counts; // since the last record
     counts.rebuilt = comm_.sum(stars(Wanted::inner_sites).rebuilt);
-    Sweeper sweeper(state(), *builder_, move_context());
+    Sweeper sweeper(state(), *builder_, move_context(), options_.stars_by_emptiness);
     SweepSums sums = record_sweep(sweeper, counts);
     show_snapshot(sweeper);
     begun_.reset();

@@ -27,7 +27,7 @@ TRIME_INLINE Group group_at(const SweepTask& task, LocalIndex i, LocalIndex end)
   LocalIndex any = -1;
   for (int l = 0; l < width; ++l) {
     group.site[l] = -1;
-    if (i + l < end && task.classes[i + l] == SiteClass::local) {
+    if (i + l < end && task.classes[i + l] >= task.least_class) {
       group.site[l] = any = i + l;
       group.local |= 1U << l;
     }

@@ -27,8 +27,8 @@ std::size_t at(LocalIndex i) {
 
 } // namespace
 
-Sweeper::Sweeper(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context)
-    : state_(state), builder_(builder), context_(context) {
+Sweeper::Sweeper(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context, bool by_emptiness)
+    : state_(state), builder_(builder), context_(context), by_emptiness_(by_emptiness) {
   classify();
 }
 
@@ -188,16 +188,23 @@ void Sweeper::prepare(const UpdateRule& rule) {
   prepared_ = true;
 }
 
-/// Counts the pushes of the sites that were pushed, and forgets what became of sites.
+/// Counts the pushes of the sites that were pushed, and forgets what became of sites. Only these can be in a disc where
+/// they go; in tiles that sleep nothing changes.
 void Sweeper::note_pushes() {
   mesh::BinnedPoints& points = state_.points();
   thread_loop(static_cast<std::ptrdiff_t>(retally_.size()), 4, [&](std::ptrdiff_t t, int) {
+    std::uint8_t& encroached = encroached_[static_cast<std::size_t>(t)];
+    if (awake_[static_cast<std::size_t>(t)])
+      encroached = 0;
     if (!retally_[static_cast<std::size_t>(t)])
       return;
     const auto [begin, end] = points.tile_range(points.first_tile() + static_cast<LocalIndex>(t));
     for (LocalIndex i = begin; i < end; ++i) {
-      if (fates_[at(i)] != Fate::moved)
+      if (fates_[at(i)] != Fate::moved) {
         points.set_pushes(i, points.pushes(i) + 1);
+        if (context_.guard.pushes(points.next_positions()[at(i)]))
+          encroached = 1;
+      }
       fates_[at(i)] = Fate::moved;
     }
   });

@@ -36,7 +36,7 @@ void Sweeper::measure_tile(const SweepTask& all, LocalIndex tile, double referen
     for (std::int64_t k = 0; k < tally.triangles; ++k)
       sums.alpha_bins.add(excesses[static_cast<std::size_t>(k)]);
     for (LocalIndex i = begin; i < end; ++i)
-      if (classes_[at(i)] == SiteClass::exact || classes_[at(i)] == SiteClass::fixed)
+      if (classes_[at(i)] != SiteClass::local && classes_[at(i)] != SiteClass::held)
         measure_star(view, i, reference_size, sums);
   }
 }
