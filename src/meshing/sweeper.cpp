@@ -27,8 +27,8 @@ std::size_t at(LocalIndex i) {
 
 } // namespace
 
-Sweeper::Sweeper(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context, bool by_emptiness)
-    : state_(state), builder_(builder), context_(context), by_emptiness_(by_emptiness) {
+Sweeper::Sweeper(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context, Lemma lemma)
+    : state_(state), builder_(builder), context_(context), lemma_(lemma) {
   classify();
 }
 
@@ -186,6 +186,14 @@ void Sweeper::prepare(const UpdateRule& rule) {
   for (const LocalIndex i : checked_)
     marked_[at(i)] = 0;
   prepared_ = true;
+}
+
+void Sweeper::certify() {
+  prepare(DistMeshRule{}); // the quickest one; its moves are not made
+  discard();
+  for (LocalIndex i = 0; i < state_.points().owned(); ++i)
+    if (classes_[at(i)] != SiteClass::held)
+      state_.stars().set_certain(i, true);
 }
 
 /// Counts the pushes of the sites that were pushed, and forgets what became of sites. Only these can be in a disc where

@@ -35,10 +35,13 @@ namespace trime::meshing {
 /// sites are sorted each time, so that they are in it.
 class Sweeper {
 public:
-  /// @pre the stars of all inner sites are certain; all arguments outlive this object
-  /// @param by_emptiness certifies all stars by emptiness: slow, for tests
-  Sweeper(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context,
-          bool by_emptiness = false);
+  /// For which stars the lemma may do; the others are certified by emptiness.
+  enum class Lemma { nowhere, inside, up_to_chords };
+
+  /// @pre each star of an inner site was certain before the last moves, or its ring is empty; h is known at all sites;
+  /// all arguments outlive this object
+  /// @param lemma `nowhere` is slow, for tests; `up_to_chords`: no boundary site is in the disc of a chord
+  Sweeper(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context, Lemma lemma);
 
   /// What one sweep did, over all ranks.
   struct Counts {
@@ -59,6 +62,8 @@ public:
   void discard();
   /// Moves the sites to where `prepare` found that they go. Collective. @pre is_prepared()
   Counts commit();
+  /// Certifies the stars of all inner sites where they are. Collective.
+  void certify();
   /// @brief Sorts the sites if they were moved since: then bins are right again, rings stay, and all stars count as
   /// uncertain. Without it the state has bins that are too old for others. Collective.
   void sort();
@@ -106,7 +111,7 @@ private:
   SiteState& state_;
   const delaunay::StarBuilder& builder_;
   MoveContext context_;
-  bool by_emptiness_;
+  Lemma lemma_;
   std::vector<SiteClass> classes_;
   std::vector<std::uint8_t> marked_;           // by site: its star has been looked at in this sweep
   std::vector<Fate> fates_;                    // by site; other than `moved` only in tiles of retally_

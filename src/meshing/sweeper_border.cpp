@@ -25,7 +25,7 @@ SiteClass Sweeper::class_of(LocalIndex i) const {
   if (const std::int32_t boundary = points.boundary(i); boundary != mesh::free_site)
     return boundary >= 0 ? SiteClass::held : SiteClass::fixed;
   const std::span<const LocalIndex> ring = state_.stars().ring(i);
-  if (by_emptiness_ || ring.size() < 3 || ring.size() > delaunay::StarTable::slots)
+  if (lemma_ == Lemma::nowhere || ring.size() < 3 || ring.size() > delaunay::StarTable::slots)
     return SiteClass::exact;
   bool beside_boundary = false;
   for (const LocalIndex neighbour : ring) {
@@ -44,7 +44,8 @@ SiteClass Sweeper::class_of(LocalIndex i) const {
 bool Sweeper::may_be_bordered(LocalIndex i) const {
   const mesh::BinnedPoints& points = state_.points();
   const LocalIndex tile = tile_of_site(i);
-  if (state_.grid().periods().any() || kinds_[at(tile - points.first_tile())] != Tiles::inner)
+  if (lemma_ != Lemma::up_to_chords || state_.grid().periods().any() ||
+      kinds_[at(tile - points.first_tile())] != Tiles::inner)
     return false;
   const std::span<const LocalIndex> ring = state_.stars().ring(i);
   for (std::size_t k = 0; k < ring.size(); ++k) {
@@ -72,7 +73,7 @@ bool Sweeper::is_chord_within_reach(LocalIndex from, LocalIndex to, LocalIndex t
 void Sweeper::find_encroached_tiles() {
   const mesh::BinnedPoints& points = state_.points();
   encroached_.assign(kinds_.size(), 0);
-  if (by_emptiness_)
+  if (lemma_ != Lemma::up_to_chords)
     return;
   thread_loop(static_cast<std::ptrdiff_t>(encroached_.size()), 4, [&](std::ptrdiff_t t, int) {
     const auto [begin, end] = points.tile_range(points.first_tile() + static_cast<LocalIndex>(t));
