@@ -49,7 +49,13 @@ Treated treat_step(const MoveContext& context, const mesh::TileGrid& grid, const
   if (const Vec2 way = step.move + step.lead; geometry::squared_length(way) < (rest * h) * (rest * h))
     step = {};
   const Vec2 way = step.move + step.lead;
-  Treated treated{context.lattice.snap(into_box(site.position + way, grid)), step.lead, site.pushes};
+  return treat_place(context, grid, site, h, context.lattice.snap(into_box(site.position + way, grid)), step.lead,
+                     allowed);
+}
+
+Treated treat_place(const MoveContext& context, const mesh::TileGrid& grid, const mesh::Site& site, double h,
+                    Vec2 place, Vec2 lead, int allowed) {
+  Treated treated{place, lead, site.pushes};
   const auto pushed = context.guard.correct(treated.position, h, context.lattice);
   if (!pushed)
     return treated;

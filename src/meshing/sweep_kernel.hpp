@@ -89,8 +89,9 @@ struct SiteTally {
 /// Sites that the pass leaves to others; room for all of them is the caller's.
 struct SweepLeftovers {
   LocalIndex* suspects;  ///< whose stars must be certified by emptiness before they move
-  LocalIndex* irregular; ///< with good stars, but a long move or one near the boundary
-  std::ptrdiff_t suspect_count = 0, irregular_count = 0;
+  LocalIndex* irregular; ///< with good stars, but a long move: not made
+  LocalIndex* guarded;   ///< moved to near the boundary, where they may have to be pushed
+  std::ptrdiff_t suspect_count = 0, irregular_count = 0, guarded_count = 0;
 };
 
 /// @brief Certifies the local sites of [begin, end) by the Delaunay lemma (a triangulation is Delaunay if every star

@@ -77,8 +77,8 @@ public:
 private:
   SweepTask task();
   void classify();
-  SiteClass class_of(LocalIndex i) const;
-  bool may_be_bordered(LocalIndex i) const;
+  SiteClass class_of(LocalIndex i, LocalIndex tile) const;
+  bool may_be_bordered(LocalIndex i, LocalIndex tile) const;
   bool is_chord_within_reach(LocalIndex from, LocalIndex to, LocalIndex tile) const;
   void find_encroached_tiles();
   bool trusts_boundary(LocalIndex tile) const;
@@ -86,10 +86,12 @@ private:
   enum class Tiles { inner, at_borders };
   void wake_tiles(const RuleParameters& rule, Tiles which);
   void run_kernel(const SweepTask& task, Tiles which);
+  bool treat_guarded(std::span<const LocalIndex> sites);
   void finish_move();
   std::int64_t certify_suspects();
   void mark(std::vector<LocalIndex>& sites, std::vector<LocalIndex>& list);
   void move_one_by_one(const UpdateRule& rule, std::span<const LocalIndex> sites);
+  void set_move(LocalIndex i, const Treated& treated);
   SweepTally tally_tile(LocalIndex tile) const;
   void measure_tile(const SweepTask& all, LocalIndex tile, double reference_size, std::vector<double>& excesses,
                     SweepSums& sums) const;
@@ -103,7 +105,7 @@ private:
 
   /// What a thread collects.
   struct Work {
-    std::vector<LocalIndex> suspects, irregular;
+    std::vector<LocalIndex> suspects, irregular, guarded;
   };
   /// What became of a site that was moved one by one.
   enum class Fate : std::uint8_t { moved, pushed, deleted };

@@ -20,7 +20,7 @@ std::size_t at(LocalIndex i) {
 
 /// Does the lemma do for the star of site i? A neighbour without a ring was lost when sites were sorted: it may have
 /// had triangles that this star knows.
-SiteClass Sweeper::class_of(LocalIndex i) const {
+SiteClass Sweeper::class_of(LocalIndex i, LocalIndex tile) const {
   const mesh::BinnedPoints& points = state_.points();
   if (const std::int32_t boundary = points.boundary(i); boundary != mesh::free_site)
     return boundary >= 0 ? SiteClass::held : SiteClass::fixed;
@@ -36,14 +36,13 @@ SiteClass Sweeper::class_of(LocalIndex i) const {
     else if (state_.stars().degrees()[neighbour] == 0)
       return SiteClass::exact;
   }
-  return !beside_boundary ? SiteClass::local : may_be_bordered(i) ? SiteClass::bordered : SiteClass::exact;
+  return !beside_boundary ? SiteClass::local : may_be_bordered(i, tile) ? SiteClass::bordered : SiteClass::exact;
 }
 
 /// Two boundary sites in a row must be the ends of a chord: other edges between boundary sites have no star at either
 /// end that would vouch for them.
-bool Sweeper::may_be_bordered(LocalIndex i) const {
+bool Sweeper::may_be_bordered(LocalIndex i, LocalIndex tile) const {
   const mesh::BinnedPoints& points = state_.points();
-  const LocalIndex tile = tile_of_site(i);
   if (lemma_ != Lemma::up_to_chords || state_.grid().periods().any() ||
       kinds_[at(tile - points.first_tile())] != Tiles::inner)
     return false;

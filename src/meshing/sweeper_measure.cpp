@@ -36,13 +36,14 @@ void Sweeper::measure_tile(const SweepTask& all, LocalIndex tile, double referen
     for (std::int64_t k = 0; k < tally.triangles; ++k)
       sums.alpha_bins.add(excesses[static_cast<std::size_t>(k)]);
     for (LocalIndex i = begin; i < end; ++i)
-      if (classes_[at(i)] != SiteClass::local && classes_[at(i)] != SiteClass::held)
+      if (classes_[at(i)] == SiteClass::exact || classes_[at(i)] == SiteClass::fixed)
         measure_star(view, i, reference_size, sums);
   }
 }
 
 SweepSums Sweeper::measure(double reference_size) {
-  const SweepTask all = task();
+  SweepTask all = task();
+  all.least_class = SiteClass::bordered;
   const LocalIndex first_tile = state_.points().first_tile();
   const std::size_t tiles = wide_.size();
   const bool keeps = tiles * sizeof(SweepSums) < bytes_for_measures * at(state_.points().owned());

@@ -47,10 +47,10 @@ void Sweeper::classify() {
       if (other < first_tile || other >= points.last_tile())
         kinds_[at(t)] = Tiles::at_borders;
     });
-  thread_loop((n + 4095) / 4096, 1, [&](std::ptrdiff_t part, int) {
-    const LocalIndex begin = static_cast<LocalIndex>(part * 4096), end = std::min(n, begin + 4096);
+  thread_loop(tiles, 4, [&](std::ptrdiff_t t, int) {
+    const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
     for (LocalIndex i = begin; i < end; ++i)
-      classes_[at(i)] = class_of(i);
+      classes_[at(i)] = class_of(i, first_tile + static_cast<LocalIndex>(t));
   });
   find_encroached_tiles();
   copied_.assign(at(tiles), 0);
@@ -147,14 +147,16 @@ void Sweeper::run_kernel(const SweepTask& sweep, Tiles which) {
     const std::size_t suspects = mine.suspects.size(), irregular = mine.irregular.size(), n = at(end - begin);
     mine.suspects.resize(suspects + n);
     mine.irregular.resize(irregular + n);
-    SweepLeftovers leftovers{mine.suspects.data() + suspects, mine.irregular.data() + irregular};
+    mine.guarded.resize(std::max(mine.guarded.size(), n));
+    SweepLeftovers leftovers{mine.suspects.data() + suspects, mine.irregular.data() + irregular, mine.guarded.data()};
     SweepTask here = sweep;
     here.least_class =
         trusts_boundary(first_tile + static_cast<LocalIndex>(t)) ? SiteClass::bordered : SiteClass::local;
     tallies_[t] = kernel(here, begin, end, leftovers);
     mine.suspects.resize(suspects + static_cast<std::size_t>(leftovers.suspect_count));
     mine.irregular.resize(irregular + static_cast<std::size_t>(leftovers.irregular_count));
-    retally_[t] = leftovers.suspect_count + leftovers.irregular_count > 0;
+    const bool pushes = treat_guarded(std::span(mine.guarded).first(static_cast<std::size_t>(leftovers.guarded_count)));
+    retally_[t] = pushes || leftovers.suspect_count + leftovers.irregular_count > 0;
   });
   for (Work& mine : work) {
     mark(mine.suspects, suspects_);

@@ -97,14 +97,16 @@ struct Cloud {
 };
 
 struct Pass {
-  explicit Pass(LocalIndex n) : suspects(static_cast<std::size_t>(n)), irregular(suspects.size()) {}
+  explicit Pass(LocalIndex n)
+      : suspects(static_cast<std::size_t>(n)), irregular(suspects.size()), guarded(suspects.size()) {}
   void run(const SweepKernels& kernel, const SweepTask& task, LocalIndex end) {
-    SweepLeftovers leftovers{suspects.data(), irregular.data()};
+    SweepLeftovers leftovers{suspects.data(), irregular.data(), guarded.data()};
     tally = kernel.sweep(task, 0, end, leftovers);
     suspects.resize(static_cast<std::size_t>(leftovers.suspect_count));
     irregular.resize(static_cast<std::size_t>(leftovers.irregular_count));
+    guarded.resize(static_cast<std::size_t>(leftovers.guarded_count));
   }
-  std::vector<LocalIndex> suspects, irregular;
+  std::vector<LocalIndex> suspects, irregular, guarded;
   SweepTally tally;
 };
 
