@@ -41,7 +41,8 @@ public:
   /// @pre each star of an inner site was certain before the last moves, or its ring is empty; h is known at all sites;
   /// all arguments outlive this object
   /// @param lemma `nowhere` is slow, for tests; `up_to_chords`: no boundary site is in the disc of a chord
-  Sweeper(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context, Lemma lemma);
+  Sweeper(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context,
+          Lemma lemma = Lemma::up_to_chords);
 
   /// What one sweep did, over all ranks.
   struct Counts {
