@@ -185,6 +185,7 @@ void read_meshing(const Settings& settings, meshing::MeshOptions& mesh, io::Diag
   mesh.max_sweeps = static_cast<int>(settings.integer("meshing", "max_sweeps"));
   mesh.cleanup = settings.boolean("meshing", "cleanup");
   mesh.verify_stars = std::getenv("TRIME_VERIFY_STARS") != nullptr; // no key: a tool for those who change the sweeps
+  mesh.stars_by_emptiness = std::getenv("TRIME_STARS_BY_EMPTINESS") != nullptr; // nor this
   mesh.stop_tolerance = settings.optional_number("meshing", "stop_tolerance");
 }
 

@@ -72,11 +72,12 @@ void per_point(benchmark::State& state, double points) {
 
 void certify_and_move(benchmark::State& state, const SweepKernels& kernels) {
   Stage stage(state);
-  std::vector<LocalIndex> suspects(static_cast<std::size_t>(stage.points.owned())), irregular(suspects.size());
+  std::vector<LocalIndex> suspects(static_cast<std::size_t>(stage.points.owned())), irregular(suspects.size()),
+      guarded(suspects.size());
   for (auto _ : state)
     for (LocalIndex tile = 0; tile < stage.grid.tile_count(); ++tile) {
       const auto [begin, end] = stage.points.tile_range(tile);
-      meshing::SweepLeftovers leftovers{suspects.data(), irregular.data()};
+      meshing::SweepLeftovers leftovers{suspects.data(), irregular.data(), guarded.data()};
       benchmark::DoNotOptimize(kernels.sweep(stage.task, begin, end, leftovers));
     }
   per_point(state, static_cast<double>(stage.points.owned()));

@@ -361,6 +361,12 @@ std::optional<Vec2> BoundaryGuard::correct(Vec2 image, double h, const geometry:
   return lattice.snap(middle + push_share * geometry::left_normal(along)) + shift;
 }
 
+bool BoundaryGuard::pushes(Vec2 p) const {
+  p = periods_.wrap(p);
+  const int state = state_at(p);
+  return state <= 0 && !(state == near_disc && inside_polygon(p) && deepest_disc(p) < 0);
+}
+
 LocalIndex BoundaryGuard::deepest_disc(Vec2 p) const {
   LocalIndex deepest = -1;
   double smallest = 0; // (distance from the middle / radius)^2

@@ -49,7 +49,13 @@ Treated treat_step(const MoveContext& context, const mesh::TileGrid& grid, const
   if (const Vec2 way = step.move + step.lead; geometry::squared_length(way) < (rest * h) * (rest * h))
     step = {};
   const Vec2 way = step.move + step.lead;
-  Treated treated{context.lattice.snap(into_box(site.position + way, grid)), step.lead, site.pushes};
+  return treat_place(context, grid, site, h, context.lattice.snap(into_box(site.position + way, grid)), step.lead,
+                     allowed);
+}
+
+Treated treat_place(const MoveContext& context, const mesh::TileGrid& grid, const mesh::Site& site, double h,
+                    Vec2 place, Vec2 lead, int allowed) {
+  Treated treated{place, lead, site.pushes};
   const auto pushed = context.guard.correct(treated.position, h, context.lattice);
   if (!pushed)
     return treated;
@@ -96,7 +102,7 @@ bool settle_sites(SiteState& state, const MoveContext& context, double typical_s
   thread_loop(points.last_tile() - first_tile, 8, [&](std::ptrdiff_t t, int thread) {
     const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
     for (LocalIndex i = begin; i < end; ++i)
-      if (points.boundary(i) == mesh::free_site)
+      if (points.boundary(i) == mesh::free_site && !context.guard.is_clear(points.position(i)))
         if (const auto treated = settled(context, state.grid(), points.site(i), typical_size))
           of_thread[static_cast<std::size_t>(thread)].push_back({i, *treated});
   });

@@ -29,6 +29,9 @@ struct Treated {
 /// take it until that happens.
 Treated treat_step(const MoveContext& context, const mesh::TileGrid& grid, const mesh::Site& site, double h, Step step,
                    int pushes_allowed);
+/// What becomes of a site that would go to this place, on the lattice and in the container, with this lead.
+Treated treat_place(const MoveContext& context, const mesh::TileGrid& grid, const mesh::Site& site, double h,
+                    geometry::Vec2 place, geometry::Vec2 lead, int pushes_allowed);
 constexpr int pushes_allowed = 3;
 
 /// @brief Is it the turn of the site at p to be deleted? One in three is chosen in each round, by a hash of its place:

@@ -164,7 +164,7 @@ private:
     control.begin_stage(scheme_->inserts(), scheme_->is_last());
     Sweeper::Counts counts; // since the last record
     counts.rebuilt = comm_.sum(stars(Wanted::inner_sites).rebuilt);
-    Sweeper sweeper(state(), *builder_, move_context());
+    Sweeper sweeper(state(), *builder_, move_context(), lemma_if(Sweeper::Lemma::up_to_chords));
     SweepSums sums = record_sweep(sweeper, counts);
     show_snapshot();
     begun_.reset();
@@ -179,6 +179,23 @@ private:
     const auto time = timers_.scope("sort");
     sweeper.sort();
     state().points().release_leads();
+  }
+
+  Sweeper::Lemma lemma_if(Sweeper::Lemma lemma) const {
+    return options_.stars_by_emptiness ? Sweeper::Lemma::nowhere : lemma;
+  }
+
+  /// Certifies the stars of the inner sites, most of which are as they were before the last moves. @param lemma the
+  /// clean-up may move boundary sites into discs of chords
+  void mend_stars(Sweeper::Lemma lemma) {
+    const auto time = timers_.scope("stars");
+    std::int64_t uncertain = 0;
+    for (LocalIndex i = 0; i < state().points().owned(); ++i)
+      uncertain += state().points().boundary(i) < 0 && !state().stars().certain(i);
+    if (comm_.sum(uncertain) == 0)
+      return;
+    state().refresh(*layout_.size);
+    Sweeper(state(), *builder_, move_context(), lemma_if(lemma)).certify();
   }
 
   /// Moves the sites by the rule and certifies the stars at the new places. That is one pass with the search for the
@@ -260,6 +277,7 @@ private:
   void clean_up() {
     if (!options_.cleanup || history_.empty())
       return;
+    mend_stars(Sweeper::Lemma::up_to_chords);
     const auto time = timers_.scope("clean-up");
     PatchOptions patches;
     patches.tolerance = options_.keep_features ? 0 : options_.feature_tolerance;
@@ -295,6 +313,7 @@ private:
   /// sites, a few times; the certificate tells of what remains.
   void complete_stars() {
     const double largest = std::max(options_.container.width(), options_.container.height());
+    mend_stars(cleanup_.better > 0 ? Sweeper::Lemma::inside : Sweeper::Lemma::up_to_chords);
     stars(Wanted::all_sites);
     for (int doubling = 0; doubling < cap_doublings && std::isfinite(cap_factor_); ++doubling) {
       if (comm_.sum(count_incomplete_fans(extraction())) == 0)

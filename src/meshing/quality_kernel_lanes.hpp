@@ -31,18 +31,25 @@ TRIME_INLINE void measure_group(const SweepTask& task, const Group& group, doubl
     const V x = at.x - p.x, y = at.y - p.y;
     return Spoke<V>{x, y, x * x + y * y, own};
   };
-  const auto comes_after = [](const Spoke<V>& a) { return (a.x > 0.0) | ((a.x == 0.0) & (a.y > 0.0)); };
+  const auto comes_after = [&](const Spoke<V>& a, int slot) { // boundary sites measure nothing
+    M after = (a.x > 0.0) | ((a.x == 0.0) & (a.y > 0.0));
+    if (group.bordered)
+      for (int l = 0; l < width; ++l)
+        if (task.classes[task.rings[slots * std::ptrdiff_t{group.site[l]} + slot]] == SiteClass::held)
+          after[l] = -1;
+    return after;
+  };
   M is_local{};
   for (int l = 0; l < width; ++l)
     is_local[l] = -static_cast<std::int64_t>(group.local >> l & 1);
 
   const Spoke<V> first = spoke_at(0);
   Spoke<V> a = first;
-  M a_after = comes_after(a);
+  M a_after = comes_after(a, 0);
   for (int k = 0; k < group.largest_degree; ++k) {
     const M active = is_local & (group.degree > static_cast<double>(k));
     const Spoke<V> b = k + 1 < slots ? spoke_at(k + 1) : first;
-    const M b_after = comes_after(b);
+    const M b_after = comes_after(b, k + 1 < slots ? k + 1 : 0);
     V h = own * inverse_reference;
     if constexpr (graded)
       h = 0.5 * (own + load_sizes(task, group, k)) * inverse_reference;

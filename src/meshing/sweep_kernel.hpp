@@ -14,10 +14,11 @@ namespace trime::meshing {
 
 /// What the pass does with a site.
 enum class SiteClass : std::uint8_t {
-  held,  ///< stays, and has no star: on the boundary
-  fixed, ///< stays, but has a star to be certified by emptiness
-  exact, ///< moves; its star is certified by emptiness, since not all neighbours have stars that this rank keeps
-  local  ///< moves; its star is certified by the stars around it
+  held,     ///< stays, and has no star: on the boundary
+  fixed,    ///< stays, but has a star to be certified by emptiness
+  exact,    ///< moves; its star is certified by emptiness, since not all neighbours have stars that this rank keeps
+  bordered, ///< moves; beside chords of the boundary: as `local` while no site is in the disc of a chord nearby
+  local     ///< moves; its star is certified by the stars around it
 };
 
 constexpr double move_cap = 0.4; ///< moves are cut to this, in h
@@ -32,7 +33,8 @@ struct SweepTask {
   const LocalIndex* rings; ///< 8 slots each, a shorter ring is repeated in them
   const std::uint8_t* degrees;
   const SiteClass* classes;
-  const double* sizes = nullptr; ///< null: uniform_size everywhere
+  SiteClass least_class = SiteClass::local; ///< sites of a class before it are left to others
+  const double* sizes = nullptr;            ///< null: uniform_size everywhere
   double uniform_size = 1;
   geometry::Vec2* next_positions;
   geometry::Vec2* next_leads;
@@ -87,8 +89,9 @@ struct SiteTally {
 /// Sites that the pass leaves to others; room for all of them is the caller's.
 struct SweepLeftovers {
   LocalIndex* suspects;  ///< whose stars must be certified by emptiness before they move
-  LocalIndex* irregular; ///< with good stars, but a long move or one near the boundary
-  std::ptrdiff_t suspect_count = 0, irregular_count = 0;
+  LocalIndex* irregular; ///< with good stars, but a long move: not made
+  LocalIndex* guarded;   ///< moved to near the boundary, where they may have to be pushed
+  std::ptrdiff_t suspect_count = 0, irregular_count = 0, guarded_count = 0;
 };
 
 /// @brief Certifies the local sites of [begin, end) by the Delaunay lemma (a triangulation is Delaunay if every star

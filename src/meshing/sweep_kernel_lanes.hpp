@@ -17,7 +17,8 @@ constexpr int slots = 8;
 /// Sites i, i+1, ... of which some are local; the others are doubled by one that is.
 struct Group {
   LocalIndex site[width];
-  unsigned local = 0; // a bit for each
+  unsigned local = 0;    // a bit for each
+  bool bordered = false; // some of them
   int largest_degree = 0;
   V degree{};
 };
@@ -27,9 +28,10 @@ TRIME_INLINE Group group_at(const SweepTask& task, LocalIndex i, LocalIndex end)
   LocalIndex any = -1;
   for (int l = 0; l < width; ++l) {
     group.site[l] = -1;
-    if (i + l < end && task.classes[i + l] == SiteClass::local) {
+    if (i + l < end && task.classes[i + l] >= task.least_class) {
       group.site[l] = any = i + l;
       group.local |= 1U << l;
+      group.bordered |= task.classes[i + l] == SiteClass::bordered;
     }
   }
   if (any < 0)
@@ -158,7 +160,8 @@ TRIME_INLINE void sweep_group(const SweepTask& task, const Group& group, LocalIn
   next_lead_y = lanes::select(rests, V{}, next_lead_y);
 
   const unsigned certified = group.local & test.good();
-  unsigned moved = certified & lanes::bits(is_short);
+  const unsigned moved = certified & lanes::bits(is_short);
+  unsigned guarded = 0;
   if (task.guard_cells) {
     const V column = (x - task.guard_corner.x) * task.guard_inverse_side;
     const V row = (y - task.guard_corner.y) * task.guard_inverse_side;
@@ -168,7 +171,7 @@ TRIME_INLINE void sweep_group(const SweepTask& task, const Group& group, LocalIn
       const bool known = column[l] >= 0 && row[l] >= 0 && column[l] < task.guard_columns && row[l] < task.guard_rows;
       if (!known || task.guard_cells[static_cast<std::int64_t>(row[l]) * task.guard_columns +
                                      static_cast<std::int64_t>(column[l])] <= 0)
-        moved &= ~(1U << l);
+        guarded |= 1U << l;
     }
   }
   const SiteTally<V> one(x - p.x, y - p.y, lead.x, lead.y, next_lead_x, next_lead_y, own);
@@ -178,6 +181,8 @@ TRIME_INLINE void sweep_group(const SweepTask& task, const Group& group, LocalIn
     if (moved >> l & 1) {
       task.next_positions[begin + l] = {x[l], y[l]};
       task.next_leads[begin + l] = {next_lead_x[l], next_lead_y[l]};
+      if (guarded >> l & 1)
+        leftovers.guarded[leftovers.guarded_count++] = begin + l;
     } else if (certified >> l & 1) {
       leftovers.irregular[leftovers.irregular_count++] = begin + l;
     } else if (group.local >> l & 1) {

@@ -27,8 +27,8 @@ std::size_t at(LocalIndex i) {
 
 } // namespace
 
-Sweeper::Sweeper(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context)
-    : state_(state), builder_(builder), context_(context) {
+Sweeper::Sweeper(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context, Lemma lemma)
+    : state_(state), builder_(builder), context_(context), lemma_(lemma) {
   classify();
 }
 
@@ -84,23 +84,40 @@ LocalIndex Sweeper::tile_of_site(LocalIndex i) const {
 void Sweeper::move_one_by_one(const UpdateRule& rule, std::span<const LocalIndex> sites) {
   mesh::BinnedPoints& points = state_.points();
   const StarView view = view_of(state_, context_.size);
-  const std::span<Vec2> positions = points.next_positions(), leads = points.next_leads();
   thread_loop(static_cast<std::ptrdiff_t>(sites.size()), chunk, [&](std::ptrdiff_t k, int) {
     const LocalIndex i = sites[static_cast<std::size_t>(k)];
-    classes_[at(i)] = class_of(i);
+    const LocalIndex tile = tile_of_site(i);
+    classes_[at(i)] = class_of(i, tile);
     if (classes_[at(i)] == SiteClass::fixed)
       return;
-    const Treated treated =
-        treat_step(context_, state_.grid(), points.site(i), view.size(i), rule.step(view, i), pushes_allowed);
-    positions[at(i)] = treated.position;
-    leads[at(i)] = treated.lead;
-    fates_[at(i)] = treated.deleted ? Fate::deleted : treated.pushed ? Fate::pushed : Fate::moved;
-    const std::size_t tile = at(tile_of_site(i) - points.first_tile());
-    std::atomic_ref(retally_[tile]).store(1, std::memory_order_relaxed);
-    std::atomic_ref(copied_[tile]).store(0, std::memory_order_relaxed);
+    set_move(i, treat_step(context_, state_.grid(), points.site(i), view.size(i), rule.step(view, i), pushes_allowed));
+    const std::size_t t = at(tile - points.first_tile());
+    std::atomic_ref(retally_[t]).store(1, std::memory_order_relaxed);
+    std::atomic_ref(copied_[t]).store(0, std::memory_order_relaxed);
     if (!is_measured_.empty())
-      std::atomic_ref(is_measured_[tile]).store(0, std::memory_order_relaxed);
+      std::atomic_ref(is_measured_[t]).store(0, std::memory_order_relaxed);
   });
+}
+
+void Sweeper::set_move(LocalIndex i, const Treated& treated) {
+  state_.points().next_positions()[at(i)] = treated.position;
+  state_.points().next_leads()[at(i)] = treated.lead;
+  fates_[at(i)] = treated.deleted ? Fate::deleted : treated.pushed ? Fate::pushed : Fate::moved;
+}
+
+/// Pushes those that the kernel has moved into a disc; true if there are any.
+bool Sweeper::treat_guarded(std::span<const LocalIndex> sites) {
+  const mesh::BinnedPoints& points = state_.points();
+  bool any = false;
+  for (const LocalIndex i : sites) {
+    const Treated treated = treat_place(context_, state_.grid(), points.site(i), state_.sizes()[i],
+                                        points.next_positions()[at(i)], points.next_leads()[at(i)], pushes_allowed);
+    if (treated.pushed || treated.deleted) {
+      set_move(i, treated);
+      any = true;
+    }
+  }
+  return any;
 }
 
 /// What the moves of a tile's sites add up to, from their places alone: the same as the kernel finds.
@@ -188,16 +205,31 @@ void Sweeper::prepare(const UpdateRule& rule) {
   prepared_ = true;
 }
 
-/// Counts the pushes of the sites that were pushed, and forgets what became of sites.
+void Sweeper::certify() {
+  prepare(DistMeshRule{}); // the quickest one; its moves are not made
+  discard();
+  for (LocalIndex i = 0; i < state_.points().owned(); ++i)
+    if (classes_[at(i)] != SiteClass::held)
+      state_.stars().set_certain(i, true);
+}
+
+/// Counts the pushes of the sites that were pushed, and forgets what became of sites. Only these can be in a disc where
+/// they go; in tiles that sleep nothing changes.
 void Sweeper::note_pushes() {
   mesh::BinnedPoints& points = state_.points();
   thread_loop(static_cast<std::ptrdiff_t>(retally_.size()), 4, [&](std::ptrdiff_t t, int) {
+    std::uint8_t& encroached = encroached_[static_cast<std::size_t>(t)];
+    if (awake_[static_cast<std::size_t>(t)])
+      encroached = 0;
     if (!retally_[static_cast<std::size_t>(t)])
       return;
     const auto [begin, end] = points.tile_range(points.first_tile() + static_cast<LocalIndex>(t));
     for (LocalIndex i = begin; i < end; ++i) {
-      if (fates_[at(i)] != Fate::moved)
+      if (fates_[at(i)] != Fate::moved) {
         points.set_pushes(i, points.pushes(i) + 1);
+        if (context_.guard.pushes(points.next_positions()[at(i)]))
+          encroached = 1;
+      }
       fates_[at(i)] = Fate::moved;
     }
   });

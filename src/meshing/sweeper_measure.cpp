@@ -42,7 +42,8 @@ void Sweeper::measure_tile(const SweepTask& all, LocalIndex tile, double referen
 }
 
 SweepSums Sweeper::measure(double reference_size) {
-  const SweepTask all = task();
+  SweepTask all = task();
+  all.least_class = SiteClass::bordered;
   const LocalIndex first_tile = state_.points().first_tile();
   const std::size_t tiles = wide_.size();
   const bool keeps = tiles * sizeof(SweepSums) < bytes_for_measures * at(state_.points().owned());

@@ -2,6 +2,7 @@
 // Which tiles and sites a sweep looks at, and the pass of the kernel over them.
 #include "meshing/sweeper.hpp"
 
+#include "meshing/tiles_around.hpp"
 #include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
@@ -20,44 +21,13 @@ std::size_t at(LocalIndex i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Calls visit(tile) for a tile and those beside it; across a periodic border nothing is beside it.
-template <class Visit>
-void for_tiles_around(const mesh::TileGrid& grid, LocalIndex tile, const Visit& visit) {
-  const mesh::GridPosition here = grid.tile_position(tile);
-  const int column = static_cast<int>(here.x), row = static_cast<int>(here.y);
-  for (int y = std::max(0, row - 1); y <= std::min(grid.tiles_y() - 1, row + 1); ++y)
-    for (int x = std::max(0, column - 1); x <= std::min(grid.tiles_x() - 1, column + 1); ++x)
-      visit(grid.tile_at(x, y));
-}
-
 } // namespace
-
-/// Does the lemma do for the star of site i? A neighbour without a ring was lost when sites were sorted: it may have
-/// had triangles that this star knows.
-SiteClass Sweeper::class_of(LocalIndex i) const {
-  const mesh::BinnedPoints& points = state_.points();
-  if (const std::int32_t boundary = points.boundary(i); boundary != mesh::free_site)
-    return boundary >= 0 ? SiteClass::held : SiteClass::fixed;
-  const std::span<const LocalIndex> ring = state_.stars().ring(i);
-  if (ring.size() < 3 || ring.size() > delaunay::StarTable::slots)
-    return SiteClass::exact;
-  for (const LocalIndex neighbour : ring)
-    if (neighbour < 0 || neighbour >= points.owned() || points.boundary(neighbour) >= 0 ||
-        state_.stars().degrees()[neighbour] == 0)
-      return SiteClass::exact;
-  return SiteClass::local;
-}
 
 void Sweeper::classify() {
   const LocalIndex n = state_.points().owned();
   classes_.resize(at(n));
   marked_.assign(at(n), 0);
   fates_.assign(at(n), Fate::moved);
-  thread_loop((n + 4095) / 4096, 1, [&](std::ptrdiff_t part, int) {
-    const LocalIndex begin = static_cast<LocalIndex>(part * 4096), end = std::min(n, begin + 4096);
-    for (LocalIndex i = begin; i < end; ++i)
-      classes_[at(i)] = class_of(i);
-  });
   const mesh::BinnedPoints& points = state_.points();
   const LocalIndex first_tile = points.first_tile(), tiles = points.last_tile() - first_tile;
   const geometry::Box box = state_.grid().tile_box(0);
@@ -77,6 +47,12 @@ void Sweeper::classify() {
       if (other < first_tile || other >= points.last_tile())
         kinds_[at(t)] = Tiles::at_borders;
     });
+  thread_loop(tiles, 4, [&](std::ptrdiff_t t, int) {
+    const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
+    for (LocalIndex i = begin; i < end; ++i)
+      classes_[at(i)] = class_of(i, first_tile + static_cast<LocalIndex>(t));
+  });
+  find_encroached_tiles();
   copied_.assign(at(tiles), 0);
   measured_.clear();
   is_measured_.clear();
@@ -171,11 +147,16 @@ void Sweeper::run_kernel(const SweepTask& sweep, Tiles which) {
     const std::size_t suspects = mine.suspects.size(), irregular = mine.irregular.size(), n = at(end - begin);
     mine.suspects.resize(suspects + n);
     mine.irregular.resize(irregular + n);
-    SweepLeftovers leftovers{mine.suspects.data() + suspects, mine.irregular.data() + irregular};
-    tallies_[t] = kernel(sweep, begin, end, leftovers);
+    mine.guarded.resize(std::max(mine.guarded.size(), n));
+    SweepLeftovers leftovers{mine.suspects.data() + suspects, mine.irregular.data() + irregular, mine.guarded.data()};
+    SweepTask here = sweep;
+    here.least_class =
+        trusts_boundary(first_tile + static_cast<LocalIndex>(t)) ? SiteClass::bordered : SiteClass::local;
+    tallies_[t] = kernel(here, begin, end, leftovers);
     mine.suspects.resize(suspects + static_cast<std::size_t>(leftovers.suspect_count));
     mine.irregular.resize(irregular + static_cast<std::size_t>(leftovers.irregular_count));
-    retally_[t] = leftovers.suspect_count + leftovers.irregular_count > 0;
+    const bool pushes = treat_guarded(std::span(mine.guarded).first(static_cast<std::size_t>(leftovers.guarded_count)));
+    retally_[t] = pushes || leftovers.suspect_count + leftovers.irregular_count > 0;
   });
   for (Work& mine : work) {
     mark(mine.suspects, suspects_);

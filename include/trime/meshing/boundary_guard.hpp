@@ -47,6 +47,10 @@ public:
   /// sharp notches. h only says where the search for the nearest chord begins. A pure function of p and the sites;
   /// of a periodic container it is the image next to p, canonical or not.
   std::optional<geometry::Vec2> correct(geometry::Vec2 p, double h, const geometry::Lattice& lattice) const;
+  /// Does `correct` have something to say about p?
+  bool pushes(geometry::Vec2 p) const;
+  /// True where it surely has not: one look-up. Most places are clear.
+  bool is_clear(geometry::Vec2 p) const { return state_at(periods_.wrap(p)) > 0; }
   /// p lies outside, strictly inside some diametral disc, or nearer to a chord than 0.05 of the chord's length.
   bool encroaches(geometry::Vec2 p) const;
 

@@ -53,6 +53,8 @@ struct MeshOptions {
   bool cleanup = true; ///< mend the worst triangles after the sweeps
   /// Compare every star after every sweep with one that is computed anew: slow, for tests. @throws InternalError
   bool verify_stars = false;
+  /// Certify every star of every sweep by emptiness, and none by those around it: slow, for tests; the same mesh.
+  bool stars_by_emptiness = false;
   /// @brief Kept bit for bit (on the lattice) and never moved. On the boundary (to within 1e-10 of the container) they
   /// become corners; outside of the shape they are a GeometryError.
   std::vector<FixedPoint> fixed_points;

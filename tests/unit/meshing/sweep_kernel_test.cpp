@@ -37,13 +37,17 @@ std::vector<const SweepKernels*> kernels() {
 }
 
 /// A jittered lattice with its stars; sites whose stars have gaps or long rings are left out, as the sweeps do.
+/// Optionally some sites are held, as if they lay on a boundary, and those beside them bordered.
 struct Cloud {
-  Cloud(double jitter, bool is_graded) : grid(geometry::Box{{0, 0}, {1, 1}}, {{}, {}, spacing}), points(grid) {
+  Cloud(double jitter, bool is_graded, bool holds_some = false)
+      : grid(geometry::Box{{0, 0}, {1, 1}}, {{}, {}, spacing}), points(grid) {
     std::vector<Site> sites = testing::hexagonal_lattice(24, spacing);
     for (std::size_t k = 0; k < sites.size(); ++k) {
       sites[k].position = testing::unit_lattice().snap(
           sites[k].position + (jitter * spacing) * (testing::random_vec2(4, k) - Vec2{0.5, 0.5}));
       sites[k].lead = (0.02 * spacing) * (testing::random_vec2(5, k) - Vec2{0.5, 0.5});
+      if (holds_some && k % 11 == 0)
+        sites[k].boundary = static_cast<std::int32_t>(k / 11);
     }
     points.assign_owned(sites, 0, grid.tile_count());
     if (!is_graded) {
@@ -55,8 +59,14 @@ struct Cloud {
     compute();
     for (LocalIndex i = 0; i < points.owned(); ++i) {
       const auto ring = stars.ring(i);
-      const bool local = ring.size() >= 3 && ring.size() <= 8 && std::ranges::find(ring, delaunay::gap) == ring.end();
-      classes.push_back(local ? SiteClass::local : i % 2 ? SiteClass::exact : SiteClass::held);
+      const bool whole = ring.size() >= 3 && ring.size() <= 8 && std::ranges::find(ring, delaunay::gap) == ring.end();
+      const bool bordered =
+          whole && std::ranges::any_of(ring, [&](LocalIndex neighbour) { return points.boundary(neighbour) >= 0; });
+      classes.push_back(points.boundary(i) >= 0 ? SiteClass::held
+                        : bordered              ? SiteClass::bordered
+                        : whole                 ? SiteClass::local
+                        : i % 2 || holds_some   ? SiteClass::exact
+                                                : SiteClass::held);
     }
     size = is_graded ? static_cast<const sizing::SizeField*>(&ramp) : &uniform;
   }
@@ -97,14 +107,16 @@ struct Cloud {
 };
 
 struct Pass {
-  explicit Pass(LocalIndex n) : suspects(static_cast<std::size_t>(n)), irregular(suspects.size()) {}
+  explicit Pass(LocalIndex n)
+      : suspects(static_cast<std::size_t>(n)), irregular(suspects.size()), guarded(suspects.size()) {}
   void run(const SweepKernels& kernel, const SweepTask& task, LocalIndex end) {
-    SweepLeftovers leftovers{suspects.data(), irregular.data()};
+    SweepLeftovers leftovers{suspects.data(), irregular.data(), guarded.data()};
     tally = kernel.sweep(task, 0, end, leftovers);
     suspects.resize(static_cast<std::size_t>(leftovers.suspect_count));
     irregular.resize(static_cast<std::size_t>(leftovers.irregular_count));
+    guarded.resize(static_cast<std::size_t>(leftovers.guarded_count));
   }
-  std::vector<LocalIndex> suspects, irregular;
+  std::vector<LocalIndex> suspects, irregular, guarded;
   SweepTally tally;
 };
 
@@ -163,6 +175,63 @@ TEST(SweepKernel, MovesSitesByTheBitsOfTheRules) {
         EXPECT_EQ(pass.irregular, passes[0].irregular);
       }
     }
+}
+
+TEST(SweepKernel, TakesSitesBesideTheBoundaryWhereItIsTold) {
+  Cloud cloud(0.3, true, true);
+  TriangleRule rule;
+  rule.begin_sweep(measure(cloud.view(), spacing));
+  SweepTask task = cloud.task();
+  task.rule = rule.parameters();
+  for (const SweepKernels* kernel : kernels())
+    for (const SiteClass least : {SiteClass::local, SiteClass::bordered}) {
+      task.least_class = least;
+      Pass pass(cloud.points.owned());
+      pass.run(*kernel, task, cloud.points.owned());
+      int bordered = 0;
+      for (LocalIndex i = 0; i < cloud.points.owned(); ++i) {
+        if (cloud.classes[static_cast<std::size_t>(i)] != SiteClass::bordered)
+          continue;
+        if (least == SiteClass::local) {
+          EXPECT_EQ(task.next_positions[i], task.positions[i]);
+          EXPECT_EQ(std::ranges::count(pass.suspects, i), 1);
+        } else if (!std::ranges::count(pass.suspects, i) && !std::ranges::count(pass.irregular, i)) {
+          const Step step = rule.step(cloud.view(), i);
+          EXPECT_EQ(task.next_positions[i], testing::unit_lattice().snap(task.positions[i] + step.move + step.lead));
+          ++bordered;
+        }
+      }
+      EXPECT_TRUE(least == SiteClass::local || bordered > 100);
+    }
+}
+
+TEST(SweepKernel, NamesTheSitesThatItMovesNearTheBoundary) {
+  constexpr int cells = 16;
+  Cloud cloud(0.3, false);
+  CvdRule rule;
+  rule.begin_sweep({});
+  SweepTask task = cloud.task();
+  task.rule = rule.parameters();
+  std::vector<std::int8_t> states;
+  for (int k = 0; k < cells * cells; ++k)
+    states.push_back(k % 3 == 0 ? 0 : 1);
+  task.guard_cells = states.data();
+  task.guard_inverse_side = cells;
+  task.guard_columns = task.guard_rows = cells;
+  for (const SweepKernels* kernel : kernels()) {
+    Pass pass(cloud.points.owned());
+    pass.run(*kernel, task, cloud.points.owned());
+    EXPECT_GT(pass.guarded.size(), 50U);
+    std::vector<LocalIndex> expected;
+    for (LocalIndex i = 0; i < cloud.points.owned(); ++i) {
+      const Vec2 p = task.next_positions[i];
+      const int column = static_cast<int>(p.x * cells), row = static_cast<int>(p.y * cells);
+      if (cloud.classes[static_cast<std::size_t>(i)] == SiteClass::local && !std::ranges::count(pass.suspects, i) &&
+          !std::ranges::count(pass.irregular, i) && states[static_cast<std::size_t>(row * cells + column)] == 0)
+        expected.push_back(i);
+    }
+    EXPECT_EQ(pass.guarded, expected);
+  }
 }
 
 TEST(SweepKernel, LeavesAPerfectLatticeAsItIs) {
@@ -236,12 +305,14 @@ TEST(SweepKernel, FindsTheStarsThatAreNotRightAnyMore) {
 }
 
 TEST(QualityKernel, MeasuresAsTheScalarSumsDo) {
-  for (const bool is_graded : {false, true}) {
-    Cloud cloud(0.4, is_graded);
-    const SweepTask task = cloud.task();
+  for (const auto& [is_graded, holds_some] :
+       {std::pair(false, false), std::pair(true, false), std::pair(false, true), std::pair(true, true)}) {
+    Cloud cloud(0.4, is_graded, holds_some);
+    SweepTask task = cloud.task();
+    task.least_class = SiteClass::bordered;
     SweepSums expected;
     for (LocalIndex i = 0; i < cloud.points.owned(); ++i)
-      if (cloud.classes[static_cast<std::size_t>(i)] == SiteClass::local)
+      if (cloud.classes[static_cast<std::size_t>(i)] >= SiteClass::bordered)
         measure_star(cloud.view(), i, 0.9 * spacing, expected);
     for (const SweepKernels* kernel : kernels()) {
       std::vector<double> excesses(8 * static_cast<std::size_t>(cloud.points.owned()));
