@@ -206,8 +206,10 @@ void Sweeper::prepare(const UpdateRule& rule) {
 }
 
 void Sweeper::certify() {
-  prepare(DistMeshRule{}); // the quickest one; its moves are not made
+  state_.points().clear_leads(); // they may have been freed
+  prepare(DistMeshRule{});       // the quickest one; its moves are not made
   discard();
+  state_.points().release_leads();
   for (LocalIndex i = 0; i < state_.points().owned(); ++i)
     if (classes_[at(i)] != SiteClass::held)
       state_.stars().set_certain(i, true);

@@ -63,7 +63,8 @@ public:
   void discard();
   /// Moves the sites to where `prepare` found that they go. Collective. @pre is_prepared()
   Counts commit();
-  /// Certifies the stars of all inner sites where they are. Collective.
+  /// Certifies the stars of all inner sites where they are, and frees the leads: no rule moves them after it.
+  /// Collective.
   void certify();
   /// @brief Sorts the sites if they were moved since: then bins are right again, rings stay, and all stars count as
   /// uncertain. Without it the state has bins that are too old for others. Collective.
