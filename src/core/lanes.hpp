@@ -82,6 +82,16 @@ TRIME_INLINE V larger(V a, V b) {
   return a > b ? a : b;
 }
 
+/// The smaller of each lane; b where they do not compare.
+template <class V>
+TRIME_INLINE V smaller(V a, V b) {
+#ifdef __SSE2__
+  if constexpr (sizeof(V) == 16)
+    return (V)_mm_min_pd((__m128d)a, (__m128d)b);
+#endif
+  return a < b ? a : b;
+}
+
 /// One bit a lane.
 template <class M>
 TRIME_INLINE unsigned bits(M mask) {

@@ -34,7 +34,8 @@ std::vector<Cone> in_order(const std::vector<Cone>& cones) {
   geometry::Box box;
   for (const Cone& cone : cones)
     box.include(cone.apex);
-  const double cells = 65535 / std::max({box.width(), box.height(), std::numeric_limits<double>::min()});
+  const double extent = std::max(box.width(), box.height());
+  const double cells = extent > 1e-300 ? 65535 / extent : 0;
   std::vector<std::uint64_t> keys(cones.size());
   for (std::size_t k = 0; k < cones.size(); ++k) {
     const Vec2 place = cells * (cones[k].apex - box.min);

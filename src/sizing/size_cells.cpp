@@ -55,16 +55,19 @@ private:
 
 } // namespace
 
-Vec2 lowest_point(const double* cones, std::size_t count, const Box& cell, double slope) {
+Vec2 lowest_point(const double* pairs, std::size_t count, const Box& cell, double slope) {
   Vec2 where = cell.min;
   double low = std::numeric_limits<double>::infinity();
-  for (const double* cone = cones; cone != cones + 3 * count; cone += 3) {
-    const Vec2 nearest{std::clamp(cone[0], cell.min.x, cell.max.x), std::clamp(cone[1], cell.min.y, cell.max.y)};
-    const double value = lowest_cone(cone, 1, nearest, slope, low);
-    if (value < low) {
-      low = value;
-      where = nearest;
-    }
+  for (const double* pair = pairs; pair != pairs + ConePair::numbers * count; pair += ConePair::numbers) {
+    using Lanes = ConePair::Lanes;
+    const Lanes x = lanes::larger(lanes::smaller(ConePair::load(pair), Lanes{} + cell.max.x), Lanes{} + cell.min.x);
+    const Lanes y = lanes::larger(lanes::smaller(ConePair::load(pair + 2), Lanes{} + cell.max.y), Lanes{} + cell.min.y);
+    const Lanes values = ConePair::values(pair, x, y, slope);
+    for (int lane = 0; lane < 2; ++lane)
+      if (values[lane] < low) {
+        low = values[lane];
+        where = {x[lane], y[lane]};
+      }
   }
   return where;
 }
@@ -224,18 +227,20 @@ CellNode CellBuilder::bilinear_leaf(const ConeList& cones) {
   return CellLeaf::bilinear(first).node();
 }
 
+/// An odd cone comes twice.
 CellNode CellBuilder::cones_leaf(const ConeList& cones, const CellPlace& place, int count) {
-  const std::size_t first = part_.numbers.size(), size = static_cast<std::size_t>(count);
-  for (int n = 0; n < count; ++n) {
-    const std::int64_t k = choice_.chosen[n];
-    part_.numbers.insert(part_.numbers.end(), {cones.x()[k], cones.y()[k], cones.height()[k]});
+  const std::size_t first = part_.numbers.size(), pairs = (static_cast<std::size_t>(count) + 1) / 2;
+  for (int n = 0; n < count; n += 2) {
+    const std::int64_t a = choice_.chosen[n], b = choice_.chosen[std::min(n + 1, count - 1)];
+    part_.numbers.insert(part_.numbers.end(), {cones.x()[a], cones.x()[b], cones.y()[a], cones.y()[b],
+                                               cones.height()[a], cones.height()[b]});
   }
   const double* const numbers = &part_.numbers[first];
-  const Vec2 lowest = lowest_point(numbers, size, grid_.box(place), source_.slope);
-  part_.least = std::min(part_.least, lowest_cone(numbers, size, lowest, source_.slope, source_.cap));
+  const Vec2 lowest = lowest_point(numbers, pairs, grid_.box(place), source_.slope);
+  part_.least = std::min(part_.least, lowest_cone(numbers, pairs, lowest, source_.slope, source_.cap));
   include_in_range(values(cones));
   ++part_.leaves;
-  return CellLeaf::with_cones(first, size).node();
+  return CellLeaf::with_pairs(first, pairs).node();
 }
 
 /// Joins each node of the plain quadtree of a block with its children.

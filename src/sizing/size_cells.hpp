@@ -2,12 +2,14 @@
 // The cells of a quadtree of the size field: how they are stored, and how those of some blocks are built.
 #pragma once
 
+#include "core/lanes.hpp"
 #include "sizing/cone_kernel.hpp"
 #include "sizing/cone_tree.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace trime::sizing {
@@ -56,34 +58,54 @@ using CellChildren = std::array<CellNode, 16>;
 
 /// A cell that is not split: either bilinear between its corners, or the lower envelope of a few cones.
 struct CellLeaf {
-  static constexpr int kinds = 16; ///< two of bilinear cells, the others of 1, 2, ... cones
+  static constexpr int kinds = 16; ///< two of bilinear cells, the others of 1, 2, ... pairs of cones
   static constexpr std::size_t most_numbers = (std::size_t{1} << 31) / kinds;
+  static constexpr int most_cones = 2 * (kinds - 2);
 
-  std::size_t first; ///< of its numbers: corner values, or x, y and height of each cone
+  std::size_t first; ///< of its numbers: corner values, or pairs of cones
   int kind;
 
   static CellLeaf of(CellNode node) {
     return {static_cast<std::size_t>(~node) / kinds, static_cast<int>(~node % kinds)};
   }
   static CellLeaf bilinear(std::size_t first) { return {first, 0}; }
-  static CellLeaf with_cones(std::size_t first, std::size_t count) { return {first, static_cast<int>(count) + 1}; }
+  static CellLeaf with_pairs(std::size_t first, std::size_t count) { return {first, static_cast<int>(count) + 1}; }
   CellNode node() const { return ~static_cast<CellNode>(first * kinds + static_cast<std::size_t>(kind)); }
 
   bool is_bilinear() const { return kind < 2; }
   /// Of a bilinear leaf: by so many levels it is larger than a child of the node that it is found at.
   int levels_up() const { return kind; }
-  std::size_t cones() const { return static_cast<std::size_t>(kind) - 1; }
+  std::size_t pairs() const { return static_cast<std::size_t>(kind) - 1; }
 };
 
-/// The value at p of the lowest of some cones, each given by x, y and height, or `cap` if that is lower.
-inline double lowest_cone(const double* cones, std::size_t count, geometry::Vec2 p, double slope, double cap) {
-  for (const double* cone = cones; cone != cones + 3 * count; cone += 3)
-    cap = std::min(cap, slope * geometry::length({p.x - cone[0], p.y - cone[1]}) + cone[2]);
-  return cap;
+/// Two cones side by side.
+struct ConePair {
+  using Lanes = lanes::Types<2>::Doubles;
+  static constexpr std::size_t numbers = 6; ///< two x, two y, two heights
+
+  static Lanes load(const double* from) {
+    Lanes v;
+    std::memcpy(&v, from, sizeof v);
+    return v;
+  }
+  /// With the bits of Cone::value.
+  static Lanes values(const double* pair, Lanes x, Lanes y, double slope) {
+    const Lanes dx = x - load(pair), dy = y - load(pair + 2);
+    return slope * lanes::square_root(dx * dx + dy * dy) + load(pair + 4);
+  }
+};
+
+/// The value at p of the lowest of some pairs of cones, or `cap` if that is lower.
+inline double lowest_cone(const double* pairs, std::size_t count, geometry::Vec2 p, double slope, double cap) {
+  const ConePair::Lanes x{p.x, p.x}, y{p.y, p.y};
+  ConePair::Lanes low{cap, cap};
+  for (const double* pair = pairs; pair != pairs + ConePair::numbers * count; pair += ConePair::numbers)
+    low = lanes::smaller(ConePair::values(pair, x, y, slope), low);
+  return std::min(low[0], low[1]);
 }
 
 /// Where in the cell they are lowest.
-geometry::Vec2 lowest_point(const double* cones, std::size_t count, const geometry::Box& cell, double slope);
+geometry::Vec2 lowest_point(const double* pairs, std::size_t count, const geometry::Box& cell, double slope);
 
 /// Some blocks with the cells below them, with indices of their own.
 struct CellPart {

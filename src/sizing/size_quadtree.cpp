@@ -31,7 +31,7 @@ std::size_t groups_of(std::size_t blocks, int level) {
 SizeQuadtree::SizeQuadtree(const comm::Communicator& comm, const Source& source)
     : box_(source.box), slope_(source.slope), cap_(source.cap) {
   static_assert(most_levels % 2 == 0, "two levels are looked up at once");
-  static_assert(most_cones + 2 <= CellLeaf::kinds);
+  static_assert(most_cones <= CellLeaf::most_cones && most_cones <= ConeChoice::most);
   grid_ = {box_.min, std::max(box_.width(), box_.height()) / blocks_along};
   inverse_side_ = 1 / grid_.side;
   nx_ = static_cast<std::size_t>(std::clamp(std::ceil(box_.width() * inverse_side_), 1.0, 1.0 * blocks_along));

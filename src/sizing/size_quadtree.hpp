@@ -20,7 +20,7 @@ public:
   /// The longer side of the box has so many blocks, each of them a quadtree of its own.
   static constexpr int blocks_along = 64;
   static constexpr int most_levels = 20; ///< below a block
-  static constexpr int most_cones = 8;   ///< in a cell that is not split for them
+  static constexpr int most_cones = 12;  ///< in a cell that is not split for them
 
   /// @brief Groups of blocks are dealt to the ranks and threads; every rank gets the whole tree. Collective.
   SizeQuadtree(const comm::Communicator& comm, const Source& source);
@@ -47,7 +47,7 @@ private:
   CellPlace group_place(std::size_t group) const;
   double highest_corner(const Source& source) const;
   double cones_value(CellLeaf leaf, geometry::Vec2 p) const {
-    return lowest_cone(&numbers_[leaf.first], leaf.cones(), p, slope_, cap_);
+    return lowest_cone(&numbers_[leaf.first], leaf.pairs(), p, slope_, cap_);
   }
 
   template <class Visit>
@@ -88,7 +88,7 @@ void SizeQuadtree::visit_leaves(CellNode node, const CellPlace& place, const Vis
     return visit(cell, CornerValues{numbers[0], numbers[1], numbers[2], numbers[3]});
   visit(cell, CornerValues{cones_value(leaf, cell.min), cones_value(leaf, {cell.max.x, cell.min.y}),
                            cones_value(leaf, {cell.min.x, cell.max.y}), cones_value(leaf, cell.max)});
-  const geometry::Vec2 point = lowest_point(numbers, leaf.cones(), cell, slope_);
+  const geometry::Vec2 point = lowest_point(numbers, leaf.pairs(), cell, slope_);
   const double low = cones_value(leaf, point);
   visit(geometry::Box{point, point}, CornerValues{low, low, low, low});
 }

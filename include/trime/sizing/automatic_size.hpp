@@ -32,11 +32,11 @@ class SizeQuadtree;
 /// they touch the boundary on two sides (Ma, Bae, Choi 2012), one for each side of a boundary sample and more around
 /// corners; samples are as dense as the local feature size asks.
 ///
-/// The field is kept in a quadtree: exact values at the corners of a cell, bilinear inside, cells split until the
-/// interpolant is within 1 % at the middles of edges and cells. K is the exact bound of s, and of the values at
-/// corners: |s(a) - s(b)| <= K |a - b|. It is not one of the interpolant: inside a cell either component of its
-/// gradient is at most K, so that the gradient can be up to sqrt(2) K long, along a diagonal (in practice a little
-/// above K), and where cells of different size meet the field may jump, by that 1 % twice.
+/// The field is kept in a quadtree whose cells hold the few cones K |x - b| + lfs(b) that make the field in them,
+/// within 1 % and exactly at the corners; cells so small that it changes by less than 1 % are bilinear. K is the exact
+/// bound of s, of the values at corners and of the gradient in cells of cones. In a bilinear cell either component of
+/// the gradient is at most K, so that it can be up to sqrt(2) K long, along a diagonal; and where cells meet the field
+/// may jump, by that 1 %.
 class AutomaticSize final : public SizeField {
 public:
   /// @brief O(n log n + cells) for n boundary samples; work is shared by ranks and threads, the result is the same bits
@@ -46,7 +46,7 @@ public:
                 const AutomaticSizeOptions& options);
   ~AutomaticSize() override;
 
-  /// About 30 ns; no allocation.
+  /// About 15 ns for points row by row, 60 ns for random ones; no allocation.
   double size(geometry::Vec2 p) const override;
   double least() const;   ///< no value of the field is smaller
   double largest() const; ///< no value of the field is larger

@@ -6,9 +6,11 @@
 #include "support/boundary_shapes.hpp"
 #include "support/distributed.hpp"
 #include "trime/core/random.hpp"
+#include "trime/core/simd_level.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -82,6 +84,30 @@ TEST(ConeTree, FindsTheLowestConeAndAllBelowABound) {
   }
 }
 
+TEST(ConeTree, TakesConesInOnePlace) {
+  const ConeTree tree({{{0.5, 0.5}, 0.2}, {{0.5, 0.5}, 0.1}, {{0.5, 0.5}, 0.3}}, 1);
+  EXPECT_EQ(tree.value({0.5, 1.5}), 1.1);
+  EXPECT_EQ(tree.cones()[tree.lowest({0, 0}, 9)].height, 0.1);
+  EXPECT_EQ(tree.lowest({0.5, 0.5}, 0.05), -1);
+}
+
+TEST(ConeTree, LeavesOutWhatIsSkipped) {
+  std::vector<Cone> cones;
+  for (std::uint64_t k = 0; k < 1000; ++k)
+    cones.push_back({{random(k, 0), random(k, 1)}, random(k, 2)});
+  const ConeTree tree(cones, 1);
+  const auto far = [](const Box& box, double least) { return box.min.x > 0.5 || least > 0.5; };
+  std::vector<LocalIndex> seen;
+  tree.visit_unless(far, [&](LocalIndex k) { seen.push_back(k); });
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  for (std::size_t k = 0; k < cones.size(); ++k) {
+    const Cone& cone = tree.cones()[k];
+    const bool is_seen = std::binary_search(seen.begin(), seen.end(), static_cast<LocalIndex>(k));
+    EXPECT_TRUE(is_seen || cone.apex.x > 0.5 || cone.height > 0.5);
+  }
+  EXPECT_LT(seen.size(), cones.size());
+}
+
 TEST(SizeQuadtree, ObeysTheGradationAlongAllItsEdges) {
   for (const double gradation : {0.1, 0.2, 0.5}) {
     const Field field(comm::Communicator::world(), gradation);
@@ -136,6 +162,33 @@ TEST(SizeQuadtree, IsTheSameOnAnyRanksAndThreads) {
     const testing::OnThreads on(threads);
     EXPECT_TRUE(same_bits(content(Field(comm::Communicator::world(), 0.2).tree), serial)) << threads;
   }
+}
+
+TEST(SizeQuadtree, IsNowhereBeyondItsTolerance) {
+  for (const double gradation : {0.05, 0.2, 1.0}) {
+    const Field field(comm::Communicator::world(), gradation);
+    const auto check = [&](Vec2 p) {
+      EXPECT_NEAR(field.tree.value(p) / field.cones.value(p, 2), 1, SizeQuadtree::tolerance) << p.x << " " << p.y;
+    };
+    for (std::uint64_t key = 0; key < 5000; ++key)
+      check({random(key, 10), random(key, 11)});
+    std::uint64_t key = 0;
+    for (const Cone& cone : field.cones.cones()) { // near features the field bends most
+      const Vec2 p = cone.apex + 4 * cone.height * Vec2{random(key, 12) - 0.5, random(key, 13) - 0.5};
+      if (field.images.container().contains(p))
+        check(p);
+      ++key;
+    }
+  }
+}
+
+TEST(SizeQuadtree, IsTheSameAtAllSimdLevels) {
+  const std::vector<double> usual = content(Field(comm::Communicator::world(), 0.2).tree);
+  for (const SimdLevel level : {SimdLevel::portable, SimdLevel::avx2}) {
+    limit_simd_level(level);
+    EXPECT_TRUE(same_bits(content(Field(comm::Communicator::world(), 0.2).tree), usual)) << static_cast<int>(level);
+  }
+  limit_simd_level(SimdLevel::avx512);
 }
 
 TEST(SizeQuadtree, CoversContainersThatAreNotSquare) {
