@@ -116,8 +116,8 @@ TileGrid::TileGrid(const geometry::Box& container, const GridOptions& options)
   tile_width_ = periods_.x > 0 ? periods_.x / tiles_x_ : cell_width * block;
   tile_height_ = periods_.y > 0 ? periods_.y / tiles_y_ : cell_height * block;
   const double in_tile = in_cell * block * block;
-  typical_bin_bits_ =
-      std::clamp(static_cast<int>(std::lround(0.5 * std::log2(std::max(1.0, in_tile / points_per_cell)))), 0, 12);
+  // The nearest power of 4, from the exponent alone: a logarithm may round otherwise on other machines.
+  typical_bin_bits_ = std::clamp((std::ilogb(std::max(1.0, in_tile / points_per_cell)) + 1) / 2, 0, 12);
 
   int level = 0;
   while ((1 << level) < std::max(tiles_x_, tiles_y_))

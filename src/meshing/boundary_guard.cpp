@@ -323,18 +323,6 @@ double BoundaryGuard::clear_way(Vec2 p) const {
   return (std::abs(state_at(p)) - 1) * (side_ * rounding);
 }
 
-bool BoundaryGuard::may_meet_chord(const geometry::Box& box) const {
-  bool found = false;
-  for_each_shift(periods_, 0, [&](Vec2 shift) {
-    if (!found)
-      chords_.for_each_near({box.min + shift, box.max + shift}, [&](LocalIndex) {
-        found = true;
-        return false;
-      });
-  });
-  return found;
-}
-
 std::optional<Vec2> BoundaryGuard::correct(Vec2 image, double h, const geometry::Lattice& lattice) const {
   const Vec2 p = periods_.wrap(image), shift = image - p;
   const int state = state_at(p);

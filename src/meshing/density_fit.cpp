@@ -19,7 +19,7 @@ namespace {
 constexpr int density_rounds = 40, saturated_rounds = 8;
 constexpr double close_enough = 0.004;     // of the points asked for
 constexpr double reference_spacing = 0.25; // of the size of a uniform mesh
-constexpr double reference_coarsening = 4; // of the integral, at least
+constexpr double reference_coarsening = 8; // of the integral, at least
 constexpr int estimate_rounds = 6;
 constexpr double estimate_precision = 0.02, crowded_precision = 0.2; // of the factor
 constexpr int approach_rounds = 8;

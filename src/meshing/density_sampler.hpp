@@ -34,13 +34,22 @@ public:
     double size;         ///< h in its middle
     std::int64_t weight; ///< sites that belong into it, in units of 2^-20
   };
-  /// Calls visit(cell) for all cells of the tile with a weight, in Hilbert order.
+  /// Tiles are looked into by parts, 4^part_levels() of each: there may be fewer tiles than threads.
+  int parts_per_tile() const { return 1 << (2 * part_levels()); }
+  /// Calls visit(cell) for all cells of a part of the tile with a weight, in Hilbert order; so are the parts.
   /// @throws GeometryError on this rank alone: at a place in the shape the size is not positive and finite, or so small
-  /// that the tile would get more than 2^27 cells
+  /// that the part would get more than 2^27 cells
   template <class Visit>
-  void for_each_cell(LocalIndex tile, const Visit& visit) const {
+  void for_each_cell(LocalIndex tile, int part, const Visit& visit) const {
+    geometry::Box box = grid_.tile_box(tile);
+    std::uint64_t key = 0;
+    for (int level = 0; level < part_levels(); ++level) {
+      const std::uint64_t quarter = static_cast<std::uint64_t>(part) >> (2 * (part_levels() - level - 1)) & 3;
+      box = quarter_of(box, key, level, quarter);
+      key = 4 * key + quarter;
+    }
     Work work;
-    divide({grid_.tile_box(tile), 0, 0, false, {}}, visit, work);
+    divide({box, key, part_levels(), false, {}}, visit, work);
   }
 
 private:
@@ -50,6 +59,7 @@ private:
 
   /// Every bin is looked into, wherever its tile's middle lies: sizes may jump.
   int least_levels() const { return grid_.typical_bin_bits() + 1; }
+  int part_levels() const { return std::min(2, least_levels()); }
 
   /// The chords near a part, as a range of Work::chords: all that are nearer to it than `reach`; none are known if that
   /// is negative.

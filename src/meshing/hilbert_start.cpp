@@ -21,22 +21,36 @@ void agreed_loop(const comm::Communicator& comm, std::ptrdiff_t n, const Body& b
   comm::run_agreed(comm, [&] { thread_loop(n, 1, [&](std::ptrdiff_t item, int) { body(item); }); });
 }
 
-/// Weights of the tiles of this rank before each, and the total at the end.
-/// @param kept receives the cells of each tile; may be empty
-std::vector<std::int64_t> weights_before(const comm::Communicator& comm, const TileRange& tiles,
-                                         const DensitySampler& sampler,
+/// Parts of the tiles of this rank, in Hilbert order.
+struct Parts {
+  const TileRange& tiles;
+  const DensitySampler& sampler;
+
+  std::ptrdiff_t count() const { return std::ptrdiff_t{tiles.last - tiles.first} * sampler.parts_per_tile(); }
+  LocalIndex tile(std::ptrdiff_t part) const {
+    return tiles.first + static_cast<LocalIndex>(part / sampler.parts_per_tile());
+  }
+  template <class Visit>
+  void for_each_cell(std::ptrdiff_t part, const Visit& visit) const {
+    sampler.for_each_cell(tile(part), static_cast<int>(part % sampler.parts_per_tile()), visit);
+  }
+};
+
+/// Weights of the parts of this rank before each, and the total at the end.
+/// @param kept receives the cells of each part; may be empty
+std::vector<std::int64_t> weights_before(const comm::Communicator& comm, const Parts& parts,
                                          std::span<std::vector<DensitySampler::Cell>> kept) {
-  std::vector<std::int64_t> before(static_cast<std::size_t>(tiles.last - tiles.first) + 1, 0);
-  agreed_loop(comm, tiles.last - tiles.first, [&](std::ptrdiff_t t) {
-    std::int64_t& weight = before[static_cast<std::size_t>(t) + 1];
-    sampler.for_each_cell(tiles.first + static_cast<LocalIndex>(t), [&](const DensitySampler::Cell& cell) {
+  std::vector<std::int64_t> before(static_cast<std::size_t>(parts.count()) + 1, 0);
+  agreed_loop(comm, parts.count(), [&](std::ptrdiff_t part) {
+    std::int64_t& weight = before[static_cast<std::size_t>(part) + 1];
+    parts.for_each_cell(part, [&](const DensitySampler::Cell& cell) {
       weight += cell.weight;
       if (!kept.empty())
-        kept[static_cast<std::size_t>(t)].push_back(cell);
+        kept[static_cast<std::size_t>(part)].push_back(cell);
     });
   });
-  for (std::size_t t = 1; t < before.size(); ++t)
-    before[t] += before[t - 1];
+  for (std::size_t part = 1; part < before.size(); ++part)
+    before[part] += before[part - 1];
   return before;
 }
 
@@ -44,11 +58,12 @@ std::vector<std::int64_t> weights_before(const comm::Communicator& comm, const T
 
 DensityTotals integrate_density(const comm::Communicator& comm, const TileRange& tiles, const DensitySampler& sampler) {
   const double unit = std::fmax(tiles.grid.container().width(), tiles.grid.container().height());
-  std::vector<std::int64_t> sites(static_cast<std::size_t>(tiles.last - tiles.first), 0);
+  const Parts parts{tiles, sampler};
+  std::vector<std::int64_t> sites(static_cast<std::size_t>(parts.count()), 0);
   std::vector<FixedSum> sizes(sites.size());
-  agreed_loop(comm, tiles.last - tiles.first, [&](std::ptrdiff_t t) {
-    const std::size_t at = static_cast<std::size_t>(t);
-    sampler.for_each_cell(tiles.first + static_cast<LocalIndex>(t), [&](const DensitySampler::Cell& cell) {
+  agreed_loop(comm, parts.count(), [&](std::ptrdiff_t part) {
+    const std::size_t at = static_cast<std::size_t>(part);
+    parts.for_each_cell(part, [&](const DensitySampler::Cell& cell) {
       sites[at] += cell.weight;
       sizes[at].add(static_cast<double>(cell.weight) / DensitySampler::weight_unit * (cell.size / unit));
     });
@@ -59,8 +74,8 @@ DensityTotals integrate_density(const comm::Communicator& comm, const TileRange&
     all_sites += sites[t];
     all_sizes.add(sizes[t]);
   }
-  const auto parts = all_sizes.split();
-  std::array<std::int64_t, 3> packed{all_sites, parts.low, parts.high};
+  const auto halves = all_sizes.split();
+  std::array<std::int64_t, 3> packed{all_sites, halves.low, halves.high};
   comm.sum(packed);
   DensityTotals totals;
   totals.sites = static_cast<double>(packed[0]) / DensitySampler::weight_unit;
@@ -73,9 +88,9 @@ std::vector<mesh::Site> hilbert_start(const comm::Communicator& comm, const Tile
                                       const geometry::Lattice& lattice, std::int64_t n, std::uint64_t seed) {
   constexpr std::int64_t few = 1 << 15; // sites whose cells are kept, about half a KiB each
   const DensitySampler sampler(tiles.grid, guard, size, lattice);
-  std::vector<std::vector<DensitySampler::Cell>> kept(n <= few ? static_cast<std::size_t>(tiles.last - tiles.first)
-                                                               : 0);
-  const std::vector<std::int64_t> before = weights_before(comm, tiles, sampler, kept);
+  const Parts parts{tiles, sampler};
+  std::vector<std::vector<DensitySampler::Cell>> kept(n <= few ? static_cast<std::size_t>(parts.count()) : 0);
+  const std::vector<std::int64_t> before = weights_before(comm, parts, kept);
   const std::int64_t total = comm.sum(before.back()), first = comm.exclusive_scan(before.back());
   if (total == 0 || n <= 0)
     return {};
@@ -86,9 +101,9 @@ std::vector<mesh::Site> hilbert_start(const comm::Communicator& comm, const Tile
   };
   const std::int64_t first_site = sites_before(first);
   std::vector<mesh::Site> all(static_cast<std::size_t>(sites_before(first + before.back()) - first_site));
-  agreed_loop(comm, std::ssize(before) - 1, [&](std::ptrdiff_t t) {
-    const LocalIndex tile = tiles.first + static_cast<LocalIndex>(t);
-    std::int64_t running = first + before[static_cast<std::size_t>(t)], j = sites_before(running);
+  agreed_loop(comm, std::ssize(before) - 1, [&](std::ptrdiff_t part) {
+    const LocalIndex tile = parts.tile(part);
+    std::int64_t running = first + before[static_cast<std::size_t>(part)], j = sites_before(running);
     const auto visit = [&](const DensitySampler::Cell& cell) {
       const std::uint64_t stream = mix_bits(static_cast<std::uint64_t>(tile) * 64 + cell.level) + cell.key;
       running += cell.weight;
@@ -100,9 +115,9 @@ std::vector<mesh::Site> hilbert_start(const comm::Communicator& comm, const Tile
       }
     };
     if (kept.empty())
-      sampler.for_each_cell(tile, visit);
+      parts.for_each_cell(part, visit);
     else
-      for (const DensitySampler::Cell& cell : kept[static_cast<std::size_t>(t)])
+      for (const DensitySampler::Cell& cell : kept[static_cast<std::size_t>(part)])
         visit(cell);
   });
   return all;

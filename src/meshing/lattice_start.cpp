@@ -16,30 +16,6 @@ using geometry::Vec2;
 
 constexpr double clearance = 0.45; // of the spacing: experiments give 0.4 to 0.55 as best
 
-/// Which bins of a tile have a chord of the boundary within a margin: only there distances need a look.
-class NearBins {
-public:
-  NearBins() = default;
-  NearBins(const mesh::TileGrid& grid, LocalIndex tile, const BoundaryGuard& guard, double margin)
-      : side_(grid.bins_per_side(tile)), near_(static_cast<std::size_t>(side_) * side_, 0) {
-    const geometry::Box box = grid.tile_box(tile);
-    const double width = box.width() / side_, height = box.height() / side_;
-    for (int y = 0; y < side_; ++y)
-      for (int x = 0; x < side_; ++x) {
-        const Vec2 corner{box.min.x + x * width, box.min.y + y * height};
-        // The margin is doubled: rounding in the corners of a bin is far below it.
-        const geometry::Box reach{corner - Vec2{2 * margin, 2 * margin},
-                                  corner + Vec2{width + 2 * margin, height + 2 * margin}};
-        near_[static_cast<std::size_t>(y) * side_ + x] = guard.may_meet_chord(reach) ? 1 : 0;
-      }
-  }
-  bool at(int bin) const { return near_[static_cast<std::size_t>(bin)] != 0; }
-
-private:
-  int side_ = 0;
-  std::vector<std::uint8_t> near_;
-};
-
 /// Smallest and largest t with from + t * direction inside the box; empty (first > second) if the line misses it.
 std::pair<double, double> clip_line(Vec2 from, Vec2 direction, const geometry::Box& box) {
   double low = -INFINITY, high = INFINITY;
@@ -104,7 +80,7 @@ bool LatticeStart::is_clear(const mesh::TileGrid& grid, LocalIndex tile, double 
     return false;
   const geometry::Box box = grid.tile_box(tile);
   const Vec2 middle = lattice_.snap(0.5 * (box.min + box.max));
-  const double reach = 0.5 * std::hypot(box.width(), box.height()) + 2 * margin;
+  const double reach = 0.5 * geometry::length(box.max - box.min) + 2 * margin;
   return guard_.distance(middle, reach) >= reach && guard_.inside(middle);
 }
 
@@ -127,7 +103,6 @@ void LatticeStart::for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile,
     end = std::max(end, geometry::dot(corner - rows.origin, rows.along));
   }
   const bool clear = is_clear(grid, tile, spacing);
-  const NearBins near = clear ? NearBins() : NearBins(grid, tile, guard_, free);
   const auto last_of = [](std::int64_t first, double limit, std::int64_t period) {
     const auto last = static_cast<std::int64_t>(std::ceil(limit));
     return period > 0 ? std::min(last, first + period - 1) : last;
@@ -163,7 +138,8 @@ void LatticeStart::for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile,
       const Vec2 p = site(column);
       if (!in_tile(p) || !guard_.inside(p))
         continue;
-      if (near.at(grid.place(p).bin) && (guard_.distance(p, free) < free || guard_.encroaches(p)))
+      // Where even the lower bound is far enough, no disc is near: one look-up does for nearly all.
+      if (guard_.distance_below(p, free) < free && (guard_.distance(p, free) < free || guard_.encroaches(p)))
         continue;
       visit(column, column, site);
     }

@@ -105,7 +105,9 @@ Layout PointScheme::first_of_insertion() {
 /// The factor is fitted for the final mesh, by a coarse integral. Then the coarsest start is taken that still has as
 /// many sites inside as on the boundary: a boundary full of corners does not become coarser with the size.
 Layout PointScheme::first_of_divisions() {
-  DensityFit fit = fit_density(context_, expected_points(), std::ldexp(1.0, last_stage_));
+  constexpr double coarse_integral = 4; // errs by a few thousandths
+  DensityFit fit = fit_density(context_, expected_points(),
+                               last_stage_ == 0 ? 1 : std::fmax(coarse_integral, std::ldexp(1.0, last_stage_)));
   shortage_ = std::move(fit.shortage);
   const double points = fit.inner + static_cast<double>(fit.layout.placed_first());
   Layout layout;
@@ -115,7 +117,7 @@ Layout PointScheme::first_of_divisions() {
     --last_stage_; // the share of the strip and of corners only grows
   for (;; --last_stage_) {
     layout = lay_coarsened(fit.layout, std::ldexp(points, -2 * last_stage_));
-    inner = wanted_inside(context_, layout, 2).sites;
+    inner = wanted_inside(context_, layout, last_stage_ == 0 ? 2 : coarse_integral).sites;
     if (last_stage_ == 0 || inner >= static_cast<double>(layout.placed_first()))
       break;
   }

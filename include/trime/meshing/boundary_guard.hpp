@@ -63,8 +63,6 @@ public:
   };
   CellView cells() const;
 
-  /// May some chord meet the box? Never false if one does.
-  bool may_meet_chord(const geometry::Box& box) const;
   /// Chord i of each site, in a periodic container that image whose middle is canonical.
   const geometry::SegmentGrid& chords() const { return chords_; }
   std::size_t memory_bytes() const;
