@@ -116,20 +116,20 @@ void Cleanup::find_candidates() {
 }
 
 void Cleanup::set_candidate(const Candidate& candidate) {
-  const std::uint64_t key = hash_of(candidate.place, 0);
-  const auto known = candidate_at_.find(key);
-  if (known != candidate_at_.end())
-    candidates_[known->second] = candidate;
-  else if (candidate.alpha > 0) {
-    candidate_at_[key] = static_cast<std::uint32_t>(candidates_.size());
-    candidates_.push_back(candidate);
-  } else
-    return;
-  Candidate& set = known != candidate_at_.end() ? candidates_[known->second] : candidates_.back();
-  if (set.alpha > 0)
-    set.cell = cell_key(set.place, set.size);
+  const bool is_bad = candidate.alpha > 0;
+  auto known = candidate_at_.find(hash_of(candidate.place, 0));
+  if (known == candidate_at_.end()) {
+    if (!is_bad)
+      return;
+    known = candidate_at_.emplace(hash_of(candidate.place, 0), static_cast<std::uint32_t>(candidates_.size())).first;
+    candidates_.emplace_back();
+  }
+  Candidate& own = candidates_[known->second];
+  own = candidate;
+  if (is_bad)
+    own.cell = cell_key(own.place, own.size);
   else
-    set.tried = 0; // as if it had been dropped
+    own.tried = 0; // as if it had been dropped
 }
 
 /// Nothing was better at a place: it is not tried again in this stage.

@@ -42,9 +42,9 @@ public:
 private:
   struct Candidate {
     geometry::Vec2 place;
-    double size, alpha; // alpha 0: none any more
-    int tried = 0;      // number of the last stage in which nothing helped
-    std::uint64_t cell = 0;
+    double size = 0, alpha = 0; // alpha 0: none any more
+    int tried = 0;              // number of the last stage in which nothing helped
+    std::uint64_t cell = 0;     // set by who lists it
   };
   std::uint64_t cell_key(geometry::Vec2 p, double h) const;
   void find_candidates();

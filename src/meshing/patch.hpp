@@ -87,6 +87,9 @@ struct PatchBudget {
 /// by insertions and deletions followed by such moves; where nothing else helps, by smaller triangles. Sites on the
 /// boundary that are no corners take part: they slide along their curve, come and go.
 ///
+/// Around a very bad triangle an insertion or a deletion comes before all moves if with moves it is better than moves
+/// alone, which would only spread what is wrong over many triangles.
+///
 /// An operation counts as better if the sum over the triangles near it of (alpha - 1)^2, bad ones weighing more, falls
 /// by 2 % at least and the largest alpha does not rise; one with smaller triangles if the largest alpha falls by a
 /// twentieth of its excess. Moves lower the StarEnergy of one site after the other by Newton steps.
