@@ -4,13 +4,14 @@
 namespace trime::meshing {
 namespace {
 
-constexpr double still = 0.005;                // of h
-constexpr int window = 2 * measuring_interval; // sweeps
-constexpr double median_gain = 0.12, good_median = 0.001;
+constexpr double still = 0.005;                          // of h
+constexpr int window = 2 * measuring_interval;           // sweeps
+constexpr double median_gain = 0.3, good_median = 0.001; // accelerated cells do the rest sooner than bars
+constexpr double seen = 5e-5;                            // of mean alpha: nobody sees less
 /// What these sweeps must gain. A coarse mesh costs little and decides over the order of the finer ones; before an
 /// insertion the order is about to be disturbed anyway.
 constexpr double tolerance_last = 0.04, tolerance_before_insertion = 0.12;
-constexpr double tolerance_of_coarse_bars = 0.024, tolerance_of_coarse_cells = 0.012;
+constexpr double tolerance_of_coarse_bars = 0.024, tolerance_of_coarse_cells = 0.015;
 constexpr double patience_of_bars = 0.4; // bars settle more slowly than accelerated Voronoi cells
 /// Triangles gain nearly all in a few sweeps.
 constexpr Patience patience_of_triangles{0.084, window, false}, patience_of_coarse_triangles{0.036, window, false};
@@ -34,7 +35,8 @@ std::optional<StopReason> StopRule::decide(std::span<const SweepRecord> records)
   if (past && last.sweep - records.front().sweep >= patience_.earliest) {
     const SweepRecord& before = *past;
     const double least = 1 - patience_.tolerance;
-    const bool mean_stalled = last.mean_alpha - 1 >= least * (before.mean_alpha - 1);
+    const bool mean_stalled =
+        last.mean_alpha - 1 >= least * (before.mean_alpha - 1) || before.mean_alpha - last.mean_alpha < seen;
     const bool middle_stalled = !patience_.median || last.median_alpha - 1 < good_median ||
                                 last.median_alpha - 1 >= least * (before.median_alpha - 1);
     if (mean_stalled && middle_stalled)

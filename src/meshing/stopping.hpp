@@ -23,8 +23,8 @@ struct Patience {
 };
 
 /// @brief Converged: no site moved by more than 0.005 h in the last sweep. Quality stalled: the mean of
-/// alpha - 1 fell by less than the tolerance over the last six sweeps. Sweep cap: the moves since the start of the
-/// run.
+/// alpha - 1 fell by less than the tolerance, or by less than 0.00005, over the last six sweeps. Sweep cap: the moves
+/// since the start of the run.
 class StopRule {
 public:
   StopRule(int max_sweeps, const Patience& patience) : max_sweeps_(max_sweeps), patience_(patience) {}
@@ -36,8 +36,8 @@ private:
   Patience patience_;
 };
 
-/// @brief The median of alpha - 1 fell by less than a tenth of itself over the last six sweeps, or is below 0.001:
-/// bars have done what they can.
+/// @brief The median of alpha - 1 fell by less than 0.3 of itself over the last six sweeps, or is below 0.001: bars
+/// have done what they can do quickly.
 bool median_stalled(std::span<const SweepRecord> records);
 
 /// What moves the sites.

@@ -15,9 +15,9 @@ namespace {
 using geometry::Vec2;
 
 /// Sites are sorted again when one may have come so many h since the last time: searches become long.
-constexpr double drift_in_sizes_allowed = 1;
-constexpr int sweeps_of_a_size = 4; // h is evaluated anew after so many sweeps
-constexpr int sweeps_of_a_sort = 4; // sites that are to be deleted may wait so long for the next sorting
+constexpr double drift_in_sizes_allowed = 4;
+constexpr int sweeps_of_a_size = 6; // h is evaluated anew after so many sweeps
+constexpr int sweeps_of_a_sort = 8; // sites that are to be deleted may wait so long for the next sorting
 constexpr int chunk = 64;           // sites that one thread treats in a row
 constexpr int most_halo_rounds = 100;
 

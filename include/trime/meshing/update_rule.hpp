@@ -95,7 +95,7 @@ private:
 };
 
 /// @brief Acceleration of a descent (Nesterov 1983): from the iterate x' = y + move(y) the next move is taken at
-/// y' = x' + b (x' - x), b = min(0.9, k/(k+3)), and k starts again from 0 when the last moves went uphill
+/// y' = x' + b (x' - x), b = min(0.95, k/(k+3)), and k starts again from 0 when the last moves went uphill
 /// (sum of (y - x').(x' - x) / h^2 > 0; O'Donoghue and Candes 2015), which one sweep later is early enough.
 class Momentum {
 public:
@@ -105,7 +105,7 @@ public:
   double factor() const { return factor_; }
 
 private:
-  static constexpr double largest = 0.9;
+  static constexpr double largest = 0.95;
   int age_ = 0; // sweeps since the last restart
   double factor_ = 0;
 };

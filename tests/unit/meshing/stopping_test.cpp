@@ -57,11 +57,21 @@ TEST(StopRule, TheSweepCapCountsMoves) {
   EXPECT_EQ(StopRule(3, {0.04}).decide(history(4, 0.5)), StopReason::sweep_cap);
 }
 
-TEST(MedianStalled, WhenSixSweepsBringLessThanAnEighth) {
+TEST(MedianStalled, WhenSixSweepsBringLessThanThreeTenths) {
   EXPECT_FALSE(median_stalled(history(6, 1)));
-  EXPECT_TRUE(median_stalled(history(7, 0.99)));
-  EXPECT_FALSE(median_stalled(history(7, 0.97)));
+  EXPECT_TRUE(median_stalled(history(7, 0.95)));
+  EXPECT_FALSE(median_stalled(history(7, 0.93)));
   EXPECT_TRUE(median_stalled(history(3, 0.05))) << "nothing left to gain";
+}
+
+TEST(StopRule, EndsWhereTheGainIsTooSmallToBeSeen) {
+  std::vector<SweepRecord> records = history(10, 1);
+  for (SweepRecord& record : records) // a tenth in six sweeps, of nearly nothing
+    record.mean_alpha = 1 + 4e-4 * (1 - 0.018 * record.sweep);
+  EXPECT_EQ(StopRule(100, {0.04, 6, false}).decide(records), StopReason::quality_stalled);
+  for (SweepRecord& record : records)
+    record.mean_alpha = 1 + 10 * (record.mean_alpha - 1);
+  EXPECT_EQ(StopRule(100, {0.04, 6, false}).decide(records), std::nullopt);
 }
 
 TEST(StopRule, PatienceMayBeShortAndLookAtTheMeanAlone) {
