@@ -57,19 +57,6 @@ int exact_side(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
                      {ax * ax + ay * ay, bx * bx + by * by, cx * cx + cy * cy});
 }
 
-/// The sign where the float filter is sure of it, else 0.
-int filtered_side(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
-  const double ax = a.x - d.x, ay = a.y - d.y, bx = b.x - d.x, by = b.y - d.y, cx = c.x - d.x, cy = c.y - d.y;
-  const double bxcy = bx * cy, cxby = cx * by, cxay = cx * ay, axcy = ax * cy, axby = ax * by, bxay = bx * ay;
-  const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
-  const double determinant = a2 * (bxcy - cxby) + b2 * (cxay - axcy) + c2 * (axby - bxay);
-  const double permanent = a2 * (std::fabs(bxcy) + std::fabs(cxby)) + b2 * (std::fabs(cxay) + std::fabs(axcy)) +
-                           c2 * (std::fabs(axby) + std::fabs(bxay));
-  constexpr double epsilon = 0x1p-53;
-  constexpr double error_bound = (10 + 96 * epsilon) * epsilon;
-  return (determinant > error_bound * permanent) - (determinant < -error_bound * permanent);
-}
-
 } // namespace
 
 int in_circle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
@@ -78,12 +65,12 @@ int in_circle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
 }
 
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice) {
-  const int sign = filtered_side(a, b, c, d);
+  const int sign = in_circle_filter(a, b, c, d);
   return sign != 0 ? sign : in_circle_exact(a, b, c, d, lattice);
 }
 
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice, const Periods& periods) {
-  int sign = filtered_side(a, b, c, d);
+  int sign = in_circle_filter(a, b, c, d);
   if (sign == 0)
     sign = exact_side(a, b, c, d, lattice);
   if (sign != 0)

@@ -104,11 +104,51 @@ std::uint64_t facet_hash(GlobalId first, GlobalId second, std::int32_t tag, std:
   return mix_bits(mix_bits(mix_bits(static_cast<std::uint64_t>(first)) ^ static_cast<std::uint64_t>(second)) ^ labels);
 }
 
+/// @brief Counts quadruples of points whose last lies inside the circle of the others, many at a time: nearly all are
+/// found outside by the float filter.
+class CircleTests {
+public:
+  CircleTests(const geometry::Lattice& lattice, const geometry::Periods& periods)
+      : lattice_(lattice), periods_(periods) {}
+
+  void add(Vec2 p, Vec2 q, Vec2 r, Vec2 s) {
+    const std::array<Vec2, 4> points{p, q, r, s};
+    for (std::size_t k = 0; k < 4; ++k) {
+      x_[k][size_] = points[k].x;
+      y_[k][size_] = points[k].y;
+    }
+    if (++size_ == most)
+      finish();
+  }
+  void finish() {
+    std::array<double, most> outside;
+    for (std::size_t n = 0; n < size_; ++n)
+      outside[n] = geometry::in_circle_filter(at(0, n), at(1, n), at(2, n), at(3, n)) < 0 ? 1 : 0;
+    for (std::size_t n = 0; n < size_; ++n)
+      if (outside[n] == 0)
+        inside_ += geometry::in_circle(at(0, n), at(1, n), at(2, n), at(3, n), lattice_, periods_) > 0;
+    size_ = 0;
+  }
+  /// @pre finished
+  std::int64_t inside() const { return inside_; }
+
+private:
+  static constexpr std::size_t most = 256;
+  Vec2 at(std::size_t k, std::size_t n) const { return {x_[k][n], y_[k][n]}; }
+
+  const geometry::Lattice& lattice_;
+  const geometry::Periods& periods_;
+  std::array<std::array<double, most>, 4> x_, y_;
+  std::size_t size_ = 0;
+  std::int64_t inside_ = 0;
+};
+
 /// Counts at the stars of sites, one after the other. Aligned: no cache line belongs to two threads.
 class alignas(64) StarCounter {
 public:
   StarCounter(const ExtractionContext& context, const decomposition::Numbering& numbering)
-      : context_(context), numbering_(numbering), points_(context.state.points()), fan_(context, numbering) {}
+      : context_(context), numbering_(numbering), points_(context.state.points()), fan_(context, numbering),
+        circles_(context.lattice, points_.grid().periods()) {}
 
   void count(LocalIndex site) {
     fan_.load(site);
@@ -127,7 +167,12 @@ public:
       counts_.edges += fan_.place[k] > own;
     count_triangles(own, points_.position(site));
   }
-  const Counts& counts() const { return counts_; }
+  /// What was counted so far.
+  const Counts& finish() {
+    circles_.finish();
+    counts_.not_delaunay = circles_.inside();
+    return counts_;
+  }
 
 private:
   /// Boundary sites and fixed points.
@@ -149,7 +194,6 @@ private:
   }
 
   void count_triangles(LocalIndex own, Vec2 p) {
-    const geometry::Periods& periods = points_.grid().periods();
     const GlobalId id = numbering_.global_id(own);
     for (std::size_t k = 0; k < fan_.triangles; ++k) {
       const Vec2 q = fan_.positions[k], r = fan_.positions[k + 1];
@@ -164,10 +208,8 @@ private:
         counts_.area.add_triangle(p, q, r, context_.lattice);
       }
       // The edge to r lies between two triangles: seen from its lower end, once all stars agree on their triangles.
-      if (k + 1 < fan_.triangles || fan_.closed) {
-        const Vec2 s = fan_.positions[k + 2];
-        counts_.not_delaunay += geometry::in_circle(p, q, r, s, context_.lattice, periods) > 0;
-      }
+      if (k + 1 < fan_.triangles || fan_.closed)
+        circles_.add(p, q, r, fan_.positions[k + 2]);
     }
   }
 
@@ -175,6 +217,7 @@ private:
   const decomposition::Numbering& numbering_;
   const mesh::BinnedPoints& points_;
   FlatFan fan_;
+  CircleTests circles_;
   std::vector<GlobalId> ids_;
   Counts counts_;
 };
@@ -191,8 +234,8 @@ Counts count_stars(const ExtractionContext& context, const decomposition::Number
       counter.count(i);
   });
   Counts counts;
-  for (const StarCounter& counter : of_thread)
-    counts.add(counter.counts());
+  for (StarCounter& counter : of_thread)
+    counts.add(counter.finish());
   return counts;
 }
 
