@@ -210,5 +210,42 @@ TEST(BinnedPoints, UnknownBinsAreReportedUntilTheirSitesArrive) {
   EXPECT_EQ(points.size(), points.owned()) << "new owned sites forget the ghosts";
 }
 
+/// Moved sites, some gone and some new, lie as if a list of them had been sorted.
+TEST(BinnedPoints, MovedSitesAreSortedAsAListIs) {
+  const TileGrid grid(square, {{}, {}, 0.02});
+  const std::vector<Site> sites = testing::random_sites(3000, 3), more = testing::random_sites(200, 4);
+  BinnedPoints points(grid), expected(grid);
+  points.assign_owned(sites, 0, grid.tile_count());
+  points.prepare_to_stay();
+  std::vector<Site> list;
+  std::vector<std::uint8_t> gone;
+  for (LocalIndex i = 0; i < points.owned(); ++i) {
+    const std::size_t at = static_cast<std::size_t>(i);
+    points.next_positions()[at] = testing::random_vec2(5, at);
+    points.next_leads()[at] = testing::random_vec2(6, at);
+    points.set_pushes(i, i % 3);
+    gone.push_back(i % 7 == 0);
+    if (!gone.back())
+      list.push_back(points.next_site(i));
+  }
+  list.insert(list.end(), more.begin(), more.end());
+  expected.assign_owned(list, 0, grid.tile_count());
+  std::vector<LocalIndex> new_index;
+  points.sort_moved(gone, more, new_index);
+  ASSERT_EQ(points.owned(), expected.owned());
+  ASSERT_EQ(new_index.size(), gone.size() + more.size());
+  for (LocalIndex i = 0; i < points.owned(); ++i) {
+    EXPECT_EQ(points.position(i), expected.position(i));
+    EXPECT_EQ(points.site(i).lead, expected.site(i).lead);
+    EXPECT_EQ(points.pushes(i), expected.pushes(i));
+  }
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < new_index.size(); ++k)
+    if (k < gone.size() && gone[k])
+      EXPECT_EQ(new_index[k], -1);
+    else
+      EXPECT_EQ(points.position(new_index[k]), list[next++].position);
+}
+
 } // namespace
 } // namespace trime::mesh
