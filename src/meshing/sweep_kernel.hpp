@@ -23,7 +23,7 @@ enum class SiteClass : std::uint8_t {
 
 constexpr double move_cap = 0.4; ///< moves are cut to this, in h
 constexpr double still = 0.005;  ///< sites that move by more are called moving
-constexpr double rest = 1e-4;    ///< shorter moves are not made: most of a lattice then stays as it is, bit for bit
+constexpr double rest = 1e-5;    ///< shorter moves are not made: most of a lattice then stays as it is, bit for bit
 constexpr double largest_power = 0x1p10; ///< of one site, keeps sums within their reach
 
 /// Plain arrays by local index, and what is the same for all sites.
