@@ -126,7 +126,9 @@ sizing::ScaledSize CountEstimate::scaled(double factor) const {
 
 double CountEstimate::crowding(double factor) const {
   constexpr double sparse = 0.38, most = 16;
-  const std::optional<double> sites = boundary_points(scaled(factor));
+  const sizing::ScaledSize size = scaled(factor);
+  std::optional<double> sites;
+  comm::run_agreed(context_.comm, [&] { sites = boundary_points(size); });
   if (!sites || !(*sites > 0))
     return 1;
   const double share = corners_ / (sparse * *sites);

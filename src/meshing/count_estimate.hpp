@@ -24,7 +24,7 @@ public:
   std::optional<double> points(double factor) const;
 
   /// @brief By how much the factor should rather be larger, a guess: where a good part of the boundary sites are
-  /// corners, the size is lowered around many of them.
+  /// corners, the size is lowered around many of them. Collective.
   double crowding(double factor) const;
 
 private:
