@@ -185,8 +185,9 @@ constexpr Option table[] = {
      .choices = "auto",
      .range = positive,
      .meaning =
-         "the sweeps end once five of them lower the mean of alpha - 1 by less than this share of it; auto: 0.04 "
-         "(0.02 on coarse meshes, 0.1 before points are inserted, 0.4 of these for `distmesh`)"},
+         "the sweeps end once six of them lower the mean of alpha - 1 by less than this share of it; auto: 0.04, or by "
+         "less than 0.00005 (0.015 to 0.024 on coarse meshes, 0.12 before points are inserted, 0.4 of these for "
+         "`distmesh`; 0.084 for the triangles that end `hybrid`)"},
 
     {.section = "meshing",
      .key = "cleanup",

@@ -9,6 +9,7 @@
 #include "meshing/layout.hpp"
 #include "meshing/point_scheme.hpp"
 #include "meshing/site_state.hpp"
+#include "meshing/size_warnings.hpp"
 #include "meshing/stopping.hpp"
 #include "meshing/sweep_record.hpp"
 #include "meshing/sweeper.hpp"
@@ -91,8 +92,8 @@ private:
       for (const std::string& line : describe(features_, boundary_.area))
         log_.info("boundary: {}", line);
       comm::run_agreed(comm_, [this] { // they ask the size field, which may be a user's
-        warn_of_fine_features();
-        warn_of_steep_sizes();
+        warn_of_fine_features(layout_, log_);
+        warn_of_steep_sizes(layout_, boundary_, lattice_, log_);
         if (!fixed_->empty())
           fixed_->warn_of_close_ones(*layout_.guard, *layout_.size, log_);
       });
@@ -100,56 +101,6 @@ private:
   }
 
   const DroppedLoops& dropped() const { return layout_.boundary.dropped; }
-
-  /// A size that changes by more than the way that it takes cannot be followed by triangles.
-  void warn_of_steep_sizes() {
-    constexpr int per_side = 64;
-    constexpr double steep = 1;
-    if (layout_.size->is_uniform() || boundary_.loops.empty())
-      return;
-    const geometry::Box box = boundary_.bounding_box();
-    const geometry::Vec2 stride{box.width() / per_side, box.height() / per_side};
-    double steepest = 0;
-    geometry::Vec2 place;
-    const auto look = [&](geometry::Vec2 p, geometry::Vec2 to_next) {
-      if (!layout_.guard->inside(lattice_.snap(p)) || !layout_.guard->inside(lattice_.snap(p + to_next)))
-        return;
-      const double slope =
-          std::fabs(layout_.size->size(p + to_next) - layout_.size->size(p)) / geometry::length(to_next);
-      if (slope > steepest) {
-        steepest = slope;
-        place = p;
-      }
-    };
-    for (int j = 0; j < per_side; ++j)
-      for (int i = 0; i < per_side; ++i) {
-        const geometry::Vec2 p{box.min.x + (i + 0.5) * stride.x, box.min.y + (j + 0.5) * stride.y};
-        look(p, {stride.x, 0});
-        look(p, {0, stride.y});
-      }
-    if (steepest > steep)
-      log_.warning("the edge length that is asked for changes by {:.3g} times the way near ({:.4g}, {:.4g}); triangles "
-                   "can follow about 0.5: expect fewer points and small angles, or take more points or a gentler size",
-                   steepest, place.x, place.y);
-  }
-
-  /// What a user would want to know before the sweeps begin.
-  void warn_of_fine_features() {
-    const auto& sites = layout_.boundary.sites;
-    double least = 1, length = 0, size = 0; // chord over local size
-    for (std::size_t k = 0; k < sites.size(); ++k) {
-      const geometry::Segment segment = layout_.boundary.chord(static_cast<LocalIndex>(k));
-      const double chord = geometry::length(segment.b - segment.a), h = layout_.size->size(segment.a);
-      if (chord < least * h) {
-        least = chord / h;
-        length = chord;
-        size = h;
-      }
-    }
-    if (least < 0.1)
-      log_.warning("the boundary has segments of {:.3g} where edges of {:.3g} are asked for: expect small angles there",
-                   length, size);
-  }
 
   void make_builder(GlobalId points) {
     const double largest = std::max(options_.container.width(), options_.container.height());

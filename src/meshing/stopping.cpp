@@ -7,7 +7,6 @@ namespace {
 constexpr double still = 0.005;                          // of h
 constexpr int window = 2 * measuring_interval;           // sweeps
 constexpr double median_gain = 0.3, good_median = 0.001; // accelerated cells do the rest sooner than bars
-constexpr double seen = 5e-5;                            // of mean alpha: nobody sees less
 /// What these sweeps must gain. A coarse mesh costs little and decides over the order of the finer ones; before an
 /// insertion the order is about to be disturbed anyway.
 constexpr double tolerance_last = 0.04, tolerance_before_insertion = 0.12;
@@ -36,7 +35,7 @@ std::optional<StopReason> StopRule::decide(std::span<const SweepRecord> records)
     const SweepRecord& before = *past;
     const double least = 1 - patience_.tolerance;
     const bool mean_stalled =
-        last.mean_alpha - 1 >= least * (before.mean_alpha - 1) || before.mean_alpha - last.mean_alpha < seen;
+        last.mean_alpha - 1 >= least * (before.mean_alpha - 1) || before.mean_alpha - last.mean_alpha < patience_.seen;
     const bool middle_stalled = !patience_.median || last.median_alpha - 1 < good_median ||
                                 last.median_alpha - 1 >= least * (before.median_alpha - 1);
     if (mean_stalled && middle_stalled)
@@ -87,11 +86,14 @@ void SweepControl::begin_stage(bool inserts, bool is_last) {
 Patience SweepControl::patience() const {
   if (mover_ == Mover::triangles) {
     Patience patience = is_last_ ? patience_of_triangles : patience_of_coarse_triangles;
-    patience.tolerance = options_.stop_tolerance.value_or(patience.tolerance);
+    if (options_.stop_tolerance) {
+      patience.tolerance = *options_.stop_tolerance;
+      patience.seen = 0;
+    }
     return patience;
   }
   if (options_.stop_tolerance)
-    return {*options_.stop_tolerance};
+    return {.tolerance = *options_.stop_tolerance, .seen = 0};
   const double tolerance = is_last_                ? tolerance_last
                            : inserts_              ? tolerance_before_insertion
                            : mover_ == Mover::bars ? tolerance_of_coarse_bars

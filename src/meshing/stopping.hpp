@@ -20,11 +20,12 @@ struct Patience {
   double tolerance;   ///< least share of alpha - 1 that six sweeps must gain
   int earliest = 9;   ///< sweeps before it may stall
   bool median = true; ///< the median of alpha must have stalled as well
+  double seen = 5e-5; ///< of mean alpha: as good as stalled if six sweeps gain less
 };
 
 /// @brief Converged: no site moved by more than 0.005 h in the last sweep. Quality stalled: the mean of
-/// alpha - 1 fell by less than the tolerance, or by less than 0.00005, over the last six sweeps. Sweep cap: the moves
-/// since the start of the run.
+/// alpha - 1 fell by less than the tolerance, or by less than anybody sees, over the last six sweeps. Sweep cap: the
+/// moves since the start of the run.
 class StopRule {
 public:
   StopRule(int max_sweeps, const Patience& patience) : max_sweeps_(max_sweeps), patience_(patience) {}

@@ -29,8 +29,8 @@ constexpr double largest_power = 0x1p10; ///< of one site, keeps sums within the
 /// Plain arrays by local index, and what is the same for all sites.
 struct SweepTask {
   const geometry::Vec2* positions;
-  const geometry::Vec2* leads;
-  const LocalIndex* rings; ///< 8 slots each, a shorter ring is repeated in them
+  const geometry::Vec2* leads; ///< null, like next_leads, where no sites will go: they are only to be certified
+  const LocalIndex* rings;     ///< 8 slots each, a shorter ring is repeated in them
   const std::uint8_t* degrees;
   const SiteClass* classes;
   SiteClass least_class = SiteClass::local; ///< sites of a class before it are left to others

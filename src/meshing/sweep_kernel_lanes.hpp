@@ -143,7 +143,9 @@ TRIME_INLINE void sweep_group(const SweepTask& task, const Group& group, LocalIn
   }
 
   const Move<V> move = formula.move();
-  const lanes::Pairs<V> lead = load_sites(task.leads, group);
+  lanes::Pairs<V> lead{};
+  if (task.leads)
+    lead = load_sites(task.leads, group);
   V next_lead_x = task.rule.momentum * (move.x + lead.x), next_lead_y = task.rule.momentum * (move.y + lead.y);
   const V limit = (move_cap * own) * (move_cap * own), way_x = move.x + next_lead_x, way_y = move.y + next_lead_y;
   const V squared_way = way_x * way_x + way_y * way_y;
@@ -180,7 +182,8 @@ TRIME_INLINE void sweep_group(const SweepTask& task, const Group& group, LocalIn
     counted[l] = -static_cast<std::int64_t>(moved >> l & 1);
     if (moved >> l & 1) {
       task.next_positions[begin + l] = {x[l], y[l]};
-      task.next_leads[begin + l] = {next_lead_x[l], next_lead_y[l]};
+      if (task.next_leads)
+        task.next_leads[begin + l] = {next_lead_x[l], next_lead_y[l]};
       if (guarded >> l & 1)
         leftovers.guarded[leftovers.guarded_count++] = begin + l;
     } else if (certified >> l & 1) {
@@ -207,7 +210,8 @@ SweepTally sweep_range(const SweepTask& task, LocalIndex begin, LocalIndex end, 
       if (group.local >> (j - i) & 1)
         continue;
       task.next_positions[j] = task.positions[j];
-      task.next_leads[j] = {};
+      if (task.next_leads)
+        task.next_leads[j] = {};
       if (task.classes[j] != SiteClass::held)
         leftovers.suspects[leftovers.suspect_count++] = j;
     }

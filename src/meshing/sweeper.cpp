@@ -101,7 +101,8 @@ void Sweeper::move_one_by_one(const UpdateRule& rule, std::span<const LocalIndex
 
 void Sweeper::set_move(LocalIndex i, const Treated& treated) {
   state_.points().next_positions()[at(i)] = treated.position;
-  state_.points().next_leads()[at(i)] = treated.lead;
+  if (!state_.points().next_leads().empty())
+    state_.points().next_leads()[at(i)] = treated.lead;
   fates_[at(i)] = treated.deleted ? Fate::deleted : treated.pushed ? Fate::pushed : Fate::moved;
 }
 
@@ -111,7 +112,7 @@ bool Sweeper::treat_guarded(std::span<const LocalIndex> sites) {
   bool any = false;
   for (const LocalIndex i : sites) {
     const Treated treated = treat_place(context_, state_.grid(), points.site(i), state_.sizes()[i],
-                                        points.next_positions()[at(i)], points.next_leads()[at(i)], pushes_allowed);
+                                        points.next_positions()[at(i)], points.next_site(i).lead, pushes_allowed);
     if (treated.pushed || treated.deleted) {
       set_move(i, treated);
       any = true;
@@ -131,8 +132,8 @@ SweepTally Sweeper::tally_tile(LocalIndex tile) const {
       continue;
     sum.deleted += fates_[at(i)] == Fate::deleted;
     sum.pushed += fates_[at(i)] == Fate::pushed;
-    const Vec2 way = points.next_positions()[at(i)] - points.position(i), lead = points.leads()[at(i)],
-               next = points.next_leads()[at(i)];
+    const Vec2 way = points.next_positions()[at(i)] - points.position(i), lead = points.site(i).lead,
+               next = points.next_site(i).lead;
     const SiteTally<double> one(way.x, way.y, lead.x, lead.y, next.x, next.y, sizes[i]);
     sum.moving += one.squared_ratio > still * still;
     sum.power += static_cast<std::int64_t>(round_to_integer(one.power * 0x1p32));
@@ -206,8 +207,8 @@ void Sweeper::prepare(const UpdateRule& rule) {
 }
 
 void Sweeper::certify() {
-  state_.points().clear_leads(); // they may have been freed
-  prepare(DistMeshRule{});       // the quickest one; its moves are not made
+  state_.points().release_leads();
+  prepare(DistMeshRule{}); // the quickest one; its moves are not made
   discard();
   state_.points().release_leads();
   for (LocalIndex i = 0; i < state_.points().owned(); ++i)

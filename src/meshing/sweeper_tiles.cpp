@@ -135,7 +135,8 @@ void Sweeper::run_kernel(const SweepTask& sweep, Tiles which) {
     if (!awake_[t]) {
       if (!copied_[t]) {
         std::copy(sweep.positions + begin, sweep.positions + end, sweep.next_positions + begin);
-        std::fill(sweep.next_leads + begin, sweep.next_leads + end, Vec2{});
+        if (sweep.next_leads)
+          std::fill(sweep.next_leads + begin, sweep.next_leads + end, Vec2{});
       }
       copied_[t] = 1;
       return;

@@ -12,7 +12,7 @@ import h5py
 from trime_run import ROOT, Workspace, command, environment
 
 CONFIG = ROOT / "configs" / "square.ini"
-LONG, SHORT = 2_000_000, 100_000  # points: far from its end after a second; soon at its end
+LONG, SHORT = 8_000_000, 100_000  # points: far from its end after some seconds; soon at its end
 PATIENCE = 100  # seconds
 
 

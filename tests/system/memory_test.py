@@ -8,8 +8,8 @@ import trime_run
 
 # What a point may cost when it is added, from one run to a larger one: the fixed costs of the program cancel out.
 FEW, MANY = 200000, 800000
-CASES = (("uniform", ["[shape]", "region = domain"], 130),
-         ("graded", ["[shape]", "region = domain", "[sizing]", "type = expression", "expression = 1+3*x+3*y"], 140))
+CASES = (("uniform", ["[shape]", "region = domain"], 145),
+         ("graded", ["[shape]", "region = domain", "[sizing]", "type = expression", "expression = 1+3*x+3*y"], 150))
 
 
 def output_of(config, *more):

@@ -139,11 +139,6 @@ public:
   /// Frees the leads, and those of arriving sites are forgotten: no rule moves the sites any more. @post site() says 0;
   /// leads() and next_leads() are empty, until assign_owned
   void release_leads();
-  /// All leads are 0, also after release_leads.
-  void clear_leads() {
-    has_leads_ = true;
-    leads_.assign(static_cast<std::size_t>(owned_), {});
-  }
   /// Frees what only sites that move have, and the bins. @post nothing but positions, boundary and tile_range may be
   /// asked for, until assign_owned
   void release_moves();
