@@ -117,7 +117,7 @@ Layout PointScheme::first_of_divisions() {
     --last_stage_; // the share of the strip and of corners only grows
   for (;; --last_stage_) {
     layout = lay_coarsened(fit.layout, std::ldexp(points, -2 * last_stage_));
-    inner = wanted_inside(context_, layout, last_stage_ == 0 ? 2 : coarse_integral).sites;
+    inner = wanted_inside(context_, layout, 2).sites;
     if (last_stage_ == 0 || inner >= static_cast<double>(layout.placed_first()))
       break;
   }
