@@ -48,7 +48,12 @@ void prepare_large_arrays() {
 } // namespace trime::app
 
 // Sanitizers have operators of their own.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
+#define TRIME_SANITIZED
+#endif
+#endif
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(TRIME_SANITIZED)
 
 void* operator new(std::size_t bytes) {
   for (;;) {

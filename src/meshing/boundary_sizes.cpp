@@ -5,6 +5,7 @@
 #include "trime/core/error.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 namespace trime::meshing {
 namespace {
@@ -12,11 +13,25 @@ namespace {
 constexpr std::ptrdiff_t pieces_in_a_row = 64; // by one thread
 constexpr double step_share = 0.5;             // of the local size
 constexpr std::size_t most_samples = std::size_t{1} << 27;
+constexpr std::size_t samples_in_a_row = 1024; // that are counted together
 
-[[noreturn]] void fail_for_samples(geometry::Vec2 p, double h) {
+/// Names the piece with the most sites, as far as its start tells: the same on any threads.
+[[noreturn]] void fail_for_samples(const geometry::Boundary& boundary, const sizing::SizeField& relative,
+                                   const sizing::ScaledSize& asked) {
+  double most = -1, h = 0;
+  geometry::Vec2 place;
+  for (const geometry::Loop& loop : boundary.loops)
+    for (const geometry::Piece& piece : loop.pieces) {
+      const double size = asked.scaled(sizing::checked_size(relative, boundary.periods.wrap(piece.start)));
+      if (piece.length() / size > most) {
+        most = piece.length() / size;
+        h = size;
+        place = piece.start;
+      }
+    }
   throw GeometryError(fmt::format("the element size near ({}, {}) is {}: the boundary would get more than {} sites; "
                                   "ask for fewer points or a larger edge length",
-                                  p.x, p.y, h, most_samples / 2));
+                                  place.x, place.y, h, most_samples / 2));
 }
 
 } // namespace
@@ -24,6 +39,7 @@ constexpr std::size_t most_samples = std::size_t{1} << 27;
 SizeSamples::SizeSamples(const geometry::Boundary& boundary, const sizing::SizeField& relative,
                          const sizing::ScaledSize& asked)
     : factor_(asked.factor()) {
+  std::atomic<std::size_t> total{0};
   for (const geometry::Loop& loop : boundary.loops) {
     OfLoop& of_loop = loops_.emplace_back();
     const auto pieces = std::ssize(loop.pieces);
@@ -32,17 +48,20 @@ SizeSamples::SizeSamples(const geometry::Boundary& boundary, const sizing::SizeF
           const geometry::Piece& piece = loop.pieces[static_cast<std::size_t>(i)];
           const double whole = piece.length();
           const std::size_t before = list.size();
-          for (double s = 0; s < whole || s == 0;) {
+          for (double s = 0; (s < whole || s == 0) && total.load(std::memory_order_relaxed) <= most_samples;) {
             const double value = sizing::checked_size(relative, boundary.periods.wrap(piece.point(s)));
             list.push_back({s, value, static_cast<LocalIndex>(i)});
-            const double h = asked.scaled(value), step = step_share * h;
-            if (list.size() - before > most_samples)
-              fail_for_samples(piece.start, h);
+            const double step = step_share * asked.scaled(value);
+            if (const std::size_t made = list.size() - before; made > 0 && made % samples_in_a_row == 0)
+              total += samples_in_a_row;
             if (s + 1.25 * step >= whole)
               break; // the start of the next piece is near
             s += step;
           }
+          total += (list.size() - before) % samples_in_a_row;
         });
+    if (total > most_samples)
+      fail_for_samples(boundary, relative, asked);
     of_loop.first.reserve(loop.pieces.size() + 1);
     for (std::size_t k = 0; k < of_loop.samples.size(); ++k)
       if (k == 0 || of_loop.samples[k].piece != of_loop.samples[k - 1].piece)

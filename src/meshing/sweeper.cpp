@@ -211,6 +211,8 @@ void Sweeper::certify() {
   prepare(DistMeshRule{}); // the quickest one; its moves are not made
   discard();
   state_.points().release_leads();
+  all_awake_ = true; // nothing is known of next places
+  std::fill(copied_.begin(), copied_.end(), 0);
   for (LocalIndex i = 0; i < state_.points().owned(); ++i)
     if (classes_[at(i)] != SiteClass::held)
       state_.stars().set_certain(i, true);

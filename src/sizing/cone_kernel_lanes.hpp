@@ -59,9 +59,11 @@ public:
       const V at[4] = {load(source[0] + k), load(source[1] + k), load(source[2] + k), load(source[3] + k)};
       const V height = load(source[7] + k);
       M covered = lane_numbers() + k >= from.count;
+      M spared{}; // two that are alike must not cover each other: a winner is covered by those before it alone
       for (int w = 0; w < winner_count; ++w) {
         const V higher = winners[w].height - height, margin = lanes::select(higher < V{}, higher, V{});
-        covered |= is_below(winners[w], at, margin) & (lane_numbers() + k != winners[w].cone);
+        spared |= lane_numbers() + k == winners[w].cone;
+        covered |= is_below(winners[w], at, margin) & ~spared;
       }
       for (unsigned kept = ~lanes::bits(covered) & ((1u << n) - 1); kept != 0; kept &= kept - 1) {
         const std::int64_t cone = k + __builtin_ctz(kept);

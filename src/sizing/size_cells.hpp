@@ -128,7 +128,7 @@ public:
   };
   CellBuilder(const SizeSource& source, const CellGrid& grid, const Limits& limits)
       : source_(source), grid_(grid), limits_(limits), kernel_(cone_kernel(simd_level())),
-        levels_(static_cast<std::size_t>(limits.most_levels) + top) {}
+        levels_(static_cast<std::size_t>(limits.most_levels) + top + 1) {}
 
   /// The blocks of the cell, of level <= 0. Those in columns and rows from `columns` and `rows` on are left out.
   CellPart build(const CellPlace& place, std::int64_t columns, std::int64_t rows);
