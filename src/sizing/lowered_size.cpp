@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/sizing/lowered_size.hpp"
 
-#include "sizing/cone_tree.hpp"
+#include "sizing/cone_cells.hpp"
 
 namespace trime::sizing {
 namespace {
@@ -21,8 +21,8 @@ std::vector<Cone> cones_of(const std::vector<SizeLimit>& limits, const geometry:
 
 LoweredSize::LoweredSize(const SizeField& field, const std::vector<SizeLimit>& limits, double gradation,
                          const geometry::Periods& periods)
-    : field_(field), periods_(periods), cones_(std::make_unique<const ConeTree>(cones_of(limits, periods), gradation)) {
-}
+    : field_(field), periods_(periods), cones_(std::make_unique<const ConeTree>(cones_of(limits, periods), gradation)),
+      cells_(std::make_unique<const ConeCells>(*cones_, gradation)) {}
 
 LoweredSize::~LoweredSize() = default;
 
@@ -32,7 +32,7 @@ double LoweredSize::size(geometry::Vec2 p) const {
 }
 
 double LoweredSize::lowered(geometry::Vec2 p, double field_size) const {
-  return cones_->value(periods_.wrap(p), field_size);
+  return cells_->value(periods_.wrap(p), field_size);
 }
 
 } // namespace trime::sizing

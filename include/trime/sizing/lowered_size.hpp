@@ -16,6 +16,7 @@ struct SizeLimit {
   double size;
 };
 
+class ConeCells;
 class ConeTree;
 
 /// @brief min(field(x), min over limits k of size_k + gradation |x - place_k|), nearest images in a periodic container.
@@ -25,7 +26,7 @@ public:
   LoweredSize(const SizeField& field, const std::vector<SizeLimit>& limits, double gradation,
               const geometry::Periods& periods);
   ~LoweredSize() override;
-  /// O(log n) near a few limits. What is no valid size comes through as it is.
+  /// O(1) near a few limits. What is no valid size comes through as it is.
   double size(geometry::Vec2 p) const override;
   /// The same where the field is known to have a valid value.
   double lowered(geometry::Vec2 p, double field_size) const;
@@ -35,6 +36,7 @@ private:
   const SizeField& field_;
   geometry::Periods periods_;
   std::unique_ptr<const ConeTree> cones_;
+  std::unique_ptr<const ConeCells> cells_;
 };
 
 } // namespace trime::sizing
