@@ -83,44 +83,83 @@ DensityTotals integrate_density(const comm::Communicator& comm, const TileRange&
   return totals;
 }
 
+class HilbertStart::Implementation {
+public:
+  Implementation(const comm::Communicator& comm, const TileRange& tiles, const BoundaryGuard& guard,
+                 const sizing::SizeField& size, const geometry::Lattice& lattice, double expected, double coarsening)
+      : comm_(comm), tiles_(tiles), lattice_(lattice),
+        sampler_(tiles_.grid, guard, size, lattice_, coarsening), parts_{tiles_, sampler_} {
+    constexpr double few = 1 << 15; // sites whose cells are kept, about half a KiB each
+    if (expected <= few)
+      kept_.resize(static_cast<std::size_t>(parts_.count()));
+    before_ = weights_before(comm, parts_, kept_);
+    total_ = comm.sum(before_.back());
+    first_ = comm.exclusive_scan(before_.back());
+  }
+
+  double wanted() const { return static_cast<double>(total_) / DensitySampler::weight_unit; }
+
+  std::vector<mesh::Site> sites(std::int64_t n, std::uint64_t seed) const {
+    if (total_ == 0 || n <= 0)
+      return {};
+    // Site j sits where the running weight passes (2j + 1) total / (2n).
+    const auto sites_before = [&](std::int64_t weight) {
+      return std::min(n, static_cast<std::int64_t>((Int128{2} * weight * n + total_ - 1) / (Int128{2} * total_)));
+    };
+    const std::int64_t first_site = sites_before(first_);
+    std::vector<mesh::Site> all(static_cast<std::size_t>(sites_before(first_ + before_.back()) - first_site));
+    agreed_loop(comm_, std::ssize(before_) - 1, [&](std::ptrdiff_t part) {
+      const LocalIndex tile = parts_.tile(part);
+      std::int64_t running = first_ + before_[static_cast<std::size_t>(part)], j = sites_before(running);
+      const auto visit = [&](const DensitySampler::Cell& cell) {
+        const std::uint64_t stream = mix_bits(static_cast<std::uint64_t>(tile) * 64 + cell.level) + cell.key;
+        running += cell.weight;
+        for (std::uint64_t slot = 0; j < n && (Int128{2} * j + 1) * total_ < Int128{2} * running * n; ++j, slot += 2) {
+          const Vec2 p{
+              cell.box.min.x + random_unit(seed, RandomPurpose::site_position, stream, slot) * cell.box.width(),
+              cell.box.min.y + random_unit(seed, RandomPurpose::site_position, stream, slot + 1) * cell.box.height()};
+          all[static_cast<std::size_t>(j - first_site)].position = lattice_.snap(p);
+        }
+      };
+      if (kept_.empty())
+        parts_.for_each_cell(part, visit);
+      else
+        for (const DensitySampler::Cell& cell : kept_[static_cast<std::size_t>(part)])
+          visit(cell);
+    });
+    return all;
+  }
+
+private:
+  const comm::Communicator& comm_;
+  TileRange tiles_;
+  const geometry::Lattice& lattice_;
+  DensitySampler sampler_;
+  Parts parts_;
+  std::vector<std::vector<DensitySampler::Cell>> kept_; // of each part; empty if they are not kept
+  std::vector<std::int64_t> before_;                    // weights of the parts of this rank before each; all of them
+  std::int64_t total_ = 0, first_ = 0;                  // weights over all ranks; before this rank
+};
+
+HilbertStart::HilbertStart(const comm::Communicator& comm, const TileRange& tiles, const BoundaryGuard& guard,
+                           const sizing::SizeField& size, const geometry::Lattice& lattice, double expected,
+                           double coarsening)
+    : implementation_(std::make_unique<const Implementation>(comm, tiles, guard, size, lattice, expected, coarsening)) {
+}
+HilbertStart::~HilbertStart() = default;
+
+double HilbertStart::wanted() const {
+  return implementation_->wanted();
+}
+
+std::vector<mesh::Site> HilbertStart::sites(std::int64_t n, std::uint64_t seed) const {
+  return implementation_->sites(n, seed);
+}
+
 std::vector<mesh::Site> hilbert_start(const comm::Communicator& comm, const TileRange& tiles,
                                       const BoundaryGuard& guard, const sizing::SizeField& size,
                                       const geometry::Lattice& lattice, std::int64_t n, std::uint64_t seed) {
-  constexpr std::int64_t few = 1 << 15; // sites whose cells are kept, about half a KiB each
-  const DensitySampler sampler(tiles.grid, guard, size, lattice);
-  const Parts parts{tiles, sampler};
-  std::vector<std::vector<DensitySampler::Cell>> kept(n <= few ? static_cast<std::size_t>(parts.count()) : 0);
-  const std::vector<std::int64_t> before = weights_before(comm, parts, kept);
-  const std::int64_t total = comm.sum(before.back()), first = comm.exclusive_scan(before.back());
-  if (total == 0 || n <= 0)
-    return {};
-
-  // Site j sits where the running weight passes (2j + 1) total / (2n).
-  const auto sites_before = [&](std::int64_t weight) {
-    return std::min(n, static_cast<std::int64_t>((Int128{2} * weight * n + total - 1) / (Int128{2} * total)));
-  };
-  const std::int64_t first_site = sites_before(first);
-  std::vector<mesh::Site> all(static_cast<std::size_t>(sites_before(first + before.back()) - first_site));
-  agreed_loop(comm, std::ssize(before) - 1, [&](std::ptrdiff_t part) {
-    const LocalIndex tile = parts.tile(part);
-    std::int64_t running = first + before[static_cast<std::size_t>(part)], j = sites_before(running);
-    const auto visit = [&](const DensitySampler::Cell& cell) {
-      const std::uint64_t stream = mix_bits(static_cast<std::uint64_t>(tile) * 64 + cell.level) + cell.key;
-      running += cell.weight;
-      for (std::uint64_t slot = 0; j < n && (Int128{2} * j + 1) * total < Int128{2} * running * n; ++j, slot += 2) {
-        const Vec2 p{cell.box.min.x + random_unit(seed, RandomPurpose::site_position, stream, slot) * cell.box.width(),
-                     cell.box.min.y +
-                         random_unit(seed, RandomPurpose::site_position, stream, slot + 1) * cell.box.height()};
-        all[static_cast<std::size_t>(j - first_site)].position = lattice.snap(p);
-      }
-    };
-    if (kept.empty())
-      parts.for_each_cell(part, visit);
-    else
-      for (const DensitySampler::Cell& cell : kept[static_cast<std::size_t>(part)])
-        visit(cell);
-  });
-  return all;
+  return HilbertStart(comm, tiles, guard, size, lattice, static_cast<double>(n)).sites(n, seed);
 }
 
 } // namespace trime::meshing

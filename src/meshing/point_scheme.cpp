@@ -98,7 +98,8 @@ Layout PointScheme::first_of_insertion() {
     reason_ += fmt::format("; the first share was raised to {:.3g}, since the boundary alone takes half of it",
                            points_now_ / expected_points());
   }
-  place_along_curve(layout, points_now_ - static_cast<double>(layout.placed_first()));
+  const double inner = points_now_ - static_cast<double>(layout.placed_first());
+  place_along_curve(layout, inner, *along_curve(layout, inner, 1));
   return layout;
 }
 
@@ -106,18 +107,22 @@ Layout PointScheme::first_of_insertion() {
 /// many sites inside as on the boundary: a boundary full of corners does not become coarser with the size.
 Layout PointScheme::first_of_divisions() {
   constexpr double coarse_integral = 4; // errs by a few thousandths
+  constexpr double coarse_start = 2;    // of the cells for a mesh that is relaxed and divided: no worse than 1
   DensityFit fit = fit_density(context_, expected_points(),
                                last_stage_ == 0 ? 1 : std::fmax(coarse_integral, std::ldexp(1.0, last_stage_)));
   shortage_ = std::move(fit.shortage);
   const double points = fit.inner + static_cast<double>(fit.layout.placed_first());
   Layout layout;
+  std::unique_ptr<const HilbertStart> start;
   double inner = 0;
   const double on_boundary = static_cast<double>(fit.layout.boundary.sites.size());
   while (last_stage_ > 0 && std::ldexp(fit.inner, -2 * last_stage_) < std::ldexp(on_boundary, -last_stage_))
     --last_stage_; // the share of the strip and of corners only grows
   for (;; --last_stage_) {
-    layout = lay_coarsened(fit.layout, std::ldexp(points, -2 * last_stage_));
-    inner = wanted_inside(context_, layout, 2).sites;
+    const double expected = std::ldexp(points, -2 * last_stage_);
+    layout = lay_coarsened(fit.layout, expected);
+    start = along_curve(layout, expected, last_stage_ > 0 ? coarse_start : 1);
+    inner = start->wanted();
     if (last_stage_ == 0 || inner >= static_cast<double>(layout.placed_first()))
       break;
   }
@@ -131,7 +136,7 @@ Layout PointScheme::first_of_divisions() {
   if (last_stage_ == 0 && options_.points && shortage_.empty())
     inner = expected_points() - static_cast<double>(layout.placed_first());
   fitted_ = std::move(fit.layout);
-  place_along_curve(layout, inner);
+  place_along_curve(layout, inner, *start);
   return layout;
 }
 
@@ -143,19 +148,23 @@ Layout PointScheme::lay_coarsened(Layout& fitted, double expected) {
   return lay_stage(context_, fitted.fitted, coarsening, expected);
 }
 
-void PointScheme::place_along_curve(Layout& layout, double inner) const {
+std::unique_ptr<const HilbertStart> PointScheme::along_curve(const Layout& layout, double expected,
+                                                             double coarsening) const {
+  const auto time = context_.timers.scope("start");
+  return std::make_unique<const HilbertStart>(context_.comm, even_share(layout, context_.comm), *layout.guard,
+                                              *layout.size, context_.lattice, expected, coarsening);
+}
+
+void PointScheme::place_along_curve(Layout& layout, double inner, const HilbertStart& start) const {
   const auto time = context_.timers.scope("start");
   const auto wanted = std::max<std::int64_t>(0, std::llround(inner));
-  const auto sites = [&](std::int64_t n) {
-    return hilbert_start(context_.comm, even_share(layout, context_.comm), *layout.guard, *layout.size,
-                         context_.lattice, n, options_.seed);
-  };
-  std::vector<mesh::Site> placed = sites(wanted);
+  std::vector<mesh::Site> placed = start.sites(wanted, options_.seed);
   if (!context_.fixed.inside().empty()) { // those too near to a fixed point will go: so many more are placed
     const std::int64_t clear = context_.comm.sum(context_.fixed.count_clear(placed, *layout.size));
     if (clear > 0 && clear < wanted) {
-      placed = sites(std::llround(static_cast<double>(wanted) *
-                                  std::fmin(4, static_cast<double>(wanted) / static_cast<double>(clear))));
+      placed = start.sites(std::llround(static_cast<double>(wanted) *
+                                        std::fmin(4, static_cast<double>(wanted) / static_cast<double>(clear))),
+                           options_.seed);
       std::erase_if(placed, [&](const mesh::Site& site) {
         return context_.fixed.count_clear(std::span(&site, 1), *layout.size) == 0;
       });

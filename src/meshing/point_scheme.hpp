@@ -5,6 +5,7 @@
 #include "meshing/extraction.hpp"
 #include "meshing/layout.hpp"
 
+#include <memory>
 #include <string>
 
 namespace trime::meshing {
@@ -43,7 +44,8 @@ private:
   Layout first_of_insertion();
   Layout first_of_divisions();
   Layout lay_coarsened(Layout& fitted, double expected);
-  void place_along_curve(Layout& layout, double inner) const;
+  std::unique_ptr<const HilbertStart> along_curve(const Layout& layout, double expected, double coarsening) const;
+  void place_along_curve(Layout& layout, double inner, const HilbertStart& start) const;
   /// The next stages after `previous`.
   Layout divide(const Layout& previous);
   Layout insert(const Layout& previous);

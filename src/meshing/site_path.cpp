@@ -123,16 +123,19 @@ private:
     const bool neighbours = to == from + 1;
     if (!(length > 0) || (!neighbours && (length > longest_chord * h || length < 0.25 * h)))
       return;
-    const double tolerance = std::fmin(a.tolerance, b.tolerance);
-    double deviation = 0;
+    const double tolerance = std::min(a.tolerance, b.tolerance);
+    const double far = tolerance * length * (1 + 1e-9); // beyond it there is no need to divide
+    double most = 0;
     for (std::size_t k = from + 1; k < to; ++k) {
       const Vec2 p = places_[k].position;
-      if (geometry::dot(a.position - p, b.position - p) > 0)
+      const double off = std::fabs(geometry::cross(along, p - a.position));
+      if (geometry::dot(a.position - p, b.position - p) > 0 || off > far)
         return;
-      deviation = std::fmax(deviation, std::fabs(geometry::cross(along, p - a.position)) / length);
-      if (deviation > tolerance)
-        return;
+      most = std::max(most, off);
     }
+    const double deviation = most / length;
+    if (deviation > tolerance)
+      return;
     const double relative = deviation / h;
     chords_.push_back({static_cast<LocalIndex>(from), static_cast<LocalIndex>(to), along, length,
                        length_weight * mismatch(length / h) + deviation_weight * relative * relative});
@@ -141,7 +144,7 @@ private:
   double joint_cost(const Chord& in, const Chord& out) const {
     // From the way out to the way back, on the left.
     const double dot = -geometry::dot(out.along, in.along), cross = -geometry::cross(out.along, in.along);
-    const double shorter = std::fmin(in.length, out.length);
+    const double shorter = std::min(in.length, out.length);
     const bool encroaches = dot > shorter * shorter;
     return fan_costs_(dot, cross) + ratio_weight * mismatch(in.length / out.length) + (encroaches ? encroachment : 0);
   }

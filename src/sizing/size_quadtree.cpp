@@ -73,6 +73,40 @@ double SizeQuadtree::highest_corner(const Source& source) const {
 
 /// The same arrays on any number of ranks: groups one after the other.
 void SizeQuadtree::assemble(const comm::Communicator& comm, std::vector<CellPart> mine) {
+  const std::vector<CellPart> parts = comm.size() == 1 ? std::move(mine) : gather_parts(comm, std::move(mine));
+  std::size_t child_count = 0, number_count = 0;
+  for (const CellPart& part : parts) {
+    child_count += part.children.size();
+    number_count += part.numbers.size();
+  }
+  if (number_count >= CellLeaf::most_numbers)
+    throw InternalError(
+        fmt::format("the size field needs {} numbers; {} are possible", number_count, CellLeaf::most_numbers));
+  const std::size_t along = std::size_t{1} << -group_level;
+  roots_.resize(nx_ * ny_);
+  children_.reserve(child_count);
+  numbers_.reserve(number_count);
+  for (std::size_t group = 0; group < parts.size(); ++group) {
+    const CellPart& part = parts[group];
+    const std::size_t child = children_.size(), number = numbers_.size();
+    const std::size_t i = along * (group % groups_x_), j = along * (group / groups_x_);
+    const std::size_t columns = std::min(along, nx_ - i);
+    for (std::size_t k = 0; k < part.roots.size(); ++k)
+      roots_[(j + k / columns) * nx_ + i + k % columns] = moved(part.roots[k], child, number);
+    for (const CellChildren& children : part.children) {
+      children_.push_back(children);
+      for (CellNode& node : children_.back())
+        node = moved(node, child, number);
+    }
+    numbers_.insert(numbers_.end(), part.numbers.begin(), part.numbers.end());
+    leaf_count_ += static_cast<std::size_t>(part.leaves);
+    least_ = std::min(least_, part.least);
+    largest_ = std::max(largest_, part.largest);
+  }
+}
+
+/// Those of all ranks, by group, on every rank. Collective.
+std::vector<CellPart> SizeQuadtree::gather_parts(const comm::Communicator& comm, std::vector<CellPart> mine) const {
   struct Summary {
     std::size_t roots, children, numbers;
     std::int64_t leaves;
@@ -93,45 +127,28 @@ void SizeQuadtree::assemble(const comm::Communicator& comm, std::vector<CellPart
   joined.roots = gather_everywhere(comm, std::move(joined.roots));
   joined.children = gather_everywhere(comm, std::move(joined.children));
   joined.numbers = gather_everywhere(comm, std::move(joined.numbers));
-  if (joined.numbers.size() >= CellLeaf::most_numbers)
-    throw InternalError(
-        fmt::format("the size field needs {} numbers; {} are possible", joined.numbers.size(), CellLeaf::most_numbers));
-  struct Start {
-    const Summary* summary;
-    std::size_t root, child, number;
+  auto summary = summaries.begin();
+  auto root = joined.roots.begin();
+  auto child = joined.children.begin();
+  auto number = joined.numbers.begin();
+  const auto take = [](auto& to, auto& from, std::size_t count) {
+    const auto end = from + static_cast<std::ptrdiff_t>(count);
+    to.assign(from, end);
+    from = end;
   };
-  const std::size_t groups = groups_x_ * groups_y_;
-  std::vector<Start> starts(groups);
-  Start next{summaries.data(), 0, 0, 0};
+  std::vector<CellPart> parts(groups_x_ * groups_y_);
   for (std::size_t rank = 0; rank < static_cast<std::size_t>(comm.size()); ++rank)
-    for (std::size_t group = rank; group < groups; group += static_cast<std::size_t>(comm.size())) {
-      starts[group] = next;
-      next = {next.summary + 1, next.root + next.summary->roots, next.child + next.summary->children,
-              next.number + next.summary->numbers};
+    for (std::size_t group = rank; group < parts.size(); group += static_cast<std::size_t>(comm.size())) {
+      CellPart& part = parts[group];
+      take(part.roots, root, summary->roots);
+      take(part.children, child, summary->children);
+      take(part.numbers, number, summary->numbers);
+      part.leaves = summary->leaves;
+      part.least = summary->least;
+      part.largest = summary->largest;
+      ++summary;
     }
-  const std::size_t along = std::size_t{1} << -group_level;
-  roots_.resize(nx_ * ny_);
-  children_.reserve(joined.children.size());
-  numbers_.reserve(joined.numbers.size());
-  for (std::size_t group = 0; group < groups; ++group) {
-    const Start& start = starts[group];
-    const Summary& summary = *start.summary;
-    const std::size_t child = children_.size(), number = numbers_.size();
-    const std::size_t i = along * (group % groups_x_), j = along * (group / groups_x_);
-    const std::size_t columns = std::min(along, nx_ - i);
-    for (std::size_t k = 0; k < summary.roots; ++k)
-      roots_[(j + k / columns) * nx_ + i + k % columns] = moved(joined.roots[start.root + k], child, number);
-    for (std::size_t k = 0; k < summary.children; ++k) {
-      children_.push_back(joined.children[start.child + k]);
-      for (CellNode& node : children_.back())
-        node = moved(node, child, number);
-    }
-    const auto from = joined.numbers.begin() + static_cast<std::ptrdiff_t>(start.number);
-    numbers_.insert(numbers_.end(), from, from + static_cast<std::ptrdiff_t>(summary.numbers));
-    leaf_count_ += static_cast<std::size_t>(summary.leaves);
-    least_ = std::min(least_, summary.least);
-    largest_ = std::max(largest_, summary.largest);
-  }
+  return parts;
 }
 
 double SizeQuadtree::value(Vec2 p) const {

@@ -44,6 +44,7 @@ private:
   /// The blocks of a cell of this level are built together.
   static constexpr int group_level = -2;
   void assemble(const comm::Communicator& comm, std::vector<CellPart> mine);
+  std::vector<CellPart> gather_parts(const comm::Communicator& comm, std::vector<CellPart> mine) const;
   CellPlace group_place(std::size_t group) const;
   double highest_corner(const Source& source) const;
   double cones_value(CellLeaf leaf, geometry::Vec2 p) const {
