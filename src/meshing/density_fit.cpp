@@ -60,7 +60,9 @@ double smallest_sampled(const LayoutContext& context) {
 class DensitySolver {
 public:
   DensitySolver(const LayoutContext& context, double points, double coarsening)
-      : context_(context), points_(points), coarsening_(coarsening), search_((1 - 0.4 * close_enough) * points) {}
+      : context_(context), points_(points), coarsening_(coarsening),
+        rough_(coarsening < reference_coarsening ? coarsening : 2 * coarsening),
+        search_((1 - 0.4 * close_enough) * points) {}
 
   DensityFit solve() {
     const geometry::Boundary& boundary = context_.boundary;
@@ -105,12 +107,12 @@ private:
     return !more.empty();
   }
 
-  Trial counted(Layout layout) const {
+  Trial counted(Layout layout, double coarsening) const {
     Trial trial;
     trial.fit.layout = std::move(layout);
-    complete(context_, trial.fit.layout, coarsening_);
+    complete(context_, trial.fit.layout, coarsening);
     if (!trial.fit.layout.boundary.overfull) {
-      trial.totals = wanted_inside(context_, trial.fit.layout, coarsening_);
+      trial.totals = wanted_inside(context_, trial.fit.layout, coarsening);
       trial.fit.inner = std::floor(trial.totals.sites);
     }
     trial.points = trial.fit.inner + static_cast<double>(trial.fit.layout.placed_first());
@@ -121,14 +123,14 @@ private:
     Layout layout = lay(factor);
     while (find_limits(layout))
       layout = lay(factor);
-    return counted(std::move(layout));
+    return counted(std::move(layout), coarsening_);
   }
 
   /// @brief A factor not far from the result, without layouts. From above: large factors make few
   /// points, so no round costs more than the last.
   double estimated_factor(double uniform, double factor) {
     const CountEstimate estimate(context_, points_, reference_spacing * uniform,
-                                 std::fmax(coarsening_, reference_coarsening));
+                                 std::fmax(rough_, reference_coarsening));
     search_.expect(-2);
     for (int round = 0; round < estimate_rounds; ++round) {
       const std::optional<double> points = estimate.points(factor);
@@ -179,7 +181,7 @@ private:
       Layout layout = lay(factor);
       const bool first = limit_rounds_ == 0;
       if (!find_limits(layout))
-        return {factor, counted(std::move(layout))};
+        return {factor, counted(std::move(layout), coarsening_)};
       if (first) {
         crowded =
             static_cast<double>(limits_.size()) > crowded_share * static_cast<double>(layout.boundary.sites.size());
@@ -187,7 +189,7 @@ private:
       }
       const double growth = crowded ? growth_to_come[limit_rounds_] : 1;
       search_.expect(crowded ? crowded_power : -2); // trials with other limits tell nothing
-      factor = search_.next(factor, growth * counted(std::move(layout)).points);
+      factor = search_.next(factor, growth * counted(std::move(layout), rough_).points);
     }
     return {factor, std::nullopt};
   }
@@ -269,6 +271,7 @@ private:
 
   const LayoutContext& context_;
   double points_, coarsening_;
+  double rough_; // coarsening on the way to a factor: of so many points twice as wide cells err by less than 1 % too
   FactorSearch search_;
   std::vector<sizing::SizeLimit> limits_; // found so far
   double limits_factor_ = 0;              // for which the search for them began

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <span>
 
 namespace trime::sizing {
 
@@ -23,6 +24,14 @@ constexpr double small = 2;        // side of a cell that is not split, over the
 constexpr double margin = 0.1;     // around the apexes, of the longer side of their box
 constexpr double rounding = 1e-12; // of the extent and of values
 constexpr double half_diagonal = 0.70710678118654757; // of a unit square
+
+/// The last one stands twice if their number is odd.
+void append_pairs(std::span<const Cone> cones, std::vector<double>& numbers) {
+  for (std::size_t k = 0; k < cones.size(); k += 2) {
+    const Cone &a = cones[k], &b = cones[std::min(k + 1, cones.size() - 1)];
+    numbers.insert(numbers.end(), {a.apex.x, b.apex.x, a.apex.y, b.apex.y, a.height, b.height});
+  }
+}
 
 } // namespace
 
@@ -148,6 +157,11 @@ ConeCells::ConeCells(const ConeTree& tree, double slope) : tree_(tree), slope_(s
   const std::size_t count = tree.cones().size();
   if (count == 0 || count > most_cones)
     return;
+  if (count <= few_cones) {
+    few_ = true;
+    append_pairs(tree.cones(), numbers_);
+    return;
+  }
   Box box;
   for (const Cone& cone : tree.cones())
     box.include(cone.apex);

@@ -19,6 +19,9 @@ public:
   /// Of more cones no cells are made: they take about one KiB for each.
   static constexpr std::size_t most_cones = std::size_t{1} << 15;
 
+  /// So few cones need no cells.
+  static constexpr std::size_t few_cones = 8;
+
   /// O(n log n), over threads. @pre `tree` outlives this object
   ConeCells(const ConeTree& tree, double slope);
 
@@ -26,7 +29,8 @@ public:
   double value(geometry::Vec2 p, double bound) const {
     const double x = (p.x - grid_.origin.x) * inverse_side_, y = (p.y - grid_.origin.y) * inverse_side_;
     if (!(x >= 0 && y >= 0 && x < columns_ && y < rows_))
-      return tree_.value(p, bound);
+      return few_ ? lowest_cone(numbers_.data(), numbers_.size() / ConePair::numbers, p, slope_, bound)
+                  : tree_.value(p, bound);
     const auto column = static_cast<std::uint32_t>(x * finest), row = static_cast<std::uint32_t>(y * finest);
     int shift = most_levels;
     CellNode node = roots_[(row >> shift) * static_cast<std::uint32_t>(columns_) + (column >> shift)];
@@ -57,6 +61,7 @@ private:
   CellGrid grid_{};
   double inverse_side_ = 1; ///< of a block
   int columns_ = 0, rows_ = 0;
+  bool few_ = false;            ///< all cones are looked at, everywhere
   std::vector<CellNode> roots_; ///< of the blocks, row by row
   std::vector<Quarters> quarters_;
   std::vector<double> numbers_; ///< of the leaves: pairs of cones
