@@ -129,6 +129,7 @@ private:
   /// @brief A factor not far from the result, without layouts. From above: large factors make few
   /// points, so no round costs more than the last.
   double estimated_factor(double uniform, double factor) {
+    const auto time = context_.timers.scope("start");
     const CountEstimate estimate(context_, points_, reference_spacing * uniform,
                                  std::fmax(rough_, reference_coarsening));
     search_.expect(-2);
