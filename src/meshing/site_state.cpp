@@ -74,12 +74,9 @@ void SiteState::distribute(std::vector<mesh::Site> sites) {
 /// Each owner finds what suits its tiles; then all know.
 void SiteState::choose_bins(std::span<const mesh::Site> sites) {
   const LocalIndex first = partition_.first_tile(comm_.rank()), last = partition_.last_tile(comm_.rank());
-  points_.assign_owned(sites, first, last);
+  const std::vector<std::uint8_t> own = points_.suitable_bin_bits(sites, first, last);
   std::vector<std::int64_t> bits(static_cast<std::size_t>(grid_.tile_count()), 0);
-  thread_loop(last - first, 1, [&](std::ptrdiff_t t, int) {
-    const LocalIndex tile = first + static_cast<LocalIndex>(t);
-    bits[static_cast<std::size_t>(tile)] = points_.suitable_bin_bits(tile);
-  });
+  std::copy(own.begin(), own.end(), bits.begin() + first);
   comm_.sum(bits);
   grid_.set_bin_bits({bits.begin(), bits.end()});
 }
