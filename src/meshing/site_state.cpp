@@ -221,9 +221,13 @@ void SiteState::evaluate_sizes(const sizing::SizeField& size, LocalIndex end) {
 delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size,
                                             Wanted wanted) {
   wanted_.clear();
-  if (wanted == Wanted::inner_sites)
-    for (LocalIndex i = 0; i < points_.owned(); ++i)
-      wanted_.push_back(points_.boundary(i) < 0 ? delaunay::StarWish::compute : delaunay::StarWish::none);
+  if (wanted == Wanted::inner_sites) {
+    wanted_.resize(static_cast<std::size_t>(points_.owned()));
+    thread_loop(points_.owned(), 4096, [&](std::ptrdiff_t i, int) {
+      wanted_[static_cast<std::size_t>(i)] =
+          points_.boundary(static_cast<LocalIndex>(i)) < 0 ? delaunay::StarWish::compute : delaunay::StarWish::none;
+    });
+  }
   return compute_stars(builder, size, wanted_);
 }
 
