@@ -15,8 +15,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <system_error>
-#include <thread>
 
 namespace trime::io {
 namespace {
@@ -43,32 +41,6 @@ std::string directory_of(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
 }
-
-/// @brief Keeps a large file in being while another takes its name, and lets go of it beside what follows: the system
-/// takes a third of a second to free a GB.
-class ReplacedFile {
-public:
-  explicit ReplacedFile(const std::string& path) {
-    struct stat status {};
-    if (lstat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && status.st_size >= large)
-      descriptor_ = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  }
-  ~ReplacedFile() {
-    if (descriptor_ < 0)
-      return;
-    try {
-      std::thread([descriptor = descriptor_] { ::close(descriptor); }).detach();
-    } catch (const std::system_error&) { // no thread to be had
-      ::close(descriptor_);
-    }
-  }
-  ReplacedFile(const ReplacedFile&) = delete;
-  ReplacedFile& operator=(const ReplacedFile&) = delete;
-
-private:
-  static constexpr off_t large = off_t{1} << 20;
-  int descriptor_ = -1;
-};
 
 } // namespace
 
@@ -99,7 +71,6 @@ void TemporaryFile::rename_to(const std::string& final_path) {
   if (stat(path_.c_str(), &status) == 0 && truncate(path_.c_str(), status.st_size) != 0)
     throw FileError(fmt::format("cannot write {}: {}", path_, system_error()));
   synchronise(path_, O_RDWR);
-  const ReplacedFile replaced(final_path);
   if (std::rename(path_.c_str(), final_path.c_str()) != 0)
     throw FileError(fmt::format("cannot rename {} to {}: {}", path_, final_path, system_error()));
   published_ = true;
