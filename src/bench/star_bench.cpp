@@ -21,11 +21,7 @@ struct Stage {
     sites = state.range(1) == relaxed      ? jittered_lattice(n, 0.15)
             : state.range(1) == random_set ? random_points(n)
                                            : graded_points(n);
-    points.assign_owned(sites, 0, grid.tile_count());
-    std::vector<std::uint8_t> bits;
-    for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile)
-      bits.push_back(static_cast<std::uint8_t>(points.suitable_bin_bits(tile)));
-    grid.set_bin_bits(bits);
+    grid.set_bin_bits(points.suitable_bin_bits(sites, 0, grid.tile_count()));
     points.assign_owned(sites, 0, grid.tile_count());
     factor = state.range(1) == graded_set ? graded_factor(n) : 0;
     find_sizes();

@@ -22,12 +22,9 @@ struct Stage {
   explicit Stage(const benchmark::State& state)
       : n(state.range(0)), grid(unit_square, {{}, {}, spacing_of(n)}), points(grid), lattice(unit_square),
         sizes(spacing_of(n)) {
-    points.assign_owned(jittered_lattice(n, 0.15), 0, grid.tile_count());
-    std::vector<std::uint8_t> bits;
-    for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile)
-      bits.push_back(static_cast<std::uint8_t>(points.suitable_bin_bits(tile)));
-    grid.set_bin_bits(bits);
-    points.assign_owned(jittered_lattice(n, 0.15), 0, grid.tile_count());
+    const std::vector<mesh::Site> sites = jittered_lattice(n, 0.15);
+    grid.set_bin_bits(points.suitable_bin_bits(sites, 0, grid.tile_count()));
+    points.assign_owned(sites, 0, grid.tile_count());
     stars.reset(points.owned());
     std::vector<mesh::BinRef> missing;
     delaunay::StarBuilder(lattice, 2.5, 1).update(points, stars, sizes, {}, missing);

@@ -18,7 +18,7 @@ public:
   explicit TileOrder(const mesh::BinnedPoints& points) : points_(points), grid_(points.grid()) {}
 
   /// Fills order[begin, end) of the sites of a tile.
-  void sort(LocalIndex tile, std::vector<LocalIndex>& order) {
+  void sort(LocalIndex tile, std::span<LocalIndex> order) {
     const int bits = grid_.bin_bits(tile);
     LocalIndex next = points_.tile_range(tile).begin;
     list_bins(tile, bits);
@@ -61,7 +61,7 @@ private:
 };
 
 /// Vertices of the ghosts: our own where they are images of owned points.
-void number_ghosts(const std::vector<GlobalId>& ids, Numbering& numbering) {
+void number_ghosts(std::span<const GlobalId> ids, Numbering& numbering) {
   const GlobalId end = numbering.first + numbering.owned();
   for (const GlobalId id : ids)
     if (id < numbering.first || id >= end)
@@ -88,7 +88,7 @@ Numbering canonical_numbering(const comm::Communicator& comm, const mesh::Binned
   result.order.resize(owned);
   result.site_vertex.reserve(at(points.size()));
   result.site_vertex.resize(owned);
-  std::vector<GlobalId> ids(owned);
+  UnsetVector<GlobalId> ids(owned);
   std::vector<TileOrder> of_thread(static_cast<std::size_t>(std::max(1, thread_count())), TileOrder(points));
   thread_loop(points.last_tile() - points.first_tile(), 1, [&](std::ptrdiff_t t, int thread) {
     const LocalIndex tile = points.first_tile() + static_cast<LocalIndex>(t);

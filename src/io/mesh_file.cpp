@@ -47,8 +47,9 @@ T* values_of(std::byte* out) {
 }
 
 /// An array whose rows are Row values in memory, each made of `columns` (0: one) values of type T.
-template <class T, class Row>
-SlabArray stored(const std::string& path, const mesh::Slab& slab, hsize_t columns, const std::vector<Row>& rows) {
+template <class T, class Row, class Allocator>
+SlabArray stored(const std::string& path, const mesh::Slab& slab, hsize_t columns,
+                 const std::vector<Row, Allocator>& rows) {
   static_assert(std::is_trivially_copyable_v<Row> && sizeof(Row) % sizeof(T) == 0);
   const auto fill = [&rows](std::int64_t first, std::int64_t count, std::byte* out) {
     std::memcpy(out, rows.data() + first, static_cast<std::size_t>(count) * sizeof(Row));

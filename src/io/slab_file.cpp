@@ -15,7 +15,9 @@ namespace trime::io {
 namespace {
 
 /// Rows of one collective write: 1 or 2 MB, which stay in the caches; and of what one thread fills.
+/// All slices of an array lie alike in the pages of the file.
 constexpr std::int64_t slice_rows = std::int64_t{1} << 16, piece_rows = std::int64_t{1} << 12;
+static_assert(slice_rows % 4096 == 0);
 
 std::int64_t pieces_of(std::int64_t rows) {
   return (rows + piece_rows - 1) / piece_rows;
@@ -288,6 +290,15 @@ void SlabFile::slab(SlabArray array) {
   arrays_.push_back(std::move(array));
 }
 
+/// For the longest slice of this rank. HDF5 wants a buffer for no rows, too.
+void SlabFile::make_room(hid_t dataset, const SlabArray& array) {
+  const haddr_t begin = H5Dget_offset(dataset);
+  const std::uint64_t before = static_cast<std::uint64_t>(array.slab.first) * array.row_bytes();
+  const std::int64_t rows = std::clamp<std::int64_t>(array.rows, 1, slice_rows);
+  for (SliceBuffer* buffer : {&slice_, &other_slice_})
+    buffer->resize(static_cast<std::size_t>(rows) * array.row_bytes(), begin == HADDR_UNDEF ? 0 : begin + before);
+}
+
 /// Every rank takes part in every slice, with nothing if it has no rows left. A slice is written while the other
 /// threads make the next.
 void SlabFile::write_slices(hid_t dataset, const SlabArray& array) {
@@ -299,11 +310,9 @@ void SlabFile::write_slices(hid_t dataset, const SlabArray& array) {
   Hdf5Properties together;
   std::string writing;
   agreed([&] {
-    const std::int64_t rows = std::max<std::int64_t>(rows_from(0), 1); // HDF5 wants a buffer for nothing, too
-    slice_.resize(static_cast<std::size_t>(rows) * array.row_bytes());
-    other_slice_.resize(slice_.size());
+    make_room(dataset, array);
     in_file = array_space(static_cast<hsize_t>(array.slab.total), array.columns);
-    in_memory = array_space(static_cast<hsize_t>(rows), array.columns);
+    in_memory = array_space(static_cast<hsize_t>(std::max<std::int64_t>(rows_from(0), 1)), array.columns);
     together = transfer(comm_, true);
     writing = action("write", array.path);
     fill_beside([] {}, array, 0, rows_from(0), slice_.data());
@@ -320,7 +329,7 @@ void SlabFile::write_slices(hid_t dataset, const SlabArray& array) {
       fill_beside(write, array, first + slice_rows, rows_from(first + slice_rows), other_slice_.data());
       checked(written, writing);
     });
-    std::swap(slice_, other_slice_);
+    swap(slice_, other_slice_);
   }
 }
 
@@ -345,8 +354,7 @@ void SlabFile::verify_slices(const SlabArray& array) {
   const Hdf5Dataset dataset(H5Dopen2(file_, array.path.c_str(), H5P_DEFAULT), action("open", array.path));
   const Hdf5Properties alone = transfer(comm_, false);
   const Hdf5Space in_file = array_space(static_cast<hsize_t>(array.slab.total), array.columns);
-  for (UnsetVector<std::byte>* buffer : {&slice_, &other_slice_})
-    buffer->resize(static_cast<std::size_t>(std::min(array.rows, slice_rows)) * array.row_bytes());
+  make_room(dataset, array);
   std::int64_t compared = 0;
   for (std::int64_t first = 0; first < array.rows; first += slice_rows) {
     const std::int64_t count = std::min(array.rows - first, slice_rows);
@@ -356,7 +364,7 @@ void SlabFile::verify_slices(const SlabArray& array) {
     const auto read_slice = [&] { status = H5Dread(dataset, array.type, in_memory, in_file, alone, slice_.data()); };
     compare_beside(read_slice, array, compared, first - compared, other_slice_.data());
     checked(status, action("read back", array.path));
-    std::swap(slice_, other_slice_);
+    swap(slice_, other_slice_);
     compared = first;
   }
   compare_beside([] {}, array, compared, array.rows - compared, other_slice_.data());

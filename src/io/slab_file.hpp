@@ -5,6 +5,7 @@
 #pragma once
 
 #include "io/hdf5_handle.hpp"
+#include "io/slice_buffer.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/core/unset_vector.hpp"
 #include "trime/io/metadata.hpp"
@@ -70,6 +71,7 @@ private:
   void write_attribute(const std::string& object, const std::string& name, const Make& make);
   template <class Make>
   void small_dataset(const std::string& path, const Make& make);
+  void make_room(hid_t dataset, const SlabArray& array);
   void write_slices(hid_t dataset, const SlabArray& array);
   void verify_slices(const SlabArray& array);
   template <class Work>
@@ -81,7 +83,7 @@ private:
   std::string path_;
   Hdf5File file_;
   std::vector<SlabArray> arrays_;
-  UnsetVector<std::byte> slice_, other_slice_;   // the one that is written or was read, and the next
+  SliceBuffer slice_, other_slice_;              // the one that is written or was read, and the next
   std::vector<UnsetVector<std::byte>> expected_; // by thread: what should have been read
 };
 

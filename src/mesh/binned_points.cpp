@@ -12,9 +12,6 @@ namespace {
 
 using geometry::Vec2;
 
-constexpr double most_in_bin = 7; // mean number of sites in the bin of a site: levels then give 1.7 to 7, mostly 3.3
-constexpr int bins_per_site = 4;  // at most, however the sites of a tile are clustered
-
 } // namespace
 
 BinnedPoints::BinnedPoints(const TileGrid& grid)
@@ -124,36 +121,6 @@ BinnedPoints::Range BinnedPoints::bin_range(BinRef bin) const {
     return {0, 0};
   const std::size_t at = blocks_[static_cast<std::size_t>(block)].first_bin + static_cast<std::size_t>(bin.bin);
   return {bin_begin_[at], bin_end_[at]};
-}
-
-int BinnedPoints::suitable_bin_bits(LocalIndex tile) const {
-  const auto [begin, end] = tile_range(tile);
-  const std::int64_t n = end - begin;
-  int bits = 0;
-  while (bits < grid_->most_bin_bits() && std::int64_t{4} << (2 * bits) <= bins_per_site * n)
-    ++bits;
-  std::vector<std::int64_t> count(std::size_t{1} << (2 * bits), 0);
-  for (LocalIndex i = begin; i < end; ++i) {
-    const Vec2 p = position(i);
-    ++count[static_cast<std::size_t>((grid_->bin_of(grid_->fixed_y(p.y), bits) << bits) |
-                                     grid_->bin_of(grid_->fixed_x(p.x), bits))];
-  }
-  int suitable = bits; // the smallest that will do, coming from the largest
-  for (; bits >= 0; --bits) {
-    std::int64_t pairs = 0;
-    for (const std::int64_t c : count)
-      pairs += c * c;
-    if (static_cast<double>(pairs) > most_in_bin * static_cast<double>(n))
-      break;
-    suitable = bits;
-    if (bits > 0) { // four bins become one
-      std::vector<std::int64_t> coarse(count.size() / 4, 0);
-      for (std::size_t b = 0; b < count.size(); ++b)
-        coarse[((b >> (bits + 1)) << (bits - 1)) | ((b & ((std::size_t{1} << bits) - 1)) >> 1)] += count[b];
-      count = std::move(coarse);
-    }
-  }
-  return suitable;
 }
 
 void BinnedPoints::release_leads() {

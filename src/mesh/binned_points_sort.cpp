@@ -13,6 +13,9 @@ namespace {
 
 using geometry::Vec2;
 
+constexpr double most_in_bin = 7; // mean number of sites in the bin of a site: levels then give 1.7 to 7, mostly 3.3
+constexpr int bins_per_site = 4;  // at most, however the sites of a tile are clustered
+
 std::size_t at(LocalIndex i) {
   return static_cast<std::size_t>(i);
 }
@@ -71,6 +74,47 @@ private:
   LocalIndex owned_;
 };
 
+std::vector<std::uint8_t> BinnedPoints::suitable_bin_bits(std::span<const Site> sites, LocalIndex first_tile,
+                                                          LocalIndex last_tile) {
+  first_tile_ = first_tile;
+  last_tile_ = last_tile;
+  sort_into_tiles(ListedSites(sites));
+  std::vector<std::uint8_t> bits(at(last_tile - first_tile));
+  thread_loop(std::ssize(bits), 1, [&](std::ptrdiff_t t, int) {
+    bits[static_cast<std::size_t>(t)] =
+        static_cast<std::uint8_t>(suitable_bin_bits(sites, first_tile + static_cast<LocalIndex>(t)));
+  });
+  return bits;
+}
+
+/// @pre order_ lists the sites of the tile
+int BinnedPoints::suitable_bin_bits(std::span<const Site> sites, LocalIndex tile) const {
+  const LocalIndex begin = tile_start_[at(tile - first_tile_)], end = tile_start_[at(tile - first_tile_) + 1];
+  const std::int64_t n = end - begin;
+  int bits = 0;
+  while (bits < grid_->most_bin_bits() && std::int64_t{4} << (2 * bits) <= bins_per_site * n)
+    ++bits;
+  std::vector<std::int64_t> count(std::size_t{1} << (2 * bits), 0);
+  for (LocalIndex k = begin; k < end; ++k)
+    ++count[static_cast<std::size_t>(grid_->bin_at(sites[at(order_[at(k)])].position, bits))];
+  int suitable = bits; // the smallest that will do, coming from the largest
+  for (; bits >= 0; --bits) {
+    std::int64_t pairs = 0;
+    for (const std::int64_t c : count)
+      pairs += c * c;
+    if (static_cast<double>(pairs) > most_in_bin * static_cast<double>(n))
+      break;
+    suitable = bits;
+    if (bits > 0) { // four bins become one
+      std::vector<std::int64_t> coarse(count.size() / 4, 0);
+      for (std::size_t b = 0; b < count.size(); ++b)
+        coarse[((b >> (bits + 1)) << (bits - 1)) | ((b & ((std::size_t{1} << bits) - 1)) >> 1)] += count[b];
+      count = std::move(coarse);
+    }
+  }
+  return suitable;
+}
+
 LocalIndex BinnedPoints::assign_owned(std::span<const Site> sites, LocalIndex first_tile, LocalIndex last_tile,
                                       std::vector<LocalIndex>* new_index) {
   first_tile_ = first_tile;
@@ -99,7 +143,8 @@ void BinnedPoints::sort_moved(std::span<const std::uint8_t> gone, std::span<cons
   forget_order();
 }
 
-/// Sets the bins, and order_ to the sites by tile and bin, without duplicates; returns how many were dropped.
+/// Sets the bins, and order_ (where suitable_bin_bits has not begun it) to the sites by tile and bin, without
+/// duplicates; returns how many were dropped.
 template <class Sites>
 LocalIndex BinnedPoints::find_order(const Sites& sites) {
   const LocalIndex tiles = last_tile_ - first_tile_;
@@ -108,7 +153,8 @@ LocalIndex BinnedPoints::find_order(const Sites& sites) {
     drift_.assign(static_cast<std::size_t>(grid_->tile_count()), 0);
     largest_drift_ = 0;
   }
-  sort_into_tiles(sites);
+  if (tile_start_.empty())
+    sort_into_tiles(sites);
   kept_.assign(at(tiles) + 1, 0);
   std::vector<TileWork> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
   thread_loop(tiles, 1, [&](std::ptrdiff_t t, int thread) {

@@ -236,13 +236,20 @@ void FlatFan::load(LocalIndex site) {
   vertices.resize(n);
   place.resize(n);
   positions.resize(n);
-  const mesh::BinnedPoints& points = context_.state.points();
+  const std::span<const Vec2> sites = context_.state.points().positions();
+  const std::span<const LocalIndex> site_vertex = numbering_.site_vertex;
+  std::size_t entry = fan.first;
   for (std::size_t k = 0; k < n; ++k) {
-    const LocalIndex neighbour = fan.neighbour(k);
-    vertices[k] = numbering_.vertex(neighbour);
-    place[k] = numbering_.place(vertices[k]);
-    positions[k] = points.position(neighbour);
+    const LocalIndex neighbour = fan.ring[entry];
+    vertices[k] = site_vertex[at(neighbour)];
+    positions[k] = sites[at(neighbour)];
+    entry = entry + 1 < fan.ring.size() ? entry + 1 : 0;
   }
+  if (numbering_.foreign.empty()) // places are vertices
+    std::copy(vertices.begin(), vertices.end(), place.begin());
+  else
+    std::transform(vertices.begin(), vertices.end(), place.begin(),
+                   [&](LocalIndex vertex) { return numbering_.place(vertex); });
 }
 
 std::span<const std::uint32_t> FlatFan::triangles_above(LocalIndex own) {

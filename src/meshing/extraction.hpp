@@ -3,6 +3,7 @@
 #pragma once
 
 #include "meshing/site_state.hpp"
+#include "trime/core/unset_vector.hpp"
 #include "trime/decomposition/numbering.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
@@ -60,13 +61,13 @@ public:
 
   bool closed = false, complete = false;
   std::size_t triangles = 0, edges = 0;    ///< edges: of complete fans, else 0
-  std::vector<LocalIndex> vertices, place; ///< place: see Numbering
-  std::vector<geometry::Vec2> positions;
+  UnsetVector<LocalIndex> vertices, place; ///< place: see Numbering
+  UnsetVector<geometry::Vec2> positions;
 
 private:
   const ExtractionContext& context_;
   const decomposition::Numbering& numbering_;
-  std::vector<std::uint32_t> above_;
+  UnsetVector<std::uint32_t> above_;
 };
 
 /// The mesh in canonical numbering, with its quality.

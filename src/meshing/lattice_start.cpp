@@ -146,14 +146,17 @@ void LatticeStart::for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile,
   }
 }
 
-std::vector<mesh::Site> LatticeStart::sites(const TileRange& tiles, double spacing) const {
+std::vector<mesh::Site> LatticeStart::sites(const TileRange& tiles, double spacing, std::size_t more) const {
   const RowLattice rows = rows_of(spacing);
   if (!(rows.spacing > 0))
     return {};
   std::vector<std::int64_t> before = counts(tiles, rows, spacing);
   before.push_back(0);
   std::exclusive_scan(before.begin(), before.end(), before.begin(), std::int64_t{0});
-  std::vector<mesh::Site> all(static_cast<std::size_t>(before.back()));
+  const auto n = static_cast<std::size_t>(before.back());
+  std::vector<mesh::Site> all;
+  all.reserve(n + more);
+  all.resize(n);
   thread_loop(tiles.last - tiles.first, 1, [&](std::ptrdiff_t t, int) {
     auto to = all.begin() + static_cast<std::ptrdiff_t>(before[static_cast<std::size_t>(t)]);
     for_each_in_tile(tiles.grid, tiles.first + static_cast<LocalIndex>(t), rows, spacing,

@@ -203,8 +203,9 @@ TileRange even_share(const Layout& layout, const comm::Communicator& comm) {
 
 void place_sites(const LayoutContext& context, Layout& layout, std::vector<mesh::Site> inner) {
   const TileRange tiles = even_share(layout, context.comm);
-  for (mesh::Site& site : inner)
-    site.position = context.boundary.periods.wrap(site.position);
+  if (context.boundary.periods.any())
+    for (mesh::Site& site : inner)
+      site.position = context.boundary.periods.wrap(site.position);
   for (std::size_t b = 0; b < layout.boundary.sites.size(); ++b) {
     const geometry::Vec2 p = layout.boundary.sites[b].position;
     const LocalIndex tile = tiles.grid.place(p).tile;

@@ -16,6 +16,7 @@
 #include "trime/comm/agree.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/free_memory.hpp"
+#include "trime/core/thread_loop.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/meshing/update_rule.hpp"
 
@@ -140,10 +141,11 @@ private:
   /// clean-up may move boundary sites into discs of chords
   void mend_stars(Sweeper::Lemma lemma) {
     const auto time = timers_.scope("stars");
-    std::int64_t uncertain = 0;
-    for (LocalIndex i = 0; i < state().points().owned(); ++i)
-      uncertain += state().points().boundary(i) < 0 && !state().stars().certain(i);
-    if (comm_.sum(uncertain) == 0)
+    const std::uint64_t uncertain = thread_sum(static_cast<std::size_t>(state().points().owned()), [&](std::size_t i) {
+      const auto site = static_cast<LocalIndex>(i);
+      return std::uint64_t{state().points().boundary(site) < 0 && !state().stars().certain(site)};
+    });
+    if (comm_.sum(static_cast<std::int64_t>(uncertain)) == 0)
       return;
     state().refresh(*layout_.size);
     Sweeper(state(), *builder_, move_context(), lemma_if(lemma)).certify();
@@ -271,8 +273,10 @@ private:
         return;
       cap_factor_ *= 2;
       builder_ = std::make_unique<delaunay::StarBuilder>(lattice_, cap_factor_, largest);
-      for (LocalIndex i = 0; i < state().points().owned(); ++i)
+      thread_loop(state().points().owned(), 4096, [&](std::ptrdiff_t item, int) {
+        const auto i = static_cast<LocalIndex>(item);
         state().stars().set_certain(i, inside_fan(extraction(), i).complete);
+      });
       stars(Wanted::all_sites);
     }
     if (boundary_.periods.any())

@@ -82,7 +82,8 @@ Layout PointScheme::first_of_lattice() {
   const auto time = context_.timers.scope("start");
   place_sites(context_, fit.layout,
               LatticeStart(context_.boundary, *fit.layout.guard, context_.lattice)
-                  .sites(even_share(fit.layout, context_.comm), fit.spacing));
+                  .sites(even_share(fit.layout, context_.comm), fit.spacing,
+                         static_cast<std::size_t>(fit.layout.placed_first())));
   return std::move(fit.layout);
 }
 

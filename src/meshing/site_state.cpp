@@ -74,12 +74,9 @@ void SiteState::distribute(std::vector<mesh::Site> sites) {
 /// Each owner finds what suits its tiles; then all know.
 void SiteState::choose_bins(std::span<const mesh::Site> sites) {
   const LocalIndex first = partition_.first_tile(comm_.rank()), last = partition_.last_tile(comm_.rank());
-  points_.assign_owned(sites, first, last);
+  const std::vector<std::uint8_t> own = points_.suitable_bin_bits(sites, first, last);
   std::vector<std::int64_t> bits(static_cast<std::size_t>(grid_.tile_count()), 0);
-  thread_loop(last - first, 1, [&](std::ptrdiff_t t, int) {
-    const LocalIndex tile = first + static_cast<LocalIndex>(t);
-    bits[static_cast<std::size_t>(tile)] = points_.suitable_bin_bits(tile);
-  });
+  std::copy(own.begin(), own.end(), bits.begin() + first);
   comm_.sum(bits);
   grid_.set_bin_bits({bits.begin(), bits.end()});
 }
@@ -224,9 +221,13 @@ void SiteState::evaluate_sizes(const sizing::SizeField& size, LocalIndex end) {
 delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size,
                                             Wanted wanted) {
   wanted_.clear();
-  if (wanted == Wanted::inner_sites)
-    for (LocalIndex i = 0; i < points_.owned(); ++i)
-      wanted_.push_back(points_.boundary(i) < 0 ? delaunay::StarWish::compute : delaunay::StarWish::none);
+  if (wanted == Wanted::inner_sites) {
+    wanted_.resize(static_cast<std::size_t>(points_.owned()));
+    thread_loop(points_.owned(), 4096, [&](std::ptrdiff_t i, int) {
+      wanted_[static_cast<std::size_t>(i)] =
+          points_.boundary(static_cast<LocalIndex>(i)) < 0 ? delaunay::StarWish::compute : delaunay::StarWish::none;
+    });
+  }
   return compute_stars(builder, size, wanted_);
 }
 

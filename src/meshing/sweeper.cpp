@@ -213,9 +213,11 @@ void Sweeper::certify() {
   state_.points().release_leads();
   all_awake_ = true; // nothing is known of next places
   std::fill(copied_.begin(), copied_.end(), 0);
-  for (LocalIndex i = 0; i < state_.points().owned(); ++i)
+  thread_loop(state_.points().owned(), 4096, [&](std::ptrdiff_t item, int) {
+    const auto i = static_cast<LocalIndex>(item);
     if (classes_[at(i)] != SiteClass::held)
       state_.stars().set_certain(i, true);
+  });
 }
 
 /// Counts the pushes of the sites that were pushed, and forgets what became of sites. Only these can be in a disc where

@@ -10,8 +10,8 @@
 namespace trime::testing {
 
 /// The values of all ranks one after the other, on every rank. Collective.
-template <class T>
-std::vector<T> gather_all(const comm::Communicator& comm, const std::vector<T>& values) {
+template <class T, class Allocator>
+std::vector<T> gather_all(const comm::Communicator& comm, const std::vector<T, Allocator>& values) {
   std::string bytes(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
   std::string all;
   for (const std::string& part : comm.gather(bytes))

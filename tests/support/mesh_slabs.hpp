@@ -31,10 +31,10 @@ inline mesh::Slab share(const comm::Communicator& comm, std::int64_t total, std:
 }
 
 /// The rows of a slab.
-template <class T>
-std::vector<T> cut(const std::vector<T>& whole, const mesh::Slab& slab, std::int64_t rows) {
+template <class Vector>
+Vector cut(const Vector& whole, const mesh::Slab& slab, std::int64_t rows) {
   const auto first = whole.begin() + static_cast<std::ptrdiff_t>(slab.first);
-  return std::vector<T>(first, first + static_cast<std::ptrdiff_t>(rows));
+  return Vector(first, first + static_cast<std::ptrdiff_t>(rows));
 }
 
 /// A square of n x n cells, each halved, without its middle cell (n odd): one outer loop of tag 1, a hole of tag 2.
@@ -68,7 +68,7 @@ inline mesh::DistributedMesh holed_square(int n) {
       mesh.facet_tags.push_back(is_outer(edge.first) ? 1 : 2);
       mesh.facet_parts.push_back(is_outer(edge.first) ? 1 : 0);
     }
-  mesh.boundary.resize(mesh.points.size());
+  mesh.boundary.resize(mesh.points.size(), 0);
   for (std::size_t k = 0; k < mesh.facets.size(); ++k)
     mesh.boundary[static_cast<std::size_t>(mesh.facets[k][0])] = mesh.facet_tags[k];
   assign_triangles(mesh, triangles);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "trime/comm/communicator.hpp"
+#include "trime/core/unset_vector.hpp"
 #include "trime/decomposition/halo.hpp"
 #include "trime/mesh/binned_points.hpp"
 
@@ -15,8 +16,8 @@ namespace trime::decomposition {
 struct Numbering {
   GlobalId first = 0;                  ///< global id of the first owned point in canonical order
   GlobalId total = 0;                  ///< points of the whole mesh
-  std::vector<LocalIndex> order;       ///< owned local indices in canonical order, so by vertex
-  std::vector<LocalIndex> site_vertex; ///< by local index, owned and ghosts
+  UnsetVector<LocalIndex> order;       ///< owned local indices in canonical order, so by vertex
+  UnsetVector<LocalIndex> site_vertex; ///< by local index, owned and ghosts
   std::vector<GlobalId> foreign;       ///< global ids of the vertices from order.size() on
   LocalIndex foreign_below = 0;        ///< how many of them come before the first owned point
 

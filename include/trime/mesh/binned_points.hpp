@@ -90,9 +90,11 @@ public:
   template <class Visit, class Missing>
   void for_each_near(geometry::Vec2 center, double reach, const Visit& visit, const Missing& missing) const;
 
-  /// @brief The b for which 2^b x 2^b bins suit the sites of an owned tile: the smallest for which a site shares its
-  /// bin with a few others on average, with at most four bins a site. O(sites of the tile).
-  int suitable_bin_bits(LocalIndex tile) const;
+  /// @brief For each of the tiles [first_tile, last_tile) the b for which 2^b x 2^b bins suit those of the sites that
+  /// lie in it: the smallest for which a site shares its bin with a few others on average, with at most four bins a
+  /// site. What was found out on the way serves the next assign_owned. O(n); threads.
+  /// @post assign_owned with the same sites and tiles is due
+  std::vector<std::uint8_t> suitable_bin_bits(std::span<const Site> sites, LocalIndex first_tile, LocalIndex last_tile);
 
   /// @brief Moves without sorting: the places (and leads) that the owned sites will take at the next `advance`, to be
   /// filled by the caller. The bins stay those of the last assign_owned; for_each_near then searches as much farther as
@@ -167,6 +169,7 @@ private:
   LocalIndex find_order(const Sites& sites);
   template <class Sites>
   void sort_into_tiles(const Sites& sites);
+  int suitable_bin_bits(std::span<const Site> sites, LocalIndex tile) const;
   template <class Sites>
   LocalIndex sort_tile(const Sites& sites, LocalIndex tile, TileWork& work);
   template <class Sites>

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "trime/core/types.hpp"
+#include "trime/core/unset_vector.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <array>
@@ -26,14 +27,14 @@ struct DistributedMesh {
   Slab point_slab, triangle_slab, facet_slab;
 
   // Per point of the slab.
-  std::vector<geometry::Vec2> points;
-  std::vector<std::int32_t> boundary; ///< 0 inside, else tag of the boundary loop
-  std::vector<float> size;            ///< h at the point
-  std::vector<std::uint8_t> fixed;    ///< 1 for corners and the user's fixed points
+  UnsetVector<geometry::Vec2> points;
+  UnsetVector<std::int32_t> boundary; ///< 0 inside, else tag of the boundary loop
+  UnsetVector<float> size;            ///< h at the point
+  UnsetVector<std::uint8_t> fixed;    ///< 1 for corners and the user's fixed points
 
   // Per triangle: vertices counter-clockwise, lowest global id first. See global_id and triangle_ids.
-  std::vector<std::array<LocalIndex, 3>> triangles;
-  std::vector<float> alpha, beta;
+  UnsetVector<std::array<LocalIndex, 3>> triangles;
+  UnsetVector<float> alpha, beta;
   std::vector<std::int32_t> region; ///< empty: 1 everywhere
 
   /// Global ids of the vertices that other ranks hold, ascending: the first is vertex points.size().

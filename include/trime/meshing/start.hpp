@@ -33,7 +33,8 @@ public:
   LatticeStart(const geometry::Boundary& boundary, const BoundaryGuard& guard, const geometry::Lattice& lattice);
 
   /// @brief Sites inside the shape at least 0.45 spacings away from its boundary, by tile, row and column. Threads.
-  std::vector<mesh::Site> sites(const TileRange& tiles, double spacing) const;
+  /// @param more room for so many sites is left, that will be added
+  std::vector<mesh::Site> sites(const TileRange& tiles, double spacing, std::size_t more = 0) const;
   /// Their number, without making them.
   std::int64_t count(const TileRange& tiles, double spacing) const;
 

@@ -66,11 +66,10 @@ void expect_certified(const MeshResult& result) {
 }
 
 /// Same values on rank 0, where both are whole.
-template <class T>
-void expect_gathered(const comm::Communicator& world, const std::vector<T>& part, const std::vector<T>& whole,
-                     const char* what) {
-  const std::vector<T> all = testing::gather_all(world, part);
-  EXPECT_TRUE(!world.is_root() || all == whole)
+template <class Vector>
+void expect_gathered(const comm::Communicator& world, const Vector& part, const Vector& whole, const char* what) {
+  const std::vector<typename Vector::value_type> all = testing::gather_all(world, part);
+  EXPECT_TRUE(!world.is_root() || std::ranges::equal(all, whole))
       << what << ": " << all.size() << " here, " << whole.size() << " on one rank";
 }
 

@@ -76,7 +76,7 @@ void expect_same_everywhere(const RegionShape& shape, const MeshOptions& options
     ASSERT_EQ(shape.frame().periods().wrap(p), p);
   if (world.is_root()) {
     EXPECT_EQ(result.mesh.hash, serial.mesh.hash);
-    EXPECT_TRUE(points == serial.mesh.points);
+    EXPECT_TRUE(std::ranges::equal(points, serial.mesh.points));
     EXPECT_TRUE(triangles == global_triangles(serial.mesh));
     EXPECT_EQ(result.quality.alpha.max, serial.quality.alpha.max);
   }

@@ -74,12 +74,12 @@ TEST(BinnedPoints, BinsThatSuitTheirTilesHoldAFewSitesEach) {
   };
   points.assign_owned(sites, 0, grid.tile_count());
   EXPECT_GT(mean_in_bin(), 50);
-  std::vector<std::uint8_t> bits;
-  for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile)
-    bits.push_back(static_cast<std::uint8_t>(points.suitable_bin_bits(tile)));
-  grid.set_bin_bits(bits);
+  grid.set_bin_bits(points.suitable_bin_bits(sites, 0, grid.tile_count()));
   points.assign_owned(sites, 0, grid.tile_count());
   EXPECT_LT(mean_in_bin(), 8);
+  BinnedPoints anew(grid); // without what was found out before
+  anew.assign_owned(sites, 0, grid.tile_count());
+  EXPECT_TRUE(std::ranges::equal(points.positions(), anew.positions()));
   int bins = 0;
   for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile)
     bins += grid.bins_per_tile(tile);
