@@ -93,7 +93,7 @@ bool PatchOptimizer::try_at(const Corners& worst, const PatchBudget& budget, boo
     return false;
   list_operations(contest);
   try_everything(budget, contest);
-  if (!is_first && contest.largest > refine_alpha && !operations_.empty())
+  if (!is_first && std::fmin(contest.alpha, contest.largest) > refine_alpha && !operations_.empty())
     try_refining(budget, contest);
   if (contest.found) {
     std::swap(now_, best_);
