@@ -24,6 +24,7 @@ constexpr int refine_sweeps = 20;
 constexpr std::size_t few_runners = 3, few_finalists = 2;
 constexpr double middle_reach = 1.5; // h
 constexpr int most_tried = 200;      // triangles
+constexpr int most_strain = 2;
 
 } // namespace
 
@@ -251,6 +252,38 @@ void PatchOptimizer::finish(Runner& finalist, Contest& contest) {
   std::swap(best_, trial);
 }
 
+/// By how much the operation has raised the sum of (degree - 6)^2 over the vertices inside. Few degrees are not 6 in
+/// a good mesh; moves cannot mend them.
+int PatchOptimizer::strain_added(const Operation& operation) {
+  touched_.clear();
+  const auto note = [&] {
+    for (const LocalIndex u : ring_)
+      if (u >= PatchMesh::frame && std::find(touched_.begin(), touched_.end(), u) == touched_.end())
+        touched_.push_back(u);
+  };
+  for (const LocalIndex v : operation.removed)
+    if (v >= 0) {
+      now_.mesh.collect_ring(v, ring_);
+      ring_.push_back(v);
+      note();
+    }
+  for (LocalIndex v = now_.mesh.vertices(); v < trial_.mesh.vertices(); ++v) {
+    trial_.mesh.collect_ring(v, ring_);
+    ring_.push_back(v);
+    note();
+  }
+  const auto strain = [](const Patch& patch, LocalIndex v) {
+    if (v >= patch.mesh.vertices() || patch.on_boundary(v) || patch.role[at(v)] == Role::gone)
+      return 0;
+    const int excess = patch.mesh.degree(v) - 6;
+    return excess * excess;
+  };
+  int added = 0;
+  for (const LocalIndex v : touched_)
+    added += strain(trial_, v) - strain(now_, v);
+  return added;
+}
+
 /// Few of the operations get the second sweep, fewer the last ones.
 void PatchOptimizer::try_everything(const PatchBudget& budget, Contest& contest) {
   const auto best_of = [&](std::vector<Runner>& all, std::size_t few) {
@@ -262,7 +295,8 @@ void PatchOptimizer::try_everything(const PatchBudget& budget, Contest& contest)
   for (const Operation& operation : operations_) {
     trial_ = now_;
     const double handicap = operation.inserts() ? 1 : budget.deletion_handicap;
-    if (apply(operation) && is_within(budget.may_insert, budget))
+    if (apply(operation) && is_within(budget.may_insert, budget) &&
+        strain_added(operation) <= (is_thorough_ ? 100 : most_strain))
       run(trial_, handicap, hopeless_at_first, contest, runners);
     if (runners.front().sum < excellent * contest.first)
       break;
