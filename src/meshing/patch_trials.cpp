@@ -14,7 +14,7 @@ using geometry::Vec2;
 constexpr double least_gain = 0.02;
 /// After each of the first sweeps a trial is given up that is so much worse than what it has to be, and in the last
 /// ones if it is than the best.
-constexpr double hopeless_at_first = 3, hopeless_then = 1.5, hopeless_at_last = 1.2;
+constexpr double hopeless_at_first = 2.5, hopeless_then = 1.2, hopeless_at_last = 1.1;
 constexpr double excellent = 0.6;                     // of what a trial has to be: no others are tried then
 constexpr double nearest_reach = 2, near_reach = 3.2; // h: sites that move in the first sweeps, and in the last
 constexpr double score_reach = 4.4;                   // h: triangles of sites that count
@@ -305,7 +305,7 @@ void PatchOptimizer::try_everything(const PatchBudget& budget, Contest& contest)
     if (runner.sum < INFINITY)
       run(runner.patch, runner.handicap, hopeless_then, contest, finalists);
   for (Runner& finalist : finalists)
-    if (finalist.sum < INFINITY)
+    if (finalist.sum < (is_thorough_ ? 1.5 : 1) * hopeless_then * contest.least)
       finish(finalist, contest);
 }
 
