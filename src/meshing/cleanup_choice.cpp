@@ -2,7 +2,9 @@
 #include "meshing/cleanup_choice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 namespace trime::meshing {
 namespace {
@@ -49,7 +51,7 @@ public:
       if (status_[k] != Status::open)
         continue;
       bool first = true;
-      for (const std::uint32_t r : rivals_[k]) {
+      for (const std::uint32_t r : rivals_of(k)) {
         if (status_[r] == Status::chosen)
           next[k] = Status::out;
         first &= status_[r] == Status::out || is_first(all_[k].contender, all_[r].contender);
@@ -71,7 +73,7 @@ public:
 
 private:
   bool are_rivals(const Contender& a, const Contender& b) const {
-    const double separation = std::fmax(a.separation, b.separation);
+    const double separation = std::max(a.separation, b.separation);
     return geometry::squared_length(periods_.nearest_image(b.place, a.place) - a.place) < separation * separation;
   }
 
@@ -102,26 +104,44 @@ private:
 
   /// Pairs are found by the one with the larger separation, along x.
   void list_rivals() {
-    rivals_.resize(all_.size());
-    std::vector<std::uint32_t> by_x(all_.size());
-    for (std::size_t k = 0; k < by_x.size(); ++k)
-      by_x[k] = static_cast<std::uint32_t>(k);
-    const auto x_of = [&](std::uint32_t k) { return all_[k].contender.place.x; };
-    std::sort(by_x.begin(), by_x.end(), [&](std::uint32_t a, std::uint32_t b) { return x_of(a) < x_of(b); });
-    for (const std::uint32_t k : by_x) {
+    struct Item {
+      double x, y, separation;
+      std::uint32_t index;
+    };
+    std::vector<Item> items(all_.size()); // by x, in one piece
+    for (std::size_t k = 0; k < items.size(); ++k) {
       const Contender& own = all_[k].contender;
-      const double reach = periods_.x > 0 ? INFINITY : own.separation;
-      auto other = std::lower_bound(by_x.begin(), by_x.end(), own.place.x - reach,
-                                    [&](std::uint32_t a, double x) { return x_of(a) < x; });
-      for (; other != by_x.end() && x_of(*other) <= own.place.x + reach; ++other) {
-        const Contender& its = all_[*other].contender;
-        const bool is_its_turn = own.separation > its.separation || (own.separation == its.separation && k < *other);
-        if (is_its_turn && are_rivals(own, its)) {
-          rivals_[k].push_back(*other);
-          rivals_[*other].push_back(k);
+      items[k] = {own.place.x, own.place.y, own.separation, static_cast<std::uint32_t>(k)};
+    }
+    std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.x < b.x; });
+    std::vector<std::array<std::uint32_t, 2>> pairs; // of indices
+    for (const Item& own : items) {
+      const double reach_x = periods_.x > 0 ? INFINITY : own.separation;
+      const double reach_y = periods_.y > 0 ? INFINITY : own.separation;
+      auto other = std::lower_bound(items.begin(), items.end(), own.x - reach_x,
+                                    [](const Item& a, double x) { return a.x < x; });
+      for (; other != items.end() && other->x <= own.x + reach_x; ++other) {
+        if (!(std::abs(other->y - own.y) <= reach_y))
+          continue;
+        const bool is_its_turn =
+            own.separation > other->separation || (own.separation == other->separation && own.index < other->index);
+        if (is_its_turn && are_rivals(all_[own.index].contender, all_[other->index].contender)) {
+          pairs.push_back({own.index, other->index});
+          pairs.push_back({other->index, own.index});
         }
       }
     }
+    first_rival_.assign(all_.size() + 1, 0);
+    for (const auto& [own, rival] : pairs)
+      ++first_rival_[own + 1];
+    std::partial_sum(first_rival_.begin(), first_rival_.end(), first_rival_.begin());
+    rivals_.resize(pairs.size());
+    std::vector<std::uint32_t> next(first_rival_.begin(), first_rival_.end() - 1);
+    for (const auto& [own, rival] : pairs)
+      rivals_[next[own]++] = rival;
+  }
+  std::span<const std::uint32_t> rivals_of(std::size_t k) const {
+    return std::span(rivals_).subspan(first_rival_[k], first_rival_[k + 1] - first_rival_[k]);
   }
 
   void exchange_reports() {
@@ -142,8 +162,8 @@ private:
   std::size_t own_;       // the first of all_
   std::vector<Copy> all_; // the others by rank and index
   std::vector<Status> status_;
-  std::vector<std::vector<std::uint32_t>> rivals_;
-  std::vector<Report> told_; // which rank has a copy of which own one
+  std::vector<std::uint32_t> first_rival_, rivals_; // of each in all_, one after the other
+  std::vector<Report> told_;                        // which rank has a copy of which own one
 };
 
 } // namespace

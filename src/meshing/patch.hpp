@@ -211,6 +211,7 @@ private:
   void relax_near(Patch& patch, std::span<const LocalIndex> near);
   void run(Patch& patch, double handicap, double share, const Contest& contest, std::span<Runner> list);
   static void enter(std::span<Runner> list, Patch& patch, double sum, double handicap);
+  int strain_added(const Operation& operation);
   void finish(Runner& finalist, Contest& contest);
   void try_everything(const PatchBudget& budget, Contest& contest);
   void try_refining(const PatchBudget& budget, Contest& contest);
@@ -231,11 +232,12 @@ private:
   bool is_thorough_ = false;        // the present trials are for a very bad triangle
   double longest_bent_ = 1;         // h: limit of chords of curves, in the present trials
   std::vector<Operation> operations_;
-  std::vector<Corners> tried_;                                       // very bad ones
-  std::vector<LocalIndex> ring_, shifted_, movers_, nearest_, near_; // vertices: work space, and those to move
-  std::vector<std::uint8_t> rests_, mark_, in_score_;                // by vertex
-  std::vector<double> worst_before_, worst_after_;                   // by vertex: alpha
-  std::vector<double> terms_;                                        // by triangle: what it adds to the sum of now_
+  std::vector<Corners> tried_; // very bad ones
+  std::vector<LocalIndex> ring_, touched_, shifted_, movers_, nearest_,
+      near_;                                          // vertices: work space, and those to move
+  std::vector<std::uint8_t> rests_, mark_, in_score_; // by vertex
+  std::vector<double> worst_before_, worst_after_;    // by vertex: alpha
+  std::vector<double> terms_;                         // by triangle: what it adds to the sum of now_
   std::vector<geometry::Vec2> around_;
 };
 

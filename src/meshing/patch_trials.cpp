@@ -14,7 +14,7 @@ using geometry::Vec2;
 constexpr double least_gain = 0.02;
 /// After each of the first sweeps a trial is given up that is so much worse than what it has to be, and in the last
 /// ones if it is than the best.
-constexpr double hopeless_at_first = 3, hopeless_then = 1.5, hopeless_at_last = 1.2;
+constexpr double hopeless_at_first = 2.5, hopeless_then = 1.2, hopeless_at_last = 1.1;
 constexpr double excellent = 0.6;                     // of what a trial has to be: no others are tried then
 constexpr double nearest_reach = 2, near_reach = 3.2; // h: sites that move in the first sweeps, and in the last
 constexpr double score_reach = 4.4;                   // h: triangles of sites that count
@@ -24,6 +24,7 @@ constexpr int refine_sweeps = 20;
 constexpr std::size_t few_runners = 3, few_finalists = 2;
 constexpr double middle_reach = 1.5; // h
 constexpr int most_tried = 200;      // triangles
+constexpr int most_strain = 2;
 
 } // namespace
 
@@ -93,7 +94,7 @@ bool PatchOptimizer::try_at(const Corners& worst, const PatchBudget& budget, boo
     return false;
   list_operations(contest);
   try_everything(budget, contest);
-  if (!is_first && contest.largest > refine_alpha && !operations_.empty())
+  if (!is_first && std::fmin(contest.alpha, contest.largest) > refine_alpha && !operations_.empty())
     try_refining(budget, contest);
   if (contest.found) {
     std::swap(now_, best_);
@@ -251,6 +252,38 @@ void PatchOptimizer::finish(Runner& finalist, Contest& contest) {
   std::swap(best_, trial);
 }
 
+/// By how much the operation has raised the sum of (degree - 6)^2 over the vertices inside. Few degrees are not 6 in
+/// a good mesh; moves cannot mend them.
+int PatchOptimizer::strain_added(const Operation& operation) {
+  touched_.clear();
+  const auto note = [&] {
+    for (const LocalIndex u : ring_)
+      if (u >= PatchMesh::frame && std::find(touched_.begin(), touched_.end(), u) == touched_.end())
+        touched_.push_back(u);
+  };
+  for (const LocalIndex v : operation.removed)
+    if (v >= 0) {
+      now_.mesh.collect_ring(v, ring_);
+      ring_.push_back(v);
+      note();
+    }
+  for (LocalIndex v = now_.mesh.vertices(); v < trial_.mesh.vertices(); ++v) {
+    trial_.mesh.collect_ring(v, ring_);
+    ring_.push_back(v);
+    note();
+  }
+  const auto strain = [](const Patch& patch, LocalIndex v) {
+    if (v >= patch.mesh.vertices() || patch.on_boundary(v) || patch.role[at(v)] == Role::gone)
+      return 0;
+    const int excess = patch.mesh.degree(v) - 6;
+    return excess * excess;
+  };
+  int added = 0;
+  for (const LocalIndex v : touched_)
+    added += strain(trial_, v) - strain(now_, v);
+  return added;
+}
+
 /// Few of the operations get the second sweep, fewer the last ones.
 void PatchOptimizer::try_everything(const PatchBudget& budget, Contest& contest) {
   const auto best_of = [&](std::vector<Runner>& all, std::size_t few) {
@@ -262,7 +295,8 @@ void PatchOptimizer::try_everything(const PatchBudget& budget, Contest& contest)
   for (const Operation& operation : operations_) {
     trial_ = now_;
     const double handicap = operation.inserts() ? 1 : budget.deletion_handicap;
-    if (apply(operation) && is_within(budget.may_insert, budget))
+    if (apply(operation) && is_within(budget.may_insert, budget) &&
+        strain_added(operation) <= (is_thorough_ ? 100 : most_strain))
       run(trial_, handicap, hopeless_at_first, contest, runners);
     if (runners.front().sum < excellent * contest.first)
       break;
@@ -271,7 +305,7 @@ void PatchOptimizer::try_everything(const PatchBudget& budget, Contest& contest)
     if (runner.sum < INFINITY)
       run(runner.patch, runner.handicap, hopeless_then, contest, finalists);
   for (Runner& finalist : finalists)
-    if (finalist.sum < INFINITY)
+    if (finalist.sum < (is_thorough_ ? 1.5 : 1) * hopeless_then * contest.least)
       finish(finalist, contest);
 }
 
