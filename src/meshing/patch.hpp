@@ -215,6 +215,7 @@ private:
   void try_everything(const PatchBudget& budget, Contest& contest);
   void try_refining(const PatchBudget& budget, Contest& contest);
   bool refine(const Corners& worst);
+  bool divide_where_strayed();
   bool divide_where_encroached();
   bool is_behind(LocalIndex v);
 
