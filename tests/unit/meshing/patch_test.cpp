@@ -324,7 +324,7 @@ TEST(PatchOptimizer, SmallerTrianglesFollowARaggedBoundary) {
   stage.budget.may_insert = stage.budget.may_delete = 0;
   const std::vector<SiteEdit> edits = stage.improve(unit_lattice().snap(apex));
   stage.guard = BoundaryGuard(edited_boundary(stage, edits), unit_lattice());
-  EXPECT_LT(worst_alpha(stage, edits, middle, 3 * h), 1.3);
+  EXPECT_LT(worst_alpha(stage, edits, middle, 3 * h), 1.4); // the bar of contours_test.py
 }
 
 /// A patch across the border of a torus is the patch elsewhere.
