@@ -92,7 +92,7 @@ struct PatchBudget {
 ///
 /// An operation counts as better if the sum over the triangles near it of (alpha - 1)^2, bad ones weighing more, falls
 /// by 2 % at least and the largest alpha does not rise; one with smaller triangles if the largest alpha falls by a
-/// twentieth of its excess. Moves lower the StarEnergy of one site after the other by Newton steps.
+/// hundredth of its excess. Moves lower the StarEnergy of one site after the other by Newton steps.
 /// Nobody enters the diametral disc of a boundary segment, and no segment comes to stand for a curve that leaves its
 /// disc, or that turns by more than 60 degrees and strays by more than the tolerance. Only + - * / sqrt and exact
 /// predicates inside: a pure function of the sites.
@@ -216,6 +216,7 @@ private:
   void try_everything(const PatchBudget& budget, Contest& contest);
   void try_refining(const PatchBudget& budget, Contest& contest);
   bool refine(const Corners& worst);
+  bool divide_where_strayed();
   bool divide_where_encroached();
   bool is_behind(LocalIndex v);
 

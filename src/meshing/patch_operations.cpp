@@ -170,8 +170,11 @@ bool PatchOptimizer::refine(const Corners& worst) {
       }
     }
   }
-  if (!divide_where_encroached())
-    return false;
+  for (LocalIndex before = -1; before != trial_.mesh.vertices();) {
+    before = trial_.mesh.vertices();
+    if (!divide_where_strayed() || !divide_where_encroached())
+      return false;
+  }
   for (const Vec2 middle : middles) // where there is room
     if (insert(middle) && is_behind(trial_.mesh.vertices() - 1) && !remove(trial_.mesh.vertices() - 1))
       return false;
@@ -188,6 +191,23 @@ bool PatchOptimizer::is_behind(LocalIndex v) {
       return true;
   }
   return false;
+}
+
+/// Divides new chords that may not take the place of the curve: half of a chord may pass farther from a ragged curve
+/// than all of it.
+bool PatchOptimizer::divide_where_strayed() {
+  for (std::size_t k = 0; k < trial_.rim.size();) {
+    const LocalIndex v = trial_.rim[k], next = trial_.boundary[at(v)].next;
+    if (next < 0 || trial_.role[at(v)] == Role::gone || !trial_.boundary[at(v)].changed ||
+        stands_for_curve(trial_.boundary[at(v)], trial_.boundary[at(next)],
+                         {trial_.mesh.position(v), trial_.mesh.position(next)}, trial_.size[at(v)])) {
+      ++k; // what is new comes later in the list
+      continue;
+    }
+    if (trial_.mesh.vertices() > now_.mesh.vertices() + most_refined || !insert_on_boundary(v))
+      return false;
+  }
+  return true;
 }
 
 /// Divides chords with a vertex of the boundary in their discs.

@@ -19,7 +19,9 @@ constexpr double excellent = 0.6;                     // of what a trial has to 
 constexpr double nearest_reach = 2, near_reach = 3.2; // h: sites that move in the first sweeps, and in the last
 constexpr double score_reach = 4.4;                   // h: triangles of sites that count
 constexpr double bent_at_first = 1.01, bent_at_last = 1.25, bend_alpha = 1.1; // see patch_moves.cpp
-constexpr double refine_alpha = 1.3, refine_gain = 0.05;                      // of the excess of alpha
+constexpr double refine_gain = 0.01; // of the excess of alpha: the next try begins at what is worst then
+/// Smaller triangles take many sites: the worst places come first.
+constexpr double refine_alpha_at_first = 1.45, refine_alpha = 1.3;
 constexpr int refine_sweeps = 20;
 constexpr std::size_t few_runners = 3, few_finalists = 2;
 constexpr double middle_reach = 1.5; // h
@@ -94,7 +96,8 @@ bool PatchOptimizer::try_at(const Corners& worst, const PatchBudget& budget, boo
     return false;
   list_operations(contest);
   try_everything(budget, contest);
-  if (!is_first && std::fmin(contest.alpha, contest.largest) > refine_alpha && !operations_.empty())
+  const double least_bad = budget.is_again ? refine_alpha : refine_alpha_at_first;
+  if (!is_first && std::fmin(contest.alpha, contest.largest) > least_bad && !operations_.empty())
     try_refining(budget, contest);
   if (contest.found) {
     std::swap(now_, best_);

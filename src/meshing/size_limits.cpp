@@ -13,10 +13,11 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr double short_chord = 0.65; // of the local size
-constexpr double short_factor = 1.2; // limit over the length of a short chord: its neighbours may be longer
-constexpr double narrow_gap = 0.65;  // of the local size: sites that are nearer across the inside
-constexpr double least_share = 0.05; // of the size that is asked for: no limit is lower
+constexpr double short_chord = 0.65;    // of the local size
+constexpr double short_factor = 1.2;    // limit over the length of a short chord: its neighbours may be longer
+constexpr double narrow_gap = 0.65;     // of the local size: sites that are nearer across the inside
+constexpr double least_share = 0.05;    // of the size that is asked for: no limit is lower
+constexpr double least_lowering = 0.95; // of the size: a limit that is hardly lower changes nothing
 constexpr double lens_offset = 0.134, lens_radius = 0.5176; // of the chord: circle that sees it at 75 degrees
 constexpr std::ptrdiff_t sites_in_a_row = 64;               // by one thread
 constexpr double width_share = 1.15;                        // chord of an equilateral triangle over its height
@@ -36,8 +37,11 @@ private:
   /// At a site and at its chord.
   void look(LocalIndex k, std::vector<sizing::SizeLimit>& limits) const {
     const auto add = [&](Vec2 place, double limit, double h) {
-      if (limit < 0.95 * h)
-        limits.push_back({place, std::fmax(limit, least_share * asked_.size(place))});
+      if (!(limit < least_lowering * h))
+        return;
+      limit = std::fmax(limit, least_share * asked_.size(place));
+      if (limit < least_lowering * h) // else it is as low already as it may become
+        limits.push_back({place, limit});
     };
     const geometry::Segment chord = boundary_.chord(k);
     const double at_site = sizing::checked_size(size_, chord.a);

@@ -105,6 +105,15 @@ class Contours(unittest.TestCase):
                 for triangle, angle in zip(places, smallest_angles(places)):
                     self.assertTrue(angle > 28 or any((x, y) in corners for x, y in triangle), (triangle, angle))
 
+    def test_north_america_has_no_bad_triangle_at_other_sizes(self):
+        """A ragged shore, laid out anew by each number of points: at these, single places were left at 1.5 to 2.0."""
+        for points in (16000, 18500, 21000, 24000):
+            with self.subTest(points=points), Workspace() as work:
+                self.mesh(work, NORTH_AMERICA.replace("[meshing]", "[sizing]\ntype = automatic\ngradation = 0.2\n[meshing]")
+                          .replace("100000", str(points)).replace("distmesh", "hybrid"))
+                with h5py.File(work / "c.h5", "r") as file:
+                    self.assertLess(file["VTKHDF/CellData/alpha"][:].max(), 1.4)
+
     def test_north_america_keeps_its_lakes(self):
         with Workspace() as work:
             checks, size, mesh_hash = self.mesh(work, NORTH_AMERICA, ranks=2)

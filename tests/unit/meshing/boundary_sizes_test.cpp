@@ -60,5 +60,26 @@ TEST(SizeLimits, LeaveOutWhatOthersImply) {
     EXPECT_NEAR(implied(few, limit.place), implied(all, limit.place), 1e-15);
 }
 
+TEST(SizeLimits, EndWhereTheSizeMayNotBecomeLower) {
+  // A slit far narrower than a twentieth of the size.
+  const geometry::Boundary boundary = testing::boundary_of({testing::polygon_loop(
+      {{0.1, 0.1}, {0.5, 0.1}, {0.5, 0.3}, {0.501, 0.3}, {0.501, 0.1}, {0.9, 0.1}, {0.9, 0.9}, {0.1, 0.9}})});
+  const sizing::UniformSize asked(0.1);
+  std::vector<sizing::SizeLimit> limits;
+  std::size_t more = 1;
+  for (int round = 0; round < 4 && more > 0; ++round) {
+    const sizing::LoweredSize size(asked, limits, 0.2, boundary.periods);
+    const auto found = size_limits(make_boundary_sites(boundary, size, testing::unit_lattice(), 30), size, asked, 0.2);
+    for (const sizing::SizeLimit& limit : found) {
+      EXPECT_GE(limit.size, 0.05 * 0.1);
+      EXPECT_LT(limit.size, 0.95 * size.size(limit.place));
+    }
+    limits.insert(limits.end(), found.begin(), found.end());
+    more = found.size();
+  }
+  EXPECT_FALSE(limits.empty());
+  EXPECT_EQ(more, 0u);
+}
+
 } // namespace
 } // namespace trime::meshing

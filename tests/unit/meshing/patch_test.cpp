@@ -251,6 +251,22 @@ TEST(PatchOptimizer, WorksAlongACircleAndAcrossTheStartOfItsLoop) {
   EXPECT_GT(slid, 10);
 }
 
+/// What the edits make of the boundary.
+BoundarySites edited_boundary(const Stage& stage, const std::vector<SiteEdit>& edits) {
+  BoundarySites after = stage.sites_on;
+  std::vector<BoundaryEdit> on_boundary;
+  for (const SiteEdit& edit : edits)
+    if (edit.boundary >= 0)
+      on_boundary.push_back({edit.boundary,
+                             edit.kind == Kind::move     ? BoundaryEdit::Kind::slide
+                             : edit.kind == Kind::remove ? BoundaryEdit::Kind::remove
+                                                         : BoundaryEdit::Kind::insert,
+                             edit.arc, edit.to});
+  std::vector<LocalIndex> inserted;
+  edit_boundary(after, stage.curve, on_boundary, inserted);
+  return after;
+}
+
 /// Two walls a little more than one disc apart: whatever is edited, the open disc of every chord stays empty.
 TEST(PatchOptimizer, ChordsOfAThinGapKeepTheirDiscs) {
   for (const double gap : {0.55, 0.62, 0.8}) {
@@ -263,22 +279,52 @@ TEST(PatchOptimizer, ChordsOfAThinGapKeepTheirDiscs) {
     for (std::size_t k = 0; k < stage.sites_on.sites.size(); k += 2) {
       const Vec2 center = stage.sites_on.sites[k].position;
       const std::vector<SiteEdit> edits = stage.improve(center);
-      BoundarySites after = stage.sites_on;
-      std::vector<BoundaryEdit> on_boundary;
-      for (const SiteEdit& edit : edits)
-        if (edit.boundary >= 0)
-          on_boundary.push_back({edit.boundary,
-                                 edit.kind == Kind::move     ? BoundaryEdit::Kind::slide
-                                 : edit.kind == Kind::remove ? BoundaryEdit::Kind::remove
-                                                             : BoundaryEdit::Kind::insert,
-                                 edit.arc, edit.to});
-      std::vector<LocalIndex> inserted;
-      edit_boundary(after, stage.curve, on_boundary, inserted);
-      for (LocalIndex i = 0; i < static_cast<LocalIndex>(after.sites.size()) && !on_boundary.empty(); ++i)
+      const BoundarySites after = edited_boundary(stage, edits);
+      const bool is_edited =
+          count(edits, Kind::move, true) + count(edits, Kind::insert, true) + count(edits, Kind::remove, true) > 0;
+      for (LocalIndex i = 0; i < static_cast<LocalIndex>(after.sites.size()) && is_edited; ++i)
         for (const BoundarySite& site : after.sites)
           ASSERT_GE(geometry::diametral_side(after.chord(i).a, after.chord(i).b, site.position), 0) << gap;
     }
   }
+}
+
+/// A notch with an angle of 105 degrees, where only smaller triangles are allowed. One of its chords stands for a
+/// zigzag that strays from half of it by more than the tolerance.
+TEST(PatchOptimizer, SmallerTrianglesFollowARaggedBoundary) {
+  constexpr double edge = 0.8 * h, stray = 0.15;
+  const SinCos half = sin_cos(0.5 * 105 * (pi / 180));
+  const Vec2 apex = middle - Vec2{0, edge * half.cos}, left = middle - Vec2{edge * half.sin, 0},
+             right = middle + Vec2{edge * half.sin, 0}, along = right - apex;
+  const auto beside = [&](double share, double offset) {
+    return apex + share * along + offset * geometry::left_normal(along);
+  };
+  Stage stage(boundary_of({polygon_loop({{0.03125, 0.5},
+                                         left,
+                                         apex,
+                                         beside(0.5, stray),
+                                         beside(0.75, -stray),
+                                         right,
+                                         {0.96875, 0.5},
+                                         {0.96875, 0.96875},
+                                         {0.03125, 0.96875}})}));
+  std::vector<BoundaryEdit> zigzag;
+  for (std::size_t k = 0; k < stage.sites_on.sites.size(); ++k)
+    if (const Vec2 p = stage.sites_on.sites[k].position; p.x > middle.x + 1e-9 && p.y < 0.5 - 1e-9)
+      zigzag.push_back({static_cast<LocalIndex>(k), BoundaryEdit::Kind::remove, 0, {}});
+  ASSERT_EQ(zigzag.size(), 2u);
+  std::vector<LocalIndex> inserted;
+  edit_boundary(stage.sites_on, stage.curve, zigzag, inserted);
+  stage.guard = BoundaryGuard(stage.sites_on, unit_lattice());
+  stage.add_boundary();
+  for (PatchSite& site : stage.sites)
+    site.tolerance = 1.1 * stray * edge;
+  add_upper_lattice(stage);
+  EXPECT_GT(worst_alpha(stage, {}, middle, 3 * h), 1.5);
+  stage.budget.may_insert = stage.budget.may_delete = 0;
+  const std::vector<SiteEdit> edits = stage.improve(unit_lattice().snap(apex));
+  stage.guard = BoundaryGuard(edited_boundary(stage, edits), unit_lattice());
+  EXPECT_LT(worst_alpha(stage, edits, middle, 3 * h), 1.4); // the bar of contours_test.py
 }
 
 /// A patch across the border of a torus is the patch elsewhere.
