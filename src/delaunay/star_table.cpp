@@ -20,7 +20,7 @@ void StarTable::reset(LocalIndex n) {
     std::fill(rings_.begin() + part * chunk, rings_.begin() + end, std::array<LocalIndex, slots>{});
   });
   degree_.assign(static_cast<std::size_t>(n), 0);
-  certain_.assign(static_cast<std::size_t>(n), 0);
+  flags_.assign(static_cast<std::size_t>(n), 0);
   overflow_.clear();
   free_overflow_.clear();
 }
@@ -36,14 +36,17 @@ std::span<const LocalIndex> StarTable::load(LocalIndex i, std::vector<LocalIndex
 
 void StarTable::store(LocalIndex i, std::span<const LocalIndex> ring) {
   const std::size_t at = static_cast<std::size_t>(i);
+  const bool has_gap = std::find(ring.begin(), ring.end(), gap) != ring.end();
   if (ring.size() <= slots) {
     clear(i);
+    set(i, gapped, has_gap);
     std::copy(ring.begin(), ring.end(), rings_[at].begin());
     repeat(rings_[at], ring.size());
     degree_[at] = static_cast<std::uint8_t>(ring.size());
     return;
   }
   // Rare (degree above 8): the order of the entries depends on the threads, the rings themselves do not.
+  set(i, gapped, has_gap);
   const std::lock_guard lock(*overflow_mutex_);
   if (degree_[at] != overflowing) {
     if (free_overflow_.empty()) {
@@ -74,7 +77,7 @@ void StarTable::release_overflow(LocalIndex i) {
 void StarTable::renumber(std::span<const LocalIndex> new_index, LocalIndex new_size) {
   UnsetVector<std::array<LocalIndex, slots>> rings(static_cast<std::size_t>(new_size));
   std::vector<std::uint8_t> degrees(static_cast<std::size_t>(new_size), 0);
-  certain_.assign(static_cast<std::size_t>(new_size), 0);
+  std::vector<std::uint8_t> flags(static_cast<std::size_t>(new_size), 0);
   const LocalIndex old_size = static_cast<LocalIndex>(degree_.size());
   const auto mapped = [&](LocalIndex neighbour) {
     return neighbour == gap       ? gap
@@ -99,6 +102,7 @@ void StarTable::renumber(std::span<const LocalIndex> new_index, LocalIndex new_s
           map_ring({rings_[static_cast<std::size_t>(i)].data(), n}, rings[static_cast<std::size_t>(to)].data())) {
         repeat(rings[static_cast<std::size_t>(to)], n);
         degrees[static_cast<std::size_t>(to)] = n;
+        flags[static_cast<std::size_t>(to)] = flags_[static_cast<std::size_t>(i)] & gapped;
       }
     }
   });
@@ -114,11 +118,13 @@ void StarTable::renumber(std::span<const LocalIndex> new_index, LocalIndex new_s
     if (map_ring(moved, moved.data())) {
       rings[static_cast<std::size_t>(to)][0] = static_cast<LocalIndex>(overflow.size());
       degrees[static_cast<std::size_t>(to)] = overflowing;
+      flags[static_cast<std::size_t>(to)] = flags_[static_cast<std::size_t>(i)] & gapped;
       overflow.push_back(std::move(moved));
     }
   }
   rings_ = std::move(rings);
   degree_ = std::move(degrees);
+  flags_ = std::move(flags);
   overflow_ = std::move(overflow);
   free_overflow_.clear();
 }

@@ -26,7 +26,8 @@ constexpr int refine_sweeps = 20;
 constexpr std::size_t few_runners = 3, few_finalists = 2;
 constexpr double middle_reach = 1.5; // h
 constexpr int most_tried = 200;      // triangles
-constexpr int most_strain = 2;
+constexpr int most_strain = 2;       // see strain_added: one winner in twenty adds more, and every third operation
+constexpr double patience = 1.5;     // factor on what is hopeless, for very bad triangles
 
 } // namespace
 
@@ -221,7 +222,7 @@ void PatchOptimizer::run(Patch& patch, double handicap, double share, const Cont
   if (patch.broken)
     return;
   const double sum = handicap * sum_near(patch);
-  if (sum <= (is_thorough_ ? 1.5 : 1) * share * contest.first && sum < list.back().sum && chords_hold(patch))
+  if (sum <= (is_thorough_ ? patience : 1) * share * contest.first && sum < list.back().sum && chords_hold(patch))
     enter(list, patch, sum, handicap);
 }
 
@@ -299,7 +300,7 @@ void PatchOptimizer::try_everything(const PatchBudget& budget, Contest& contest)
     trial_ = now_;
     const double handicap = operation.inserts() ? 1 : budget.deletion_handicap;
     if (apply(operation) && is_within(budget.may_insert, budget) &&
-        strain_added(operation) <= (is_thorough_ ? 100 : most_strain))
+        (is_thorough_ || strain_added(operation) <= most_strain))
       run(trial_, handicap, hopeless_at_first, contest, runners);
     if (runners.front().sum < excellent * contest.first)
       break;
@@ -308,7 +309,7 @@ void PatchOptimizer::try_everything(const PatchBudget& budget, Contest& contest)
     if (runner.sum < INFINITY)
       run(runner.patch, runner.handicap, hopeless_then, contest, finalists);
   for (Runner& finalist : finalists)
-    if (finalist.sum < (is_thorough_ ? 1.5 : 1) * hopeless_then * contest.least)
+    if (finalist.sum < (is_thorough_ ? patience : 1) * hopeless_then * contest.least)
       finish(finalist, contest);
 }
 

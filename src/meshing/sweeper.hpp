@@ -80,6 +80,7 @@ private:
   SweepTask task();
   void classify();
   SiteClass class_of(LocalIndex i, LocalIndex tile) const;
+  bool vouches_for(LocalIndex neighbour, LocalIndex i) const;
   bool may_be_bordered(LocalIndex i, LocalIndex tile) const;
   bool is_chord_within_reach(LocalIndex from, LocalIndex to, LocalIndex tile) const;
   void find_encroached_tiles();

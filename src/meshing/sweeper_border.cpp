@@ -5,6 +5,7 @@
 #include "meshing/tiles_around.hpp"
 #include "trime/core/thread_loop.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace trime::meshing {
@@ -18,8 +19,20 @@ std::size_t at(LocalIndex i) {
 
 } // namespace
 
-/// Does the lemma do for the star of site i? A neighbour without a ring was lost when sites were sorted: it may have
-/// had triangles that this star knows.
+/// Does the star of a neighbour know the triangles at its edge to site i? Not if it was lost when sites were sorted,
+/// nor if they are too large for it: its cap may be lower. Whoever comes into such a triangle may change the one star
+/// only.
+bool Sweeper::vouches_for(LocalIndex neighbour, LocalIndex i) const {
+  const delaunay::StarTable& stars = state_.stars();
+  if (!stars.has_gap(neighbour))
+    return stars.degrees()[neighbour] > 0;
+  const std::span<const LocalIndex> ring = stars.ring(neighbour);
+  const auto found = std::find(ring.begin(), ring.end(), i);
+  return found != ring.end() && *(found == ring.begin() ? ring.end() - 1 : found - 1) != delaunay::gap &&
+         *(found + 1 == ring.end() ? ring.begin() : found + 1) != delaunay::gap;
+}
+
+/// Does the lemma do for the star of site i?
 SiteClass Sweeper::class_of(LocalIndex i, LocalIndex tile) const {
   const mesh::BinnedPoints& points = state_.points();
   if (const std::int32_t boundary = points.boundary(i); boundary != mesh::free_site)
@@ -33,7 +46,7 @@ SiteClass Sweeper::class_of(LocalIndex i, LocalIndex tile) const {
       return SiteClass::exact;
     if (points.boundary(neighbour) >= 0)
       beside_boundary = true;
-    else if (state_.stars().degrees()[neighbour] == 0)
+    else if (!vouches_for(neighbour, i))
       return SiteClass::exact;
   }
   return !beside_boundary ? SiteClass::local : may_be_bordered(i, tile) ? SiteClass::bordered : SiteClass::exact;

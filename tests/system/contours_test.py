@@ -114,6 +114,18 @@ class Contours(unittest.TestCase):
                 with h5py.File(work / "c.h5", "r") as file:
                     self.assertLess(file["VTKHDF/CellData/alpha"][:].max(), 1.4)
 
+    def test_stars_of_north_america_are_right_in_every_sweep(self):
+        """Long chords between small sizes: of two stars at an edge one had left out a triangle as too large."""
+        os.environ["TRIME_VERIFY_STARS"] = "1"
+        self.addCleanup(os.environ.pop, "TRIME_VERIFY_STARS")
+        text = NORTH_AMERICA.replace("[meshing]", "[sizing]\ntype = automatic\ngradation = 0.2\n[meshing]")
+        text = text.replace("100000", "16000").replace("distmesh", "hybrid")
+        hashes = set()
+        for ranks in (1, 3):
+            with Workspace() as work:
+                hashes.add(self.mesh(work, text, ranks=ranks)[2])
+        self.assertEqual(len(hashes), 1)
+
     def test_north_america_keeps_its_lakes(self):
         with Workspace() as work:
             checks, size, mesh_hash = self.mesh(work, NORTH_AMERICA, ranks=2)

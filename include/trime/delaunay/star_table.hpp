@@ -40,12 +40,14 @@ public:
   const std::uint8_t* degrees() const { return degree_.data(); }
   /// Length of the ring of site i; slots + 1 stands for any that is longer than `slots`.
   std::size_t degree(LocalIndex i) const { return degree_[static_cast<std::size_t>(i)]; }
+  /// Does the ring of site i have a gap in it?
+  bool has_gap(LocalIndex i) const { return (flags_[static_cast<std::size_t>(i)] & gapped) != 0; }
   /// The ring of site i while other sites are being stored; `room` holds it if it comes from the overflow list.
   std::span<const LocalIndex> load(LocalIndex i, std::vector<LocalIndex>& room) const;
   /// Stores a ring; different sites may be stored concurrently.
   void store(LocalIndex i, std::span<const LocalIndex> ring);
   /// @brief The 8 slots for a ring of 1 to 8 neighbours, to be written and repeated by the caller; until then they hold
-  /// what they did.
+  /// what they did. No gaps.
   LocalIndex* store_short(LocalIndex i, std::size_t degree) {
     clear(i);
     degree_[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(degree);
@@ -58,11 +60,12 @@ public:
     if (degree_[static_cast<std::size_t>(i)] > slots)
       release_overflow(i);
     degree_[static_cast<std::size_t>(i)] = 0;
+    set(i, gapped, false);
   }
 
   /// True once every bin that the discs of the star meet is known and the star was computed with them.
-  bool certain(LocalIndex i) const { return certain_[static_cast<std::size_t>(i)] != 0; }
-  void set_certain(LocalIndex i, bool certain) { certain_[static_cast<std::size_t>(i)] = certain; }
+  bool certain(LocalIndex i) const { return (flags_[static_cast<std::size_t>(i)] & is_certain) != 0; }
+  void set_certain(LocalIndex i, bool certain) { set(i, is_certain, certain); }
 
   /// @brief Moves the rings to a new numbering of the owned sites. Rings with a neighbour that has no new index (a
   /// ghost, a deleted or migrated site) become empty. All stars become uncertain. Holds two sets of rings for as long
@@ -73,12 +76,17 @@ public:
   void renumber_ghosts(LocalIndex first, std::span<const LocalIndex> new_index);
 
 private:
+  static constexpr std::uint8_t is_certain = 1, gapped = 2;
+  void set(LocalIndex i, std::uint8_t flag, bool value) {
+    std::uint8_t& flags = flags_[static_cast<std::size_t>(i)];
+    flags = static_cast<std::uint8_t>(value ? flags | flag : flags & ~flag);
+  }
   void release_overflow(LocalIndex i);
   static void repeat(std::array<LocalIndex, slots>& ring, std::size_t degree);
 
   UnsetVector<std::array<LocalIndex, slots>> rings_;
   std::vector<std::uint8_t> degree_; // length of the ring; slots + 1 stands for an overflow entry
-  std::vector<std::uint8_t> certain_;
+  std::vector<std::uint8_t> flags_;
   std::vector<std::vector<LocalIndex>> overflow_;
   std::vector<LocalIndex> free_overflow_; // entries of overflow_ without a site
   std::unique_ptr<std::mutex> overflow_mutex_ = std::make_unique<std::mutex>();

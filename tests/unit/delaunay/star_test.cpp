@@ -323,6 +323,33 @@ TEST(Stars, UncertainStarsNameTheMissingBinsAndAreRightOnceTheyAreKnown) {
 
 /// Once a warm ring with a neighbour beyond the window of the search (radius above the cap) was taken for right
 /// although a site had come into one of its discs: the far member balanced the intruder in the count.
+TEST(Stars, WhetherARingHasAGapIsKnownThroughChangesAndRenumbering) {
+  const std::vector<std::vector<LocalIndex>> rings{
+      {1, 2, 3}, {0, gap, 2, 3}, {0, 1, 3, 4, 5, 6, 7, 8, 9, 10}, {0, 1, gap, 2, 4, 5, 6, 7, 8, 9, 10}, {}};
+  StarTable stars;
+  stars.reset(11);
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    stars.store(static_cast<LocalIndex>(i), rings[i]);
+    stars.set_certain(static_cast<LocalIndex>(i), true);
+  }
+  const auto gaps = [&] {
+    std::vector<LocalIndex> sites;
+    for (LocalIndex i = 0; i < stars.size(); ++i)
+      if (stars.has_gap(i))
+        sites.push_back(i);
+    return sites;
+  };
+  EXPECT_EQ(gaps(), (std::vector<LocalIndex>{1, 3}));
+  EXPECT_TRUE(stars.certain(1) && stars.certain(2) && !stars.certain(5));
+  stars.renumber(std::vector<LocalIndex>{10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0}, 11);
+  EXPECT_EQ(gaps(), (std::vector<LocalIndex>{7, 9}));
+  EXPECT_FALSE(stars.certain(9));
+  stars.store(9, rings[0]);
+  stars.clear(7);
+  stars.store(4, rings[1]);
+  EXPECT_EQ(gaps(), (std::vector<LocalIndex>{4}));
+}
+
 TEST(Stars, WarmRingWithAFarMemberIsNotTrusted) {
   const geometry::Box box{{0, 0}, {16, 16}};
   const geometry::Lattice lattice(box);
