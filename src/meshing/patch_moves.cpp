@@ -14,7 +14,7 @@ namespace {
 using geometry::Vec2;
 
 constexpr double longest_step = 0.25;  // h, of one Newton step
-constexpr double shortest_step = 6e-3; // h: not worth a move
+constexpr double shortest_step = 3e-3; // h: not worth a move
 constexpr double good_enough = 2e-4;   // energy of a star: six triangles with eta below 1.006
 constexpr double nearly_flat = 1e20;   // energy of a star: below, rounding cannot change the signs of its areas
 constexpr int halvings = 3;
