@@ -309,7 +309,7 @@ void PatchOptimizer::try_everything(const PatchBudget& budget, Contest& contest)
     if (runner.sum < INFINITY)
       run(runner.patch, runner.handicap, hopeless_then, contest, finalists);
   for (Runner& finalist : finalists)
-    if (finalist.sum < (is_thorough_ ? patience : 1) * hopeless_then * contest.least)
+    if (finalist.sum < INFINITY)
       finish(finalist, contest);
 }
 
