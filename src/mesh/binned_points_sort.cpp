@@ -155,6 +155,10 @@ LocalIndex BinnedPoints::find_order(const Sites& sites) {
   }
   if (tile_start_.empty())
     sort_into_tiles(sites);
+  else
+    TRIME_ASSERT(std::ssize(order_) == sites.size() && std::ssize(tile_start_) == tiles + 1,
+                 "suitable_bin_bits has listed {} sites in {} tiles, found {} in {}", order_.size(),
+                 tile_start_.size() - 1, sites.size(), tiles);
   kept_.assign(at(tiles) + 1, 0);
   std::vector<TileWork> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
   thread_loop(tiles, 1, [&](std::ptrdiff_t t, int thread) {

@@ -95,9 +95,9 @@ struct Counts {
 std::uint64_t triangle_hash(GlobalId a, GlobalId b, GlobalId c) {
   const GlobalId first = std::min(std::min(a, b), c); // without a branch: nobody can foresee which
   const GlobalId second = first == a ? b : first == b ? c : a, third = first == a ? c : first == b ? a : b;
-  // One mixing of all three: odd factors without a pattern keep apart what differs.
-  return mix_bits(static_cast<std::uint64_t>(first) + 0xd6e8feb86659fd93ULL * static_cast<std::uint64_t>(second) +
-                  0xa0761d6478bd642fULL * static_cast<std::uint64_t>(third));
+  const std::uint64_t two =
+      static_cast<std::uint64_t>(first) + 0xd6e8feb86659fd93ULL * static_cast<std::uint64_t>(second);
+  return mix_bits(mix_bits(two) ^ static_cast<std::uint64_t>(third));
 }
 
 std::uint64_t facet_hash(GlobalId first, GlobalId second, std::int32_t tag, std::int32_t part) {

@@ -27,7 +27,7 @@ constexpr std::size_t few_runners = 3, few_finalists = 2;
 constexpr double middle_reach = 1.5; // h
 constexpr int most_tried = 200;      // triangles
 constexpr int most_strain = 2;       // see strain_added: one winner in twenty adds more, and every third operation
-constexpr double patience = 1.5;     // factor on what is hopeless, for very bad triangles
+constexpr double patience = 2;       // factor on what is hopeless, for very bad triangles
 
 } // namespace
 

@@ -103,7 +103,8 @@ private:
 
   CellNode build(const CellPlace& place) {
     const List& list = lists_[static_cast<std::size_t>(place.level)];
-    if (list.count <= enough || place.level == most_levels || grid_.side_at(place.level) <= small * list.lowest)
+    if (list.count <= enough || place.level == most_levels || grid_.side_at(place.level) <= small * list.lowest ||
+        is_hopeless(place.level))
       return leaf(list);
     const std::size_t node = part_.quarters.size();
     part_.quarters.emplace_back();
@@ -112,6 +113,12 @@ private:
       part_.quarters[node][static_cast<std::size_t>(k)] = build(place.quarter(k));
     }
     return static_cast<CellNode>(node);
+  }
+
+  /// Where cones lie together, or none is lower than another, no cell tells them apart: two levels have not.
+  bool is_hopeless(int level) const {
+    const auto of = static_cast<std::size_t>(level);
+    return level >= 2 && lists_[of].count == lists_[of - 2].count;
   }
 
   /// Makes the list of a cell from that of the larger one around it.
@@ -191,6 +198,10 @@ void ConeCells::assemble(const std::vector<Part>& parts) {
   for (const Part& part : parts) {
     quarters += part.quarters.size();
     numbers += part.numbers.size();
+  }
+  if (numbers > CellLeaf::most_numbers || quarters > CellLeaf::most_numbers) {
+    columns_ = rows_ = 0; // the tree is asked
+    return;
   }
   roots_.reserve(parts.size());
   quarters_.reserve(quarters);

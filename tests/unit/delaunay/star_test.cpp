@@ -321,8 +321,6 @@ TEST(Stars, UncertainStarsNameTheMissingBinsAndAreRightOnceTheyAreKnown) {
   }
 }
 
-/// Once a warm ring with a neighbour beyond the window of the search (radius above the cap) was taken for right
-/// although a site had come into one of its discs: the far member balanced the intruder in the count.
 TEST(Stars, WhetherARingHasAGapIsKnownThroughChangesAndRenumbering) {
   const std::vector<std::vector<LocalIndex>> rings{
       {1, 2, 3}, {0, gap, 2, 3}, {0, 1, 3, 4, 5, 6, 7, 8, 9, 10}, {0, 1, gap, 2, 4, 5, 6, 7, 8, 9, 10}, {}};
@@ -350,6 +348,8 @@ TEST(Stars, WhetherARingHasAGapIsKnownThroughChangesAndRenumbering) {
   EXPECT_EQ(gaps(), (std::vector<LocalIndex>{4}));
 }
 
+/// Once a warm ring with a neighbour beyond the window of the search (radius above the cap) was taken for right
+/// although a site had come into one of its discs: the far member balanced the intruder in the count.
 TEST(Stars, WarmRingWithAFarMemberIsNotTrusted) {
   const geometry::Box box{{0, 0}, {16, 16}};
   const geometry::Lattice lattice(box);

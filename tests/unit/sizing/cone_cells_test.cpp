@@ -56,6 +56,19 @@ TEST(ConeCells, ConesAtOnePlaceAndOnALine) {
   expect_equal(line);
 }
 
+TEST(ConeCells, DoNotDivideWithoutEndWhereNoConeIsTheLowest) {
+  std::vector<Cone> clusters;
+  for (const Cone& cone : ring_of_cones(100, 0))
+    for (int k = 0; k < 13; ++k)
+      clusters.push_back({cone.apex + Vec2{1e-10 * k, 0}, 1e-6});
+  expect_equal(clusters);
+  std::vector<Cone> equal = ring_of_cones(1000, 0);
+  for (Cone& cone : equal)
+    cone.height = 1e-4;
+  const ConeTree tree(equal, 0);
+  EXPECT_EQ(ConeCells(tree, 0).value({0.5, 0.4}, 1), 1e-4); // took minutes
+}
+
 TEST(ConeCells, AskTheTreeOutside) {
   const ConeTree tree(ring_of_cones(100, 0.004), slope);
   const ConeCells cells(tree, slope);
