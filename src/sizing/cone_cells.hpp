@@ -16,13 +16,13 @@ namespace trime::sizing {
 /// many cones. Immutable; queries are thread-safe.
 class ConeCells {
 public:
-  /// Of more cones no cells are made: they take about one KiB for each.
+  /// Of more cones no cells are made: they take about one KiB for each, more where cones lie together.
   static constexpr std::size_t most_cones = std::size_t{1} << 15;
 
   /// So few cones need no cells.
   static constexpr std::size_t few_cones = 8;
 
-  /// O(n log n), over threads. @pre `tree` outlives this object
+  /// About O(n log n), over threads. @pre `tree` outlives this object and has been made for the same slope
   ConeCells(const ConeTree& tree, double slope);
 
   /// The least of `bound` and the values of all cones at p.

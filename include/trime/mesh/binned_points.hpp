@@ -93,7 +93,7 @@ public:
   /// @brief For each of the tiles [first_tile, last_tile) the b for which 2^b x 2^b bins suit those of the sites that
   /// lie in it: the smallest for which a site shares its bin with a few others on average, with at most four bins a
   /// site. What was found out on the way serves the next assign_owned. O(n); threads.
-  /// @post assign_owned with the same sites and tiles is due
+  /// @post assign_owned with the same sites and tiles must come next; another number of them is an InternalError
   std::vector<std::uint8_t> suitable_bin_bits(std::span<const Site> sites, LocalIndex first_tile, LocalIndex last_tile);
 
   /// @brief Moves without sorting: the places (and leads) that the owned sites will take at the next `advance`, to be

