@@ -176,11 +176,12 @@ private:
   /// @brief Where limits lower the size much, they hold many points that no estimate knows of: factor and limits are
   /// found together, one layout for each step.
   Approach approached(double factor) {
-    constexpr double growth_to_come[] = {1, 1, 1.08, 1.018}; // of the points, by limits that the trial does without
+    constexpr double growth_to_come[] = {1, 1, 1.08}; // of the points, by limits that the trial does without
     bool crowded = false;
     for (int round = 0; round < approach_rounds; ++round) {
       Layout layout = lay(factor);
       const bool first = limit_rounds_ == 0;
+      search_.expect(crowded ? crowded_power : -2); // trials with other limits tell nothing
       if (!find_limits(layout))
         return {factor, counted(std::move(layout), coarsening_)};
       if (first) {
@@ -189,7 +190,6 @@ private:
         continue;
       }
       const double growth = crowded ? growth_to_come[limit_rounds_] : 1;
-      search_.expect(crowded ? crowded_power : -2); // trials with other limits tell nothing
       factor = search_.next(factor, growth * counted(std::move(layout), rough_).points);
     }
     return {factor, std::nullopt};

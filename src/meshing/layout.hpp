@@ -78,7 +78,7 @@ Layout lay_again(const LayoutContext& context, Layout layout, double expected);
 Layout lay_reference(const LayoutContext& context, BoundarySites polygon, double expected, double grid_coarsening);
 
 /// So often limits of the size are looked for.
-inline constexpr int most_lowering_rounds = 3;
+inline constexpr int most_lowering_rounds = 2;
 
 /// @brief Boundary sites alone, with neither guard nor state, in search of a size. If the boundary takes far more
 /// points than were asked for, its sites are not finished (`overfull`). Collective.

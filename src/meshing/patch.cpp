@@ -23,15 +23,18 @@ constexpr std::size_t most_searched = 64; // triangles without a vertex inside, 
 
 LocalIndex PatchOptimizer::Patch::add(Vec2 p, double h, const BoundaryVertex& on_boundary, Role its_role) {
   const LocalIndex v = mesh.insert(p);
-  if (v < 0)
-    return v;
+  if (v >= 0)
+    append(v, h, on_boundary, its_role);
+  return v;
+}
+
+void PatchOptimizer::Patch::append(LocalIndex v, double h, const BoundaryVertex& on_boundary, Role its_role) {
   role.push_back(its_role);
   size.push_back(h);
   boundary.push_back(on_boundary);
   if (on_boundary.site >= 0)
     rim.push_back(v);
   ++gain;
-  return v;
 }
 
 /// The triangulation of the sites. @return false if there is nothing to be done
@@ -66,9 +69,10 @@ bool PatchOptimizer::build(Vec2 center, double size, std::span<const PatchSite> 
       if (its.corner)
         role = std::min(role, Role::scored);
     }
-    if (start_.add(site.position, site.size, on_boundary, role) >= 0)
-      rests_.push_back(site.rests != 0);
+    start_.append(start_.mesh.append(site.position), site.size, on_boundary, role);
+    rests_.push_back(site.rests != 0);
   }
+  start_.mesh.connect_all();
   start_.gain = 0;
   link_boundary();
   missing_at_start_ = missing_chords(start_);
@@ -236,8 +240,7 @@ void PatchOptimizer::collect_verdicts(PatchResult& result) {
   collect(now_, worst_after_);
   for (const PatchMesh::Triangle& triangle : now_.mesh.triangles())
     if (counts(now_, triangle) && alpha(now_, triangle) > options_.bad_alpha &&
-        is_in_core(middle_of(now_, triangle.vertex)) &&
-        std::find(tried_.begin(), tried_.end(), triangle.vertex) == tried_.end()) {
+        is_in_core(middle_of(now_, triangle.vertex)) && !is_tried(triangle.vertex)) {
       ++result.failures;
       for (const LocalIndex v : triangle.vertex)
         rests_[at(v)] = 1;
@@ -245,6 +248,16 @@ void PatchOptimizer::collect_verdicts(PatchResult& result) {
   for (LocalIndex v = PatchMesh::frame; v < now_.mesh.vertices(); ++v)
     if (now_.role[at(v)] >= Role::scored && (worst_before_[at(v)] > 0 || worst_after_[at(v)] > 0))
       result.verdicts.push_back({now_.mesh.position(v), now_.size[at(v)], worst_after_[at(v)], rests_[at(v)]});
+}
+
+/// As worst_untried tells of it.
+PatchOptimizer::Corners PatchOptimizer::largest_first(Corners corners) {
+  std::rotate(corners.begin(), std::max_element(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+bool PatchOptimizer::is_tried(const Corners& corners) const {
+  return !tried_.empty() && std::find(tried_.begin(), tried_.end(), largest_first(corners)) != tried_.end();
 }
 
 /// Do all three? Then nothing helped for this triangle.

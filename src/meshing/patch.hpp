@@ -105,7 +105,7 @@ public:
         finalists_(options.finalists, Runner{start_}) {}
 
   /// @brief Tries everything once.
-  /// @param sites in lexicographic order; all that lie within `options.reach` times `size` of `center`
+  /// @param sites in lexicographic order, all different; all that lie within `options.reach` times `size` of `center`
   PatchResult improve(geometry::Vec2 center, double size, std::span<const PatchSite> sites, const PatchBudget& budget);
 
 private:
@@ -133,6 +133,7 @@ private:
   struct Patch {
     Patch(const geometry::Lattice& lattice, const geometry::Periods& periods) : mesh(lattice, periods) {}
     LocalIndex add(geometry::Vec2 p, double h, const BoundaryVertex& on_boundary, Role its_role);
+    void append(LocalIndex v, double h, const BoundaryVertex& on_boundary, Role its_role);
     bool on_boundary(LocalIndex v) const { return boundary[at(v)].site >= 0; }
     bool is_chord(LocalIndex from, LocalIndex to) const { return boundary[at(from)].next == to; }
 
@@ -190,13 +191,16 @@ private:
   void operate_first(const PatchBudget& budget);
   void operate(const PatchBudget& budget);
   bool is_settled(const Corners& corners) const;
+  static Corners largest_first(Corners corners);
+  bool is_tried(const Corners& corners) const;
   bool rest(const Corners& corners) const;
   void wake_moved(const Patch& before);
   std::optional<Corners> worst_untried(double above) const;
   bool try_at(const Corners& worst, const PatchBudget& budget, bool is_first);
   bool set_bar_by_moves(Contest& contest);
   void list_near(const Contest& contest);
-  void note_terms();
+  bool is_worth(const Contest& contest, double largest_near, const PatchBudget& budget) const;
+  Score note_terms();
   double sum_near(const Patch& patch);
   Score score_near(const Patch& patch) const;
   void list_operations(const Contest& contest);

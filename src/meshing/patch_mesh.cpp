@@ -3,6 +3,7 @@
 
 #include "trime/core/error.hpp"
 #include "trime/geometry/predicates.hpp"
+#include "trime/mesh/tile_grid.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,8 @@ namespace trime::meshing {
 namespace {
 
 using geometry::Vec2;
+
+constexpr int curve_level = 8; // of the Hilbert curve through the frame
 
 constexpr int next(int k) {
   return k == 2 ? 0 : k + 1;
@@ -131,6 +134,32 @@ void PatchMesh::close_cavity(LocalIndex v) {
         triangle(other.created).neighbour[2] = edge.created;
       }
   corner_of(v) = last_ = rim_.front().created;
+}
+
+LocalIndex PatchMesh::append(Vec2 p) {
+  positions_.push_back(p);
+  corner_of_.push_back(-1);
+  return vertices() - 1;
+}
+
+/// Each near the one before, so that searches are short and cavities small.
+void PatchMesh::connect_all() {
+  constexpr double side = 1 << curve_level;
+  const Vec2 low = position(0);
+  const double scale = side / (position(2).x - low.x);
+  const auto cell = [&](double offset) {
+    return static_cast<std::uint32_t>(std::clamp(scale * offset, 0.0, side - 1));
+  };
+  on_curve_.clear();
+  for (LocalIndex v = frame; v < vertices(); ++v) {
+    const Vec2 offset = position(v) - low;
+    on_curve_.push_back(
+        {static_cast<std::uint32_t>(mesh::hilbert_key(cell(offset.x), cell(offset.y), curve_level)), v});
+  }
+  std::sort(on_curve_.begin(), on_curve_.end(),
+            [](const OnCurve& a, const OnCurve& b) { return a.key != b.key ? a.key < b.key : a.vertex < b.vertex; });
+  for (const OnCurve& next : on_curve_)
+    place(next.vertex);
 }
 
 LocalIndex PatchMesh::insert(Vec2 p) {

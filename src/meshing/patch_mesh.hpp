@@ -35,6 +35,10 @@ public:
   /// Empties the mesh and puts the frame at the corners of the square around `center`, `half_width` being a lattice
   /// multiple.
   void start(geometry::Vec2 center, double half_width);
+  /// Adds a point without triangles; no other lies there. connect_all must follow before anything else.
+  LocalIndex append(geometry::Vec2 p);
+  /// Inserts the points that have been appended since start, along a Hilbert curve.
+  void connect_all();
   /// @brief Adds a point inside the frame. @return its vertex, or -1 if a vertex lies there already. About 0.5
   /// microseconds near the last one.
   LocalIndex insert(geometry::Vec2 p);
@@ -96,6 +100,11 @@ private:
   std::vector<LocalIndex> unused_;
   LocalIndex last_ = 0; // where the next search begins
   // Work space.
+  struct OnCurve {
+    std::uint32_t key;
+    LocalIndex vertex;
+  };
+  std::vector<OnCurve> on_curve_;
   std::vector<LocalIndex> cavity_;
   std::vector<Rim> rim_;
   std::vector<Side> suspects_;

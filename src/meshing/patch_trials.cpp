@@ -25,9 +25,11 @@ constexpr double refine_alpha_at_first = 1.45, refine_alpha = 1.3;
 constexpr int refine_sweeps = 20;
 constexpr std::size_t few_runners = 3, few_finalists = 2;
 constexpr double middle_reach = 1.5; // h
-constexpr int most_tried = 200;      // triangles
-constexpr int most_strain = 2;       // see strain_added: one winner in twenty adds more, and every third operation
-constexpr double patience = 2;       // factor on what is hopeless, for very bad triangles
+/// Alpha from which a triangle with 0, 1, 2, 3 vertices on the boundary is worth a contest beside a worse one.
+constexpr std::array<double, 4> least_beside_worse{1.1, 1.1, 1.12, 1.15};
+constexpr int most_tried = 200; // triangles
+constexpr int most_strain = 2;  // see strain_added: one winner in twenty adds more, and every third operation
+constexpr double patience = 2;  // factor on what is hopeless, for very bad triangles
 
 } // namespace
 
@@ -69,13 +71,15 @@ std::optional<PatchOptimizer::Corners> PatchOptimizer::worst_untried(double abov
   for (const PatchMesh::Triangle& triangle : now_.mesh.triangles()) {
     if (!counts(now_, triangle))
       continue;
-    if (const double its_alpha = alpha(now_, triangle);
-        its_alpha > largest && !rest(triangle.vertex) && is_in_core(middle_of(now_, triangle.vertex)) &&
-        std::find(tried_.begin(), tried_.end(), triangle.vertex) == tried_.end()) {
+    if (const double its_alpha = alpha(now_, triangle); its_alpha > largest && !rest(triangle.vertex) &&
+                                                        is_in_core(middle_of(now_, triangle.vertex)) &&
+                                                        !is_tried(triangle.vertex)) {
       worst = triangle.vertex;
       largest = its_alpha;
     }
   }
+  if (worst)
+    worst = largest_first(*worst); // whatever way the triangulation holds it
   return worst;
 }
 
@@ -89,8 +93,9 @@ bool PatchOptimizer::try_at(const Corners& worst, const PatchBudget& budget, boo
   // Rather longer chords on curves than a bad triangle.
   longest_bent_ = contest.alpha >= bend_alpha ? bent_at_last : bent_at_first;
   list_near(contest);
-  note_terms();
-  const Score before = score_near(now_);
+  const Score before = note_terms();
+  if (!is_first && !is_worth(contest, before.max, budget))
+    return false;
   contest.first = contest.least = (1 - least_gain) * before.sum;
   contest.before = contest.largest = before.max;
   if (is_first && !set_bar_by_moves(contest))
@@ -154,10 +159,21 @@ void PatchOptimizer::list_near(const Contest& contest) {
   }
 }
 
-/// What each triangle near the place of the trials adds to the sum now.
-void PatchOptimizer::note_terms() {
+/// Beside a worse triangle for which nothing helped, and along the boundary, a slightly bad one hardly ever becomes
+/// better.
+bool PatchOptimizer::is_worth(const Contest& contest, double largest_near, const PatchBudget& budget) const {
+  if (largest_near <= contest.alpha)
+    return true;
+  const auto on_boundary = static_cast<std::size_t>(
+      std::count_if(contest.corners.begin(), contest.corners.end(), [&](LocalIndex v) { return now_.on_boundary(v); }));
+  return !budget.is_again && contest.alpha > least_beside_worse[on_boundary];
+}
+
+/// What each triangle near the place of the trials adds to the sum now. @return all of it, as score_near
+PatchOptimizer::Score PatchOptimizer::note_terms() {
   const std::span<const PatchMesh::Triangle> triangles = now_.mesh.triangles();
   terms_.assign(triangles.size(), 0);
+  Score all;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto& vertex = triangles[t].vertex;
     if (vertex[0] < 0 || !(in_score_[at(vertex[0])] || in_score_[at(vertex[1])] || in_score_[at(vertex[2])]) ||
@@ -166,7 +182,10 @@ void PatchOptimizer::note_terms() {
     Score score;
     add_to(score, alpha(now_, triangles[t]));
     terms_[t] = score.sum;
+    all.sum += score.sum;
+    all.max = std::max(all.max, score.max);
   }
+  return all;
 }
 
 /// As score_near, for a trial: most of its triangles are those of now_.
