@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Strong-scaling table: the same mesh on several numbers of ranks and threads.
 
-Runs trime_mpi for every case and number of points (one warm-up run dropped, then --repeats runs), reads times from the
-mesh files that it writes, and makes scaling.md, scaling.csv and runs.jsonl in the output directory. The efficiency is
-T1 / (p Tp): T of the base case (the one with fewest cores), p = ranks x threads. A case with more threads than there
-are cores is marked and gets no efficiency. Every row carries the mesh hash: all rows of one size must agree.
+Runs trime_mpi for every case and number of points (one warm-up run dropped, then --repeats runs, all cases in turn),
+reads times from the mesh files that it writes, and makes scaling.md, scaling.csv and runs.jsonl in the output
+directory. The efficiency is T1 / (p Tp): T of the base case (the one with fewest cores), p = ranks x threads. A case
+with more threads than there are cores is marked and gets no efficiency. Every row carries the mesh hash: all rows of
+one size must agree.
 
   scripts/scaling.py --cases 1x1,1x2,2x1 --points 1e5,1e6
   scripts/scaling.py --config my.ini --points 1e7 --cases 1x16,2x8,16x1 meshing.max_sweeps=20
@@ -239,17 +240,17 @@ def measure(options, machine):
     rows = []
     with (options.output / "runs.jsonl").open("w", encoding="utf-8") as stream:
         for points in options.points:
-            of_this_size = []
-            for case in options.cases:
-                run_once(options, case, points)
-                runs = []
-                for repeat in range(options.repeats):
-                    print(f"{points} points, {case[0]} x {case[1]}, run {repeat + 1} of {options.repeats}",
-                          file=sys.stderr, flush=True)
-                    runs.append(run_once(options, case, points))
-                    stream.write(json.dumps(runs[-1] | {"machine": machine}) + "\n")
-                    stream.flush()
-                of_this_size.append(summarise(runs, case, points))
+            runs = [[] for _ in options.cases]
+            for repeat in range(options.repeats + 1):  # in turn, so that a drift of the machine meets all cases alike
+                for case, of_this_case in zip(options.cases, runs):
+                    print(f"{points} points, {case[0]} x {case[1]}, "
+                          + (f"run {repeat} of {options.repeats}" if repeat else "warm-up"), file=sys.stderr, flush=True)
+                    run = run_once(options, case, points)
+                    if repeat:
+                        of_this_case.append(run)
+                        stream.write(json.dumps(run | {"machine": machine}) + "\n")
+                        stream.flush()
+            of_this_size = [summarise(of_this_case, case, points) for case, of_this_case in zip(options.cases, runs)]
             compare(of_this_size)
             rows += of_this_size
     return rows

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/cleanup_choice.hpp"
 
+#include "meshing/chunked.hpp"
+#include "trime/core/thread_loop.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +15,7 @@ namespace {
 using geometry::Vec2;
 
 constexpr int passes = 6;
+constexpr std::ptrdiff_t in_a_row = 64; // contenders that one thread looks at
 enum class Status : std::int32_t { open, chosen, out };
 
 /// A contender of some rank.
@@ -47,9 +51,10 @@ public:
 
   void pass() {
     std::vector<Status> next = status_;
-    for (std::size_t k = 0; k < own_; ++k) {
+    thread_loop(static_cast<std::ptrdiff_t>(own_), in_a_row, [&](std::ptrdiff_t item, int) {
+      const auto k = static_cast<std::size_t>(item);
       if (status_[k] != Status::open)
-        continue;
+        return;
       bool first = true;
       for (const std::uint32_t r : rivals_of(k)) {
         if (status_[r] == Status::chosen)
@@ -58,7 +63,7 @@ public:
       }
       if (first && next[k] == Status::open)
         next[k] = Status::chosen;
-    }
+    });
     status_ = std::move(next);
     exchange_reports();
   }
@@ -114,23 +119,25 @@ private:
       items[k] = {own.place.x, own.place.y, own.separation, static_cast<std::uint32_t>(k)};
     }
     std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.x < b.x; });
-    std::vector<std::array<std::uint32_t, 2>> pairs; // of indices
-    for (const Item& own : items) {
-      const double reach_x = periods_.x > 0 ? INFINITY : own.separation;
-      const double reach_y = periods_.y > 0 ? INFINITY : own.separation;
-      auto other = std::lower_bound(items.begin(), items.end(), own.x - reach_x,
-                                    [](const Item& a, double x) { return a.x < x; });
-      for (; other != items.end() && other->x <= own.x + reach_x; ++other) {
-        if (!(std::abs(other->y - own.y) <= reach_y))
-          continue;
-        const bool is_its_turn =
-            own.separation > other->separation || (own.separation == other->separation && own.index < other->index);
-        if (is_its_turn && are_rivals(all_[own.index].contender, all_[other->index].contender)) {
-          pairs.push_back({own.index, other->index});
-          pairs.push_back({other->index, own.index});
-        }
-      }
-    }
+    using Pair = std::array<std::uint32_t, 2>; // of indices
+    const std::vector<Pair> pairs =
+        gather_in_order<Pair>(std::ssize(items), in_a_row, [&](std::ptrdiff_t k, auto& list) {
+          const Item& own = items[static_cast<std::size_t>(k)];
+          const double reach_x = periods_.x > 0 ? INFINITY : own.separation;
+          const double reach_y = periods_.y > 0 ? INFINITY : own.separation;
+          auto other = std::lower_bound(items.begin(), items.end(), own.x - reach_x,
+                                        [](const Item& a, double x) { return a.x < x; });
+          for (; other != items.end() && other->x <= own.x + reach_x; ++other) {
+            if (!(std::abs(other->y - own.y) <= reach_y))
+              continue;
+            const bool is_its_turn =
+                own.separation > other->separation || (own.separation == other->separation && own.index < other->index);
+            if (is_its_turn && are_rivals(all_[own.index].contender, all_[other->index].contender)) {
+              list.push_back({own.index, other->index});
+              list.push_back({other->index, own.index});
+            }
+          }
+        });
     first_rival_.assign(all_.size() + 1, 0);
     for (const auto& [own, rival] : pairs)
       ++first_rival_[own + 1];

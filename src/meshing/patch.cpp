@@ -226,7 +226,7 @@ void PatchOptimizer::collect_edits(std::vector<SiteEdit>& edits) const {
   }
 }
 
-/// Of all sites whose triangles are all known.
+/// Of all sites whose triangles are all known, if there is anything new.
 void PatchOptimizer::collect_verdicts(PatchResult& result) {
   const auto collect = [&](const Patch& patch, std::vector<double>& worst) {
     worst.assign(at(now_.mesh.vertices()), 0);
@@ -245,8 +245,12 @@ void PatchOptimizer::collect_verdicts(PatchResult& result) {
       for (const LocalIndex v : triangle.vertex)
         rests_[at(v)] = 1;
     }
+  const auto is_news = [&](LocalIndex v) {
+    return v >= start_.mesh.vertices() || now_.mesh.position(v) != start_.mesh.position(v) ||
+           worst_after_[at(v)] != worst_before_[at(v)] || rests_[at(v)] != rested_[at(v)];
+  };
   for (LocalIndex v = PatchMesh::frame; v < now_.mesh.vertices(); ++v)
-    if (now_.role[at(v)] >= Role::scored && (worst_before_[at(v)] > 0 || worst_after_[at(v)] > 0))
+    if (now_.role[at(v)] >= Role::scored && (worst_before_[at(v)] > 0 || worst_after_[at(v)] > 0) && is_news(v))
       result.verdicts.push_back({now_.mesh.position(v), now_.size[at(v)], worst_after_[at(v)], rests_[at(v)]});
 }
 
@@ -286,6 +290,7 @@ PatchResult PatchOptimizer::improve(Vec2 center, double size, std::span<const Pa
     return result;
   }
   now_ = start_;
+  rested_ = rests_;
   if (!budget.is_again)
     operate_first(budget);
   move_bad_sites();

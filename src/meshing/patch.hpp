@@ -48,7 +48,7 @@ struct SiteVerdict {
 /// What comes of a patch.
 struct PatchResult {
   std::vector<SiteEdit> edits;       ///< empty if nothing was better
-  std::vector<SiteVerdict> verdicts; ///< of the sites that have or had bad triangles
+  std::vector<SiteVerdict> verdicts; ///< of the sites that have or had bad triangles, where something has changed
   int failures = 0;                  ///< bad triangles in the middle of the patch that stay
   bool put_off = false;              ///< set by who does not carry it out
 };
@@ -239,10 +239,10 @@ private:
   std::vector<Operation> operations_;
   std::vector<Corners> tried_; // very bad ones
   std::vector<LocalIndex> ring_, touched_, shifted_, movers_, nearest_,
-      near_;                                          // vertices: work space, and those to move
-  std::vector<std::uint8_t> rests_, mark_, in_score_; // by vertex
-  std::vector<double> worst_before_, worst_after_;    // by vertex: alpha
-  std::vector<double> terms_;                         // by triangle: what it adds to the sum of now_
+      near_;                                                   // vertices: work space, and those to move
+  std::vector<std::uint8_t> rests_, rested_, mark_, in_score_; // by vertex
+  std::vector<double> worst_before_, worst_after_;             // by vertex: alpha
+  std::vector<double> terms_;                                  // by triangle: what it adds to the sum of now_
   std::vector<geometry::Vec2> around_;
 };
 
