@@ -31,6 +31,7 @@ constexpr GlobalId least_budget = 10;  // of sites, for a patch, if there are so
 constexpr double largest_loss = 0.005; // of the sites
 /// Where sites, or room for more of them, are fewer than this share of all: factor on the sum of a trial that deletes.
 constexpr double scarcity = 0.001, handicap_if_scarce = 1.5, handicap_if_crowded = 0.85;
+constexpr double again_share = 0.85; // of the excess of the worst triangle: places that come near it are tried again
 constexpr std::array<double, 3> classes{1.5, 1.28, 1.14}; // of alpha
 constexpr double largest_share_of_period = 0.45;          // for what keeps two patches apart
 
@@ -139,6 +140,14 @@ void Cleanup::settle(Vec2 p) {
     candidates_[known->second].tried = stage_;
 }
 
+/// What is bad enough to be tried again: in a good mesh also what is bad there only.
+double Cleanup::find_again_alpha() const {
+  double worst = 1;
+  for (const Candidate& candidate : candidates_)
+    worst = std::max(worst, candidate.alpha);
+  return std::min(options_.again_alpha, 1 + again_share * (comm_.max(worst) - 1));
+}
+
 /// Takes out those that are none any more, once they are many.
 void Cleanup::drop_the_good() {
   const auto is_good = [](const Candidate& candidate) { return !(candidate.alpha > 0); };
@@ -160,7 +169,7 @@ std::vector<Contender> Cleanup::list_contenders() {
   const double separation = 2 * options_.reach - PatchOptions::clearance;
   std::unordered_map<std::uint64_t, const Candidate*> worst;
   for (const Candidate& own : candidates_) {
-    if (!(own.alpha > 0) || own.tried >= stage_ || !(stage_ == 1 || own.alpha > options_.again_alpha) ||
+    if (!(own.alpha > 0) || own.tried >= stage_ || !(stage_ == 1 || own.alpha > again_alpha_) ||
         !(separation * own.size < limit))
       continue;
     const auto [known, is_new] = worst.try_emplace(own.cell, &own);
@@ -209,10 +218,8 @@ PatchBudget Cleanup::budget(std::size_t own_patches) const {
   const bool crowded = static_cast<double>(room()) < scarcity * static_cast<double>(most_sites_);
   const bool scarce = static_cast<double>(sites_) < (1 - scarcity) * static_cast<double>(wanted_sites_);
   const GlobalId may_refine = std::min(most_refined, most_sites_ - sites_);
-  return {share(room()), may_refine, share(spare), stage_ > 1,
-          crowded  ? handicap_if_crowded
-          : scarce ? handicap_if_scarce
-                   : 1};
+  return {share(room()), may_refine,   share(spare),
+          stage_ > 1,    again_alpha_, crowded ? handicap_if_crowded : scarce ? handicap_if_scarce : 1};
 }
 
 std::vector<PatchResult> Cleanup::try_patches(std::span<const Contender> chosen) {
@@ -388,13 +395,15 @@ CleanupCounts Cleanup::run() {
     all_of_boundary[k] = static_cast<LocalIndex>(k);
   find_tolerances(all_of_boundary);
   CleanupCounts all;
-  for (stage_ = 1; stage_ <= stages; ++stage_)
+  for (stage_ = 1; stage_ <= stages; ++stage_) {
+    again_alpha_ = find_again_alpha();
     for (int k = 0; k < most_rounds; ++k) {
       const std::vector<Contender> contenders = list_contenders();
       if (comm_.sum(static_cast<std::int64_t>(contenders.size())) == 0)
         break;
       all.add(round(contenders));
     }
+  }
   if (all.better > 0) {
     places_->finish(state_, chain_.finish(layout_.boundary));
     layout_.guard = std::make_unique<BoundaryGuard>(layout_.boundary, lattice_);

@@ -50,6 +50,7 @@ private:
   void find_candidates();
   void set_candidate(const Candidate& candidate);
   void settle(geometry::Vec2 p);
+  double find_again_alpha() const;
   void drop_the_good();
   std::vector<Contender> list_contenders();
   void find_tolerances(std::span<const LocalIndex> boundary_sites);
@@ -74,7 +75,8 @@ private:
   PatchOptions options_;
   GlobalId most_sites_, least_sites_, wanted_sites_, sites_; // over all ranks
   int round_ = 0;
-  int stage_ = 1; // above the first only very bad places are tried, once more
+  int stage_ = 1;             // above the first only very bad places are tried, once more
+  double again_alpha_ = 1.15; // where they are tried in this one
   BoundaryChain chain_;
   std::vector<double> tolerances_; // by index in the chain
   std::unique_ptr<CleanupSites> places_;

@@ -66,7 +66,7 @@ struct PatchOptions {
   double operate_alpha = 1.09;
   double very_bad_alpha = 1.25; ///< more is tried for triangles above it
   double first_alpha = 1.35;    ///< operations come before moves for triangles above it
-  double again_alpha = 1.15;    ///< the same, when patches are tried again
+  double again_alpha = 1.15;    ///< above it patches are tried again, at the latest
   int moving_sweeps = 8;        ///< over the sites of bad triangles and their neighbours
   int trial_sweeps = 3;         ///< over the free sites around, of the best operations
   std::size_t runners = 6;      ///< operations that go beyond the first sweep, near the middle
@@ -80,6 +80,7 @@ struct PatchBudget {
   GlobalId may_refine = 100; ///< the same where smaller triangles are the last resort
   GlobalId may_delete = 2;
   bool is_again = false;        ///< whether the patch has been tried before
+  double again_alpha = 1.15;    ///< then operations are tried for triangles above it
   double deletion_handicap = 1; ///< factor on the sum of a trial with fewer sites: above 1 if sites are scarce
 };
 

@@ -51,7 +51,7 @@ void PatchOptimizer::operate_first(const PatchBudget& budget) {
 void PatchOptimizer::operate(const PatchBudget& budget) {
   tried_.clear();
   for (int k = 0; k < most_tried; ++k) {
-    const std::optional<Corners> worst = worst_untried(budget.is_again ? options_.again_alpha : options_.operate_alpha);
+    const std::optional<Corners> worst = worst_untried(budget.is_again ? budget.again_alpha : options_.operate_alpha);
     if (!worst)
       return;
     if (try_at(*worst, budget, false))
@@ -89,7 +89,7 @@ bool PatchOptimizer::try_at(const Corners& worst, const PatchBudget& budget, boo
   for (const LocalIndex v : worst)
     contest.size += now_.size[at(v)] / 3;
   place_size_ = contest.size;
-  is_thorough_ = !is_first && contest.alpha > (budget.is_again ? options_.again_alpha : options_.very_bad_alpha);
+  is_thorough_ = !is_first && contest.alpha > (budget.is_again ? budget.again_alpha : options_.very_bad_alpha);
   // Rather longer chords on curves than a bad triangle.
   longest_bent_ = contest.alpha >= bend_alpha ? bent_at_last : bent_at_first;
   list_near(contest);

@@ -135,6 +135,13 @@ TEST(PatchMesh, IsDelaunayWhateverThePoints) {
     expect_delaunay(mesh, different.size());
     std::vector<Vec2> backwards(points.rbegin(), points.rend());
     EXPECT_TRUE(triangles_of(mesh) == triangles_of(mesh_of(backwards))) << "the order of the points is to be seen";
+    PatchMesh at_once = empty_mesh();
+    LocalIndex v = PatchMesh::frame;
+    for (const Vec2 p : different)
+      EXPECT_EQ(at_once.append(p), v++) << "numbers are those of the order in which the points came";
+    at_once.connect_all();
+    expect_delaunay(at_once, different.size());
+    EXPECT_TRUE(triangles_of(mesh) == triangles_of(at_once)) << "points connected along a curve";
   }
 }
 

@@ -327,6 +327,33 @@ TEST(PatchOptimizer, SmallerTrianglesFollowARaggedBoundary) {
   EXPECT_LT(worst_alpha(stage, edits, middle, 3 * h), 1.4); // the bar of contours_test.py
 }
 
+/// A bad triangle at the rim, where nothing moves, is known already: no word of it.
+TEST(PatchOptimizer, WhatStaysAsItIsMakesNoNews) {
+  const geometry::RegionShape torus = testing::whole_torus();
+  const BoundarySites none = make_boundary_sites(torus.boundary(), UniformSize(h), unit_lattice(), 30);
+  const BoundaryCurve curve(torus.boundary());
+  const auto improve = [&](double displaced_at) {
+    std::vector<PatchSite> sites;
+    for (int j = -12; j <= 12; ++j)
+      for (int i = -16; i <= 16; ++i) {
+        Vec2 offset = h * Vec2{i + 0.5 * (j & 1) + 0.4, std::sqrt(0.75) * j};
+        if (j == 0 && std::fabs(i - displaced_at) < 0.5)
+          offset.x -= 0.35 * h;
+        if (geometry::length(offset) < PatchOptions{}.reach * h)
+          sites.push_back({unit_lattice().snap(middle + offset), h, mesh::free_site});
+      }
+    std::sort(sites.begin(), sites.end(), [](const PatchSite& a, const PatchSite& b) {
+      return geometry::lexicographically_less(a.position, b.position);
+    });
+    return PatchOptimizer(none, curve, unit_lattice(), {}).improve(middle, h, sites, PatchBudget{});
+  };
+  const PatchResult at_the_rim = improve(6), inside = improve(1);
+  EXPECT_TRUE(at_the_rim.edits.empty());
+  EXPECT_TRUE(at_the_rim.verdicts.empty());
+  EXPECT_FALSE(inside.edits.empty());
+  EXPECT_FALSE(inside.verdicts.empty());
+}
+
 /// A patch across the border of a torus is the patch elsewhere.
 TEST(PatchOptimizer, NearestImagesMakeAPatchOnATorus) {
   const geometry::RegionShape torus = testing::whole_torus();
