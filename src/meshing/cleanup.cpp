@@ -145,7 +145,7 @@ double Cleanup::find_again_alpha() const {
   double worst = 1;
   for (const Candidate& candidate : candidates_)
     worst = std::max(worst, candidate.alpha);
-  return std::min(options_.again_alpha, 1 + again_share * (comm_.max(worst) - 1));
+  return std::clamp(1 + again_share * (comm_.max(worst) - 1), options_.bad_alpha, options_.again_alpha);
 }
 
 /// Takes out those that are none any more, once they are many.

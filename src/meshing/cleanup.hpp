@@ -75,8 +75,8 @@ private:
   PatchOptions options_;
   GlobalId most_sites_, least_sites_, wanted_sites_, sites_; // over all ranks
   int round_ = 0;
-  int stage_ = 1;             // above the first only very bad places are tried, once more
-  double again_alpha_ = 1.15; // where they are tried in this one
+  int stage_ = 1;          // above the first, places that are bad for this mesh are tried once more
+  double again_alpha_ = 0; // that is above this
   BoundaryChain chain_;
   std::vector<double> tolerances_; // by index in the chain
   std::unique_ptr<CleanupSites> places_;

@@ -177,6 +177,7 @@ private:
   /// found together, one layout for each step.
   Approach approached(double factor) {
     constexpr double growth_to_come[] = {1, 1, 1.08}; // of the points, by limits that the trial does without
+    static_assert(std::size(growth_to_come) == most_lowering_rounds + 1);
     bool crowded = false;
     for (int round = 0; round < approach_rounds; ++round) {
       Layout layout = lay(factor);

@@ -226,7 +226,7 @@ void PatchOptimizer::collect_edits(std::vector<SiteEdit>& edits) const {
   }
 }
 
-/// Of all sites whose triangles are all known, if there is anything new.
+/// Of all sites whose triangles are all known, if this patch has changed anything about them.
 void PatchOptimizer::collect_verdicts(PatchResult& result) {
   const auto collect = [&](const Patch& patch, std::vector<double>& worst) {
     worst.assign(at(now_.mesh.vertices()), 0);

@@ -66,7 +66,7 @@ struct PatchOptions {
   double operate_alpha = 1.09;
   double very_bad_alpha = 1.25; ///< more is tried for triangles above it
   double first_alpha = 1.35;    ///< operations come before moves for triangles above it
-  double again_alpha = 1.15;    ///< above it patches are tried again, at the latest
+  double again_alpha = 1.15;    ///< above it patches are tried again; above less if the whole mesh is better
   int moving_sweeps = 8;        ///< over the sites of bad triangles and their neighbours
   int trial_sweeps = 3;         ///< over the free sites around, of the best operations
   std::size_t runners = 6;      ///< operations that go beyond the first sweep, near the middle
@@ -79,8 +79,8 @@ struct PatchBudget {
   GlobalId may_insert = 100; ///< so many more than it deletes
   GlobalId may_refine = 100; ///< the same where smaller triangles are the last resort
   GlobalId may_delete = 2;
-  bool is_again = false;        ///< whether the patch has been tried before
-  double again_alpha = 1.15;    ///< then operations are tried for triangles above it
+  bool is_again = false;                           ///< whether the patch has been tried before
+  double again_alpha = PatchOptions{}.again_alpha; ///< then operations are tried for triangles above it
   double deletion_handicap = 1; ///< factor on the sum of a trial with fewer sites: above 1 if sites are scarce
 };
 
@@ -235,7 +235,7 @@ private:
   double size_ = 1;
   double place_size_ = 1;           // h at the place of the present trials
   LocalIndex missing_at_start_ = 0; // chords that are no edges
-  bool is_thorough_ = false;        // the present trials are for a very bad triangle
+  bool is_thorough_ = false;        // the present trials are for a triangle that is worth many of them
   double longest_bent_ = 1;         // h: limit of chords of curves, in the present trials
   std::vector<Operation> operations_;
   std::vector<Corners> tried_; // very bad ones

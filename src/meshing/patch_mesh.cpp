@@ -159,7 +159,8 @@ void PatchMesh::connect_all() {
   std::sort(on_curve_.begin(), on_curve_.end(),
             [](const OnCurve& a, const OnCurve& b) { return a.key != b.key ? a.key < b.key : a.vertex < b.vertex; });
   for (const OnCurve& next : on_curve_)
-    place(next.vertex);
+    TRIME_ASSERT(place(next.vertex), "two sites at ({}, {})", position(next.vertex).x, position(next.vertex).y);
+  on_curve_.clear(); // meshes are copied over and over
 }
 
 LocalIndex PatchMesh::insert(Vec2 p) {

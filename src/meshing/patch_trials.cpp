@@ -159,14 +159,14 @@ void PatchOptimizer::list_near(const Contest& contest) {
   }
 }
 
-/// Beside a worse triangle for which nothing helped, and along the boundary, a slightly bad one hardly ever becomes
-/// better.
+/// Beside a worse triangle, and along the boundary, a slightly bad one hardly ever becomes better.
 bool PatchOptimizer::is_worth(const Contest& contest, double largest_near, const PatchBudget& budget) const {
-  if (largest_near <= contest.alpha)
+  constexpr double as_bad = 1 + 1e-12; // alpha of one triangle, from whichever corner on
+  if (largest_near <= as_bad * contest.alpha)
     return true;
   const auto on_boundary = static_cast<std::size_t>(
       std::count_if(contest.corners.begin(), contest.corners.end(), [&](LocalIndex v) { return now_.on_boundary(v); }));
-  return !budget.is_again && contest.alpha > least_beside_worse[on_boundary];
+  return contest.alpha > (budget.is_again ? refine_alpha : least_beside_worse[on_boundary]);
 }
 
 /// What each triangle near the place of the trials adds to the sum now. @return all of it, as score_near
