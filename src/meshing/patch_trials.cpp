@@ -159,7 +159,8 @@ void PatchOptimizer::list_near(const Contest& contest) {
   }
 }
 
-/// Beside a worse triangle, and along the boundary, a slightly bad one hardly ever becomes better.
+/// Beside a worse triangle, and along the boundary, a slightly bad one hardly ever becomes better; in a patch that is
+/// tried again hardly any that is not to be refined.
 bool PatchOptimizer::is_worth(const Contest& contest, double largest_near, const PatchBudget& budget) const {
   constexpr double as_bad = 1 + 1e-12; // alpha of one triangle, from whichever corner on
   if (largest_near <= as_bad * contest.alpha)

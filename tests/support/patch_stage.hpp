@@ -22,6 +22,13 @@ using Kind = SiteEdit::Kind;
 
 constexpr double h = 0.03125;
 
+/// As PatchOptimizer::improve takes them.
+inline void sort_for_a_patch(std::vector<PatchSite>& sites) {
+  std::sort(sites.begin(), sites.end(), [](const PatchSite& a, const PatchSite& b) {
+    return geometry::lexicographically_less(a.position, b.position);
+  });
+}
+
 /// Sites of a patch, and all that the optimizer needs.
 struct Stage {
   explicit Stage(Boundary of, double size = h)
@@ -49,9 +56,7 @@ struct Stage {
     for (const PatchSite& site : sites)
       if (geometry::length(site.position - center) < PatchOptions{}.reach * h)
         near.push_back(site);
-    std::sort(near.begin(), near.end(), [](const PatchSite& a, const PatchSite& b) {
-      return geometry::lexicographically_less(a.position, b.position);
-    });
+    sort_for_a_patch(near);
     PatchOptimizer optimizer(sites_on, curve, unit_lattice(), options);
     const std::vector<SiteEdit> edits = optimizer.improve(center, h, near, budget).edits;
     optimizer.improve(near.front().position, h, near, budget); // something else in between

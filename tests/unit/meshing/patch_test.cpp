@@ -342,9 +342,7 @@ TEST(PatchOptimizer, WhatStaysAsItIsMakesNoNews) {
         if (geometry::length(offset) < PatchOptions{}.reach * h)
           sites.push_back({unit_lattice().snap(middle + offset), h, mesh::free_site});
       }
-    std::sort(sites.begin(), sites.end(), [](const PatchSite& a, const PatchSite& b) {
-      return geometry::lexicographically_less(a.position, b.position);
-    });
+    sort_for_a_patch(sites);
     return PatchOptimizer(none, curve, unit_lattice(), {}).improve(middle, h, sites, PatchBudget{});
   };
   const PatchResult at_the_rim = improve(6), inside = improve(1);
@@ -367,9 +365,7 @@ TEST(PatchOptimizer, NearestImagesMakeAPatchOnATorus) {
         if (geometry::length(offset) < PatchOptions{}.reach * h)
           sites.push_back({center + unit_lattice().snap(offset), h, mesh::free_site});
       }
-    std::sort(sites.begin(), sites.end(), [](const PatchSite& a, const PatchSite& b) {
-      return geometry::lexicographically_less(a.position, b.position);
-    });
+    sort_for_a_patch(sites);
     return PatchOptimizer(none, curve, unit_lattice(), {}).improve(center, h, sites, PatchBudget{}).edits;
   };
   const std::vector<SiteEdit> inside = edits_at(middle), across = edits_at({0, 0});
