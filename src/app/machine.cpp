@@ -2,11 +2,11 @@
 #include "app/machine.hpp"
 
 #include "app/build_info.hpp"
+#include "trime/core/processors.hpp"
 #include "trime/core/random.hpp"
 #include "trime/core/thread_loop.hpp"
 #include "trime/io/mesh_file.hpp"
 
-#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -25,35 +25,26 @@ std::int64_t hash_text(const std::string& text) {
   return static_cast<std::int64_t>(hash >> 1);
 }
 
-/// One character per processor: 1 if this process may use it.
-std::string processor_mask() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  if (sched_getaffinity(0, sizeof set, &set) != 0)
-    return "1";
-  std::string mask;
-  for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu)
-    mask += CPU_ISSET(cpu, &set) ? '1' : '0';
-  return mask;
-}
-
 } // namespace
 
 Placement place_threads(int setup_threads, int mesh_threads, const comm::Communicator& comm) {
-  const std::string mask = processor_mask();
+  const std::vector<int> processors = usable_processors();
   const std::vector<std::int64_t> hosts = comm.all_gather(hash_text(host_name()));
-  const std::int64_t mine = hash_text(host_name() + " " + mask);
+  const std::int64_t mine = hash_text(fmt::format("{} {}", host_name(), fmt::join(processors, " ")));
   const std::vector<std::int64_t> places = comm.all_gather(mine);
   Placement placement;
   placement.ranks = comm.size();
   placement.nodes = static_cast<int>(std::set<std::int64_t>(hosts.begin(), hosts.end()).size());
-  placement.cores = std::max(1, static_cast<int>(std::count(mask.begin(), mask.end(), '1')));
+  placement.cores = static_cast<int>(processors.size());
   placement.sharing = static_cast<int>(std::count(places.begin(), places.end(), mine));
   const char* given = std::getenv("OMP_NUM_THREADS");
   const int all = given && *given ? thread_count() : std::max(1, placement.cores / placement.sharing);
   placement.threads = mesh_threads > 0 ? mesh_threads : all;
   placement.setup_threads = setup_threads > 0 ? setup_threads : all;
   set_thread_count(placement.setup_threads);
+  const int most = std::max(placement.threads, placement.setup_threads);
+  const auto before = static_cast<int>(std::count(places.begin(), places.begin() + comm.rank(), mine));
+  spread_threads(most, before * most);
   return placement;
 }
 

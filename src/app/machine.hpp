@@ -20,7 +20,7 @@ struct Placement {
 
 /// @brief Where the ranks are, and how many threads each uses: those asked for if positive, else OMP_NUM_THREADS, else
 /// all processors that the rank may use, divided among the ranks that share them. Sets the thread count to that of the
-/// setup.
+/// setup, and starts the threads on processors of their own where there are enough.
 /// @note Collective.
 Placement place_threads(int setup_threads, int mesh_threads, const comm::Communicator& comm);
 
