@@ -6,9 +6,12 @@
 
 #include <omp.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <vector>
 
 namespace trime {
 
@@ -22,23 +25,68 @@ inline void set_thread_count(int threads) {
   omp_set_num_threads(threads);
 }
 
-/// Calls body(item, thread) for item in [0, n), dynamically, `chunk` items at a time. Rethrows the exception of the
-/// lowest item that throws, after all others are done: the same one on any number of threads.
+/// The items [0, n) of a loop, a range for each thread: whoever is done with its own takes from those of others. The
+/// same items come to the same thread in loop after loop as long as all are as quick, and with them what its caches
+/// (and the memory of its socket) hold.
+class ItemRanges {
+public:
+  ItemRanges(std::ptrdiff_t n, int threads, std::ptrdiff_t chunk)
+      : chunk_(chunk), ranges_(static_cast<std::size_t>(threads)) {
+    const std::ptrdiff_t chunks = (n + chunk - 1) / chunk;
+    for (int t = 0; t < threads; ++t) {
+      Range& range = ranges_[static_cast<std::size_t>(t)];
+      range.next.store(chunks * t / threads * chunk, std::memory_order_relaxed);
+      range.end = std::min(n, chunks * (t + 1) / threads * chunk);
+    }
+  }
+
+  /// Calls work(begin, end) for parts of the items until all of them are taken.
+  template <class Work>
+  void take(int thread, const Work& work) {
+    const std::size_t first = static_cast<std::size_t>(thread), count = ranges_.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      Range& range = ranges_[(first + k) % count];
+      while (range.next.load(std::memory_order_relaxed) < range.end) {
+        const std::ptrdiff_t begin = range.next.fetch_add(chunk_, std::memory_order_relaxed);
+        if (begin < range.end)
+          work(begin, std::min(begin + chunk_, range.end));
+      }
+    }
+  }
+
+private:
+  struct alignas(128) Range { // two cache lines: processors fetch them in pairs
+    std::atomic<std::ptrdiff_t> next = 0;
+    std::ptrdiff_t end = 0;
+  };
+  std::ptrdiff_t chunk_;
+  std::vector<Range> ranges_;
+};
+
+/// Calls body(item, thread) for item in [0, n), `chunk` items at a time, on any thread (see ItemRanges). Rethrows the
+/// exception of the lowest item that throws, after all others are done: the same one on any number of threads.
 template <class Body>
 void thread_loop(std::ptrdiff_t n, int chunk, const Body& body) {
   std::exception_ptr thrown;
   std::ptrdiff_t thrower = n;
-#pragma omp parallel for schedule(dynamic, chunk) if (n > chunk)
-  for (std::ptrdiff_t item = 0; item < n; ++item)
-    try {
-      body(item, omp_get_thread_num());
-    } catch (...) { // an exception must not cross the end of a parallel region
+  const int threads = n > chunk ? thread_count() : 1;
+  ItemRanges items(n, threads, chunk);
+#pragma omp parallel num_threads(threads) if (threads > 1)
+  {
+    const int thread = omp_get_thread_num();
+    items.take(thread, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+      for (std::ptrdiff_t item = begin; item < end; ++item)
+        try {
+          body(item, thread);
+        } catch (...) { // an exception must not cross the end of a parallel region
 #pragma omp critical(trime_thread_loop)
-      if (item < thrower) {
-        thrower = item;
-        thrown = std::current_exception();
-      }
-    }
+          if (item < thrower) {
+            thrower = item;
+            thrown = std::current_exception();
+          }
+        }
+    });
+  }
   if (thrown)
     std::rethrow_exception(thrown);
 }
@@ -48,19 +96,21 @@ void thread_loop(std::ptrdiff_t n, int chunk, const Body& body) {
 template <class Work, class Body>
 void thread_loop_beside(const Work& work, std::ptrdiff_t n, const Body& body) {
   std::exception_ptr thrown;
+  ItemRanges items(n, thread_count(), 1);
 #pragma omp parallel
   {
-#pragma omp master
-    work();
-#pragma omp for schedule(dynamic, 1)
-    for (std::ptrdiff_t item = 0; item < n; ++item)
+    const int thread = omp_get_thread_num();
+    if (thread == 0)
+      work();
+    items.take(thread, [&](std::ptrdiff_t item, std::ptrdiff_t) {
       try {
-        body(item, omp_get_thread_num());
+        body(item, thread);
       } catch (...) {
 #pragma omp critical(trime_thread_loop)
         if (!thrown)
           thrown = std::current_exception();
       }
+    });
   }
   if (thrown)
     std::rethrow_exception(thrown);
