@@ -89,10 +89,10 @@ Numbering canonical_numbering(const comm::Communicator& comm, const mesh::Binned
   result.site_vertex.reserve(at(points.size()));
   result.site_vertex.resize(owned);
   UnsetVector<GlobalId> ids(owned);
-  std::vector<TileOrder> of_thread(static_cast<std::size_t>(std::max(1, thread_count())), TileOrder(points));
+  PerThread<TileOrder> of_thread(points);
   thread_loop(points.last_tile() - points.first_tile(), 1, [&](std::ptrdiff_t t, int thread) {
     const LocalIndex tile = points.first_tile() + static_cast<LocalIndex>(t);
-    of_thread[static_cast<std::size_t>(thread)].sort(tile, result.order);
+    of_thread[thread].sort(tile, result.order);
     const auto [begin, end] = points.tile_range(tile);
     for (LocalIndex vertex = begin; vertex < end; ++vertex) {
       result.site_vertex[at(result.order[at(vertex)])] = vertex;

@@ -238,7 +238,7 @@ private:
 
 /// What all workers found.
 template <class Worker>
-StarPass collect(const std::vector<Worker>& workers, std::vector<mesh::BinRef>& missing) {
+StarPass collect(const PerThread<Worker>& workers, std::vector<mesh::BinRef>& missing) {
   StarPass pass;
   for (const Worker& worker : workers) {
     pass.rebuilt += worker.pass().rebuilt;
@@ -326,15 +326,12 @@ double StarBuilder::largest_cap(const geometry::Periods& periods) {
 
 StarPass StarBuilder::update(const mesh::BinnedPoints& points, StarTable& stars, const mesh::LocalSizes& sizes,
                              std::span<const StarWish> wanted, std::vector<mesh::BinRef>& missing) const {
-  std::vector<TileWorker> workers;
-  for (int thread = 0; thread < std::max(1, thread_count()); ++thread)
-    workers.emplace_back(points, stars, lattice_);
+  PerThread<TileWorker> workers(points, stars, lattice_);
   const LocalIndex first_tile = points.first_tile();
   const double limit = largest_cap(points.grid().periods());
   thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t part, int thread) {
     const LocalIndex tile = first_tile + static_cast<LocalIndex>(part);
-    workers[static_cast<std::size_t>(thread)].compute(tile, wanted,
-                                                      [&](LocalIndex i) { return cap_at(sizes, i, limit); });
+    workers[thread].compute(tile, wanted, [&](LocalIndex i) { return cap_at(sizes, i, limit); });
   });
   return collect(workers, missing);
 }
@@ -345,17 +342,14 @@ StarPass StarBuilder::certify(const mesh::BinnedPoints& points, StarTable& stars
   struct Rings {
     std::vector<LocalIndex> before, after, room, affected;
   };
-  const std::size_t threads = static_cast<std::size_t>(std::max(1, thread_count()));
-  std::vector<StarWorker> workers;
-  for (std::size_t thread = 0; thread < threads; ++thread)
-    workers.emplace_back(points, stars, lattice_);
-  std::vector<Rings> rings(threads);
+  PerThread<StarWorker> workers(points, stars, lattice_);
+  PerThread<Rings> rings;
   const double limit = largest_cap(points.grid().periods());
   thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 64, [&](std::ptrdiff_t k, int thread) {
     const LocalIndex i = sites[static_cast<std::size_t>(k)];
-    Rings& r = rings[static_cast<std::size_t>(thread)];
+    Rings& r = rings[thread];
     copy_ring(stars.load(i, r.room), r.before);
-    workers[static_cast<std::size_t>(thread)].compute(i, cap_at(sizes, i, limit));
+    workers[thread].compute(i, cap_at(sizes, i, limit));
     copy_ring(stars.load(i, r.room), r.after);
     list_affected(r.before, r.after, points.owned(), r.affected);
   });

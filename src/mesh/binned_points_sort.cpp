@@ -160,10 +160,9 @@ LocalIndex BinnedPoints::find_order(const Sites& sites) {
                  "suitable_bin_bits has listed {} sites in {} tiles, found {} in {}", order_.size(),
                  tile_start_.size() - 1, sites.size(), tiles);
   kept_.assign(at(tiles) + 1, 0);
-  std::vector<TileWork> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
+  PerThread<TileWork> of_thread;
   thread_loop(tiles, 1, [&](std::ptrdiff_t t, int thread) {
-    kept_[static_cast<std::size_t>(t) + 1] =
-        sort_tile(sites, static_cast<LocalIndex>(t), of_thread[static_cast<std::size_t>(thread)]);
+    kept_[static_cast<std::size_t>(t) + 1] = sort_tile(sites, static_cast<LocalIndex>(t), of_thread[thread]);
   });
   for (std::size_t t = 1; t < kept_.size(); ++t)
     kept_[t] += kept_[t - 1];

@@ -30,14 +30,16 @@ std::size_t at(LocalIndex i) {
 double vertex_distance(const BoundaryTruth& truth, const std::vector<ChordCurve>& chords,
                        const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
   const geometry::PieceTree pieces(truth.shape);
-  std::vector<double> of_thread(static_cast<std::size_t>(std::max(1, thread_count())), 0);
+  PerThread<double> of_thread(0);
   thread_loop(static_cast<std::ptrdiff_t>(mesh.points.size()), 4096, [&](std::ptrdiff_t item, int thread) {
     const auto k = static_cast<std::size_t>(item);
-    double& largest = of_thread[static_cast<std::size_t>(thread)];
+    double& largest = of_thread[thread];
     if (mesh.boundary[k] > 0)
       largest = std::max(largest, pieces.distance(mesh.points[k]));
   });
-  double largest = *std::max_element(of_thread.begin(), of_thread.end());
+  double largest = 0;
+  for (const double one : of_thread)
+    largest = std::max(largest, one);
   for (const ChordCurve& chord : chords)
     largest = std::max(largest, chord.offset);
   return comm.max(largest);

@@ -97,14 +97,14 @@ bool settle_sites(SiteState& state, const MoveContext& context, double typical_s
     Treated treated;
   };
   const mesh::BinnedPoints& points = state.points();
-  std::vector<std::vector<Offender>> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
+  PerThread<std::vector<Offender>> of_thread;
   const LocalIndex first_tile = points.first_tile();
   thread_loop(points.last_tile() - first_tile, 8, [&](std::ptrdiff_t t, int thread) {
     const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
     for (LocalIndex i = begin; i < end; ++i)
       if (points.boundary(i) == mesh::free_site && !context.guard.is_clear(points.position(i)))
         if (const auto treated = settled(context, state.grid(), points.site(i), typical_size))
-          of_thread[static_cast<std::size_t>(thread)].push_back({i, *treated});
+          of_thread[thread].push_back({i, *treated});
   });
   std::int64_t offenders = 0;
   for (const std::vector<Offender>& list : of_thread)

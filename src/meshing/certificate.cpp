@@ -230,11 +230,10 @@ private:
 /// Of this rank: from the stars.
 Counts count_stars(const ExtractionContext& context, const decomposition::Numbering& numbering) {
   const mesh::BinnedPoints& points = context.state.points();
-  std::vector<StarCounter> of_thread(static_cast<std::size_t>(std::max(1, thread_count())),
-                                     StarCounter(context, numbering));
+  PerThread<StarCounter> of_thread(context, numbering);
   thread_loop(points.last_tile() - points.first_tile(), 1, [&](std::ptrdiff_t t, int thread) {
     const auto [begin, end] = points.tile_range(points.first_tile() + static_cast<LocalIndex>(t));
-    StarCounter& counter = of_thread[static_cast<std::size_t>(thread)];
+    StarCounter& counter = of_thread[thread];
     for (LocalIndex i = begin; i < end; ++i)
       counter.count(i);
   });

@@ -77,13 +77,11 @@ Cleanup::Cleanup(const comm::Communicator& comm, Layout& layout, const geometry:
                  const PatchOptions& options)
     : comm_(comm), layout_(layout), state_(*layout.state), curve_(boundary), lattice_(lattice), builder_(builder),
       options_(options), most_sites_(most_sites), sites_(comm.sum(std::int64_t{state_.points().owned()})),
-      chain_(layout.boundary, curve_) {
+      chain_(layout.boundary, curve_), optimizers_(chain_.sites(), curve_, lattice_, options_) {
   const GlobalId leeway = static_cast<GlobalId>(largest_loss * static_cast<double>(sites_)) + 1;
   most_sites_ = most_sites_ > 0 ? std::max(most_sites_, sites_) : sites_ + leeway;
   wanted_sites_ = sites_;
   least_sites_ = sites_ - leeway;
-  for (int thread = 0; thread < thread_count(); ++thread)
-    optimizers_.push_back(std::make_unique<PatchOptimizer>(chain_.sites(), curve_, lattice_, options_));
 }
 
 /// Of the cell of a place, a few h wide, in its tile: the same on any number of ranks.
@@ -251,7 +249,7 @@ std::vector<PatchResult> Cleanup::try_patches(std::span<const Contender> chosen)
           return geometry::length(site.position - chosen[k].place) >= options_.reach * size;
         });
       }
-      results[k] = optimizers_[static_cast<std::size_t>(thread)]->improve(chosen[k].place, size, sites[k], its_budget);
+      results[k] = optimizers_[thread].improve(chosen[k].place, size, sites[k], its_budget);
     });
   });
   return results;

@@ -7,6 +7,7 @@
 #include "meshing/cleanup_sites.hpp"
 #include "meshing/layout.hpp"
 #include "meshing/patch.hpp"
+#include "trime/core/thread_loop.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -80,7 +81,7 @@ private:
   BoundaryChain chain_;
   std::vector<double> tolerances_; // by index in the chain
   std::unique_ptr<CleanupSites> places_;
-  std::vector<std::unique_ptr<PatchOptimizer>> optimizers_;       // by thread
+  PerThread<PatchOptimizer> optimizers_;
   std::vector<Candidate> candidates_;                             // owned sites
   std::unordered_map<std::uint64_t, std::uint32_t> candidate_at_; // by hash of the place
 };

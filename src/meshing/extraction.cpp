@@ -31,17 +31,15 @@ public:
 
   Extraction run() {
     Extraction made;
-    std::vector<QualityMeter> meters(static_cast<std::size_t>(std::max(1, thread_count())),
-                                     QualityMeter(context_.size, points_.grid().periods()));
+    PerThread<QualityMeter> meters(context_.size, points_.grid().periods());
     comm::run_agreed(context_.state.comm(), [&] { // the size field is the user's
       fill_points(made.mesh);
       const std::vector<Places> begin = places();
       make_room(begin.back(), made.mesh);
-      std::vector<FlatFan> fans(meters.size(), FlatFan(context_, numbering_));
+      PerThread<FlatFan> fans(context_, numbering_);
       thread_loop(tiles(), 1, [&](std::ptrdiff_t t, int thread) {
-        const auto k = static_cast<std::size_t>(thread);
-        fill_tile(first_tile() + static_cast<LocalIndex>(t), begin[static_cast<std::size_t>(t)], fans[k], meters[k],
-                  made.mesh);
+        fill_tile(first_tile() + static_cast<LocalIndex>(t), begin[static_cast<std::size_t>(t)], fans[thread],
+                  meters[thread], made.mesh);
       });
     });
     QualitySums sums;
@@ -216,9 +214,9 @@ Fan inside_fan(const ExtractionContext& context, LocalIndex i) {
 }
 
 std::int64_t count_incomplete_fans(const ExtractionContext& context) {
-  std::vector<std::int64_t> of_thread(static_cast<std::size_t>(std::max(1, thread_count())), 0);
+  PerThread<std::int64_t> of_thread(0);
   thread_loop(context.state.points().owned(), 4096, [&](std::ptrdiff_t i, int thread) {
-    of_thread[static_cast<std::size_t>(thread)] += !inside_fan(context, static_cast<LocalIndex>(i)).complete;
+    of_thread[thread] += !inside_fan(context, static_cast<LocalIndex>(i)).complete;
   });
   std::int64_t sum = 0;
   for (const std::int64_t n : of_thread)

@@ -16,8 +16,8 @@ constexpr double least_gain = 0.02;
 /// ones if it is than the best.
 constexpr double hopeless_at_first = 2.5, hopeless_then = 1.2, hopeless_at_last = 1.1;
 constexpr double excellent = 0.6;                     // of what a trial has to be: no others are tried then
-constexpr double nearest_reach = 2, near_reach = 3.2; // h: sites that move in the first sweeps, and in the last
-constexpr double score_reach = 4.4;                   // h: triangles of sites that count
+constexpr double nearest_reach = 2, near_reach = 2.8; // h: sites that move in the first sweeps, and in the last
+constexpr double score_reach = 4;                     // h: triangles of sites that count
 constexpr double bent_at_first = 1.01, bent_at_last = 1.25, bend_alpha = 1.1; // see patch_moves.cpp
 constexpr double refine_gain = 0.01; // of the excess of alpha: the next try begins at what is worst then
 /// Smaller triangles take many sites: the worst places come first.

@@ -107,7 +107,7 @@ private:
   static constexpr double drift_allowed = 0.25;
 
   /// What a thread collects.
-  struct alignas(128) Work { // of one thread, away from those of others in memory
+  struct Work {
     std::vector<LocalIndex> suspects, irregular, guarded;
   };
   /// What became of a site that was moved one by one.

@@ -55,9 +55,9 @@ SweepSums Sweeper::measure(double reference_size) {
     SweepSums sums;
     std::vector<double> excesses;
   };
-  std::vector<Measured> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
+  PerThread<Measured> of_thread;
   thread_loop(static_cast<std::ptrdiff_t>(tiles), 1, [&](std::ptrdiff_t t, int thread) {
-    Measured& work = of_thread[static_cast<std::size_t>(thread)];
+    Measured& work = of_thread[thread];
     const LocalIndex tile = first_tile + static_cast<LocalIndex>(t);
     if (!keeps) {
       measure_tile(all, tile, reference_size, work.excesses, work.sums);

@@ -124,7 +124,7 @@ void Sweeper::run_kernel(const SweepTask& sweep, Tiles which) {
   const mesh::BinnedPoints& points = state_.points();
   const SweepKernel kernel = sweep_kernels().sweep;
   const LocalIndex first_tile = points.first_tile();
-  std::vector<Work> work(static_cast<std::size_t>(std::max(1, thread_count())));
+  PerThread<Work> work;
   thread_loop(static_cast<std::ptrdiff_t>(awake_.size()), 1, [&](std::ptrdiff_t tile, int thread) {
     const std::size_t t = static_cast<std::size_t>(tile);
     if (kinds_[t] != which)
@@ -144,7 +144,7 @@ void Sweeper::run_kernel(const SweepTask& sweep, Tiles which) {
     copied_[t] = 0;
     if (!is_measured_.empty())
       is_measured_[t] = 0;
-    Work& mine = work[static_cast<std::size_t>(thread)];
+    Work& mine = work[thread];
     const std::size_t suspects = mine.suspects.size(), irregular = mine.irregular.size(), n = at(end - begin);
     mine.suspects.resize(suspects + n);
     mine.irregular.resize(irregular + n);

@@ -90,11 +90,11 @@ void measure_star(const StarView& view, LocalIndex i, double reference_size, Swe
 }
 
 SweepSums measure(const StarView& view, double reference_size) {
-  std::vector<SweepSums> of_thread(static_cast<std::size_t>(std::max(1, thread_count())));
+  PerThread<SweepSums> of_thread;
   const LocalIndex first_tile = view.points.first_tile();
   thread_loop(view.points.last_tile() - first_tile, 1, [&](std::ptrdiff_t t, int thread) {
     const auto [begin, end] = view.points.tile_range(first_tile + static_cast<LocalIndex>(t));
-    SweepSums& sums = of_thread[static_cast<std::size_t>(thread)];
+    SweepSums& sums = of_thread[thread];
     for (LocalIndex i = begin; i < end; ++i)
       if (view.points.boundary(i) < 0)
         measure_star(view, i, reference_size, sums);

@@ -186,9 +186,9 @@ ConeCells::ConeCells(const ConeTree& tree, double slope) : tree_(tree), slope_(s
   columns_ = static_cast<int>(std::ceil(box.width() * inverse_side_));
   rows_ = static_cast<int>(std::ceil(box.height() * inverse_side_));
   std::vector<Part> parts(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
-  std::vector<Builder> builders(static_cast<std::size_t>(thread_count()), Builder(tree_, slope_, grid_));
+  PerThread<Builder> builders(tree_, slope_, grid_);
   thread_loop(std::ssize(parts), 8, [&](std::ptrdiff_t k, int thread) {
-    parts[static_cast<std::size_t>(k)] = builders[static_cast<std::size_t>(thread)].build(k % columns_, k / columns_);
+    parts[static_cast<std::size_t>(k)] = builders[thread].build(k % columns_, k / columns_);
   });
   assemble(parts);
 }

@@ -44,7 +44,7 @@ SizeQuadtree::SizeQuadtree(const comm::Communicator& comm, const Source& source)
     const std::size_t count = groups_x_ * groups_y_;
     mine.resize(rank < count ? (count - rank - 1) / ranks + 1 : 0);
     const CellBuilder::Limits limits{tolerance, most_levels, most_cones, highest_corner(source)};
-    std::vector<CellBuilder> builders(static_cast<std::size_t>(thread_count()), CellBuilder(source, grid_, limits));
+    PerThread<CellBuilder> builders(source, grid_, limits);
     thread_loop(static_cast<std::ptrdiff_t>(mine.size()), 1, [&](std::ptrdiff_t k, int thread) {
       const std::size_t group = rank + static_cast<std::size_t>(k) * ranks;
       mine[k] =

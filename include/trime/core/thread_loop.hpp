@@ -25,6 +25,49 @@ inline void set_thread_count(int threads) {
   omp_set_num_threads(threads);
 }
 
+/// Memory that one thread writes to and no other: two cache lines, since processors fetch them in pairs.
+inline constexpr std::size_t apart = 128;
+
+/// @brief One T for each thread that a loop will use, apart in memory: threads that write to the same cache line wait
+/// for each other.
+template <class T>
+class PerThread {
+  struct alignas(apart) Slot {
+    template <class... Arguments>
+    explicit Slot(Arguments&... arguments) : value(arguments...) {}
+    T value;
+  };
+  template <class Of, class Value>
+  struct Iterator {
+    Of* slot;
+    Value& operator*() const { return slot->value; }
+    Iterator& operator++() {
+      ++slot;
+      return *this;
+    }
+    bool operator!=(const Iterator& other) const { return slot != other.slot; }
+  };
+
+public:
+  /// Each is made of the same arguments.
+  template <class... Arguments>
+  explicit PerThread(Arguments&&... arguments) {
+    const int threads = std::max(1, thread_count());
+    slots_.reserve(static_cast<std::size_t>(threads));
+    for (int thread = 0; thread < threads; ++thread)
+      slots_.emplace_back(arguments...);
+  }
+  T& operator[](int thread) { return slots_[static_cast<std::size_t>(thread)].value; }
+  /// All of them, by thread.
+  auto begin() { return Iterator<Slot, T>{slots_.data()}; }
+  auto end() { return Iterator<Slot, T>{slots_.data() + slots_.size()}; }
+  auto begin() const { return Iterator<const Slot, const T>{slots_.data()}; }
+  auto end() const { return Iterator<const Slot, const T>{slots_.data() + slots_.size()}; }
+
+private:
+  std::vector<Slot> slots_;
+};
+
 /// The items [0, n) of a loop, a range for each thread: whoever is done with its own takes from those of others. The
 /// same items come to the same thread in loop after loop as long as all are as quick, and with them what its caches
 /// (and the memory of its socket) hold.
@@ -55,7 +98,7 @@ public:
   }
 
 private:
-  struct alignas(128) Range { // two cache lines: processors fetch them in pairs
+  struct alignas(apart) Range {
     std::atomic<std::ptrdiff_t> next = 0;
     std::ptrdiff_t end = 0;
   };

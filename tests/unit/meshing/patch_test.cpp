@@ -390,7 +390,7 @@ Boundary blunt_strip() {
 TEST(PatchOptimizer, InsertsNoMoreThanItMay) {
   Stage stage(blunt_strip());
   stage.add_boundary();
-  stage.budget.may_insert = 2;
+  stage.budget.may_insert = stage.budget.may_refine = 2;
   const std::vector<SiteEdit> edits = stage.improve(unit_lattice().snap({0.25 + 12.156 * h, 0.5 + 0.2 * h}));
   EXPECT_LE(count(edits, Kind::insert, true) + count(edits, Kind::insert), 2);
 }
