@@ -6,7 +6,7 @@
 
 namespace trime {
 
-/// @brief Numbers of the processors that this process may use, ascending; {0} if the system does not tell.
+/// @brief Numbers of the processors that this process may use, ascending; all of the system if it does not tell.
 std::vector<int> usable_processors();
 
 /// @brief Starts the threads of the loops to come (thread_loop.hpp) and brings each to a processor of its own, counted
