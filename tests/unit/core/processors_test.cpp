@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/core/processors.hpp"
 
-#include "trime/core/thread_loop.hpp"
+#include "support/point_sets.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,13 +13,12 @@ namespace {
 
 TEST(Processors, SpreadThreadsStayFreeToGoWhereTheyLike) {
   const std::vector<int> before = usable_processors();
-  const int threads = std::min(4, static_cast<int>(before.size())), set_before = thread_count();
+  const int threads = std::min(4, static_cast<int>(before.size()));
+  const testing::OnThreads scope(threads);
   spread_threads(threads, 0);
-  set_thread_count(threads);
   std::vector<std::vector<int>> seen(static_cast<std::size_t>(threads));
   thread_loop(1000, 1,
               [&](std::ptrdiff_t, int thread) { seen[static_cast<std::size_t>(thread)] = usable_processors(); });
-  set_thread_count(set_before);
   for (const std::vector<int>& usable : seen)
     if (!usable.empty()) { // has had an item
       EXPECT_EQ(usable, before);
