@@ -9,6 +9,8 @@
 
 #include <unistd.h>
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <ctime>
@@ -41,11 +43,14 @@ Placement place_threads(int setup_threads, int mesh_threads, const comm::Communi
   const int all = given && *given ? thread_count() : std::max(1, placement.cores / placement.sharing);
   placement.threads = mesh_threads > 0 ? mesh_threads : all;
   placement.setup_threads = setup_threads > 0 ? setup_threads : all;
-  set_thread_count(placement.setup_threads);
-  const int most = std::max(placement.threads, placement.setup_threads);
-  const auto before = static_cast<int>(std::count(places.begin(), places.begin() + comm.rank(), mine));
-  spread_threads(most, before * most);
+  placement.before = static_cast<int>(std::count(places.begin(), places.begin() + comm.rank(), mine));
   return placement;
+}
+
+void use_threads(const Placement& placement, int threads) {
+  set_thread_count(threads);
+  if (threads * placement.sharing <= placement.cores)
+    spread_threads(threads, placement.before * threads);
 }
 
 void report_placement(const Placement& placement, const comm::Communicator& comm, Log& log) {

@@ -16,13 +16,16 @@ struct Placement {
   int nodes = 1;
   int cores = 1;   ///< processors that this rank may use
   int sharing = 1; ///< ranks of this node with exactly these processors
+  int before = 0;  ///< of these, how many are lower than this one
 };
 
 /// @brief Where the ranks are, and how many threads each uses: those asked for if positive, else OMP_NUM_THREADS, else
-/// all processors that the rank may use, divided among the ranks that share them. Sets the thread count to that of the
-/// setup, and starts the threads on processors of their own where there are enough.
+/// all processors that the rank may use, divided among the ranks that share them.
 /// @note Collective.
 Placement place_threads(int setup_threads, int mesh_threads, const comm::Communicator& comm);
+
+/// Sets how many threads all later loops use, and starts them on processors of their own where there are enough.
+void use_threads(const Placement& placement, int threads);
 
 /// Says ranks x threads, and warns where threads outnumber processors. @note Collective.
 void report_placement(const Placement& placement, const comm::Communicator& comm, Log& log);

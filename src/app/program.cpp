@@ -82,6 +82,7 @@ ExitCode make_mesh(const Job& job) {
   Log& log = job.log;
   TimerTable& timers = job.timers;
   const Placement placement = place_threads(options.setup_threads, options.mesh_threads, comm);
+  use_threads(placement, placement.setup_threads);
   report_placement(placement, comm, log);
   for (const std::string& warning : options.warnings)
     log.warning("{}", warning);
@@ -100,7 +101,8 @@ ExitCode make_mesh(const Job& job) {
     const auto timing = timers.scope("size field");
     return build_size(options, shape.boundary(), comm);
   }();
-  set_thread_count(placement.threads);
+  if (placement.threads != placement.setup_threads)
+    use_threads(placement, placement.threads);
   if (!is_run) {
     print(comm, estimate(options, shape.boundary(), placement, job.line.action == Action::dry_run));
     return ExitCode::done;

@@ -3,56 +3,130 @@
 
 #include <omp.h>
 #include <sched.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <optional>
+#include <memory>
 
 namespace trime {
 namespace {
 
-constexpr int most_turns = 10000; // then a thread that is late comes when the system lets it
+constexpr int most_processors = 1 << 20; // that are looked for
+constexpr int most_turns = 10000;        // then a thread that is late comes when the system lets it
 
-/// Nothing if the system does not tell, as where it has more processors than a set has room for.
-std::optional<cpu_set_t> usable_set() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  if (sched_getaffinity(0, sizeof set, &set) != 0)
-    return std::nullopt;
-  return set;
+/// A set of processors with room for as many as the system has.
+class ProcessorSet {
+public:
+  explicit ProcessorSet(int room) : room_(room), bytes_(CPU_ALLOC_SIZE(room)), set_(CPU_ALLOC(room)) {
+    if (set_)
+      CPU_ZERO_S(bytes_, set_.get());
+  }
+  /// Becomes that of the calling thread. @return false if the system does not tell, or has more
+  bool read() { return set_ && sched_getaffinity(0, bytes_, set_.get()) == 0; }
+  /// Makes it that of the calling thread, which moves there at once.
+  bool apply() const { return set_ && sched_setaffinity(0, bytes_, set_.get()) == 0; }
+  void add(int processor) {
+    if (set_)
+      CPU_SET_S(static_cast<std::size_t>(processor), bytes_, set_.get());
+  }
+  std::vector<int> list() const {
+    std::vector<int> processors;
+    for (int k = 0; set_ && k < room_; ++k)
+      if (CPU_ISSET_S(static_cast<std::size_t>(k), bytes_, set_.get()))
+        processors.push_back(k);
+    return processors;
+  }
+  int room() const { return room_; }
+
+private:
+  struct Free {
+    void operator()(cpu_set_t* set) const { CPU_FREE(set); }
+  };
+  int room_;
+  std::size_t bytes_;
+  std::unique_ptr<cpu_set_t, Free> set_;
+};
+
+/// Of the calling thread; empty if the system does not tell.
+ProcessorSet set_of_thread() {
+  for (int room = CPU_SETSIZE; room <= most_processors; room *= 2)
+    if (ProcessorSet set(room); set.read())
+      return set;
+  return ProcessorSet(CPU_SETSIZE);
+}
+
+bool are_bound() {
+  return omp_get_proc_bind() != omp_proc_bind_false;
+}
+
+/// Calls work(thread) in each thread of a team, and lets those run first that wait for the processor of another one.
+template <class Work>
+void in_each_thread(int threads, const Work& work) {
+  std::atomic<int> done = 0;
+#pragma omp parallel num_threads(threads)
+  {
+    work(omp_get_thread_num());
+    ++done;
+    for (int turn = 0; turn < most_turns && done < omp_get_num_threads(); ++turn)
+      sched_yield();
+  }
+}
+
+/// For each thread the processor to which it should go; -1: none, it has one of its own.
+std::vector<int> ways_apart(const std::vector<int>& processors, const std::vector<int>& at, int from) {
+  std::vector<int> taken = at, ways(at.size(), -1);
+  const std::size_t n = processors.size();
+  for (std::size_t thread = 0, next = 0; thread < at.size(); ++thread) {
+    const auto own = at.begin() + static_cast<std::ptrdiff_t>(thread);
+    if (std::find(at.begin(), own, *own) == own)
+      continue;
+    for (; next < n; ++next) {
+      const int processor = processors[(static_cast<std::size_t>(from) + next) % n];
+      if (std::find(taken.begin(), taken.end(), processor) == taken.end()) {
+        taken.push_back(ways[thread] = processor);
+        break;
+      }
+    }
+  }
+  return ways;
 }
 
 } // namespace
 
 std::vector<int> usable_processors() {
-  const std::optional<cpu_set_t> set = usable_set();
-  const auto all = static_cast<int>(std::max(1L, sysconf(_SC_NPROCESSORS_ONLN)));
   std::vector<int> processors;
-  for (int cpu = 0; cpu < (set ? CPU_SETSIZE : all); ++cpu)
-    if (!set || CPU_ISSET(cpu, &*set))
-      processors.push_back(cpu);
-  return processors;
+  if (are_bound())
+    for (int place = 0; place < omp_get_num_places(); ++place) {
+      std::vector<int> of_place(static_cast<std::size_t>(std::max(0, omp_get_place_num_procs(place))));
+      if (!of_place.empty())
+        omp_get_place_proc_ids(place, of_place.data());
+      processors.insert(processors.end(), of_place.begin(), of_place.end());
+    }
+  else
+    processors = set_of_thread().list();
+  std::sort(processors.begin(), processors.end());
+  processors.erase(std::unique(processors.begin(), processors.end()), processors.end());
+  return processors.empty() ? std::vector<int>{0} : processors;
 }
 
-void spread_threads(int threads, int first) {
-  const std::optional<cpu_set_t> all = usable_set();
-  const std::vector<int> processors = usable_processors();
-  if (!all || first + threads > static_cast<int>(processors.size()) || omp_get_proc_bind() != omp_proc_bind_false)
+void spread_threads(int threads, int from) {
+  const ProcessorSet all = set_of_thread();
+  const std::vector<int> processors = all.list();
+  if (threads == 1 || threads > static_cast<int>(processors.size()) || are_bound())
     return;
-  std::atomic<int> placed = 0;
-#pragma omp parallel num_threads(threads)
-  {
-    cpu_set_t one;
-    CPU_ZERO(&one);
-    CPU_SET(processors[static_cast<std::size_t>(first + omp_get_thread_num())], &one);
-    if (sched_setaffinity(0, sizeof one, &one) == 0) // the thread moves at once
-      sched_setaffinity(0, sizeof *all, &*all);
-    ++placed;
-    for (int turn = 0; turn < most_turns && placed < omp_get_num_threads(); ++turn)
-      sched_yield(); // one that has not run yet may wait for this processor
-  }
+  std::vector<int> at(static_cast<std::size_t>(threads), -1);
+  in_each_thread(threads, [&](int thread) { at[static_cast<std::size_t>(thread)] = sched_getcpu(); });
+  const std::vector<int> ways = ways_apart(processors, at, from);
+  in_each_thread(threads, [&](int thread) {
+    const int way = ways[static_cast<std::size_t>(thread)];
+    if (way < 0)
+      return;
+    ProcessorSet one(all.room());
+    one.add(way);
+    if (one.apply())
+      all.apply();
+  });
 }
 
 } // namespace trime

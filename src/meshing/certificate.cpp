@@ -144,8 +144,8 @@ private:
   std::int64_t inside_ = 0;
 };
 
-/// Counts at the stars of sites, one after the other. Aligned: no cache line belongs to two threads.
-class alignas(64) StarCounter {
+/// Counts at the stars of sites, one after the other.
+class StarCounter {
 public:
   StarCounter(const ExtractionContext& context, const decomposition::Numbering& numbering)
       : context_(context), numbering_(numbering), points_(context.state.points()), fan_(context, numbering),

@@ -49,8 +49,8 @@ Fan inside_fan(const ExtractionContext& context, LocalIndex i);
 std::int64_t count_incomplete_fans(const ExtractionContext& context);
 
 /// @brief The inside fan of a site as flat lists: vertex and position of its neighbours. Triangle k has the neighbours
-/// k and k + 1; a closed fan ends with its first two neighbours again. Aligned: no cache line belongs to two threads.
-class alignas(64) FlatFan {
+/// k and k + 1; a closed fan ends with its first two neighbours again.
+class FlatFan {
 public:
   FlatFan(const ExtractionContext& context, const decomposition::Numbering& numbering)
       : context_(context), numbering_(numbering) {}

@@ -30,8 +30,8 @@ struct QualitySums {
 /// The summary over all ranks. Collective.
 mesh::QualitySummary summarize(const comm::Communicator& comm, QualitySums sums);
 
-/// What one thread measures. Aligned: no cache line belongs to two threads.
-class alignas(64) QualityMeter {
+/// What one thread measures.
+class QualityMeter {
 public:
   /// @pre both outlive this object
   QualityMeter(const sizing::SizeField& size, const geometry::Periods& periods) : size_(size), periods_(periods) {}

@@ -6,16 +6,18 @@
 
 namespace trime {
 
-/// @brief Numbers of the processors that this process may use, ascending; all of the system if it does not tell.
+/// Numbers of the processors that this process may use, all its places where OMP_PROC_BIND or OMP_PLACES bind threads;
+/// ascending. {0} if the system does not tell.
 std::vector<int> usable_processors();
 
-/// @brief Starts the threads of the loops to come (thread_loop.hpp) and brings each to a processor of its own, counted
-/// from the `first`-th usable one. Nothing happens where there are too few, or where OMP_PROC_BIND binds threads.
+/// @brief Starts the threads of the loops to come (thread_loop.hpp); those that start where another one of them runs go
+/// to processors where none does, looked for from the `from`-th usable one on. Nothing happens where there are too few
+/// processors, or where threads are bound from outside.
 ///
 /// The system starts a thread where its process runs if the other processors are busy at that moment, as they are while
-/// MPI starts, and leaves it there for tens of milliseconds, in which two threads take turns. The threads are not
-/// bound: who binds them does so from outside (mpirun, OMP_PROC_BIND).
-/// @pre threads >= 1, first >= 0. Cost: about 0.1 ms for each thread.
-void spread_threads(int threads, int first);
+/// MPI starts, and leaves it there for tens of milliseconds, in which two threads take turns. Those that move stay free
+/// to go elsewhere afterwards.
+/// @pre threads >= 1, from >= 0. Cost: about 0.1 ms for each thread.
+void spread_threads(int threads, int from);
 
 } // namespace trime

@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <type_traits>
 #include <vector>
 
 namespace trime {
@@ -25,14 +27,16 @@ inline void set_thread_count(int threads) {
   omp_set_num_threads(threads);
 }
 
-/// Memory that one thread writes to and no other: two cache lines, since processors fetch them in pairs.
-inline constexpr std::size_t apart = 128;
+/// What one thread writes to begins so many bytes after what another one does: two cache lines, since processors fetch
+/// them in pairs.
+inline constexpr std::size_t bytes_apart = 128;
 
 /// @brief One T for each thread that a loop will use, apart in memory: threads that write to the same cache line wait
 /// for each other.
+/// @pre set_thread_count is not called while it lives, and no loop inside another one uses it
 template <class T>
 class PerThread {
-  struct alignas(apart) Slot {
+  struct alignas(bytes_apart) Slot {
     template <class... Arguments>
     explicit Slot(Arguments&... arguments) : value(arguments...) {}
     T value;
@@ -49,9 +53,12 @@ class PerThread {
   };
 
 public:
+  PerThread(const PerThread&) = delete;
+  PerThread& operator=(const PerThread&) = delete;
   /// Each is made of the same arguments.
   template <class... Arguments>
-  explicit PerThread(Arguments&&... arguments) {
+  requires(!(... ||
+             std::same_as<std::remove_cvref_t<Arguments>, PerThread>)) explicit PerThread(Arguments&&... arguments) {
     const int threads = std::max(1, thread_count());
     slots_.reserve(static_cast<std::size_t>(threads));
     for (int thread = 0; thread < threads; ++thread)
@@ -78,8 +85,8 @@ public:
     const std::ptrdiff_t chunks = (n + chunk - 1) / chunk;
     for (int t = 0; t < threads; ++t) {
       Range& range = ranges_[static_cast<std::size_t>(t)];
-      range.next.store(chunks * t / threads * chunk, std::memory_order_relaxed);
-      range.end = std::min(n, chunks * (t + 1) / threads * chunk);
+      range.next.store(first_of(t, threads, chunks) * chunk, std::memory_order_relaxed);
+      range.end = std::min(n, first_of(t + 1, threads, chunks) * chunk);
     }
   }
 
@@ -98,7 +105,11 @@ public:
   }
 
 private:
-  struct alignas(apart) Range {
+  /// The calling thread has the first, who begins first.
+  static std::ptrdiff_t first_of(int thread, int threads, std::ptrdiff_t chunks) {
+    return (chunks * thread + threads - 1) / threads;
+  }
+  struct alignas(bytes_apart) Range {
     std::atomic<std::ptrdiff_t> next = 0;
     std::ptrdiff_t end = 0;
   };

@@ -92,7 +92,7 @@ TEST(PerThread, HasOneForEachThreadApartInMemory) {
   ASSERT_EQ(places.size(), 3u);
   for (std::size_t k = 0; k < places.size(); ++k) {
     EXPECT_EQ(places[k], &lists[static_cast<int>(k)]);
-    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(places[k]) % apart, 0u);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(places[k]) % bytes_apart, 0u);
   }
   PerThread<int> counts;
   for (const int count : counts)
