@@ -6,14 +6,16 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <memory>
+#include <thread>
 
 namespace trime {
 namespace {
 
 constexpr int most_processors = 1 << 20; // that are looked for
-constexpr int most_turns = 10000;        // then a thread that is late comes when the system lets it
+constexpr int most_naps = 200;           // then a thread that is late comes when the system lets it
 
 /// A set of processors with room for as many as the system has.
 class ProcessorSet {
@@ -60,17 +62,12 @@ bool are_bound() {
   return omp_get_proc_bind() != omp_proc_bind_false;
 }
 
-/// Calls work(thread) in each thread of a team, and lets those run first that wait for the processor of another one.
-template <class Work>
-void in_each_thread(int threads, const Work& work) {
-  std::atomic<int> done = 0;
-#pragma omp parallel num_threads(threads)
-  {
-    work(omp_get_thread_num());
-    ++done;
-    for (int turn = 0; turn < most_turns && done < omp_get_num_threads(); ++turn)
-      sched_yield();
-  }
+/// Until all of a team have come here. Asleep: who waits for them awake may keep the processor that they need.
+bool wait_for_all(std::atomic<int>& come) {
+  ++come;
+  for (int nap = 0; nap < most_naps && come < omp_get_num_threads(); ++nap)
+    std::this_thread::sleep_for(std::chrono::microseconds(20));
+  return come >= omp_get_num_threads();
 }
 
 /// For each thread the processor to which it should go; -1: none, it has one of its own.
@@ -116,17 +113,21 @@ void spread_threads(int threads, int from) {
   if (threads == 1 || threads > static_cast<int>(processors.size()) || are_bound())
     return;
   std::vector<int> at(static_cast<std::size_t>(threads), -1);
-  in_each_thread(threads, [&](int thread) { at[static_cast<std::size_t>(thread)] = sched_getcpu(); });
-  const std::vector<int> ways = ways_apart(processors, at, from);
-  in_each_thread(threads, [&](int thread) {
-    const int way = ways[static_cast<std::size_t>(thread)];
-    if (way < 0)
-      return;
-    ProcessorSet one(all.room());
-    one.add(way);
-    if (one.apply())
-      all.apply();
-  });
+  std::atomic<int> started = 0, placed = 0;
+#pragma omp parallel num_threads(threads)
+  {
+    const auto thread = static_cast<std::size_t>(omp_get_thread_num());
+    at[thread] = sched_getcpu();
+    if (wait_for_all(started)) {
+      if (const int way = ways_apart(processors, at, from)[thread]; way >= 0) {
+        ProcessorSet one(all.room());
+        one.add(way);
+        if (one.apply())
+          all.apply();
+      }
+      wait_for_all(placed);
+    }
+  }
 }
 
 } // namespace trime
