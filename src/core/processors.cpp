@@ -62,7 +62,8 @@ bool are_bound() {
   return omp_get_proc_bind() != omp_proc_bind_false;
 }
 
-/// Until all of a team have come here. Asleep: who waits for them awake may keep the processor that they need.
+/// Until all of a team have come here. @return whether they have. Asleep: who waits for them awake may keep the
+/// processor that they need.
 bool wait_for_all(std::atomic<int>& come) {
   ++come;
   for (int nap = 0; nap < most_naps && come < omp_get_num_threads(); ++nap)

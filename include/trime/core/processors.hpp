@@ -17,7 +17,8 @@ std::vector<int> usable_processors();
 /// The system starts a thread where its process runs if the other processors are busy at that moment, as they are while
 /// MPI starts, and leaves it there for tens of milliseconds, in which two threads take turns. Those that move stay free
 /// to go elsewhere afterwards.
-/// @pre threads >= 1, from >= 0. Cost: about 0.1 ms for each thread.
+/// @pre threads >= 1, from >= 0. Cost: about 0.1 ms for each thread, 4 ms where threads have to
+/// go apart.
 void spread_threads(int threads, int from);
 
 } // namespace trime

@@ -8,7 +8,7 @@
 #include <sched.h>
 
 #include <atomic>
-#include <numeric>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>
