@@ -39,7 +39,7 @@ public:
 private:
   /// The bins along the curve: the key of a bin leads those of its points.
   void list_bins(LocalIndex tile, int bits) {
-    const mesh::GridPosition corner = grid_.tile_position(tile);
+    const mesh::GridPosition corner = grid_.curve_position(tile);
     const int level = 32 - grid_.tile_shift() + bits;
     const std::uint32_t side = std::uint32_t{1} << bits;
     const std::uint64_t mask = (std::uint64_t{1} << (2 * bits)) - 1;

@@ -14,7 +14,7 @@
 namespace trime::io {
 namespace {
 
-/// Rows of one collective write: 1 or 2 MB, which stay in the caches; and of what one thread fills.
+/// Rows of one write: 1 or 2 MB, which stay in the caches; and of what one thread fills.
 /// All slices of an array lie alike in the pages of the file.
 constexpr std::int64_t slice_rows = std::int64_t{1} << 16, piece_rows = std::int64_t{1} << 12;
 static_assert(slice_rows % 4096 == 0);
@@ -166,7 +166,8 @@ void SlabFile::agree_on(hid_t code, const std::string& action) const {
   agreed([&] { checked(code, action); });
 }
 
-SlabFile::SlabFile(const comm::Communicator& comm, std::string path) : comm_(comm), path_(std::move(path)) {
+SlabFile::SlabFile(const comm::Communicator& comm, std::string path)
+    : comm_(comm), path_(std::move(path)), write_back_(path_) {
   Hdf5Properties access, creation;
   std::string creating;
   agreed([&] {
@@ -286,7 +287,7 @@ void SlabFile::slab(SlabArray array) {
   agree_on(dataset, making);
   write_slices(dataset, array);
   if (comm_.is_root() && array.slab.total > slice_rows)
-    start_writing_back(path_);
+    write_back_.request();
   arrays_.push_back(std::move(array));
 }
 
@@ -299,51 +300,75 @@ void SlabFile::make_room(hid_t dataset, const SlabArray& array) {
     buffer->resize(static_cast<std::size_t>(rows) * array.row_bytes(), begin == HADDR_UNDEF ? 0 : begin + before);
 }
 
-/// Every rank takes part in every slice, with nothing if it has no rows left. A slice is written while the other
-/// threads make the next.
+/// Where ranks have a slice each on average, every one writes its own at its own pace. Smaller pieces are left to
+/// MPI-IO, which puts those of several ranks together.
+bool SlabFile::is_written_alone(const SlabArray& array) const {
+  return array.slab.total / comm_.size() >= slice_rows;
+}
+
+/// A slice is written while the other threads make the next. In collective writes every rank takes part in every slice,
+/// with nothing if it has no rows left.
 void SlabFile::write_slices(hid_t dataset, const SlabArray& array) {
+  const bool alone = is_written_alone(array);
   const std::int64_t longest = comm_.max(array.rows);
   const auto rows_from = [&](std::int64_t first) {
     return std::clamp<std::int64_t>(array.rows - first, 0, slice_rows);
   };
   Hdf5Space in_file, in_memory;
-  Hdf5Properties together;
+  Hdf5Properties properties;
   std::string writing;
   agreed([&] {
     make_room(dataset, array);
     in_file = array_space(static_cast<hsize_t>(array.slab.total), array.columns);
     in_memory = array_space(static_cast<hsize_t>(std::max<std::int64_t>(rows_from(0), 1)), array.columns);
-    together = transfer(comm_, true);
+    properties = transfer(comm_, !alone);
     writing = action("write", array.path);
     fill_beside([] {}, array, 0, rows_from(0), slice_.data());
   });
-  for (std::int64_t first = 0; first < longest; first += slice_rows) {
-    agreed([&] {
-      const std::int64_t count = rows_from(first);
-      select_rows(in_file, static_cast<hsize_t>(array.slab.first + first), static_cast<hsize_t>(count), array.columns);
-      select_rows(in_memory, 0, static_cast<hsize_t>(count), array.columns);
-    });
+  const auto select_slice = [&](std::int64_t first) {
+    const std::int64_t count = rows_from(first);
+    select_rows(in_file, static_cast<hsize_t>(array.slab.first + first), static_cast<hsize_t>(count), array.columns);
+    select_rows(in_memory, 0, static_cast<hsize_t>(count), array.columns);
+  };
+  const auto write_slice = [&](std::int64_t first) { // what throws in here comes after the call of HDF5
     herr_t written = -1;
-    const auto write = [&] { written = H5Dwrite(dataset, array.type, in_memory, in_file, together, slice_.data()); };
-    agreed([&] { // what throws in here comes after the call of HDF5
-      fill_beside(write, array, first + slice_rows, rows_from(first + slice_rows), other_slice_.data());
-      checked(written, writing);
-    });
+    const auto write = [&] { written = H5Dwrite(dataset, array.type, in_memory, in_file, properties, slice_.data()); };
+    fill_beside(write, array, first + slice_rows, rows_from(first + slice_rows), other_slice_.data());
+    checked(written, writing);
     swap(slice_, other_slice_);
-  }
+  };
+  if (alone)
+    agreed([&] {
+      for (std::int64_t first = 0; first < array.rows; first += slice_rows) {
+        select_slice(first);
+        write_slice(first);
+      }
+    });
+  else
+    for (std::int64_t first = 0; first < longest; first += slice_rows) {
+      agreed([&] { select_slice(first); });
+      agreed([&] { write_slice(first); });
+    }
 }
 
+/// A rank sees at once what it has written itself; what others have written for it, after the flush alone, for which
+/// the disk has time until then.
 void SlabFile::verify() {
+  if (comm_.is_root())
+    write_back_.request();
   std::string flushing;
-  agreed([&] { flushing = "write " + path_ + " to disk"; });
+  const auto verify_all = [&](bool alone) {
+    for (const SlabArray& array : arrays_)
+      if (is_written_alone(array) == alone)
+        verify_slices(array);
+  };
+  agreed([&] {
+    flushing = "write " + path_ + " to disk";
+    verify_all(true);
+  });
   agree_on(H5Fflush(file_, H5F_SCOPE_GLOBAL), flushing);
   comm_.barrier();
-  if (comm_.is_root())
-    start_writing_back(path_);
-  agreed([&] {
-    for (const SlabArray& array : arrays_)
-      verify_slices(array);
-  });
+  agreed([&] { verify_all(false); });
 }
 
 /// Not collective on purpose: another path through MPI-IO than the one that wrote. A slice is read while the other

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An HDF5 file that all ranks write together: large arrays as one contiguous slab per rank, collectively and in slices;
-// small things (attributes, columns, texts) the same on every rank. After each step the ranks agree on errors, so that
-// all of them throw together and none is left waiting.
+// An HDF5 file that all ranks write together: large arrays as one contiguous slab per rank, in slices; small things
+// (attributes, columns, texts) the same on every rank. After each step the ranks agree on errors, so that all of them
+// throw together and none is left waiting.
 #pragma once
 
 #include "io/hdf5_handle.hpp"
 #include "io/slice_buffer.hpp"
+#include "io/write_back.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/core/unset_vector.hpp"
 #include "trime/io/metadata.hpp"
@@ -56,7 +57,7 @@ public:
   void text(const std::string& path, const std::string& text);
   /// Keeps a copy of the description for verify().
   void slab(SlabArray array);
-  /// Flushes, reads every slab back and compares each byte with what its rank holds.
+  /// Reads every slab back and compares each byte with what its rank holds; flushes.
   void verify();
   void close();
 
@@ -72,6 +73,7 @@ private:
   template <class Make>
   void small_dataset(const std::string& path, const Make& make);
   void make_room(hid_t dataset, const SlabArray& array);
+  bool is_written_alone(const SlabArray& array) const;
   void write_slices(hid_t dataset, const SlabArray& array);
   void verify_slices(const SlabArray& array);
   template <class Work>
@@ -82,6 +84,7 @@ private:
   const comm::Communicator& comm_;
   std::string path_;
   Hdf5File file_;
+  WriteBack write_back_;
   std::vector<SlabArray> arrays_;
   SliceBuffer slice_, other_slice_;              // the one that is written or was read, and the next
   std::vector<UnsetVector<std::byte>> expected_; // by thread: what should have been read

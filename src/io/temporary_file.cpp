@@ -113,14 +113,6 @@ void reserve_space(const std::string& path, std::int64_t bytes) {
     throw too_small(fmt::format("only {:.1f} MiB are free", available / 0x1p20));
 }
 
-void start_writing_back(const std::string& path) {
-  const int descriptor = open(path.c_str(), O_RDWR | O_CLOEXEC);
-  if (descriptor < 0)
-    return;
-  sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE); // a hint: publish() asks in earnest
-  ::close(descriptor);
-}
-
 void write_text_file(const std::string& final_path, const std::string& text) {
   write_one_text_file(final_path, text);
   synchronise_directory(final_path);

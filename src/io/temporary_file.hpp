@@ -38,9 +38,6 @@ void reserve_space(const std::string& path, std::int64_t bytes);
 /// Brings the names of files beside this one to the disk. @throws FileError
 void synchronise_directory(const std::string& path);
 
-/// Asks the system to bring what has been written to the disk meanwhile. Does not wait, cannot fail.
-void start_writing_back(const std::string& path);
-
 /// Writes a text to `final_path`, whole or not at all. @throws FileError
 void write_text_file(const std::string& final_path, const std::string& text);
 /// The same as one of several files. @post synchronise_directory will do the rest

@@ -56,6 +56,13 @@ constexpr FourSteps make_four_steps() {
 }
 constexpr FourSteps four_steps = make_four_steps();
 
+int curve_level(int tiles) {
+  int level = 0;
+  while ((1 << level) < tiles)
+    ++level;
+  return level;
+}
+
 int auto_cells(double extent, double spacing) {
   const double cell = std::sqrt(points_per_cell * 0.8660254037844386) * spacing;
   return static_cast<int>(std::clamp(std::floor(extent / cell), 1.0, static_cast<double>(max_cells)));
@@ -113,15 +120,13 @@ TileGrid::TileGrid(const geometry::Box& container, const GridOptions& options)
   const int block = 1 << block_bits;
   tiles_x_ = (cells_x_ + block - 1) / block;
   tiles_y_ = (cells_y_ + block - 1) / block;
-  tile_width_ = periods_.x > 0 ? periods_.x / tiles_x_ : cell_width * block;
-  tile_height_ = periods_.y > 0 ? periods_.y / tiles_y_ : cell_height * block;
-  const double in_tile = in_cell * block * block;
+  tile_width_ = (periods_.x > 0 ? periods_.x : container.width()) / tiles_x_; // none is narrower than the others
+  tile_height_ = (periods_.y > 0 ? periods_.y : container.height()) / tiles_y_;
+  const double in_tile = density * tile_width_ * tile_height_;
   // The nearest power of 4, from the exponent alone: a logarithm may round otherwise on other machines.
   typical_bin_bits_ = std::clamp((std::ilogb(std::max(1.0, in_tile / points_per_cell)) + 1) / 2, 0, 12);
 
-  int level = 0;
-  while ((1 << level) < std::max(tiles_x_, tiles_y_))
-    ++level;
+  int level = std::max(curve_level(tiles_x_), curve_level(tiles_y_));
   tile_shift_ = 32 - level;
   if (level == 0) { // one tile: keep the shift below 32 by leaving the upper half of the square empty
     level = 1;
@@ -135,13 +140,17 @@ TileGrid::TileGrid(const geometry::Box& container, const GridOptions& options)
   };
   limit_x_ = limit(tiles_x_);
   limit_y_ = limit(tiles_y_);
+  // In the middle of the square of the curve, so that its halves and quarters are those of the container: parts of
+  // equally many tiles are compact then, and have equally much of the boundary.
+  const auto offset = [](int tiles) { return static_cast<std::uint32_t>((1 << curve_level(tiles)) - tiles) / 2; };
+  curve_offset_ = {offset(tiles_x_), offset(tiles_y_)};
 
   std::vector<std::pair<std::uint64_t, GridPosition>> order;
   order.reserve(static_cast<std::size_t>(tiles_x_) * tiles_y_);
   for (int y = 0; y < tiles_y_; ++y)
     for (int x = 0; x < tiles_x_; ++x) {
       const GridPosition at{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
-      order.emplace_back(hilbert_key(at.x, at.y, level), at);
+      order.emplace_back(hilbert_key(at.x + curve_offset_.x, at.y + curve_offset_.y, level), at);
     }
   std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   tile_number_.resize(order.size());

@@ -35,8 +35,8 @@ struct GridOptions {
 /// container has a 32-bit fixed-point position per axis; tile, bin and Hilbert key are its leading bits, so the
 /// numbering of tiles is a prefix of the order of points. O(tiles) memory, replicated on every rank.
 ///
-/// Along a periodic axis the tiles divide the period, and each tile has images beside the container, one period away on
-/// either side: an image is one of 9 shifts by (-1, 0, 1) periods along each axis, 0 being none.
+/// Equally large tiles divide the container. Along a periodic axis each tile has images beside the container, one
+/// period away on either side: an image is one of 9 shifts by (-1, 0, 1) periods along each axis, 0 being none.
 ///
 /// Each tile has 2^b x 2^b bins with a b of its own, so that bins hold a few sites where the density varies by orders
 /// of magnitude. Only b ever changes, by set_bin_bits.
@@ -54,6 +54,11 @@ public:
   /// Tile number at column x, row y of the tile grid.
   LocalIndex tile_at(int x, int y) const { return tile_number_[static_cast<std::size_t>(y) * tiles_x_ + x]; }
   GridPosition tile_position(LocalIndex tile) const { return tile_position_[static_cast<std::size_t>(tile)]; }
+  /// The tile in the square of the Hilbert curve, of which the grid takes the middle.
+  GridPosition curve_position(LocalIndex tile) const {
+    const GridPosition at = tile_position(tile);
+    return {at.x + curve_offset_.x, at.y + curve_offset_.y};
+  }
   geometry::Box tile_box(LocalIndex tile) const;
 
   /// The b of a tile of the typical density: 2^b x 2^b bins with about 3.3 sites each.
@@ -118,7 +123,10 @@ public:
     return (bin_of(fixed_y(p.y), bits) << bits) | bin_of(fixed_x(p.x), bits);
   }
   /// Hilbert key of a point to 32 bits per axis: the canonical order of the mesh, ties lexicographic.
-  std::uint64_t point_key(geometry::Vec2 p) const { return hilbert_key(fixed_x(p.x), fixed_y(p.y), 32); }
+  std::uint64_t point_key(geometry::Vec2 p) const {
+    return hilbert_key(fixed_x(p.x) + (curve_offset_.x << tile_shift_), fixed_y(p.y) + (curve_offset_.y << tile_shift_),
+                       32);
+  }
 
 private:
   static constexpr int step_of(int third) { return third == 2 ? -1 : third; }
@@ -133,6 +141,7 @@ private:
   double scale_x_ = 1, scale_y_ = 1;
   std::uint32_t limit_x_ = 0, limit_y_ = 0;
   double tile_width_ = 1, tile_height_ = 1;
+  GridPosition curve_offset_{};             // of the first tile in the square of the curve
   std::vector<LocalIndex> tile_number_;     // by row and column
   std::vector<GridPosition> tile_position_; // by tile number
   std::vector<std::uint8_t> bin_bits_;      // by tile number

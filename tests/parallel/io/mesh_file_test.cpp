@@ -314,15 +314,15 @@ TEST(MeshFile, LongTextsAreShortenedAsAttributesAndWholeAsDatasets) {
   EXPECT_EQ(H5Tget_size(type), text.size());
 }
 
-/// Rows 0, 1, 2, ... of one byte: `each` of them on every rank.
-SlabArray counting(const comm::Communicator& comm, const char* path, std::int64_t each) {
+/// Rows 0, 1, 2, ... of one byte.
+SlabArray counting(const std::string& path, const mesh::Slab& slab, std::int64_t rows) {
   SlabArray array;
   array.path = path;
   array.type = H5T_NATIVE_UINT8;
   array.value_bytes = 1;
-  array.slab = {each * comm.rank(), each * comm.size()};
-  array.rows = each;
-  array.fill = [first_here = array.slab.first](std::int64_t first, std::int64_t count, std::byte* out) {
+  array.slab = slab;
+  array.rows = rows;
+  array.fill = [first_here = slab.first](std::int64_t first, std::int64_t count, std::byte* out) {
     for (std::int64_t k = 0; k < count; ++k)
       out[k] = static_cast<std::byte>(first_here + first + k);
   };
@@ -330,27 +330,65 @@ SlabArray counting(const comm::Communicator& comm, const char* path, std::int64_
 }
 
 /// Several slices, so that one can fail after another was written.
-constexpr std::int64_t many_rows = 700000;
+constexpr std::int64_t many_rows = 700000, few_rows = 60000;
+
+/// So many rows on every rank: each writes its own.
+SlabArray counting_on_all(const comm::Communicator& comm, const std::string& path) {
+  return counting(path, {many_rows * comm.rank(), many_rows * comm.size()}, many_rows);
+}
+
+/// All of few rows on the last rank: written together.
+SlabArray counting_on_last(const comm::Communicator& comm, const std::string& path) {
+  const std::int64_t total = few_rows * comm.size();
+  const bool is_last = comm.rank() == comm.size() - 1;
+  return counting(path, {is_last ? 0 : total, total}, is_last ? total : 0);
+}
+
+TEST(SlabFile, RowsLieWhereTheyShould) {
+  const comm::Communicator comm = comm::Communicator::world();
+  const test::TemporaryDirectory directory(comm);
+  {
+    SlabFile file(comm, directory.path() + "/a.h5");
+    file.slab(counting_on_all(comm, "/all"));
+    file.slab(counting_on_last(comm, "/last"));
+    std::int64_t rows = 0;
+    const mesh::Slab uneven = test::share(comm, many_rows * comm.size(), 5, rows);
+    file.slab(counting("/uneven", uneven, rows));
+    file.verify();
+    file.close();
+  }
+  comm.barrier();
+  const Hdf5File file(H5Fopen((directory.path() + "/a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "open");
+  for (const auto& [path, total] :
+       {std::pair{"/all", many_rows}, std::pair{"/last", few_rows}, std::pair{"/uneven", many_rows}})
+    expect_values(read<std::uint8_t>(file, path, H5T_NATIVE_UINT8, {static_cast<hsize_t>(total * comm.size())}),
+                  total * comm.size(), [](std::int64_t i) { return i; });
+  comm.barrier();
+}
 
 TEST(SlabFile, ARankThatCannotMakeItsRowsStopsAllRanks) {
   const comm::Communicator comm = comm::Communicator::world();
   const test::TemporaryDirectory directory(comm);
   SlabFile file(comm, directory.path() + "/a.h5");
-  for (const std::int64_t failing_slice : {0, 1, 2}) {
-    SlabArray array = counting(comm, failing_slice == 0 ? "/a" : failing_slice == 1 ? "/b" : "/c", many_rows);
-    if (comm.rank() == comm.size() - 1)
-      array.fill = [failing_row = failing_slice * many_rows / 3](std::int64_t first, std::int64_t count, std::byte*) {
-        if (first + count > failing_row)
-          throw std::bad_alloc();
-      };
-    try {
-      file.slab(std::move(array));
-      ADD_FAILURE() << "no error";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::out_of_memory) << error.what();
+  for (const auto& make : {counting_on_all, counting_on_last})
+    for (const std::int64_t failing_third : {0, 1, 2}) {
+      const std::string path = (make == counting_on_all ? "/all" : "/last") + std::to_string(failing_third);
+      SlabArray array = make(comm, path);
+      if (comm.rank() == comm.size() - 1)
+        array.fill = [failing_row = failing_third * array.rows / 3](std::int64_t first, std::int64_t count,
+                                                                    std::byte*) {
+          if (first + count > failing_row)
+            throw std::bad_alloc();
+        };
+      try {
+        file.slab(std::move(array));
+        ADD_FAILURE() << "no error";
+      } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::out_of_memory) << error.what();
+      }
     }
-  }
-  file.slab(counting(comm, "/d", many_rows)); // the file itself is as good as before
+  file.slab(counting_on_all(comm, "/all")); // the file itself is as good as before
+  file.slab(counting_on_last(comm, "/last"));
   file.verify();
   file.close();
 }
@@ -358,18 +396,21 @@ TEST(SlabFile, ARankThatCannotMakeItsRowsStopsAllRanks) {
 TEST(SlabFile, RowsThatAreReadBackOtherwiseAreToldByAllRanks) {
   const comm::Communicator comm = comm::Communicator::world();
   const test::TemporaryDirectory directory(comm);
-  SlabFile file(comm, directory.path() + "/a.h5");
-  SlabArray array = counting(comm, "/a", many_rows);
-  bool written = false;
-  if (comm.rank() == comm.size() - 1)
-    array.fill = [right = array.fill, &written](std::int64_t first, std::int64_t count, std::byte* out) {
-      right(first, count, out);
-      if (written && first <= many_rows / 2 && many_rows / 2 < first + count)
-        out[many_rows / 2 - first] ^= std::byte{1};
-    };
-  file.slab(std::move(array));
-  written = true;
-  EXPECT_THROW(file.verify(), FileError);
+  for (const auto& make : {counting_on_all, counting_on_last}) {
+    SlabFile file(comm, directory.path() + "/a.h5");
+    SlabArray array = make(comm, "/a");
+    bool written = false;
+    if (comm.rank() == comm.size() - 1)
+      array.fill = [right = array.fill, &written, wrong_row = array.rows / 2](std::int64_t first, std::int64_t count,
+                                                                              std::byte* out) {
+        right(first, count, out);
+        if (written && first <= wrong_row && wrong_row < first + count)
+          out[wrong_row - first] ^= std::byte{1};
+      };
+    file.slab(std::move(array));
+    written = true;
+    EXPECT_THROW(file.verify(), FileError);
+  }
 }
 
 TEST(SlabFile, NamesThatAreTakenAreRefusedOnAllRanks) {
@@ -383,7 +424,7 @@ TEST(SlabFile, NamesThatAreTakenAreRefusedOnAllRanks) {
   EXPECT_THROW(file.attribute("/g", {"a", std::int64_t{1}}), FileError);
   EXPECT_THROW(file.text("/g/t", "text"), FileError);
   EXPECT_THROW(file.column("/g", {"t", std::vector<double>{1}}), FileError);
-  EXPECT_THROW(file.slab(counting(comm, "/g/t", 1)), FileError);
+  EXPECT_THROW(file.slab(counting("/g/t", {comm.rank(), comm.size()}, 1)), FileError);
   EXPECT_THROW(file.hard_link("/nothing", "/h"), FileError);
   file.verify();
   file.close();

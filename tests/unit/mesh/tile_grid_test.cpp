@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <set>
@@ -112,6 +113,54 @@ TEST(TileGrid, TilesCoverTheContainerOnce) {
     EXPECT_GE(corner.x, grid.container().max.x - 1e-12 * grid.container().width());
     EXPECT_GE(corner.y, grid.container().max.y - 1e-12 * grid.container().height());
   }
+}
+
+TEST(TileGrid, TilesDivideTheContainer) {
+  for (const TileGrid& grid : grids()) {
+    const Box& container = grid.container();
+    for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile) {
+      const Box box = grid.tile_box(tile);
+      EXPECT_NEAR(box.width(), container.width() / grid.tiles_x(), 1e-9 * box.width() + 1e-15 * container.max.x);
+      EXPECT_NEAR(box.height(), container.height() / grid.tiles_y(), 1e-9 * box.height() + 1e-15 * container.max.y);
+    }
+  }
+}
+
+/// The halves of the tiles in the order of the curve, as a partition for two ranks has them.
+struct Halves {
+  int cut = 0;              ///< neighbouring tiles in different halves
+  std::array<int, 2> rim{}; ///< tiles of each at the border of the container
+};
+
+Halves halves_of(const TileGrid& grid) {
+  const auto half_of = [&](int x, int y) { return 2 * grid.tile_at(x, y) >= grid.tile_count() ? 1 : 0; };
+  Halves halves;
+  for (int y = 0; y < grid.tiles_y(); ++y)
+    for (int x = 0; x < grid.tiles_x(); ++x) {
+      const int half = half_of(x, y);
+      halves.cut += x + 1 < grid.tiles_x() && half_of(x + 1, y) != half;
+      halves.cut += y + 1 < grid.tiles_y() && half_of(x, y + 1) != half;
+      halves.rim[static_cast<std::size_t>(half)] +=
+          x == 0 || y == 0 || x + 1 == grid.tiles_x() || y + 1 == grid.tiles_y();
+    }
+  return halves;
+}
+
+TEST(TileGrid, HalvesOfASquareAreCompactAndHaveHalfOfItsBorder) {
+  for (const double spacing : {0.03, 0.01, 0.0068, 0.0034, 0.002, 0.0011, 0.0009, 0.0007}) {
+    const TileGrid grid(Box{{0, 0}, {1, 1}}, GridOptions{{}, {}, spacing});
+    const int n = grid.tiles_x();
+    ASSERT_EQ(grid.tiles_y(), n);
+    const Halves halves = halves_of(grid);
+    EXPECT_LT(halves.cut, 2 * n) << n;
+    EXPECT_NEAR(halves.rim[0], halves.rim[1], 0.1 * 4 * n + 2) << n;
+  }
+}
+
+TEST(TileGrid, SlendersAreCutAcross) {
+  const TileGrid grid(Box{{0, 0}, {64, 3}}, GridOptions{{}, {}, 0.03});
+  ASSERT_GT(grid.tiles_x(), 8 * grid.tiles_y());
+  EXPECT_LE(halves_of(grid).cut, 2 * grid.tiles_y() + 2);
 }
 
 TEST(TileGrid, PointsOutsideAreClampedToTheRim) {
