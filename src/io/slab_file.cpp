@@ -18,6 +18,7 @@ namespace {
 /// All slices of an array lie alike in the pages of the file.
 constexpr std::int64_t slice_rows = std::int64_t{1} << 16, piece_rows = std::int64_t{1} << 12;
 static_assert(slice_rows % 4096 == 0);
+constexpr std::int64_t slices_of_a_request = 4; // the disk begins early
 
 std::int64_t pieces_of(std::int64_t rows) {
   return (rows + piece_rows - 1) / piece_rows;
@@ -286,8 +287,6 @@ void SlabFile::slab(SlabArray array) {
       H5Dcreate2(file_, array.path.c_str(), array.type, space, H5P_DEFAULT, creation, H5P_DEFAULT));
   agree_on(dataset, making);
   write_slices(dataset, array);
-  if (comm_.is_root() && array.slab.total > slice_rows)
-    write_back_.request();
   arrays_.push_back(std::move(array));
 }
 
@@ -336,6 +335,8 @@ void SlabFile::write_slices(hid_t dataset, const SlabArray& array) {
     fill_beside(write, array, first + slice_rows, rows_from(first + slice_rows), other_slice_.data());
     checked(written, writing);
     swap(slice_, other_slice_);
+    if (comm_.is_root() && first / slice_rows % slices_of_a_request == slices_of_a_request - 1)
+      write_back_.request();
   };
   if (alone)
     agreed([&] {
