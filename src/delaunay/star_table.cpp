@@ -106,11 +106,13 @@ void StarTable::renumber(std::span<const LocalIndex> new_index, LocalIndex new_s
       }
     }
   });
-  for (std::size_t to = 0; to < degrees.size(); ++to)
-    if (degrees[to] == 0)
-      rings[to] = {};
+  thread_loop(new_size, 4 * chunk, [&](std::ptrdiff_t to, int) {
+    if (degrees[static_cast<std::size_t>(to)] == 0)
+      rings[static_cast<std::size_t>(to)] = {};
+  });
   std::vector<std::vector<LocalIndex>> overflow;
-  for (LocalIndex i = 0; i < old_size; ++i) {
+  const bool none_overflows = overflow_.size() == free_overflow_.size();
+  for (LocalIndex i = 0; i < old_size && !none_overflows; ++i) {
     const LocalIndex to = new_index[static_cast<std::size_t>(i)];
     if (to < 0 || degree_[static_cast<std::size_t>(i)] != overflowing)
       continue;

@@ -178,10 +178,11 @@ void CleanupSites::finish(SiteState& state, std::span<const LocalIndex> new_inde
   };
   points.prepare_to_stay();
   std::vector<std::uint8_t> deleted(at(points.owned()), 0);
-  for (LocalIndex i = 0; i < points.owned(); ++i) {
+  thread_loop(points.owned(), 4096, [&](std::ptrdiff_t item, int) {
+    const auto i = static_cast<LocalIndex>(item);
     deleted[at(i)] = fates_[at(i)] == Fate::gone;
     points.set_boundary(i, !deleted[at(i)] ? renumbered(points.boundary(i)) : mesh::free_site);
-  }
+  });
   std::vector<mesh::Site> more;
   for (const std::vector<Added>& list : added_)
     for (const Added& added : list)
