@@ -14,7 +14,7 @@
 namespace trime::io {
 namespace {
 
-/// Rows of one write: 1 or 2 MB, which stay in the caches; and of what one thread fills.
+/// Rows of one write, 2 MB at most, which stay in the caches; and of what one thread fills.
 /// All slices of an array lie alike in the pages of the file.
 constexpr std::int64_t slice_rows = std::int64_t{1} << 16, piece_rows = std::int64_t{1} << 12;
 static_assert(slice_rows % 4096 == 0);
@@ -281,13 +281,12 @@ void SlabFile::slab(SlabArray array) {
     creation = dataset_properties();
     space = array_space(static_cast<hsize_t>(array.slab.total), array.columns);
     making = action("make", array.path);
-    arrays_.reserve(arrays_.size() + 1);
+    written_.reserve(written_.size() + 1);
   });
-  const Hdf5Dataset dataset(
-      H5Dcreate2(file_, array.path.c_str(), array.type, space, H5P_DEFAULT, creation, H5P_DEFAULT));
+  Hdf5Dataset dataset(H5Dcreate2(file_, array.path.c_str(), array.type, space, H5P_DEFAULT, creation, H5P_DEFAULT));
   agree_on(dataset, making);
   write_slices(dataset, array);
-  arrays_.push_back(std::move(array));
+  written_.push_back({std::move(array), std::move(dataset)});
 }
 
 /// For the longest slice of this rank. HDF5 wants a buffer for no rows, too.
@@ -352,48 +351,59 @@ void SlabFile::write_slices(hid_t dataset, const SlabArray& array) {
     }
 }
 
-/// A rank sees at once what it has written itself; what others have written for it, after the flush alone, for which
-/// the disk has time until then.
+/// What a rank has written alone it can read at once, while the disk works; what others have written for it, after the
+/// flush. Then also the ends of the slabs once more: where two ranks share a page or a stripe, a file system that keeps
+/// copies on several nodes could have lost the rows of one.
 void SlabFile::verify() {
   if (comm_.is_root())
     write_back_.request();
   std::string flushing;
-  const auto verify_all = [&](bool alone) {
-    for (const SlabArray& array : arrays_)
-      if (is_written_alone(array) == alone)
-        verify_slices(array);
-  };
   agreed([&] {
     flushing = "write " + path_ + " to disk";
-    verify_all(true);
+    for (const Written& written : written_)
+      if (is_written_alone(written.array))
+        verify_rows(written, 0, written.array.rows);
   });
   agree_on(H5Fflush(file_, H5F_SCOPE_GLOBAL), flushing);
   comm_.barrier();
-  agreed([&] { verify_all(false); });
+  agreed([&] {
+    for (const Written& written : written_) {
+      const std::int64_t rows = written.array.rows;
+      if (!is_written_alone(written.array)) {
+        verify_rows(written, 0, rows);
+      } else if (comm_.size() > 1) {
+        verify_rows(written, 0, std::min(piece_rows, rows));
+        verify_rows(written, std::max<std::int64_t>(0, rows - piece_rows), rows);
+      }
+    }
+  });
+  written_.clear();
 }
 
-/// Not collective on purpose: another path through MPI-IO than the one that wrote. A slice is read while the other
-/// threads compare the one before.
-void SlabFile::verify_slices(const SlabArray& array) {
-  if (array.rows == 0)
+/// Rows [begin, end) of this rank; no rank waits for others. A slice is read while the other threads compare the one
+/// before.
+void SlabFile::verify_rows(const Written& written, std::int64_t begin, std::int64_t end) {
+  if (begin == end)
     return;
-  const Hdf5Dataset dataset(H5Dopen2(file_, array.path.c_str(), H5P_DEFAULT), action("open", array.path));
+  const SlabArray& array = written.array;
   const Hdf5Properties alone = transfer(comm_, false);
   const Hdf5Space in_file = array_space(static_cast<hsize_t>(array.slab.total), array.columns);
-  make_room(dataset, array);
-  std::int64_t compared = 0;
-  for (std::int64_t first = 0; first < array.rows; first += slice_rows) {
-    const std::int64_t count = std::min(array.rows - first, slice_rows);
+  make_room(written.dataset, array);
+  std::int64_t compared = begin;
+  for (std::int64_t first = begin; first < end; first += slice_rows) {
+    const std::int64_t count = std::min(end - first, slice_rows);
     select_rows(in_file, static_cast<hsize_t>(array.slab.first + first), static_cast<hsize_t>(count), array.columns);
     const Hdf5Space in_memory = array_space(static_cast<hsize_t>(count), array.columns);
     herr_t status = -1;
-    const auto read_slice = [&] { status = H5Dread(dataset, array.type, in_memory, in_file, alone, slice_.data()); };
+    const auto read_slice = [&] {
+      status = H5Dread(written.dataset, array.type, in_memory, in_file, alone, slice_.data());
+    };
     compare_beside(read_slice, array, compared, first - compared, other_slice_.data());
     checked(status, action("read back", array.path));
     swap(slice_, other_slice_);
     compared = first;
   }
-  compare_beside([] {}, array, compared, array.rows - compared, other_slice_.data());
+  compare_beside([] {}, array, compared, end - compared, other_slice_.data());
 }
 
 /// The same as fill_beside for rows that were read. @throws FileError if one is another than it should be
@@ -416,6 +426,7 @@ void SlabFile::compare_beside(const Work& work, const SlabArray& array, std::int
 }
 
 void SlabFile::close() {
+  written_.clear();
   std::string closing;
   agreed([&] { closing = "close " + path_; });
   agree_on(file_.close(), closing);

@@ -55,9 +55,9 @@ public:
   void ascii_attribute(const std::string& object, const std::string& name, const std::string& text);
   void column(const std::string& group, const Column& column);
   void text(const std::string& path, const std::string& text);
-  /// Keeps a copy of the description for verify().
+  /// Keeps the array open, and a copy of its description, for verify().
   void slab(SlabArray array);
-  /// Reads every slab back and compares each byte with what its rank holds; flushes.
+  /// Reads every slab back and compares each byte with what its rank holds; flushes. Once, after all slabs.
   void verify();
   void close();
 
@@ -73,9 +73,13 @@ private:
   template <class Make>
   void small_dataset(const std::string& path, const Make& make);
   void make_room(hid_t dataset, const SlabArray& array);
+  struct Written {
+    SlabArray array;
+    Hdf5Dataset dataset;
+  };
   bool is_written_alone(const SlabArray& array) const;
   void write_slices(hid_t dataset, const SlabArray& array);
-  void verify_slices(const SlabArray& array);
+  void verify_rows(const Written& written, std::int64_t begin, std::int64_t end);
   template <class Work>
   void compare_beside(const Work& work, const SlabArray& array, std::int64_t first, std::int64_t count,
                       const std::byte* read);
@@ -83,9 +87,9 @@ private:
 
   const comm::Communicator& comm_;
   std::string path_;
+  WriteBack write_back_; // ends after the file is closed
   Hdf5File file_;
-  WriteBack write_back_;
-  std::vector<SlabArray> arrays_;
+  std::vector<Written> written_;
   SliceBuffer slice_, other_slice_;              // the one that is written or was read, and the next
   std::vector<UnsetVector<std::byte>> expected_; // by thread: what should have been read
 };

@@ -4,20 +4,9 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <system_error>
+#include <exception>
 
 namespace trime::io {
-namespace {
-
-void start_writing_back(const std::string& path) {
-  const int descriptor = open(path.c_str(), O_RDWR | O_CLOEXEC);
-  if (descriptor < 0)
-    return;
-  sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE);
-  ::close(descriptor);
-}
-
-} // namespace
 
 WriteBack::~WriteBack() {
   if (!thread_.joinable())
@@ -40,21 +29,25 @@ void WriteBack::request() noexcept {
     return;
   try {
     thread_ = std::thread(&WriteBack::serve, this);
-  } catch (const std::system_error&) { // the synchronisation at the end does all of it then
+  } catch (const std::exception&) { // the synchronisation at the end does all of it then
   }
 }
 
 void WriteBack::serve() {
+  const int descriptor = open(path_.c_str(), O_RDWR | O_CLOEXEC);
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return requested_ || ends_; });
     if (ends_)
-      return;
+      break;
     requested_ = false;
     lock.unlock();
-    start_writing_back(path_);
+    if (descriptor >= 0)
+      sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE);
     lock.lock();
   }
+  if (descriptor >= 0)
+    ::close(descriptor);
 }
 
 } // namespace trime::io

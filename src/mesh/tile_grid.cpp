@@ -109,8 +109,9 @@ TileGrid::TileGrid(const geometry::Box& container, const GridOptions& options)
   const double density = 1 / (0.8660254037844386 * options.point_spacing * options.point_spacing);
   const double in_cell = density * cell_width * cell_height;
 
-  // A tile is a block of 2^k cells a side: about 845 points, fewer where that would leave too few tiles to share out.
-  // With a density that varies, the densest tiles hold up to a hundred times the mean.
+  // A tile is as large as a block of 2^k cells a side, or a little smaller, so that equal ones divide the container:
+  // about 845 points, fewer where that would leave too few tiles to share out. With a density that varies, the densest
+  // tiles hold up to a hundred times the mean.
   const double all_points = in_cell * cells_x_ * cells_y_;
   const double tiles_to_have = options.graded ? wanted_tiles_graded : wanted_tiles;
   const double wanted = std::clamp(all_points / tiles_to_have, fewest_per_tile, points_per_tile);
@@ -120,7 +121,7 @@ TileGrid::TileGrid(const geometry::Box& container, const GridOptions& options)
   const int block = 1 << block_bits;
   tiles_x_ = (cells_x_ + block - 1) / block;
   tiles_y_ = (cells_y_ + block - 1) / block;
-  tile_width_ = (periods_.x > 0 ? periods_.x : container.width()) / tiles_x_; // none is narrower than the others
+  tile_width_ = (periods_.x > 0 ? periods_.x : container.width()) / tiles_x_;
   tile_height_ = (periods_.y > 0 ? periods_.y : container.height()) / tiles_y_;
   const double in_tile = density * tile_width_ * tile_height_;
   // The nearest power of 4, from the exponent alone: a logarithm may round otherwise on other machines.
@@ -140,8 +141,7 @@ TileGrid::TileGrid(const geometry::Box& container, const GridOptions& options)
   };
   limit_x_ = limit(tiles_x_);
   limit_y_ = limit(tiles_y_);
-  // In the middle of the square of the curve, so that its halves and quarters are those of the container: parts of
-  // equally many tiles are compact then, and have equally much of the boundary.
+  // Parts of equally many tiles are compact then, and have equally much of the boundary.
   const auto offset = [](int tiles) { return static_cast<std::uint32_t>((1 << curve_level(tiles)) - tiles) / 2; };
   curve_offset_ = {offset(tiles_x_), offset(tiles_y_)};
 

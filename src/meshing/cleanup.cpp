@@ -5,13 +5,11 @@
 #include "meshing/extraction.hpp"
 #include "meshing/selection.hpp"
 #include "trime/comm/agree.hpp"
-#include "trime/core/random.hpp"
 #include "trime/core/thread_loop.hpp"
 #include "trime/mesh/quality.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <map>
 
@@ -20,7 +18,6 @@ namespace {
 
 using geometry::Vec2;
 
-constexpr int contender_cell = 2; // log2 of a cell's width, in once to twice h
 /// Where sites crowd, patches are narrower; where even so there are too many, nothing is tried.
 constexpr std::size_t most_collected = 20000;
 constexpr int narrowings = 5;
@@ -33,18 +30,11 @@ constexpr double largest_loss = 0.005; // of the sites
 /// Where sites, or room for more of them, are fewer than this share of all: factor on the sum of a trial that deletes.
 constexpr double scarcity = 0.001, handicap_if_scarce = 1.5, handicap_if_crowded = 0.85;
 constexpr double again_share = 0.85; // of the excess of the worst triangle: places that come near it are tried again
-constexpr std::array<double, 3> classes{1.5, 1.28, 1.14}; // of alpha
-constexpr double largest_share_of_period = 0.45;          // for what keeps two patches apart
-constexpr double sqrt_3 = 1.7320508075688772;
-constexpr std::ptrdiff_t sites_in_a_row = 1024; // by one thread
+constexpr double largest_share_of_period = 0.45; // for what keeps two patches apart
+constexpr std::ptrdiff_t sites_in_a_row = 1024;  // by one thread
 
 std::size_t at(LocalIndex i) {
   return static_cast<std::size_t>(i);
-}
-
-std::uint64_t hash_of(Vec2 p, int salt) {
-  return mix_bits(mix_bits(std::bit_cast<std::uint64_t>(p.x) + static_cast<std::uint64_t>(salt)) ^
-                  std::bit_cast<std::uint64_t>(p.y));
 }
 
 int gain_of(const std::vector<SiteEdit>& edits) {
@@ -52,25 +42,6 @@ int gain_of(const std::vector<SiteEdit>& edits) {
   for (const SiteEdit& edit : edits)
     gain += edit.kind == SiteEdit::Kind::insert ? 1 : edit.kind == SiteEdit::Kind::remove ? -1 : 0;
   return gain;
-}
-
-/// @brief Is the aspect ratio of a triangle below a limit, by the sum of its squared edges over its area? The largest
-/// one of all triangles with eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area) is below 1 + 1.3 (eta - 1) up to eta = 1.1.
-/// Never true if not; no root, no division.
-bool is_surely_below(double limit, Vec2 p, Vec2 q, Vec2 r) {
-  const double largest_eta = 1 + std::min((limit - 1) / 1.3, 0.1);
-  const Vec2 u = q - p, v = r - p, w = r - q;
-  const double squares = geometry::squared_length(u) + geometry::squared_length(v) + geometry::squared_length(w);
-  return squares < largest_eta * 2 * sqrt_3 * geometry::cross(u, v);
-}
-
-/// The worst first, in a few classes; then by the hash.
-std::uint64_t order_of(double alpha, std::uint64_t hash) {
-  constexpr int bits = 4;
-  std::uint64_t better = 0; // classes
-  for (const double limit : classes)
-    better += alpha < limit;
-  return (better << (64 - bits)) | (hash >> bits);
 }
 
 } // namespace
@@ -90,20 +61,12 @@ Cleanup::Cleanup(const comm::Communicator& comm, Layout& layout, const geometry:
                  const PatchOptions& options)
     : comm_(comm), layout_(layout), state_(*layout.state), curve_(boundary), lattice_(lattice), builder_(builder),
       options_(options), most_sites_(most_sites), sites_(comm.sum(std::int64_t{state_.points().owned()})),
-      chain_(layout.boundary, curve_), optimizers_(chain_.sites(), curve_, lattice_, options_) {
+      chain_(layout.boundary, curve_), optimizers_(chain_.sites(), curve_, lattice_, options_),
+      candidates_(state_.grid()) {
   const GlobalId leeway = static_cast<GlobalId>(largest_loss * static_cast<double>(sites_)) + 1;
   most_sites_ = most_sites_ > 0 ? std::max(most_sites_, sites_) : sites_ + leeway;
   wanted_sites_ = sites_;
   least_sites_ = sites_ - leeway;
-}
-
-/// Of the cell of a place, a few h wide, in its tile: the same on any number of ranks.
-std::uint64_t Cleanup::cell_key(Vec2 p, double h) const {
-  int exponent = 0;
-  std::frexp(h, &exponent);
-  const Vec2 cell{std::floor(std::ldexp(p.x, -contender_cell - exponent)),
-                  std::floor(std::ldexp(p.y, -contender_cell - exponent))};
-  return mix_bits(hash_of(cell, exponent) + static_cast<std::uint64_t>(state_.grid().place(p).tile));
 }
 
 /// Of the owned sites, by the stars of the state.
@@ -121,85 +84,26 @@ void Cleanup::find_candidates() {
         double worst = 0;
         for (std::size_t k = 0; k < fan.triangles; ++k)
           if (const Vec2 q = points.position(fan.neighbour(k)), r = points.position(fan.neighbour(k + 1));
-              !is_surely_below(options_.bad_alpha, p, q, r))
+              !mesh::is_surely_below(options_.bad_alpha, p, q, r))
             worst = std::max(worst, mesh::aspect_ratio(p, q, r));
         if (worst > options_.bad_alpha && std::isfinite(worst))
           list.push_back({p, state_.sizes()[i], worst});
       });
   for (const Candidate& candidate : found)
-    set_candidate(candidate);
-}
-
-void Cleanup::set_candidate(const Candidate& candidate) {
-  const bool is_bad = candidate.alpha > 0;
-  auto known = candidate_at_.find(hash_of(candidate.place, 0));
-  if (known == candidate_at_.end()) {
-    if (!is_bad)
-      return;
-    known = candidate_at_.emplace(hash_of(candidate.place, 0), static_cast<std::uint32_t>(candidates_.size())).first;
-    candidates_.emplace_back();
-  }
-  Candidate& own = candidates_[known->second];
-  own = candidate;
-  if (is_bad)
-    own.cell = cell_key(own.place, own.size);
-  else
-    own.tried = 0; // as if it had been dropped
-}
-
-/// Nothing was better at a place: it is not tried again in this stage.
-void Cleanup::settle(Vec2 p) {
-  const auto known = candidate_at_.find(hash_of(p, 0));
-  if (known != candidate_at_.end() && candidates_[known->second].alpha > 0)
-    candidates_[known->second].tried = stage_;
+    candidates_.set(candidate);
 }
 
 /// What is bad enough to be tried again: in a good mesh also what is bad there only.
 double Cleanup::find_again_alpha() const {
-  double worst = 1;
-  for (const Candidate& candidate : candidates_)
-    worst = std::max(worst, candidate.alpha);
-  return std::clamp(1 + again_share * (comm_.max(worst) - 1), options_.bad_alpha, options_.again_alpha);
+  return std::clamp(1 + again_share * (comm_.max(candidates_.worst()) - 1), options_.bad_alpha, options_.again_alpha);
 }
 
-/// Takes out those that are none any more, once they are many.
-void Cleanup::drop_the_good() {
-  const auto is_good = [](const Candidate& candidate) { return !(candidate.alpha > 0); };
-  if (2 * std::count_if(candidates_.begin(), candidates_.end(), is_good) <
-      static_cast<std::ptrdiff_t>(candidates_.size()))
-    return;
-  std::erase_if(candidates_, is_good);
-  candidate_at_.clear();
-  for (std::size_t k = 0; k < candidates_.size(); ++k)
-    candidate_at_[hash_of(candidates_[k].place, 0)] = static_cast<std::uint32_t>(k);
-}
-
-/// The worst one of each cell, and of the equally bad ones the first.
 std::vector<Contender> Cleanup::list_contenders() {
-  drop_the_good();
   const geometry::Periods& periods = state_.grid().periods();
-  const double limit =
+  const double most_separation =
       largest_share_of_period * std::min(periods.x > 0 ? periods.x : INFINITY, periods.y > 0 ? periods.y : INFINITY);
-  const double separation = 2 * options_.reach - PatchOptions::clearance;
-  std::unordered_map<std::uint64_t, const Candidate*> worst;
-  for (const Candidate& own : candidates_) {
-    if (!(own.alpha > 0) || own.tried >= stage_ || !(stage_ == 1 || own.alpha > again_alpha_) ||
-        !(separation * own.size < limit))
-      continue;
-    const auto [known, is_new] = worst.try_emplace(own.cell, &own);
-    const Candidate& other = *known->second;
-    if (!is_new && (own.alpha > other.alpha ||
-                    (own.alpha == other.alpha && geometry::lexicographically_less(own.place, other.place))))
-      known->second = &own;
-  }
-  std::vector<Contender> contenders;
-  contenders.reserve(worst.size());
-  for (const auto& [cell, own] : worst)
-    contenders.push_back({own->place, separation * own->size, order_of(own->alpha, hash_of(own->place, 1 + round_))});
-  // In an order of their own: that of a map is nobody's.
-  std::sort(contenders.begin(), contenders.end(),
-            [](const Contender& a, const Contender& b) { return geometry::lexicographically_less(a.place, b.place); });
-  return contenders;
+  return candidates_.contenders(
+      {stage_, stage_ == 1 ? 0 : again_alpha_, 2 * options_.reach - PatchOptions::clearance, most_separation, round_});
 }
 
 /// How far chords may pass from curves with corners between, at these sites of the chain.
@@ -330,9 +234,13 @@ void Cleanup::take_verdicts(std::span<const Contender> chosen, const std::vector
     }
   for (const SiteVerdict& verdict : send(comm_, by_rank)) {
     places_->set_rest(verdict.position, verdict.rests != 0);
-    const auto known = candidate_at_.find(hash_of(verdict.position, 0)); // it has not moved then
-    const int tried = known == candidate_at_.end() ? 0 : candidates_[known->second].tried;
-    set_candidate({verdict.position, verdict.size, verdict.alpha, verdict.rests ? stage_ : tried});
+    if (!(verdict.alpha > 0)) {
+      candidates_.drop(verdict.position);
+      continue;
+    }
+    candidates_.set({verdict.position, verdict.size, verdict.alpha}); // it has not moved
+    if (verdict.rests)
+      candidates_.settle(verdict.position, stage_);
   }
 }
 
@@ -390,11 +298,11 @@ CleanupCounts Cleanup::round(std::span<const Contender> contenders) {
   places_->apply(own);
   for (const SiteEdit& edit : own)
     if (edit.kind != SiteEdit::Kind::insert)
-      set_candidate({edit.from, 0, 0});
+      candidates_.drop(edit.from);
   take_verdicts(chosen, results);
   for (std::size_t k = 0; k < chosen.size(); ++k)
     if (results[k].edits.empty() && !results[k].put_off)
-      settle(chosen[k].place);
+      candidates_.settle(chosen[k].place, stage_);
   ++round_;
   counts = sum_over_ranks(counts);
   sites_ += counts.inserted - counts.deleted;

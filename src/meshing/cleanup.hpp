@@ -3,7 +3,7 @@
 #pragma once
 
 #include "meshing/boundary_chain.hpp"
-#include "meshing/cleanup_choice.hpp"
+#include "meshing/cleanup_candidates.hpp"
 #include "meshing/cleanup_sites.hpp"
 #include "meshing/layout.hpp"
 #include "meshing/patch.hpp"
@@ -11,7 +11,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <unordered_map>
 #include <vector>
 
 namespace trime::meshing {
@@ -41,18 +40,8 @@ public:
   static constexpr int most_rounds = 250;
 
 private:
-  struct Candidate {
-    geometry::Vec2 place;
-    double size = 0, alpha = 0; // alpha 0: none any more
-    int tried = 0;              // number of the last stage in which nothing helped
-    std::uint64_t cell = 0;     // set by who lists it
-  };
-  std::uint64_t cell_key(geometry::Vec2 p, double h) const;
   void find_candidates();
-  void set_candidate(const Candidate& candidate);
-  void settle(geometry::Vec2 p);
   double find_again_alpha() const;
-  void drop_the_good();
   std::vector<Contender> list_contenders();
   void find_tolerances(std::span<const LocalIndex> boundary_sites);
   PatchBudget budget(std::size_t own_patches) const;
@@ -82,8 +71,7 @@ private:
   std::vector<double> tolerances_; // by index in the chain
   std::unique_ptr<CleanupSites> places_;
   PerThread<PatchOptimizer> optimizers_;
-  std::vector<Candidate> candidates_;                             // owned sites
-  std::unordered_map<std::uint64_t, std::uint32_t> candidate_at_; // by hash of the place
+  CleanupCandidates candidates_; // owned sites
 };
 
 } // namespace trime::meshing

@@ -17,7 +17,7 @@ constexpr double least_perimeter = 3; // of islands and lakes that stay, in loca
 constexpr double gradation = 0.2;     // of the size around places where it is lowered
 
 /// The part of the container grid around the shape: what lies beyond holds no site. One whole period along periodic
-/// axes. Cells that were given keep their size.
+/// axes. Cells that were given keep about their size.
 std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Layout& layout, double spacing) {
   const MeshOptions& options = context.options;
   const geometry::Box& container = options.container;

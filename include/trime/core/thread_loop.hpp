@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one way in which this program uses threads: a loop over items whose results go to places of their own.
+// The one way in which this program computes with threads: a loop over items whose results go to places of their own.
 // The body must not call MPI. It should not throw; what it throws all the same (no memory) leaves the loop as one
 // exception.
 #pragma once

@@ -19,6 +19,18 @@ namespace trime::mesh {
 /// @brief alpha = abc / (8 (s-a)(s-b)(s-c)) = R/(2r), s half the perimeter: 1 for an equilateral triangle, infinity for
 /// a flat one.
 double aspect_ratio(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
+/// @brief Is the aspect ratio below a limit, by the sum of the squared edges over the area alone? Never true if it is
+/// not; false for a few that are. No root, no division: for most triangles of a good mesh it is all that is needed.
+///
+/// With eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area), the largest alpha of all triangles of one eta (an isosceles one has
+/// it) is less than 1 + 1.3 (eta - 1) up to eta = 1.1.
+inline bool is_surely_below(double limit, geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r) {
+  constexpr double root_3 = 1.7320508075688772, steepness = 1.3, largest_excess = 0.1;
+  const double largest_eta = 1 + std::min((limit - 1) / steepness, largest_excess);
+  const geometry::Vec2 u = q - p, v = r - p;
+  const double squares = geometry::squared_length(u) + geometry::squared_length(v) + geometry::squared_length(r - q);
+  return squares < largest_eta * 2 * root_3 * geometry::cross(u, v);
+}
 /// beta = longest edge / shortest edge.
 double edge_ratio(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
 /// Smallest angle in degrees.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The container grid: cells, tiles (blocks of cells) numbered along a Hilbert curve, bins inside a tile. Geometry
-// only: it holds no points and knows nothing of ranks.
+// The container grid: cells, tiles (the size of blocks of cells) numbered along a Hilbert curve, bins inside a tile.
+// Geometry only: it holds no points and knows nothing of ranks.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -54,7 +54,9 @@ public:
   /// Tile number at column x, row y of the tile grid.
   LocalIndex tile_at(int x, int y) const { return tile_number_[static_cast<std::size_t>(y) * tiles_x_ + x]; }
   GridPosition tile_position(LocalIndex tile) const { return tile_position_[static_cast<std::size_t>(tile)]; }
-  /// The tile in the square of the Hilbert curve, of which the grid takes the middle.
+  /// @brief The tile in the square of the Hilbert curve. Along each axis the grid lies in the middle of its own power
+  /// of two: halves and quarters of a square's curve are halves and quarters of the container, and a slender container
+  /// is not cut along its length.
   GridPosition curve_position(LocalIndex tile) const {
     const GridPosition at = tile_position(tile);
     return {at.x + curve_offset_.x, at.y + curve_offset_.y};

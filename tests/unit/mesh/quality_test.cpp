@@ -44,6 +44,27 @@ TEST(TriangleQuality, DoesNotDependOnSizePlaceAndOrderOfTheVertices) {
   }
 }
 
+TEST(TriangleQuality, WhatIsSurelyBelowIsBelow) {
+  int sure = 0, below = 0;
+  for (std::uint64_t k = 0; k < 200000; ++k) {
+    const auto random = [&](std::uint64_t j) { return random_unit(3, RandomPurpose::test, k, j); };
+    // From equilateral to flat, and isosceles ones of all shapes, which are the worst of their kind.
+    const double spread = 0.6 * random(3);
+    const double x = k % 2 == 0 ? 0.5 : 0.5 + spread * (random(0) - 0.5);
+    const Vec2 apex{x, 0.866 + 1.7 * spread * (random(1) - 0.5)};
+    const double limit = 1 + 0.3 * random(2), alpha = aspect_ratio({0, 0}, {1, 0}, apex);
+    if (is_surely_below(limit, {0, 0}, {1, 0}, apex)) {
+      ++sure;
+      ASSERT_LT(alpha, limit) << apex.x << " " << apex.y;
+    }
+    below += alpha < limit;
+  }
+  EXPECT_GT(sure, 0.7 * below);
+  EXPECT_FALSE(is_surely_below(2, {0, 0}, {1, 0}, {0.5, -0.866})); // the other way round
+  EXPECT_FALSE(is_surely_below(2, {0, 0}, {0, 0}, {0, 0}));
+  EXPECT_FALSE(is_surely_below(2, {0, 0}, {1, 0}, {2, 0}));
+}
+
 TEST(TriangleQuality, FlatTrianglesAreInfinitelyBadButDefined) {
   EXPECT_TRUE(std::isinf(aspect_ratio({0, 0}, {1, 1}, {2, 2})));
   EXPECT_EQ(min_angle_degrees({0, 0}, {1, 1}, {2, 2}), 0);

@@ -34,6 +34,8 @@ std::vector<TileGrid> grids() {
   all.emplace_back(Box{{0, 0}, {1, 1}}, GridOptions{1, 1, 0.01});
   all.emplace_back(Box{{1e6, 1e6}, {1e6 + 1, 1e6 + 1}}, GridOptions{{}, {}, 0.03});
   all.emplace_back(Box{{0, 0}, {1e-9, 1e-9}}, GridOptions{{}, {}, 2e-11});
+  all.emplace_back(Box{{0, 0}, {1, 2}}, GridOptions{{}, {}, 0.005, false, {1, 2, {}}});
+  all.emplace_back(Box{{0, 0}, {1, 1}}, GridOptions{{}, {}, 0.0068, false, {1, 0, {}}});
   return all;
 }
 

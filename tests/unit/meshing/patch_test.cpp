@@ -388,11 +388,19 @@ Boundary blunt_strip() {
 }
 
 TEST(PatchOptimizer, InsertsNoMoreThanItMay) {
-  Stage stage(blunt_strip());
-  stage.add_boundary();
-  stage.budget.may_insert = stage.budget.may_refine = 2;
-  const std::vector<SiteEdit> edits = stage.improve(unit_lattice().snap({0.25 + 12.156 * h, 0.5 + 0.2 * h}));
-  EXPECT_LE(count(edits, Kind::insert, true) + count(edits, Kind::insert), 2);
+  const auto inserted = [](GlobalId may_insert, GlobalId may_refine) {
+    Stage stage(blunt_strip());
+    stage.add_boundary();
+    stage.budget.may_insert = may_insert;
+    stage.budget.may_refine = may_refine;
+    const std::vector<SiteEdit> edits = stage.improve(unit_lattice().snap({0.25 + 12.156 * h, 0.5 + 0.2 * h}));
+    return count(edits, Kind::insert, true) + count(edits, Kind::insert);
+  };
+  EXPECT_GT(inserted(100, 100), 2);
+  EXPECT_LE(inserted(2, 2), 2);
+  EXPECT_LE(inserted(2, 0), 2);
+  EXPECT_LE(inserted(0, 2), 2);
+  EXPECT_EQ(inserted(0, 0), 0);
 }
 
 } // namespace
