@@ -24,10 +24,10 @@ inline double noise(std::uint64_t key, std::uint64_t slot) {
 }
 
 /// Hexagonal lattice, every point moved by up to `jitter` spacings along each axis: like a relaxed mesh at 0.15.
-inline std::vector<mesh::Site> jittered_lattice(std::int64_t n, double jitter) {
+inline mesh::SiteList jittered_lattice(std::int64_t n, double jitter) {
   const geometry::Lattice lattice(unit_square);
   const double h = spacing_of(n);
-  std::vector<mesh::Site> sites;
+  mesh::SiteList sites;
   for (int row = 0; (row + 0.5) * 0.8660254037844386 * h < 1; ++row)
     for (int column = 0; (column + 0.25 + 0.5 * (row & 1)) * h < 1; ++column) {
       const geometry::Vec2 p{(column + 0.25 + 0.5 * (row & 1) + jitter * noise(sites.size(), 0)) * h,
@@ -39,9 +39,9 @@ inline std::vector<mesh::Site> jittered_lattice(std::int64_t n, double jitter) {
 }
 
 /// Uniform random points.
-inline std::vector<mesh::Site> random_points(std::int64_t n) {
+inline mesh::SiteList random_points(std::int64_t n) {
   const geometry::Lattice lattice(unit_square);
-  std::vector<mesh::Site> sites;
+  mesh::SiteList sites;
   for (std::int64_t i = 0; i < n; ++i) {
     const std::uint64_t key = static_cast<std::uint64_t>(i);
     sites.push_back({lattice.snap(geometry::Vec2{0.5 + 0.5 * noise(key, 2), 0.5 + 0.5 * noise(key, 3)})});
@@ -55,9 +55,9 @@ inline double graded_size(geometry::Vec2 p) {
 }
 
 /// Random points with density h^-2 for h in proportion to graded_size: a stratified sample, so that the mean is exact.
-inline std::vector<mesh::Site> graded_points(std::int64_t n) {
+inline mesh::SiteList graded_points(std::int64_t n) {
   const geometry::Lattice lattice(unit_square);
-  std::vector<mesh::Site> sites;
+  mesh::SiteList sites;
   for (std::uint64_t key = 0; static_cast<std::int64_t>(sites.size()) < n; ++key) {
     // Log-uniform radius from the centre fits the density h^-2 about: the rest is done by rejection.
     const double reach = 0.8, core = 0.001 / 0.03;

@@ -35,7 +35,7 @@ struct Stage {
   decomposition::Partition partition;
   mesh::BinnedPoints points;
   decomposition::Halo halo;
-  std::vector<mesh::Site> sites;
+  mesh::SiteList sites;
 };
 
 void halo_refresh(benchmark::State& state) {

@@ -58,7 +58,7 @@ struct Stage {
   mesh::BinnedPoints points;
   geometry::Lattice lattice;
   delaunay::StarBuilder builder;
-  std::vector<mesh::Site> sites;
+  mesh::SiteList sites;
   double factor = 0; // of the graded size; 0: uniform
   mesh::LocalSizes sizes;
 };

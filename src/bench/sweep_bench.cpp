@@ -22,7 +22,7 @@ struct Stage {
   explicit Stage(const benchmark::State& state)
       : n(state.range(0)), grid(unit_square, {{}, {}, spacing_of(n)}), points(grid), lattice(unit_square),
         sizes(spacing_of(n)) {
-    const std::vector<mesh::Site> sites = jittered_lattice(n, 0.15);
+    const mesh::SiteList sites = jittered_lattice(n, 0.15);
     grid.set_bin_bits(points.suitable_bin_bits(sites, 0, grid.tile_count()));
     points.assign_owned(sites, 0, grid.tile_count());
     stars.reset(points.owned());

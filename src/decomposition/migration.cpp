@@ -54,9 +54,9 @@ std::vector<std::int64_t> tile_weights(const comm::Communicator& comm, const mes
 }
 
 void migrate(const comm::Communicator& comm, const mesh::TileGrid& grid, const Partition& partition,
-             std::vector<mesh::Site>& sites) {
+             mesh::SiteList& sites) {
   const LocalIndex first = partition.first_tile(comm.rank()), last = partition.last_tile(comm.rank());
-  std::map<int, std::vector<mesh::Site>> leaving; // by rank, ascending
+  std::map<int, mesh::SiteList> leaving; // by rank, ascending
   const bool none_leaves = all_stay(grid, first, last, sites);
   std::size_t kept = none_leaves ? sites.size() : 0;
   for (std::size_t i = kept; i < sites.size(); ++i) {

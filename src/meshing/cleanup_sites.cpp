@@ -183,7 +183,7 @@ void CleanupSites::finish(SiteState& state, std::span<const LocalIndex> new_inde
     deleted[at(i)] = fates_[at(i)] == Fate::gone;
     points.set_boundary(i, !deleted[at(i)] ? renumbered(points.boundary(i)) : mesh::free_site);
   });
-  std::vector<mesh::Site> more;
+  mesh::SiteList more;
   for (const std::vector<Added>& list : added_)
     for (const Added& added : list)
       if (added.origin >= 0) {

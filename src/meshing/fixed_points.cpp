@@ -201,8 +201,7 @@ std::int64_t FixedPoints::count_clear(std::span<const mesh::Site> sites, const s
   return std::count(clear.begin(), clear.end(), std::uint8_t{1});
 }
 
-void FixedPoints::place_among(std::vector<mesh::Site>& sites, const TileRange& tiles,
-                              const sizing::SizeField& size) const {
+void FixedPoints::place_among(mesh::SiteList& sites, const TileRange& tiles, const sizing::SizeField& size) const {
   if (inside_.empty())
     return;
   std::vector<std::uint8_t> taken(sites.size());

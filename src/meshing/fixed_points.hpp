@@ -45,7 +45,7 @@ public:
   /// Number of free sites that place_among would leave.
   std::int64_t count_clear(std::span<const mesh::Site> sites, const sizing::SizeField& size) const;
   /// @brief Takes out free sites that are too near to a fixed one, then adds the fixed sites of these tiles.
-  void place_among(std::vector<mesh::Site>& sites, const TileRange& tiles, const sizing::SizeField& size) const;
+  void place_among(mesh::SiteList& sites, const TileRange& tiles, const sizing::SizeField& size) const;
   /// One warning about points nearer than the local size to each other or to the boundary.
   void warn_of_close_ones(const BoundaryGuard& guard, const sizing::SizeField& size, Log& log) const;
 

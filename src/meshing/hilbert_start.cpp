@@ -99,7 +99,7 @@ public:
 
   double wanted() const { return static_cast<double>(total_) / DensitySampler::weight_unit; }
 
-  std::vector<mesh::Site> sites(std::int64_t n, std::uint64_t seed) const {
+  mesh::SiteList sites(std::int64_t n, std::uint64_t seed) const {
     if (total_ == 0 || n <= 0)
       return {};
     // Site j sits where the running weight passes (2j + 1) total / (2n).
@@ -107,7 +107,7 @@ public:
       return std::min(n, static_cast<std::int64_t>((Int128{2} * weight * n + total_ - 1) / (Int128{2} * total_)));
     };
     const std::int64_t first_site = sites_before(first_);
-    std::vector<mesh::Site> all(static_cast<std::size_t>(sites_before(first_ + before_.back()) - first_site));
+    mesh::SiteList all(static_cast<std::size_t>(sites_before(first_ + before_.back()) - first_site));
     agreed_loop(comm_, std::ssize(before_) - 1, [&](std::ptrdiff_t part) {
       const LocalIndex tile = parts_.tile(part);
       std::int64_t running = first_ + before_[static_cast<std::size_t>(part)], j = sites_before(running);
@@ -118,7 +118,7 @@ public:
           const Vec2 p{
               cell.box.min.x + random_unit(seed, RandomPurpose::site_position, stream, slot) * cell.box.width(),
               cell.box.min.y + random_unit(seed, RandomPurpose::site_position, stream, slot + 1) * cell.box.height()};
-          all[static_cast<std::size_t>(j - first_site)].position = lattice_.snap(p);
+          all[static_cast<std::size_t>(j - first_site)] = {lattice_.snap(p)};
         }
       };
       if (kept_.empty())
@@ -152,13 +152,13 @@ double HilbertStart::wanted() const {
   return implementation_->wanted();
 }
 
-std::vector<mesh::Site> HilbertStart::sites(std::int64_t n, std::uint64_t seed) const {
+mesh::SiteList HilbertStart::sites(std::int64_t n, std::uint64_t seed) const {
   return implementation_->sites(n, seed);
 }
 
-std::vector<mesh::Site> hilbert_start(const comm::Communicator& comm, const TileRange& tiles,
-                                      const BoundaryGuard& guard, const sizing::SizeField& size,
-                                      const geometry::Lattice& lattice, std::int64_t n, std::uint64_t seed) {
+mesh::SiteList hilbert_start(const comm::Communicator& comm, const TileRange& tiles, const BoundaryGuard& guard,
+                             const sizing::SizeField& size, const geometry::Lattice& lattice, std::int64_t n,
+                             std::uint64_t seed) {
   return HilbertStart(comm, tiles, guard, size, lattice, static_cast<double>(n)).sites(n, seed);
 }
 

@@ -146,7 +146,7 @@ void LatticeStart::for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile,
   }
 }
 
-std::vector<mesh::Site> LatticeStart::sites(const TileRange& tiles, double spacing, std::size_t more) const {
+mesh::SiteList LatticeStart::sites(const TileRange& tiles, double spacing, std::size_t more) const {
   const RowLattice rows = rows_of(spacing);
   if (!(rows.spacing > 0))
     return {};
@@ -154,7 +154,7 @@ std::vector<mesh::Site> LatticeStart::sites(const TileRange& tiles, double spaci
   before.push_back(0);
   std::exclusive_scan(before.begin(), before.end(), before.begin(), std::int64_t{0});
   const auto n = static_cast<std::size_t>(before.back());
-  std::vector<mesh::Site> all;
+  mesh::SiteList all;
   all.reserve(n + more);
   all.resize(n);
   thread_loop(tiles.last - tiles.first, 1, [&](std::ptrdiff_t t, int) {
@@ -162,7 +162,7 @@ std::vector<mesh::Site> LatticeStart::sites(const TileRange& tiles, double spaci
     for_each_in_tile(tiles.grid, tiles.first + static_cast<LocalIndex>(t), rows, spacing,
                      [&](std::int64_t column, std::int64_t last, const auto& site) {
                        for (; column <= last; ++column, ++to)
-                         to->position = site(column);
+                         *to = {site(column)};
                      });
   });
   return all;

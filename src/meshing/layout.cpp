@@ -201,7 +201,7 @@ TileRange even_share(const Layout& layout, const comm::Communicator& comm) {
   return {grid, even.first_tile(comm.rank()), even.last_tile(comm.rank())};
 }
 
-void place_sites(const LayoutContext& context, Layout& layout, std::vector<mesh::Site> inner) {
+void place_sites(const LayoutContext& context, Layout& layout, mesh::SiteList inner) {
   const TileRange tiles = even_share(layout, context.comm);
   if (context.boundary.periods.any())
     for (mesh::Site& site : inner)

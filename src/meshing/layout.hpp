@@ -99,6 +99,6 @@ TileRange even_share(const Layout& layout, const comm::Communicator& comm);
 
 /// Adds the boundary sites and the fixed ones to the inner ones, which may lie on any rank, takes out those too near to
 /// a fixed one, and distributes all. Collective.
-void place_sites(const LayoutContext& context, Layout& layout, std::vector<mesh::Site> inner);
+void place_sites(const LayoutContext& context, Layout& layout, mesh::SiteList inner);
 
 } // namespace trime::meshing

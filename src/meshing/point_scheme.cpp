@@ -159,7 +159,7 @@ std::unique_ptr<const HilbertStart> PointScheme::along_curve(const Layout& layou
 void PointScheme::place_along_curve(Layout& layout, double inner, const HilbertStart& start) const {
   const auto time = context_.timers.scope("start");
   const auto wanted = std::max<std::int64_t>(0, std::llround(inner));
-  std::vector<mesh::Site> placed = start.sites(wanted, options_.seed);
+  mesh::SiteList placed = start.sites(wanted, options_.seed);
   if (!context_.fixed.inside().empty()) { // those too near to a fixed point will go: so many more are placed
     const std::int64_t clear = context_.comm.sum(context_.fixed.count_clear(placed, *layout.size));
     if (clear > 0 && clear < wanted) {
@@ -187,7 +187,7 @@ Layout PointScheme::divide(const Layout& previous) {
   const GlobalId before = comm.sum(std::int64_t{previous.state->points().owned()});
   Layout layout = lay_coarsened(fitted_, 4 * static_cast<double>(before));
   const auto time = context_.timers.scope("start");
-  std::vector<mesh::Site> sites = split_edges(old);
+  mesh::SiteList sites = split_edges(old);
   clear_strip(layout, sites);
   if (options_.points && is_last()) {
     const std::int64_t most = std::max<std::int64_t>(0, *options_.points - reserve() - layout.placed_first());
@@ -211,7 +211,7 @@ Layout PointScheme::insert(const Layout& previous) {
   const double coarsening = is_last() ? 1 : std::fmax(1, std::sqrt(expected_points() / points_now_));
   Layout layout = lay_stage(context_, previous.fitted, coarsening, points_now_);
   const auto time = context_.timers.scope("start");
-  std::vector<mesh::Site> sites = inner_sites(*previous.state);
+  mesh::SiteList sites = inner_sites(*previous.state);
   clear_strip(layout, sites);
   const std::int64_t most = std::max<std::int64_t>(0, std::llround(points_now_) - layout.placed_first());
   insert_in_triangles(old, layout, most - comm.sum(static_cast<std::int64_t>(sites.size())), sites);

@@ -40,7 +40,7 @@ std::vector<Item> gather_by_tile(const mesh::BinnedPoints& points, const Make& m
 /// @brief The same for sites that are made cheaply: twice, so that all find their places in one list at once.
 /// @param make make(i, put) calls put(position) for each site; the same ones each time
 template <class Make>
-std::vector<mesh::Site> place_by_tile(const mesh::BinnedPoints& points, const Make& make) {
+mesh::SiteList place_by_tile(const mesh::BinnedPoints& points, const Make& make) {
   const LocalIndex first_tile = points.first_tile(), tiles = points.last_tile() - first_tile;
   std::vector<std::size_t> before(static_cast<std::size_t>(tiles) + 1, 0);
   const auto for_each_site = [&](std::ptrdiff_t t, const auto& put) {
@@ -54,17 +54,17 @@ std::vector<mesh::Site> place_by_tile(const mesh::BinnedPoints& points, const Ma
     before[static_cast<std::size_t>(t) + 1] = count;
   });
   std::partial_sum(before.begin(), before.end(), before.begin());
-  std::vector<mesh::Site> all(before.back());
+  mesh::SiteList all(before.back());
   thread_loop(tiles, 1, [&](std::ptrdiff_t t, int) {
     mesh::Site* next = all.data() + before[static_cast<std::size_t>(t)];
-    for_each_site(t, [&](Vec2 position) { (next++)->position = position; });
+    for_each_site(t, [&](Vec2 position) { *next++ = {position}; });
   });
   return all;
 }
 
 /// Keeps the items for which keep[k] is set.
-template <class Item>
-void keep_marked(std::vector<Item>& items, const std::vector<std::uint8_t>& keep) {
+template <class List>
+void keep_marked(List& items, const std::vector<std::uint8_t>& keep) {
   std::size_t kept = 0;
   for (std::size_t k = 0; k < items.size(); ++k)
     if (keep[k])
@@ -95,7 +95,7 @@ std::uint64_t urgency(Vec2 p, Vec2 q, Vec2 r, Vec2 place, const sizing::SizeFiel
 
 } // namespace
 
-std::vector<mesh::Site> inner_sites(const SiteState& state) {
+mesh::SiteList inner_sites(const SiteState& state) {
   const mesh::BinnedPoints& points = state.points();
   return place_by_tile(points, [&](LocalIndex i, const auto& put) {
     if (points.boundary(i) == mesh::free_site)
@@ -103,7 +103,7 @@ std::vector<mesh::Site> inner_sites(const SiteState& state) {
   });
 }
 
-std::vector<mesh::Site> split_edges(const ExtractionContext& context) {
+mesh::SiteList split_edges(const ExtractionContext& context) {
   const mesh::BinnedPoints& points = context.state.points();
   const geometry::Periods& periods = context.boundary.periods;
   return place_by_tile(points, [&](LocalIndex i, const auto& put) {
@@ -123,7 +123,7 @@ std::vector<mesh::Site> split_edges(const ExtractionContext& context) {
 }
 
 void insert_in_triangles(const ExtractionContext& context, const Layout& next, std::int64_t count,
-                         std::vector<mesh::Site>& sites) {
+                         mesh::SiteList& sites) {
   const mesh::BinnedPoints& points = context.state.points();
   const geometry::Periods& periods = context.boundary.periods;
   const auto add_candidates = [&](LocalIndex i, std::vector<Candidate>& list) {
@@ -148,7 +148,7 @@ void insert_in_triangles(const ExtractionContext& context, const Layout& next, s
       sites.push_back({candidate.place});
 }
 
-void clear_strip(const Layout& next, std::vector<mesh::Site>& sites) {
+void clear_strip(const Layout& next, mesh::SiteList& sites) {
   std::vector<std::uint8_t> keep(sites.size());
   comm::run_agreed(next.state->comm(), [&] {
     thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 256, [&](std::ptrdiff_t k, int) {
@@ -159,8 +159,7 @@ void clear_strip(const Layout& next, std::vector<mesh::Site>& sites) {
   keep_marked(sites, keep);
 }
 
-std::int64_t trim(const comm::Communicator& comm, const Layout& next, std::int64_t most,
-                  std::vector<mesh::Site>& sites) {
+std::int64_t trim(const comm::Communicator& comm, const Layout& next, std::int64_t most, mesh::SiteList& sites) {
   constexpr double farthest = 4; // h; beyond that only the hash decides
   const std::int64_t excess = comm.sum(static_cast<std::int64_t>(sites.size())) - most;
   if (excess <= 0)

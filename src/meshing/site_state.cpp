@@ -41,7 +41,7 @@ SiteState::SiteState(const comm::Communicator& comm, const geometry::Box& box, c
 
 SiteState::SiteState(const SiteState& other)
     : comm_(other.comm_), grid_(other.grid_), partition_(other.partition_), points_(grid_), halo_(comm_, grid_) {
-  std::vector<mesh::Site> sites;
+  mesh::SiteList sites;
   sites.reserve(static_cast<std::size_t>(other.points_.owned()));
   for (LocalIndex i = 0; i < other.points_.owned(); ++i)
     sites.push_back(other.points_.site(i));
@@ -49,14 +49,14 @@ SiteState::SiteState(const SiteState& other)
 }
 
 /// Into the container, where it is periodic.
-void SiteState::wrap(std::vector<mesh::Site>& sites) const {
+void SiteState::wrap(mesh::SiteList& sites) const {
   const geometry::Periods& periods = grid_.periods();
   if (periods.any())
     for (mesh::Site& site : sites)
       site.position = periods.wrap(site.position);
 }
 
-void SiteState::distribute(std::vector<mesh::Site> sites) {
+void SiteState::distribute(mesh::SiteList sites) {
   wrap(sites);
   const std::vector<std::int64_t> weights = decomposition::tile_weights(comm_, grid_, sites);
   partition_ = decomposition::Partition(weights, comm_.size());
@@ -81,7 +81,7 @@ void SiteState::choose_bins(std::span<const mesh::Site> sites) {
   grid_.set_bin_bits({bits.begin(), bits.end()});
 }
 
-void SiteState::move_sites(std::vector<std::uint8_t> gone, std::vector<mesh::Site> more) {
+void SiteState::move_sites(std::vector<std::uint8_t> gone, mesh::SiteList more) {
   const std::size_t before = static_cast<std::size_t>(points_.owned());
   wrap_next();
   wrap(more);
@@ -105,12 +105,12 @@ void SiteState::wrap_next() {
 }
 
 /// Sites whose next places belong to other ranks are gone here.
-void SiteState::list_leaving(std::vector<std::uint8_t>& gone, std::vector<mesh::Site>& leaving) const {
+void SiteState::list_leaving(std::vector<std::uint8_t>& gone, mesh::SiteList& leaving) const {
   if (comm_.size() == 1)
     return;
   gone.resize(static_cast<std::size_t>(points_.owned()), 0);
   const LocalIndex first_tile = points_.first_tile(), last_tile = points_.last_tile();
-  std::vector<std::vector<mesh::Site>> of_tile(static_cast<std::size_t>(last_tile - first_tile)); // that they come from
+  std::vector<mesh::SiteList> of_tile(static_cast<std::size_t>(last_tile - first_tile)); // that they come from
   thread_loop(last_tile - first_tile, 4, [&](std::ptrdiff_t t, int) {
     const auto [begin, end] = points_.tile_range(first_tile + static_cast<LocalIndex>(t));
     for (LocalIndex i = begin; i < end; ++i) {
@@ -124,7 +124,7 @@ void SiteState::list_leaving(std::vector<std::uint8_t>& gone, std::vector<mesh::
       }
     }
   });
-  for (const std::vector<mesh::Site>& list : of_tile)
+  for (const mesh::SiteList& list : of_tile)
     leaving.insert(leaving.end(), list.begin(), list.end());
 }
 

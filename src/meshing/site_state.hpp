@@ -35,10 +35,10 @@ public:
 
   /// First sites, from any ranks: partitions the tiles by their counts. Collective.
   /// @throws ConfigError on all ranks if one would own more sites than a local index can count
-  void distribute(std::vector<mesh::Site> sites);
+  void distribute(mesh::SiteList sites);
   /// @brief The owned sites go to BinnedPoints::next_positions, but for those that are gone (by local index; empty:
   /// none); more sites come, whoever owns their places. Migrates, sorts, keeps the rings. Collective.
-  void move_sites(std::vector<std::uint8_t> gone = {}, std::vector<mesh::Site> more = {});
+  void move_sites(std::vector<std::uint8_t> gone = {}, mesh::SiteList more = {});
 
   /// @brief Refreshes the halo and the sizes and computes the wanted stars, asking for more bins until every one is
   /// certain. Collective.
@@ -80,9 +80,9 @@ public:
   void release_work_space();
 
 private:
-  void wrap(std::vector<mesh::Site>& sites) const;
+  void wrap(mesh::SiteList& sites) const;
   void wrap_next();
-  void list_leaving(std::vector<std::uint8_t>& gone, std::vector<mesh::Site>& leaving) const;
+  void list_leaving(std::vector<std::uint8_t>& gone, mesh::SiteList& leaving) const;
   void choose_bins(std::span<const mesh::Site> sites);
   void evaluate_agreed(const sizing::SizeField& size, LocalIndex end);
   void remember_sizes();

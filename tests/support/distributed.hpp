@@ -21,8 +21,8 @@ std::vector<T> gather_all(const comm::Communicator& comm, const std::vector<T, A
 }
 
 /// Sites k with k mod size == rank: belongs to nobody's tiles in particular.
-inline std::vector<mesh::Site> dealt(const comm::Communicator& comm, const std::vector<mesh::Site>& sites) {
-  std::vector<mesh::Site> mine;
+inline mesh::SiteList dealt(const comm::Communicator& comm, const mesh::SiteList& sites) {
+  mesh::SiteList mine;
   for (std::size_t k = static_cast<std::size_t>(comm.rank()); k < sites.size();
        k += static_cast<std::size_t>(comm.size()))
     mine.push_back(sites[k]);

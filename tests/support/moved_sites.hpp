@@ -18,7 +18,7 @@ inline void move_sites(meshing::SiteState& state, std::span<const mesh::Site> si
   state.points().prepare_to_stay();
   for (std::size_t i = 0; i < owned; ++i)
     state.points().next_positions()[i] = sites[i].position;
-  std::vector<mesh::Site> more;
+  mesh::SiteList more;
   for (std::size_t i = owned; i < sites.size(); ++i)
     if (!deleted[i])
       more.push_back(sites[i]);

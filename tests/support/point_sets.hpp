@@ -30,16 +30,16 @@ inline geometry::Vec2 random_vec2(std::uint64_t seed, std::uint64_t key) {
                                             random_unit(seed, RandomPurpose::test, key, 1)});
 }
 
-inline std::vector<mesh::Site> random_sites(std::size_t n, std::uint64_t seed) {
-  std::vector<mesh::Site> sites;
+inline mesh::SiteList random_sites(std::size_t n, std::uint64_t seed) {
+  mesh::SiteList sites;
   for (std::size_t k = 0; k < n; ++k)
     sites.push_back({random_vec2(seed, k)});
   return sites;
 }
 
 /// n x n sites in a square lattice; every unit square is a tie.
-inline std::vector<mesh::Site> square_lattice(int n, double spacing, geometry::Vec2 origin = {0.125, 0.125}) {
-  std::vector<mesh::Site> sites;
+inline mesh::SiteList square_lattice(int n, double spacing, geometry::Vec2 origin = {0.125, 0.125}) {
+  mesh::SiteList sites;
   const double step = unit_lattice().snap(spacing);
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i)
@@ -49,8 +49,8 @@ inline std::vector<mesh::Site> square_lattice(int n, double spacing, geometry::V
 }
 
 /// n rows of n sites in a hexagonal lattice.
-inline std::vector<mesh::Site> hexagonal_lattice(int n, double spacing, geometry::Vec2 origin = {0.125, 0.125}) {
-  std::vector<mesh::Site> sites;
+inline mesh::SiteList hexagonal_lattice(int n, double spacing, geometry::Vec2 origin = {0.125, 0.125}) {
+  mesh::SiteList sites;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i)
       sites.push_back({unit_lattice().snap(
@@ -59,8 +59,8 @@ inline std::vector<mesh::Site> hexagonal_lattice(int n, double spacing, geometry
 }
 
 /// n sites about evenly on a circle and one in its centre: a star of degree n.
-inline std::vector<mesh::Site> wheel(int n, geometry::Vec2 center, double radius) {
-  std::vector<mesh::Site> sites{{unit_lattice().snap(center)}};
+inline mesh::SiteList wheel(int n, geometry::Vec2 center, double radius) {
+  mesh::SiteList sites{{unit_lattice().snap(center)}};
   for (int k = 0; k < n; ++k) {
     const SinCos direction = sin_cos(2 * pi * k / n);
     sites.push_back({unit_lattice().snap(center + radius * geometry::Vec2{direction.cos, direction.sin})});
@@ -69,8 +69,8 @@ inline std::vector<mesh::Site> wheel(int n, geometry::Vec2 center, double radius
 }
 
 /// Exactly cocircular sites: integer points of the circle of radius 65 (36 of them), and of one half as large.
-inline std::vector<mesh::Site> cocircular_rings() {
-  std::vector<mesh::Site> sites;
+inline mesh::SiteList cocircular_rings() {
+  mesh::SiteList sites;
   const double unit = 2 * unit_lattice().snap(0.0025); // half of it is on the lattice too
   for (const double scale : {unit, 0.5 * unit})
     for (int x = -65; x <= 65; ++x)
@@ -81,8 +81,8 @@ inline std::vector<mesh::Site> cocircular_rings() {
 }
 
 /// Two tight clusters and a few sites far away.
-inline std::vector<mesh::Site> clusters(std::size_t n, std::uint64_t seed) {
-  std::vector<mesh::Site> sites;
+inline mesh::SiteList clusters(std::size_t n, std::uint64_t seed) {
+  mesh::SiteList sites;
   for (std::size_t k = 0; k < n; ++k) {
     const geometry::Vec2 p = random_vec2(seed, k);
     const double size = k % 10 == 0 ? 1 : k % 2 == 0 ? 1e-3 : 1e-6;
@@ -95,8 +95,8 @@ inline std::vector<mesh::Site> clusters(std::size_t n, std::uint64_t seed) {
 }
 
 /// Random sites, most of them with a twin 1e-12 away (about nine lattice steps).
-inline std::vector<mesh::Site> near_duplicates(std::size_t n, std::uint64_t seed) {
-  std::vector<mesh::Site> sites = random_sites(n, seed);
+inline mesh::SiteList near_duplicates(std::size_t n, std::uint64_t seed) {
+  mesh::SiteList sites = random_sites(n, seed);
   for (std::size_t k = 0; k < n; ++k)
     if (k % 4 != 0)
       sites.push_back(
@@ -105,8 +105,8 @@ inline std::vector<mesh::Site> near_duplicates(std::size_t n, std::uint64_t seed
 }
 
 /// Random sites whose density falls from the origin with the square of the distance: ratio 1000 over the unit square.
-inline std::vector<mesh::Site> graded_sites(std::size_t n, std::uint64_t seed) {
-  std::vector<mesh::Site> sites;
+inline mesh::SiteList graded_sites(std::size_t n, std::uint64_t seed) {
+  mesh::SiteList sites;
   for (std::uint64_t k = 0; sites.size() < n; ++k) {
     const geometry::Vec2 u = random_vec2(seed, k);
     const double r = 0.045 * (std::exp(3.5 * u.x) - 1); // up to 1.45
@@ -119,8 +119,8 @@ inline std::vector<mesh::Site> graded_sites(std::size_t n, std::uint64_t seed) {
 }
 
 /// All on one line: no triangles at all.
-inline std::vector<mesh::Site> collinear(int n) {
-  std::vector<mesh::Site> sites;
+inline mesh::SiteList collinear(int n) {
+  mesh::SiteList sites;
   const double step = unit_lattice().snap(0.01);
   for (int k = 0; k < n; ++k)
     sites.push_back({geometry::Vec2{0.25 + step * k, 0.125 + 0.5 * step * k}});

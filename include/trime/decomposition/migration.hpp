@@ -17,6 +17,6 @@ std::vector<std::int64_t> tile_weights(const comm::Communicator& comm, const mes
 /// @brief Gives every site to the owner of its tile. Sites that stay keep their order and position in the list's front;
 /// arrivals follow, ordered by sending rank. Collective.
 void migrate(const comm::Communicator& comm, const mesh::TileGrid& grid, const Partition& partition,
-             std::vector<mesh::Site>& sites);
+             mesh::SiteList& sites);
 
 } // namespace trime::decomposition

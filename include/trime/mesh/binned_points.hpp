@@ -26,6 +26,9 @@ struct Site {
   geometry::Vec2 lead{};             ///< the step by which an accelerated update runs ahead of its last iterate
 };
 
+/// Sites in no order yet. Elements that are new after resize are not set: threads fill them in large numbers.
+using SiteList = UnsetVector<Site>;
+
 /// What a rank knows of a site of another rank: 24 bytes, as it is sent.
 struct Ghost {
   geometry::Vec2 position;

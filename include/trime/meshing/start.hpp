@@ -34,7 +34,7 @@ public:
 
   /// @brief Sites inside the shape at least 0.45 spacings away from its boundary, by tile, row and column. Threads.
   /// @param more room for so many sites is left, that will be added
-  std::vector<mesh::Site> sites(const TileRange& tiles, double spacing, std::size_t more = 0) const;
+  mesh::SiteList sites(const TileRange& tiles, double spacing, std::size_t more = 0) const;
   /// Their number, without making them.
   std::int64_t count(const TileRange& tiles, double spacing) const;
 
@@ -69,7 +69,7 @@ public:
   double wanted() const;
   /// The sites of this rank. Collective.
   /// @param n number of sites over all ranks
-  std::vector<mesh::Site> sites(std::int64_t n, std::uint64_t seed) const;
+  mesh::SiteList sites(std::int64_t n, std::uint64_t seed) const;
 
 private:
   class Implementation;
@@ -77,8 +77,8 @@ private:
 };
 
 /// The sites of a HilbertStart that is not asked for anything else. Collective.
-std::vector<mesh::Site> hilbert_start(const comm::Communicator& comm, const TileRange& tiles,
-                                      const BoundaryGuard& guard, const sizing::SizeField& size,
-                                      const geometry::Lattice& lattice, std::int64_t n, std::uint64_t seed);
+mesh::SiteList hilbert_start(const comm::Communicator& comm, const TileRange& tiles, const BoundaryGuard& guard,
+                             const sizing::SizeField& size, const geometry::Lattice& lattice, std::int64_t n,
+                             std::uint64_t seed);
 
 } // namespace trime::meshing

@@ -15,12 +15,13 @@ namespace {
 using geometry::Vec2;
 using mesh::BinRef;
 using mesh::Site;
+using mesh::SiteList;
 
 const geometry::Box square{{0, 0}, {1, 1}};
 
 /// Sites of the whole square, distributed; and all of them on this rank as the truth.
 struct Stage {
-  explicit Stage(std::vector<Site> sites, double spacing = 0.03)
+  explicit Stage(SiteList sites, double spacing = 0.03)
       : grid(square, {{}, {}, spacing}), points(grid), truth(grid), halo(comm, grid), partition(grid.tile_count(), 1) {
     truth.assign_owned(sites, 0, grid.tile_count());
     sites = testing::dealt(comm, sites);
@@ -115,7 +116,7 @@ TEST(Halo, WorksForRanksWithoutTilesAndWithoutSites) {
   few.halo.reset(few.partition, 3);
   few.halo.refresh(few.points);
   few.expect_true_ghosts();
-  Stage empty(std::vector<Site>{});
+  Stage empty(SiteList{});
   empty.halo.reset(empty.partition, 2);
   empty.halo.refresh(empty.points);
   EXPECT_EQ(empty.points.size(), 0);

@@ -12,11 +12,12 @@ namespace trime::decomposition {
 namespace {
 
 using mesh::Site;
+using mesh::SiteList;
 
 const geometry::Box square{{0, 0}, {1, 1}};
 
-std::vector<Site> marked_sites(std::size_t n) {
-  std::vector<Site> sites = testing::random_sites(n, 1);
+SiteList marked_sites(std::size_t n) {
+  SiteList sites = testing::random_sites(n, 1);
   for (std::size_t k = 0; k < n; ++k) {
     sites[k].boundary = static_cast<std::int32_t>(k);
     sites[k].pushes = static_cast<std::int32_t>(k % 3);
@@ -28,7 +29,7 @@ std::vector<Site> marked_sites(std::size_t n) {
 TEST(TileWeights, CountTheSitesOfAllRanks) {
   const comm::Communicator comm = comm::Communicator::world();
   const mesh::TileGrid grid(square, {{}, {}, 0.05});
-  const std::vector<Site> sites = marked_sites(500);
+  const SiteList sites = marked_sites(500);
   const std::vector<std::int64_t> weights = tile_weights(comm, grid, testing::dealt(comm, sites));
   EXPECT_EQ(std::accumulate(weights.begin(), weights.end(), std::int64_t{0}), 500);
   EXPECT_EQ(weights, tile_weights(comm::Communicator::self(), grid, sites));
@@ -38,10 +39,10 @@ TEST(Migration, EverySiteArrivesAtItsOwnerWithAllThatBelongsToIt) {
   const comm::Communicator comm = comm::Communicator::world();
   for (const double spacing : {0.05, 5.0}) { // many tiles, and fewer tiles than ranks
     const mesh::TileGrid grid(square, {{}, {}, spacing});
-    const std::vector<Site> all = marked_sites(500);
-    const std::vector<Site> before = testing::dealt(comm, all);
+    const SiteList all = marked_sites(500);
+    const SiteList before = testing::dealt(comm, all);
     const Partition partition(tile_weights(comm, grid, before), comm.size());
-    std::vector<Site> sites = before;
+    SiteList sites = before;
     migrate(comm, grid, partition, sites);
     for (const Site& site : sites)
       EXPECT_EQ(partition.owner(grid.place(site.position).tile), comm.rank());
@@ -60,7 +61,7 @@ TEST(Migration, EverySiteArrivesAtItsOwnerWithAllThatBelongsToIt) {
       EXPECT_EQ(together[k].pushes, all[k].pushes);
       EXPECT_EQ(together[k].lead, all[k].lead);
     }
-    const std::vector<Site> settled = sites;
+    const SiteList settled = sites;
     migrate(comm, grid, partition, sites);
     EXPECT_EQ(sites.size(), settled.size()) << "nobody travels twice";
   }
@@ -72,7 +73,7 @@ TEST(Migration, OneRankMayGetEverything) {
   std::vector<std::int64_t> weights(static_cast<std::size_t>(grid.tile_count()), 0);
   weights.back() = 1;
   const Partition partition(weights, comm.size());
-  std::vector<Site> sites = testing::dealt(comm, marked_sites(100));
+  SiteList sites = testing::dealt(comm, marked_sites(100));
   migrate(comm, grid, partition, sites);
   EXPECT_EQ(comm.sum(static_cast<std::int64_t>(sites.size())), 100);
 }

@@ -17,6 +17,7 @@ using delaunay::gap;
 using delaunay::StarBuilder;
 using geometry::Vec2;
 using mesh::Site;
+using mesh::SiteList;
 using testing::unit_lattice;
 
 const geometry::Box square{{0, 0}, {1, 1}};
@@ -41,7 +42,7 @@ public:
 
 /// Moves every site by a step that is a function of its position, so that it is the same on any ranks.
 void shake(SiteState& state, double step, std::uint64_t round) {
-  std::vector<Site> sites;
+  SiteList sites;
   for (LocalIndex i = 0; i < state.points().owned(); ++i) {
     Site site = state.points().site(i);
     const std::uint64_t key = state.grid().point_key(site.position);
@@ -56,7 +57,7 @@ void shake(SiteState& state, double step, std::uint64_t round) {
   testing::move_sites(state, sites, deleted);
 }
 
-void expect_equal_stars(const std::vector<Site>& sites, double spacing, const StarBuilder& builder, double step,
+void expect_equal_stars(const SiteList& sites, double spacing, const StarBuilder& builder, double step,
                         const sizing::SizeField& size = sizing::UniformSize()) {
   const comm::Communicator world = comm::Communicator::world(), self = comm::Communicator::self();
   const mesh::GridOptions options{{}, {}, spacing, !size.is_uniform()};
@@ -74,7 +75,7 @@ void expect_equal_stars(const std::vector<Site>& sites, double spacing, const St
   }
 }
 
-void expect_equal_stars(const std::vector<Site>& sites, double spacing, double cap, double step) {
+void expect_equal_stars(const SiteList& sites, double spacing, double cap, double step) {
   expect_equal_stars(sites, spacing, StarBuilder(unit_lattice(), cap), step);
 }
 
@@ -147,7 +148,7 @@ TEST(DistributedStars, SizesAreKnownAtOwnedSitesAndGhosts) {
 
 TEST(DistributedStars, OnlyInnerSitesHaveStarsIfOnlyTheyAreWanted) {
   const comm::Communicator world = comm::Communicator::world();
-  std::vector<Site> sites = testing::random_sites(300, 6);
+  SiteList sites = testing::random_sites(300, 6);
   for (std::size_t k = 0; k < sites.size(); k += 4)
     sites[k].boundary = static_cast<std::int32_t>(k);
   SiteState state(world, square, {{}, {}, 0.06});

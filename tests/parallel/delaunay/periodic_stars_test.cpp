@@ -22,6 +22,7 @@ using delaunay::StarBuilder;
 using geometry::Periods;
 using geometry::Vec2;
 using mesh::Site;
+using mesh::SiteList;
 using testing::OnThreads;
 using testing::unit_lattice;
 
@@ -56,8 +57,8 @@ struct Rings {
   std::vector<Vec2> positions;
 };
 
-std::unique_ptr<SiteState> state_of(const comm::Communicator& comm, const std::vector<Site>& sites,
-                                    const Periods& periods, double spacing) {
+std::unique_ptr<SiteState> state_of(const comm::Communicator& comm, const SiteList& sites, const Periods& periods,
+                                    double spacing) {
   auto state = std::make_unique<SiteState>(comm, square, mesh::GridOptions{{}, {}, spacing, false, periods});
   state->distribute(testing::dealt(comm, sites));
   state->compute_stars(StarBuilder(unit_lattice(), cap), sizing::UniformSize(), Wanted::all_sites);
@@ -65,8 +66,8 @@ std::unique_ptr<SiteState> state_of(const comm::Communicator& comm, const std::v
 }
 
 /// Half of the sites next to a border, so that much happens there.
-std::vector<Site> random_torus(std::size_t n, std::uint64_t seed) {
-  std::vector<Site> sites = testing::random_sites(n, seed);
+SiteList random_torus(std::size_t n, std::uint64_t seed) {
+  SiteList sites = testing::random_sites(n, seed);
   for (std::size_t k = 0; k < n; k += 2) {
     Vec2& p = sites[k].position;
     (k % 4 == 0 ? p.x : p.y) = unit_lattice().snap(0.1 * (k % 4 == 0 ? p.x : p.y) + (k % 8 < 4 ? 0.9 : 0));
@@ -76,8 +77,8 @@ std::vector<Site> random_torus(std::size_t n, std::uint64_t seed) {
 }
 
 /// n x n square or sheared lattice that fills the torus: ties everywhere in the first.
-std::vector<Site> lattice_torus(int n, bool hexagonal) {
-  std::vector<Site> sites;
+SiteList lattice_torus(int n, bool hexagonal) {
+  SiteList sites;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i)
       sites.push_back({periods_of(true, true)
@@ -90,8 +91,8 @@ TEST(PeriodicStars, AreThoseOfAllImagesInThePlane) {
   const comm::Communicator world = comm::Communicator::world(), self = comm::Communicator::self();
   for (const auto& [x, y] : {std::pair{true, true}, {true, false}, {false, true}}) {
     const Periods periods = periods_of(x, y);
-    const std::vector<Site> sites = random_torus(300, 3);
-    std::vector<Site> images;
+    const SiteList sites = random_torus(300, 3);
+    SiteList images;
     for (const Site& site : sites)
       for (int i = x ? -1 : 0; i <= (x ? 1 : 0); ++i)
         for (int j = y ? -1 : 0; j <= (y ? 1 : 0); ++j)
@@ -111,7 +112,7 @@ TEST(PeriodicStars, AreThoseOfAllImagesInThePlane) {
 
 /// On the torus: every triangle in three stars, no site in any disc by the canonical order of ties, two triangles a
 /// site (Euler characteristic 0).
-void expect_torus(const std::vector<Site>& sites, double spacing) {
+void expect_torus(const SiteList& sites, double spacing) {
   const comm::Communicator self = comm::Communicator::self();
   const Periods periods = periods_of(true, true);
   const auto owner = state_of(self, sites, periods, spacing);
@@ -156,7 +157,7 @@ TEST(PeriodicStars, AgreeOnTiesAcrossTheBorder) {
 
 /// Moves every site by a step that is a function of its position; some leave the container.
 void shake(SiteState& state, double step, std::uint64_t round) {
-  std::vector<Site> sites;
+  SiteList sites;
   for (LocalIndex i = 0; i < state.points().owned(); ++i) {
     Site site = state.points().site(i);
     const std::uint64_t key = state.grid().point_key(site.position);
@@ -172,7 +173,7 @@ TEST(PeriodicStars, AreTheSameOnAnyRanksAndThreadsWhileSitesMove) {
   const StarBuilder builder(unit_lattice(), cap);
   const Periods periods = periods_of(true, true);
   for (const bool ties : {false, true}) {
-    const std::vector<Site> sites = ties ? lattice_torus(24, false) : random_torus(600, 5);
+    const SiteList sites = ties ? lattice_torus(24, false) : random_torus(600, 5);
     const auto serial_state = state_of(self, sites, periods, 0.04);
     const OnThreads on(2);
     const auto distributed_state = state_of(world, sites, periods, 0.04);

@@ -16,6 +16,7 @@ namespace {
 
 using geometry::Vec2;
 using mesh::Site;
+using mesh::SiteList;
 using testing::unit_lattice;
 
 struct Settled {
@@ -23,7 +24,7 @@ struct Settled {
   std::vector<Vec2> places; // of all ranks
 };
 
-Settled settle(const comm::Communicator& comm, const std::vector<Site>& sites, const BoundaryGuard& guard) {
+Settled settle(const comm::Communicator& comm, const SiteList& sites, const BoundaryGuard& guard) {
   SiteState state(comm, {{0, 0}, {1, 1}}, {{}, {}, 0.03});
   state.distribute(testing::dealt(comm, sites));
   const sizing::UniformSize size(0.05);
@@ -49,7 +50,7 @@ TEST(SettleSites, EmptiesAllDiscsOnceAndForAll) {
        testing::circle_loop({0.3, 0.3}, 0.08, true, 4, 2)});
   const BoundarySites on_boundary = make_boundary_sites(boundary, sizing::UniformSize(0.05), unit_lattice(), 30);
   const BoundaryGuard guard(on_boundary, unit_lattice());
-  std::vector<Site> sites = testing::random_sites(1500, 5), clear;
+  SiteList sites = testing::random_sites(1500, 5), clear;
   for (std::size_t k = 0; k < on_boundary.sites.size(); ++k)
     sites.push_back({on_boundary.sites[k].position, static_cast<std::int32_t>(k)});
   for (const Site& site : sites)

@@ -13,6 +13,7 @@ namespace {
 
 using geometry::Vec2;
 using mesh::Site;
+using mesh::SiteList;
 using testing::unit_lattice;
 
 class GradedSize final : public sizing::SizeField {
@@ -30,10 +31,12 @@ struct Stage {
         grid(geometry::Box{{0, 0}, {1, 1}}, {{}, {}, 0.04}) {}
 
   /// The sites of all ranks, if rank r fills tiles cuts[r] .. cuts[r + 1].
-  std::vector<Site> start(const comm::Communicator& comm, const decomposition::Partition& split, std::int64_t n,
-                          std::uint64_t seed = 1) const {
+  SiteList start(const comm::Communicator& comm, const decomposition::Partition& split, std::int64_t n,
+                 std::uint64_t seed = 1) const {
     const TileRange tiles{grid, split.first_tile(comm.rank()), split.last_tile(comm.rank())};
-    return testing::gather_all(comm, hilbert_start(comm, tiles, guard, size, unit_lattice(), n, seed));
+    const std::vector<Site> all =
+        testing::gather_all(comm, hilbert_start(comm, tiles, guard, size, unit_lattice(), n, seed));
+    return {all.begin(), all.end()};
   }
 
   geometry::Boundary boundary;
@@ -43,7 +46,7 @@ struct Stage {
   mesh::TileGrid grid;
 };
 
-bool same(const std::vector<Site>& a, const std::vector<Site>& b) {
+bool same(const SiteList& a, const SiteList& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const Site& s, const Site& t) { return s.position == t.position; });
 }
@@ -55,7 +58,7 @@ TEST(HilbertStart, MakesExactlyTheNumberAskedForAndTheSameOnAnySplit) {
   std::vector<std::int64_t> last_only(static_cast<std::size_t>(tiles), 0);
   last_only.back() = 1;
   for (const std::int64_t n : {0, 1, 17, 1000}) {
-    const std::vector<Site> serial = stage.start(self, decomposition::Partition(tiles, 1), n);
+    const SiteList serial = stage.start(self, decomposition::Partition(tiles, 1), n);
     EXPECT_EQ(static_cast<std::int64_t>(serial.size()), n);
     EXPECT_TRUE(same(stage.start(world, decomposition::Partition(tiles, world.size()), n), serial));
     EXPECT_TRUE(same(stage.start(world, decomposition::Partition(last_only, world.size()), n), serial));
@@ -68,7 +71,7 @@ TEST(HilbertStart, FollowsTheSizeFieldAndTheSeed) {
   const comm::Communicator self = comm::Communicator::self();
   const Stage stage;
   const decomposition::Partition all(stage.grid.tile_count(), 1);
-  const std::vector<Site> sites = stage.start(self, all, 1000);
+  const SiteList sites = stage.start(self, all, 1000);
   EXPECT_FALSE(same(stage.start(self, all, 1000, 2), sites));
   std::int64_t fine = 0, coarse = 0;
   for (const Site& site : sites) {

@@ -143,9 +143,9 @@ TEST(PeriodicMesher, AHexagonalTorusThatFitsIsAFixedPointOfAllMethods) {
 }
 
 /// The lattice of hexagonal_container, each site moved by up to `share` of the spacing along each axis; on the root.
-std::vector<mesh::Site> perturbed_lattice(const comm::Communicator& world, const Frame& frame, int columns, int rows,
-                                          double share) {
-  std::vector<mesh::Site> sites;
+mesh::SiteList perturbed_lattice(const comm::Communicator& world, const Frame& frame, int columns, int rows,
+                                 double share) {
+  mesh::SiteList sites;
   const double spacing = 1.0 / columns;
   for (int k = 0; world.is_root() && k < columns * rows; ++k) {
     const int row = k / columns, column = k % columns;

@@ -20,6 +20,7 @@ using delaunay::StarBuilder;
 using delaunay::StarWish;
 using geometry::Vec2;
 using mesh::Site;
+using mesh::SiteList;
 using testing::unit_lattice;
 
 const geometry::Box square{{0, 0}, {1, 1}};
@@ -51,7 +52,7 @@ std::vector<Vec2> sites_in(const SiteState& state, const Disc& disc, int& unknow
 void expect_revealed(const geometry::Periods& periods) {
   const comm::Communicator world = comm::Communicator::world(), self = comm::Communicator::self();
   const mesh::GridOptions options{{}, {}, 0.03, false, periods};
-  const std::vector<Site> sites = testing::random_sites(1200, 3);
+  const SiteList sites = testing::random_sites(1200, 3);
   SiteState distributed(world, square, options), serial(self, square, options);
   distributed.distribute(testing::dealt(world, sites));
   serial.distribute(sites);
@@ -85,15 +86,15 @@ TEST(SiteState, RevealedDiscsAreKnown) {
 /// Sites that come: also where another rank owns the tile. Those that go: every seventh.
 TEST(SiteState, SitesComeAndGoInOneMove) {
   const comm::Communicator world = comm::Communicator::world(), self = comm::Communicator::self();
-  const std::vector<Site> sites = testing::random_sites(900, 4);
+  const SiteList sites = testing::random_sites(900, 4);
   SiteState state(world, square, {{}, {}, 0.035}), serial(self, square, {{}, {}, 0.035});
   state.distribute(testing::dealt(world, sites));
   serial.distribute(sites);
   const StarBuilder builder(unit_lattice(), 0.1);
   const sizing::UniformSize uniform;
   for (std::uint64_t round = 0; round < 3; ++round) {
-    const auto change = [&](SiteState& of, const std::vector<Site>& added) {
-      std::vector<Site> all;
+    const auto change = [&](SiteState& of, const SiteList& added) {
+      SiteList all;
       std::vector<std::uint8_t> deleted;
       for (LocalIndex i = 0; i < of.points().owned(); ++i) {
         all.push_back(of.points().site(i));
@@ -103,7 +104,7 @@ TEST(SiteState, SitesComeAndGoInOneMove) {
       deleted.resize(all.size(), 0);
       testing::move_sites(of, all, deleted);
     };
-    const std::vector<Site> added = testing::random_sites(150, 50 + round);
+    const SiteList added = testing::random_sites(150, 50 + round);
     change(state, testing::dealt(world, added));
     change(serial, added);
     state.compute_stars(builder, uniform, Wanted::all_sites);
@@ -142,7 +143,7 @@ TEST(SiteState, SizesOfSitesThatStayAreNotEvaluatedAgain) {
   const StarBuilder builder(unit_lattice(), 0.08);
   state.compute_stars(builder, size, Wanted::all_sites);
   for (int round = 0; round < 3; ++round) {
-    std::vector<Site> sites;
+    SiteList sites;
     std::vector<std::uint8_t> deleted;
     int moved = 0;
     for (LocalIndex i = 0; i < state.points().owned(); ++i) {
@@ -152,7 +153,7 @@ TEST(SiteState, SizesOfSitesThatStayAreNotEvaluatedAgain) {
       if (key % 17 == 0 && ++moved)
         sites.back().position = unit_lattice().snap(0.9 * sites.back().position + Vec2{0.05, 0.05});
     }
-    const std::vector<Site> added = testing::dealt(world, testing::random_sites(20, 50 + round));
+    const SiteList added = testing::dealt(world, testing::random_sites(20, 50 + round));
     sites.insert(sites.end(), added.begin(), added.end());
     deleted.resize(sites.size(), 0);
     testing::move_sites(state, sites, deleted);
@@ -169,7 +170,7 @@ TEST(SiteState, SizesOfSitesThatStayAreNotEvaluatedAgain) {
 /// After a small change, stars are computed around it only: those are as right as if all had been computed.
 TEST(SiteState, OnlyTheStarsThatAreWishedForAreComputed) {
   const comm::Communicator world = comm::Communicator::world();
-  const std::vector<Site> sites = testing::hexagonal_lattice(24, 0.03);
+  const SiteList sites = testing::hexagonal_lattice(24, 0.03);
   SiteState state(world, square, {{}, {}, 0.03}), all(world, square, {{}, {}, 0.03});
   const StarBuilder builder(unit_lattice(), 0.08);
   const sizing::UniformSize uniform;
@@ -177,7 +178,7 @@ TEST(SiteState, OnlyTheStarsThatAreWishedForAreComputed) {
   for (SiteState* of : {&state, &all}) {
     of->distribute(testing::dealt(world, sites));
     of->compute_stars(builder, uniform, Wanted::all_sites);
-    std::vector<Site> moved;
+    SiteList moved;
     for (LocalIndex i = 0; i < of->points().owned(); ++i) {
       moved.push_back(of->points().site(i));
       if (moved.back().position == center)

@@ -13,13 +13,14 @@ namespace {
 
 using geometry::Vec2;
 using mesh::Site;
+using mesh::SiteList;
 using testing::OnThreads;
 using testing::TriangleSet;
 using testing::unit_lattice;
 
 /// Sites in the bins of one rank that owns all tiles, and their stars.
 struct Cloud {
-  explicit Cloud(const std::vector<Site>& sites, double cap, double spacing = 0.05)
+  explicit Cloud(const SiteList& sites, double cap, double spacing = 0.05)
       : grid(geometry::Box{{0, 0}, {1, 1}}, {{}, {}, spacing}), points(grid), builder(unit_lattice(), cap) {
     points.assign_owned(sites, 0, grid.tile_count());
     stars.reset(points.owned());
@@ -80,12 +81,12 @@ void expect_delaunay(const Cloud& cloud) {
 
 struct Case {
   std::string name;
-  std::vector<Site> sites;
+  SiteList sites;
   double cap;
 };
 
 std::vector<Case> cases() {
-  std::vector<Site> diagonal_pair = testing::wheel(40, {0.3, 0.3}, 0.1);
+  SiteList diagonal_pair = testing::wheel(40, {0.3, 0.3}, 0.1);
   return {{"random", testing::random_sites(1500, 1), 0.0777},
           {"random, container-wide cap", testing::random_sites(300, 2), 1},
           {"random, cap below most radii", testing::random_sites(1500, 3), 0.0123},
@@ -113,7 +114,7 @@ TEST(Stars, AgreeWithCgal) {
 }
 
 TEST(Stars, DoNotDependOnTheSizeOfTheBins) {
-  const std::vector<Site> sites = testing::near_duplicates(150, 8);
+  const SiteList sites = testing::near_duplicates(150, 8);
   const Cloud reference(sites, 0.4);
   const TriangleSet expected = testing::triangles_of(reference.points, reference.stars);
   for (const double spacing : {3.0, 0.3, 0.01}) {
@@ -127,7 +128,7 @@ TEST(Stars, DoNotDependOnThreadsNorOnTheOrderOfTheSites) {
     SCOPED_TRACE(c.name);
     const OnThreads one(1);
     const Cloud reference(c.sites, c.cap);
-    std::vector<Site> reversed(c.sites.rbegin(), c.sites.rend());
+    SiteList reversed(c.sites.rbegin(), c.sites.rend());
     for (const int threads : {1, 2, 4}) {
       const OnThreads on(threads);
       const Cloud cloud(threads == 2 ? c.sites : reversed, c.cap);
@@ -151,10 +152,10 @@ TEST(Stars, NoTriangleIsLargerThanTheCap) {
 }
 
 /// Moves all sites by up to `step`, with the stars following; then the stars must be those from scratch.
-void shake_and_compare(const std::vector<Site>& start, double cap, double step, int rounds) {
+void shake_and_compare(const SiteList& start, double cap, double step, int rounds) {
   Cloud cloud(start, cap);
   for (int round = 0; round < rounds; ++round) {
-    std::vector<Site> sites;
+    SiteList sites;
     for (LocalIndex i = 0; i < cloud.points.owned(); ++i) {
       const Vec2 move = testing::random_vec2(100 + static_cast<std::uint64_t>(round), static_cast<std::uint64_t>(i));
       sites.push_back({unit_lattice().snap(cloud.points.position(i) + step * (move - Vec2{0.5, 0.5}))});
@@ -221,7 +222,7 @@ TEST(Stars, WarmUpdateIsCheapWhereNothingMoved) {
 }
 
 TEST(Stars, LongRingsOverflowUnderThreads) {
-  std::vector<Site> sites;
+  SiteList sites;
   std::set<std::pair<double, double>> hubs;
   for (int k = 0; k < 64; ++k) {
     const Vec2 center{0.0625 + 0.125 * (k % 8), 0.0625 + 0.125 * (k / 8)};
@@ -275,7 +276,7 @@ TEST(Stars, ARingThatIsLeftStaysAsItWasAndIsComputedOnceItIsWanted) {
 TEST(Stars, UncertainStarsNameTheMissingBinsAndAreRightOnceTheyAreKnown) {
   const Cloud whole(testing::random_sites(1200, 12), 0.1, 0.03);
   const LocalIndex half = whole.grid.tile_count() / 2;
-  std::vector<Site> mine;
+  SiteList mine;
   for (LocalIndex i = 0; i < whole.points.owned(); ++i)
     if (whole.grid.place(whole.points.position(i)).tile < half)
       mine.push_back(whole.points.site(i));
@@ -356,7 +357,7 @@ TEST(Stars, WarmRingWithAFarMemberIsNotTrusted) {
   const mesh::TileGrid grid(box, {16, 16, 1.0});
   const std::vector<Vec2> places{
       {8.1, 8.1}, {13.6, 8.1}, {7.6, 8.7}, {7.6, 7.5}, {8.5, 8.2}}; // p, A far, B, C, intruder
-  std::vector<Site> sites;
+  SiteList sites;
   for (const Vec2 p : places)
     sites.push_back({lattice.snap(p)});
   mesh::BinnedPoints points(grid);

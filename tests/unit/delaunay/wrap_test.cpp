@@ -19,6 +19,7 @@ namespace {
 
 using geometry::Vec2;
 using mesh::Site;
+using mesh::SiteList;
 using testing::unit_lattice;
 
 constexpr SimdLevel levels[] = {SimdLevel::portable, SimdLevel::avx2, SimdLevel::avx512};
@@ -31,15 +32,15 @@ public:
   AtLevel(const AtLevel&) = delete;
 };
 
-std::vector<Site> jittered(std::vector<Site> sites, double step) {
+SiteList jittered(SiteList sites, double step) {
   for (std::size_t k = 0; k < sites.size(); ++k)
     sites[k].position = unit_lattice().snap(sites[k].position + step * (testing::random_vec2(31, k) - Vec2{0.5, 0.5}));
   return sites;
 }
 
 /// A spiral: the density varies by orders of magnitude inside the tiles.
-std::vector<Site> spiral(int n) {
-  std::vector<Site> sites;
+SiteList spiral(int n) {
+  SiteList sites;
   for (int k = 0; k < n; ++k) {
     const double r = 0.45 * std::exp(-8.0 * k / n), turn = 2.399963 * k;
     sites.push_back({unit_lattice().snap(Vec2{0.5 + r * std::cos(turn), 0.5 + r * std::sin(turn)})});
@@ -49,12 +50,12 @@ std::vector<Site> spiral(int n) {
 
 struct Case {
   std::string name;
-  std::vector<Site> sites;
+  SiteList sites;
   double cap, spacing;
 };
 
 std::vector<Case> cases() {
-  const std::vector<Site> hexagonal = testing::hexagonal_lattice(50, 0.018), square = testing::square_lattice(45, 0.02);
+  const SiteList hexagonal = testing::hexagonal_lattice(50, 0.018), square = testing::square_lattice(45, 0.02);
   return {{"random", testing::random_sites(3000, 1), 0.06, 0.02},
           {"random, cap near the radii", testing::random_sites(3000, 2), 0.012, 0.02},
           {"random in few large bins", testing::random_sites(2000, 3), 0.1, 0.1},
@@ -116,12 +117,12 @@ TEST(Wrap, StarsAreTheSameOnEveryLevelAndOneByOne) {
 
 /// A star whose discs meet a bin that is not known is not certain, even if all its neighbours are known.
 TEST(Wrap, OnlyStarsWithoutUnknownBinsInTheirDiscsAreCertain) {
-  const std::vector<Site> sites = testing::random_sites(6000, 14);
+  const SiteList sites = testing::random_sites(6000, 14);
   const mesh::TileGrid grid(geometry::Box{{0, 0}, {1, 1}}, {{}, {}, 0.0138, true});
   mesh::BinnedPoints whole(grid), part(grid);
   whole.assign_owned(sites, 0, grid.tile_count());
   const LocalIndex half = grid.tile_count() / 2;
-  std::vector<Site> mine;
+  SiteList mine;
   for (LocalIndex i = 0; i < whole.tile_range(half - 1).end; ++i)
     mine.push_back(whole.site(i));
   part.assign_owned(mine, 0, half); // same order as in the whole: indices are equal

@@ -22,8 +22,8 @@ TileGrid small_grid() {
 }
 
 /// Sites of `sites` in tiles [first, last).
-std::vector<Site> in_tiles(const TileGrid& grid, const std::vector<Site>& sites, LocalIndex first, LocalIndex last) {
-  std::vector<Site> chosen;
+SiteList in_tiles(const TileGrid& grid, const SiteList& sites, LocalIndex first, LocalIndex last) {
+  SiteList chosen;
   for (const Site& site : sites)
     if (const LocalIndex tile = grid.place(site.position).tile; tile >= first && tile < last)
       chosen.push_back(site);
@@ -32,7 +32,7 @@ std::vector<Site> in_tiles(const TileGrid& grid, const std::vector<Site>& sites,
 
 TEST(BinnedPoints, EverySiteIsInItsBinAndKnowsItsNewIndex) {
   const TileGrid grid = small_grid();
-  const std::vector<Site> sites = testing::random_sites(2000, 1);
+  const SiteList sites = testing::random_sites(2000, 1);
   for (const int threads : {1, 3}) {
     const OnThreads on(threads);
     BinnedPoints points(grid);
@@ -61,7 +61,7 @@ TEST(BinnedPoints, EverySiteIsInItsBinAndKnowsItsNewIndex) {
 
 TEST(BinnedPoints, BinsThatSuitTheirTilesHoldAFewSitesEach) {
   TileGrid grid(geometry::Box{{0, 0}, {1, 1}}, {{}, {}, 0.02, true});
-  const std::vector<Site> sites = testing::graded_sites(3000, 3);
+  const SiteList sites = testing::graded_sites(3000, 3);
   BinnedPoints points(grid);
   const auto mean_in_bin = [&] { // seen from the sites
     double pairs = 0;
@@ -103,7 +103,7 @@ TEST(BinnedPoints, BinsThatSuitTheirTilesHoldAFewSitesEach) {
 
 TEST(BinnedPoints, TheOrderOfTheInputDoesNotMatter) {
   const TileGrid grid = small_grid();
-  std::vector<Site> sites = testing::random_sites(1000, 2);
+  SiteList sites = testing::random_sites(1000, 2);
   BinnedPoints one(grid), other(grid);
   one.assign_owned(sites, 0, grid.tile_count());
   std::reverse(sites.begin(), sites.end());
@@ -114,7 +114,7 @@ TEST(BinnedPoints, TheOrderOfTheInputDoesNotMatter) {
 TEST(BinnedPoints, OfSitesAtOnePlaceTheBoundarySiteStaysElseTheOneMostPushed) {
   const TileGrid grid = small_grid();
   const Vec2 p{0.25, 0.5}, q{0.75, 0.5};
-  const std::vector<Site> sites{{p, -1, 2}, {p, 7, 0}, {p, -1, 1}, {q, -1, 1}, {q, -1, 3}, {q, -1, 0}, {{0.3, 0.3}}};
+  const SiteList sites{{p, -1, 2}, {p, 7, 0}, {p, -1, 1}, {q, -1, 1}, {q, -1, 3}, {q, -1, 0}, {{0.3, 0.3}}};
   BinnedPoints points(grid);
   std::vector<LocalIndex> new_index;
   EXPECT_EQ(points.assign_owned(sites, 0, grid.tile_count(), &new_index), 4);
@@ -140,7 +140,7 @@ TEST(BinnedPoints, NothingIsASetOfSitesToo) {
 
 TEST(BinnedPoints, SearchFindsAllSitesNearEvenBeyondTheRim) {
   const TileGrid grid = small_grid();
-  std::vector<Site> sites = testing::random_sites(1500, 3);
+  SiteList sites = testing::random_sites(1500, 3);
   sites.push_back({{1.05, 0.5}}); // outside of the container: kept in the bins of the rim
   sites.push_back({{-0.2, -0.3}});
   BinnedPoints points(grid);
@@ -164,11 +164,11 @@ TEST(BinnedPoints, SearchFindsAllSitesNearEvenBeyondTheRim) {
 
 TEST(BinnedPoints, UnknownBinsAreReportedUntilTheirSitesArrive) {
   const TileGrid grid = small_grid();
-  const std::vector<Site> sites = testing::random_sites(1500, 4);
+  const SiteList sites = testing::random_sites(1500, 4);
   const LocalIndex half = grid.tile_count() / 2;
   BinnedPoints points(grid), all(grid);
   all.assign_owned(sites, 0, grid.tile_count());
-  const std::vector<Site> mine = in_tiles(grid, sites, 0, half);
+  const SiteList mine = in_tiles(grid, sites, 0, half);
   points.assign_owned(mine, 0, half);
   const Vec2 center{0.5, 0.5};
   const double reach = 0.2;
@@ -213,11 +213,11 @@ TEST(BinnedPoints, UnknownBinsAreReportedUntilTheirSitesArrive) {
 /// Moved sites, some gone and some new, lie as if a list of them had been sorted.
 TEST(BinnedPoints, MovedSitesAreSortedAsAListIs) {
   const TileGrid grid(square, {{}, {}, 0.02});
-  const std::vector<Site> sites = testing::random_sites(3000, 3), more = testing::random_sites(200, 4);
+  const SiteList sites = testing::random_sites(3000, 3), more = testing::random_sites(200, 4);
   BinnedPoints points(grid), expected(grid);
   points.assign_owned(sites, 0, grid.tile_count());
   points.prepare_to_stay();
-  std::vector<Site> list;
+  SiteList list;
   std::vector<std::uint8_t> gone;
   for (LocalIndex i = 0; i < points.owned(); ++i) {
     const std::size_t at = static_cast<std::size_t>(i);

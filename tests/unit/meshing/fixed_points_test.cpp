@@ -121,7 +121,7 @@ TEST(FixedPoints, FreeSitesKeepAway) {
   const MeshOptions options = with_points({{0.375, 0.375}, {0.25, 0.5}});
   const FixedPoints fixed = make(options);
   const double h = 0.02;
-  std::vector<mesh::Site> sites;
+  mesh::SiteList sites;
   for (int k = 0; k < 100; ++k)
     sites.push_back({unit_frame.lattice().snap({0.3 + 0.0015 * k, 0.376})});
   const mesh::TileGrid grid({{0, 0}, {1, 1}}, {{}, {}, h});

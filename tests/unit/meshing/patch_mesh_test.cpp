@@ -34,7 +34,7 @@ PatchMesh mesh_of(const std::vector<Vec2>& points, const geometry::Periods& peri
   return mesh;
 }
 
-std::vector<Vec2> places(const std::vector<mesh::Site>& sites) {
+std::vector<Vec2> places(const mesh::SiteList& sites) {
   std::vector<Vec2> points;
   for (const mesh::Site& site : sites)
     points.push_back(site.position);

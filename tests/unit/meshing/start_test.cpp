@@ -14,6 +14,7 @@ namespace {
 
 using geometry::Vec2;
 using mesh::Site;
+using mesh::SiteList;
 using testing::unit_lattice;
 
 /// A shape with all that a start needs.
@@ -22,7 +23,7 @@ struct Stage {
       : boundary(testing::boundary_of(std::move(loops))), size(h),
         sites(make_boundary_sites(boundary, size, unit_lattice(), 30)), guard(sites, unit_lattice()),
         grid(geometry::Box{{0, 0}, {1, 1}}, {{}, {}, h}), start(boundary, guard, unit_lattice()) {}
-  std::vector<Site> all(double spacing) const { return start.sites({grid, 0, grid.tile_count()}, spacing); }
+  SiteList all(double spacing) const { return start.sites({grid, 0, grid.tile_count()}, spacing); }
 
   geometry::Boundary boundary;
   sizing::UniformSize size;
@@ -39,7 +40,7 @@ std::vector<geometry::Loop> ring() {
   return {testing::circle_loop({0.5, 0.5}, 0.4), testing::circle_loop({0.45, 0.5}, 0.15, true, 4, 2)};
 }
 
-double smallest_distance(const std::vector<Site>& sites) {
+double smallest_distance(const SiteList& sites) {
   double smallest = INFINITY;
   for (std::size_t i = 0; i < sites.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
@@ -51,7 +52,7 @@ TEST(LatticeStart, SitesAreASpacingApartAndClearOfTheBoundary) {
   for (const auto& loops : {tilted_square(), ring()}) {
     const double h = 0.04;
     const Stage stage(loops, h);
-    const std::vector<Site> sites = stage.all(h);
+    const SiteList sites = stage.all(h);
     ASSERT_GT(sites.size(), 100u);
     EXPECT_NEAR(smallest_distance(sites), h, 1e-9 * h);
     for (const Site& site : sites) {
@@ -67,7 +68,7 @@ TEST(LatticeStart, SitesAreASpacingApartAndClearOfTheBoundary) {
 TEST(LatticeStart, LeavesNoHoles) {
   const double h = 0.04;
   const Stage stage(ring(), h);
-  const std::vector<Site> sites = stage.all(h);
+  const SiteList sites = stage.all(h);
   for (std::uint64_t key = 0; key < 500; ++key) {
     const Vec2 p = testing::random_vec2(1, key);
     if (!stage.guard.inside(p) || stage.guard.distance(p, 2 * h) < 1.1 * h)
@@ -89,12 +90,12 @@ TEST(LatticeStart, RowsRunAlongTheLongestSideOneRowHeightFromIt) {
 TEST(LatticeStart, IsTheSameForEverySplitOfTheTilesAndAnyThreads) {
   const double h = 0.03;
   const Stage stage(tilted_square(), h);
-  const std::vector<Site> whole = stage.all(h);
+  const SiteList whole = stage.all(h);
   const LocalIndex tiles = stage.grid.tile_count();
   for (const LocalIndex cut : {LocalIndex{0}, LocalIndex{1}, static_cast<LocalIndex>(tiles / 3), tiles}) {
     const testing::OnThreads on(cut % 2 == 0 ? 3 : 1);
-    std::vector<Site> joined = stage.start.sites({stage.grid, 0, cut}, h);
-    const std::vector<Site> rest = stage.start.sites({stage.grid, cut, tiles}, h);
+    SiteList joined = stage.start.sites({stage.grid, 0, cut}, h);
+    const SiteList rest = stage.start.sites({stage.grid, cut, tiles}, h);
     EXPECT_EQ(stage.start.count({stage.grid, 0, cut}, h), static_cast<std::int64_t>(joined.size()));
     joined.insert(joined.end(), rest.begin(), rest.end());
     ASSERT_EQ(joined.size(), whole.size());
@@ -109,7 +110,7 @@ struct PeriodicStage {
       : shape(whole), size(h), sites(make_boundary_sites(shape.boundary(), size, shape.frame().lattice(), 30)),
         guard(sites, shape.frame().lattice()), grid(shape.frame().inner(), {{}, {}, h}),
         start(shape.boundary(), guard, shape.frame().lattice()) {}
-  std::vector<Site> all(double spacing) const { return start.sites({grid, 0, grid.tile_count()}, spacing); }
+  SiteList all(double spacing) const { return start.sites({grid, 0, grid.tile_count()}, spacing); }
   double distance(Vec2 p, Vec2 q) const { return geometry::length(shape.frame().periods().nearest_image(q, p) - p); }
 
   geometry::RegionShape shape;
@@ -132,7 +133,7 @@ TEST(PeriodicLatticeStart, ATorusThatTheLatticeFitsIsFilledExactly) {
     for (const bool turned : {false, true}) {
       const double h = 1.0 / columns;
       const PeriodicStage stage(hexagonal_torus(columns, rows, turned), h);
-      const std::vector<Site> sites = stage.all(h);
+      const SiteList sites = stage.all(h);
       ASSERT_EQ(sites.size(), static_cast<std::size_t>(columns * rows));
       for (std::size_t i = 0; i < sites.size(); ++i) {
         int neighbours = 0;
@@ -152,7 +153,7 @@ TEST(PeriodicLatticeStart, AnyTorusGetsNearlyTheWantedNumberOfNearlyEquilateralT
     for (const int wanted : {100, 999, 5000}) {
       const double h = std::sqrt(height / (std::sqrt(0.75) * wanted));
       const PeriodicStage stage({{}, "domain", geometry::Frame({{-0.3, 2}, {0.7, 2 + height}}, true, true)}, h);
-      const std::vector<Site> sites = stage.all(h);
+      const SiteList sites = stage.all(h);
       EXPECT_LE(std::ssize(sites), wanted);
       EXPECT_GE(std::ssize(sites), wanted * (wanted > 500 ? 0.985 : 0.95));
       std::size_t few = std::min<std::size_t>(sites.size(), 300);
@@ -172,10 +173,10 @@ TEST(PeriodicLatticeStart, IsTheSameForEverySplitAndFillsAllShapesUpToTheirBound
     SCOPED_TRACE(shape.region().text());
     const double h = 0.03;
     const PeriodicStage stage(shape, h);
-    const std::vector<Site> whole = stage.all(h);
+    const SiteList whole = stage.all(h);
     const LocalIndex tiles = stage.grid.tile_count(), cut = tiles / 3;
-    std::vector<Site> joined = stage.start.sites({stage.grid, 0, cut}, h);
-    const std::vector<Site> rest = stage.start.sites({stage.grid, cut, tiles}, h);
+    SiteList joined = stage.start.sites({stage.grid, 0, cut}, h);
+    const SiteList rest = stage.start.sites({stage.grid, cut, tiles}, h);
     joined.insert(joined.end(), rest.begin(), rest.end());
     ASSERT_EQ(joined.size(), whole.size());
     EXPECT_EQ(stage.start.count({stage.grid, 0, tiles}, h), std::ssize(whole));

@@ -17,6 +17,7 @@ namespace {
 
 using geometry::Vec2;
 using mesh::Site;
+using mesh::SiteList;
 
 constexpr double spacing = 0.03125, cap = 2.5;
 
@@ -41,7 +42,7 @@ std::vector<const SweepKernels*> kernels() {
 struct Cloud {
   Cloud(double jitter, bool is_graded, bool holds_some = false)
       : grid(geometry::Box{{0, 0}, {1, 1}}, {{}, {}, spacing}), points(grid) {
-    std::vector<Site> sites = testing::hexagonal_lattice(24, spacing);
+    SiteList sites = testing::hexagonal_lattice(24, spacing);
     for (std::size_t k = 0; k < sites.size(); ++k) {
       sites[k].position = testing::unit_lattice().snap(
           sites[k].position + (jitter * spacing) * (testing::random_vec2(4, k) - Vec2{0.5, 0.5}));
@@ -256,7 +257,7 @@ TEST(SweepKernel, LeavesAPerfectLatticeAsItIs) {
 /// Moves sites under their old rings: whatever the kernel still accepts must be the star of emptiness.
 TEST(SweepKernel, FindsTheStarsThatAreNotRightAnyMore) {
   Cloud cloud(0.3, false);
-  std::vector<Site> sites;
+  SiteList sites;
   for (LocalIndex i = 0; i < cloud.points.owned(); ++i) {
     sites.push_back(cloud.points.site(i));
     sites.back().position = testing::unit_lattice().snap(

@@ -15,13 +15,14 @@ namespace {
 
 using geometry::Vec2;
 using mesh::Site;
+using mesh::SiteList;
 using testing::OnThreads;
 
 constexpr double spacing = 0.03125;
 
 /// Sites with their stars; sites marked as boundary do not move.
 struct Cloud {
-  explicit Cloud(const std::vector<Site>& sites, double h = spacing)
+  explicit Cloud(const SiteList& sites, double h = spacing)
       : grid(geometry::Box{{0, 0}, {1, 1}}, {{}, {}, spacing}), points(grid), size(h) {
     points.assign_owned(sites, 0, grid.tile_count());
     stars.reset(points.owned());
@@ -45,8 +46,8 @@ struct Cloud {
   sizing::UniformSize size;
 };
 
-std::vector<Site> lattice(double jitter = 0) {
-  std::vector<Site> sites = testing::hexagonal_lattice(24, spacing);
+SiteList lattice(double jitter = 0) {
+  SiteList sites = testing::hexagonal_lattice(24, spacing);
   for (std::size_t k = 0; k < sites.size(); ++k)
     sites[k].position = testing::unit_lattice().snap(
         sites[k].position + (jitter * spacing) * (testing::random_vec2(4, k) - Vec2{0.5, 0.5}));
@@ -82,7 +83,7 @@ TEST(SweepSums, DoNotDependOnThreadsAndCountEachTriangleOnce) {
 }
 
 TEST(SweepSums, TrianglesAmongBoundarySitesAreNotMeasured) {
-  std::vector<Site> sites = lattice();
+  SiteList sites = lattice();
   for (std::size_t k = 0; k < sites.size(); ++k)
     sites[k].boundary = static_cast<std::int32_t>(k);
   const Cloud all(sites);
@@ -102,7 +103,7 @@ TEST(DistMeshRule, LeavesAPerfectLatticeAlone) {
 }
 
 TEST(DistMeshRule, PushesASiteAwayFromTheNeighbourItCameTooNear) {
-  std::vector<Site> sites = lattice();
+  SiteList sites = lattice();
   const Cloud before(sites);
   const Vec2 middle = before.points.position(before.middle());
   for (Site& site : sites)
@@ -208,7 +209,7 @@ TEST(CvdRule, TheWeightMovesTheCentroidTowardsSmallSizes) {
 }
 
 TEST(CvdRule, MomentumGrowsAndStartsAgainUphill) {
-  std::vector<Site> sites = lattice(0.3);
+  SiteList sites = lattice(0.3);
   for (Site& site : sites)
     site.lead = {0.1 * spacing, 0};
   const Cloud cloud(sites);
@@ -233,7 +234,7 @@ TEST(TriangleRule, LeavesAPerfectLatticeAlone) {
 }
 
 TEST(TriangleRule, BringsADisplacedSiteBack) {
-  std::vector<Site> sites = lattice();
+  SiteList sites = lattice();
   const Cloud before(sites);
   const Vec2 middle = before.points.position(before.middle());
   const auto site =
