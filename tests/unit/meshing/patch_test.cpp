@@ -104,6 +104,41 @@ TEST(PatchOptimizer, InsertsOneThatIsMissing) {
   EXPECT_LT(worst_alpha(stage, edits, middle, 2 * h), 1.02);
 }
 
+/// Where nothing helped all three sites rest: nothing is tried until one of them moves.
+TEST(PatchOptimizer, TrianglesWhoseSitesAllRestAreLeftAlone) {
+  Stage stage(far_square());
+  add_lattice(stage);
+  stage.take_nearest(middle);
+  const Vec2 displaced = unit_lattice().snap(middle + h * Vec2{0.3, 0.1});
+  stage.add(displaced);
+  EXPECT_FALSE(stage.improve(displaced).empty());
+  for (PatchSite& site : stage.sites)
+    site.rests = 1;
+  EXPECT_TRUE(stage.improve(displaced).empty());
+  stage.sites.back().rests = 0; // the one in the middle of what is bad
+  EXPECT_FALSE(stage.improve(displaced).empty());
+}
+
+/// In a patch that is tried again operations are for what is worse than elsewhere; sites move as before.
+TEST(PatchOptimizer, APatchThatIsTriedAgainOperatesOnWhatIsWorseAlone) {
+  Stage stage(far_square());
+  stage.options.bad_alpha = stage.options.operate_alpha = 1.02;
+  stage.options.first_alpha = 10; // no operations before the moves
+  add_lattice(stage);
+  const Vec2 extra = unit_lattice().snap(middle + h * Vec2{0.5, 0.3});
+  stage.add(extra);
+  const auto removed = [&](bool is_again, double again_alpha) {
+    stage.budget.is_again = is_again;
+    stage.budget.again_alpha = again_alpha;
+    const std::vector<SiteEdit> edits = stage.improve(extra);
+    EXPECT_FALSE(edits.empty());
+    return count(edits, Kind::remove);
+  };
+  EXPECT_EQ(removed(false, 10), 1);
+  EXPECT_EQ(removed(true, 1.02), 1);
+  EXPECT_EQ(removed(true, 10), 0);
+}
+
 TEST(PatchOptimizer, FixedSitesStayWhereTheyAre) {
   for (const bool crowd : {false, true}) {
     Stage stage(far_square());
