@@ -46,6 +46,7 @@ Hdf5Properties file_access(const comm::Communicator& comm) {
   constexpr hsize_t large = hsize_t{16} << 20, alignment = hsize_t{1} << 20;
   Hdf5Properties properties(H5Pcreate(H5P_FILE_ACCESS), "make HDF5 properties");
   checked(H5Pset_alignment(properties, large, alignment), "set HDF5 properties"); // stripes of parallel file systems
+  checked(H5Pset_sieve_buf_size(properties, 0), "set HDF5 properties"); // or rows would be read back from memory
   if (comm.size() > 1) {
     checked(H5Pset_fapl_mpio(properties, comm::native_handle(comm), MPI_INFO_NULL), "set HDF5 properties");
     // Reading metadata collectively is broken in HDF5 1.10.5 to 1.10.8; writing it so is right.
@@ -352,8 +353,8 @@ void SlabFile::write_slices(hid_t dataset, const SlabArray& array) {
 }
 
 /// What a rank has written alone it can read at once, while the disk works; what others have written for it, after the
-/// flush. Then also the ends of the slabs once more: where two ranks share a page or a stripe, a file system that keeps
-/// copies on several nodes could have lost the rows of one.
+/// flush. Then also the ends of the slabs once more: where ranks of two nodes share a page, a file system that keeps
+/// copies of it on both could have lost the rows of one.
 void SlabFile::verify() {
   if (comm_.is_root())
     write_back_.request();

@@ -12,7 +12,7 @@ namespace trime::io {
 /// @brief A thread that asks the system to bring what has been written to the disk, so that little is left for the
 /// synchronisation at the end. The system finds places on the disk and starts transfers before it answers (20 to 50 ms
 /// for 190 MB): by the thread that writes the file it would be a pause of the whole run. It shares the processors of
-/// the thread that made the object. A hint, which cannot fail; without a thread to be had nothing happens.
+/// the thread that asks first. A hint, which cannot fail; without a thread to be had nothing happens.
 ///
 /// It keeps the file open until its end, which should come after the file is closed: closing a descriptor gives up all
 /// locks of the process on the file, those of MPI-IO, too.

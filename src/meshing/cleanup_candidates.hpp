@@ -40,7 +40,7 @@ public:
 
   /// What contenders are made of.
   struct Wanted {
-    int stage;              ///< nothing has been found to be of no help in it, or later
+    int stage;              ///< places that are settled in it, or a later one, are left out
     double above;           ///< alpha
     double separation;      ///< in sizes
     double most_separation; ///< larger ones than that find no room

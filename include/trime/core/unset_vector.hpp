@@ -31,7 +31,7 @@ struct UnsetAllocator : std::allocator<T> {
   }
 };
 
-/// After resize, new elements must be written before they are read.
+/// Elements made without a value, by resize or a constructor, must be written before they are read.
 template <class T>
 using UnsetVector = std::vector<T, UnsetAllocator<T>>;
 

@@ -26,7 +26,8 @@ struct Site {
   geometry::Vec2 lead{};             ///< the step by which an accelerated update runs ahead of its last iterate
 };
 
-/// Sites in no order yet. Elements that are new after resize are not set: threads fill them in large numbers.
+/// Sites in no order yet. Elements made without a value (resize, a list of a given size) are not set, not even to the
+/// defaults of Site: threads fill them in large numbers.
 using SiteList = UnsetVector<Site>;
 
 /// What a rank knows of a site of another rank: 24 bytes, as it is sent.

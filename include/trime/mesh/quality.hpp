@@ -20,7 +20,8 @@ namespace trime::mesh {
 /// a flat one.
 double aspect_ratio(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
 /// @brief Is the aspect ratio below a limit, by the sum of the squared edges over the area alone? Never true if it is
-/// not; false for a few that are. No root, no division: for most triangles of a good mesh it is all that is needed.
+/// not; false for a few that are, and beyond 1.13 for all of these. No root, no division: for most triangles of a good
+/// mesh it is all that is needed. @pre limit > 1
 ///
 /// With eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area), the largest alpha of all triangles of one eta (an isosceles one has
 /// it) is less than 1 + 1.3 (eta - 1) up to eta = 1.1.

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace trime::meshing {
@@ -62,6 +63,11 @@ TEST(CleanupCandidates, WhereNothingHelpedIsTriedAgainInTheNextStageAlone) {
   EXPECT_TRUE(candidates.contenders(first_round()).empty());
   EXPECT_EQ(candidates.contenders({2, 1.3, 10, 1, 5}).size(), 1U);
   EXPECT_TRUE(candidates.contenders({2, 1.4, 10, 1, 5}).empty()) << "not bad enough for that stage";
+  for (int k = 0; k < 50; ++k)
+    candidates.set({{0.01 * k, 0.2}, h, 1.1});
+  for (int k = 0; k < 50; ++k)
+    candidates.drop({0.01 * k, 0.2});
+  EXPECT_TRUE(candidates.contenders(first_round()).empty()) << "whatever else the list forgets";
   candidates.drop(place);
   candidates.set({place, h, 1.4}); // another triangle
   EXPECT_EQ(candidates.contenders(first_round()).size(), 1U);
