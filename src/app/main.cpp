@@ -18,13 +18,16 @@ namespace {
 
 using trime::ExitCode;
 
-volatile std::sig_atomic_t tells = 0; ///< 1 on the rank whose handler says a word: rank 0
+volatile std::sig_atomic_t tells = 0; ///< 1 on the rank whose handler says a word: rank 0, until its last one
 
 /// Leaves no temporary file, then ends as the signal would have ended the program. Only calls that a handler may make.
 void end_by_signal(int number) {
+  const bool stands = trime::io::final_mesh_stands();
   trime::io::remove_temporary_file();
-  constexpr char message[] = "trime_mpi: interrupted; the final mesh was not written\n";
-  if (tells != 0 && write(STDERR_FILENO, message, sizeof message - 1) < 0)
+  constexpr char without[] = "trime_mpi: interrupted; the final mesh was not written\n";
+  constexpr char with[] =
+      "trime_mpi: interrupted; the final mesh is written, but the report or other files are missing\n";
+  if (tells != 0 && write(STDERR_FILENO, stands ? with : without, (stands ? sizeof with : sizeof without) - 1) < 0)
     tells = 0; // nobody listens, and there is nothing to do about it
   std::signal(number, SIG_DFL);
   std::raise(number);
@@ -81,5 +84,7 @@ int main(int argc, char** argv) {
   const trime::comm::Environment environment(argc, argv);
   const trime::comm::Communicator comm = trime::comm::Communicator::world();
   handle_signals(comm.is_root());
-  return static_cast<int>(run(argc, argv, comm));
+  const ExitCode code = run(argc, argv, comm);
+  tells = 0; // all has been said; mpirun may end ranks that are slow to leave by a signal
+  return static_cast<int>(code);
 }

@@ -10,12 +10,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <memory>
 #include <optional>
 
 namespace trime::io {
 namespace {
+
+std::atomic<bool> final_mesh_has_its_name = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 template <class T>
 hid_t value_type();
@@ -242,6 +246,8 @@ void check_shapes(const mesh::DistributedMesh& mesh) {
 WrittenFiles publish(TemporaryFile& temporary, const MeshFileOptions& options, const mesh::DistributedMesh& mesh) {
   const std::string h5 = options.path(".h5"), xdmf = options.path(".xdmf"), vtkhdf = options.path(".vtkhdf");
   temporary.rename_to(h5);
+  if (options.is_final)
+    final_mesh_has_its_name = true;
   WrittenFiles written{{h5}, 0};
   struct stat status {};
   if (stat(h5.c_str(), &status) == 0)
@@ -286,6 +292,10 @@ WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedM
       written = publish(*temporary, options, mesh);
   });
   return written;
+}
+
+bool final_mesh_stands() noexcept {
+  return final_mesh_has_its_name;
 }
 
 std::string hdf5_version() {

@@ -13,6 +13,8 @@
 namespace trime::io {
 namespace {
 
+const std::string final_label = "final"; // of the last mesh of a run, in the names of files
+
 /// A text in quotes as JSON has it.
 std::string json_text(const std::string& text) {
   std::string result = "\"";
@@ -45,7 +47,7 @@ void MeshSeries::write_step(const SeriesMesh& mesh) {
 
 WrittenFiles MeshSeries::write_final(const SeriesMesh& mesh) {
   const std::size_t steps = members_.size();
-  WrittenFiles written = write(mesh, options_.file.name, "final");
+  WrittenFiles written = write(mesh, options_.file.name, final_label);
   if (!comm_.is_root())
     return written;
   if (steps > 0)
@@ -57,6 +59,7 @@ WrittenFiles MeshSeries::write_final(const SeriesMesh& mesh) {
 WrittenFiles MeshSeries::write(const SeriesMesh& mesh, const std::string& name, const std::string& label) {
   MeshFileOptions file = options_.file;
   file.name = name;
+  file.is_final = label == final_label;
   const WrittenFiles written = write_mesh(file, mesh.mesh, mesh.metadata, comm_);
   const bool first = members_.empty();
   members_.push_back(

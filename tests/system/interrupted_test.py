@@ -106,6 +106,25 @@ class Interrupted(unittest.TestCase):
                 self.assertEqual(told.count("trime_mpi: interrupted; the final mesh was not written\n"), 1, told)
                 self.assertEqual(left, [])
 
+    def test_a_mesh_that_is_written_is_not_said_to_be_lost(self):
+        with Workspace() as directory:
+            mesh = directory / "mesh.h5"
+            arguments = [CONFIG, f"meshing.points={SHORT}", f"output.directory={directory}", "output.name=mesh",
+                         "output.formats=vtkhdf xdmf text"]
+            with subprocess.Popen(command(arguments, 1), env=environment(1), stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.PIPE, text=True) as run:
+                end = time.monotonic() + PATIENCE
+                while not mesh.exists() and run.poll() is None and time.monotonic() < end:
+                    time.sleep(0.001)
+                run.send_signal(signal.SIGTERM)
+                run.wait(PATIENCE)
+                told = run.stderr.read()
+            self.assertTrue(self.assert_nothing_or_whole(directory))
+            self.assertNotIn("not written", told)
+            if run.returncode != 0:  # it was not done before the signal came
+                self.assertEqual(run.returncode, -signal.SIGTERM)
+                self.assertIn("interrupted; the final mesh is written", told)
+
     def test_a_signal_that_the_caller_ignores_stays_ignored(self):
         for number in (signal.SIGINT, signal.SIGHUP):
             with self.subTest(signal=number):
