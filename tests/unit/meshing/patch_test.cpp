@@ -36,6 +36,15 @@ void add_lattice(Stage& stage, int rings = 9, Vec2 about = middle) {
       stage.add(about + h * Vec2{i + 0.5 * (j & 1), std::sqrt(0.75) * j});
 }
 
+/// The same with the site in the middle elsewhere. @return where
+Vec2 add_displaced_lattice(Stage& stage) {
+  add_lattice(stage);
+  stage.take_nearest(middle);
+  const Vec2 displaced = unit_lattice().snap(middle + h * Vec2{0.3, 0.1});
+  stage.add(displaced);
+  return displaced;
+}
+
 TEST(PatchOptimizer, LeavesAPerfectLatticeAlone) {
   Stage stage(far_square());
   add_lattice(stage);
@@ -64,10 +73,7 @@ TEST(PatchOptimizer, BringsADisplacedSiteBack) {
 /// Another patch may begin 2 reach - clearance away: it may read what this one changes otherwise.
 TEST(PatchOptimizer, ChangesNothingNearTheRimHoweverSmallTheTrianglesThere) {
   Stage stage(far_square());
-  add_lattice(stage);
-  stage.take_nearest(middle);
-  const Vec2 displaced = unit_lattice().snap(middle + h * Vec2{0.3, 0.1});
-  stage.add(displaced);
+  const Vec2 displaced = add_displaced_lattice(stage);
   for (PatchSite& site : stage.sites)
     if (geometry::length(site.position - middle) > 2 * h)
       site.size = 0.05 * h;
@@ -107,10 +113,7 @@ TEST(PatchOptimizer, InsertsOneThatIsMissing) {
 /// Where nothing helped all three sites rest: nothing is tried until one of them moves.
 TEST(PatchOptimizer, TrianglesWhoseSitesAllRestAreLeftAlone) {
   Stage stage(far_square());
-  add_lattice(stage);
-  stage.take_nearest(middle);
-  const Vec2 displaced = unit_lattice().snap(middle + h * Vec2{0.3, 0.1});
-  stage.add(displaced);
+  const Vec2 displaced = add_displaced_lattice(stage);
   EXPECT_FALSE(stage.improve(displaced).empty());
   for (PatchSite& site : stage.sites)
     site.rests = 1;
