@@ -309,7 +309,7 @@ bool SlabFile::is_written_alone(const SlabArray& array) const {
 /// with nothing if it has no rows left.
 void SlabFile::write_slices(hid_t dataset, const SlabArray& array) {
   const bool alone = is_written_alone(array);
-  const std::int64_t longest = comm_.max(array.rows);
+  const std::int64_t longest = alone ? array.rows : comm_.max(array.rows);
   const auto rows_from = [&](std::int64_t first) {
     return std::clamp<std::int64_t>(array.rows - first, 0, slice_rows);
   };
@@ -340,7 +340,7 @@ void SlabFile::write_slices(hid_t dataset, const SlabArray& array) {
   };
   if (alone)
     agreed([&] {
-      for (std::int64_t first = 0; first < array.rows; first += slice_rows) {
+      for (std::int64_t first = 0; first < longest; first += slice_rows) {
         select_slice(first);
         write_slice(first);
       }

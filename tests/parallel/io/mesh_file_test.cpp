@@ -3,7 +3,7 @@
 // same for any distribution over ranks, empty ranks included.
 #include "trime/io/mesh_file.hpp"
 
-#include "io/slab_file.hpp"
+#include "support/hdf5_reading.hpp"
 #include "support/mesh_slabs.hpp"
 #include "support/temporary_directory.hpp"
 #include "trime/core/error.hpp"
@@ -12,7 +12,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <fstream>
 #include <sstream>
 
@@ -31,6 +30,8 @@ std::int64_t vertex(std::int64_t i, int k) {
   return (3 * i + k) % n_points;
 }
 
+using test::expect_values;
+using test::read;
 using test::share;
 
 mesh::DistributedMesh make_mesh(const comm::Communicator& comm, std::uint64_t seed) {
@@ -79,35 +80,6 @@ Metadata make_metadata(const comm::Communicator& comm) {
                        {"edge_name", std::vector<std::string>{"outer", "h"}},
                        {"none", std::vector<double>{}}}}};
   return metadata;
-}
-
-/// Reads one dataset on one rank and looks at its shape and type in the file.
-template <class T>
-std::vector<T> read(hid_t file, const char* path, hid_t type, const std::vector<hsize_t>& shape) {
-  const Hdf5Dataset dataset(H5Dopen2(file, path, H5P_DEFAULT), path);
-  const Hdf5Space space(H5Dget_space(dataset), "space");
-  std::vector<hsize_t> found(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
-  H5Sget_simple_extent_dims(space, found.data(), nullptr);
-  EXPECT_EQ(found, shape) << path;
-  const Hdf5Type stored(H5Dget_type(dataset), "type");
-  EXPECT_GT(H5Tequal(stored, type), 0) << path;
-  const Hdf5Properties creation(H5Dget_create_plist(dataset), "properties");
-  EXPECT_EQ(H5Pget_layout(creation), H5D_CONTIGUOUS) << path;
-  H5O_info_t info;
-  EXPECT_GE(H5Oget_info2(dataset, &info, H5O_INFO_TIME), 0);
-  EXPECT_EQ(info.mtime, 0) << path << " keeps the time of its making";
-  std::vector<T> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-  if (!values.empty()) {
-    EXPECT_GE(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0) << path;
-  }
-  return values;
-}
-
-template <class T, class F>
-void expect_values(const std::vector<T>& values, std::int64_t count, const F& expected) {
-  ASSERT_EQ(static_cast<std::int64_t>(values.size()), count);
-  for (std::int64_t i = 0; i < count; ++i)
-    ASSERT_EQ(values[static_cast<std::size_t>(i)], static_cast<T>(expected(i))) << i;
 }
 
 std::string read_text(hid_t object, const char* attribute) {
@@ -313,147 +285,6 @@ TEST(MeshFile, LongTextsAreShortenedAsAttributesAndWholeAsDatasets) {
   const Hdf5Dataset dataset(H5Dopen2(file, "/trime_mpi/text", H5P_DEFAULT), "text");
   const Hdf5Type type(H5Dget_type(dataset), "type");
   EXPECT_EQ(H5Tget_size(type), text.size());
-}
-
-/// Of one byte, other ones in each slice and each piece of it.
-std::uint8_t row_value(std::int64_t row) {
-  return static_cast<std::uint8_t>(row ^ (row >> 8) ^ (row >> 12) ^ (row >> 16));
-}
-SlabArray counting(const std::string& path, const mesh::Slab& slab, std::int64_t rows) {
-  SlabArray array;
-  array.path = path;
-  array.type = H5T_NATIVE_UINT8;
-  array.value_bytes = 1;
-  array.slab = slab;
-  array.rows = rows;
-  array.fill = [first_here = slab.first](std::int64_t first, std::int64_t count, std::byte* out) {
-    for (std::int64_t k = 0; k < count; ++k)
-      out[k] = static_cast<std::byte>(row_value(first_here + first + k));
-  };
-  return array;
-}
-
-/// Several slices, so that one can fail after another was written.
-constexpr std::int64_t many_rows = 700000, few_rows = 60000;
-
-/// So many rows on every rank: each writes its own.
-SlabArray counting_on_all(const comm::Communicator& comm, const std::string& path) {
-  return counting(path, {many_rows * comm.rank(), many_rows * comm.size()}, many_rows);
-}
-
-/// All of few rows on the last rank: written together.
-SlabArray counting_on_last(const comm::Communicator& comm, const std::string& path) {
-  const std::int64_t total = few_rows * comm.size();
-  const bool is_last = comm.rank() == comm.size() - 1;
-  return counting(path, {is_last ? 0 : total, total}, is_last ? total : 0);
-}
-
-TEST(SlabFile, RowsLieWhereTheyShould) {
-  const comm::Communicator comm = comm::Communicator::world();
-  const test::TemporaryDirectory directory(comm);
-  {
-    SlabFile file(comm, directory.path() + "/a.h5");
-    file.slab(counting_on_all(comm, "/all"));
-    file.slab(counting_on_last(comm, "/last"));
-    std::int64_t rows = 0;
-    const mesh::Slab uneven = test::share(comm, many_rows * comm.size(), 5, rows);
-    file.slab(counting("/uneven", uneven, rows));
-    file.verify();
-    file.close();
-  }
-  comm.barrier();
-  const Hdf5File file(H5Fopen((directory.path() + "/a.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "open");
-  for (const auto& [path, total] :
-       {std::pair{"/all", many_rows}, std::pair{"/last", few_rows}, std::pair{"/uneven", many_rows}})
-    expect_values(read<std::uint8_t>(file, path, H5T_NATIVE_UINT8, {static_cast<hsize_t>(total * comm.size())}),
-                  total * comm.size(), row_value);
-  comm.barrier();
-}
-
-TEST(SlabFile, ARankThatCannotMakeItsRowsStopsAllRanks) {
-  const comm::Communicator comm = comm::Communicator::world();
-  const test::TemporaryDirectory directory(comm);
-  SlabFile file(comm, directory.path() + "/a.h5");
-  for (const auto& make : {counting_on_all, counting_on_last})
-    for (const std::int64_t failing_third : {0, 1, 2}) {
-      const std::string path = (make == counting_on_all ? "/all" : "/last") + std::to_string(failing_third);
-      SlabArray array = make(comm, path);
-      if (comm.rank() == comm.size() - 1)
-        array.fill = [failing_row = failing_third * array.rows / 3](std::int64_t first, std::int64_t count,
-                                                                    std::byte*) {
-          if (first + count > failing_row)
-            throw std::bad_alloc();
-        };
-      try {
-        file.slab(std::move(array));
-        ADD_FAILURE() << "no error";
-      } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ExitCode::out_of_memory) << error.what();
-      }
-    }
-  file.slab(counting_on_all(comm, "/all")); // the file itself is as good as before
-  file.slab(counting_on_last(comm, "/last"));
-  file.verify();
-  file.close();
-}
-
-TEST(SlabFile, RowsThatAreReadBackOtherwiseAreToldByAllRanks) {
-  const comm::Communicator comm = comm::Communicator::world();
-  const test::TemporaryDirectory directory(comm);
-  for (const auto& make : {counting_on_all, counting_on_last}) {
-    SlabFile file(comm, directory.path() + "/a.h5");
-    SlabArray array = make(comm, "/a");
-    bool written = false;
-    if (comm.rank() == comm.size() - 1)
-      array.fill = [right = array.fill, &written, wrong_row = array.rows / 2](std::int64_t first, std::int64_t count,
-                                                                              std::byte* out) {
-        right(first, count, out);
-        if (written && first <= wrong_row && wrong_row < first + count)
-          out[wrong_row - first] ^= std::byte{1};
-      };
-    file.slab(std::move(array));
-    written = true;
-    EXPECT_THROW(file.verify(), FileError);
-  }
-}
-
-/// Rows at the ends of slabs that are lost after they have been read back, to a rank that shares their page.
-TEST(SlabFile, TheEndsOfSlabsAreReadOnceMore) {
-  const comm::Communicator comm = comm::Communicator::world();
-  const test::TemporaryDirectory directory(comm);
-  for (const std::int64_t wrong_row : {std::int64_t{0}, many_rows - 1, many_rows / 2}) {
-    SlabFile file(comm, directory.path() + "/a.h5");
-    SlabArray array = counting_on_all(comm, "/a");
-    std::atomic<int> visits = 0; // to be written, to be compared, to be compared again
-    if (comm.rank() == comm.size() - 1)
-      array.fill = [right = array.fill, &visits, wrong_row](std::int64_t first, std::int64_t count, std::byte* out) {
-        right(first, count, out);
-        if (first <= wrong_row && wrong_row < first + count && ++visits > 2)
-          out[wrong_row - first] ^= std::byte{1};
-      };
-    file.slab(std::move(array));
-    if (comm.size() > 1 && wrong_row != many_rows / 2)
-      EXPECT_THROW(file.verify(), FileError) << wrong_row;
-    else
-      EXPECT_NO_THROW(file.verify()) << wrong_row;
-  }
-}
-
-TEST(SlabFile, NamesThatAreTakenAreRefusedOnAllRanks) {
-  const comm::Communicator comm = comm::Communicator::world();
-  const test::TemporaryDirectory directory(comm);
-  SlabFile file(comm, directory.path() + "/a.h5");
-  file.group("/g");
-  file.attribute("/g", {"a", std::int64_t{1}});
-  file.text("/g/t", "text");
-  EXPECT_THROW(file.group("/g"), FileError);
-  EXPECT_THROW(file.attribute("/g", {"a", std::int64_t{1}}), FileError);
-  EXPECT_THROW(file.text("/g/t", "text"), FileError);
-  EXPECT_THROW(file.column("/g", {"t", std::vector<double>{1}}), FileError);
-  EXPECT_THROW(file.slab(counting("/g/t", {comm.rank(), comm.size()}, 1)), FileError);
-  EXPECT_THROW(file.hard_link("/nothing", "/h"), FileError);
-  file.verify();
-  file.close();
 }
 
 TEST(MeshFile, AFailureLeavesNothingAndIsThrownByAllRanks) {
