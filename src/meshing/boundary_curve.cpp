@@ -24,28 +24,46 @@ std::size_t at(LocalIndex i) {
 
 BoundaryCurve::BoundaryCurve(const geometry::Boundary& boundary) : boundary_(boundary) {
   for (const geometry::Loop& loop : boundary.loops) {
-    std::vector<double> starts{0};
+    Arcs arcs{{0}, {}, 0};
     for (const geometry::Piece& piece : loop.pieces)
-      starts.push_back(starts.back() + piece.length());
-    starts_.push_back(std::move(starts));
+      arcs.starts.push_back(arcs.starts.back() + piece.length());
+    arcs.cells_per_arc = static_cast<double>(loop.pieces.size()) / arcs.starts.back();
+    for (std::size_t k = 0; k < arcs.starts.size(); ++k)
+      arcs.first_in_cell.resize(std::max(arcs.first_in_cell.size(), arcs.cell(arcs.starts[k]) + 1),
+                                static_cast<std::uint32_t>(k));
+    arcs.first_in_cell.push_back(static_cast<std::uint32_t>(arcs.starts.size()));
+    arcs_.push_back(std::move(arcs));
   }
 }
 
+std::size_t BoundaryCurve::Arcs::cell(double arc) const {
+  const double place = arc * cells_per_arc;
+  return place > 0 ? static_cast<std::size_t>(std::fmin(place, static_cast<double>(starts.size()))) : 0;
+}
+
+/// The last one that begins at this arc or before, in [0, pieces - 1]. Cells are monotone in the arc, so that no start
+/// in a cell before lies behind it, and none in a cell behind lies before it.
+std::size_t BoundaryCurve::Arcs::piece(double arc) const {
+  const std::size_t its_cell = std::min(cell(arc), first_in_cell.size() - 2);
+  const auto begin = starts.begin();
+  const auto above = std::upper_bound(begin + first_in_cell[its_cell], begin + first_in_cell[its_cell + 1], arc);
+  return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above - begin - 1, 0, std::ssize(starts) - 2));
+}
+
 BoundaryCurve::Place BoundaryCurve::place(LocalIndex loop, double arc) const {
-  const std::vector<double>& starts = starts_[at(loop)];
+  const Arcs& arcs = arcs_[at(loop)];
   const geometry::Loop& curve = boundary_.loops[at(loop)];
-  const double turns = arc >= starts.back() ? 1 : arc < 0 ? -1 : 0;
-  arc -= turns * starts.back();
-  const auto above = std::upper_bound(starts.begin(), starts.end(), arc);
-  const auto piece = std::clamp<std::ptrdiff_t>(above - starts.begin() - 1, 0, std::ssize(starts) - 2);
-  const double along = arc - starts[static_cast<std::size_t>(piece)];
-  const geometry::Piece& on = curve.pieces[static_cast<std::size_t>(piece)];
+  const double length = arcs.starts.back(), turns = arc >= length ? 1 : arc < 0 ? -1 : 0;
+  arc -= turns * length;
+  const std::size_t piece = arcs.piece(arc);
+  const double along = arc - arcs.starts[piece];
+  const geometry::Piece& on = curve.pieces[piece];
   return {static_cast<LocalIndex>(piece), along, on.point(along) + turns * curve.winding, on.tangent(along)};
 }
 
 BoundaryCurve::Strayed BoundaryCurve::strayed(LocalIndex loop, double from, double to,
                                               const geometry::Segment& chord) const {
-  const std::vector<double>& starts = starts_[at(loop)];
+  const std::vector<double>& starts = arcs_[at(loop)].starts;
   const geometry::Loop& curve = boundary_.loops[at(loop)];
   if (to < from)
     to += starts.back();

@@ -20,12 +20,13 @@ public:
   explicit BoundaryCurve(const geometry::Boundary& boundary);
 
   const geometry::Boundary& boundary() const { return boundary_; }
-  double length(LocalIndex loop) const { return starts_[static_cast<std::size_t>(loop)].back(); }
+  double length(LocalIndex loop) const { return arcs_[static_cast<std::size_t>(loop)].starts.back(); }
   /// Arc length from the start of the loop to a site.
   double arc(LocalIndex loop, const BoundarySite& site) const {
-    return starts_[static_cast<std::size_t>(loop)][static_cast<std::size_t>(site.piece)] + site.along;
+    return arcs_[static_cast<std::size_t>(loop)].starts[static_cast<std::size_t>(site.piece)] + site.along;
   }
-  /// A place within one length of the loop before its start or behind its end. O(log pieces)
+  /// A place within one length of the loop before its start or behind its end. O(1) where pieces are about equally
+  /// long, O(log pieces) at worst
   struct Place {
     LocalIndex piece;
     double along;
@@ -46,8 +47,15 @@ public:
   Strayed strayed(LocalIndex loop, double from, double to, const geometry::Segment& chord) const;
 
 private:
+  struct Arcs {                               // of a loop
+    std::vector<double> starts;               // of the pieces, and the length
+    std::vector<std::uint32_t> first_in_cell; // the first start in each of equal cells of the arc or behind it
+    double cells_per_arc = 0;
+    std::size_t cell(double arc) const;
+    std::size_t piece(double arc) const;
+  };
   const geometry::Boundary& boundary_;
-  std::vector<std::vector<double>> starts_; // of each loop: arc at the start of each piece, and the length
+  std::vector<Arcs> arcs_; // by loop
 };
 
 /// One change of the boundary sites. Sites keep their order along the loop.

@@ -2,6 +2,7 @@
 #include "meshing/patch.hpp"
 
 #include "trime/geometry/diametral.hpp"
+#include "trime/mesh/quality.hpp"
 
 #include <algorithm>
 #include <array>
@@ -98,25 +99,10 @@ void PatchOptimizer::link_boundary() {
   }
 }
 
-/// Inside the shape, and with a vertex whose triangles count.
-bool PatchOptimizer::counts(const Patch& patch, const PatchMesh::Triangle& triangle) const {
-  if (triangle.vertex[0] < 0)
-    return false;
-  bool near = false;
-  for (const LocalIndex v : triangle.vertex) {
-    if (v < PatchMesh::frame)
-      return false;
-    near |= patch.role[at(v)] >= Role::scored;
-  }
-  for (const LocalIndex v : triangle.vertex)
-    if (near && !patch.on_boundary(v))
-      return true;
-  return near && lies_inside(patch, triangle);
-}
-
 /// Who has a vertex inside lies inside; else a chord among its edges tells, or a neighbour across the others.
-bool PatchOptimizer::lies_inside(const Patch& patch, const PatchMesh::Triangle& triangle) const {
-  std::array<const PatchMesh::Triangle*, most_searched> found{&triangle};
+bool PatchOptimizer::lies_inside(const Patch& patch, const PatchMesh::Triangle& triangle) {
+  std::array<const PatchMesh::Triangle*, most_searched> found; // only the first `count`
+  found[0] = &triangle;
   std::size_t count = 1;
   for (std::size_t i = 0; i < count; ++i) {
     const PatchMesh::Triangle& at_hand = *found[i];
@@ -148,6 +134,15 @@ double PatchOptimizer::alpha(const Patch& patch, const PatchMesh::Triangle& tria
   const double a = geometry::length(u), b = geometry::length(v), c = geometry::length(v - u);
   const double twice_area = geometry::cross(u, v);
   return twice_area == 0 ? INFINITY : std::max(1.0, a * b * c * (a + b + c) / (4 * twice_area * twice_area));
+}
+
+/// Does it count, and is it bad? Most are good, which takes no root to see.
+bool PatchOptimizer::is_bad(const Patch& patch, const PatchMesh::Triangle& triangle) const {
+  const auto& vertex = triangle.vertex;
+  return patch.may_count(triangle) &&
+         !mesh::is_surely_below(options_.bad_alpha, patch.mesh.position(vertex[0]), patch.mesh.position(vertex[1]),
+                                patch.mesh.position(vertex[2])) &&
+         counts(patch, triangle) && alpha(patch, triangle) > options_.bad_alpha;
 }
 
 void PatchOptimizer::add_to(Score& score, double alpha) const {
@@ -231,16 +226,14 @@ void PatchOptimizer::collect_verdicts(PatchResult& result) {
   const auto collect = [&](const Patch& patch, std::vector<double>& worst) {
     worst.assign(at(now_.mesh.vertices()), 0);
     for (const PatchMesh::Triangle& triangle : patch.mesh.triangles())
-      if (counts(patch, triangle))
-        if (const double its_alpha = alpha(patch, triangle); its_alpha > options_.bad_alpha)
-          for (const LocalIndex v : triangle.vertex)
-            worst[at(v)] = std::max(worst[at(v)], its_alpha);
+      if (is_bad(patch, triangle))
+        for (const LocalIndex v : triangle.vertex)
+          worst[at(v)] = std::max(worst[at(v)], alpha(patch, triangle));
   };
   collect(start_, worst_before_);
   collect(now_, worst_after_);
   for (const PatchMesh::Triangle& triangle : now_.mesh.triangles())
-    if (counts(now_, triangle) && alpha(now_, triangle) > options_.bad_alpha &&
-        is_in_core(middle_of(now_, triangle.vertex)) && !is_tried(triangle.vertex)) {
+    if (is_bad(now_, triangle) && is_in_core(middle_of(now_, triangle.vertex)) && !is_tried(triangle.vertex)) {
       ++result.failures;
       for (const LocalIndex v : triangle.vertex)
         rests_[at(v)] = 1;

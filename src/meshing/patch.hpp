@@ -8,6 +8,7 @@
 #include "trime/geometry/periods.hpp"
 #include "trime/mesh/binned_points.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -115,6 +116,15 @@ private:
   struct Score {
     double sum = 0, max = 1;
   };
+  struct Term { // of the sum of now_
+    Corners vertex;
+    LocalIndex triangle;
+    double value;
+  };
+  struct Bad { // triangle
+    Corners corners;
+    double alpha;
+  };
   struct Operation {
     std::array<LocalIndex, 2> removed{-1, -1};   // vertices
     std::array<LocalIndex, 2> divided{-1, -1};   // chords of the boundary, by the vertex where they begin
@@ -137,6 +147,17 @@ private:
     void append(LocalIndex v, double h, const BoundaryVertex& on_boundary, Role its_role);
     bool on_boundary(LocalIndex v) const { return boundary[at(v)].site >= 0; }
     bool is_chord(LocalIndex from, LocalIndex to) const { return boundary[at(from)].next == to; }
+    /// Is it a triangle of sites, with one whose triangles count?
+    bool may_count(const PatchMesh::Triangle& triangle) const {
+      const auto& [a, b, c] = triangle.vertex;
+      return std::min(a, std::min(b, c)) >= PatchMesh::frame &&
+             std::max(role[at(a)], std::max(role[at(b)], role[at(c)])) >= Role::scored;
+    }
+    /// @pre it is a triangle of sites
+    bool has_inner_vertex(const PatchMesh::Triangle& triangle) const {
+      const auto& [a, b, c] = triangle.vertex;
+      return !on_boundary(a) || !on_boundary(b) || !on_boundary(c);
+    }
 
     PatchMesh mesh;
     std::vector<Role> role;
@@ -166,9 +187,13 @@ private:
 
   bool build(geometry::Vec2 center, double size, std::span<const PatchSite> sites);
   void link_boundary();
-  bool counts(const Patch& patch, const PatchMesh::Triangle& triangle) const;
-  bool lies_inside(const Patch& patch, const PatchMesh::Triangle& triangle) const;
+  /// Inside the shape, and with a vertex whose triangles count.
+  static bool counts(const Patch& patch, const PatchMesh::Triangle& triangle) {
+    return patch.may_count(triangle) && (patch.has_inner_vertex(triangle) || lies_inside(patch, triangle));
+  }
+  static bool lies_inside(const Patch& patch, const PatchMesh::Triangle& triangle);
   double alpha(const Patch& patch, const PatchMesh::Triangle& triangle) const;
+  bool is_bad(const Patch& patch, const PatchMesh::Triangle& triangle) const;
   void add_to(Score& score, double alpha) const;
   geometry::Vec2 middle_of(const Patch& patch, const Corners& corners) const;
   bool is_in_core(geometry::Vec2 p) const;
@@ -196,7 +221,8 @@ private:
   bool is_tried(const Corners& corners) const;
   bool rest(const Corners& corners) const;
   void wake_moved(const Patch& before);
-  std::optional<Corners> worst_untried(double above) const;
+  std::optional<Corners> worst_untried(double above);
+  void list_bad(double above);
   bool try_at(const Corners& worst, const PatchBudget& budget, bool is_first);
   bool set_bar_by_moves(Contest& contest);
   void list_near(const Contest& contest);
@@ -243,7 +269,11 @@ private:
       near_;                                                   // vertices: work space, and those to move
   std::vector<std::uint8_t> rests_, rested_, mark_, in_score_; // by vertex
   std::vector<double> worst_before_, worst_after_;             // by vertex: alpha
-  std::vector<double> terms_;                                  // by triangle: what it adds to the sum of now_
+  std::vector<Term> terms_;                                    // of the triangles near the place of the trials
+  std::vector<std::uint8_t> is_noted_;                         // by triangle of now_: whether it has a term
+  std::vector<LocalIndex> other_;                              // triangles of a trial that are none of now_
+  std::vector<Bad> bad_;                                       // triangles of now_ that operations are for
+  bool bad_is_known_ = false;
   std::vector<geometry::Vec2> around_;
 };
 

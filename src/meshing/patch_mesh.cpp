@@ -42,6 +42,7 @@ void PatchMesh::start(Vec2 center, double half_width) {
   triangles_ = {{{0, 1, 2}, {-1, 1, -1}}, {{0, 2, 3}, {-1, -1, 0}}};
   corner_of_ = {0, 0, 0, 1};
   unused_.clear();
+  changed_.clear();
   last_ = 0;
 }
 
@@ -75,19 +76,19 @@ bool PatchMesh::disc_holds(LocalIndex t, Vec2 p) const {
 
 /// Lists the triangles whose discs hold p, and the rim around them.
 void PatchMesh::open_cavity(LocalIndex t, Vec2 p) {
-  cavity_.assign(1, t);
-  rim_.clear();
-  for (std::size_t i = 0; i < cavity_.size(); ++i)
+  work_.cavity.assign(1, t);
+  work_.rim.clear();
+  for (std::size_t i = 0; i < work_.cavity.size(); ++i)
     for (int k = 0; k < 3; ++k) {
-      const Triangle& at = triangle(cavity_[i]);
+      const Triangle& at = triangle(work_.cavity[i]);
       const LocalIndex beyond = at.neighbour[static_cast<std::size_t>(k)];
-      if (beyond >= 0 && std::find(cavity_.begin(), cavity_.end(), beyond) != cavity_.end())
+      if (beyond >= 0 && std::find(work_.cavity.begin(), work_.cavity.end(), beyond) != work_.cavity.end())
         continue;
       if (beyond >= 0 && disc_holds(beyond, p))
-        cavity_.push_back(beyond);
+        work_.cavity.push_back(beyond);
       else
-        rim_.push_back({at.vertex[static_cast<std::size_t>(next(k))], at.vertex[static_cast<std::size_t>(previous(k))],
-                        beyond, -1});
+        work_.rim.push_back({at.vertex[static_cast<std::size_t>(next(k))],
+                             at.vertex[static_cast<std::size_t>(previous(k))], beyond, -1});
     }
 }
 
@@ -114,12 +115,13 @@ void PatchMesh::link(LocalIndex t, int k, LocalIndex other, LocalIndex old) {
 
 /// A fan around v instead of the cavity.
 void PatchMesh::close_cavity(LocalIndex v) {
-  const std::size_t reused = cavity_.size();
-  for (std::size_t i = 0; i < rim_.size(); ++i) {
-    Rim& edge = rim_[i];
-    edge.created = i < reused ? cavity_[i] : new_triangle();
+  const std::size_t reused = work_.cavity.size();
+  for (std::size_t i = 0; i < work_.rim.size(); ++i) {
+    Rim& edge = work_.rim[i];
+    edge.created = i < reused ? work_.cavity[i] : new_triangle();
     triangle(edge.created) = {{v, edge.from, edge.to}, {edge.outside, -1, -1}};
     corner_of(edge.from) = edge.created;
+    changed_.push_back(edge.created);
     if (edge.outside < 0)
       continue;
     Triangle& beyond = triangle(edge.outside);
@@ -127,13 +129,12 @@ void PatchMesh::close_cavity(LocalIndex v) {
       if (beyond.vertex[(k + 1) % 3] == edge.to && beyond.vertex[(k + 2) % 3] == edge.from)
         beyond.neighbour[k] = edge.created;
   }
-  for (const Rim& edge : rim_)
-    for (const Rim& other : rim_)
-      if (other.from == edge.to) {
-        triangle(edge.created).neighbour[1] = other.created;
-        triangle(other.created).neighbour[2] = edge.created;
-      }
-  corner_of(v) = last_ = rim_.front().created;
+  for (const Rim& edge : work_.rim) {
+    const LocalIndex following = corner_of(edge.to); // the one that begins where this edge ends
+    triangle(edge.created).neighbour[1] = following;
+    triangle(following).neighbour[2] = edge.created;
+  }
+  corner_of(v) = last_ = work_.rim.front().created;
 }
 
 LocalIndex PatchMesh::append(Vec2 p) {
@@ -150,17 +151,17 @@ void PatchMesh::connect_all() {
   const auto cell = [&](double offset) {
     return static_cast<std::uint32_t>(std::clamp(scale * offset, 0.0, side - 1));
   };
-  on_curve_.clear();
+  work_.on_curve.clear();
   for (LocalIndex v = frame; v < vertices(); ++v) {
     const Vec2 offset = position(v) - low;
-    on_curve_.push_back(
+    work_.on_curve.push_back(
         {static_cast<std::uint32_t>(mesh::hilbert_key(cell(offset.x), cell(offset.y), curve_level)), v});
   }
-  std::sort(on_curve_.begin(), on_curve_.end(),
+  std::sort(work_.on_curve.begin(), work_.on_curve.end(),
             [](const OnCurve& a, const OnCurve& b) { return a.key != b.key ? a.key < b.key : a.vertex < b.vertex; });
-  for (const OnCurve& next : on_curve_)
+  for (const OnCurve& next : work_.on_curve)
     TRIME_ASSERT(place(next.vertex), "two sites at ({}, {})", position(next.vertex).x, position(next.vertex).y);
-  on_curve_.clear(); // meshes are copied over and over
+  forget_changes();
 }
 
 LocalIndex PatchMesh::insert(Vec2 p) {
@@ -246,6 +247,8 @@ void PatchMesh::flip(LocalIndex t, int k) {
   const auto [d, back] = at(two, m);
   const LocalIndex beyond_cd = two.neighbour[static_cast<std::size_t>(previous(m))]; // two is (d, c, b): across d-c
   const LocalIndex beyond_bd = two.neighbour[static_cast<std::size_t>(next(m))];     // across b-d
+  changed_.push_back(t);
+  changed_.push_back(u);
   triangle(t) = {{a, b, d}, {-1, u, -1}};
   triangle(u) = {{a, d, c}, {-1, -1, t}};
   link(t, 0, beyond_bd, u);
@@ -262,17 +265,17 @@ void PatchMesh::push_star(LocalIndex v) {
   LocalIndex t = first;
   do {
     const int k = place_in(t, v);
-    suspects_.push_back({t, k});
-    suspects_.push_back({t, next(k)});
+    work_.suspects.push_back({t, k});
+    work_.suspects.push_back({t, next(k)});
     t = triangle(t).neighbour[static_cast<std::size_t>(next(k))];
   } while (t != first && t >= 0);
 }
 
 /// Flips until no suspect, and no edge around a flip, has a vertex in its discs. Exact tests: it ends.
 void PatchMesh::legalize() {
-  while (!suspects_.empty()) {
-    const auto [t, k] = suspects_.back();
-    suspects_.pop_back();
+  while (!work_.suspects.empty()) {
+    const auto [t, k] = work_.suspects.back();
+    work_.suspects.pop_back();
     const Triangle& at = triangle(t);
     const LocalIndex u = at.neighbour[static_cast<std::size_t>(k)];
     if (at.vertex[0] < 0 || u < 0)
@@ -286,18 +289,18 @@ void PatchMesh::legalize() {
     if (!disc_holds(t, position(other.vertex[static_cast<std::size_t>(m)])))
       continue;
     flip(t, k); // the edge between t and u is right now
-    suspects_.push_back({t, 0});
-    suspects_.push_back({t, 2});
-    suspects_.push_back({u, 0});
-    suspects_.push_back({u, 1});
+    work_.suspects.push_back({t, 0});
+    work_.suspects.push_back({t, 2});
+    work_.suspects.push_back({u, 0});
+    work_.suspects.push_back({u, 1});
   }
 }
 
 void PatchMesh::restore(std::span<const LocalIndex> shifted) {
-  is_shifted_.resize(positions_.size(), 0);
+  work_.is_shifted.resize(positions_.size(), 0);
   for (const LocalIndex v : shifted)
-    is_shifted_[static_cast<std::size_t>(v)] = 1;
-  const auto is_shifted = [&](LocalIndex u) { return is_shifted_[static_cast<std::size_t>(u)] != 0; };
+    work_.is_shifted[static_cast<std::size_t>(v)] = 1;
+  const auto is_shifted = [&](LocalIndex u) { return work_.is_shifted[static_cast<std::size_t>(u)] != 0; };
   for (const LocalIndex v : shifted) { // each edge once
     const LocalIndex first = corner_of(v);
     LocalIndex t = first;
@@ -307,21 +310,22 @@ void PatchMesh::restore(std::span<const LocalIndex> shifted) {
       const LocalIndex u = at.vertex[static_cast<std::size_t>(next(k))];
       const LocalIndex w = at.vertex[static_cast<std::size_t>(previous(k))];
       if (!is_shifted(u) && !is_shifted(w))
-        suspects_.push_back({t, k});
+        work_.suspects.push_back({t, k});
       if (!is_shifted(u) || v < u)
-        suspects_.push_back({t, previous(k)}); // the edge v-u
+        work_.suspects.push_back({t, previous(k)}); // the edge v-u
       t = at.neighbour[static_cast<std::size_t>(next(k))];
     } while (t != first && t >= 0);
   }
   for (const LocalIndex v : shifted)
-    is_shifted_[static_cast<std::size_t>(v)] = 0;
+    work_.is_shifted[static_cast<std::size_t>(v)] = 0;
   legalize();
 }
 
 bool PatchMesh::move(LocalIndex v, Vec2 to) {
-  collect_ring(v, ring_);
-  for (std::size_t k = 0; k < ring_.size(); ++k)
-    if (geometry::orient2d(to, position(ring_[k]), position(ring_[k + 1 == ring_.size() ? 0 : k + 1])) <= 0)
+  collect_ring(v, work_.ring);
+  for (std::size_t k = 0; k < work_.ring.size(); ++k)
+    if (geometry::orient2d(to, position(work_.ring[k]), position(work_.ring[k + 1 == work_.ring.size() ? 0 : k + 1])) <=
+        0)
       return false;
   positions_[static_cast<std::size_t>(v)] = to;
   push_star(v);
@@ -349,7 +353,7 @@ bool PatchMesh::remove(LocalIndex v) {
           geometry::orient2d(position(v), position(a), position(c)) >= (left > 4)) {
         flip(t, next(at));
         for (int side = 0; side < 3; ++side) // t is the ear now
-          suspects_.push_back({t, side});
+          work_.suspects.push_back({t, side});
         flipped = true;
       } else
         t = u;
@@ -368,6 +372,7 @@ bool PatchMesh::remove(LocalIndex v) {
   const LocalIndex beyond_t = triangle(t).neighbour[static_cast<std::size_t>(k)];
   const LocalIndex beyond_u = triangle(u).neighbour[static_cast<std::size_t>(place_in(u, v))];
   const LocalIndex beyond_w = triangle(w).neighbour[static_cast<std::size_t>(place_in(w, v))];
+  changed_.push_back(t);
   triangle(t) = {{a, b, c}, {-1, -1, -1}};
   link(t, 0, beyond_u, u);
   link(t, 1, beyond_w, w);
@@ -379,7 +384,7 @@ bool PatchMesh::remove(LocalIndex v) {
   corner_of(a) = corner_of(b) = corner_of(c) = last_ = t;
   corner_of(v) = -1;
   for (int side = 0; side < 3; ++side)
-    suspects_.push_back({t, side});
+    work_.suspects.push_back({t, side});
   legalize();
   return true;
 }

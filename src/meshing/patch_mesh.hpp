@@ -59,6 +59,10 @@ public:
   LocalIndex vertices() const { return static_cast<LocalIndex>(positions_.size()); }
   geometry::Vec2 position(LocalIndex v) const { return positions_[static_cast<std::size_t>(v)]; }
   std::span<const Triangle> triangles() const { return triangles_; }
+  /// Those that have been given vertices since the last call of forget_changes, in any order, some several times; not
+  /// those that have gone.
+  std::span<const LocalIndex> changed() const { return changed_; }
+  void forget_changes() { changed_.clear(); }
   /// The neighbours of v, counter-clockwise, replacing the content of `ring`.
   void collect_ring(LocalIndex v, std::vector<LocalIndex>& ring) const;
   LocalIndex degree(LocalIndex v) const;
@@ -98,18 +102,25 @@ private:
   std::vector<LocalIndex> corner_of_; // of each vertex a triangle that has it
   std::vector<Triangle> triangles_;
   std::vector<LocalIndex> unused_;
-  LocalIndex last_ = 0; // where the next search begins
-  // Work space.
+  LocalIndex last_ = 0;             // where the next search begins
+  std::vector<LocalIndex> changed_; // triangles
   struct OnCurve {
     std::uint32_t key;
     LocalIndex vertex;
   };
-  std::vector<OnCurve> on_curve_;
-  std::vector<LocalIndex> cavity_;
-  std::vector<Rim> rim_;
-  std::vector<Side> suspects_;
-  std::vector<std::uint8_t> is_shifted_; // by vertex, all 0 between calls
-  mutable std::vector<LocalIndex> ring_;
+  struct WorkSpace { // nothing of it is worth a copy
+    WorkSpace() = default;
+    WorkSpace(const WorkSpace&) {}
+    WorkSpace& operator=(const WorkSpace&) { return *this; }
+    ~WorkSpace() = default;
+    std::vector<OnCurve> on_curve;
+    std::vector<LocalIndex> cavity;
+    std::vector<Rim> rim;
+    std::vector<Side> suspects;
+    std::vector<std::uint8_t> is_shifted; // by vertex, all 0 between calls
+    std::vector<LocalIndex> ring;
+  };
+  WorkSpace work_;
 };
 
 } // namespace trime::meshing

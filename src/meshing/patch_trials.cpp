@@ -2,6 +2,8 @@
 // The contest of the operations at a bad triangle: which are tried how far, and which one is kept.
 #include "meshing/patch.hpp"
 
+#include "trime/mesh/quality.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,6 +40,7 @@ constexpr double patience = 2;  // factor on what is hopeless, for very bad tria
 void PatchOptimizer::operate_first(const PatchBudget& budget) {
   longest_bent_ = bent_at_first;
   tried_.clear();
+  bad_is_known_ = false;
   for (int k = 0; k < most_tried; ++k) {
     const std::optional<Corners> worst = worst_untried(options_.first_alpha);
     if (!worst)
@@ -50,6 +53,7 @@ void PatchOptimizer::operate_first(const PatchBudget& budget) {
 /// From the worst triangle on, each once, and as long as something helps.
 void PatchOptimizer::operate(const PatchBudget& budget) {
   tried_.clear();
+  bad_is_known_ = false;
   for (int k = 0; k < most_tried; ++k) {
     const std::optional<Corners> worst = worst_untried(budget.is_again ? budget.again_alpha : options_.operate_alpha);
     if (!worst)
@@ -65,22 +69,30 @@ void PatchOptimizer::operate(const PatchBudget& budget) {
 }
 
 /// Of the triangles in the middle of the patch that are left for operations.
-std::optional<PatchOptimizer::Corners> PatchOptimizer::worst_untried(double above) const {
-  std::optional<Corners> worst;
-  double largest = above;
+std::optional<PatchOptimizer::Corners> PatchOptimizer::worst_untried(double above) {
+  if (!bad_is_known_)
+    list_bad(above);
+  const Bad* worst = nullptr;
+  for (const Bad& bad : bad_)
+    if ((!worst || bad.alpha > worst->alpha) && !rest(bad.corners) && !is_tried(bad.corners))
+      worst = &bad;
+  return worst ? std::optional(worst->corners) : std::nullopt;
+}
+
+/// The triangles in the middle that are worse, whatever way the triangulation holds them.
+void PatchOptimizer::list_bad(double above) {
+  bad_.clear();
+  bad_is_known_ = true;
   for (const PatchMesh::Triangle& triangle : now_.mesh.triangles()) {
-    if (!counts(now_, triangle))
+    const auto& vertex = triangle.vertex;
+    if (vertex[0] < 0 || !is_in_core(middle_of(now_, vertex)) ||
+        mesh::is_surely_below(above, now_.mesh.position(vertex[0]), now_.mesh.position(vertex[1]),
+                              now_.mesh.position(vertex[2])) ||
+        !counts(now_, triangle))
       continue;
-    if (const double its_alpha = alpha(now_, triangle); its_alpha > largest && !rest(triangle.vertex) &&
-                                                        is_in_core(middle_of(now_, triangle.vertex)) &&
-                                                        !is_tried(triangle.vertex)) {
-      worst = triangle.vertex;
-      largest = its_alpha;
-    }
+    if (const double its_alpha = alpha(now_, triangle); its_alpha > above)
+      bad_.push_back({largest_first(vertex), its_alpha});
   }
-  if (worst)
-    worst = largest_first(*worst); // whatever way the triangulation holds it
-  return worst;
 }
 
 /// @param is_first before all moves @return whether something helped
@@ -107,6 +119,7 @@ bool PatchOptimizer::try_at(const Corners& worst, const PatchBudget& budget, boo
     try_refining(budget, contest);
   if (contest.found) {
     std::swap(now_, best_);
+    bad_is_known_ = false;
     wake_moved(best_);
     for (const LocalIndex v : near_)
       rests_[at(v)] = 0;
@@ -173,41 +186,56 @@ bool PatchOptimizer::is_worth(const Contest& contest, double largest_near, const
 /// What each triangle near the place of the trials adds to the sum now. @return all of it, as score_near
 PatchOptimizer::Score PatchOptimizer::note_terms() {
   const std::span<const PatchMesh::Triangle> triangles = now_.mesh.triangles();
-  terms_.assign(triangles.size(), 0);
+  terms_.clear();
+  is_noted_.assign(triangles.size(), 0);
   Score all;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto& vertex = triangles[t].vertex;
-    if (vertex[0] < 0 || !(in_score_[at(vertex[0])] || in_score_[at(vertex[1])] || in_score_[at(vertex[2])]) ||
-        !counts(now_, triangles[t]))
+    if (vertex[0] < 0 || !(in_score_[at(vertex[0])] | in_score_[at(vertex[1])] | in_score_[at(vertex[2])]))
       continue;
     Score score;
-    add_to(score, alpha(now_, triangles[t]));
-    terms_[t] = score.sum;
+    if (counts(now_, triangles[t]))
+      add_to(score, alpha(now_, triangles[t]));
+    terms_.push_back({vertex, static_cast<LocalIndex>(t), score.sum});
+    is_noted_[t] = 1;
     all.sum += score.sum;
     all.max = std::max(all.max, score.max);
   }
+  now_.mesh.forget_changes();
   return all;
 }
 
 /// As score_near, for a trial: most of its triangles are those of now_.
 double PatchOptimizer::sum_near(const Patch& patch) {
+  const std::span<const PatchMesh::Triangle> triangles = patch.mesh.triangles();
   mark_.assign(at(patch.mesh.vertices()), 1); // new ones count, too
   std::fill_n(mark_.begin(), now_.mesh.vertices(), 0);
   for (const LocalIndex v : near_)
     mark_[at(v)] = patch.mesh.position(v) != now_.mesh.position(v);
-  const std::span<const PatchMesh::Triangle> triangles = patch.mesh.triangles(), old = now_.mesh.triangles();
   double sum = 0;
-  Score changed;
+  other_.clear();
+  for (const Term& term : terms_) {
+    const auto& [a, b, c] = term.vertex;
+    const auto& vertex = triangles[at(term.triangle)].vertex;
+    if (((vertex[0] ^ a) | (vertex[1] ^ b) | (vertex[2] ^ c)) == 0 && !(mark_[at(a)] | mark_[at(b)] | mark_[at(c)]))
+      sum += term.value;
+    else
+      other_.push_back(term.triangle);
+  }
+  const std::ptrdiff_t noted = std::ssize(other_); // in ascending order
+  for (const LocalIndex t : patch.mesh.changed())
+    if (at(t) >= is_noted_.size() || !is_noted_[at(t)])
+      other_.push_back(t);
+  std::sort(other_.begin() + noted, other_.end());
+  std::inplace_merge(other_.begin(), other_.begin() + noted, other_.end());
+  const auto end = std::unique(other_.begin(), other_.end());
   const auto is_near = [&](LocalIndex v) { return at(v) >= in_score_.size() || in_score_[at(v)]; };
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto& vertex = triangles[t].vertex;
-    if (vertex[0] < 0)
-      continue;
-    if (t < old.size() && vertex[0] == old[t].vertex[0] && vertex[1] == old[t].vertex[1] &&
-        vertex[2] == old[t].vertex[2] && !(mark_[at(vertex[0])] | mark_[at(vertex[1])] | mark_[at(vertex[2])]))
-      sum += terms_[t];
-    else if ((is_near(vertex[0]) || is_near(vertex[1]) || is_near(vertex[2])) && counts(patch, triangles[t]))
-      add_to(changed, alpha(patch, triangles[t]));
+  Score changed;
+  for (auto t = other_.begin(); t != end; ++t) {
+    const PatchMesh::Triangle& triangle = triangles[at(*t)];
+    const auto& vertex = triangle.vertex;
+    if (vertex[0] >= 0 && (is_near(vertex[0]) || is_near(vertex[1]) || is_near(vertex[2])) && counts(patch, triangle))
+      add_to(changed, alpha(patch, triangle));
   }
   return sum + changed.sum;
 }

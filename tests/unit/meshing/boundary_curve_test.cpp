@@ -130,6 +130,29 @@ TEST(BoundaryCurve, FindsThePlaceOfAnArcAndBack) {
   expect_near(curve.place(1, 0.5 * pi * 0.2).point, {0.5, 0.3}); // clockwise around the hole
 }
 
+/// Of lengths from 1e-7 to 0.8, many in one part of the loop: at junctions, just before and behind them.
+TEST(BoundaryCurve, FindsThePlaceAmongPiecesOfVeryDifferentLengths) {
+  std::vector<Vec2> corners{{0.1, 0.1}, {0.9, 0.1}, {0.9, 0.9}};
+  for (int k = 0; k < 40; ++k) // a zigzag that becomes finer and finer
+    corners.push_back({0.8 * std::pow(0.7, k) + 0.1, k % 2 ? 0.9 : 0.9 - 0.1 * std::pow(0.7, k)});
+  const Boundary boundary = boundary_of({polygon_loop(corners)});
+  const BoundaryCurve curve(boundary);
+  const std::vector<geometry::Piece>& pieces = boundary.loops[0].pieces;
+  double start = 0;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    EXPECT_EQ(curve.place(0, start).piece, static_cast<LocalIndex>(k));
+    EXPECT_EQ(curve.place(0, start).along, 0);
+    EXPECT_EQ(curve.place(0, std::nextafter(start, 10)).piece, static_cast<LocalIndex>(k));
+    if (k > 0) {
+      EXPECT_EQ(curve.place(0, std::nextafter(start, 0)).piece, static_cast<LocalIndex>(k) - 1);
+    }
+    EXPECT_EQ(curve.place(0, start + 0.5 * pieces[k].length()).piece, static_cast<LocalIndex>(k));
+    start += pieces[k].length();
+  }
+  EXPECT_EQ(curve.place(0, std::nextafter(start, 0)).piece, static_cast<LocalIndex>(pieces.size()) - 1);
+  EXPECT_EQ(curve.place(0, start).piece, 0) << "the end is the start";
+}
+
 TEST(BoundaryCurve, ALoopThatWindsGoesOnInTheNextImage) {
   const geometry::RegionShape shape = testing::band();
   const BoundaryCurve curve(shape.boundary());

@@ -258,6 +258,49 @@ TEST(PatchMesh, VerticesOfAStraightRowAreReplacedAlongIt) {
   EXPECT_FALSE(mesh.replace(PatchMesh::frame, points[5])) << "another one lies there";
 }
 
+/// Whatever the change: a triangle with other vertices than before is gone or listed.
+TEST(PatchMesh, TellsWhichTrianglesHaveChanged) {
+  PatchMesh mesh = mesh_of(places(testing::random_sites(60, 8)));
+  std::vector<LocalIndex> shifted;
+  std::size_t listed = 0;
+  for (std::uint64_t step = 0; step < 200; ++step) {
+    mesh.forget_changes();
+    ASSERT_TRUE(mesh.changed().empty());
+    const std::vector<PatchMesh::Triangle> before(mesh.triangles().begin(), mesh.triangles().end());
+    const LocalIndex v = PatchMesh::frame + static_cast<LocalIndex>(step % 50);
+    const Vec2 p = testing::random_vec2(9, step);
+    const Vec2 near = unit_lattice().snap(mesh.position(v) + 0.03 * (p - center));
+    if (step % 4 == 0)
+      mesh.insert(p);
+    else if (step % 4 == 1)
+      mesh.replace(v, p);
+    else if (step % 4 == 2)
+      mesh.move(v, near);
+    else if (mesh.degree(v) > 2) { // as relaxed vertices: within the star, then flips
+      std::vector<LocalIndex> ring;
+      mesh.collect_ring(v, ring);
+      bool stays_inside = true;
+      for (std::size_t k = 0; k < ring.size(); ++k)
+        stays_inside &=
+            geometry::orient2d(near, mesh.position(ring[k]), mesh.position(ring[(k + 1) % ring.size()])) > 0;
+      if (stays_inside) {
+        mesh.shift(v, near);
+        shifted.assign(1, v);
+        mesh.restore(shifted);
+      }
+    }
+    const PatchMesh copy = mesh;
+    const std::span<const LocalIndex> changed = copy.changed();
+    listed += changed.size();
+    for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
+      const bool is_same = t < before.size() && before[t].vertex == mesh.triangles()[t].vertex;
+      const bool is_listed = std::find(changed.begin(), changed.end(), static_cast<LocalIndex>(t)) != changed.end();
+      ASSERT_TRUE(is_same || is_listed || mesh.triangles()[t].vertex[0] < 0) << "step " << step << " triangle " << t;
+    }
+  }
+  EXPECT_GT(listed, 1000U);
+}
+
 /// Hundreds of changes of all kinds end in the triangulation of what is left.
 TEST(PatchMesh, OnlyThePointsCountNotTheWay) {
   for (const bool on_a_coarse_lattice : {false, true}) { // then nearly all is a tie
