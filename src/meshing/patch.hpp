@@ -130,6 +130,7 @@ private:
     std::array<LocalIndex, 2> divided{-1, -1};   // chords of the boundary, by the vertex where they begin
     std::optional<geometry::Vec2> inserted = {}; // inside
     bool inserts() const { return divided[0] >= 0 || inserted; }
+    friend bool operator==(const Operation&, const Operation&) = default;
   };
   /// A vertex on the boundary: its neighbours along the loop, -1 beyond the patch, and its place.
   struct BoundaryVertex {

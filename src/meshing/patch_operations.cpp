@@ -24,8 +24,12 @@ void PatchOptimizer::list_operations(const Contest& contest) {
   operations_.clear();
   const Corners& worst = contest.corners;
   const auto place = [&](std::size_t k) { return now_.mesh.position(worst[k % 3]); };
-  const auto insert = [&](Vec2 p) { operations_.push_back({.inserted = p}); };
-  const auto remove = [&](LocalIndex v) { operations_.push_back({.removed = {v, -1}}); };
+  const auto list = [&](const Operation& operation) { // once: rings of neighbours share vertices and edges
+    if (std::find(operations_.begin(), operations_.end(), operation) == operations_.end())
+      operations_.push_back(operation);
+  };
+  const auto insert = [&](Vec2 p) { list({.inserted = p}); };
+  const auto remove = [&](LocalIndex v) { list({.removed = {v, -1}}); };
   std::size_t longest = 0;
   for (std::size_t k = 1; k < 3; ++k)
     if (geometry::squared_length(place(k + 2) - place(k + 1)) >

@@ -17,7 +17,8 @@ constexpr double least_gain = 0.02;
 /// After each of the first sweeps a trial is given up that is so much worse than what it has to be, and in the last
 /// ones if it is than the best.
 constexpr double hopeless_at_first = 2.5, hopeless_then = 1.2, hopeless_at_last = 1.1;
-constexpr double excellent = 0.6;                     // of what a trial has to be: no others are tried then
+constexpr double least_fall = 0.97;                   // of the sum, in a last sweep: then one more is worth it
+constexpr double excellent = 0.75;                    // of what a trial has to be: no others are tried then
 constexpr double nearest_reach = 2, near_reach = 2.8; // h: sites that move in the first sweeps, and in the last
 constexpr double score_reach = 4;                     // h: triangles of sites that count
 constexpr double bent_at_first = 1.01, bent_at_last = 1.25, bend_alpha = 1.1; // see patch_moves.cpp
@@ -288,10 +289,17 @@ void PatchOptimizer::enter(std::span<Runner> list, Patch& patch, double sum, dou
 /// The other sweeps; keeps the trial if it is better than what there was.
 void PatchOptimizer::finish(Runner& finalist, Contest& contest) {
   Patch& trial = finalist.patch;
+  double before = INFINITY;
   for (int sweep = 0; sweep < (is_thorough_ ? 2 : 1) * options_.trial_sweeps; ++sweep) {
     relax_near(trial, near_);
-    if (trial.broken || !(finalist.handicap * sum_near(trial) < hopeless_at_last * contest.least))
+    if (trial.broken)
       return;
+    const double sum = sum_near(trial);
+    if (!(finalist.handicap * sum < hopeless_at_last * contest.least))
+      return;
+    if (sum > least_fall * before)
+      break;
+    before = sum;
   }
   const Score after = score_near(trial);
   const double sum = std::fmax(finalist.handicap, 1) * after.sum; // a preference makes nothing better that is not
