@@ -120,15 +120,15 @@ private:
     for (List& child : children)
       child.clear();
     const double inverse = 4 / place.side;
-    const auto first = [](double v) { return static_cast<int>(std::clamp(std::ceil(v) - 1, 0.0, 3.0)); };
-    const auto last = [](double v) { return static_cast<int>(std::clamp(std::floor(v), 0.0, 3.0)); };
+    const auto first = [](double v) { return (v > 1) + (v > 2) + (v > 3); }; // of the closed children
+    const auto last = [](double v) { return (v >= 1) + (v >= 2) + (v >= 3); };
     std::size_t entries = 0;
     for (const LocalIndex k : list) {
       const Segment& s = grid_.segments_[k];
-      const int i0 = first((std::fmin(s.a.x, s.b.x) - place.corner.x) * inverse);
-      const int i1 = last((std::fmax(s.a.x, s.b.x) - place.corner.x) * inverse);
-      const int j0 = first((std::fmin(s.a.y, s.b.y) - place.corner.y) * inverse);
-      const int j1 = last((std::fmax(s.a.y, s.b.y) - place.corner.y) * inverse);
+      const int i0 = first((std::min(s.a.x, s.b.x) - place.corner.x) * inverse);
+      const int i1 = last((std::max(s.a.x, s.b.x) - place.corner.x) * inverse);
+      const int j0 = first((std::min(s.a.y, s.b.y) - place.corner.y) * inverse);
+      const int j1 = last((std::max(s.a.y, s.b.y) - place.corner.y) * inverse);
       const bool straight = i0 == i1 || j0 == j1;
       for (int j = j0; j <= j1; ++j)
         for (int i = i0; i <= i1; ++i) {

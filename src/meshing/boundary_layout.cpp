@@ -324,7 +324,11 @@ std::vector<LoopSite> lay_out_loop(const LoopMetric& metric, const geometry::Lat
       gather_in_order<LoopSite>(std::ssize(stretches), few, [&](std::ptrdiff_t k, std::vector<LoopSite>& list) {
         Layouter(metric, lattice, corner_angle, capped, list).add(stretches[static_cast<std::size_t>(k)], closed);
       });
-  std::sort(sites.begin(), sites.end(), [](const LoopSite& a, const LoopSite& b) { return a.t < b.t; });
+  const auto before = [](const LoopSite& a, const LoopSite& b) { return a.t < b.t; };
+  // Mostly in order, but that the last ones lie behind the start of the loop.
+  std::rotate(sites.begin(), std::is_sorted_until(sites.begin(), sites.end(), before), sites.end());
+  if (!std::is_sorted(sites.begin(), sites.end(), before))
+    std::sort(sites.begin(), sites.end(), before);
   return sites;
 }
 

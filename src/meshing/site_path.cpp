@@ -75,8 +75,13 @@ public:
     first_.resize(n + 1, 0);
     for (std::size_t from = 0; from + 1 < n; ++from) {
       first_[from] = static_cast<LocalIndex>(chords_.size());
-      for (std::size_t to = from + 1; to < std::min(n, from + farthest_place) && in_reach(from, to); ++to)
-        add_chord(from, to);
+      for (std::size_t to = from + 1; to < std::min(n, from + farthest_place); ++to) {
+        const Vec2 along = places[to].position - places[from].position;
+        const double length = geometry::length(along);
+        if (!in_reach(from, to, length))
+          break;
+        add_chord(from, to, along, length);
+      }
     }
     first_[n - 1] = first_[n] = static_cast<LocalIndex>(chords_.size());
     into_first_.assign(n + 1, 0);
@@ -110,16 +115,14 @@ public:
 
 private:
   /// Behind a place far out, or far along a winding curve, no chord ends.
-  bool in_reach(std::size_t from, std::size_t to) const {
+  bool in_reach(std::size_t from, std::size_t to, double length) const {
     const Place &a = places_[from], &b = places_[to];
-    return to == from + 1 ||
-           (b.t - a.t < farthest_way && geometry::length(b.position - a.position) < farthest_reach * a.size);
+    return to == from + 1 || (b.t - a.t < farthest_way && length < farthest_reach * a.size);
   }
 
-  void add_chord(std::size_t from, std::size_t to) {
+  void add_chord(std::size_t from, std::size_t to, Vec2 along, double length) {
     const Place &a = places_[from], &b = places_[to];
-    const Vec2 along = b.position - a.position;
-    const double length = geometry::length(along), h = 0.5 * (a.size + b.size);
+    const double h = 0.5 * (a.size + b.size);
     const bool neighbours = to == from + 1;
     if (!(length > 0) || (!neighbours && (length > longest_chord * h || length < 0.25 * h)))
       return;
@@ -141,12 +144,17 @@ private:
                        length_weight * mismatch(length / h) + deviation_weight * relative * relative});
   }
 
-  double joint_cost(const Chord& in, const Chord& out) const {
+  /// What the lengths of two neighbours cost, a part of their joint's cost.
+  static double ratio_cost(const Chord& in, const Chord& out) {
+    return ratio_weight * mismatch(in.length / out.length);
+  }
+
+  double joint_cost(const Chord& in, const Chord& out, double of_lengths) const {
     // From the way out to the way back, on the left.
     const double dot = -geometry::dot(out.along, in.along), cross = -geometry::cross(out.along, in.along);
     const double shorter = std::min(in.length, out.length);
     const bool encroaches = dot > shorter * shorter;
-    return fan_costs_(dot, cross) + ratio_weight * mismatch(in.length / out.length) + (encroaches ? encroachment : 0);
+    return fan_costs_(dot, cross) + of_lengths + (encroaches ? encroachment : 0);
   }
 
   std::span<LocalIndex> into(std::size_t place) {
@@ -160,7 +168,10 @@ private:
     Chord& out = chords_[static_cast<std::size_t>(c)];
     if (!(in.least + out.cost < out.least))
       return false;
-    const double cost = in.least + out.cost + joint_cost(in, out);
+    const double of_lengths = ratio_cost(in, out);
+    if (!(in.least + out.cost + of_lengths < out.least))
+      return true;
+    const double cost = in.least + out.cost + joint_cost(in, out, of_lengths);
     if (cost < out.least) {
       out.least = cost;
       out.before = p;
@@ -178,10 +189,11 @@ private:
         LocalIndex start = c;
         while (chords_[static_cast<std::size_t>(start)].before >= 0)
           start = chords_[static_cast<std::size_t>(start)].before;
+        const Chord& first = chords_[static_cast<std::size_t>(start)];
         if (start == c)
           cost += 1e3; // goes there and back
         else
-          cost += joint_cost(chord, chords_[static_cast<std::size_t>(start)]);
+          cost += joint_cost(chord, first, ratio_cost(chord, first));
       }
       if (best < 0 || cost < least) {
         least = cost;

@@ -19,13 +19,17 @@ constexpr double narrow_gap = 0.65;     // of the local size: sites that are nea
 constexpr double least_share = 0.05;    // of the size that is asked for: no limit is lower
 constexpr double least_lowering = 0.95; // of the size: a limit that is hardly lower changes nothing
 constexpr double lens_offset = 0.134, lens_radius = 0.5176; // of the chord: circle that sees it at 75 degrees
-constexpr std::ptrdiff_t sites_in_a_row = 64;               // by one thread
+constexpr int sites_in_a_row = 64;                          // by one thread
 constexpr double width_share = 1.15;                        // chord of an equilateral triangle over its height
 
 class LimitFinder {
 public:
   LimitFinder(const BoundarySites& boundary, const sizing::SizeField& size, const sizing::SizeField& asked)
-      : boundary_(boundary), size_(size), asked_(asked), tree_(items_of(boundary)) {}
+      : boundary_(boundary), size_(size), asked_(asked), tree_(items_of(boundary)), sharp_(boundary.sites.size()) {
+    thread_loop(std::ssize(sharp_), sites_in_a_row, [this](std::ptrdiff_t k, int) {
+      sharp_[static_cast<std::size_t>(k)] = chords_meet_sharply(static_cast<LocalIndex>(k));
+    });
+  }
 
   std::vector<sizing::SizeLimit> run() const {
     return gather_in_order<sizing::SizeLimit>(
@@ -114,8 +118,10 @@ private:
     return false;
   }
 
+  bool is_sharp(LocalIndex k) const { return sharp_[static_cast<std::size_t>(k)]; }
+
   /// Do the chords of site k meet at less than 60 degrees, on the inside?
-  bool is_sharp(LocalIndex k) const {
+  bool chords_meet_sharply(LocalIndex k) const {
     const geometry::Segment out = boundary_.chord(k),
                             in = boundary_.chord(boundary_.sites[static_cast<std::size_t>(k)].previous);
     const Vec2 ahead = out.b - out.a, back = in.a - in.b;
@@ -134,6 +140,7 @@ private:
   const BoundarySites& boundary_;
   const sizing::SizeField &size_, &asked_;
   const SiteTree tree_;
+  std::vector<char> sharp_; // for each site, whether its chords meet sharply
 };
 
 /// Without limits that another of those next to them in the list implies. What that one implies the limit that implied

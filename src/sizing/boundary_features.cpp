@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sizing/boundary_features.hpp"
 
+#include "core/gather.hpp"
 #include "sizing/medial_axis.hpp"
 #include "sizing/piece_locator.hpp"
 #include "sizing/shared_work.hpp"
@@ -25,7 +26,8 @@ constexpr double thinning_error = 0.01; // of the field, for leaving out samples
 constexpr double first_radius_share = 1.0 / 32; // of the container: first radius that is tried along a run of rays
 constexpr double radius_growth = 1.5;           // from the ball of one ray to the first that the next tries
 constexpr std::size_t ray_run = 64;
-constexpr int first_samples = 32; // along a line as long as the container
+constexpr std::ptrdiff_t origins_in_a_row = 256; // of rays, by one thread
+constexpr int first_samples = 32;                // along a line as long as the container
 constexpr int most_rounds = 40;
 
 /// All images within reach.
@@ -61,7 +63,7 @@ public:
   /// Samples with local feature sizes, not yet bounded.
   std::vector<Cone> run() {
     place_first();
-    for (int round = 0; round < most_rounds && !rays_.empty(); ++round) {
+    for (int round = 0; round < most_rounds && !origins_.empty(); ++round) {
       find_medial_points();
       update_feature_sizes();
       refine();
@@ -77,6 +79,13 @@ private:
     const Piece* piece;
     double from, to; ///< arc lengths
     LocalIndex first, last;
+  };
+
+  /// Where rays begin: on a piece, or at its start if `before` is the piece that ends there.
+  struct Origin {
+    const Piece *before, *piece;
+    double along;
+    bool with_rays; ///< a vertex without a sample may still be the end of an axis
   };
 
   void place_first() {
@@ -116,22 +125,31 @@ private:
     return kept;
   }
 
-  /// Returns the sample; a vertex without one may still be the end of an axis.
+  /// Returns the sample, or the last before a vertex without one.
   LocalIndex add_vertex(const Piece& before, const Piece& after, bool with_sample) {
-    const Vec2 in = before.tangent(before.length()), out = after.tangent(0);
-    if (axis_ends_at(in, out))
-      corners_.push_back({images_.wrap(after.start), 0});
-    if (with_sample) {
+    origins_.push_back({&before, &after, 0, with_sample});
+    if (with_sample)
       samples_.push_back({after.start, infinity});
-      append_rays(after.start, in, out, rays_);
-    }
     return static_cast<LocalIndex>(samples_.size()) - 1;
   }
   LocalIndex add_sample(const Piece& piece, double along, double most = infinity) {
-    const Vec2 p = piece.point(along);
-    samples_.push_back({p, most});
-    append_rays(p, piece.tangent(along), rays_);
+    origins_.push_back({nullptr, &piece, along, true});
+    samples_.push_back({piece.point(along), most});
     return static_cast<LocalIndex>(samples_.size()) - 1;
+  }
+
+  /// Appends its rays. Does an axis end there?
+  static bool append_rays_from(const Origin& origin, std::vector<NormalRay>& rays) {
+    const Piece& piece = *origin.piece;
+    const Vec2 p = piece.point(origin.along), out = piece.tangent(origin.along);
+    if (!origin.before) {
+      append_rays(p, out, rays);
+      return false;
+    }
+    const Vec2 in = origin.before->tangent(origin.before->length());
+    if (origin.with_rays)
+      append_rays(p, in, out, rays);
+    return axis_ends_at(in, out);
   }
 
   /// The local feature size changes by no more than the distance.
@@ -145,20 +163,28 @@ private:
       Vec2 point;
       bool there;
     };
+    std::vector<char> ends_axis(origins_.size());
+    const std::vector<NormalRay> rays = gather_in_order<NormalRay>(
+        std::ssize(origins_), origins_in_a_row, [&](std::ptrdiff_t k, std::vector<NormalRay>& list) {
+          const auto at = static_cast<std::size_t>(k);
+          ends_axis[at] = append_rays_from(origins_[at], list);
+        });
     const double first_radius = std::max(floor_, first_radius_share * images_.container().width());
     const auto find_run = [&](std::size_t first, std::size_t last, Found* found) {
       std::array<double, 2> radius{first_radius, first_radius}; // to the left and to the right
       for (std::size_t k = first; k < last; ++k) {
-        double& start = radius[rays_[k].side];
-        const std::optional<Vec2> point = medial_point(rays_[k], locator_, images_, start);
+        double& start = radius[rays[k].side];
+        const std::optional<Vec2> point = medial_point(rays[k], locator_, images_, start);
         start = std::max(floor_, radius_growth * start);
         *found++ = {point.value_or(Vec2{}), point.has_value()};
       }
     };
-    const std::vector<Found> found = compute_shared_runs<Found>(comm_, rays_.size(), ray_run, find_run);
-    std::vector<Cone> points = std::move(corners_);
-    corners_.clear();
-    rays_.clear();
+    const std::vector<Found> found = compute_shared_runs<Found>(comm_, rays.size(), ray_run, find_run);
+    std::vector<Cone> points;
+    for (std::size_t k = 0; k < origins_.size(); ++k)
+      if (ends_axis[k])
+        points.push_back({images_.wrap(origins_[k].piece->start), 0});
+    origins_.clear();
     for (const Found& one : found)
       if (one.there)
         points.push_back({one.point, 0});
@@ -214,9 +240,9 @@ private:
   const Images& images_;
   double floor_, slope_;
   PieceLocator locator_;
-  std::vector<Cone> samples_, corners_;
+  std::vector<Cone> samples_;
   std::vector<Interval> intervals_;
-  std::vector<NormalRay> rays_;        // of samples whose balls are not known yet
+  std::vector<Origin> origins_;        // of rays whose balls are not known yet
   std::vector<ConeTree> medial_trees_; // one for each round
   std::size_t known_ = 0;              // samples that have a local feature size
 };

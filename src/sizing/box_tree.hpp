@@ -3,10 +3,12 @@
 #pragma once
 
 #include "sizing/search_kernel.hpp"
+#include "trime/core/thread_loop.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace trime::sizing {
@@ -24,11 +26,14 @@ public:
   };
 
   BoxTree() = default;
-  /// @param item_of(k) for the items in their order. O(n).
+  BoxTree(BoxTree&&) = default;
+  BoxTree& operator=(BoxTree&&) = default;
+  /// @param item_of(k) for the items in their order, thread-safe. O(n), over threads.
   template <class ItemOf>
   BoxTree(std::size_t items, const ItemOf& item_of);
 
-  BoxLevels levels() const;
+  /// Valid as long as the tree, wherever that is moved.
+  const BoxLevels& levels() const { return pointers_; }
 
   /// visit(k) for all items, in their order, but for those in boxes with skip(box, number).
   template <class Skip, class Visit>
@@ -38,8 +43,11 @@ public:
   }
 
 private:
+  static constexpr Item nothing{{}, std::numeric_limits<double>::infinity()};
+
   static BoxNode empty_node();
-  static void include(BoxNode& node, std::size_t child, const Item& item);
+  static void include(Item& all, const Item& item);
+  static void set_child(BoxNode& node, std::size_t child, const Item& item);
   static Item child_of(const BoxNode& node, std::size_t child);
   void add_levels();
 
@@ -48,15 +56,30 @@ private:
 
   std::size_t items_ = 0;
   std::vector<std::vector<BoxNode>> levels_; ///< from the nodes over leaves to the root
+  BoxLevels pointers_;                       ///< to them
 };
+
+inline void BoxTree::include(Item& all, const Item& item) {
+  all.box.min.x = std::min(all.box.min.x, item.box.min.x);
+  all.box.min.y = std::min(all.box.min.y, item.box.min.y);
+  all.box.max.x = std::max(all.box.max.x, item.box.max.x);
+  all.box.max.y = std::max(all.box.max.y, item.box.max.y);
+  all.number = std::min(all.number, item.number);
+}
 
 template <class ItemOf>
 BoxTree::BoxTree(std::size_t items, const ItemOf& item_of) : items_(items) {
   if (items == 0)
     return;
-  levels_.emplace_back((items + width * width - 1) / (width * width), empty_node());
-  for (std::size_t k = 0; k < items; ++k)
-    include(levels_[0][k / (width * width)], k / width % width, item_of(k));
+  constexpr int leaves_in_a_row = 64;
+  std::vector<BoxNode>& nodes = levels_.emplace_back((items + width * width - 1) / (width * width), empty_node());
+  thread_loop(static_cast<std::ptrdiff_t>((items + width - 1) / width), leaves_in_a_row, [&](std::ptrdiff_t n, int) {
+    const auto leaf = static_cast<std::size_t>(n);
+    Item all = nothing;
+    for (std::size_t k = leaf * width; k < std::min(items, (leaf + 1) * width); ++k)
+      include(all, item_of(k));
+    set_child(nodes[leaf / width], leaf % width, all);
+  });
   add_levels();
 }
 

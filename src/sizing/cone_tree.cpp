@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sizing/cone_tree.hpp"
 
+#include "trime/core/thread_loop.hpp"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -11,22 +14,43 @@ using geometry::Vec2;
 
 namespace {
 
+constexpr int cones_in_a_row = 1024; // by one thread
+
 /// Place along a Hilbert curve through a square of 2^16 by 2^16 cells.
 std::uint32_t hilbert_place(std::uint32_t x, std::uint32_t y) {
-  constexpr std::uint32_t side = 1u << 16;
   std::uint32_t place = 0;
-  for (std::uint32_t half = side / 2; half > 0; half /= 2) {
-    const bool right = (x & half) != 0, above = (y & half) != 0;
-    place = 4 * place + (right ? (above ? 2 : 3) : (above ? 1 : 0));
-    if (!above) {
-      if (right) {
-        x = side - 1 - x;
-        y = side - 1 - y;
-      }
-      std::swap(x, y);
-    }
+  for (int bit = 15; bit >= 0; --bit) {
+    const std::uint32_t right = x >> bit & 1, above = y >> bit & 1;
+    place = 4 * place + ((3 * right) ^ above);
+    const std::uint32_t swap = above - 1, reflect = swap & (0 - right); // as masks: no branch could be foretold
+    const std::uint32_t changed = (x ^ y) & swap;
+    x ^= changed ^ reflect;
+    y ^= changed ^ reflect;
   }
   return place;
+}
+
+/// A place along the curve, and the index of the cone.
+struct Key {
+  std::uint32_t place, index;
+};
+
+/// Sorts by place, digit by digit; keys of one place keep their order.
+std::vector<Key> sorted(std::vector<Key> keys) {
+  constexpr int digit_bits = 11;
+  constexpr std::uint32_t digits = 1u << digit_bits;
+  std::vector<Key> other(keys.size());
+  for (int shift = 0; shift < 32; shift += digit_bits) {
+    std::array<std::uint32_t, digits + 1> next{};
+    for (const Key& key : keys)
+      ++next[(key.place >> shift & (digits - 1)) + 1];
+    for (std::uint32_t digit = 0; digit < digits; ++digit)
+      next[digit + 1] += next[digit];
+    for (const Key& key : keys)
+      other[next[key.place >> shift & (digits - 1)]++] = key;
+    keys.swap(other);
+  }
+  return keys;
 }
 
 /// In the order of a Hilbert curve through their box; cones in one of its cells keep their order.
@@ -36,18 +60,18 @@ std::vector<Cone> in_order(const std::vector<Cone>& cones) {
     box.include(cone.apex);
   const double extent = std::max(box.width(), box.height());
   const double cells = extent > 1e-300 ? 65535 / extent : 0;
-  std::vector<std::uint64_t> keys(cones.size());
-  for (std::size_t k = 0; k < cones.size(); ++k) {
+  std::vector<Key> keys(cones.size());
+  thread_loop(std::ssize(cones), cones_in_a_row, [&](std::ptrdiff_t item, int) {
+    const auto k = static_cast<std::size_t>(item);
     const Vec2 place = cells * (cones[k].apex - box.min);
-    keys[k] =
-        (std::uint64_t{hilbert_place(static_cast<std::uint32_t>(place.x), static_cast<std::uint32_t>(place.y))} << 32) +
-        k;
-  }
-  std::sort(keys.begin(), keys.end());
-  std::vector<Cone> sorted(cones.size());
+    keys[k] = {hilbert_place(static_cast<std::uint32_t>(place.x), static_cast<std::uint32_t>(place.y)),
+               static_cast<std::uint32_t>(k)};
+  });
+  keys = sorted(std::move(keys));
+  std::vector<Cone> ordered(cones.size());
   for (std::size_t k = 0; k < cones.size(); ++k)
-    sorted[k] = cones[static_cast<std::uint32_t>(keys[k])];
-  return sorted;
+    ordered[k] = cones[keys[k].index];
+  return ordered;
 }
 
 } // namespace
@@ -59,12 +83,13 @@ ConeTree::ConeTree(const std::vector<Cone>& cones, double slope) : cones_(in_ord
   ConeLeaf none{};
   std::fill(std::begin(none.height), std::end(none.height), std::numeric_limits<double>::infinity());
   leaves_.resize((cones_.size() + BoxTree::width - 1) / BoxTree::width, none);
-  for (std::size_t k = 0; k < cones_.size(); ++k) {
+  thread_loop(std::ssize(cones_), cones_in_a_row, [&](std::ptrdiff_t item, int) {
+    const auto k = static_cast<std::size_t>(item);
     ConeLeaf& leaf = leaves_[k / BoxTree::width];
     leaf.x[k % BoxTree::width] = cones_[k].apex.x;
     leaf.y[k % BoxTree::width] = cones_[k].apex.y;
     leaf.height[k % BoxTree::width] = cones_[k].height;
-  }
+  });
 }
 
 LowestCone ConeTree::find(Vec2 p, double bound, double slack) const {

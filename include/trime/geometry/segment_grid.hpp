@@ -6,6 +6,7 @@
 #include "trime/geometry/segment.hpp"
 #include "trime/geometry/vec2.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -88,8 +89,14 @@ bool SegmentGrid::visit_near(const Placed& place, const Box& box, const Visit& v
         return false;
     return true;
   }
-  for (int j = 0; j < 4; ++j)
-    for (int i = 0; i < 4; ++i) {
+  // No child beyond these, which are a little too many for rounding, meets the box.
+  const double inverse = 4 / place.side;
+  const auto first = [&](double v) { return static_cast<int>(std::clamp(v * inverse - 0x1p-20, 0.0, 3.0)); };
+  const auto last = [&](double v) { return static_cast<int>(std::clamp(v * inverse + 0x1p-20, 0.0, 3.0)); };
+  const int i0 = first(box.min.x - place.corner.x), i1 = last(box.max.x - place.corner.x);
+  const int j0 = first(box.min.y - place.corner.y), j1 = last(box.max.y - place.corner.y);
+  for (int j = j0; j <= j1; ++j)
+    for (int i = i0; i <= i1; ++i) {
       const Placed child = place.child(cell.first, i, j);
       if (box.max.x < child.corner.x || box.min.x > child.corner.x + child.side || box.max.y < child.corner.y ||
           box.min.y > child.corner.y + child.side)

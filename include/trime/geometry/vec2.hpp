@@ -47,8 +47,8 @@ struct Box {
   double height() const { return max.y - min.y; }
   bool contains(Vec2 p) const { return p.x >= min.x && p.x <= max.x && p.y >= min.y && p.y <= max.y; }
   void include(Vec2 p) {
-    min = {std::fmin(min.x, p.x), std::fmin(min.y, p.y)};
-    max = {std::fmax(max.x, p.x), std::fmax(max.y, p.y)};
+    min = {p.x < min.x ? p.x : min.x, p.y < min.y ? p.y : min.y};
+    max = {p.x > max.x ? p.x : max.x, p.y > max.y ? p.y : max.y};
   }
   /// Squared distance from p to the box; 0 inside.
   double squared_distance(Vec2 p) const {
