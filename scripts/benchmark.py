@@ -11,6 +11,9 @@ sweep, for stars, moves, measuring and sorting together. Prints a table in Markd
   scripts/benchmark.py --data DIR --cases all                  # with DIR/poker.xy and DIR/north_america.xy
   scripts/benchmark.py --against ../old/trime_mpi --cases "square 1e5"
   scripts/benchmark.py --gmsh --cases "square 1e5"             # Gmsh's Frontal-Delaunay of as many vertices beside it
+
+With `--gmsh` the seconds in Gmsh's row are those of its meshing alone, 1D and 2D, as it tells them: one thread, no start,
+no files; the whole command is beside them. On graded shapes it meshes the size field of our mesh, see gmsh_rival.py.
 """
 import argparse
 import os
@@ -22,6 +25,7 @@ import sys
 import tempfile
 import time
 
+from gmsh_rival import Rival
 from quality_table import COAST, POKER, automatic
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -80,35 +84,6 @@ def median_of(runs):
     return middle
 
 
-def gmsh_run(points, directory):
-    """Seconds (meshing alone) and quality of Gmsh's Frontal-Delaunay for about as many vertices on the unit square."""
-    size = (1 / (0.8660254 * points)) ** 0.5
-    (directory / "g.geo").write_text(f"h = {size!r};\nPoint(1) = {{0, 0, 0, h}};\nPoint(2) = {{1, 0, 0, h}};\n"
-                                     "Point(3) = {1, 1, 0, h};\nPoint(4) = {0, 1, 0, h};\nLine(1) = {1, 2};\n"
-                                     "Line(2) = {2, 3};\nLine(3) = {3, 4};\nLine(4) = {4, 1};\n"
-                                     "Curve Loop(1) = {1, 2, 3, 4};\nPlane Surface(1) = {1};\n", encoding="utf-8")
-    done = subprocess.run(["gmsh", "-2", "-v", "4", "-algo", "front2d", "-format", "msh22", "-o", directory / "g.msh",
-                           directory / "g.geo"], capture_output=True, text=True, check=True)
-    seconds = float(text_of(r"Done meshing 2D \(Wall ([\d.e-]+)s", done.stdout, "time of Gmsh")[0])
-    lines = (directory / "g.msh").read_text(encoding="ascii").split("\n")
-    start = lines.index("$Nodes") + 2
-    place = {}
-    for line in lines[start:start + int(lines[start - 1])]:
-        tag, x, y, _ = line.split()
-        place[tag] = complex(float(x), float(y))
-    start = lines.index("$Elements") + 2
-    alphas = []
-    for line in lines[start:start + int(lines[start - 1])]:
-        entry = line.split()
-        if entry[1] != "2":
-            continue
-        p, q, r = (place[tag] for tag in entry[-3:])
-        a, b, c = abs(p - q), abs(q - r), abs(r - p)
-        twice_area = ((q - p).conjugate() * (r - p)).imag
-        alphas.append(a * b * c * (a + b + c) / (4 * twice_area * twice_area))
-    return {"seconds": seconds, "points": len(place), "mean": statistics.fmean(alphas), "worst": max(alphas)}
-
-
 def row(name, who, result, threads, note=""):
     share = {key: 100 * value / result["seconds"] for key, value in result["phases"].items()}
     setup = sum(share.get(key, 0.0) for key in ("shape", "size field", "boundary", "start"))
@@ -123,7 +98,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "release" / "trime_mpi")
     parser.add_argument("--against", type=pathlib.Path, help="another build of the program")
-    parser.add_argument("--gmsh", action="store_true", help="square cases: Gmsh beside it (Debian: gmsh)")
+    parser.add_argument("--gmsh", action="store_true", help="Gmsh beside it (Debian: gmsh python3-scipy)")
     parser.add_argument("--data", type=pathlib.Path, help="directory with poker.xy and north_america.xy")
     parser.add_argument("--cases", default="square 1e5,square 1e6", help="comma-separated, or all; " + ", ".join(CASES))
     parser.add_argument("--repeats", type=int, default=5)
@@ -147,7 +122,7 @@ def main():
         if arguments.data:
             config = config.replace("{data}", str(arguments.data.resolve()))
         runs = {who: [] for who, _ in programs}
-        others = []
+        rival, others = None, []
         with tempfile.TemporaryDirectory(prefix="trime-benchmark-") as work:
             for repeat in range(arguments.repeats + 1):
                 for who, program in programs:
@@ -155,16 +130,19 @@ def main():
                                  arguments.overrides)
                     if repeat > 0:
                         runs[who].append(result)
-                if arguments.gmsh and config == SQUARE and repeat > 0:
-                    others.append(gmsh_run(runs["this"][-1]["points"], pathlib.Path(work)))
+                    elif arguments.gmsh and who == "this":
+                        rival = Rival(config, pathlib.Path(work) / "m.h5", result["points"], pathlib.Path(work))
+                if rival and repeat > 0:
+                    others.append(rival.run())
         ours = median_of(runs["this"])
         row(name, "this", ours, arguments.threads)
         if arguments.against:
             theirs = median_of(runs["other"])
             row(name, "other", theirs, arguments.threads, f"takes {theirs['seconds'] / ours['seconds']:.2f} times as long")
         if others:
-            seconds = statistics.median(one["seconds"] for one in others)
-            print(f"| {name} | Gmsh Frontal-Delaunay | {others[-1]['points']} | {seconds:.3f} " + "| " * 10 +
+            seconds, command = (statistics.median(one[key] for one in others) for key in ("seconds", "command"))
+            print(f"| {name} | Gmsh Frontal-Delaunay | {others[-1]['points']} | {seconds:.3f} | {command:.3f} "
+                  f"| {others[-1]['points'] / seconds:.3g} " + "| " * 7 +
                   f"| {others[-1]['mean']:.4f} | {others[-1]['worst']:.3f} | takes {seconds / ours['seconds']:.1f} times "
                   "as long |", flush=True)
 

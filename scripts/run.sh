@@ -31,7 +31,7 @@ trime_mpi_environment
 # Build. Ninja finds out by itself, within a second, that nothing is to do.
 build="$root/build/release"
 program="$build/trime_mpi"
-[ -x "$program" ] || echo "Building into $build; the first time takes a minute or two."
+[ -x "$program" ] || echo "Building into $build; the first time takes some minutes (5 on two cores)."
 [ -f "$build/build.ninja" ] || (cd "$root" && trime_quietly configure cmake --preset release)
 trime_quietly build cmake --build "$build" --target trime_mpi
 

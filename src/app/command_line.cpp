@@ -27,10 +27,13 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
   app.add_option("--threads", flags.threads, "threads per rank: parallel.setup_threads and mesh_threads");
   app.add_option("--log-level", flags.level, "debug, info, warning, error, silent: log.level");
   app.add_flag("--quiet", flags.quiet, "print only warnings and errors");
-  app.add_option("--restart", flags.restart, "not supported yet");
-  app.add_option("--time-limit", flags.time_limit, "not supported yet");
-  app.footer("Exit codes: 0 done, 1 internal error, 2 usage or config, 3 geometry, 4 file, 5 mesh written but marked\n"
-             "(sweep cap, or a check failed), 6 out of memory.");
+  for (auto* option : {app.add_option("--restart", flags.restart), app.add_option("--time-limit", flags.time_limit)})
+    option->group(""); // known, to be refused with a word, but not in the help
+  app.footer(
+      "Exit codes: 0 done, 1 internal error, 2 usage or config (too few points for the shape, too), 3 geometry,\n"
+      "4 file, 5 mesh written but marked (sweep cap, or a check failed), 6 out of memory. A run ended by signal n\n"
+      "leaves with 128 + n (130: Ctrl-C, 143: SIGTERM) and says whether the final mesh is there; mpirun makes 1 of "
+      "it.");
 }
 
 Action action_of(const Flags& flags) {

@@ -64,8 +64,9 @@ void report_placement(const Placement& placement, const comm::Communicator& comm
   const int used = std::max(placement.threads, placement.setup_threads);
   const std::int64_t crowded = comm.sum(std::int64_t{used > placement.cores}),
                      shared = comm.sum(std::int64_t{used * placement.sharing > placement.cores}),
-                     most_used = comm.max(std::int64_t{used});
-  const std::int64_t node_cores = comm.min(std::int64_t{sysconf(_SC_NPROCESSORS_ONLN)}); // of the smallest node
+                     most_used = comm.max(std::int64_t{used}),
+                     fitting = comm.min(std::int64_t{placement.cores / placement.sharing}); // threads on every rank
+  const std::int64_t node_cores = comm.min(std::int64_t{sysconf(_SC_NPROCESSORS_ONLN)});    // of the smallest node
   if (crowded > 0 && node_cores > 0 && most_used > node_cores)
     log.warning("{} of {} ranks have more threads than cores they may use (rank 0: {} threads, {} cores); the node has "
                 "{} core{}: set --threads {} instead",
@@ -75,9 +76,9 @@ void report_placement(const Placement& placement, const comm::Communicator& comm
                 "mpirun --map-by slot:PE={} or --bind-to none, or set --threads",
                 crowded, placement.ranks, used, placement.cores, most_used);
   else if (shared > 0)
-    log.warning("{} of {} ranks share their cores with others and have more threads than cores together; set --threads "
-                "or start fewer ranks",
-                shared, placement.ranks);
+    log.warning("{} of {} ranks share their cores with others and have more threads than cores together; {}", shared,
+                placement.ranks,
+                fitting > 0 ? fmt::format("set --threads {} or start fewer ranks", fitting) : "start fewer ranks");
 }
 
 std::int64_t peak_memory() {

@@ -77,6 +77,11 @@ void TemporaryFile::rename_to(const std::string& final_path) {
   active = false;
 }
 
+FileSet::~FileSet() {
+  for (const std::string& path : paths_)
+    unlink(path.c_str());
+}
+
 void synchronise_directory(const std::string& path) {
   synchronise(directory_of(path), O_RDONLY | O_DIRECTORY);
 }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace trime::io {
 
@@ -26,6 +27,22 @@ public:
 private:
   std::string path_;
   bool published_ = false;
+};
+
+/// Files that are good only together: unless all are there in the end, those that are go again.
+class FileSet {
+public:
+  FileSet() = default;
+  ~FileSet();
+  FileSet(const FileSet&) = delete;
+  FileSet& operator=(const FileSet&) = delete;
+
+  /// To be called before the file gets its final name.
+  void add(const std::string& path) { paths_.push_back(path); }
+  void complete() { paths_.clear(); }
+
+private:
+  std::vector<std::string> paths_;
 };
 
 /// `final_path` + ".tmp-" + the job's id under SLURM, else the process id.

@@ -49,11 +49,12 @@ public:
   TextMesh(const TextPlace& place, const mesh::DistributedMesh& mesh, const comm::Communicator& comm)
       : place_(place), mesh_(mesh), comm_(comm), remote_(mesh, foreign_points(), comm) {}
 
-  void write() const {
+  void write() {
     write_points();
     write_triangles();
     write_edges();
     write_loops();
+    files_.complete();
   }
 
 private:
@@ -97,12 +98,18 @@ private:
   }
 
   template <class Append>
-  void write_rows(const std::string& file, std::size_t count, const Append& append_row) const {
+  void write_rows(const std::string& file, std::size_t count, const Append& append_row) {
     const TextRows rows = rows_of(count, append_row);
-    write_text_rows(file, {&rows, 1}, comm_);
+    write_file(file, {&rows, 1});
   }
 
-  void write_points() const {
+  void write_file(const std::string& file, std::span<const TextRows> arrays) {
+    if (comm_.is_root())
+      files_.add(file);
+    write_text_rows(file, arrays, comm_);
+  }
+
+  void write_points() {
     const auto& points = mesh_.points;
     const auto& fixed = mesh_.fixed;
     write_rows(path("xy_id"), points.size(), [&](std::int64_t row, std::string& text) {
@@ -123,7 +130,7 @@ private:
     });
   }
 
-  void write_triangles() const {
+  void write_triangles() {
     const std::size_t count = mesh_.triangles.size();
     write_rows(path("tria_vertex_ids"), count, [&](std::int64_t row, std::string& text) {
       const auto [a, b, c] = mesh_.triangle_ids(static_cast<std::size_t>(row));
@@ -150,7 +157,7 @@ private:
   /// Each edge once, from its lower to its higher vertex. An inner edge is directed so in exactly one of its triangles;
   /// a boundary edge that is not comes at the end.
   template <class Append>
-  void write_edge_file(const std::string& file, const Append& append_edge) const {
+  void write_edge_file(const std::string& file, const Append& append_edge) {
     const TextRows both[2] = {rows_of(mesh_.triangles.size(),
                                       [&](std::int64_t row, std::string& text) {
                                         const auto ids = mesh_.triangle_ids(static_cast<std::size_t>(row));
@@ -163,10 +170,10 @@ private:
                                 if (second < first)
                                   append_edge(second, first, text);
                               })};
-    write_text_rows(file, both, comm_);
+    write_file(file, both);
   }
 
-  void write_edges() const {
+  void write_edges() {
     write_edge_file(path("tria_bar_ids"), [](GlobalId low, GlobalId high, std::string& text) {
       append_number(text, low);
       text += ' ';
@@ -202,7 +209,7 @@ private:
     return edges;
   }
 
-  void write_loops() const {
+  void write_loops() {
     const std::vector<LoopEdge> edges = gather_facets();
     comm::run_agreed(comm_, [&] {
       const std::vector<std::vector<LoopVertex>> loops = boundary_loops(edges, place_.period);
@@ -214,16 +221,22 @@ private:
           ids += '\n';
           places += '\n';
         }
-        write_text_file(path(loop_ids + std::to_string(k)), ids);
-        write_text_file(path(loop_places + std::to_string(k)), places);
+        write_loop_file(loop_ids + std::to_string(k), ids);
+        write_loop_file(loop_places + std::to_string(k), places);
       }
     });
+  }
+
+  void write_loop_file(const std::string& ending, const std::string& text) {
+    files_.add(path(ending));
+    write_text_file(path(ending), text);
   }
 
   const TextPlace& place_;
   const mesh::DistributedMesh& mesh_;
   const comm::Communicator& comm_;
   PointLookup remote_;
+  FileSet files_; ///< on rank 0
 };
 
 } // namespace

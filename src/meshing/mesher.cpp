@@ -256,8 +256,9 @@ private:
     if (builder_->cap(layout_.typical_size) < limit || comm_.sum(count_incomplete_fans(extraction())) == 0)
       return;
     const double size = limit / 1.5; // circumradii stay below 1.5 h
-    throw GeometryError(fmt::format("the periodic container needs triangles smaller than a quarter of its period, "
-                                    "found an element size of {:.3g} in a period of {:.3g}; ask for about {} points",
+    throw GeometryError(fmt::format("the periodic container needs triangles with circumradii below a quarter of its "
+                                    "period (about three edges long), found an element size of {:.3g} in a period of "
+                                    "{:.3g}; about {} points are enough",
                                     layout_.typical_size, 4 * limit,
                                     static_cast<GlobalId>(std::ceil(boundary_.area / (0.866 * size * size)))));
   }

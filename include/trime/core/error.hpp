@@ -14,7 +14,7 @@ namespace trime {
 enum class ExitCode : int {
   done = 0,
   internal_error = 1,
-  usage = 2,      ///< command line or config
+  usage = 2,      ///< command line or config; also fewer points than the boundary of the shape takes
   geometry = 3,   ///< the shape cannot be meshed
   file = 4,       ///< a file cannot be read or written
   incomplete = 5, ///< mesh written and marked: sweep cap reached or a check failed

@@ -215,6 +215,24 @@ TEST(MeshSeries, WarnsOfADiskThatIsTooSmall) {
   }
 }
 
+TEST(MeshSeries, LeavesNoTextFilesOfAMeshThatLacksOne) {
+  const comm::Communicator comm = comm::Communicator::world();
+  for (const char* late : {"mesh_final_tria_bar_ids.txt", "mesh_final_bdry_vertices_coords_CCW_1.txt"}) {
+    const test::TemporaryDirectory directory(comm);
+    MeshSeries series(options_in(directory.path()), comm);
+    series.check(1000);
+    if (comm.is_root())
+      fs::create_directories(directory.path() + "/mesh/" + late); // no file can take this name
+    comm.barrier();
+    EXPECT_THROW(series.write_final({17, test::slabs_of(test::holed_square(cells), comm, 1), {}, {}}), FileError);
+    if (comm.is_root()) {
+      EXPECT_TRUE(fs::exists(directory.path() + "/mesh.h5"));
+      for (const auto& [name, text] : texts_in(directory.path() + "/mesh"))
+        ADD_FAILURE() << name << " stays";
+    }
+  }
+}
+
 TEST(MeshSeries, ReplacesAllOfAnOlderRunAndNothingElse) {
   const comm::Communicator comm = comm::Communicator::world();
   const test::TemporaryDirectory directory(comm);

@@ -87,6 +87,11 @@ TEST(PeriodicMesher, AllShapesAreCertifiedAndTheSameOnAnyRanks) {
     expect_same_everywhere(shape, options_for(shape.frame(), 900, Method::distmesh));
 }
 
+TEST(PeriodicMesher, ThreeEdgesMakeAPeriod) {
+  for (const Method method : {Method::distmesh, Method::cvd, Method::hybrid})
+    expect_same_everywhere(testing::whole_torus(), options_for(testing::unit_torus(), 12, method));
+}
+
 TEST(PeriodicMesher, AllMethodsMeshATorusWithAHole) {
   for (const Method method : {Method::cvd, Method::hybrid})
     expect_same_everywhere(testing::torus_with_hole(), options_for(testing::unit_torus(), 700, method));

@@ -31,7 +31,14 @@ TEST(CommandLine, KnowsItsActions) {
   EXPECT_EQ(parse({"--version"}).action, Action::version);
   EXPECT_EQ(parse({"--help-config"}).action, Action::help_config);
   EXPECT_EQ(parse({"--help"}).action, Action::help);
-  EXPECT_NE(parse({"--help"}).help.find("--log-level"), std::string::npos);
+}
+
+TEST(CommandLine, HelpsWithWhatThereIsAlone) {
+  const std::string help = parse({"--help"}).help;
+  for (const char* told : {"--log-level", "Exit codes", "signal", "130", "143"})
+    EXPECT_NE(help.find(told), std::string::npos) << told;
+  for (const char* hidden : {"--restart", "--time-limit", "not supported"})
+    EXPECT_EQ(help.find(hidden), std::string::npos) << hidden;
 }
 
 TEST(CommandLine, RefusesWhatItCannotDo) {
