@@ -17,8 +17,9 @@ constexpr double least_gain = 0.02;
 /// After each of the first sweeps a trial is given up that is so much worse than what it has to be, and in the last
 /// ones if it is than the best.
 constexpr double hopeless_at_first = 2.5, hopeless_then = 1.2, hopeless_at_last = 1.1;
-constexpr double least_fall = 0.97;                   // of the sum, in a last sweep: then one more is worth it
-constexpr double excellent = 0.75;                    // of what a trial has to be: no others are tried then
+constexpr double least_fall = 0.97; // of the sum, in a last sweep: then one more is worth it; all are for very bad ones
+/// Of what a trial has to be: no others are tried then. The second for very bad triangles.
+constexpr double excellent = 0.7, excellent_if_thorough = 0.6;
 constexpr double nearest_reach = 2, near_reach = 2.8; // h: sites that move in the first sweeps, and in the last
 constexpr double score_reach = 4;                     // h: triangles of sites that count
 constexpr double bent_at_first = 1.01, bent_at_last = 1.25, bend_alpha = 1.1; // see patch_moves.cpp
@@ -297,7 +298,7 @@ void PatchOptimizer::finish(Runner& finalist, Contest& contest) {
     const double sum = sum_near(trial);
     if (!(finalist.handicap * sum < hopeless_at_last * contest.least))
       return;
-    if (sum > least_fall * before)
+    if (!is_thorough_ && sum > least_fall * before)
       break;
     before = sum;
   }
@@ -352,13 +353,14 @@ void PatchOptimizer::try_everything(const PatchBudget& budget, Contest& contest)
     return std::span(all).first(is_thorough_ ? all.size() : std::min(few, all.size()));
   };
   const std::span<Runner> runners = best_of(runners_, few_runners), finalists = best_of(finalists_, few_finalists);
+  const double no_others_below = (is_thorough_ ? excellent_if_thorough : excellent) * contest.first;
   for (const Operation& operation : operations_) {
     trial_ = now_;
     const double handicap = operation.inserts() ? 1 : budget.deletion_handicap;
     if (apply(operation) && is_within(budget.may_insert, budget) &&
         (is_thorough_ || strain_added(operation) <= most_strain))
       run(trial_, handicap, hopeless_at_first, contest, runners);
-    if (runners.front().sum < excellent * contest.first)
+    if (runners.front().sum < no_others_below)
       break;
   }
   for (Runner& runner : runners)
