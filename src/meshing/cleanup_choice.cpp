@@ -77,7 +77,8 @@ public:
   }
 
 private:
-  bool are_rivals(const Contender& a, const Contender& b) const {
+  template <class Place> // with a separation
+  bool are_rivals(const Place& a, const Place& b) const {
     const double separation = std::max(a.separation, b.separation);
     return geometry::squared_length(periods_.nearest_image(b.place, a.place) - a.place) < separation * separation;
   }
@@ -110,42 +111,45 @@ private:
   /// Pairs are found by the one with the larger separation, along x.
   void list_rivals() {
     struct Item {
-      double x, y, separation;
+      Vec2 place;
+      double separation;
       std::uint32_t index;
     };
     std::vector<Item> items(all_.size()); // by x, in one piece
     for (std::size_t k = 0; k < items.size(); ++k) {
       const Contender& own = all_[k].contender;
-      items[k] = {own.place.x, own.place.y, own.separation, static_cast<std::uint32_t>(k)};
+      items[k] = {own.place, own.separation, static_cast<std::uint32_t>(k)};
     }
-    std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.x < b.x; });
-    using Pair = std::array<std::uint32_t, 2>; // of indices
+    std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.place.x < b.place.x; });
+    using Pair = std::array<std::uint32_t, 2>; // of indices, each once
     const std::vector<Pair> pairs =
         gather_in_order<Pair>(std::ssize(items), in_a_row, [&](std::ptrdiff_t k, auto& list) {
           const Item& own = items[static_cast<std::size_t>(k)];
           const double reach_x = periods_.x > 0 ? INFINITY : own.separation;
           const double reach_y = periods_.y > 0 ? INFINITY : own.separation;
-          auto other = std::lower_bound(items.begin(), items.end(), own.x - reach_x,
-                                        [](const Item& a, double x) { return a.x < x; });
-          for (; other != items.end() && other->x <= own.x + reach_x; ++other) {
-            if (!(std::abs(other->y - own.y) <= reach_y))
+          auto other = std::lower_bound(items.begin(), items.end(), own.place.x - reach_x,
+                                        [](const Item& a, double x) { return a.place.x < x; });
+          for (; other != items.end() && other->place.x <= own.place.x + reach_x; ++other) {
+            if (!(std::abs(other->place.y - own.place.y) <= reach_y))
               continue;
             const bool is_its_turn =
                 own.separation > other->separation || (own.separation == other->separation && own.index < other->index);
-            if (is_its_turn && are_rivals(all_[own.index].contender, all_[other->index].contender)) {
+            if (is_its_turn && are_rivals(own, *other))
               list.push_back({own.index, other->index});
-              list.push_back({other->index, own.index});
-            }
           }
         });
     first_rival_.assign(all_.size() + 1, 0);
-    for (const auto& [own, rival] : pairs)
+    for (const auto& [own, rival] : pairs) {
       ++first_rival_[own + 1];
+      ++first_rival_[rival + 1];
+    }
     std::partial_sum(first_rival_.begin(), first_rival_.end(), first_rival_.begin());
-    rivals_.resize(pairs.size());
+    rivals_.resize(2 * pairs.size());
     std::vector<std::uint32_t> next(first_rival_.begin(), first_rival_.end() - 1);
-    for (const auto& [own, rival] : pairs)
+    for (const auto& [own, rival] : pairs) {
       rivals_[next[own]++] = rival;
+      rivals_[next[rival]++] = own;
+    }
   }
   std::span<const std::uint32_t> rivals_of(std::size_t k) const {
     return std::span(rivals_).subspan(first_rival_[k], first_rival_[k + 1] - first_rival_[k]);
