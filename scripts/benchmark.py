@@ -105,6 +105,8 @@ def main():
     parser.add_argument("--threads", type=int, default=os.cpu_count())
     parser.add_argument("overrides", nargs="*", help="section.key=value")
     arguments = parser.parse_args()
+    if arguments.gmsh and any(override.startswith(("shape", "sizing", "domain")) for override in arguments.overrides):
+        parser.error("--gmsh meshes the cases as they are: no overrides of shape, sizing and domain")
     names = list(CASES) if arguments.cases == "all" else [name.strip() for name in arguments.cases.split(",")]
     for name in names:
         if name not in CASES:

@@ -103,9 +103,18 @@ private:
     write_file(file, {&rows, 1});
   }
 
+  /// Of a file without a label, which the meshes of a run have in common: it stays whatever becomes of the others.
+  template <class Append>
+  void write_shared_rows(const std::string& name, std::size_t count, const Append& append_row) const {
+    const TextRows rows = rows_of(count, append_row);
+    write_text_rows(place_.folder + "/" + name + ".txt", {&rows, 1}, comm_);
+  }
+
   void write_file(const std::string& file, std::span<const TextRows> arrays) {
-    if (comm_.is_root())
-      files_.add(file);
+    comm::run_agreed(comm_, [&] {
+      if (comm_.is_root())
+        files_.add(file);
+    });
     write_text_rows(file, arrays, comm_);
   }
 
@@ -116,13 +125,13 @@ private:
       append(text, points[static_cast<std::size_t>(row)]);
       text += '\n';
     });
-    write_rows(place_.folder + "/fixed_pt_id.txt", points.size(), [&](std::int64_t row, std::string& text) {
+    write_shared_rows("fixed_pt_id", points.size(), [&](std::int64_t row, std::string& text) {
       if (fixed[static_cast<std::size_t>(row)] != 0) {
         append(text, mesh_.point_slab.first + row);
         text += '\n';
       }
     });
-    write_rows(place_.folder + "/fixed_pt_coords.txt", points.size(), [&](std::int64_t row, std::string& text) {
+    write_shared_rows("fixed_pt_coords", points.size(), [&](std::int64_t row, std::string& text) {
       if (fixed[static_cast<std::size_t>(row)] != 0) {
         append(text, points[static_cast<std::size_t>(row)]);
         text += '\n';

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "boundary_layout.hpp"
 
-#include "chunked.hpp"
+#include "core/gather.hpp"
 #include "site_path.hpp"
 
 #include "trime/core/angle.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "boundary_refiner.hpp"
 
-#include "chunked.hpp"
+#include "core/gather.hpp"
 
 #include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"

@@ -3,7 +3,7 @@
 
 #include "boundary_refiner.hpp"
 #include "chord_curve.hpp"
-#include "chunked.hpp"
+#include "core/gather.hpp"
 
 #include "trime/core/angle.hpp"
 

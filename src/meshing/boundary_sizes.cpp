@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/boundary_sizes.hpp"
 
-#include "meshing/chunked.hpp"
+#include "core/gather.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>

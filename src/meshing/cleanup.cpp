@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/cleanup.hpp"
 
-#include "meshing/chunked.hpp"
+#include "core/gather.hpp"
 #include "meshing/extraction.hpp"
 #include "meshing/selection.hpp"
 #include "trime/comm/agree.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/cleanup_choice.hpp"
 
-#include "meshing/chunked.hpp"
+#include "core/gather.hpp"
 #include "trime/core/thread_loop.hpp"
 
 #include <algorithm>

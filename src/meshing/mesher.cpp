@@ -256,11 +256,11 @@ private:
     if (builder_->cap(layout_.typical_size) < limit || comm_.sum(count_incomplete_fans(extraction())) == 0)
       return;
     const double size = limit / 1.5; // circumradii stay below 1.5 h
-    throw GeometryError(fmt::format("the periodic container needs triangles with circumradii below a quarter of its "
-                                    "period (about three edges long), found an element size of {:.3g} in a period of "
-                                    "{:.3g}; about {} points are enough",
-                                    layout_.typical_size, 4 * limit,
-                                    static_cast<GlobalId>(std::ceil(boundary_.area / (0.866 * size * size)))));
+    throw GeometryError(fmt::format(
+        "the periodic container needs triangles with circumradii below a quarter of its period, which takes a period "
+        "of "
+        "about three edges; found an element size of {:.3g} in a period of {:.3g}; about {} points are enough",
+        layout_.typical_size, 4 * limit, static_cast<GlobalId>(std::ceil(boundary_.area / (0.866 * size * size)))));
   }
 
   /// Stars of all sites. Where a fan is not complete the cap may have been too low (a void): it is doubled for these

@@ -69,10 +69,10 @@ struct PatchOptions {
   double first_alpha = 1.35;    ///< operations come before moves for triangles above it
   double again_alpha = 1.15;    ///< above it patches are tried again; above less if the whole mesh is better
   int moving_sweeps = 8;        ///< over the sites of bad triangles and their neighbours
-  int trial_sweeps = 3;         ///< over the free sites around, of the best operations
-  std::size_t runners = 6;      ///< operations that go beyond the first sweep, near the middle
-  std::size_t finalists = 4;    ///< operations that go beyond the second
-  double tolerance = 0;         ///< of PatchSite, in sizes as they are asked for
+  int trial_sweeps = 3;      ///< at most, over the free sites around, of the best operations; twice as many if thorough
+  std::size_t runners = 6;   ///< operations that go beyond the first sweep, near the middle
+  std::size_t finalists = 4; ///< operations that go beyond the second
+  double tolerance = 0;      ///< of PatchSite, in sizes as they are asked for
 };
 
 /// What a patch may do with the number of sites.

@@ -338,8 +338,10 @@ bool PatchMesh::move(LocalIndex v, Vec2 to) {
 bool PatchMesh::remove(LocalIndex v) {
   LocalIndex left = degree(v);
   for (LocalIndex tries = left * left; left > 3; --tries) {
-    if (tries == 0)
+    if (tries == 0) {
+      work_.suspects.clear();
       return false;
+    }
     bool flipped = false;
     const LocalIndex first = corner_of(v);
     LocalIndex t = first;
@@ -358,8 +360,10 @@ bool PatchMesh::remove(LocalIndex v) {
       } else
         t = u;
     }
-    if (!flipped)
+    if (!flipped) {
+      work_.suspects.clear();
       return false;
+    }
     --left;
   }
   const LocalIndex t = corner_of(v);

@@ -2,11 +2,13 @@
 // The contest of the operations at a bad triangle: which are tried how far, and which one is kept.
 #include "meshing/patch.hpp"
 
+#include "trime/core/error.hpp"
 #include "trime/mesh/quality.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace trime::meshing {
 namespace {
@@ -17,8 +19,8 @@ constexpr double least_gain = 0.02;
 /// After each of the first sweeps a trial is given up that is so much worse than what it has to be, and in the last
 /// ones if it is than the best.
 constexpr double hopeless_at_first = 2.5, hopeless_then = 1.2, hopeless_at_last = 1.1;
-constexpr double least_fall = 0.97; // of the sum, in a last sweep: then one more is worth it; all are for very bad ones
-/// Of what a trial has to be: no others are tried then. The second for very bad triangles.
+constexpr double least_fall = 0.97; // of the sum, in a last sweep: then one more is worth it; all where is_thorough_
+/// Of what a trial has to be: no others are tried then. The second where is_thorough_.
 constexpr double excellent = 0.7, excellent_if_thorough = 0.6;
 constexpr double nearest_reach = 2, near_reach = 2.8; // h: sites that move in the first sweeps, and in the last
 constexpr double score_reach = 4;                     // h: triangles of sites that count
@@ -290,19 +292,20 @@ void PatchOptimizer::enter(std::span<Runner> list, Patch& patch, double sum, dou
 /// The other sweeps; keeps the trial if it is better than what there was.
 void PatchOptimizer::finish(Runner& finalist, Contest& contest) {
   Patch& trial = finalist.patch;
-  double before = INFINITY;
+  double last = INFINITY; // sum
   for (int sweep = 0; sweep < (is_thorough_ ? 2 : 1) * options_.trial_sweeps; ++sweep) {
     relax_near(trial, near_);
     if (trial.broken)
       return;
-    const double sum = sum_near(trial);
-    if (!(finalist.handicap * sum < hopeless_at_last * contest.least))
+    const double before = std::exchange(last, sum_near(trial));
+    if (!(finalist.handicap * last < hopeless_at_last * contest.least))
       return;
-    if (!is_thorough_ && sum > least_fall * before)
+    if (!is_thorough_ && last > least_fall * before)
       break;
-    before = sum;
   }
   const Score after = score_near(trial);
+  TRIME_ASSERT(!(std::fabs(after.sum - last) > 1e-6 * after.sum), "the triangles of a trial sum up to {} and {}", last,
+               after.sum);
   const double sum = std::fmax(finalist.handicap, 1) * after.sum; // a preference makes nothing better that is not
   if (!(finalist.handicap * after.sum < contest.least) || !(sum < contest.first) || after.max > contest.before ||
       !chords_hold(trial))

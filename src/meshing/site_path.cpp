@@ -170,7 +170,7 @@ private:
       return false;
     const double of_lengths = ratio_cost(in, out);
     if (!(in.least + out.cost + of_lengths < out.least))
-      return true;
+      return true; // what else a joint costs is never negative
     const double cost = in.least + out.cost + joint_cost(in, out, of_lengths);
     if (cost < out.least) {
       out.least = cost;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "size_limits.hpp"
 
-#include "chunked.hpp"
+#include "core/gather.hpp"
 #include "site_tree.hpp"
 
 #include <algorithm>

@@ -32,7 +32,7 @@ public:
   template <class ItemOf>
   BoxTree(std::size_t items, const ItemOf& item_of);
 
-  /// Valid as long as the tree, wherever that is moved.
+  /// The pointers in it stay valid when the tree is moved.
   const BoxLevels& levels() const { return pointers_; }
 
   /// visit(k) for all items, in their order, but for those in boxes with skip(box, number).

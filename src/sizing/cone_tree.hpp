@@ -24,7 +24,7 @@ struct Cone {
 class ConeTree {
 public:
   ConeTree() = default;
-  /// O(n log n), about 60 bytes per cone.
+  /// O(n), about 60 bytes per cone.
   ConeTree(const std::vector<Cone>& cones, double slope);
 
   /// @brief The least of `bound` and the values of all cones at p. A good bound makes it faster. O(log n) for points

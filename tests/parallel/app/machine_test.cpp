@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
 
 namespace trime::app {
 namespace {

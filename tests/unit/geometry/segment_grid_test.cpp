@@ -63,6 +63,14 @@ void expect_agreement(const std::vector<Segment>& segments, const std::vector<Ve
     const auto expected = nearest_by_scan(segments, p), found = grid.nearest(p);
     ASSERT_EQ(found.segment, expected.segment) << p.x << " " << p.y;
     ASSERT_EQ(found.squared_distance, expected.squared_distance);
+    for (const double reach : {0.0, 1e-9, 1e-3}) {
+      std::set<LocalIndex> seen;
+      grid.for_each_near(Box{{p.x - reach, p.y - reach}, {p.x + reach, p.y + reach}},
+                         [&](LocalIndex index) { return seen.insert(index), true; });
+      for (std::size_t s = 0; s < segments.size(); ++s)
+        ASSERT_TRUE(squared_distance(p, segments[s]) > reach * reach || seen.count(static_cast<LocalIndex>(s)))
+            << p.x << " " << p.y << " within " << reach;
+    }
   }
 }
 
