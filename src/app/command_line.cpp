@@ -29,13 +29,10 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
   app.add_flag("--quiet", flags.quiet, "print only warnings and errors");
   for (auto* option : {app.add_option("--restart", flags.restart), app.add_option("--time-limit", flags.time_limit)})
     option->group(""); // known, to be refused with a word, but not in the help
-  app.footer(
-      "Exit codes: 0 done, 1 internal error, 2 usage or config (also fewer points than the boundary of the shape "
-      "takes),\n"
-      "3 geometry, 4 file, 5 mesh written but marked (sweep cap, or a check failed), 6 out of memory. A run ended by\n"
-      "signal n leaves with 128 + n (130: Ctrl-C, 143: SIGTERM) and says whether the final mesh is there; mpirun "
-      "makes\n"
-      "1 of it.");
+  app.footer("Exit codes: 0 done, 1 internal error, 2 usage or config (also fewer points than the boundary takes),\n"
+             "3 geometry, 4 file, 5 mesh written but marked (sweep cap, or a check failed), 6 out of memory.\n"
+             "A run ended by signal n leaves with 128 + n (130: Ctrl-C, 143: SIGTERM; mpirun makes 1 of it) and\n"
+             "says whether the final mesh is there.");
 }
 
 Action action_of(const Flags& flags) {
