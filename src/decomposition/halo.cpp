@@ -203,6 +203,28 @@ bool Halo::begins_tile(const Peer& peer, std::size_t k) {
   return k == 0 || peer.bins[k].tile != peer.bins[k - 1].tile;
 }
 
+void Halo::refresh_drifts(mesh::BinnedPoints& points) const {
+  std::vector<Message> outgoing, incoming;
+  for (const Peer& peer : exports_) {
+    outgoing.push_back({peer.rank, {}});
+    for (std::size_t k = 0; k < peer.bins.size(); ++k)
+      if (begins_tile(peer, k))
+        append(outgoing.back().data, points.drift(peer.bins[k].tile));
+  }
+  std::vector<LocalIndex> tiles;
+  for (const Peer& peer : imports_) {
+    const std::size_t before = tiles.size();
+    for (std::size_t k = 0; k < peer.bins.size(); ++k)
+      if (begins_tile(peer, k))
+        tiles.push_back(peer.bins[k].tile);
+    incoming.push_back({peer.rank, std::vector<std::byte>((tiles.size() - before) * sizeof(double))});
+  }
+  comm_->exchange_known(outgoing, incoming);
+  const std::vector<double> drifts = concatenate<double>(incoming);
+  for (std::size_t k = 0; k < tiles.size(); ++k)
+    points.set_drift(tiles[k], drifts[k]);
+}
+
 /// For each tile of a peer its drift, then the positions of its sites.
 void Halo::begin_positions(const mesh::BinnedPoints& points) {
   TRIME_ASSERT(!grid_->periods().any() && !exchange_.is_open());

@@ -105,8 +105,10 @@ double BinnedPoints::margin(Vec2 center, double reach) const {
   const int column = grid_->tile_of(grid_->fixed_x(center.x)), row = grid_->tile_of(grid_->fixed_y(center.y));
   double most = 0;
   for (int y = std::max(0, row - 1); y <= std::min(grid_->tiles_y() - 1, row + 1); ++y)
-    for (int x = std::max(0, column - 1); x <= std::min(grid_->tiles_x() - 1, column + 1); ++x)
-      most = std::max(most, drift(grid_->tile_at(x, y)));
+    for (int x = std::max(0, column - 1); x <= std::min(grid_->tiles_x() - 1, column + 1); ++x) {
+      const LocalIndex tile = grid_->tile_at(x, y);
+      most = std::max(most, tile_block_[block_slot(tile, 0)] >= 0 ? drift(tile) : largest_drift_);
+    }
   return most;
 }
 

@@ -18,10 +18,6 @@ namespace {
 
 using geometry::Vec2;
 
-/// Where sites crowd, patches are narrower; where even so there are too many, nothing is tried.
-constexpr std::size_t most_collected = 20000;
-constexpr int narrowings = 5;
-constexpr double narrowing_factor = 0.75;
 constexpr double reserved = 0.006;    // of the sites
 constexpr GlobalId most_refined = 40; // sites, by one patch
 constexpr int stages = 3;
@@ -145,31 +141,28 @@ std::vector<PatchResult> Cleanup::try_patches(std::span<const Contender> chosen)
   std::vector<Disc> discs;
   for (const Contender& contender : chosen)
     discs.push_back({contender.place, share * contender.separation});
-  std::vector<std::vector<PatchSite>> sites = places_->around(discs, most_collected);
+  std::vector<Surroundings> around = places_->around(discs, options_.most_sites);
   std::vector<PatchResult> results(chosen.size());
   const PatchBudget its_budget = budget(chosen.size());
   comm::run_agreed(comm_, [&] {
     thread_loop(static_cast<std::ptrdiff_t>(chosen.size()), 1, [&](std::ptrdiff_t item, int thread) {
       const auto k = static_cast<std::size_t>(item);
-      std::sort(sites[k].begin(), sites[k].end(), [](const PatchSite& a, const PatchSite& b) {
+      std::vector<PatchSite>& sites = around[k].sites;
+      if (!around[k].found()) // where sites crowd so much, nothing is tried
+        return;
+      std::sort(sites.begin(), sites.end(), [](const PatchSite& a, const PatchSite& b) {
         return geometry::lexicographically_less(a.position, b.position);
       });
-      for (PatchSite& site : sites[k])
+      for (PatchSite& site : sites) {
         if (site.boundary >= 0) {
           site.loop = chain_.loop(site.boundary);
           site.tolerance = tolerances_[at(site.boundary)];
         }
-      if (stage_ > 1)
-        for (PatchSite& site : sites[k])
+        if (stage_ > 1)
           site.rests = 0;
-      double size = discs[k].radius / options_.reach;
-      for (int narrowing = 0; narrowing < narrowings && sites[k].size() > options_.most_sites; ++narrowing) {
-        size *= narrowing_factor;
-        std::erase_if(sites[k], [&](const PatchSite& site) {
-          return geometry::length(site.position - chosen[k].place) >= options_.reach * size;
-        });
       }
-      results[k] = optimizers_[thread].improve(chosen[k].place, size, sites[k], its_budget);
+      const double size = Surroundings::radius(discs[k].radius, around[k].narrowings) / options_.reach;
+      results[k] = optimizers_[thread].improve(chosen[k].place, size, sites, its_budget);
     });
   });
   return results;

@@ -16,15 +16,25 @@ std::size_t at(LocalIndex i) {
   return static_cast<std::size_t>(i);
 }
 
-/// A question to another rank, and a part of the answer: which disc, by its index at the rank that asks.
+/// A question to another rank: what lies in a disc, which this rank has narrowed already.
 struct Question {
-  Disc disc;
-  std::int32_t rank, index;
+  Disc widest;
+  std::int32_t rank, index; // of the disc at the rank that asks
+  std::int64_t narrowings;
 };
+/// An answer begins with how often the disc had to be narrowed; its sites follow in another list.
 struct Answer {
-  PatchSite site;
-  std::int64_t index;
+  std::int32_t rank, index;
+  std::int32_t narrowings, sites;
 };
+
+bool lies_in(const Disc& disc, Vec2 p) {
+  return geometry::squared_length(p - disc.center) < disc.radius * disc.radius;
+}
+
+Disc narrowed(const Disc& widest, int narrowings) {
+  return {widest.center, Surroundings::radius(widest.radius, narrowings)};
+}
 
 } // namespace
 
@@ -54,13 +64,14 @@ std::vector<int> CleanupSites::ranks_near(const Disc& disc) const {
   return ranks;
 }
 
-/// Of this rank.
-void CleanupSites::collect(const Disc& disc, std::size_t most, std::vector<PatchSite>& sites) const {
+/// Of this rank: all in the disc, or some of them but more than `most`.
+void CleanupSites::list_sites(const Disc& disc, std::size_t most, std::vector<PatchSite>& sites) const {
   const mesh::BinnedPoints& points = state_.points();
   const geometry::Periods& periods = state_.grid().periods();
+  sites.clear();
   const auto add = [&](Vec2 canonical, double size, std::int32_t boundary, bool rests) {
     const Vec2 p = periods.nearest_image(canonical, disc.center);
-    if (geometry::squared_length(p - disc.center) < disc.radius * disc.radius)
+    if (lies_in(disc, p))
       sites.push_back({p, size, boundary, rests});
   };
   const auto add_range = [&](LocalIndex begin, LocalIndex end) {
@@ -87,27 +98,62 @@ void CleanupSites::collect(const Disc& disc, std::size_t most, std::vector<Patch
   }
 }
 
-std::vector<std::vector<PatchSite>> CleanupSites::around(std::span<const Disc> discs, std::size_t most) const {
-  std::vector<std::vector<PatchSite>> sites(discs.size());
-  std::map<int, std::vector<Question>> questions;
-  thread_loop(static_cast<std::ptrdiff_t>(discs.size()), 16, [&](std::ptrdiff_t k, int) {
-    collect(discs[static_cast<std::size_t>(k)], most, sites[static_cast<std::size_t>(k)]);
+/// Lists the sites of this rank, after as few narrowings as do, but no fewer than there are already.
+void CleanupSites::narrow_down(const Disc& widest, std::size_t most, Surroundings& own) const {
+  for (; own.found(); ++own.narrowings) {
+    list_sites(narrowed(widest, own.narrowings), most, own.sites);
+    if (own.sites.size() <= most)
+      return;
+  }
+  own.sites.clear();
+}
+
+/// Adds what another rank knows. Both lists are whole in their discs, so the sum is in the narrower one.
+void CleanupSites::merge(Surroundings& all, const Disc& widest, std::size_t most, std::span<const PatchSite> more,
+                         int narrowings) {
+  all.sites.insert(all.sites.end(), more.begin(), more.end());
+  all.narrowings = std::max(all.narrowings, narrowings);
+  for (; all.found(); ++all.narrowings) {
+    const Disc disc = narrowed(widest, all.narrowings);
+    std::erase_if(all.sites, [&](const PatchSite& site) { return !lies_in(disc, site.position); });
+    if (all.sites.size() <= most)
+      return;
+  }
+  all.sites.clear();
+}
+
+std::vector<Surroundings> CleanupSites::around(std::span<const Disc> discs, std::size_t most) const {
+  std::vector<Surroundings> all(discs.size());
+  thread_loop(static_cast<std::ptrdiff_t>(discs.size()), 16, [&](std::ptrdiff_t item, int) {
+    const auto k = static_cast<std::size_t>(item);
+    narrow_down(discs[k], most, all[k]);
   });
-  for (std::size_t k = 0; k < discs.size() && comm_.size() > 1; ++k) {
+  if (comm_.size() == 1)
+    return all;
+  std::map<int, std::vector<Question>> questions;
+  for (std::size_t k = 0; k < discs.size(); ++k)
     for (const int rank : ranks_near(discs[k]))
-      questions[rank].push_back({discs[k], comm_.rank(), static_cast<std::int32_t>(k)});
-  }
+      questions[rank].push_back({discs[k], comm_.rank(), static_cast<std::int32_t>(k), all[k].narrowings});
   std::map<int, std::vector<Answer>> answers;
-  std::vector<PatchSite> found;
+  std::map<int, std::vector<PatchSite>> sites;
+  Surroundings own;
   for (const Question& question : send(comm_, questions)) {
-    found.clear();
-    collect(question.disc, most, found);
-    for (const PatchSite& site : found)
-      answers[question.rank].push_back({site, question.index});
+    own.narrowings = static_cast<int>(question.narrowings);
+    narrow_down(question.widest, most, own);
+    answers[question.rank].push_back(
+        {comm_.rank(), question.index, own.narrowings, static_cast<std::int32_t>(own.sites.size())});
+    std::vector<PatchSite>& list = sites[question.rank];
+    list.insert(list.end(), own.sites.begin(), own.sites.end());
   }
-  for (const Answer& answer : send(comm_, answers))
-    sites[static_cast<std::size_t>(answer.index)].push_back(answer.site);
-  return sites;
+  const std::vector<Answer> heads = send(comm_, answers);
+  const std::vector<PatchSite> bodies = send(comm_, sites); // from the same ranks, in the same order
+  std::size_t next = 0;
+  for (const Answer& answer : heads) {
+    const auto k = static_cast<std::size_t>(answer.index), count = static_cast<std::size_t>(answer.sites);
+    merge(all[k], discs[k], most, std::span(bodies).subspan(next, count), answer.narrowings);
+    next += count;
+  }
+  return all;
 }
 
 /// The owned site of the state that is still there, or -1.

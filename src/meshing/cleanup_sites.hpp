@@ -31,6 +31,22 @@ std::vector<T> send(const comm::Communicator& comm, const std::map<int, std::vec
   return all;
 }
 
+/// What is read of the sites in a disc: all of them, or all in a narrower disc around the same place.
+struct Surroundings {
+  static constexpr double narrowing_factor = 0.75; ///< on the radius
+  static constexpr int most_narrowings = 5;        ///< to 0.24 of the radius
+  /// Of the disc that is read, after so many narrowings. The same bits on all ranks.
+  static double radius(double widest, int narrowings) {
+    for (int k = 0; k < narrowings; ++k)
+      widest *= narrowing_factor;
+    return widest;
+  }
+
+  int narrowings = 0; ///< above most_narrowings: even the narrowest disc holds too many, and none of them are listed
+  std::vector<PatchSite> sites; ///< at the images that lie there, in no particular order
+  bool found() const { return narrowings <= most_narrowings; }
+};
+
 /// @brief Owned sites of a state that stays as it is: which are still in place, and those that have come since. Edits
 /// cost what they touch; the state learns of them at the end. Sites belong to the owner of the tile they lie in.
 class CleanupSites {
@@ -42,9 +58,9 @@ public:
   std::vector<int> ranks_near(const Disc& disc) const;
   int owner(geometry::Vec2 p) const { return state_.partition().owner(state_.grid().place(p).tile); }
 
-  /// @brief The sites in each disc, at the images that lie there, in no particular order; of more than `most` in a disc
-  /// only some, but more than `most`. Collective.
-  std::vector<std::vector<PatchSite>> around(std::span<const Disc> discs, std::size_t most) const;
+  /// @brief All sites in each disc or, where these are more than `most`, in the largest of its narrowings that holds no
+  /// more: the same on any number of ranks. Each rank looks at O(most) sites a disc. Collective.
+  std::vector<Surroundings> around(std::span<const Disc> discs, std::size_t most) const;
 
   /// Carries out edits in canonical places, with the boundary's indices as they are now: what concerns the owned
   /// sites. Collective, throws on all ranks together if the size field does.
@@ -67,7 +83,10 @@ private:
   enum class Fate : std::uint8_t { gone, in_place, rests };
   template <class Visit>
   void for_each_tile(const Disc& disc, const Visit& visit) const;
-  void collect(const Disc& disc, std::size_t most, std::vector<PatchSite>& sites) const;
+  void list_sites(const Disc& disc, std::size_t most, std::vector<PatchSite>& sites) const;
+  void narrow_down(const Disc& widest, std::size_t most, Surroundings& own) const;
+  static void merge(Surroundings& all, const Disc& widest, std::size_t most, std::span<const PatchSite> more,
+                    int narrowings);
   LocalIndex find_in_state(geometry::Vec2 p) const;
   Added& find_added(geometry::Vec2 p);
   LocalIndex take_out(geometry::Vec2 p);

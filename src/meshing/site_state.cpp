@@ -257,10 +257,8 @@ void SiteState::fetch(std::span<const mesh::BinRef> missing, const sizing::SizeF
     values.insert(values.end(), ghosts.begin(), ghosts.end());
   }
   stars_.renumber_ghosts(points_.owned(), halo_.ghost_renumbering());
-  if (points_.largest_drift() > 0) // of tiles that were not known before
-    for (LocalIndex tile = 0; tile < grid_.tile_count(); ++tile)
-      if (partition_.owner(tile) != comm_.rank())
-        points_.set_drift(tile, points_.largest_drift());
+  if (points_.largest_drift() > 0)
+    halo_.refresh_drifts(points_);
 }
 
 void SiteState::reveal(std::span<const Disc> discs, const sizing::SizeField& size) {

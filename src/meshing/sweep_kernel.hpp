@@ -86,7 +86,8 @@ struct SiteTally {
   }
 };
 
-/// Sites that the pass leaves to others; room for all of them is the caller's.
+/// Sites that the pass leaves to others, each list ascending whatever the number of lanes; room for all of them is the
+/// caller's.
 struct SweepLeftovers {
   LocalIndex* suspects;  ///< whose stars must be certified by emptiness before they move
   LocalIndex* irregular; ///< with good stars, but a long move: not made

@@ -103,9 +103,11 @@ private:
   M bad_{}, turns_{};
 };
 
+/// Moves the local sites of a group; returns those whose stars it cannot certify, a bit for each.
 template <template <class, bool> class Formula, bool graded>
-TRIME_INLINE void sweep_group(const SweepTask& task, const Group& group, LocalIndex begin, SweepLeftovers& leftovers,
-                              SweepTally& tally, V& largest_ratio, V& largest_distance, M& power) {
+TRIME_INLINE unsigned sweep_group(const SweepTask& task, const Group& group, LocalIndex begin,
+                                  SweepLeftovers& leftovers, SweepTally& tally, V& largest_ratio, V& largest_distance,
+                                  M& power) {
   const lanes::Pairs<V> p = load_sites(task.positions, group);
   V own = V{} + task.uniform_size;
   if constexpr (graded)
@@ -188,8 +190,6 @@ TRIME_INLINE void sweep_group(const SweepTask& task, const Group& group, LocalIn
         leftovers.guarded[leftovers.guarded_count++] = begin + l;
     } else if (certified >> l & 1) {
       leftovers.irregular[leftovers.irregular_count++] = begin + l;
-    } else if (group.local >> l & 1) {
-      leftovers.suspects[leftovers.suspect_count++] = begin + l;
     }
   }
   tally.moving -= lanes::sum_of_lanes(counted & (one.squared_ratio > still * still));
@@ -197,6 +197,7 @@ TRIME_INLINE void sweep_group(const SweepTask& task, const Group& group, LocalIn
   largest_ratio = lanes::select(counted & (one.squared_ratio > largest_ratio), one.squared_ratio, largest_ratio);
   largest_distance =
       lanes::select(counted & (one.squared_distance > largest_distance), one.squared_distance, largest_distance);
+  return group.local & ~certified;
 }
 
 template <template <class, bool> class Formula, bool graded>
@@ -206,6 +207,7 @@ SweepTally sweep_range(const SweepTask& task, LocalIndex begin, LocalIndex end, 
   M power{};
   for (LocalIndex i = begin; i < end; i += width) {
     const Group group = group_at(task, i, end);
+    unsigned suspects = 0; // a bit for each site of the group
     for (LocalIndex j = i; j < i + width && j < end; ++j) {
       if (group.local >> (j - i) & 1)
         continue;
@@ -213,10 +215,13 @@ SweepTally sweep_range(const SweepTask& task, LocalIndex begin, LocalIndex end, 
       if (task.next_leads)
         task.next_leads[j] = {};
       if (task.classes[j] != SiteClass::held)
-        leftovers.suspects[leftovers.suspect_count++] = j;
+        suspects |= 1U << (j - i);
     }
     if (group.local)
-      sweep_group<Formula, graded>(task, group, i, leftovers, tally, ratio, distance, power);
+      suspects |= sweep_group<Formula, graded>(task, group, i, leftovers, tally, ratio, distance, power);
+    for (int l = 0; suspects; ++l, suspects >>= 1)
+      if (suspects & 1)
+        leftovers.suspects[leftovers.suspect_count++] = i + l;
   }
   tally.power = lanes::sum_of_lanes(power);
   tally.squared_ratio = lanes::largest_lane(ratio);

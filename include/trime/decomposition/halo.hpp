@@ -38,6 +38,10 @@ public:
   void begin_positions(const mesh::BinnedPoints& points);
   void finish_positions(mesh::BinnedPoints& points);
 
+  /// @brief Fetches the drift of the tiles with imported bins from their owners, after a growth of the subscriptions.
+  /// One message per neighbour. Collective among neighbours only. @pre no periods
+  void refresh_drifts(mesh::BinnedPoints& points) const;
+
   /// @brief New local index by old index - owned for the ghosts of the last refresh, after a growth of the
   /// subscriptions with unchanged sites. Valid until the next refresh.
   std::span<const LocalIndex> ghost_renumbering() const { return ghost_renumbering_; }

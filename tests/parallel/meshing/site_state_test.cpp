@@ -83,6 +83,37 @@ TEST(SiteState, RevealedDiscsAreKnown) {
   expect_revealed(testing::unit_torus().periods());
 }
 
+/// Tiles sleep by what is known of the drift around them, so a halo that grows must not change it.
+TEST(SiteState, AFetchKeepsTheDriftThatTheOwnersKnow) {
+  const comm::Communicator world = comm::Communicator::world();
+  const SiteList sites = testing::random_sites(3000, 3);
+  SiteState state(world, square, {{}, {}, 0.03});
+  state.distribute(testing::dealt(world, sites));
+  const GrowingSize size;
+  state.refresh(size);
+  mesh::BinnedPoints& points = state.points();
+  const auto drift_of = [](LocalIndex tile) { return tile % 3 == 0 ? 0 : 1e-4 * (1 + tile % 5); };
+  points.prepare_to_stay();
+  for (LocalIndex tile = points.first_tile(); tile < points.last_tile(); ++tile)
+    points.set_drift(tile, drift_of(tile));
+  state.begin_advance(size, 1e-3, false);
+  state.finish_advance(size);
+  std::vector<mesh::BinRef> missing;
+  if (world.rank() == 0) // the others fetch nothing
+    points.for_each_near(
+        {0.5, 0.5}, 0.4, [](LocalIndex, LocalIndex) {}, [&](mesh::BinRef b) { missing.push_back(b); });
+  std::sort(missing.begin(), missing.end());
+  missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
+  EXPECT_EQ(missing.empty(), world.rank() > 0 || world.size() == 1);
+  state.fetch(missing, size);
+  int known = 0;
+  for (const mesh::BinRef& bin : state.halo().imported_bins()) {
+    EXPECT_EQ(points.drift(bin.tile), drift_of(bin.tile));
+    ++known;
+  }
+  EXPECT_EQ(known > 0, world.size() > 1);
+}
+
 /// Sites that come: also where another rank owns the tile. Those that go: every seventh.
 TEST(SiteState, SitesComeAndGoInOneMove) {
   const comm::Communicator world = comm::Communicator::world(), self = comm::Communicator::self();

@@ -5,6 +5,7 @@
 #include "support/star_checks.hpp"
 #include "trime/core/angle.hpp"
 #include "trime/delaunay/star_builder.hpp"
+#include "unit/delaunay/wrap_lanes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -170,15 +171,18 @@ std::unique_ptr<WrapGroup> group_of(const std::vector<Vec2>& places, float cap) 
   return group;
 }
 
-/// Runs `check` with the kernel of each level that this machine has, after wrapping.
+/// Runs `check` after wrapping with the kernel of each level that this machine has, and with each number of lanes.
 template <class Check>
 void with_each_kernel(const std::vector<Vec2>& places, float cap, const Check& check) {
+  std::vector<WrapFunction> kernels{wrap_8_lanes, wrap_16_lanes};
   for (const SimdLevel level : levels)
-    if (level <= simd_level()) {
-      const std::unique_ptr<WrapGroup> group = group_of(places, cap);
-      wrap_kernel(level).wrap(*group);
-      check(*group);
-    }
+    if (level <= simd_level())
+      kernels.push_back(wrap_kernel(level).wrap);
+  for (const WrapFunction kernel : kernels) {
+    const std::unique_ptr<WrapGroup> group = group_of(places, cap);
+    kernel(*group);
+    check(*group);
+  }
 }
 
 const std::vector<Vec2> flower{{0, 0},       {1, 0.1},    {0.6, 0.9}, {-0.5, 0.95}, {-1.1, 0},
@@ -203,6 +207,31 @@ TEST(Wrap, FindsARingWithItsDiscs) {
     EXPECT_GT(group.low_x[0], -1.6);
     EXPECT_LT(group.high_x[0], 1.6);
   });
+}
+
+/// Rings that are claimed are the same with every number of lanes, and nearly all are claimed by each.
+TEST(Wrap, ClaimsTheSameRingsWithAnyNumberOfLanes) {
+  const auto claims = [](const WrapGroup& group) { return group.degree[0] > 0 && group.proven[0]; };
+  int claimed = 0, different = 0;
+  for (std::uint64_t key = 0; key < 200; ++key) {
+    std::vector<Vec2> places{{0, 0}};
+    for (std::uint64_t k = 1; k < 20 + key % 40; ++k)
+      places.push_back(7 * (testing::random_vec2(key, k) - Vec2{0.5, 0.5}));
+    const std::unique_ptr<WrapGroup> usual = group_of(places, 3);
+    wrap_portable(*usual);
+    claimed += claims(*usual);
+    with_each_kernel(places, 3, [&](const WrapGroup& group) {
+      different += claims(group) != claims(*usual);
+      if (!claims(group) || !claims(*usual))
+        return;
+      ASSERT_EQ(group.degree[0], usual->degree[0]) << key;
+      EXPECT_EQ(group.covered[0] != 0, usual->covered[0] != 0) << key;
+      for (int k = 0; k < group.degree[0]; ++k)
+        EXPECT_EQ(group.ring[k][0], usual->ring[k][0]) << key;
+    });
+  }
+  EXPECT_GT(claimed, 100);
+  EXPECT_LT(different, 5);
 }
 
 TEST(Wrap, ClaimsNothingAtTiesGapsCapsAndTheRimOfTheBox) {

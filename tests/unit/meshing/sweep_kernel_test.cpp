@@ -6,6 +6,7 @@
 #include "trime/core/simd_level.hpp"
 #include "trime/delaunay/star_builder.hpp"
 #include "trime/meshing/update_rule.hpp"
+#include "unit/meshing/portable_sweep_kernels.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,8 +27,9 @@ public:
   double size(Vec2 p) const override { return spacing * (0.8 + 0.4 * p.x * p.y); }
 };
 
+/// Every number of lanes on every machine, and the builds for this machine.
 std::vector<const SweepKernels*> kernels() {
-  std::vector<const SweepKernels*> list{&portable_kernels};
+  std::vector<const SweepKernels*> list{&portable_kernels, &portable_kernels_of_4_lanes, &portable_kernels_of_8_lanes};
 #if defined(__x86_64__)
   if (simd_level() >= SimdLevel::avx2)
     list.push_back(&avx2_kernels);
@@ -174,6 +176,7 @@ TEST(SweepKernel, MovesSitesByTheBitsOfTheRules) {
         EXPECT_EQ(pass.tally.squared_distance, passes[0].tally.squared_distance);
         EXPECT_EQ(pass.suspects, passes[0].suspects);
         EXPECT_EQ(pass.irregular, passes[0].irregular);
+        EXPECT_TRUE(std::ranges::is_sorted(pass.suspects));
       }
     }
 }
