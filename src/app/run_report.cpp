@@ -53,7 +53,7 @@ std::string count_text(const meshing::MeshResult& result) {
 /// What was done about features below the resolution.
 std::string boundary_text(const meshing::MeshResult& result) {
   std::string text;
-  for (const std::string& line : meshing::describe(result.features, result.shape_area))
+  for (const std::string& line : meshing::describe(result.features))
     text += "Boundary: " + line + "\n";
   return text;
 }

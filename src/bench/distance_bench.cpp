@@ -2,9 +2,9 @@
 // Queries against a contour of 1e5 segments: nearest segment, inside test, and what every inner site asks in every
 // sweep. Argument: distance of the query points from the curve in segment lengths; 0: anywhere in the unit square.
 #include "bench/bench_points.hpp"
+#include "meshing/boundary_guard.hpp"
 #include "trime/core/angle.hpp"
 #include "trime/geometry/segment_grid.hpp"
-#include "trime/meshing/boundary_guard.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -2,10 +2,10 @@
 // The boundary as curves by arc length, on which sites slide, come and go after the layout.
 #pragma once
 
+#include "meshing/polygon.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/geometry/segment.hpp"
-#include "trime/meshing/boundary_sites.hpp"
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/meshing/boundary_guard.hpp"
+#include "meshing/boundary_guard.hpp"
 
-#include "chord_closure.hpp"
+#include "meshing/chord_closure.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/thread_loop.hpp"
 #include "trime/geometry/diametral.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "boundary_layout.hpp"
+#include "meshing/boundary_layout.hpp"
 
 #include "core/gather.hpp"
-#include "site_path.hpp"
+#include "meshing/site_path.hpp"
 
 #include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"

@@ -2,8 +2,8 @@
 // First layout of the boundary sites of one loop: corners, shells at sharp corners, quantiles of the integral of ds/h.
 #pragma once
 
-#include "loop_metric.hpp"
-#include "site_places.hpp"
+#include "meshing/loop_metric.hpp"
+#include "meshing/site_places.hpp"
 
 #include "trime/geometry/lattice.hpp"
 

@@ -3,12 +3,12 @@
 // chords beside it, cycles of edges as its loops, and the area between them.
 #pragma once
 
+#include "meshing/polygon.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
 #include "trime/mesh/validity.hpp"
-#include "trime/meshing/boundary_sites.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <array>

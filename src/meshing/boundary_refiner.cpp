@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "boundary_refiner.hpp"
+#include "meshing/boundary_refiner.hpp"
 
 #include "core/gather.hpp"
 

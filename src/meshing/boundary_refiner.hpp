@@ -2,12 +2,12 @@
 // Rounds of halving: all segments that offend are divided at once, until none does.
 #pragma once
 
-#include "boundary_layout.hpp"
-#include "boundary_sizes.hpp"
-#include "loop_metric.hpp"
-#include "segment_watch.hpp"
-#include "site_tree.hpp"
-#include "trime/meshing/boundary_sites.hpp"
+#include "meshing/boundary_layout.hpp"
+#include "meshing/boundary_sites.hpp"
+#include "meshing/boundary_sizes.hpp"
+#include "meshing/loop_metric.hpp"
+#include "meshing/segment_watch.hpp"
+#include "meshing/site_tree.hpp"
 
 #include <optional>
 #include <span>

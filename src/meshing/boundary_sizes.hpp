@@ -2,9 +2,9 @@
 // The element size along the curves of a boundary.
 #pragma once
 
+#include "meshing/boundary_sites.hpp"
 #include "trime/core/types.hpp"
 #include "trime/geometry/boundary.hpp"
-#include "trime/meshing/boundary_sites.hpp"
 #include "trime/sizing/lowered_size.hpp"
 #include "trime/sizing/size_field.hpp"
 

@@ -3,9 +3,9 @@
 // pushes.
 #pragma once
 
+#include "meshing/boundary_guard.hpp"
 #include "meshing/site_state.hpp"
 #include "trime/geometry/lattice.hpp"
-#include "trime/meshing/boundary_guard.hpp"
 #include "trime/meshing/update_rule.hpp"
 
 namespace trime::meshing {

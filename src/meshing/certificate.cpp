@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The proof that ends every run. What is counted here comes from the stars and the boundary anew, not from the way in
 // which the mesh was made.
-#include "meshing/boundary_proof.hpp"
-#include "meshing/extraction.hpp"
+#include "meshing/certificate.hpp"
 
+#include "meshing/boundary_proof.hpp"
 #include "trime/core/random.hpp"
 #include "trime/core/thread_loop.hpp"
 #include "trime/geometry/predicates.hpp"
@@ -147,9 +147,9 @@ private:
 /// Counts at the stars of sites, one after the other.
 class StarCounter {
 public:
-  StarCounter(const ExtractionContext& context, const decomposition::Numbering& numbering)
-      : context_(context), numbering_(numbering), points_(context.state.points()), fan_(context, numbering),
-        circles_(context.lattice, points_.grid().periods()) {}
+  StarCounter(const StageView& view, const decomposition::Numbering& numbering)
+      : view_(view), numbering_(numbering), points_(view.state.points()), fan_(view, numbering),
+        circles_(view.lattice, points_.grid().periods()) {}
 
   void count(LocalIndex site) {
     fan_.load(site);
@@ -183,16 +183,15 @@ private:
   /// Boundary sites and fixed points.
   void count_kept(LocalIndex site, std::int32_t b) {
     const Vec2 p = points_.position(site);
-    const bool is_corner = b >= 0 && context_.boundary.sites[at(b)].corner;
+    const bool is_corner = b >= 0 && view_.boundary.sites[at(b)].corner;
     if (b == mesh::fixed_site || is_corner)
-      counts_.fixed +=
-          std::binary_search(context_.fixed.begin(), context_.fixed.end(), p, geometry::lexicographically_less);
-    if (b < 0 || p != context_.boundary.sites[at(b)].position)
+      counts_.fixed += std::binary_search(view_.fixed.begin(), view_.fixed.end(), p, geometry::lexicographically_less);
+    if (b < 0 || p != view_.boundary.sites[at(b)].position)
       return;
     counts_.corners += is_corner;
     if (!fan_.complete)
       return;
-    const BoundarySite& to_next = context_.boundary.sites[at(b)]; // the segment to the next boundary site
+    const BoundarySite& to_next = view_.boundary.sites[at(b)]; // the segment to the next boundary site
     ++counts_.facets;
     counts_.hash_of_facets +=
         facet_hash(numbering_.global_id(numbering_.vertex(site)), ids_[0], to_next.tag, to_next.part);
@@ -210,7 +209,7 @@ private:
         ++counts_.triangles;
         counts_.hash_of_triangles += hash;
         counts_.not_positive += geometry::orient2d(p, q, r) <= 0;
-        counts_.area.add_triangle(p, q, r, context_.lattice);
+        counts_.area.add_triangle(p, q, r, view_.lattice);
       }
       // The edge to r lies between two triangles: seen from its lower end, once all stars agree on their triangles.
       if (k + 1 < fan_.triangles || fan_.closed)
@@ -218,7 +217,7 @@ private:
     }
   }
 
-  const ExtractionContext& context_;
+  const StageView& view_;
   const decomposition::Numbering& numbering_;
   const mesh::BinnedPoints& points_;
   FlatFan fan_;
@@ -228,9 +227,9 @@ private:
 };
 
 /// Of this rank: from the stars.
-Counts count_stars(const ExtractionContext& context, const decomposition::Numbering& numbering) {
-  const mesh::BinnedPoints& points = context.state.points();
-  PerThread<StarCounter> of_thread(context, numbering);
+Counts count_stars(const StageView& view, const decomposition::Numbering& numbering) {
+  const mesh::BinnedPoints& points = view.state.points();
+  PerThread<StarCounter> of_thread(view, numbering);
   thread_loop(points.last_tile() - points.first_tile(), 1, [&](std::ptrdiff_t t, int thread) {
     const auto [begin, end] = points.tile_range(points.first_tile() + static_cast<LocalIndex>(t));
     StarCounter& counter = of_thread[thread];
@@ -288,16 +287,16 @@ mesh::Check check(const char* name, std::int64_t expected, std::int64_t found, c
 
 } // namespace
 
-mesh::Checks certify(const ExtractionContext& context, const decomposition::Numbering& numbering,
-                     const Expectation& expectation, const mesh::DistributedMesh& mesh) {
-  Counts counts = count_stars(context, numbering);
+mesh::Checks certify(const StageView& view, const decomposition::Numbering& numbering, const Expectation& expectation,
+                     const mesh::DistributedMesh& mesh) {
+  Counts counts = count_stars(view, numbering);
   add_written(mesh, counts);
   auto packed = counts.pack();
-  context.state.comm().sum(packed);
+  view.state.comm().sum(packed);
   counts = Counts::unpack(packed);
 
-  const std::int64_t segments = static_cast<std::int64_t>(context.boundary.sites.size());
-  const ExactArea polygon = polygon_area(context.boundary, context.lattice);
+  const std::int64_t segments = static_cast<std::int64_t>(view.boundary.sites.size());
+  const ExactArea polygon = polygon_area(view.boundary, view.lattice);
   mesh::Checks checks;
   checks.push_back(
       check("incomplete_fans", 0, counts.incomplete, "manifold: each site has one unbroken fan of triangles"));
@@ -319,22 +318,22 @@ mesh::Checks certify(const ExtractionContext& context, const decomposition::Numb
                          "inner edges have two triangles, boundary edges one"));
   checks.push_back(check("not_delaunay", 0, counts.not_delaunay, "edges that are not locally Delaunay (exact test)"));
   checks.push_back(check("boundary_segments", segments, counts.facets, "boundary segments that are edges of the mesh"));
-  checks.push_back(check("corners", context.boundary.corners, counts.corners,
-                         "corners that are vertices, bit for bit on the lattice"));
-  if (!context.fixed.empty())
-    checks.push_back(check("fixed_points", static_cast<std::int64_t>(context.fixed.size()), counts.fixed,
+  checks.push_back(
+      check("corners", view.boundary.corners, counts.corners, "corners that are vertices, bit for bit on the lattice"));
+  if (!view.fixed.empty())
+    checks.push_back(check("fixed_points", static_cast<std::int64_t>(view.fixed.size()), counts.fixed,
                            "fixed points that are vertices, bit for bit on the lattice"));
   checks.push_back(check("unused_points", 0, counts.unused, "points without a triangle"));
-  checks.push_back({"area", polygon.value(context.lattice), counts.area.value(context.lattice),
+  checks.push_back({"area", polygon.value(view.lattice), counts.area.value(view.lattice),
                     polygon.twice == counts.area.twice, "triangles fill the boundary polygon (exact integers)"});
   const BoundaryTruth truth{expectation.shape,
                             expectation.meshed,
-                            context.boundary,
-                            context.size,
-                            context.lattice,
+                            view.boundary,
+                            view.size,
+                            view.lattice,
                             expectation.side,
-                            counts.area.value(context.lattice)};
-  for (mesh::Check& proof : prove_boundary(truth, mesh, context.state.comm()))
+                            counts.area.value(view.lattice)};
+  for (mesh::Check& proof : prove_boundary(truth, mesh, view.state.comm()))
     checks.push_back(std::move(proof));
   return checks;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "chord_closure.hpp"
+#include "meshing/chord_closure.hpp"
 
 #include "trime/core/error.hpp"
 

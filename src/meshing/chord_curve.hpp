@@ -3,9 +3,9 @@
 // Goes by the boundary and the places of the sites on it alone, not by the way in which they were laid out.
 #pragma once
 
+#include "meshing/polygon.hpp"
 #include "trime/geometry/boundary.hpp"
-#include "trime/meshing/boundary_sites.hpp"
-#include "trime/meshing/options.hpp"
+#include "trime/meshing/loop_summary.hpp"
 
 #include <vector>
 

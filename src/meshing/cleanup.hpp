@@ -8,6 +8,7 @@
 #include "meshing/layout.hpp"
 #include "meshing/patch.hpp"
 #include "trime/core/thread_loop.hpp"
+#include "trime/meshing/options.hpp"
 
 #include <cstdint>
 #include <memory>

@@ -113,14 +113,14 @@ std::optional<double> CountEstimate::points(double factor) const {
   const double placed = *on_boundary + static_cast<double>(context_.fixed.inside().size());
   if (*on_boundary > far_too_many * points_)
     return placed;
-  const TileRange tiles = even_share(reference_, context_.comm);
+  const mesh::TileRange tiles = even_share(reference_, context_.comm);
   return placed + integrate_density(context_.comm, tiles,
                                     DensitySampler(tiles.grid, *reference_.guard, size, context_.lattice, coarsening_))
                       .sites;
 }
 
 sizing::ScaledSize CountEstimate::scaled(double factor) const {
-  const MeshOptions& options = context_.options;
+  const StartOptions& options = context_.options;
   return {context_.relative_size, factor, options.min_size.value_or(0), options.max_size.value_or(INFINITY)};
 }
 

@@ -33,7 +33,7 @@ private:
 
   const LayoutContext& context_;
   double points_, coarsening_;
-  Layout reference_;            // the polygon as if it were a mesh boundary, without points
+  Stage reference_;             // the polygon as if it were a mesh boundary, without points
   double corners_ = 0;          // of the boundary
   std::vector<double> lengths_; // of the curve from each vertex to its next
 };

@@ -82,7 +82,7 @@ private:
 
   /// @brief Boundary sites within the limits that are known. For a factor near by they are scaled with it; those of one
   /// far away would keep corners that this one leaves out.
-  Layout lay(double factor) {
+  FittedStage lay(double factor) {
     if (!(std::fabs(factor - limits_factor_) < limits_reach * factor)) {
       limits_factor_ = factor;
       limits_.clear();
@@ -91,39 +91,40 @@ private:
     FittedSize fitted{factor, limits_, samples_};
     for (sizing::SizeLimit& limit : fitted.limits)
       limit.size *= factor / limits_factor_;
-    Layout layout = try_boundary(context_, fitted, points_);
-    samples_ = layout.fitted.samples;
-    return layout;
+    FittedStage laid = try_boundary(context_, fitted, points_);
+    samples_ = laid.fitted.samples;
+    return laid;
   }
 
   /// Looks for more limits, a few times. True if there are any: for other trials, this one was laid without them.
-  bool find_limits(const Layout& layout) {
-    if (limit_rounds_ == most_lowering_rounds || layout.boundary.overfull)
+  bool find_limits(const FittedStage& laid) {
+    if (limit_rounds_ == most_lowering_rounds || laid.stage.boundary.overfull)
       return false;
-    const std::vector<sizing::SizeLimit> more = further_limits(context_, layout);
+    const std::vector<sizing::SizeLimit> more = further_limits(context_, laid.stage);
     for (const sizing::SizeLimit& limit : more)
-      limits_.push_back({limit.place, limit.size * (limits_factor_ / layout.fitted.factor)});
+      limits_.push_back({limit.place, limit.size * (limits_factor_ / laid.fitted.factor)});
     limit_rounds_ = more.empty() ? most_lowering_rounds : limit_rounds_ + 1;
     return !more.empty();
   }
 
-  Trial counted(Layout layout, double coarsening) const {
+  Trial counted(FittedStage laid, double coarsening) const {
     Trial trial;
-    trial.fit.layout = std::move(layout);
-    complete(context_, trial.fit.layout, coarsening);
-    if (!trial.fit.layout.boundary.overfull) {
-      trial.totals = wanted_inside(context_, trial.fit.layout, coarsening);
+    trial.fit.laid = std::move(laid);
+    Stage& stage = trial.fit.laid.stage;
+    complete(context_, stage, coarsening);
+    if (!stage.boundary.overfull) {
+      trial.totals = wanted_inside(context_, stage, coarsening);
       trial.fit.inner = std::floor(trial.totals.sites);
     }
-    trial.points = trial.fit.inner + static_cast<double>(trial.fit.layout.placed_first());
+    trial.points = trial.fit.inner + static_cast<double>(stage.placed_first());
     return trial;
   }
 
   Trial try_factor(double factor) {
-    Layout layout = lay(factor);
-    while (find_limits(layout))
-      layout = lay(factor);
-    return counted(std::move(layout), coarsening_);
+    FittedStage laid = lay(factor);
+    while (find_limits(laid))
+      laid = lay(factor);
+    return counted(std::move(laid), coarsening_);
   }
 
   /// @brief A factor not far from the result, without layouts. From above: large factors make few
@@ -153,17 +154,17 @@ private:
   /// that the sites inside make up the difference: those on the boundary may stay.
   std::optional<DensityFit> accepted(Trial& trial) const {
     constexpr double least_scale = 0.98, most_scale = 1.02;
-    if (trial.fit.layout.boundary.overfull)
+    if (trial.fit.laid.stage.boundary.overfull)
       return std::nullopt;
     if (trial.points <= points_ && (trial.points >= (1 - close_enough) * points_ || trial.points > points_ - 2))
       return std::move(trial.fit);
-    const double wanted = std::floor(points_ - static_cast<double>(trial.fit.layout.placed_first()));
+    const double wanted = std::floor(points_ - static_cast<double>(trial.fit.laid.stage.placed_first()));
     if (context_.options.min_size || context_.options.max_size || !(wanted > 0))
       return std::nullopt;
     const double scale = std::sqrt(trial.fit.inner / wanted);
     if (!(scale > least_scale && scale < most_scale))
       return std::nullopt;
-    rescale(context_, trial.fit.layout, scale);
+    rescale(context_, trial.fit.laid, scale);
     trial.fit.inner = wanted;
     return std::move(trial.fit);
   }
@@ -180,18 +181,18 @@ private:
     static_assert(std::size(growth_to_come) == most_lowering_rounds + 1);
     bool crowded = false;
     for (int round = 0; round < approach_rounds; ++round) {
-      Layout layout = lay(factor);
+      FittedStage laid = lay(factor);
       const bool first = limit_rounds_ == 0;
       search_.expect(crowded ? crowded_power : -2); // trials with other limits tell nothing
-      if (!find_limits(layout))
-        return {factor, counted(std::move(layout), coarsening_)};
+      if (!find_limits(laid))
+        return {factor, counted(std::move(laid), coarsening_)};
       if (first) {
         crowded =
-            static_cast<double>(limits_.size()) > crowded_share * static_cast<double>(layout.boundary.sites.size());
+            static_cast<double>(limits_.size()) > crowded_share * static_cast<double>(laid.stage.boundary.sites.size());
         continue;
       }
       const double growth = crowded ? growth_to_come[limit_rounds_] : 1;
-      factor = search_.next(factor, growth * counted(std::move(layout), rough_).points);
+      factor = search_.next(factor, growth * counted(std::move(laid), rough_).points);
     }
     return {factor, std::nullopt};
   }
@@ -211,11 +212,11 @@ private:
     for (int round = 0; round < density_rounds; ++round) {
       Trial trial = approach.trial ? *std::exchange(approach.trial, std::nullopt) : try_factor(factor);
       const double points = trial.points;
-      const bool trial_overfull = trial.fit.layout.boundary.overfull;
+      const bool trial_overfull = trial.fit.laid.stage.boundary.overfull;
       if (std::optional<DensityFit> fit = accepted(trial))
         return std::move(*fit);
       if (points > points_)
-        fewest.consider(trial.fit.layout, points);
+        fewest.consider(trial.fit.laid.stage, points);
       const bool same = high < INFINITY && low == 0 && std::fabs(points - last) < 1e-3 * last;
       saturated = same ? saturated + 1 : 0;
       const double guess = search_.next(factor, points);
@@ -288,11 +289,11 @@ DensityFit fit_density(const LayoutContext& context, double points, double coars
   return DensitySolver(context, points, coarsening).solve();
 }
 
-DensityTotals wanted_inside(const LayoutContext& context, const Layout& layout, double coarsening) {
+DensityTotals wanted_inside(const LayoutContext& context, const Stage& stage, double coarsening) {
   const auto time = context.timers.scope("start");
-  const TileRange tiles = even_share(layout, context.comm);
+  const mesh::TileRange tiles = even_share(stage, context.comm);
   return integrate_density(context.comm, tiles,
-                           DensitySampler(tiles.grid, *layout.guard, *layout.size, context.lattice, coarsening));
+                           DensitySampler(tiles.grid, *stage.guard, *stage.size, context.lattice, coarsening));
 }
 
 } // namespace trime::meshing

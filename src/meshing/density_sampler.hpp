@@ -2,9 +2,9 @@
 // The wanted density of sites, h^-2 up to a factor, as integer weights of small cells along the Hilbert curve.
 #pragma once
 
+#include "meshing/start.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/sum.hpp"
-#include "trime/meshing/start.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -195,6 +195,7 @@ struct DensityTotals {
 };
 /// Collective. Threads over the tiles of this rank; integers inside.
 /// @throws GeometryError as DensitySampler::for_each_cell, on all ranks together
-DensityTotals integrate_density(const comm::Communicator& comm, const TileRange& tiles, const DensitySampler& sampler);
+DensityTotals integrate_density(const comm::Communicator& comm, const mesh::TileRange& tiles,
+                                const DensitySampler& sampler);
 
 } // namespace trime::meshing

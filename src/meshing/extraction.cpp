@@ -26,17 +26,17 @@ struct Places {
 /// Lists triangles and boundary edges at that of their vertices which has the lowest global id.
 class Extractor {
 public:
-  Extractor(const ExtractionContext& context, const decomposition::Numbering& numbering)
-      : context_(context), numbering_(numbering), points_(context.state.points()) {}
+  Extractor(const StageView& view, const decomposition::Numbering& numbering)
+      : view_(view), numbering_(numbering), points_(view.state.points()) {}
 
   Extraction run() {
     Extraction made;
-    PerThread<QualityMeter> meters(context_.size, points_.grid().periods());
-    comm::run_agreed(context_.state.comm(), [&] { // the size field is the user's
+    PerThread<QualityMeter> meters(view_.size, points_.grid().periods());
+    comm::run_agreed(view_.state.comm(), [&] { // the size field is the user's
       fill_points(made.mesh);
       const std::vector<Places> begin = places();
       make_room(begin.back(), made.mesh);
-      PerThread<FlatFan> fans(context_, numbering_);
+      PerThread<FlatFan> fans(view_, numbering_);
       thread_loop(tiles(), 1, [&](std::ptrdiff_t t, int thread) {
         fill_tile(first_tile() + static_cast<LocalIndex>(t), begin[static_cast<std::size_t>(t)], fans[thread],
                   meters[thread], made.mesh);
@@ -45,7 +45,7 @@ public:
     QualitySums sums;
     for (const QualityMeter& meter : meters)
       sums.add(meter.sums());
-    made.quality = summarize(context_.state.comm(), std::move(sums));
+    made.quality = summarize(view_.state.comm(), std::move(sums));
     return made;
   }
 
@@ -65,9 +65,9 @@ private:
       const LocalIndex i = numbering_.order[k];
       const std::int32_t b = points_.boundary(i);
       mesh.points[k] = points_.position(i);
-      mesh.boundary[k] = b < 0 ? 0 : context_.boundary.sites[at(b)].tag;
-      mesh.size[k] = static_cast<float>(context_.size.size(points_.position(i))); // that of the state may be older
-      mesh.fixed[k] = b >= 0 ? context_.boundary.sites[at(b)].corner : b == mesh::fixed_site;
+      mesh.boundary[k] = b < 0 ? 0 : view_.boundary.sites[at(b)].tag;
+      mesh.size[k] = static_cast<float>(view_.size.size(points_.position(i))); // that of the state may be older
+      mesh.fixed[k] = b >= 0 ? view_.boundary.sites[at(b)].corner : b == mesh::fixed_site;
     });
     mesh.point_slab = {numbering_.first, numbering_.total};
     mesh.foreign = numbering_.foreign;
@@ -90,7 +90,7 @@ private:
   }
 
   void count_site(LocalIndex i, Places& count) const {
-    const Fan fan = inside_fan(context_, i);
+    const Fan fan = inside_fan(view_, i);
     if (fan.triangles == 0)
       return;
     const LocalIndex own = numbering_.vertex(i);
@@ -144,7 +144,7 @@ private:
   /// vertex and then the second.
   void list_facets(LocalIndex vertex, std::int32_t boundary_site, const FlatFan& fan, Places& next,
                    DistributedMesh& mesh) const {
-    const std::vector<BoundarySite>& sites = context_.boundary.sites;
+    const std::vector<BoundarySite>& sites = view_.boundary.sites;
     const std::size_t last = fan.triangles;
     const auto add = [&](LocalIndex from, LocalIndex to, const BoundarySite& site) {
       mesh.facets[next.facets] = {numbering_.global_id(from), numbering_.global_id(to)};
@@ -162,7 +162,7 @@ private:
       from_previous();
   }
 
-  const ExtractionContext& context_;
+  const StageView& view_;
   const decomposition::Numbering& numbering_;
   const mesh::BinnedPoints& points_;
 };
@@ -174,98 +174,9 @@ mesh::Slab slab_of(const comm::Communicator& comm, std::size_t count) {
 
 } // namespace
 
-Fan inside_fan(const ExtractionContext& context, LocalIndex i) {
-  const mesh::BinnedPoints& points = context.state.points();
-  Fan fan;
-  fan.ring = context.state.stars().ring(i);
-  const std::size_t n = fan.ring.size();
-  const std::int32_t b = points.boundary(i);
-  if (b < 0) {
-    fan.closed = true;
-    fan.complete = n >= 3 && std::find(fan.ring.begin(), fan.ring.end(), delaunay::gap) == fan.ring.end();
-    fan.triangles = fan.complete ? n : 0;
-    return fan;
-  }
-  const BoundarySite& site = context.boundary.sites[at(b)];
-  // Positions tell the images of a boundary site from each other.
-  const geometry::Vec2 before =
-      context.boundary.chord(site.previous).a - context.boundary.sites[at(site.previous)].next_shift;
-  const auto is_next = [&](LocalIndex j) {
-    return points.boundary(j) == site.next && points.position(j) == context.boundary.chord(b).b;
-  };
-  const auto is_previous = [&](LocalIndex j) {
-    return points.boundary(j) == site.previous && points.position(j) == before;
-  };
-  std::size_t first = 0;
-  while (first < n && (fan.ring[first] == delaunay::gap || !is_next(fan.ring[first])))
-    ++first;
-  fan.first = first;
-  for (std::size_t k = 1; first < n && k < n; ++k) {
-    const LocalIndex neighbour = fan.neighbour(k);
-    if (neighbour == delaunay::gap)
-      break;
-    if (is_previous(neighbour)) {
-      fan.triangles = k;
-      fan.complete = true;
-      break;
-    }
-  }
-  return fan;
-}
-
-std::int64_t count_incomplete_fans(const ExtractionContext& context) {
-  PerThread<std::int64_t> of_thread(0);
-  thread_loop(context.state.points().owned(), 4096, [&](std::ptrdiff_t i, int thread) {
-    of_thread[thread] += !inside_fan(context, static_cast<LocalIndex>(i)).complete;
-  });
-  std::int64_t sum = 0;
-  for (const std::int64_t n : of_thread)
-    sum += n;
-  return sum;
-}
-
-void FlatFan::load(LocalIndex site) {
-  const Fan fan = inside_fan(context_, site);
-  closed = fan.closed;
-  complete = fan.complete;
-  triangles = fan.triangles;
-  edges = complete ? fan.edges() : 0;
-  const std::size_t n = triangles == 0 ? 0 : triangles + (closed ? 2 : 1);
-  vertices.resize(n);
-  place.resize(n);
-  positions.resize(n);
-  const std::span<const Vec2> sites = context_.state.points().positions();
-  const std::span<const LocalIndex> site_vertex = numbering_.site_vertex;
-  std::size_t entry = fan.first;
-  for (std::size_t k = 0; k < n; ++k) {
-    const LocalIndex neighbour = fan.ring[entry];
-    vertices[k] = site_vertex[at(neighbour)];
-    positions[k] = sites[at(neighbour)];
-    entry = entry + 1 < fan.ring.size() ? entry + 1 : 0;
-  }
-  if (numbering_.foreign.empty()) // places are vertices
-    std::copy(vertices.begin(), vertices.end(), place.begin());
-  else
-    std::transform(vertices.begin(), vertices.end(), place.begin(),
-                   [&](LocalIndex vertex) { return numbering_.place(vertex); });
-}
-
-std::span<const std::uint32_t> FlatFan::triangles_above(LocalIndex own) {
-  above_.resize(triangles + 1);
-  std::size_t n = 0;
-  for (std::size_t k = 0; k < triangles; ++k) { // no branch: nobody can foresee which
-    above_[n] = static_cast<std::uint32_t>(k);
-    n += place[k] > own && place[k + 1] > own;
-  }
-  for (std::size_t end = 1; end < n; ++end)
-    for (std::size_t k = end; k > 0 && place[above_[k]] < place[above_[k - 1]]; --k)
-      std::swap(above_[k], above_[k - 1]);
-  return {above_.data(), n};
-}
-
-Extraction extract_mesh(const ExtractionContext& context, const decomposition::Numbering& numbering) {
-  const comm::Communicator& comm = context.state.comm();
-  Extraction made = Extractor(context, numbering).run();
+Extraction extract_mesh(const StageView& view, const decomposition::Numbering& numbering) {
+  const comm::Communicator& comm = view.state.comm();
+  Extraction made = Extractor(view, numbering).run();
   mesh::DistributedMesh& mesh = made.mesh;
   mesh.triangle_slab = slab_of(comm, mesh.triangles.size());
   mesh.facet_slab = slab_of(comm, mesh.facets.size());

@@ -2,6 +2,7 @@
 #include "meshing/feature_report.hpp"
 
 #include "trime/core/angle.hpp"
+#include "trime/core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,18 +27,19 @@ std::string counted(GlobalId count, const char* one, const char* many) {
 
 } // namespace
 
-FeatureReport report_features(const Layout& layout) {
-  const BoundarySites& boundary = layout.boundary;
+FeatureReport report_features(const BoundarySites& boundary, std::span<const sizing::SizeLimit> limits,
+                              const sizing::SizeField& asked) {
   FeatureReport report;
   report.dropped_islands = boundary.dropped.components;
   report.dropped_lakes = boundary.dropped.holes;
   report.dropped_area = boundary.dropped.area;
+  report.dropped_share = boundary.dropped.share;
   report.corners_left_out = boundary.left_out;
   report.largest_deviation = boundary.deviation;
   report.segments_halved = boundary.halvings;
-  report.size_limits = std::ssize(layout.fitted.limits);
-  for (const sizing::SizeLimit& limit : layout.fitted.limits)
-    report.lowest_size_share = std::fmin(report.lowest_size_share, limit.size / layout.asked_size->size(limit.place));
+  report.size_limits = std::ssize(limits);
+  for (const sizing::SizeLimit& limit : limits)
+    report.lowest_size_share = std::fmin(report.lowest_size_share, limit.size / asked.size(limit.place));
   for (std::size_t k = 0; k < boundary.sites.size(); ++k)
     if (boundary.sites[k].corner)
       if (const double angle = interior_angle(boundary, static_cast<LocalIndex>(k)); angle < FeatureReport::sharp_angle)
@@ -47,13 +49,13 @@ FeatureReport report_features(const Layout& layout) {
   return report;
 }
 
-std::vector<std::string> describe(const FeatureReport& report, double shape_area) {
+std::vector<std::string> describe(const FeatureReport& report) {
   constexpr std::size_t most_listed = 5;
   std::vector<std::string> lines;
   if (report.dropped_islands + report.dropped_lakes > 0)
     lines.push_back(fmt::format("{} and {} with a perimeter below 3 local sizes dropped, {:.3g} of the area",
                                 counted(report.dropped_islands, "island", "islands"),
-                                counted(report.dropped_lakes, "lake", "lakes"), report.dropped_area / shape_area));
+                                counted(report.dropped_lakes, "lake", "lakes"), report.dropped_share));
   if (report.corners_left_out > 0)
     lines.push_back(fmt::format("{} below the resolution left out, at most {:.2f} local sizes from the boundary edges",
                                 counted(report.corners_left_out, "corner", "corners"), report.largest_deviation));

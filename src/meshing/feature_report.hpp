@@ -2,11 +2,18 @@
 // What was done about features of the boundary that are smaller than the elements.
 #pragma once
 
-#include "meshing/layout.hpp"
+#include "meshing/polygon.hpp"
+#include "trime/meshing/feature_summary.hpp"
+#include "trime/sizing/lowered_size.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <span>
 
 namespace trime::meshing {
 
-/// O(sites of the boundary)
-FeatureReport report_features(const Layout& layout);
+/// @param limits places where the size was lowered below `asked`, the size that was asked for
+/// O(sites of the boundary + limits)
+FeatureReport report_features(const BoundarySites& boundary, std::span<const sizing::SizeLimit> limits,
+                              const sizing::SizeField& asked);
 
 } // namespace trime::meshing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/meshing/feature_rule.hpp"
+#include "meshing/feature_rule.hpp"
 
 #include "trime/core/angle.hpp"
 
@@ -136,6 +136,8 @@ DroppedLoops drop_small_loops(const geometry::Boundary& boundary, const sizing::
     result.area += area;
     result.change += loop.outer ? -area : area;
   }
+  if (result.any())
+    result.share = result.area / boundary.area;
   return result;
 }
 

@@ -12,14 +12,14 @@ bool is_jump(double points, double wanted) {
   return wanted > many_points && points < least_share * wanted;
 }
 
-void Fewest::consider(const Layout& layout, double trial_points) {
+void Fewest::consider(const Stage& stage, double trial_points) {
   if (trial_points >= points)
     return;
   points = trial_points;
-  counted = !layout.boundary.overfull;
+  counted = !stage.boundary.overfull;
   double least = INFINITY;
-  for (LocalIndex k = 0; k < std::ssize(layout.boundary.sites); ++k) {
-    const geometry::Segment chord = layout.boundary.chord(k);
+  for (LocalIndex k = 0; k < std::ssize(stage.boundary.sites); ++k) {
+    const geometry::Segment chord = stage.boundary.chord(k);
     if (const double length = geometry::length(chord.b - chord.a); length < least) {
       least = length;
       shortest = chord;
@@ -57,7 +57,7 @@ void fail_for_few_points(const LayoutContext& context, const Fewest& fewest) {
       geometry::length(fewest.shortest.b - fewest.shortest.a), place.x, place.y));
 }
 
-void check_edge_length(const MeshOptions& options) {
+void check_edge_length(const StartOptions& options) {
   if (!options.edge_length)
     return;
   const auto check = [&](const std::optional<double>& bound, bool broken, const char* name, const char* relation) {

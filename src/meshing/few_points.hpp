@@ -14,7 +14,7 @@ struct Fewest {
   bool counted = true; ///< to the end; else there would be more
   geometry::Segment shortest{};
 
-  void consider(const Layout& layout, double trial_points);
+  void consider(const Stage& stage, double trial_points);
 };
 
 /// @throws ConfigError always
@@ -26,6 +26,6 @@ struct Fewest {
 bool is_jump(double points, double wanted);
 
 /// @throws ConfigError for bounds that the edge length itself breaks
-void check_edge_length(const MeshOptions& options);
+void check_edge_length(const StartOptions& options);
 
 } // namespace trime::meshing

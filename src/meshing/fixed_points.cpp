@@ -67,12 +67,10 @@ struct Closeness {
 
 } // namespace
 
-FixedPoints::FixedPoints(const geometry::Boundary& boundary, const MeshOptions& options,
-                         const geometry::Lattice& lattice, Log& log)
-    : options_(options), lattice_(lattice), boundary_(boundary),
-      tolerance_(on_boundary * std::max(options.container.width(), options.container.height())), tree_({}) {
-  const std::vector<FixedPoint>& given = options.fixed_points;
-  const geometry::Box& box = options.container;
+FixedPoints::FixedPoints(const geometry::Boundary& boundary, const geometry::Box& box,
+                         std::span<const FixedPoint> given, const geometry::Lattice& lattice, Log& log)
+    : given_(given), lattice_(lattice), boundary_(boundary),
+      tolerance_(on_boundary * std::max(box.width(), box.height())), tree_({}) {
   std::vector<Vec2> places;
   for (const FixedPoint& point : given) {
     const Vec2 p = point.position;
@@ -165,7 +163,7 @@ void FixedPoints::add_corner(Vec2 p) {
 
 const std::string& FixedPoints::label(Vec2 p) const {
   const auto found = std::lower_bound(all_.begin(), all_.end(), p, geometry::lexicographically_less);
-  return options_.fixed_points[source_[static_cast<std::size_t>(found - all_.begin())]].label;
+  return given_[source_[static_cast<std::size_t>(found - all_.begin())]].label;
 }
 
 void FixedPoints::check_inside(const BoundaryGuard& guard) const {
@@ -201,7 +199,8 @@ std::int64_t FixedPoints::count_clear(std::span<const mesh::Site> sites, const s
   return std::count(clear.begin(), clear.end(), std::uint8_t{1});
 }
 
-void FixedPoints::place_among(mesh::SiteList& sites, const TileRange& tiles, const sizing::SizeField& size) const {
+void FixedPoints::place_among(mesh::SiteList& sites, const mesh::TileRange& tiles,
+                              const sizing::SizeField& size) const {
   if (inside_.empty())
     return;
   std::vector<std::uint8_t> taken(sites.size());

@@ -3,14 +3,14 @@
 // never move. Knows where they lie, what is too near to them, and what to say about it.
 #pragma once
 
+#include "mesh/tile_range.hpp"
+#include "meshing/boundary_guard.hpp"
 #include "meshing/site_tree.hpp"
 #include "trime/core/log.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/mesh/binned_points.hpp"
-#include "trime/meshing/boundary_guard.hpp"
-#include "trime/meshing/options.hpp"
-#include "trime/meshing/start.hpp"
+#include "trime/meshing/fixed_point.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <cstdint>
@@ -19,8 +19,8 @@
 
 namespace trime::meshing {
 
-/// @brief Replicated: the same on every rank. Positions are canonical lattice points. Immutable; `boundary` and
-/// `options` must outlive it.
+/// @brief Replicated: the same on every rank. Positions are canonical lattice points. Immutable; the list
+/// of points that it is made from must outlive it.
 class FixedPoints {
 public:
   /// Free sites start no nearer to a fixed one, in h.
@@ -29,8 +29,8 @@ public:
   /// @brief Points that the lattice makes equal are kept once, with a warning. O(points x log(pieces)).
   /// @throws GeometryError if a point is not finite or lies outside of the container, and if two on the boundary
   /// differ but are nearer to each other than what counts as on it
-  FixedPoints(const geometry::Boundary& boundary, const MeshOptions& options, const geometry::Lattice& lattice,
-              Log& log);
+  FixedPoints(const geometry::Boundary& boundary, const geometry::Box& container, std::span<const FixedPoint> given,
+              const geometry::Lattice& lattice, Log& log);
 
   bool empty() const { return all_.empty(); }
   /// All of them, in lexicographic order.
@@ -45,7 +45,7 @@ public:
   /// Number of free sites that place_among would leave.
   std::int64_t count_clear(std::span<const mesh::Site> sites, const sizing::SizeField& size) const;
   /// @brief Takes out free sites that are too near to a fixed one, then adds the fixed sites of these tiles.
-  void place_among(mesh::SiteList& sites, const TileRange& tiles, const sizing::SizeField& size) const;
+  void place_among(mesh::SiteList& sites, const mesh::TileRange& tiles, const sizing::SizeField& size) const;
   /// One warning about points nearer than the local size to each other or to the boundary.
   void warn_of_close_ones(const BoundaryGuard& guard, const sizing::SizeField& size, Log& log) const;
 
@@ -55,12 +55,12 @@ private:
   bool is_near(geometry::Vec2 p, double distance) const;
   const std::string& label(geometry::Vec2 p) const;
 
-  const MeshOptions& options_;
+  std::span<const FixedPoint> given_;
   const geometry::Lattice lattice_;
   geometry::Boundary boundary_;
   double tolerance_;                                    ///< how near to a curve counts as on it
   std::vector<geometry::Vec2> all_, inside_, on_curve_; ///< in lexicographic order
-  std::vector<std::size_t> source_;                     ///< of each point of all_: its number in the options
+  std::vector<std::size_t> source_;                     ///< of each point of all_: its number in given_
   SiteTree tree_;                                       ///< of inside_
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/meshing/start.hpp"
+#include "meshing/start.hpp"
 
 #include "meshing/density_sampler.hpp"
 #include "trime/comm/agree.hpp"
@@ -23,7 +23,7 @@ void agreed_loop(const comm::Communicator& comm, std::ptrdiff_t n, const Body& b
 
 /// Parts of the tiles of this rank, in Hilbert order.
 struct Parts {
-  const TileRange& tiles;
+  const mesh::TileRange& tiles;
   const DensitySampler& sampler;
 
   std::ptrdiff_t count() const { return std::ptrdiff_t{tiles.last - tiles.first} * sampler.parts_per_tile(); }
@@ -56,7 +56,8 @@ std::vector<std::int64_t> weights_before(const comm::Communicator& comm, const P
 
 } // namespace
 
-DensityTotals integrate_density(const comm::Communicator& comm, const TileRange& tiles, const DensitySampler& sampler) {
+DensityTotals integrate_density(const comm::Communicator& comm, const mesh::TileRange& tiles,
+                                const DensitySampler& sampler) {
   const double unit = std::fmax(tiles.grid.container().width(), tiles.grid.container().height());
   const Parts parts{tiles, sampler};
   std::vector<std::int64_t> sites(static_cast<std::size_t>(parts.count()), 0);
@@ -85,7 +86,7 @@ DensityTotals integrate_density(const comm::Communicator& comm, const TileRange&
 
 class HilbertStart::Implementation {
 public:
-  Implementation(const comm::Communicator& comm, const TileRange& tiles, const BoundaryGuard& guard,
+  Implementation(const comm::Communicator& comm, const mesh::TileRange& tiles, const BoundaryGuard& guard,
                  const sizing::SizeField& size, const geometry::Lattice& lattice, double expected, double coarsening)
       : comm_(comm), tiles_(tiles), lattice_(lattice),
         sampler_(tiles_.grid, guard, size, lattice_, coarsening), parts_{tiles_, sampler_} {
@@ -132,7 +133,7 @@ public:
 
 private:
   const comm::Communicator& comm_;
-  TileRange tiles_;
+  mesh::TileRange tiles_;
   const geometry::Lattice& lattice_;
   DensitySampler sampler_;
   Parts parts_;
@@ -141,7 +142,7 @@ private:
   std::int64_t total_ = 0, first_ = 0;                  // weights over all ranks; before this rank
 };
 
-HilbertStart::HilbertStart(const comm::Communicator& comm, const TileRange& tiles, const BoundaryGuard& guard,
+HilbertStart::HilbertStart(const comm::Communicator& comm, const mesh::TileRange& tiles, const BoundaryGuard& guard,
                            const sizing::SizeField& size, const geometry::Lattice& lattice, double expected,
                            double coarsening)
     : implementation_(std::make_unique<const Implementation>(comm, tiles, guard, size, lattice, expected, coarsening)) {
@@ -156,7 +157,7 @@ mesh::SiteList HilbertStart::sites(std::int64_t n, std::uint64_t seed) const {
   return implementation_->sites(n, seed);
 }
 
-mesh::SiteList hilbert_start(const comm::Communicator& comm, const TileRange& tiles, const BoundaryGuard& guard,
+mesh::SiteList hilbert_start(const comm::Communicator& comm, const mesh::TileRange& tiles, const BoundaryGuard& guard,
                              const sizing::SizeField& size, const geometry::Lattice& lattice, std::int64_t n,
                              std::uint64_t seed) {
   return HilbertStart(comm, tiles, guard, size, lattice, static_cast<double>(n)).sites(n, seed);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/meshing/start.hpp"
+#include "meshing/start.hpp"
 
-#include "row_lattice.hpp"
+#include "meshing/row_lattice.hpp"
 #include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
@@ -146,7 +146,7 @@ void LatticeStart::for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile,
   }
 }
 
-mesh::SiteList LatticeStart::sites(const TileRange& tiles, double spacing, std::size_t more) const {
+mesh::SiteList LatticeStart::sites(const mesh::TileRange& tiles, double spacing, std::size_t more) const {
   const RowLattice rows = rows_of(spacing);
   if (!(rows.spacing > 0))
     return {};
@@ -168,7 +168,8 @@ mesh::SiteList LatticeStart::sites(const TileRange& tiles, double spacing, std::
   return all;
 }
 
-std::vector<std::int64_t> LatticeStart::counts(const TileRange& tiles, const RowLattice& rows, double spacing) const {
+std::vector<std::int64_t> LatticeStart::counts(const mesh::TileRange& tiles, const RowLattice& rows,
+                                               double spacing) const {
   std::vector<std::int64_t> of_tile(static_cast<std::size_t>(tiles.last - tiles.first), 0);
   thread_loop(tiles.last - tiles.first, 1, [&](std::ptrdiff_t t, int) {
     for_each_in_tile(tiles.grid, tiles.first + static_cast<LocalIndex>(t), rows, spacing,
@@ -179,7 +180,7 @@ std::vector<std::int64_t> LatticeStart::counts(const TileRange& tiles, const Row
   return of_tile;
 }
 
-std::int64_t LatticeStart::count(const TileRange& tiles, double spacing) const {
+std::int64_t LatticeStart::count(const mesh::TileRange& tiles, double spacing) const {
   const RowLattice rows = rows_of(spacing);
   if (!(rows.spacing > 0))
     return 0;

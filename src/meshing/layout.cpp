@@ -18,11 +18,11 @@ constexpr double gradation = 0.2;     // of the size around places where it is l
 
 /// The part of the container grid around the shape: what lies beyond holds no site. One whole period along periodic
 /// axes. Cells that were given keep about their size.
-std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Layout& layout, double spacing) {
-  const MeshOptions& options = context.options;
+std::unique_ptr<SiteState> make_state(const LayoutContext& context, const BoundarySites& boundary, double spacing) {
+  const StartOptions& options = context.options;
   const geometry::Box& container = options.container;
   geometry::Box around;
-  for (const BoundarySite& site : layout.boundary.sites)
+  for (const BoundarySite& site : boundary.sites)
     around.include(site.position);
   double h = spacing;
   geometry::Box box{{std::max(container.min.x, around.min.x - h), std::max(container.min.y, around.min.y - h)},
@@ -50,41 +50,42 @@ std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Layout
                                                        !context.relative_size.is_uniform(), periods});
 }
 
-/// The sizes of a stage from what `layout.fitted` says.
-void set_sizes(const LayoutContext& context, Layout& layout) {
-  const MeshOptions& options = context.options;
-  layout.asked_size =
-      std::make_unique<sizing::ScaledSize>(context.relative_size, layout.fitted.factor, options.min_size.value_or(0),
+/// The sizes of a stage from what `fitted` says and its coarsening.
+void set_sizes(const LayoutContext& context, const FittedSize& fitted, Stage& stage) {
+  const StartOptions& options = context.options;
+  stage.asked_size =
+      std::make_unique<sizing::ScaledSize>(context.relative_size, fitted.factor, options.min_size.value_or(0),
                                            options.max_size.value_or(std::numeric_limits<double>::infinity()));
-  const auto& limits = layout.fitted.limits;
-  const sizing::SizeField* within = layout.asked_size.get();
+  const auto& limits = fitted.limits;
+  const sizing::SizeField* within = stage.asked_size.get();
   if (limits.empty()) {
-    layout.lowered_size.reset();
+    stage.lowered_size.reset();
   } else {
-    layout.lowered_size =
-        std::make_unique<sizing::LoweredSize>(*layout.asked_size, limits, gradation, context.boundary.periods);
-    within = layout.lowered_size.get();
+    stage.lowered_size =
+        std::make_unique<sizing::LoweredSize>(*stage.asked_size, limits, gradation, context.boundary.periods);
+    within = stage.lowered_size.get();
   }
-  layout.size = std::make_unique<sizing::ScaledSize>(*within, layout.coarsening);
+  stage.size = std::make_unique<sizing::ScaledSize>(*within, stage.coarsening);
 }
 
-void lay_sites(const LayoutContext& context, std::size_t affordable, Layout& layout) {
-  const sizing::ScaledSize asked(*layout.asked_size, layout.coarsening);
+void lay_sites(const LayoutContext& context, std::size_t affordable, FittedStage& laid) {
+  Stage& stage = laid.stage;
+  const sizing::ScaledSize asked(*stage.asked_size, stage.coarsening);
   const bool keeps_all = context.options.keep_features;
   const FeatureRule rule{keeps_all ? 0 : context.options.feature_tolerance, keeps_all ? 0 : least_perimeter, nullptr};
   const auto make = [&](const BoundarySizes& sizes) {
     return make_boundary_sites(context.fixed.boundary(), sizes, context.lattice, context.options.corner_angle,
                                context.fixed.inside(), rule, affordable);
   };
-  if (layout.size->is_uniform()) {
-    layout.boundary = make({*layout.size, asked});
+  if (stage.size->is_uniform()) {
+    stage.boundary = make({*stage.size, asked});
     return;
   }
-  std::shared_ptr<const SizeSamples>& samples = layout.fitted.samples;
-  if (!samples || !samples->serve(layout.fitted.factor))
-    samples = std::make_shared<SizeSamples>(context.fixed.boundary(), context.relative_size, *layout.asked_size);
-  layout.boundary =
-      make({*layout.size, asked, {*samples, *layout.asked_size, layout.lowered_size.get(), layout.coarsening}});
+  std::shared_ptr<const SizeSamples>& samples = laid.fitted.samples;
+  if (!samples || !samples->serve(laid.fitted.factor))
+    samples = std::make_shared<SizeSamples>(context.fixed.boundary(), context.relative_size, *stage.asked_size);
+  stage.boundary =
+      make({*stage.size, asked, {*samples, *stage.asked_size, stage.lowered_size.get(), stage.coarsening}});
 }
 
 /// Edge length of so many equal triangles' vertices, the boundary not counted.
@@ -94,21 +95,21 @@ double typical_size(const LayoutContext& context, double expected) {
 
 /// Sites alone.
 /// @param affordable so many of them
-Layout lay_bare(const LayoutContext& context, const FittedSize& fitted, double coarsening, double expected,
-                std::size_t affordable) {
+FittedStage lay_bare(const LayoutContext& context, const FittedSize& fitted, double coarsening, double expected,
+                     std::size_t affordable) {
   const auto time = context.timers.scope("boundary");
-  Layout layout;
-  layout.fitted = fitted;
-  layout.coarsening = coarsening;
-  layout.typical_size = typical_size(context, expected);
-  set_sizes(context, layout);
+  FittedStage laid{fitted, {}};
+  Stage& stage = laid.stage;
+  stage.coarsening = coarsening;
+  stage.typical_size = typical_size(context, expected);
+  set_sizes(context, fitted, stage);
   comm::run_agreed(context.comm, [&] {
-    if (layout.asked_size->is_uniform())
-      layout.typical_size = coarsening * sizing::checked_size(*layout.asked_size, {});
-    lay_sites(context, affordable, layout);
+    if (stage.asked_size->is_uniform())
+      stage.typical_size = coarsening * sizing::checked_size(*stage.asked_size, {});
+    lay_sites(context, affordable, laid);
   });
-  layout.fixed_inside = static_cast<GlobalId>(context.fixed.inside().size());
-  return layout;
+  stage.fixed_inside = static_cast<GlobalId>(context.fixed.inside().size());
+  return laid;
 }
 
 constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
@@ -120,46 +121,46 @@ double estimated_size(double area, double perimeter, double n) {
   return (b + std::sqrt(b * b + 4 * a * n)) / (2 * n);
 }
 
-Layout lay_boundary(const LayoutContext& context, double factor, double expected) {
+FittedStage lay_boundary(const LayoutContext& context, double factor, double expected) {
   FittedSize fitted{factor, {}};
   for (int round = 0;; ++round) {
-    Layout layout = lay_bare(context, fitted, 1, expected, unlimited);
+    FittedStage laid = lay_bare(context, fitted, 1, expected, unlimited);
     const std::vector<sizing::SizeLimit> more =
-        round < most_lowering_rounds ? further_limits(context, layout) : std::vector<sizing::SizeLimit>{};
+        round < most_lowering_rounds ? further_limits(context, laid.stage) : std::vector<sizing::SizeLimit>{};
     fitted.limits.insert(fitted.limits.end(), more.begin(), more.end());
-    fitted.samples = layout.fitted.samples;
+    fitted.samples = laid.fitted.samples;
     if (more.empty()) {
-      complete(context, layout);
-      return layout;
+      complete(context, laid.stage);
+      return laid;
     }
   }
 }
 
-Layout lay_stage(const LayoutContext& context, const FittedSize& fitted, double coarsening, double expected) {
-  Layout layout = lay_bare(context, fitted, coarsening, expected, unlimited);
-  complete(context, layout);
-  return layout;
+FittedStage lay_stage(const LayoutContext& context, const FittedSize& fitted, double coarsening, double expected) {
+  FittedStage laid = lay_bare(context, fitted, coarsening, expected, unlimited);
+  complete(context, laid.stage);
+  return laid;
 }
 
-Layout lay_again(const LayoutContext& context, Layout layout, double expected) {
+Stage lay_again(const LayoutContext& context, Stage stage, double expected) {
   const auto time = context.timers.scope("boundary");
-  if (!layout.asked_size->is_uniform())
-    layout.typical_size = typical_size(context, expected);
-  layout.state = make_state(context, layout, layout.typical_size);
-  return layout;
+  if (!stage.asked_size->is_uniform())
+    stage.typical_size = typical_size(context, expected);
+  stage.state = make_state(context, stage.boundary, stage.typical_size);
+  return stage;
 }
 
-Layout lay_reference(const LayoutContext& context, BoundarySites polygon, double expected, double grid_coarsening) {
-  Layout layout;
-  layout.boundary = std::move(polygon);
-  layout.typical_size = typical_size(context, expected);
+Stage lay_reference(const LayoutContext& context, BoundarySites polygon, double expected, double grid_coarsening) {
+  Stage stage;
+  stage.boundary = std::move(polygon);
+  stage.typical_size = typical_size(context, expected);
   comm::run_agreed(context.comm,
-                   [&] { layout.guard = std::make_unique<BoundaryGuard>(layout.boundary, context.lattice); });
-  layout.state = make_state(context, layout, grid_coarsening * layout.typical_size);
-  return layout;
+                   [&] { stage.guard = std::make_unique<BoundaryGuard>(stage.boundary, context.lattice); });
+  stage.state = make_state(context, stage.boundary, grid_coarsening * stage.typical_size);
+  return stage;
 }
 
-Layout try_boundary(const LayoutContext& context, const FittedSize& fitted, double expected) {
+FittedStage try_boundary(const LayoutContext& context, const FittedSize& fitted, double expected) {
   constexpr double times_points = 1.5, at_least = 1000;
   const std::optional<GlobalId>& points = context.options.points;
   const std::size_t affordable =
@@ -167,7 +168,7 @@ Layout try_boundary(const LayoutContext& context, const FittedSize& fitted, doub
   return lay_bare(context, fitted, 1, expected, affordable);
 }
 
-std::vector<sizing::SizeLimit> further_limits(const LayoutContext& context, const Layout& trial) {
+std::vector<sizing::SizeLimit> further_limits(const LayoutContext& context, const Stage& trial) {
   const auto time = context.timers.scope("boundary");
   std::vector<sizing::SizeLimit> more;
   if (!trial.asked_size->is_uniform() && !trial.boundary.overfull)
@@ -176,7 +177,7 @@ std::vector<sizing::SizeLimit> further_limits(const LayoutContext& context, cons
   return more;
 }
 
-void complete(const LayoutContext& context, Layout& trial, double grid_coarsening) {
+void complete(const LayoutContext& context, Stage& trial, double grid_coarsening) {
   const auto time = context.timers.scope("boundary");
   if (trial.boundary.overfull)
     return;
@@ -184,36 +185,36 @@ void complete(const LayoutContext& context, Layout& trial, double grid_coarsenin
     trial.guard = std::make_unique<BoundaryGuard>(trial.boundary, context.lattice);
     context.fixed.check_inside(*trial.guard);
   });
-  trial.state = make_state(context, trial, grid_coarsening * trial.typical_size);
+  trial.state = make_state(context, trial.boundary, grid_coarsening * trial.typical_size);
 }
 
-void rescale(const LayoutContext& context, Layout& layout, double scale) {
+void rescale(const LayoutContext& context, FittedStage& laid, double scale) {
   const auto time = context.timers.scope("boundary");
-  layout.fitted.factor *= scale;
-  for (sizing::SizeLimit& limit : layout.fitted.limits)
+  laid.fitted.factor *= scale;
+  for (sizing::SizeLimit& limit : laid.fitted.limits)
     limit.size *= scale;
-  set_sizes(context, layout);
+  set_sizes(context, laid.fitted, laid.stage);
 }
 
-TileRange even_share(const Layout& layout, const comm::Communicator& comm) {
-  const mesh::TileGrid& grid = layout.state->grid();
+mesh::TileRange even_share(const Stage& stage, const comm::Communicator& comm) {
+  const mesh::TileGrid& grid = stage.state->grid();
   const decomposition::Partition even(grid.tile_count(), comm.size());
   return {grid, even.first_tile(comm.rank()), even.last_tile(comm.rank())};
 }
 
-void place_sites(const LayoutContext& context, Layout& layout, mesh::SiteList inner) {
-  const TileRange tiles = even_share(layout, context.comm);
+void place_sites(const LayoutContext& context, Stage& stage, mesh::SiteList inner) {
+  const mesh::TileRange tiles = even_share(stage, context.comm);
   if (context.boundary.periods.any())
     for (mesh::Site& site : inner)
       site.position = context.boundary.periods.wrap(site.position);
-  for (std::size_t b = 0; b < layout.boundary.sites.size(); ++b) {
-    const geometry::Vec2 p = layout.boundary.sites[b].position;
+  for (std::size_t b = 0; b < stage.boundary.sites.size(); ++b) {
+    const geometry::Vec2 p = stage.boundary.sites[b].position;
     const LocalIndex tile = tiles.grid.place(p).tile;
     if (tile >= tiles.first && tile < tiles.last)
       inner.push_back({p, static_cast<std::int32_t>(b)});
   }
-  comm::run_agreed(context.comm, [&] { context.fixed.place_among(inner, tiles, *layout.size); });
-  layout.state->distribute(std::move(inner));
+  comm::run_agreed(context.comm, [&] { context.fixed.place_among(inner, tiles, *stage.size); });
+  stage.state->distribute(std::move(inner));
 }
 
 } // namespace trime::meshing

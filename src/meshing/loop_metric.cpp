@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loop_metric.hpp"
+#include "meshing/loop_metric.hpp"
 
 #include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"

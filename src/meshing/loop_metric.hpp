@@ -2,7 +2,7 @@
 // One loop of the boundary measured in local element sizes: the coordinate t along it is the integral of ds/h.
 #pragma once
 
-#include "boundary_sizes.hpp"
+#include "meshing/boundary_sizes.hpp"
 
 #include "trime/core/types.hpp"
 #include "trime/geometry/boundary.hpp"

@@ -2,11 +2,13 @@
 #include "trime/meshing/mesher.hpp"
 
 #include "meshing/boundary_treatment.hpp"
+#include "meshing/certificate.hpp"
 #include "meshing/chord_curve.hpp"
 #include "meshing/cleanup.hpp"
 #include "meshing/extraction.hpp"
 #include "meshing/feature_report.hpp"
 #include "meshing/layout.hpp"
+#include "meshing/plan_start.hpp"
 #include "meshing/point_scheme.hpp"
 #include "meshing/site_state.hpp"
 #include "meshing/size_warnings.hpp"
@@ -37,8 +39,8 @@ class Mesher::Implementation {
 public:
   Implementation(const comm::Communicator& comm, const geometry::Boundary& boundary, const sizing::SizeField& size,
                  const MeshOptions& options, Log& log, TimerTable& timers)
-      : comm_(comm), boundary_(boundary), relative_size_(size), options_(options), log_(log), timers_(timers),
-        lattice_(options.container) {}
+      : comm_(comm), boundary_(boundary), relative_size_(size), options_(options), start_options_(plan_start(options)),
+        log_(log), timers_(timers), lattice_(options.container) {}
 
   MeshResult run() {
     SweepControl control(options_, history_);
@@ -58,25 +60,25 @@ public:
 
 private:
   LayoutContext layout_context() const {
-    return {comm_, boundary_, relative_size_, options_, lattice_, log_, timers_, *fixed_};
+    return {comm_, boundary_, relative_size_, start_options_, lattice_, log_, timers_, *fixed_};
   }
 
   void begin() {
-    fixed_ = std::make_unique<FixedPoints>(boundary_, options_, lattice_, log_);
+    fixed_ = std::make_unique<FixedPoints>(boundary_, options_.container, options_.fixed_points, lattice_, log_);
     context_ = std::make_unique<LayoutContext>(layout_context());
     scheme_ = std::make_unique<PointScheme>(*context_);
-    Layout first = scheme_->first(); // decides, so that the reason is known
+    Stage first = scheme_->first(); // decides, so that the reason is known
     log_.info("points: {}", scheme_->reason());
     set_up(std::move(first));
   }
 
   void advance() {
     complete_stars();
-    set_up(scheme_->next(layout_));
+    set_up(scheme_->next(stage_));
   }
 
-  void set_up(Layout layout) {
-    layout_ = std::move(layout);
+  void set_up(Stage stage) {
+    stage_ = std::move(stage);
     return_free_memory();
     if (dropped().any())
       remaining_ = boundary_without(fixed_->boundary(), dropped());
@@ -85,23 +87,23 @@ private:
     make_builder(placed_);
     const int components = meshed_boundary().components(), holes = meshed_boundary().holes();
     log_.info("boundary: {} component{}, {} hole{}, {} sites, {} corners", components, components == 1 ? "" : "s",
-              holes, holes == 1 ? "" : "s", layout_.boundary.sites.size(), layout_.boundary.corners);
+              holes, holes == 1 ? "" : "s", stage_.boundary.sites.size(), stage_.boundary.corners);
     log_.info("start: {} points in {} tiles ({} x {} cells), mean edge about {:.6g}", placed_, grid.tile_count(),
-              grid.cells_x(), grid.cells_y(), layout_.typical_size);
+              grid.cells_x(), grid.cells_y(), stage_.typical_size);
     if (scheme_->is_last()) {
-      features_ = report_features(layout_);
-      for (const std::string& line : describe(features_, boundary_.area))
+      features_ = report_features(stage_.boundary, scheme_->limits(), *stage_.asked_size);
+      for (const std::string& line : describe(features_))
         log_.info("boundary: {}", line);
       comm::run_agreed(comm_, [this] { // they ask the size field, which may be a user's
-        warn_of_fine_features(layout_, log_);
-        warn_of_steep_sizes(layout_, boundary_, lattice_, log_);
+        warn_of_fine_features(stage_, log_);
+        warn_of_steep_sizes(stage_, boundary_, lattice_, log_);
         if (!fixed_->empty())
-          fixed_->warn_of_close_ones(*layout_.guard, *layout_.size, log_);
+          fixed_->warn_of_close_ones(*stage_.guard, *stage_.size, log_);
       });
     }
   }
 
-  const DroppedLoops& dropped() const { return layout_.boundary.dropped; }
+  const DroppedLoops& dropped() const { return stage_.boundary.dropped; }
 
   void make_builder(GlobalId points) {
     const double largest = std::max(options_.container.width(), options_.container.height());
@@ -147,7 +149,7 @@ private:
     });
     if (comm_.sum(static_cast<std::int64_t>(uncertain)) == 0)
       return;
-    state().refresh(*layout_.size);
+    state().refresh(*stage_.size);
     Sweeper(state(), *builder_, move_context(), lemma_if(lemma)).certify();
   }
 
@@ -187,27 +189,27 @@ private:
       return;
     const auto time = timers_.scope("snapshots");
     SiteState shown(state()); // the sites of the sweeps are not sorted, and some of their stars not certain
-    shown.compute_stars(*builder_, *layout_.size, Wanted::all_sites);
+    shown.compute_stars(*builder_, *stage_.size, Wanted::all_sites);
     const decomposition::Numbering numbering = decomposition::canonical_numbering(comm_, shown.points(), shown.halo());
-    const Extraction made = extract_mesh(extraction(shown), numbering);
-    const std::vector<LoopSummary> loops = summarize_loops(meshed_boundary(), layout_.boundary);
+    const Extraction made = extract_mesh(view_of(shown), numbering);
+    const std::vector<LoopSummary> loops = summarize_loops(meshed_boundary(), stage_.boundary);
     observer({retriangulation, timers_.total(), made.mesh, made.quality, loops});
   }
 
   delaunay::StarPass stars(Wanted wanted) {
     const auto time = timers_.scope("stars");
-    return state().compute_stars(*builder_, *layout_.size, wanted);
+    return state().compute_stars(*builder_, *stage_.size, wanted);
   }
 
   /// What the sites are laid on: the shape's boundary with fixed points as corners, without the loops that are dropped.
   const geometry::Boundary& meshed_boundary() const { return dropped().any() ? remaining_ : fixed_->boundary(); }
-  SiteState& state() { return *layout_.state; }
-  const SiteState& state() const { return *layout_.state; }
-  MoveContext move_context() const { return {*layout_.guard, *layout_.size, lattice_}; }
+  SiteState& state() { return *stage_.state; }
+  const SiteState& state() const { return *stage_.state; }
+  MoveContext move_context() const { return {*stage_.guard, *stage_.size, lattice_}; }
 
   SweepSums record_sweep(Sweeper& sweeper, const Sweeper::Counts& counts) {
     const auto time = timers_.scope("measure");
-    SweepSummary summary = summarize_sweep(comm_, layout_, sweeper, counts);
+    SweepSummary summary = summarize_sweep(comm_, stage_, sweeper, counts);
     summary.record.sweep = sweeps_;
     summary.record.stage = scheme_->stage();
     summary.record.seconds = timers_.total();
@@ -223,7 +225,7 @@ private:
   /// Empties the diametral discs of all boundary segments: pushes first, then deletes.
   void settle() {
     const auto time = timers_.scope("settle");
-    settle_sites(state(), move_context(), layout_.typical_size);
+    settle_sites(state(), move_context(), stage_.typical_size);
   }
 
   /// Mends the worst triangles, patch by patch.
@@ -235,7 +237,7 @@ private:
     PatchOptions patches;
     patches.tolerance = options_.keep_features ? 0 : options_.feature_tolerance;
     cleanup_ =
-        Cleanup(comm_, layout_, meshed_boundary(), lattice_, *builder_, options_.points.value_or(0), patches).run();
+        Cleanup(comm_, stage_, meshed_boundary(), lattice_, *builder_, options_.points.value_or(0), patches).run();
     log_.info("clean-up: {} of {} patches better; {} sites moved, {} inserted, {} deleted; nothing helped at {} "
               "places with alpha above {}",
               cleanup_.better, cleanup_.patches, cleanup_.moved, cleanup_.inserted, cleanup_.deleted, cleanup_.left,
@@ -244,23 +246,23 @@ private:
 
   // --- the mesh -----------------------------------------------------------------------------------------------------
 
-  ExtractionContext extraction() const { return extraction(state()); }
-  ExtractionContext extraction(const SiteState& state) const {
-    return {state, layout_.boundary, *layout_.size, lattice_, fixed_->all()};
+  StageView view() const { return view_of(state()); }
+  StageView view_of(const SiteState& state) const {
+    return {state, stage_.boundary, *stage_.size, lattice_, fixed_->all()};
   }
 
   /// Throws if triangles of a periodic container reach around it: then their ids do not tell them apart.
   void check_periods() {
     const geometry::Periods& periods = boundary_.periods;
     const double limit = delaunay::StarBuilder::largest_cap(periods);
-    if (builder_->cap(layout_.typical_size) < limit || comm_.sum(count_incomplete_fans(extraction())) == 0)
+    if (builder_->cap(stage_.typical_size) < limit || comm_.sum(count_incomplete_fans(view())) == 0)
       return;
     const double size = limit / 1.5; // circumradii stay below 1.5 h
     throw GeometryError(fmt::format(
         "the periodic container needs triangles with circumradii below a quarter of its period, which takes a period "
         "of "
         "about three edges; found an element size of {:.3g} in a period of {:.3g}; about {} points are enough",
-        layout_.typical_size, 4 * limit, static_cast<GlobalId>(std::ceil(boundary_.area / (0.866 * size * size)))));
+        stage_.typical_size, 4 * limit, static_cast<GlobalId>(std::ceil(boundary_.area / (0.866 * size * size)))));
   }
 
   /// Stars of all sites. Where a fan is not complete the cap may have been too low (a void): it is doubled for these
@@ -270,13 +272,13 @@ private:
     mend_stars(cleanup_.better > 0 ? Sweeper::Lemma::inside : Sweeper::Lemma::up_to_chords);
     stars(Wanted::all_sites);
     for (int doubling = 0; doubling < cap_doublings && std::isfinite(cap_factor_); ++doubling) {
-      if (comm_.sum(count_incomplete_fans(extraction())) == 0)
+      if (comm_.sum(count_incomplete_fans(view())) == 0)
         return;
       cap_factor_ *= 2;
       builder_ = std::make_unique<delaunay::StarBuilder>(lattice_, cap_factor_, largest);
       thread_loop(state().points().owned(), 4096, [&](std::ptrdiff_t item, int) {
         const auto i = static_cast<LocalIndex>(item);
-        state().stars().set_certain(i, inside_fan(extraction(), i).complete);
+        state().stars().set_certain(i, inside_fan(view(), i).complete);
       });
       stars(Wanted::all_sites);
     }
@@ -286,14 +288,14 @@ private:
 
   MeshResult extract() {
     const auto time = timers_.scope("extract");
-    const ExtractionContext context = extraction();
+    const StageView context = view();
     const decomposition::Numbering numbering =
         decomposition::canonical_numbering(comm_, state().points(), state().halo());
     state().release_work_space();
     MeshResult result;
     result.components = meshed_boundary().components();
     result.holes = meshed_boundary().holes();
-    result.loops = summarize_loops(meshed_boundary(), layout_.boundary);
+    result.loops = summarize_loops(meshed_boundary(), stage_.boundary);
     Extraction made = extract_mesh(context, numbering);
     result.quality = std::move(made.quality);
     result.mesh = std::move(made.mesh);
@@ -304,13 +306,13 @@ private:
     result.stop_reason = stop_reason_;
     result.cleanup = cleanup_;
     result.requested_points = options_.points.value_or(0);
-    result.edge_length = relative_size_.is_uniform() ? layout_.size->size({}) : layout_.typical_size;
+    result.edge_length = relative_size_.is_uniform() ? stage_.size->size({}) : stage_.typical_size;
     result.start_reason = scheme_->reason();
     result.count_reason = count_reason(result.mesh.point_slab.total);
     if (static_cast<double>(result.mesh.point_slab.total) < 0.9 * static_cast<double>(result.requested_points))
       log_.warning("{} points were asked for, {} made: {}", result.requested_points, result.mesh.point_slab.total,
                    result.count_reason);
-    result.corners = layout_.boundary.corners;
+    result.corners = stage_.boundary.corners;
     result.shape_area = meshed_boundary().area;
     result.features = std::move(features_);
     return result;
@@ -331,12 +333,13 @@ private:
   const geometry::Boundary& boundary_;
   const sizing::SizeField& relative_size_;
   const MeshOptions options_;
+  const StartOptions start_options_;
   Log& log_;
   TimerTable& timers_;
 
   geometry::Lattice lattice_;
   std::unique_ptr<FixedPoints> fixed_;
-  Layout layout_;
+  Stage stage_;
   geometry::Boundary remaining_; // without the loops that were dropped, if any
   FeatureReport features_;
   double cap_factor_ = 0; // of h

@@ -51,83 +51,85 @@ void PointScheme::choose() {
   const Start start = options_.start;
   const double fraction = options_.initial_fraction.value_or(1);
   if (options_.initial_fraction && fraction < 1) {
-    kind_ = Kind::insertion;
+    scheme_ = Scheme::insertion;
     points_now_ = std::max(3.0, std::ceil(fraction * expected_points()));
     for (double points = points_now_; points < expected_points(); points *= growth)
       ++last_stage_;
     reason_ = fmt::format("{:g} of the points first, the others in {} insertions or more (initial_fraction is given)",
                           fraction, last_stage_);
   } else if (start == Start::lattice || (start == Start::automatic && uniform)) {
-    kind_ = Kind::lattice;
+    scheme_ = Scheme::lattice;
     reason_ = start == Start::lattice ? "hexagonal lattice, all points at once (asked for)"
                                       : "hexagonal lattice, all points at once: the size is uniform";
   } else if (start == Start::hilbert || options_.initial_fraction) {
-    kind_ = Kind::hilbert;
+    scheme_ = Scheme::hilbert;
     reason_ = "quantiles of the density, all points at once (asked for)";
   } else {
-    kind_ = Kind::coarse_to_fine;
+    scheme_ = Scheme::coarse_to_fine;
     last_stage_ = divisions_for(expected_points());
   }
 }
 
-Layout PointScheme::first() {
-  return kind_ == Kind::lattice     ? first_of_lattice()
-         : kind_ == Kind::insertion ? first_of_insertion()
-                                    : first_of_divisions();
+Stage PointScheme::first() {
+  return scheme_ == Scheme::lattice     ? first_of_lattice()
+         : scheme_ == Scheme::insertion ? first_of_insertion()
+                                        : first_of_divisions();
 }
 
-Layout PointScheme::first_of_lattice() {
+Stage PointScheme::first_of_lattice() {
   LatticeFit fit = fit_lattice(context_);
   shortage_ = std::move(fit.shortage);
   const auto time = context_.timers.scope("start");
-  place_sites(context_, fit.layout,
-              LatticeStart(context_.boundary, *fit.layout.guard, context_.lattice)
-                  .sites(even_share(fit.layout, context_.comm), fit.spacing,
-                         static_cast<std::size_t>(fit.layout.placed_first())));
-  return std::move(fit.layout);
+  place_sites(context_, fit.stage,
+              LatticeStart(context_.boundary, *fit.stage.guard, context_.lattice)
+                  .sites(even_share(fit.stage, context_.comm), fit.spacing,
+                         static_cast<std::size_t>(fit.stage.placed_first())));
+  return std::move(fit.stage);
 }
 
-Layout PointScheme::first_of_insertion() {
+Stage PointScheme::first_of_insertion() {
   constexpr double coarsest_integral = 8;
   const double coarsening = std::sqrt(expected_points() / points_now_);
   DensityFit fit = fit_density(context_, expected_points(), std::fmin(coarsening, coarsest_integral));
   shortage_ = std::move(fit.shortage);
-  Layout layout = lay_stage(context_, fit.layout.fitted, coarsening, points_now_);
-  if (const double held = static_cast<double>(layout.placed_first()); points_now_ < 2 * held) {
+  fitted_ = std::move(fit.laid.fitted);
+  Stage stage = lay_coarsened(coarsening, points_now_);
+  if (const double held = static_cast<double>(stage.placed_first()); points_now_ < 2 * held) {
     points_now_ = std::min(expected_points(), 2 * held); // a stage of boundary alone has no order to pass on
-    layout = lay_stage(context_, fit.layout.fitted, std::sqrt(expected_points() / points_now_), points_now_);
+    stage = lay_coarsened(std::sqrt(expected_points() / points_now_), points_now_);
     reason_ += fmt::format("; the first share was raised to {:.3g}, since the boundary alone takes half of it",
                            points_now_ / expected_points());
   }
-  const double inner = points_now_ - static_cast<double>(layout.placed_first());
-  place_along_curve(layout, inner, *along_curve(layout, inner, 1));
-  return layout;
+  const double inner = points_now_ - static_cast<double>(stage.placed_first());
+  place_along_curve(stage, inner, *along_curve(stage, inner, 1));
+  return stage;
 }
 
 /// The factor is fitted for the final mesh, by a coarse integral. Then the coarsest start is taken that still has as
 /// many sites inside as on the boundary: a boundary full of corners does not become coarser with the size.
-Layout PointScheme::first_of_divisions() {
+Stage PointScheme::first_of_divisions() {
   constexpr double coarse_integral = 4; // errs by a few thousandths
   constexpr double coarse_start = 2;    // of the cells for a mesh that is relaxed and divided: no worse than 1
   DensityFit fit = fit_density(context_, expected_points(),
                                last_stage_ == 0 ? 1 : std::fmax(coarse_integral, std::ldexp(1.0, last_stage_)));
   shortage_ = std::move(fit.shortage);
-  const double points = fit.inner + static_cast<double>(fit.layout.placed_first());
-  Layout layout;
+  const double points = fit.inner + static_cast<double>(fit.laid.stage.placed_first());
+  fitted_ = std::move(fit.laid.fitted);
+  Stage stage;
   std::unique_ptr<const HilbertStart> start;
   double inner = 0;
-  const double on_boundary = static_cast<double>(fit.layout.boundary.sites.size());
+  const double on_boundary = static_cast<double>(fit.laid.stage.boundary.sites.size());
   while (last_stage_ > 0 && std::ldexp(fit.inner, -2 * last_stage_) < std::ldexp(on_boundary, -last_stage_))
     --last_stage_; // the share of the strip and of corners only grows
   for (;; --last_stage_) {
     const double expected = std::ldexp(points, -2 * last_stage_);
-    layout = lay_coarsened(fit.layout, expected);
-    start = along_curve(layout, expected, last_stage_ > 0 ? coarse_start : 1);
+    stage = lay_division(fit.laid.stage, expected);
+    start = along_curve(stage, expected, last_stage_ > 0 ? coarse_start : 1);
     inner = start->wanted();
-    if (last_stage_ == 0 || inner >= static_cast<double>(layout.placed_first()))
+    if (last_stage_ == 0 || inner >= static_cast<double>(stage.placed_first()))
       break;
   }
-  if (kind_ == Kind::coarse_to_fine)
+  if (scheme_ == Scheme::coarse_to_fine)
     reason_ =
         last_stage_ == 0
             ? "quantiles of the density, all points at once: too few of them lie inside to divide a coarser mesh"
@@ -135,90 +137,98 @@ Layout PointScheme::first_of_divisions() {
                           1 << (2 * last_stage_), last_stage_ == 1 ? "once" : fmt::format("{} times", last_stage_),
                           options_.start == Start::coarse_to_fine ? "asked for" : "the size is graded");
   if (last_stage_ == 0 && options_.points && shortage_.empty())
-    inner = expected_points() - static_cast<double>(layout.placed_first());
-  fitted_ = std::move(fit.layout);
-  place_along_curve(layout, inner, *start);
-  return layout;
+    inner = expected_points() - static_cast<double>(stage.placed_first());
+  laid_last_ = std::move(fit.laid.stage);
+  place_along_curve(stage, inner, *start);
+  return stage;
 }
 
-/// The present stage of divisions. What the last one needs is kept for it.
-Layout PointScheme::lay_coarsened(Layout& fitted, double expected) {
+/// A stage whose size is `coarsening` times that of the last.
+Stage PointScheme::lay_coarsened(double coarsening, double expected) {
+  FittedStage laid = lay_stage(context_, fitted_, coarsening, expected);
+  fitted_ = std::move(laid.fitted);
+  return std::move(laid.stage);
+}
+
+/// The present stage of divisions. @param last the last of them, which was laid for the fit and becomes this one if it
+/// is the last
+Stage PointScheme::lay_division(Stage& last, double expected) {
   const double coarsening = std::ldexp(1.0, last_stage_ - stage_);
   if (coarsening == 1)
-    return lay_again(context_, std::move(fitted), expected);
-  return lay_stage(context_, fitted.fitted, coarsening, expected);
+    return lay_again(context_, std::move(last), expected);
+  return lay_coarsened(coarsening, expected);
 }
 
-std::unique_ptr<const HilbertStart> PointScheme::along_curve(const Layout& layout, double expected,
+std::unique_ptr<const HilbertStart> PointScheme::along_curve(const Stage& stage, double expected,
                                                              double coarsening) const {
   const auto time = context_.timers.scope("start");
-  return std::make_unique<const HilbertStart>(context_.comm, even_share(layout, context_.comm), *layout.guard,
-                                              *layout.size, context_.lattice, expected, coarsening);
+  return std::make_unique<const HilbertStart>(context_.comm, even_share(stage, context_.comm), *stage.guard,
+                                              *stage.size, context_.lattice, expected, coarsening);
 }
 
-void PointScheme::place_along_curve(Layout& layout, double inner, const HilbertStart& start) const {
+void PointScheme::place_along_curve(Stage& stage, double inner, const HilbertStart& start) const {
   const auto time = context_.timers.scope("start");
   const auto wanted = std::max<std::int64_t>(0, std::llround(inner));
   mesh::SiteList placed = start.sites(wanted, options_.seed);
   if (!context_.fixed.inside().empty()) { // those too near to a fixed point will go: so many more are placed
-    const std::int64_t clear = context_.comm.sum(context_.fixed.count_clear(placed, *layout.size));
+    const std::int64_t clear = context_.comm.sum(context_.fixed.count_clear(placed, *stage.size));
     if (clear > 0 && clear < wanted) {
       placed = start.sites(std::llround(static_cast<double>(wanted) *
                                         std::fmin(4, static_cast<double>(wanted) / static_cast<double>(clear))),
                            options_.seed);
       std::erase_if(placed, [&](const mesh::Site& site) {
-        return context_.fixed.count_clear(std::span(&site, 1), *layout.size) == 0;
+        return context_.fixed.count_clear(std::span(&site, 1), *stage.size) == 0;
       });
-      trim(context_.comm, layout, wanted, placed);
+      trim(context_.comm, stage, wanted, placed);
     }
   }
-  place_sites(context_, layout, std::move(placed));
+  place_sites(context_, stage, std::move(placed));
 }
 
-Layout PointScheme::next(const Layout& previous) {
+Stage PointScheme::next(const Stage& previous) {
   ++stage_;
-  return kind_ == Kind::insertion ? insert(previous) : divide(previous);
+  return scheme_ == Scheme::insertion ? insert(previous) : divide(previous);
 }
 
-Layout PointScheme::divide(const Layout& previous) {
+Stage PointScheme::divide(const Stage& previous) {
   constexpr double small_shortage = 0.01; // is not filled up: new sites disturb the order
   const comm::Communicator& comm = context_.comm;
-  const ExtractionContext old{*previous.state, previous.boundary, *previous.size, context_.lattice};
+  const StageView old{*previous.state, previous.boundary, *previous.size, context_.lattice};
   const GlobalId before = comm.sum(std::int64_t{previous.state->points().owned()});
-  Layout layout = lay_coarsened(fitted_, 4 * static_cast<double>(before));
+  Stage stage = lay_division(laid_last_, 4 * static_cast<double>(before));
   const auto time = context_.timers.scope("start");
   mesh::SiteList sites = split_edges(old);
-  clear_strip(layout, sites);
+  clear_strip(stage, sites);
   if (options_.points && is_last()) {
-    const std::int64_t most = std::max<std::int64_t>(0, *options_.points - reserve() - layout.placed_first());
-    trim(comm, layout, most, sites);
+    const std::int64_t most = std::max<std::int64_t>(0, *options_.points - reserve() - stage.placed_first());
+    trim(comm, stage, most, sites);
     const std::int64_t missing = most - comm.sum(static_cast<std::int64_t>(sites.size()));
     if (shortage_.empty() && static_cast<double>(missing) > small_shortage * static_cast<double>(*options_.points))
-      insert_in_triangles(old, layout, missing, sites); // narrow parts that the coarse mesh has starved
+      insert_in_triangles(old, stage, missing, sites); // narrow parts that the coarse mesh has starved
   }
-  place_sites(context_, layout, std::move(sites));
-  return layout;
+  place_sites(context_, stage, std::move(sites));
+  return stage;
 }
 
-Layout PointScheme::insert(const Layout& previous) {
+Stage PointScheme::insert(const Stage& previous) {
   const comm::Communicator& comm = context_.comm;
-  const ExtractionContext old{*previous.state, previous.boundary, *previous.size, context_.lattice};
+  const StageView old{*previous.state, previous.boundary, *previous.size, context_.lattice};
   const GlobalId before = comm.sum(std::int64_t{previous.state->points().owned()});
   const double grown = std::floor(growth * static_cast<double>(before)), all = expected_points();
   if (is_last() && 2 * grown < all && stage_ < most_insertions)
     ++last_stage_; // too few triangles for the rest: the boundary took the points of the first stages
   points_now_ = is_last() ? all : std::min(all, std::max(grown, std::floor(growth * points_now_)));
   const double coarsening = is_last() ? 1 : std::fmax(1, std::sqrt(expected_points() / points_now_));
-  Layout layout = lay_stage(context_, previous.fitted, coarsening, points_now_);
+  Stage stage = lay_coarsened(coarsening, points_now_);
   const auto time = context_.timers.scope("start");
   mesh::SiteList sites = inner_sites(*previous.state);
-  clear_strip(layout, sites);
-  const std::int64_t most = std::max<std::int64_t>(0, std::llround(points_now_) - layout.placed_first());
-  insert_in_triangles(old, layout, most - comm.sum(static_cast<std::int64_t>(sites.size())), sites);
+  clear_strip(stage, sites);
+  const std::int64_t most = std::max<std::int64_t>(0, std::llround(points_now_) - stage.placed_first());
+  insert_in_triangles(old, stage, most - comm.sum(static_cast<std::int64_t>(sites.size())), sites);
   if (options_.points)
-    trim(comm, layout, most, sites);
-  place_sites(context_, layout, std::move(sites));
-  return layout;
+    trim(comm, stage, most, sites);
+  place_sites(context_, stage, std::move(sites));
+  return stage;
 }
 
 } // namespace trime::meshing

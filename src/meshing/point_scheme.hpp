@@ -2,10 +2,11 @@
 // How the points come into the mesh: all at once, from a coarse mesh that is divided, or in insertions.
 #pragma once
 
-#include "meshing/extraction.hpp"
 #include "meshing/layout.hpp"
+#include "meshing/start.hpp"
 
 #include <memory>
+#include <span>
 #include <string>
 
 namespace trime::meshing {
@@ -20,41 +21,45 @@ public:
 
   /// First stage, sites distributed. Collective.
   /// @throws ConfigError if the points are too few for the shape, or for max_size; GeometryError; on all ranks together
-  Layout first();
+  Stage first();
   /// Next stage from the last one. @pre !is_last(), and the stars of all sites of `previous` are certain. Collective.
-  Layout next(const Layout& previous);
+  Stage next(const Stage& previous);
   /// No further stage comes.
   bool is_last() const { return stage_ == last_stage_; }
   int stage() const { return stage_; }
   /// The stages to come insert points into the mesh of this one.
-  bool inserts() const { return kind_ == Kind::insertion; }
+  bool inserts() const { return scheme_ == Scheme::insertion; }
 
+  /// Where the boundary needs smaller triangles than the size that is asked for. @pre first() was called
+  std::span<const sizing::SizeLimit> limits() const { return fitted_.limits; }
   /// Which scheme was chosen and why, one line.
   const std::string& reason() const { return reason_; }
   /// Why the scheme made fewer points than asked for; empty if it did not.
   const std::string& shortage() const { return shortage_; }
 
 private:
-  enum class Kind { lattice, hilbert, coarse_to_fine, insertion };
+  enum class Scheme { lattice, hilbert, coarse_to_fine, insertion };
 
   void choose();
   GlobalId reserve() const;
   double expected_points() const;
-  Layout first_of_lattice();
-  Layout first_of_insertion();
-  Layout first_of_divisions();
-  Layout lay_coarsened(Layout& fitted, double expected);
-  std::unique_ptr<const HilbertStart> along_curve(const Layout& layout, double expected, double coarsening) const;
-  void place_along_curve(Layout& layout, double inner, const HilbertStart& start) const;
+  Stage first_of_lattice();
+  Stage first_of_insertion();
+  Stage first_of_divisions();
+  Stage lay_coarsened(double coarsening, double expected);
+  Stage lay_division(Stage& last, double expected);
+  std::unique_ptr<const HilbertStart> along_curve(const Stage& stage, double expected, double coarsening) const;
+  void place_along_curve(Stage& stage, double inner, const HilbertStart& start) const;
   /// The next stages after `previous`.
-  Layout divide(const Layout& previous);
-  Layout insert(const Layout& previous);
+  Stage divide(const Stage& previous);
+  Stage insert(const Stage& previous);
 
   const LayoutContext& context_;
-  const MeshOptions& options_;
-  Kind kind_ = Kind::lattice;
+  const StartOptions& options_;
+  Scheme scheme_ = Scheme::lattice;
   int stage_ = 0, last_stage_ = 0;
-  Layout fitted_;         // of the last stage of divisions, until it begins
+  FittedSize fitted_;     // what the size of all stages follows from
+  Stage laid_last_;       // the last stage of divisions, until it begins
   double points_now_ = 0; // that the current stage aims at (insertion)
   std::string reason_, shortage_;
 };

@@ -16,21 +16,21 @@ namespace {
 using geometry::Vec2;
 
 /// Calls make(i, list) for all owned sites, over threads; the lists joined in the order of the sites' tiles.
-template <class Item, class Make>
-std::vector<Item> gather_by_tile(const mesh::BinnedPoints& points, const Make& make) {
+template <class T, class Make>
+std::vector<T> gather_by_tile(const mesh::BinnedPoints& points, const Make& make) {
   const LocalIndex first_tile = points.first_tile();
-  std::vector<std::vector<Item>> of_tile(static_cast<std::size_t>(points.last_tile() - first_tile));
+  std::vector<std::vector<T>> of_tile(static_cast<std::size_t>(points.last_tile() - first_tile));
   thread_loop(points.last_tile() - first_tile, 1, [&](std::ptrdiff_t t, int) {
     const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
     for (LocalIndex i = begin; i < end; ++i)
       make(i, of_tile[static_cast<std::size_t>(t)]);
   });
   std::size_t count = 0;
-  for (const std::vector<Item>& list : of_tile)
+  for (const std::vector<T>& list : of_tile)
     count += list.size();
-  std::vector<Item> all;
+  std::vector<T> all;
   all.reserve(count);
-  for (std::vector<Item>& list : of_tile) {
+  for (std::vector<T>& list : of_tile) {
     all.insert(all.end(), list.begin(), list.end());
     release(list);
   }
@@ -72,7 +72,7 @@ void keep_marked(List& items, const std::vector<std::uint8_t>& keep) {
   items.resize(kept);
 }
 
-bool is_clear(const Layout& next, Vec2 p) {
+bool is_clear(const Stage& next, Vec2 p) {
   if (!next.guard->inside(p))
     return false;
   const double free = DensitySampler::strip * sizing::checked_size(*next.size, p);
@@ -80,7 +80,7 @@ bool is_clear(const Layout& next, Vec2 p) {
 }
 
 /// A possible new site and its place in the order of urgency.
-struct Candidate {
+struct NewSite {
   Vec2 place;
   std::uint64_t key;
 };
@@ -103,13 +103,13 @@ mesh::SiteList inner_sites(const SiteState& state) {
   });
 }
 
-mesh::SiteList split_edges(const ExtractionContext& context) {
-  const mesh::BinnedPoints& points = context.state.points();
-  const geometry::Periods& periods = context.boundary.periods;
+mesh::SiteList split_edges(const StageView& view) {
+  const mesh::BinnedPoints& points = view.state.points();
+  const geometry::Periods& periods = view.boundary.periods;
   return place_by_tile(points, [&](LocalIndex i, const auto& put) {
     if (points.boundary(i) == mesh::free_site)
       put(points.position(i));
-    const Fan fan = inside_fan(context, i);
+    const Fan fan = inside_fan(view, i);
     if (!fan.complete)
       return;
     const Vec2 p = points.position(i);
@@ -117,38 +117,37 @@ mesh::SiteList split_edges(const ExtractionContext& context) {
     for (std::size_t k = fan.closed ? 0 : 1; k < fan.triangles; ++k) {
       const Vec2 q = points.position(fan.neighbour(k));
       if (periods.less(p, q))
-        put(periods.wrap(context.lattice.snap(p + 0.5 * (q - p))));
+        put(periods.wrap(view.lattice.snap(p + 0.5 * (q - p))));
     }
   });
 }
 
-void insert_in_triangles(const ExtractionContext& context, const Layout& next, std::int64_t count,
-                         mesh::SiteList& sites) {
-  const mesh::BinnedPoints& points = context.state.points();
-  const geometry::Periods& periods = context.boundary.periods;
-  const auto add_candidates = [&](LocalIndex i, std::vector<Candidate>& list) {
-    const Fan fan = inside_fan(context, i);
+void insert_in_triangles(const StageView& view, const Stage& next, std::int64_t count, mesh::SiteList& sites) {
+  const mesh::BinnedPoints& points = view.state.points();
+  const geometry::Periods& periods = view.boundary.periods;
+  const auto add_candidates = [&](LocalIndex i, std::vector<NewSite>& list) {
+    const Fan fan = inside_fan(view, i);
     const Vec2 p = points.position(i);
     for (std::size_t k = 0; k < fan.triangles; ++k) {
       const Vec2 q = points.position(fan.neighbour(k)), r = points.position(fan.neighbour(k + 1));
       if (!periods.less(p, q) || !periods.less(p, r))
         continue;
-      const Vec2 middle = periods.wrap(context.lattice.snap(p + (1.0 / 3) * ((q - p) + (r - p))));
+      const Vec2 middle = periods.wrap(view.lattice.snap(p + (1.0 / 3) * ((q - p) + (r - p))));
       if (is_clear(next, middle))
         list.push_back({middle, urgency(p, q, r, middle, *next.size)});
     }
   };
-  std::vector<Candidate> candidates;
-  comm::run_agreed(context.state.comm(), [&] { candidates = gather_by_tile<Candidate>(points, add_candidates); });
+  std::vector<NewSite> candidates;
+  comm::run_agreed(view.state.comm(), [&] { candidates = gather_by_tile<NewSite>(points, add_candidates); });
   std::vector<std::uint64_t> keys(candidates.size());
-  std::transform(candidates.begin(), candidates.end(), keys.begin(), [](const Candidate& c) { return c.key; });
-  const std::uint64_t threshold = selection_threshold(context.state.comm(), keys, count);
-  for (const Candidate& candidate : candidates)
+  std::transform(candidates.begin(), candidates.end(), keys.begin(), [](const NewSite& c) { return c.key; });
+  const std::uint64_t threshold = selection_threshold(view.state.comm(), keys, count);
+  for (const NewSite& candidate : candidates)
     if (candidate.key < threshold)
       sites.push_back({candidate.place});
 }
 
-void clear_strip(const Layout& next, mesh::SiteList& sites) {
+void clear_strip(const Stage& next, mesh::SiteList& sites) {
   std::vector<std::uint8_t> keep(sites.size());
   comm::run_agreed(next.state->comm(), [&] {
     thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 256, [&](std::ptrdiff_t k, int) {
@@ -159,7 +158,7 @@ void clear_strip(const Layout& next, mesh::SiteList& sites) {
   keep_marked(sites, keep);
 }
 
-std::int64_t trim(const comm::Communicator& comm, const Layout& next, std::int64_t most, mesh::SiteList& sites) {
+std::int64_t trim(const comm::Communicator& comm, const Stage& next, std::int64_t most, mesh::SiteList& sites) {
   constexpr double farthest = 4; // h; beyond that only the hash decides
   const std::int64_t excess = comm.sum(static_cast<std::int64_t>(sites.size())) - most;
   if (excess <= 0)

@@ -2,8 +2,8 @@
 // Inner sites for the next, finer stage from the relaxed sites of this one. Boundary sites are laid out anew.
 #pragma once
 
-#include "meshing/extraction.hpp"
-#include "meshing/layout.hpp"
+#include "meshing/fan.hpp"
+#include "meshing/stage.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -15,19 +15,18 @@ mesh::SiteList inner_sites(const SiteState& state);
 
 /// @brief The owned inner sites and the middles of inner edges, each edge from one of its ends: four times as many
 /// sites, at half the spacing, in the order that the coarse sites have found. @pre all stars are certain
-mesh::SiteList split_edges(const ExtractionContext& context);
+mesh::SiteList split_edges(const StageView& view);
 
 /// @brief Adds sites in the middles of triangles, where the circumradius is largest relative to h there: `count` over
 /// all ranks, or as many triangles as there are. Only places outside the strip along the new boundary count.
 /// Collective. @pre all stars are certain
-void insert_in_triangles(const ExtractionContext& context, const Layout& next, std::int64_t count,
-                         mesh::SiteList& sites);
+void insert_in_triangles(const StageView& view, const Stage& next, std::int64_t count, mesh::SiteList& sites);
 
 /// Removes sites outside of the shape or within 0.43 h of its boundary, as the next stage has it. Collective.
-void clear_strip(const Layout& next, mesh::SiteList& sites);
+void clear_strip(const Stage& next, mesh::SiteList& sites);
 
 /// @brief Removes sites until at most `most` are left over all ranks: those nearest to the boundary relative to h,
 /// where the order is disturbed anyway. Collective. @return number removed
-std::int64_t trim(const comm::Communicator& comm, const Layout& next, std::int64_t most, mesh::SiteList& sites);
+std::int64_t trim(const comm::Communicator& comm, const Stage& next, std::int64_t most, mesh::SiteList& sites);
 
 } // namespace trime::meshing

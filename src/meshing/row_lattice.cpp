@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "row_lattice.hpp"
+#include "meshing/row_lattice.hpp"
 
 #include <algorithm>
 #include <cmath>

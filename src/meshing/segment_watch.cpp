@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "segment_watch.hpp"
+#include "meshing/segment_watch.hpp"
 
 #include "trime/core/random.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "site_places.hpp"
+#include "meshing/site_places.hpp"
 
 #include <algorithm>
 #include <cmath>

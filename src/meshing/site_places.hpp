@@ -2,8 +2,8 @@
 // The places of a stretch of a loop among which its sites are chosen.
 #pragma once
 
-#include "loop_metric.hpp"
-#include "site_path.hpp"
+#include "meshing/loop_metric.hpp"
+#include "meshing/site_path.hpp"
 
 #include "trime/geometry/lattice.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "site_tree.hpp"
+#include "meshing/site_tree.hpp"
 
 #include "trime/core/thread_loop.hpp"
 #include "trime/geometry/diametral.hpp"

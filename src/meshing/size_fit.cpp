@@ -19,20 +19,20 @@ constexpr double same_spacing = 0.02;
 
 /// @brief Sites on the boundary at size h, or at the next larger size at which they are not more than the points asked
 /// for. Nothing if there is none, or only one that is too large for so many points.
-std::optional<Layout> lay_affordable_boundary(const LayoutContext& context, double h, double expected, Fewest& fewest) {
+std::optional<Stage> lay_affordable_boundary(const LayoutContext& context, double h, double expected, Fewest& fewest) {
   constexpr int growth_rounds = 24;
   constexpr double growth = 1.3;
   for (int round = 0; round < growth_rounds; ++round) {
-    Layout layout = try_boundary(context, {h, {}}, expected);
-    const double held = static_cast<double>(layout.placed_first());
-    if (!context.options.points || layout.placed_first() <= *context.options.points) {
-      const double size = layout.size->size({}), area = context.boundary.area + layout.boundary.dropped.change;
+    Stage stage = try_boundary(context, {h, {}}, expected).stage;
+    const double held = static_cast<double>(stage.placed_first());
+    if (!context.options.points || stage.placed_first() <= *context.options.points) {
+      const double size = stage.size->size({}), area = context.boundary.area + stage.boundary.dropped.change;
       if (round > 0 && is_jump(held + area / (row_height * size * size), expected))
         break;
-      complete(context, layout);
-      return layout;
+      complete(context, stage);
+      return stage;
     }
-    fewest.consider(layout, held);
+    fewest.consider(stage, held);
     h *= growth;
   }
   return std::nullopt;
@@ -41,12 +41,12 @@ std::optional<Layout> lay_affordable_boundary(const LayoutContext& context, doub
 /// @brief The smallest spacing found whose lattice has at most the wanted number of sites. The count falls like the
 /// inverse square of the spacing, in jumps where whole rows go: secant steps inside a bracket. All ranks take the
 /// same steps.
-double fitting_spacing(const LayoutContext& context, const Layout& layout) {
+double fitting_spacing(const LayoutContext& context, const Stage& stage) {
   const auto time = context.timers.scope("start");
-  const double h = layout.size->size({});
-  const LatticeStart start(context.boundary, *layout.guard, context.lattice);
-  const TileRange tiles = even_share(layout, context.comm);
-  const GlobalId wanted = *context.options.points - layout.placed_first();
+  const double h = stage.size->size({});
+  const LatticeStart start(context.boundary, *stage.guard, context.lattice);
+  const mesh::TileRange tiles = even_share(stage, context.comm);
+  const GlobalId wanted = *context.options.points - stage.placed_first();
   const geometry::Box& container = context.options.container;
   const double none = 4 * (container.width() + container.height()); // no site fits at all
   // The discs of the boundary may leave no room at all, however fine the lattice (thin shapes, few points): nothing
@@ -80,7 +80,7 @@ double fitting_spacing(const LayoutContext& context, const Layout& layout) {
 } // namespace
 
 LatticeFit fit_lattice(const LayoutContext& context) {
-  const MeshOptions& options = context.options;
+  const StartOptions& options = context.options;
   const bool by_points = options.points.has_value();
   check_edge_length(options);
   double relative = 0;
@@ -97,22 +97,22 @@ LatticeFit fit_lattice(const LayoutContext& context) {
     }
     const double points = by_points ? expected : context.boundary.area / (row_height * h * h);
     Fewest fewest;
-    std::optional<Layout> layout = lay_affordable_boundary(context, h / relative, points, fewest);
-    if (!layout && round == 0)
+    std::optional<Stage> stage = lay_affordable_boundary(context, h / relative, points, fewest);
+    if (!stage && round == 0)
       fail_for_few_points(context, fewest);
-    if (!layout) { // at this spacing the lattice fits into the layout of the round before
+    if (!stage) { // at this spacing the lattice fits into the stage of the round before
       fit.spacing = h;
       break;
     }
-    fit.layout = std::move(*layout);
-    const double laid = fit.spacing = fit.layout.size->size({});
+    fit.stage = std::move(*stage);
+    const double laid = fit.spacing = fit.stage.size->size({});
     if (!by_points)
       break;
     if (options.min_size && laid > h) {
       fit.shortage = fmt::format("min_size = {:g} leaves no room for more", *options.min_size);
       break;
     }
-    const double spacing = fitting_spacing(context, fit.layout);
+    const double spacing = fitting_spacing(context, fit.stage);
     const bool comparable = spacing < 2 * laid; // else so few sites are wanted that it means nothing
     if (round + 1 == boundary_rounds || !comparable || std::abs(spacing / laid - 1) < same_spacing) {
       fit.spacing = spacing;

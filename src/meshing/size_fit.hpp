@@ -9,9 +9,9 @@
 
 namespace trime::meshing {
 
-/// A layout without inner sites, and the lattice spacing that goes with it.
+/// A stage without inner sites, and the lattice spacing that goes with it.
 struct LatticeFit {
-  Layout layout;
+  Stage stage;
   double spacing = 1;
   std::string shortage; ///< why there will be fewer points than asked for; empty if not
 };
@@ -24,9 +24,9 @@ struct LatticeFit {
 /// edge length is outside the bounds of the size
 LatticeFit fit_lattice(const LayoutContext& context);
 
-/// A layout without inner sites, and how many there should be.
+/// A stage without inner sites, and how many there should be.
 struct DensityFit {
-  Layout layout;
+  FittedStage laid;
   double inner = 0;
   std::string shortage;
 };
@@ -39,7 +39,7 @@ struct DensityFit {
 /// @throws ConfigError as fit_lattice; GeometryError if the size field is not positive and finite
 DensityFit fit_density(const LayoutContext& context, double points, double coarsening);
 
-/// Inner sites that the size of a layout asks for. Collective.
-DensityTotals wanted_inside(const LayoutContext& context, const Layout& layout, double coarsening = 1);
+/// Inner sites that the size of a stage asks for. Collective.
+DensityTotals wanted_inside(const LayoutContext& context, const Stage& stage, double coarsening = 1);
 
 } // namespace trime::meshing

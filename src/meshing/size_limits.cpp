@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "size_limits.hpp"
+#include "meshing/size_limits.hpp"
 
 #include "core/gather.hpp"
-#include "site_tree.hpp"
+#include "meshing/site_tree.hpp"
 
 #include <algorithm>
 #include <cmath>

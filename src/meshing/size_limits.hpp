@@ -2,7 +2,7 @@
 // Where the boundary asks for smaller triangles than the size field does.
 #pragma once
 
-#include "trime/meshing/boundary_sites.hpp"
+#include "meshing/boundary_sites.hpp"
 #include "trime/sizing/lowered_size.hpp"
 
 #include <vector>

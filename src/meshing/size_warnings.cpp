@@ -5,20 +5,20 @@
 
 namespace trime::meshing {
 
-void warn_of_steep_sizes(const Layout& layout, const geometry::Boundary& boundary, const geometry::Lattice& lattice,
+void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary, const geometry::Lattice& lattice,
                          Log& log) {
   constexpr int per_side = 64;
   constexpr double steep = 1;
-  if (layout.size->is_uniform() || boundary.loops.empty())
+  if (stage.size->is_uniform() || boundary.loops.empty())
     return;
   const geometry::Box box = boundary.bounding_box();
   const geometry::Vec2 stride{box.width() / per_side, box.height() / per_side};
   double steepest = 0;
   geometry::Vec2 place;
   const auto look = [&](geometry::Vec2 p, geometry::Vec2 to_next) {
-    if (!layout.guard->inside(lattice.snap(p)) || !layout.guard->inside(lattice.snap(p + to_next)))
+    if (!stage.guard->inside(lattice.snap(p)) || !stage.guard->inside(lattice.snap(p + to_next)))
       return;
-    const double slope = std::fabs(layout.size->size(p + to_next) - layout.size->size(p)) / geometry::length(to_next);
+    const double slope = std::fabs(stage.size->size(p + to_next) - stage.size->size(p)) / geometry::length(to_next);
     if (slope > steepest) {
       steepest = slope;
       place = p;
@@ -36,12 +36,12 @@ void warn_of_steep_sizes(const Layout& layout, const geometry::Boundary& boundar
                 steepest, place.x, place.y);
 }
 
-void warn_of_fine_features(const Layout& layout, Log& log) {
-  const auto& sites = layout.boundary.sites;
+void warn_of_fine_features(const Stage& stage, Log& log) {
+  const auto& sites = stage.boundary.sites;
   double least = 1, length = 0, size = 0; // chord over local size
   for (std::size_t k = 0; k < sites.size(); ++k) {
-    const geometry::Segment segment = layout.boundary.chord(static_cast<LocalIndex>(k));
-    const double chord = geometry::length(segment.b - segment.a), h = layout.size->size(segment.a);
+    const geometry::Segment segment = stage.boundary.chord(static_cast<LocalIndex>(k));
+    const double chord = geometry::length(segment.b - segment.a), h = stage.size->size(segment.a);
     if (chord < least * h) {
       least = chord / h;
       length = chord;

@@ -2,17 +2,20 @@
 // What a user would want to know of the size before the sweeps begin.
 #pragma once
 
-#include "meshing/layout.hpp"
+#include "meshing/stage.hpp"
+#include "trime/core/log.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/lattice.hpp"
 
 namespace trime::meshing {
 
 /// Warns of a size that changes by more than the way that it takes: triangles cannot follow. Asks the size field at
 /// some 8000 places. @throws whatever the size field throws
-void warn_of_steep_sizes(const Layout& layout, const geometry::Boundary& boundary, const geometry::Lattice& lattice,
+void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary, const geometry::Lattice& lattice,
                          Log& log);
 
 /// Warns of boundary segments far shorter than the size. O(sites of the boundary). @throws whatever the size field
 /// throws
-void warn_of_fine_features(const Layout& layout, Log& log);
+void warn_of_fine_features(const Stage& stage, Log& log);
 
 } // namespace trime::meshing

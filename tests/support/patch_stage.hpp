@@ -2,10 +2,11 @@
 // A patch by hand: sites around a place, and what the optimizer makes of them.
 #pragma once
 
+#include "meshing/boundary_guard.hpp"
+#include "meshing/boundary_sites.hpp"
 #include "meshing/patch.hpp"
 #include "support/boundary_shapes.hpp"
 #include "trime/mesh/quality.hpp"
-#include "trime/meshing/boundary_guard.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,6 +7,10 @@
 #include "trime/mesh/distributed_mesh.hpp"
 #include "trime/mesh/quality.hpp"
 #include "trime/mesh/validity.hpp"
+#include "trime/meshing/feature_summary.hpp"
+#include "trime/meshing/fixed_point.hpp"
+#include "trime/meshing/loop_summary.hpp"
+#include "trime/meshing/start_choice.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -18,15 +22,6 @@ namespace trime::meshing {
 /// How points move: repulsive bars; centroids of Voronoi cells; bars until the median of alpha stalls, then centroids,
 /// and at last towards equilateral triangles (TriangleRule).
 enum class Method { distmesh, cvd, hybrid };
-/// @brief Where the points come from. Lattice: hexagonal, for uniform sizes. Hilbert: quantiles along the Hilbert
-/// curve. Coarse to fine: a mesh of few points is relaxed, its edges are divided, and again.
-enum class Start { automatic, lattice, hilbert, coarse_to_fine };
-
-/// A point that is to be a vertex of the mesh.
-struct FixedPoint {
-  geometry::Vec2 position;
-  std::string label; ///< for messages: where it comes from, such as `points.xy:7`
-};
 
 struct MeshOptions {
   geometry::Box container{{0, 0}, {1, 1}};
@@ -79,16 +74,6 @@ struct SweepRecord {
   double seconds = 0; ///< since the start of the run; differs from run to run
 };
 
-/// A loop of the boundary as the mesh has it.
-struct LoopSummary {
-  enum class Kind { outer, hole, band };
-  std::int32_t tag = 0;            ///< DistributedMesh::facet_tags of its edges
-  Kind kind = Kind::outer;         ///< around a component, around a hole, or all around a periodic container
-  std::int64_t edges = 0;          ///< of the mesh
-  double length = 0;               ///< sum of the lengths of these edges
-  std::vector<std::int32_t> parts; ///< DistributedMesh::facet_parts of its edges: each once, in order along the loop
-};
-
 /// What the clean-up of the worst triangles did, over all ranks.
 struct CleanupCounts {
   std::int64_t patches = 0;                          ///< surroundings of bad triangles on which changes were tried
@@ -99,28 +84,6 @@ struct CleanupCounts {
 
   void add(const CleanupCounts& other);
 };
-
-/// A corner of the boundary polygon and its angle on the inside.
-struct SharpCorner {
-  geometry::Vec2 place;
-  double degrees;
-};
-
-/// What was done about features of the boundary that are smaller than the elements, in the last stage.
-struct FeatureReport {
-  static constexpr double sharp_angle = 56; ///< degrees; below, a good triangle does not fit in a corner
-  GlobalId dropped_islands = 0, dropped_lakes = 0;
-  double dropped_area = 0;                ///< of both
-  GlobalId corners_left_out = 0;          ///< on the loops that stay
-  double largest_deviation = 0;           ///< of one of them from its boundary edge, over the local size
-  GlobalId segments_halved = 0;           ///< after the layout, to keep their discs empty
-  GlobalId size_limits = 0;               ///< places where the size was lowered
-  double lowest_size_share = 1;           ///< there, of what was asked for
-  std::vector<SharpCorner> sharp_corners; ///< below sharp_angle, the sharpest first
-};
-
-/// One line for each thing that was done; none for a boundary that needed nothing.
-std::vector<std::string> describe(const FeatureReport& report, double shape_area);
 
 struct MeshResult {
   mesh::DistributedMesh mesh;

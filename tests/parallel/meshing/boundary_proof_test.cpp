@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The proof of the boundary finds what is wrong: each falsified input fails just the checks that look at it.
 #include "meshing/boundary_proof.hpp"
+#include "meshing/boundary_sites.hpp"
 
 #include "trime/geometry/shape.hpp"
 

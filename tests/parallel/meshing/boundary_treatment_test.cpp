@@ -2,10 +2,10 @@
 // Sites in the discs of the boundary are pushed out or go, the same on any ranks.
 #include "meshing/boundary_treatment.hpp"
 
+#include "meshing/boundary_sites.hpp"
 #include "support/boundary_shapes.hpp"
 #include "support/distributed.hpp"
 #include "support/point_sets.hpp"
-#include "trime/meshing/boundary_sites.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The quantile start: the exact number of sites, spread by h, the same on any ranks.
+#include "meshing/boundary_sites.hpp"
+#include "meshing/start.hpp"
 #include "support/distributed.hpp"
 #include "trime/decomposition/partition.hpp"
-#include "trime/meshing/start.hpp"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +34,7 @@ struct Stage {
   /// The sites of all ranks, if rank r fills tiles cuts[r] .. cuts[r + 1].
   SiteList start(const comm::Communicator& comm, const decomposition::Partition& split, std::int64_t n,
                  std::uint64_t seed = 1) const {
-    const TileRange tiles{grid, split.first_tile(comm.rank()), split.last_tile(comm.rank())};
+    const mesh::TileRange tiles{grid, split.first_tile(comm.rank()), split.last_tile(comm.rank())};
     const std::vector<Site> all =
         testing::gather_all(comm, hilbert_start(comm, tiles, guard, size, unit_lattice(), n, seed));
     return {all.begin(), all.end()};

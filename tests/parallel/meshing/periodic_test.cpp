@@ -3,6 +3,7 @@
 #include "meshing/boundary_treatment.hpp"
 #include "meshing/fixed_points.hpp"
 #include "meshing/layout.hpp"
+#include "meshing/plan_start.hpp"
 #include "meshing/sweep_record.hpp"
 #include "support/distributed.hpp"
 #include "support/periodic_shapes.hpp"
@@ -191,13 +192,14 @@ TEST(PeriodicMesher, APerturbedHexagonalTorusReturns) {
   const RegionShape shape({}, "domain", frame);
   const sizing::UniformSize size;
   const MeshOptions options = options_for(frame, columns * rows, Method::hybrid);
+  const StartOptions start = plan_start(options);
   Log log(LogLevel::silent, false);
   TimerTable timers;
-  const FixedPoints none(shape.boundary(), options, frame.lattice(), log);
-  const LayoutContext context{world, shape.boundary(), size, options, frame.lattice(), log, timers, none};
+  const FixedPoints none(shape.boundary(), options.container, {}, frame.lattice(), log);
+  const LayoutContext context{world, shape.boundary(), size, start, frame.lattice(), log, timers, none};
   // Bars all the way, cells all the way, and cells after bars as the hybrid method has it.
   for (const auto& [by_bars, sweeps] : {std::pair{360, 360}, {0, 120}, {40, 160}}) {
-    Layout layout = lay_boundary(context, 1.0 / columns, columns * rows);
+    Stage layout = lay_boundary(context, 1.0 / columns, columns * rows).stage;
     place_sites(context, layout, perturbed_lattice(world, frame, columns, rows, 0.15));
     const delaunay::StarBuilder builder(frame.lattice(), 1);
     DistMeshRule bars;

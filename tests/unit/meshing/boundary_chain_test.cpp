@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The sites on the boundary as a list in which the rounds of the clean-up change some.
 #include "meshing/boundary_chain.hpp"
+#include "meshing/boundary_sites.hpp"
 
 #include "support/boundary_shapes.hpp"
 #include "trime/core/error.hpp"

@@ -2,6 +2,7 @@
 // Places on the boundary by arc length, and sites that slide, come and go there.
 #include "meshing/boundary_curve.hpp"
 
+#include "meshing/boundary_sites.hpp"
 #include "meshing/chord_curve.hpp"
 #include "support/boundary_shapes.hpp"
 #include "support/periodic_shapes.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // BoundaryGuard against the definitions, chord by chord.
-#include "trime/meshing/boundary_guard.hpp"
+#include "meshing/boundary_guard.hpp"
+#include "meshing/boundary_sites.hpp"
 
 #include "support/boundary_shapes.hpp"
 #include "trime/core/random.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boundary sites on easy and ugly shapes: invariants by brute force.
-#include "trime/meshing/boundary_sites.hpp"
+#include "meshing/boundary_sites.hpp"
 
 #include "support/boundary_shapes.hpp"
 #include "trime/core/error.hpp"

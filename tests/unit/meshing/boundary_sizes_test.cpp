@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sizes along the boundary from samples of the relative size, and limits that others imply.
+#include "meshing/boundary_sites.hpp"
 #include "meshing/boundary_sizes.hpp"
 #include "meshing/size_limits.hpp"
 #include "support/boundary_shapes.hpp"

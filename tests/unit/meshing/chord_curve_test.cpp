@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Chords against the curve that they stand for: closed forms, and dense samples where there are none.
+#include "meshing/boundary_sites.hpp"
 #include "meshing/chord_curve.hpp"
 
 #include "support/boundary_shapes.hpp"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/meshing/feature_rule.hpp"
+#include "meshing/feature_rule.hpp"
 
+#include "meshing/boundary_sites.hpp"
 #include "meshing/site_path.hpp"
 #include "support/boundary_shapes.hpp"
 #include "trime/core/angle.hpp"
 #include "trime/core/random.hpp"
 #include "trime/geometry/diametral.hpp"
 #include "trime/geometry/shape.hpp"
-#include "trime/meshing/boundary_sites.hpp"
 #include "trime/sizing/lowered_size.hpp"
 
 #include <gtest/gtest.h>

@@ -2,6 +2,7 @@
 // Fixed points before any mesh: where they lie, what becomes of the boundary, what is refused, what is taken out.
 #include "meshing/fixed_points.hpp"
 
+#include "meshing/boundary_sites.hpp"
 #include "trime/core/error.hpp"
 #include "trime/geometry/shape.hpp"
 
@@ -23,16 +24,16 @@ const RegionShape shape({Part::rectangle("r", {{0.25, 0.25}, {0.75, 0.75}}, unit
                          Part::circle("c", {0.5, 0.5}, 0.125, unit_frame)},
                         "difference(r, c)", unit_frame);
 
-MeshOptions with_points(const std::vector<Vec2>& points) {
-  MeshOptions options;
+std::vector<FixedPoint> with_points(const std::vector<Vec2>& points) {
+  std::vector<FixedPoint> given;
   for (std::size_t k = 0; k < points.size(); ++k)
-    options.fixed_points.push_back({points[k], fmt::format("p.xy:{}", k + 1)});
-  return options;
+    given.push_back({points[k], fmt::format("p.xy:{}", k + 1)});
+  return given;
 }
 
-FixedPoints make(const MeshOptions& options) {
+FixedPoints make(const std::vector<FixedPoint>& given) {
   Log log(LogLevel::silent, false);
-  return FixedPoints(shape.boundary(), options, unit_frame.lattice(), log);
+  return FixedPoints(shape.boundary(), unit_frame.container(), given, unit_frame.lattice(), log);
 }
 
 template <class Work>
@@ -61,7 +62,7 @@ TEST(FixedPoints, OnTheBoundaryTheyAreCorners) {
   const double step = unit_frame.step();
   const Vec2 on_circle = unit_frame.lattice().snap({0.5 + 0.125 * 0.6, 0.5 - 0.125 * 0.8});
   const Vec2 off_side{0.25 + step, 0.4}, vertex{0.75, 0.25 + step}, quadrant{0.5, 0.625};
-  const MeshOptions options = with_points({off_side, vertex, on_circle, quadrant, {0.375, 0.375}});
+  const std::vector<FixedPoint> options = with_points({off_side, vertex, on_circle, quadrant, {0.375, 0.375}});
   const FixedPoints fixed = make(options);
   EXPECT_EQ(fixed.all().size(), 5u);
   EXPECT_EQ(fixed.inside().size(), 1u);
@@ -76,18 +77,19 @@ TEST(FixedPoints, OnTheBoundaryTheyAreCorners) {
 }
 
 TEST(FixedPoints, TwoOnTheBoundaryThatAreOneToItAreRefused) {
-  const MeshOptions options = with_points({{0.25, 0.30000000005}, {0.4, 0.4}, {0.25, 0.3}});
+  const std::vector<FixedPoint> options = with_points({{0.25, 0.30000000005}, {0.4, 0.4}, {0.25, 0.3}});
   const std::string error = error_of([&] { make(options); });
   EXPECT_NE(error.find("p.xy:1: the fixed point (0.25, 0.30000000005"), std::string::npos) << error;
   EXPECT_NE(error.find("is 5e-11 from that of p.xy:3"), std::string::npos) << error;
-  const MeshOptions apart = with_points({{0.25, 0.3000000002}, {0.25, 0.3}}),
-                    inside = with_points({{0.3, 0.3}, {0.3, 0.30000000005}});
+  const std::vector<FixedPoint> apart = with_points({{0.25, 0.3000000002}, {0.25, 0.3}}),
+                                inside = with_points({{0.3, 0.3}, {0.3, 0.30000000005}});
   EXPECT_EQ(corners_of(sites_for(make(apart), 0.03)).size(), 6u);
   EXPECT_EQ(make(inside).inside().size(), 2u);
 }
 
 TEST(FixedPoints, NoDiscOfASegmentHoldsOne) {
-  const MeshOptions options = with_points({{0.325, 0.2501}, {0.425, 0.252}, {0.51, 0.6251}, {0.625, 0.7499999}});
+  const std::vector<FixedPoint> options =
+      with_points({{0.325, 0.2501}, {0.425, 0.252}, {0.51, 0.6251}, {0.625, 0.7499999}});
   const FixedPoints fixed = make(options);
   const BoundarySites sites = sites_for(fixed, 0.05);
   for (LocalIndex i = 0; i < static_cast<LocalIndex>(sites.sites.size()); ++i)
@@ -95,11 +97,11 @@ TEST(FixedPoints, NoDiscOfASegmentHoldsOne) {
       const geometry::Segment chord = sites.chord(i);
       EXPECT_GT(dot(chord.a - p, chord.b - p), 0);
     }
-  EXPECT_GT(sites.sites.size(), sites_for(make(MeshOptions{}), 0.05).sites.size());
+  EXPECT_GT(sites.sites.size(), sites_for(make({}), 0.05).sites.size());
 }
 
 TEST(FixedPoints, WhatIsOutsideIsRefused) {
-  const MeshOptions in_hole = with_points({{0.3, 0.3}, {0.5, 0.5}});
+  const std::vector<FixedPoint> in_hole = with_points({{0.3, 0.3}, {0.5, 0.5}});
   const FixedPoints fixed = make(in_hole);
   const BoundarySites sites = sites_for(fixed, 0.05);
   const std::string message = error_of([&] { fixed.check_inside(BoundaryGuard(sites, unit_frame.lattice())); });
@@ -113,12 +115,12 @@ TEST(FixedPoints, WhatIsOutsideIsRefused) {
 }
 
 TEST(FixedPoints, CoincidentOnesAreKeptOnce) {
-  const MeshOptions options = with_points({{0.3, 0.3}, {0.3, 0.4}, {0.3, 0.3 + 1e-15}});
+  const std::vector<FixedPoint> options = with_points({{0.3, 0.3}, {0.3, 0.4}, {0.3, 0.3 + 1e-15}});
   EXPECT_EQ(make(options).all().size(), 2u);
 }
 
 TEST(FixedPoints, FreeSitesKeepAway) {
-  const MeshOptions options = with_points({{0.375, 0.375}, {0.25, 0.5}});
+  const std::vector<FixedPoint> options = with_points({{0.375, 0.375}, {0.25, 0.5}});
   const FixedPoints fixed = make(options);
   const double h = 0.02;
   mesh::SiteList sites;

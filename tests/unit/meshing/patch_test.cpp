@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the optimizer makes of patches whose remedy is known.
+#include "meshing/boundary_sites.hpp"
 #include "support/patch_stage.hpp"
 #include "support/periodic_shapes.hpp"
 #include "support/point_sets.hpp"

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boundary sites and guard in periodic containers, against the definitions with all images.
+#include "meshing/boundary_guard.hpp"
+#include "meshing/boundary_sites.hpp"
 #include "support/periodic_shapes.hpp"
 #include "trime/core/random.hpp"
 #include "trime/geometry/diametral.hpp"
-#include "trime/meshing/boundary_guard.hpp"
 
 #include <gtest/gtest.h>
 

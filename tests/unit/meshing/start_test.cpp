@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The lattice start: regular, clear of the boundary, and the same set however the tiles are split.
+#include "meshing/boundary_sites.hpp"
+#include "meshing/start.hpp"
 #include "support/periodic_shapes.hpp"
 #include "support/point_sets.hpp"
-#include "trime/meshing/start.hpp"
 
 #include <gtest/gtest.h>
 

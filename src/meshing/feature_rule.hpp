@@ -2,11 +2,11 @@
 // What becomes of features of the boundary that are smaller than the elements.
 #pragma once
 
+#include "meshing/polygon.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <span>
-#include <vector>
 
 namespace trime::meshing {
 
@@ -18,17 +18,6 @@ struct FeatureRule {
   double least_perimeter = 0;
   /// The local size that counts, if it differs from that by which the sites are laid. Must outlive what uses the rule.
   const sizing::SizeField* size = nullptr;
-};
-
-/// What the loops that a rule drops took with them.
-struct DroppedLoops {
-  std::vector<char> dropped; ///< per loop of the boundary
-  int components = 0, holes = 0;
-  double area = 0;   ///< of the islands plus that of the lakes
-  double change = 0; ///< of the shape's area: lakes minus islands
-  /// Of the Euler characteristic.
-  int euler_change() const { return holes - components; }
-  bool any() const { return components + holes > 0; }
 };
 
 /// The boundary of what is left. O(pieces)

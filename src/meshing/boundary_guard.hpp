@@ -3,10 +3,10 @@
 // disc of a chord, and where to push it. Does not move, delete or count anything itself.
 #pragma once
 
+#include "meshing/polygon.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/geometry/periods.hpp"
 #include "trime/geometry/segment_grid.hpp"
-#include "trime/meshing/boundary_sites.hpp"
 
 #include <algorithm>
 #include <cstdint>

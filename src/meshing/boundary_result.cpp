@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What comes out of the layout of a boundary.
 
-#include "boundary_refiner.hpp"
-#include "chord_curve.hpp"
 #include "core/gather.hpp"
+#include "meshing/boundary_refiner.hpp"
+#include "meshing/chord_curve.hpp"
 
 #include "trime/core/angle.hpp"
 

@@ -2,11 +2,12 @@
 // Where the inner sites start. Each rank makes the sites of its own tiles; the set does not depend on the ranks.
 #pragma once
 
+#include "mesh/tile_range.hpp"
+#include "meshing/boundary_guard.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/mesh/binned_points.hpp"
-#include "trime/meshing/boundary_guard.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <cstdint>
@@ -14,12 +15,6 @@
 #include <vector>
 
 namespace trime::meshing {
-
-/// Tiles [first, last) of a grid.
-struct TileRange {
-  const mesh::TileGrid& grid;
-  LocalIndex first, last;
-};
 
 struct RowLattice;
 
@@ -34,14 +29,14 @@ public:
 
   /// @brief Sites inside the shape at least 0.45 spacings away from its boundary, by tile, row and column. Threads.
   /// @param more room for so many sites is left, that will be added
-  mesh::SiteList sites(const TileRange& tiles, double spacing, std::size_t more = 0) const;
+  mesh::SiteList sites(const mesh::TileRange& tiles, double spacing, std::size_t more = 0) const;
   /// Their number, without making them.
-  std::int64_t count(const TileRange& tiles, double spacing) const;
+  std::int64_t count(const mesh::TileRange& tiles, double spacing) const;
 
 private:
   RowLattice rows_of(double spacing) const;
   bool is_clear(const mesh::TileGrid& grid, LocalIndex tile, double margin) const;
-  std::vector<std::int64_t> counts(const TileRange& tiles, const RowLattice& rows, double spacing) const;
+  std::vector<std::int64_t> counts(const mesh::TileRange& tiles, const RowLattice& rows, double spacing) const;
   template <class Visit>
   void for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile, const RowLattice& rows, double spacing,
                         const Visit& visit) const;
@@ -61,7 +56,7 @@ public:
   /// @brief Takes the integral. Collective (one scan). @pre the other arguments outlive this object
   /// @param expected about so many sites will be asked for: of few, the cells of the integral are kept for them
   /// @param coarsening of the integral's cells, which else take a quarter of a site, and less near the boundary
-  HilbertStart(const comm::Communicator& comm, const TileRange& tiles, const BoundaryGuard& guard,
+  HilbertStart(const comm::Communicator& comm, const mesh::TileRange& tiles, const BoundaryGuard& guard,
                const sizing::SizeField& size, const geometry::Lattice& lattice, double expected, double coarsening = 1);
   ~HilbertStart();
 
@@ -77,7 +72,7 @@ private:
 };
 
 /// The sites of a HilbertStart that is not asked for anything else. Collective.
-mesh::SiteList hilbert_start(const comm::Communicator& comm, const TileRange& tiles, const BoundaryGuard& guard,
+mesh::SiteList hilbert_start(const comm::Communicator& comm, const mesh::TileRange& tiles, const BoundaryGuard& guard,
                              const sizing::SizeField& size, const geometry::Lattice& lattice, std::int64_t n,
                              std::uint64_t seed);
 

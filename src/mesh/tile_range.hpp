@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Some tiles of a grid, one after the other along its Hilbert curve.
+#pragma once
+
+#include "trime/mesh/tile_grid.hpp"
+
+namespace trime::mesh {
+
+/// Tiles [first, last) of a grid.
+struct TileRange {
+  const TileGrid& grid;
+  LocalIndex first, last;
+};
+
+} // namespace trime::mesh
