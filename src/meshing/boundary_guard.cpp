@@ -2,6 +2,7 @@
 #include "meshing/boundary_guard.hpp"
 
 #include "meshing/chord_closure.hpp"
+#include "meshing/polygon_rules.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/thread_loop.hpp"
 #include "trime/geometry/diametral.hpp"
@@ -17,13 +18,7 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr double near_share = 0.05; // of the chord length: closer sites encroach
-constexpr double push_share = 0.6;  // of the chord length, from its middle
-constexpr double cells_per_chord = 64;
-constexpr double most_cells = 0x1p22;
-constexpr int strip_rows = 64;     // of cells, for one thread
-constexpr int most_clearance = 15; // cells; beyond that they are not counted
-constexpr double entries = 0x1p22, entries_per_chord = 64, most_entries = 0x1p25; // of all cell lists together
+constexpr int strip_rows = 64; // of cells, for one thread
 
 std::vector<Segment> chords_of(const BoundarySites& sites) {
   std::vector<Segment> chords;
@@ -45,9 +40,9 @@ void for_each_shift(const geometry::Periods& periods, double reach, const Visit&
       visit(Vec2{i * periods.x, j * periods.y});
 }
 
-/// Radius around the middle of the chord that covers its disc and everything nearer than `near_share`.
+/// Radius around the middle of the chord that covers its disc and everything nearer than `PolygonRules::near_chord`.
 double reach_of(const Segment& chord) {
-  return (0.5 + near_share) * geometry::length(chord.b - chord.a) * (1 + 1e-9);
+  return (0.5 + PolygonRules::near_chord) * geometry::length(chord.b - chord.a) * (1 + 1e-9);
 }
 
 } // namespace
@@ -87,8 +82,8 @@ geometry::Box BoundaryGuard::choose_cells() {
     box.max.y = periods_.min.y + periods_.y;
   }
   const double n = static_cast<double>(chords_.segments().size()), area = box.width() * box.height();
-  const double cells = std::clamp(cells_per_chord * n, 4096.0, most_cells);
-  const double affordable = std::clamp(entries_per_chord * n, entries, most_entries);
+  const double cells = std::clamp(PolygonRules::cells_per_chord * n, 4096.0, PolygonRules::most_cells);
+  const double affordable = std::clamp(PolygonRules::entries_per_chord * n, PolygonRules::entries, PolygonRules::most_entries);
   side_ = std::sqrt(std::fmax(area / cells, area_of_discs / affordable));
   side_ = std::fmax(side_, std::fmax(box.width(), box.height()) * 0x1p-14);
   inverse_side_ = 1 / side_;
@@ -196,7 +191,8 @@ void BoundaryGuard::classify_cells(const geometry::Lattice& lattice) {
   state_.assign(static_cast<std::size_t>(columns_) * rows_, near_disc);
   thread_loop((rows_ - 1) / strip_rows + 1, 1, [&](std::ptrdiff_t strip, int) {
     const int first = static_cast<int>(strip) * strip_rows, last = std::min(rows_, first + strip_rows);
-    const int low = std::max(0, first - most_clearance), high = std::min(rows_, last + most_clearance);
+    const int low = std::max(0, first - PolygonRules::farthest_cell),
+              high = std::min(rows_, last + PolygonRules::farthest_cell);
     std::vector<std::int8_t> clearance = clearance_of(low, high);
     for (int j = first; j < last; ++j)
       classify_row(j, &clearance[static_cast<std::size_t>(j - low) * columns_], lattice);
@@ -210,9 +206,9 @@ std::vector<std::int8_t> BoundaryGuard::clearance_of(int low, int high) const {
   std::vector<std::int8_t> clearance(width * rows);
   const std::size_t offset = static_cast<std::size_t>(low) * width;
   for (std::size_t cell = 0; cell < clearance.size(); ++cell)
-    clearance[cell] = cell_start_[offset + cell + 1] > cell_start_[offset + cell] ? 0 : most_clearance;
+    clearance[cell] = cell_start_[offset + cell + 1] > cell_start_[offset + cell] ? 0 : PolygonRules::farthest_cell;
   constexpr auto next = [](std::int8_t v) { return static_cast<std::int8_t>(v + 1); };
-  const std::int8_t beyond = periods_.x > 0 ? 0 : most_clearance;
+  const std::int8_t beyond = periods_.x > 0 ? 0 : PolygonRules::farthest_cell;
   const auto look_aside = [&](std::int8_t* row, const std::int8_t* other, bool border) {
     if (other == nullptr) {
       if (border && periods_.y > 0)
@@ -342,11 +338,11 @@ std::optional<Vec2> BoundaryGuard::correct(Vec2 image, double h, const geometry:
   const Vec2 along = s.b - s.a, middle = 0.5 * (s.a + s.b), toward = p - middle;
   const double chord_length = geometry::length(along), distance = geometry::length(toward);
   if (p_inside && distance > 0 && geometry::cross(along, toward) >= 0.5 * chord_length * distance) {
-    const Vec2 pushed = lattice.snap(middle + (push_share * chord_length / distance) * toward);
+    const Vec2 pushed = lattice.snap(middle + (PolygonRules::push_way * chord_length / distance) * toward);
     if (inside(pushed) && deepest_disc(periods_.wrap(pushed)) < 0)
       return pushed + shift;
   }
-  return lattice.snap(middle + push_share * geometry::left_normal(along)) + shift;
+  return lattice.snap(middle + PolygonRules::push_way * geometry::left_normal(along)) + shift;
 }
 
 bool BoundaryGuard::pushes(Vec2 p) const {
@@ -382,7 +378,8 @@ bool BoundaryGuard::encroaches(Vec2 p) const {
     const Segment& chord = disc(k);
     if (geometry::diametral_side(chord.a, chord.b, p) < 0)
       return true;
-    const double limit = near_share * near_share * geometry::squared_length(chord.b - chord.a);
+    const double limit =
+        PolygonRules::near_chord * PolygonRules::near_chord * geometry::squared_length(chord.b - chord.a);
     if (geometry::squared_distance(p, chord) < limit)
       return true;
   }

@@ -2,6 +2,7 @@
 #include "meshing/boundary_layout.hpp"
 
 #include "core/gather.hpp"
+#include "meshing/boundary_rules.hpp"
 #include "meshing/site_path.hpp"
 
 #include "trime/core/angle.hpp"
@@ -16,14 +17,6 @@ namespace trime::meshing {
 using geometry::Vec2;
 
 namespace {
-
-constexpr double always_a_corner = 120;           // degrees; no chord can stand for such a turn
-constexpr double sharp_turn = 120;                // degrees; the arms then meet at less than 60
-constexpr double largest_turn = pi / 3 + 1e-9;    // of the curve within one interval
-constexpr double long_arm = 2;                    // in local sizes: a corner with such arms is kept
-constexpr double turned_back = 2 * pi / 3;        // between two such arms, on a short way: the end of a slit
-constexpr double most_of_extent = 0.1;            // of a loop: no corner is left out farther from its chord
-constexpr double smallest_size_in_steps = 0x1p11; // of the lattice, for h
 
 struct Corner {
   double t;
@@ -60,8 +53,11 @@ struct Junctions {
 };
 
 Corner corner_at(const LoopMetric& metric, std::size_t piece) {
-  return {
-      metric.piece_t(piece), metric.loop().pieces[piece].start, metric.loop().turn_degrees(piece) > sharp_turn, {}, {}};
+  return {metric.piece_t(piece),
+          metric.loop().pieces[piece].start,
+          metric.loop().turn_degrees(piece) > BoundaryRules::sharp_turn,
+          {},
+          {}};
 }
 
 /// A junction that turns by more than the corner angle.
@@ -72,7 +68,7 @@ struct Turning {
 };
 
 std::vector<Turning> find_turnings(const LoopMetric& metric, double corner_angle) {
-  const double least = std::fmin(corner_angle, always_a_corner);
+  const double least = std::fmin(corner_angle, BoundaryRules::always_a_corner);
   std::vector<Turning> turnings;
   for (std::size_t i = 0; i < metric.loop().pieces.size(); ++i)
     if (const double turn = metric.turn(i); std::fabs(turn) * (180 / pi) > least)
@@ -90,14 +86,14 @@ std::vector<char> find_clear_corners(const std::vector<Turning>& turnings, doubl
   };
   std::vector<char> clear(n, 0);
   for (std::size_t k = 0; k < n; ++k) {
-    if (way_ahead((k + n - 1) % n) < long_arm)
+    if (way_ahead((k + n - 1) % n) < BoundaryRules::long_arm)
       continue;
     double turn = 0, way = 0;
-    for (std::size_t hop = 0; hop < n && way < long_arm; ++hop) {
+    for (std::size_t hop = 0; hop < n && way < BoundaryRules::long_arm; ++hop) {
       const std::size_t last = (k + hop) % n;
       turn += turnings[last].turn;
-      if (way_ahead(last) >= long_arm) {
-        if (hop == 0 || std::fabs(turn) >= turned_back)
+      if (way_ahead(last) >= BoundaryRules::long_arm) {
+        if (hop == 0 || std::fabs(turn) >= BoundaryRules::turned_back)
           clear[k] = clear[last] = 1;
         break;
       }
@@ -176,7 +172,7 @@ struct Stretch {
 };
 
 long intervals_of(const LoopMetric& metric, double from, double to) {
-  const double by_turn = std::ceil(std::fabs(metric.summarize(from, to, {}, {}).turn) / largest_turn);
+  const double by_turn = std::ceil(std::fabs(metric.summarize(from, to, {}, {}).turn) / BoundaryRules::largest_turn);
   return std::max({1L, std::lround(to - from), std::lround(by_turn)});
 }
 
@@ -281,7 +277,7 @@ private:
   }
 
   void check_size(double t, Vec2 p) const {
-    const double least = smallest_size_in_steps * lattice_.step(), h = metric_.size(t);
+    const double least = BoundaryRules::shortest_in_steps * lattice_.step(), h = metric_.size(t);
     if (h < least)
       throw GeometryError(fmt::format("element size on the boundary at ({}, {}): expected at least {} (the resolution "
                                       "of the container), found {}; use a larger edge length or fewer points",
@@ -299,10 +295,10 @@ private:
 
 SiteKind kind_of_junction(const geometry::Loop& loop, std::size_t piece, double corner_angle) {
   const double turn = loop.turn_degrees(piece);
-  if (turn > sharp_turn)
+  if (turn > BoundaryRules::sharp_turn)
     return SiteKind::sharp_corner;
-  return turn > std::fmin(corner_angle, always_a_corner) || loop.pieces[piece].corner ? SiteKind::corner
-                                                                                      : SiteKind::plain;
+  return turn > std::fmin(corner_angle, BoundaryRules::always_a_corner) || loop.pieces[piece].corner ? SiteKind::corner
+                                                                                                     : SiteKind::plain;
 }
 
 std::vector<LoopSite> lay_out_loop(const LoopMetric& metric, const geometry::Lattice& lattice, double corner_angle,
@@ -317,7 +313,7 @@ std::vector<LoopSite> lay_out_loop(const LoopMetric& metric, const geometry::Lat
   std::vector<Stretch> stretches = stretches_of(metric, junctions);
   ensure_polygon(stretches);
   FeatureTolerance capped = tolerance;
-  capped.most = most_of_extent * extent_of(metric.loop());
+  capped.most = BoundaryRules::most_of_extent * extent_of(metric.loop());
   const bool closed = stretches.size() == 1 && !metric.loop().winds();
   constexpr std::ptrdiff_t few = 4; // stretches that one thread divides in a row
   std::vector<LoopSite> sites =

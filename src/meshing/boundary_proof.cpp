@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/boundary_proof.hpp"
 
+#include "meshing/certificate_rules.hpp"
 #include "meshing/chord_curve.hpp"
 #include "trime/core/thread_loop.hpp"
 #include "trime/geometry/shape.hpp"
@@ -13,13 +14,6 @@ namespace trime::meshing {
 namespace {
 
 using geometry::Vec2;
-
-constexpr double vertex_limit = 1e-9; // of the container's longer side
-constexpr double chord_limit = 0.75; // of h: an arc of length h strays from its chord by h/2 at most, and sites may lie
-                                     // a little more than h apart
-constexpr double arc_tolerance = 1.08; // sagitta of 60 degrees over l^2 / 8R: 1.072
-constexpr double arc_slack = 1e-3;     // of h
-constexpr double area_limit = 1e-10;   // of the shape's area
 
 std::size_t at(LocalIndex i) {
   return static_cast<std::size_t>(i);
@@ -74,7 +68,8 @@ ChordExtremes extremes_of(const BoundaryTruth& truth, const std::vector<ChordCur
     const double sagitta = squared_length(segment.b - segment.a) * chord.curvature / 8;
     extremes.deviation = std::max(extremes.deviation, chord.deviation / h);
     if (chord.curvature > 0)
-      extremes.of_arcs = std::max(extremes.of_arcs, chord.deviation / (arc_tolerance * sagitta + arc_slack * h));
+      extremes.of_arcs = std::max(extremes.of_arcs, chord.deviation / (CertificateRules::arc_tolerance * sagitta +
+                                                                       CertificateRules::arc_slack * h));
     extremes.area += chord.area;
   }
   return extremes;
@@ -173,13 +168,13 @@ mesh::Checks prove_boundary(const BoundaryTruth& truth, const mesh::DistributedM
           count_check("foreign_tags", 0, cycles.foreign, "boundary edges with another tag than their cycle"),
           count_check("corner_places", truth.sites.corners, corners_in_place(truth),
                       "corners that are vertices of the shape, bit for bit"),
-          limit_check("vertex_distance", std::max(vertex_limit, step / truth.side), distance,
+          limit_check("vertex_distance", std::max(CertificateRules::vertex_limit, step / truth.side), distance,
                       "boundary vertices from the shape's boundary, over the longer side of the container (at most)"),
-          limit_check("chord_deviation", chord_limit, extremes.deviation,
+          limit_check("chord_deviation", CertificateRules::chord_limit, extremes.deviation,
                       "the shape's boundary from the boundary edges, over h (at most)"),
           limit_check("arc_deviation", 1, extremes.of_arcs,
                       "arcs of circles from their edges, over 1.08 l^2/8R + h/1000, edge l, radius R (at most)"),
-          limit_check("area_residual", area_limit + step * truth.meshed.length() / shape_area,
+          limit_check("area_residual", CertificateRules::area_limit + step * truth.meshed.length() / shape_area,
                       area_residual(truth, extremes.area, shape_area),
                       "mesh, with what lies between edges and curve, from the shape, over the shape's area (at most)")};
 }

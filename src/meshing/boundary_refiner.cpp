@@ -2,6 +2,7 @@
 #include "meshing/boundary_refiner.hpp"
 
 #include "core/gather.hpp"
+#include "meshing/boundary_rules.hpp"
 
 #include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"
@@ -16,12 +17,6 @@ using geometry::Vec2;
 namespace {
 
 constexpr std::ptrdiff_t segments_in_a_row = 64; // by one thread
-constexpr int full_rounds = 20;                  // later rounds look only at segments near the new sites
-constexpr double shortest_in_steps = 0x1p11;     // a shorter part is not divided
-constexpr double largest_turn = pi / 3 + 1e-6;   // of the curve between neighbouring sites
-constexpr double smooth_junction = pi / 360;     // where two pieces of one circle meet
-constexpr double most_deviation = 1.25;          // of the tolerance; the layout keeps within 1.1 of it
-constexpr double junction_turn = pi / 4; // a junction that turns by more becomes a site when its segment is divided
 
 double nearest_power_of_two(double v) {
   int exponent = 0;
@@ -44,7 +39,7 @@ BoundaryRefiner::BoundaryRefiner(const geometry::Boundary& boundary, const Bound
     metrics_.emplace_back(boundary, k, sizes);
     add_loop(lay_out_loop(metrics_.back(), lattice, corner_angle, tolerance_));
   }
-  most_sites_ = std::max<std::size_t>(4000000, 16 * sites_.size());
+  most_sites_ = std::max(BoundaryRules::most_sites, BoundaryRules::halving_growth * sites_.size());
 }
 
 void BoundaryRefiner::run() {
@@ -105,7 +100,7 @@ std::vector<BoundaryRefiner::Cut> BoundaryRefiner::find_cuts(const std::vector<L
     if (intruder >= 0 || point >= 0 || (is_fresh && curve_offends(k)))
       cuts.push_back({k, intruder, point});
   };
-  if (rounds_ < full_rounds)
+  if (rounds_ < BoundaryRules::full_rounds)
     return gather_in_order<Cut>(std::ssize(sites_), segments_in_a_row, [&](std::ptrdiff_t k, std::vector<Cut>& cuts) {
       look(static_cast<LocalIndex>(k), cuts);
     });
@@ -170,17 +165,17 @@ bool BoundaryRefiner::curve_offends(LocalIndex segment) const {
     return true;
   const double tolerance = this->tolerance(a);
   const bool strays = tolerance > 0 && part.sharpest_turn > corner_angle_ * (pi / 180) &&
-                      part.deviation > most_deviation * tolerance; // from a corner, after a division
+                      part.deviation > BoundaryRules::most_deviation * tolerance; // from a corner, after a division
   // The arc of a circle has no corner that could be left out.
-  const bool is_smooth = part.sharpest_turn < smooth_junction;
-  return strays || (std::fabs(part.turn) > largest_turn && (is_smooth || part.deviation > tolerance));
+  const bool is_smooth = part.sharpest_turn < BoundaryRules::smooth_junction;
+  return strays || (std::fabs(part.turn) > BoundaryRules::largest_turn && (is_smooth || part.deviation > tolerance));
 }
 
 /// Where to divide the segment from a to b, as t after a.
 BoundaryRefiner::CutPlace BoundaryRefiner::cut_place(const Site& a, const Site& b, double end) const {
   const LoopMetric& metric = metrics_[a.loop];
   const PartSummary part = summarize(a);
-  if (part.sharpest_turn > junction_turn) {
+  if (part.sharpest_turn > BoundaryRules::junction_turn) {
     const double t = metric.piece_t(static_cast<std::size_t>(part.sharpest));
     return {t > a.t ? t : t + metric.total(), part.sharpest};
   }
@@ -193,7 +188,7 @@ BoundaryRefiner::CutPlace BoundaryRefiner::cut_place(const Site& a, const Site& 
     if (t && *t > a.t && *t < end)
       return {*t};
   }
-  if (std::fabs(part.turn) > largest_turn)
+  if (std::fabs(part.turn) > BoundaryRules::largest_turn)
     return {part.half_turn_t};
   return {0.5 * (a.t + end)};
 }
@@ -204,7 +199,7 @@ LocalIndex BoundaryRefiner::divide(const Cut& cut) {
   b.position = end_of(a);
   const LoopMetric& metric = metrics_[a.loop];
   const double end = end_t(a);
-  if (metric.arc_length(a.t, end) < shortest_in_steps * lattice_.step() ||
+  if (metric.arc_length(a.t, end) < BoundaryRules::shortest_in_steps * lattice_.step() ||
       (cut.intruder >= 0 && cut.intruder != cut.segment && cut.intruder != a.next &&
        (boundary_.periods.same_point(sites_[cut.intruder].position, a.position) ||
         boundary_.periods.same_point(sites_[cut.intruder].position, b.position))))
@@ -244,7 +239,7 @@ void BoundaryRefiner::fail(const Cut& cut) const {
       "the boundary is too narrow near ({:.17g}, {:.17g}): {}; expected parts that are at least {:.3g} apart (the "
       "resolution of the container), divided in {} rounds down to a segment of {:.3g}. More points are not the cure: "
       "simplify the contour there, or move its parts clearly apart or together, or make the container smaller",
-      from.x, from.y, cause, shortest_in_steps * lattice_.step(), rounds_, geometry::length(to - from)));
+      from.x, from.y, cause, BoundaryRules::shortest_in_steps * lattice_.step(), rounds_, geometry::length(to - from)));
 }
 
 } // namespace trime::meshing

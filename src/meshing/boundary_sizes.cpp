@@ -2,6 +2,7 @@
 #include "meshing/boundary_sizes.hpp"
 
 #include "core/gather.hpp"
+#include "meshing/boundary_rules.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -11,8 +12,6 @@ namespace trime::meshing {
 namespace {
 
 constexpr std::ptrdiff_t pieces_in_a_row = 64; // by one thread
-constexpr double step_share = 0.5;             // of the local size
-constexpr std::size_t most_samples = std::size_t{1} << 27;
 constexpr std::size_t samples_in_a_row = 1024; // that are counted together
 
 /// Names the piece with the most sites, as far as its start tells: the same on any threads.
@@ -31,7 +30,7 @@ constexpr std::size_t samples_in_a_row = 1024; // that are counted together
     }
   throw GeometryError(fmt::format("the element size near ({}, {}) is {}: the boundary would get more than {} sites; "
                                   "ask for fewer points or a larger edge length",
-                                  place.x, place.y, h, most_samples / 2));
+                                  place.x, place.y, h, BoundaryRules::most_samples / 2));
 }
 
 } // namespace
@@ -48,10 +47,11 @@ SizeSamples::SizeSamples(const geometry::Boundary& boundary, const sizing::SizeF
           const geometry::Piece& piece = loop.pieces[static_cast<std::size_t>(i)];
           const double whole = piece.length();
           const std::size_t before = list.size();
-          for (double s = 0; (s < whole || s == 0) && total.load(std::memory_order_relaxed) <= most_samples;) {
+          for (double s = 0;
+               (s < whole || s == 0) && total.load(std::memory_order_relaxed) <= BoundaryRules::most_samples;) {
             const double value = sizing::checked_size(relative, boundary.periods.wrap(piece.point(s)));
             list.push_back({s, value, static_cast<LocalIndex>(i)});
-            const double step = step_share * asked.scaled(value);
+            const double step = BoundaryRules::sample_step * asked.scaled(value);
             if (const std::size_t made = list.size() - before; made > 0 && made % samples_in_a_row == 0)
               total += samples_in_a_row;
             if (s + 1.25 * step >= whole)
@@ -60,7 +60,7 @@ SizeSamples::SizeSamples(const geometry::Boundary& boundary, const sizing::SizeF
           }
           total += (list.size() - before) % samples_in_a_row;
         });
-    if (total > most_samples)
+    if (total > BoundaryRules::most_samples)
       fail_for_samples(boundary, relative, asked);
     of_loop.first.reserve(loop.pieces.size() + 1);
     for (std::size_t k = 0; k < of_loop.samples.size(); ++k)

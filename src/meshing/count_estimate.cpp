@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/count_estimate.hpp"
 
+#include "meshing/density_integral.hpp"
 #include "meshing/density_sampler.hpp"
+#include "meshing/start_rules.hpp"
 #include "trime/comm/agree.hpp"
 #include "trime/core/angle.hpp"
 #include "trime/core/thread_loop.hpp"
@@ -14,10 +16,7 @@ namespace {
 
 using geometry::Vec2;
 
-constexpr double arc_step = pi / 8;  // of the polygon along a circular piece
-constexpr double least_sites = 3;    // of a loop
-constexpr double far_too_many = 4;   // times the points asked for; beyond that nothing is counted
-constexpr double longest_step = 1.0; // of the integral of ds/h, in local sizes
+constexpr double arc_step = pi / 8; // of the polygon along a circular piece
 
 /// A vertex of the polygon on the unrolled loop, and the length of the curve up to it from the one before.
 struct Vertex {
@@ -111,7 +110,7 @@ std::optional<double> CountEstimate::points(double factor) const {
   if (!on_boundary)
     return std::nullopt;
   const double placed = *on_boundary + static_cast<double>(context_.fixed.inside().size());
-  if (*on_boundary > far_too_many * points_)
+  if (*on_boundary > FitRules::far_too_many * points_)
     return placed;
   const mesh::TileRange tiles = even_share(reference_, context_.comm);
   return placed + integrate_density(context_.comm, tiles,
@@ -125,21 +124,20 @@ sizing::ScaledSize CountEstimate::scaled(double factor) const {
 }
 
 double CountEstimate::crowding(double factor) const {
-  constexpr double sparse = 0.38, most = 16;
   const sizing::ScaledSize size = scaled(factor);
   std::optional<double> sites;
   comm::run_agreed(context_.comm, [&] { sites = boundary_points(size); });
   if (!sites || !(*sites > 0))
     return 1;
-  const double share = corners_ / (sparse * *sites);
-  return std::clamp(share * share, 1.0, most);
+  const double share = corners_ / (FitRules::sparse_corners * *sites);
+  return std::clamp(share * share, 1.0, FitRules::most_crowding);
 }
 
 /// Simpson's rule, in steps of about the local size.
 std::optional<double> CountEstimate::boundary_points(const sizing::SizeField& size) const {
   const BoundarySites& polygon = reference_.boundary;
   std::vector<double> counts(polygon.sites.size());
-  const double most = far_too_many * points_;
+  const double most = FitRules::far_too_many * points_;
   thread_loop(std::ssize(counts), 64, [&](std::ptrdiff_t k, int) {
     const geometry::Segment chord = polygon.chord(static_cast<LocalIndex>(k));
     const auto inverse = [&](double share) {
@@ -149,7 +147,7 @@ std::optional<double> CountEstimate::boundary_points(const sizing::SizeField& si
     double& count = counts[static_cast<std::size_t>(k)];
     double share = 0, first = inverse(0);
     while (share < 1 && count < most && std::isfinite(first)) {
-      double step = std::max(longest_step / (first * length), 1e-9);
+      double step = std::max(FitRules::longest_step / (first * length), 1e-9);
       step = share + 1.25 * step < 1 ? step : 1 - share;
       const double last = inverse(share + step);
       count += step * length * (first + 4 * inverse(share + 0.5 * step) + last) / 6;
@@ -166,8 +164,8 @@ std::optional<double> CountEstimate::boundary_points(const sizing::SizeField& si
       sites += counts[static_cast<std::size_t>(k)];
     if (!std::isfinite(sites))
       return std::nullopt;
-    if (sites >= least_sites || context_.options.keep_features)
-      all += std::max(least_sites, sites);
+    if (sites >= FitRules::least_sites || context_.options.keep_features)
+      all += std::max(FitRules::least_sites, sites);
   }
   return all;
 }

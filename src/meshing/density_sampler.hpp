@@ -2,9 +2,16 @@
 // The wanted density of sites, h^-2 up to a factor, as integer weights of small cells along the Hilbert curve.
 #pragma once
 
-#include "meshing/start.hpp"
+#include "mesh/tile_range.hpp"
+#include "meshing/boundary_guard.hpp"
+#include "meshing/start_rules.hpp"
+#include "trime/comm/agree.hpp"
+#include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/sum.hpp"
+#include "trime/core/thread_loop.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/sizing/size_field.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,12 +26,12 @@ namespace trime::meshing {
 class DensitySampler {
 public:
   static constexpr double weight_unit = 0x1p20; ///< integer weight of one site
-  static constexpr double strip = 0.43;         ///< of h along the boundary stays free of sites
 
   DensitySampler(const mesh::TileGrid& grid, const BoundaryGuard& guard, const sizing::SizeField& size,
                  const geometry::Lattice& lattice, double coarsening = 1)
-      : grid_(grid), guard_(guard), size_(size), lattice_(lattice), most_inside_(0.25 * coarsening * coarsening),
-        most_near_(0.0625 * coarsening * coarsening) {}
+      : grid_(grid), guard_(guard), size_(size), lattice_(lattice),
+        most_inside_(StartRules::sites_in_cell * coarsening * coarsening),
+        most_near_(StartRules::sites_in_cell_near * coarsening * coarsening) {}
 
   /// A leaf with a weight; `key` and `level` name it within its tile.
   struct Cell {
@@ -53,10 +60,6 @@ public:
   }
 
 private:
-  static constexpr int most_levels = 24;
-  static constexpr double most_in_smallest = 64; // sites
-  static constexpr std::int64_t most_cells = 1 << 27;
-
   /// Every bin is looked into, wherever its tile's middle lies: sizes may jump.
   int least_levels() const { return grid_.typical_bin_bits() + 1; }
   int part_levels() const { return std::min(2, least_levels()); }
@@ -71,7 +74,7 @@ private:
     geometry::Box box;
     std::uint64_t key;
     int level;
-    bool clear;      ///< a larger part around it is clear of the boundary and its strip, and inside
+    bool clear;      ///< a larger part around it is clear of the boundary and its StartRules::density_strip, and inside
     NearChords near; ///< of the part that it is a quarter of
   };
   struct Work {
@@ -140,7 +143,7 @@ private:
     const bool inside = part.clear || guard_.inside(p);
     if (!valid && inside && grid_.container().contains(p))
       sizing::fail_for_size(p, h);
-    const double free = valid && inside ? strip * h : 0; // outside the shape any value will do
+    const double free = valid && inside ? StartRules::density_strip * h : 0; // outside the shape any value will do
     double to_boundary = INFINITY;
     bool clear = part.clear;
     if (!clear) {
@@ -150,9 +153,11 @@ private:
         return work.chords.resize(chords_before);
     }
     const double sites = valid ? box.width() * box.height() / (row_height * h * h) : 0;
-    if (++work.cells > most_cells || (part.level == most_levels && sites > most_in_smallest))
+    if (++work.cells > StartRules::most_cells ||
+        (part.level == StartRules::deepest_cell && sites > StartRules::most_in_deepest))
       fail_for_small_size(p, h);
-    if (part.level < most_levels && (part.level < least_levels() || sites > (clear ? most_inside_ : most_near_))) {
+    if (part.level < StartRules::deepest_cell &&
+        (part.level < least_levels() || sites > (clear ? most_inside_ : most_near_))) {
       for (std::uint64_t quarter = 0; quarter < 4; ++quarter)
         divide(
             {quarter_of(box, part.key, part.level, quarter), 4 * part.key + quarter, part.level + 1, clear, part.near},
@@ -179,8 +184,6 @@ private:
             {at.x & 1 ? box.max.x : middle.x, at.y & 1 ? box.max.y : middle.y}};
   }
 
-  static constexpr double row_height = 0.8660254037844386; // of a hexagonal lattice of spacing 1
-
   const mesh::TileGrid& grid_;
   const BoundaryGuard& guard_;
   const sizing::SizeField& size_;
@@ -188,14 +191,25 @@ private:
   double most_inside_, most_near_; // sites in a leaf
 };
 
-/// Sums over the cells of all tiles.
-struct DensityTotals {
-  double sites = 0;     ///< inner sites that the size field asks for
-  double mean_size = 0; ///< mean of h over these sites
+/// Calls body(item) for all items, over threads. What a size field throws becomes an error of all ranks. Collective.
+template <class Body>
+void agreed_loop(const comm::Communicator& comm, std::ptrdiff_t n, const Body& body) {
+  comm::run_agreed(comm, [&] { thread_loop(n, 1, [&](std::ptrdiff_t item, int) { body(item); }); });
+}
+
+/// Parts of the tiles of this rank, in Hilbert order.
+struct DensityParts {
+  const mesh::TileRange& tiles;
+  const DensitySampler& sampler;
+
+  std::ptrdiff_t count() const { return std::ptrdiff_t{tiles.last - tiles.first} * sampler.parts_per_tile(); }
+  LocalIndex tile(std::ptrdiff_t part) const {
+    return tiles.first + static_cast<LocalIndex>(part / sampler.parts_per_tile());
+  }
+  template <class Visit>
+  void for_each_cell(std::ptrdiff_t part, const Visit& visit) const {
+    sampler.for_each_cell(tile(part), static_cast<int>(part % sampler.parts_per_tile()), visit);
+  }
 };
-/// Collective. Threads over the tiles of this rank; integers inside.
-/// @throws GeometryError as DensitySampler::for_each_cell, on all ranks together
-DensityTotals integrate_density(const comm::Communicator& comm, const mesh::TileRange& tiles,
-                                const DensitySampler& sampler);
 
 } // namespace trime::meshing

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/feature_report.hpp"
 
+#include "meshing/boundary_rules.hpp"
 #include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"
 
@@ -53,9 +54,10 @@ std::vector<std::string> describe(const FeatureReport& report) {
   constexpr std::size_t most_listed = 5;
   std::vector<std::string> lines;
   if (report.dropped_islands + report.dropped_lakes > 0)
-    lines.push_back(fmt::format("{} and {} with a perimeter below 3 local sizes dropped, {:.3g} of the area",
+    lines.push_back(fmt::format("{} and {} with a perimeter below {:g} local sizes dropped, {:.3g} of the area",
                                 counted(report.dropped_islands, "island", "islands"),
-                                counted(report.dropped_lakes, "lake", "lakes"), report.dropped_share));
+                                counted(report.dropped_lakes, "lake", "lakes"), BoundaryRules::least_perimeter,
+                                report.dropped_share));
   if (report.corners_left_out > 0)
     lines.push_back(fmt::format("{} below the resolution left out, at most {:.2f} local sizes from the boundary edges",
                                 counted(report.corners_left_out, "corner", "corners"), report.largest_deviation));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/feature_rule.hpp"
 
+#include "meshing/boundary_rules.hpp"
 #include "trime/core/angle.hpp"
 
 #include <algorithm>
@@ -8,8 +9,6 @@
 
 namespace trime::meshing {
 namespace {
-
-constexpr double largest_share = 0.01; // of the area of the shape that a loop may take with it
 
 using geometry::Loop;
 using geometry::Piece;
@@ -114,7 +113,7 @@ DroppedLoops drop_small_loops(const geometry::Boundary& boundary, const sizing::
     const bool asked_for =
         std::any_of(loop.pieces.begin(), loop.pieces.end(), [](const Piece& piece) { return piece.corner; });
     dropped[k] = !loop.winds() && !asked_for && is_small(boundary, loop, size, least_perimeter) &&
-                 std::fabs(enclosed_area(loop)) <= largest_share * boundary.area;
+                 std::fabs(enclosed_area(loop)) <= BoundaryRules::largest_dropped_share * boundary.area;
   }
   keep_one_component(boundary, dropped);
   std::vector<Vec2> staying; // a point of each loop that stays

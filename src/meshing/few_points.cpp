@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/few_points.hpp"
 
+#include "meshing/start_rules.hpp"
 #include "trime/core/error.hpp"
 
 #include <optional>
@@ -8,8 +9,7 @@
 namespace trime::meshing {
 
 bool is_jump(double points, double wanted) {
-  constexpr double many_points = 64, least_share = 0.5; // the latter of the points asked for
-  return wanted > many_points && points < least_share * wanted;
+  return wanted > FitRules::many_points && points < FitRules::least_of_jump * wanted;
 }
 
 void Fewest::consider(const Stage& stage, double trial_points) {

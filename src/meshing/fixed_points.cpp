@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/fixed_points.hpp"
 
+#include "meshing/boundary_rules.hpp"
 #include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/thread_loop.hpp"
@@ -17,8 +18,6 @@ namespace trime::meshing {
 using geometry::Vec2;
 
 namespace {
-
-constexpr double on_boundary = 1e-10; // of the container's longer side
 
 /// The shifts under which a point may be seen from the container and next to it.
 std::vector<Vec2> images_of(const geometry::Periods& periods) {
@@ -70,7 +69,7 @@ struct Closeness {
 FixedPoints::FixedPoints(const geometry::Boundary& boundary, const geometry::Box& box,
                          std::span<const FixedPoint> given, const geometry::Lattice& lattice, Log& log)
     : given_(given), lattice_(lattice), boundary_(boundary),
-      tolerance_(on_boundary * std::max(box.width(), box.height())), tree_({}) {
+      tolerance_(BoundaryRules::on_boundary * std::max(box.width(), box.height())), tree_({}) {
   std::vector<Vec2> places;
   for (const FixedPoint& point : given) {
     const Vec2 p = point.position;
@@ -194,7 +193,7 @@ std::int64_t FixedPoints::count_clear(std::span<const mesh::Site> sites, const s
   std::vector<std::uint8_t> clear(sites.size());
   thread_loop(static_cast<std::ptrdiff_t>(sites.size()), 256, [&](std::ptrdiff_t item, int) {
     const auto k = static_cast<std::size_t>(item);
-    clear[k] = !is_near(sites[k].position, clearance * size.size(sites[k].position));
+    clear[k] = !is_near(sites[k].position, BoundaryRules::fixed_clearance * size.size(sites[k].position));
   });
   return std::count(clear.begin(), clear.end(), std::uint8_t{1});
 }
@@ -208,7 +207,8 @@ void FixedPoints::place_among(mesh::SiteList& sites, const mesh::TileRange& tile
     const auto k = static_cast<std::size_t>(item);
     const mesh::Site& site = sites[k];
     taken[k] = site.boundary == mesh::fixed_site || // from an earlier stage
-               (site.boundary == mesh::free_site && is_near(site.position, clearance * size.size(site.position)));
+               (site.boundary == mesh::free_site &&
+                is_near(site.position, BoundaryRules::fixed_clearance * size.size(site.position)));
   });
   std::size_t kept = 0;
   for (std::size_t k = 0; k < sites.size(); ++k)

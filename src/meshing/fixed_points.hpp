@@ -23,9 +23,6 @@ namespace trime::meshing {
 /// of points that it is made from must outlive it.
 class FixedPoints {
 public:
-  /// Free sites start no nearer to a fixed one, in h.
-  static constexpr double clearance = 0.6;
-
   /// @brief Points that the lattice makes equal are kept once, with a warning. O(points x log(pieces)).
   /// @throws GeometryError if a point is not finite or lies outside of the container, and if two on the boundary
   /// differ but are nearer to each other than what counts as on it

@@ -2,7 +2,6 @@
 #include "meshing/start.hpp"
 
 #include "meshing/density_sampler.hpp"
-#include "trime/comm/agree.hpp"
 #include "trime/core/random.hpp"
 #include "trime/core/thread_loop.hpp"
 
@@ -15,30 +14,9 @@ namespace {
 using geometry::Vec2;
 __extension__ using Int128 = __int128;
 
-/// Calls body(item) for all items, over threads. What a size field throws becomes an error of all ranks. Collective.
-template <class Body>
-void agreed_loop(const comm::Communicator& comm, std::ptrdiff_t n, const Body& body) {
-  comm::run_agreed(comm, [&] { thread_loop(n, 1, [&](std::ptrdiff_t item, int) { body(item); }); });
-}
-
-/// Parts of the tiles of this rank, in Hilbert order.
-struct Parts {
-  const mesh::TileRange& tiles;
-  const DensitySampler& sampler;
-
-  std::ptrdiff_t count() const { return std::ptrdiff_t{tiles.last - tiles.first} * sampler.parts_per_tile(); }
-  LocalIndex tile(std::ptrdiff_t part) const {
-    return tiles.first + static_cast<LocalIndex>(part / sampler.parts_per_tile());
-  }
-  template <class Visit>
-  void for_each_cell(std::ptrdiff_t part, const Visit& visit) const {
-    sampler.for_each_cell(tile(part), static_cast<int>(part % sampler.parts_per_tile()), visit);
-  }
-};
-
 /// Weights of the parts of this rank before each, and the total at the end.
 /// @param kept receives the cells of each part; may be empty
-std::vector<std::int64_t> weights_before(const comm::Communicator& comm, const Parts& parts,
+std::vector<std::int64_t> weights_before(const comm::Communicator& comm, const DensityParts& parts,
                                          std::span<std::vector<DensitySampler::Cell>> kept) {
   std::vector<std::int64_t> before(static_cast<std::size_t>(parts.count()) + 1, 0);
   agreed_loop(comm, parts.count(), [&](std::ptrdiff_t part) {
@@ -55,34 +33,6 @@ std::vector<std::int64_t> weights_before(const comm::Communicator& comm, const P
 }
 
 } // namespace
-
-DensityTotals integrate_density(const comm::Communicator& comm, const mesh::TileRange& tiles,
-                                const DensitySampler& sampler) {
-  const double unit = std::fmax(tiles.grid.container().width(), tiles.grid.container().height());
-  const Parts parts{tiles, sampler};
-  std::vector<std::int64_t> sites(static_cast<std::size_t>(parts.count()), 0);
-  std::vector<FixedSum> sizes(sites.size());
-  agreed_loop(comm, parts.count(), [&](std::ptrdiff_t part) {
-    const std::size_t at = static_cast<std::size_t>(part);
-    parts.for_each_cell(part, [&](const DensitySampler::Cell& cell) {
-      sites[at] += cell.weight;
-      sizes[at].add(static_cast<double>(cell.weight) / DensitySampler::weight_unit * (cell.size / unit));
-    });
-  });
-  std::int64_t all_sites = 0;
-  FixedSum all_sizes;
-  for (std::size_t t = 0; t < sites.size(); ++t) {
-    all_sites += sites[t];
-    all_sizes.add(sizes[t]);
-  }
-  const auto halves = all_sizes.split();
-  std::array<std::int64_t, 3> packed{all_sites, halves.low, halves.high};
-  comm.sum(packed);
-  DensityTotals totals;
-  totals.sites = static_cast<double>(packed[0]) / DensitySampler::weight_unit;
-  totals.mean_size = packed[0] > 0 ? FixedSum::join({packed[1], packed[2]}).value() * unit / totals.sites : 0;
-  return totals;
-}
 
 class HilbertStart::Implementation {
 public:
@@ -136,7 +86,7 @@ private:
   mesh::TileRange tiles_;
   const geometry::Lattice& lattice_;
   DensitySampler sampler_;
-  Parts parts_;
+  DensityParts parts_;
   std::vector<std::vector<DensitySampler::Cell>> kept_; // of each part; empty if they are not kept
   std::vector<std::int64_t> before_;                    // weights of the parts of this rank before each; all of them
   std::int64_t total_ = 0, first_ = 0;                  // weights over all ranks; before this rank

@@ -2,6 +2,7 @@
 #include "meshing/start.hpp"
 
 #include "meshing/row_lattice.hpp"
+#include "meshing/start_rules.hpp"
 #include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
@@ -13,8 +14,6 @@ namespace trime::meshing {
 namespace {
 
 using geometry::Vec2;
-
-constexpr double clearance = 0.45; // of the spacing: experiments give 0.4 to 0.55 as best
 
 /// Smallest and largest t with from + t * direction inside the box; empty (first > second) if the line misses it.
 std::pair<double, double> clip_line(Vec2 from, Vec2 direction, const geometry::Box& box) {
@@ -59,7 +58,7 @@ LatticeStart::LatticeStart(const geometry::Boundary& boundary, const BoundaryGua
 
 RowLattice LatticeStart::rows_of(double spacing) const {
   if (!periods_.any())
-    return {origin_, along_, spacing, RowLattice::row_height * spacing};
+    return {origin_, along_, spacing, row_height * spacing};
   RowLattice rows;
   const Vec2 axis{std::fabs(along_.x), std::fabs(along_.y)};
   if (periods_.x > 0 && periods_.y > 0)
@@ -94,7 +93,7 @@ void LatticeStart::for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile,
   geometry::Box box = grid.tile_box(tile);
   box = {box.min - Vec2{0.1 * spacing, 0.1 * spacing}, box.max + Vec2{0.1 * spacing, 0.1 * spacing}};
   const Vec2 across = geometry::left_normal(rows.along);
-  const double free = clearance * spacing;
+  const double free = StartRules::lattice_strip * spacing;
   double low = INFINITY, high = -INFINITY, begin = INFINITY, end = -INFINITY;
   for (const Vec2 corner : {box.min, Vec2{box.max.x, box.min.y}, box.max, Vec2{box.min.x, box.max.y}}) {
     low = std::min(low, geometry::dot(corner - rows.origin, across));

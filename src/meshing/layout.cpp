@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/layout.hpp"
 
+#include "meshing/boundary_rules.hpp"
 #include "meshing/size_limits.hpp"
+#include "meshing/start_rules.hpp"
 #include "trime/comm/agree.hpp"
+#include "trime/core/angle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +13,6 @@
 
 namespace trime::meshing {
 namespace {
-
-constexpr double row_height = 0.8660254037844386;
-constexpr double emptiest_grid = 64;  // areas of the shape that the grid covers with cells as small as its triangles
-constexpr double least_perimeter = 3; // of islands and lakes that stay, in local sizes
-constexpr double gradation = 0.2;     // of the size around places where it is lowered
 
 /// The part of the container grid around the shape: what lies beyond holds no site. One whole period along periodic
 /// axes. Cells that were given keep about their size.
@@ -38,7 +36,7 @@ std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Bounda
   }
   // Of a shape that is nearly nothing but boundary, most cells hold no site.
   if (context.boundary.area > 0)
-    h = std::max(h, h * std::sqrt(box.width() * box.height() / (emptiest_grid * context.boundary.area)));
+    h = std::max(h, h * std::sqrt(box.width() * box.height() / (StartRules::emptiest_grid * context.boundary.area)));
   const auto cells = [](const std::optional<int>& given, double share) -> std::optional<int> {
     if (!given)
       return given;
@@ -61,8 +59,8 @@ void set_sizes(const LayoutContext& context, const FittedSize& fitted, Stage& st
   if (limits.empty()) {
     stage.lowered_size.reset();
   } else {
-    stage.lowered_size =
-        std::make_unique<sizing::LoweredSize>(*stage.asked_size, limits, gradation, context.boundary.periods);
+    stage.lowered_size = std::make_unique<sizing::LoweredSize>(*stage.asked_size, limits, BoundaryRules::gradation,
+                                                               context.boundary.periods);
     within = stage.lowered_size.get();
   }
   stage.size = std::make_unique<sizing::ScaledSize>(*within, stage.coarsening);
@@ -72,7 +70,8 @@ void lay_sites(const LayoutContext& context, std::size_t affordable, FittedStage
   Stage& stage = laid.stage;
   const sizing::ScaledSize asked(*stage.asked_size, stage.coarsening);
   const bool keeps_all = context.options.keep_features;
-  const FeatureRule rule{keeps_all ? 0 : context.options.feature_tolerance, keeps_all ? 0 : least_perimeter, nullptr};
+  const FeatureRule rule{keeps_all ? 0 : context.options.feature_tolerance,
+                         keeps_all ? 0 : BoundaryRules::least_perimeter, nullptr};
   const auto make = [&](const BoundarySizes& sizes) {
     return make_boundary_sites(context.fixed.boundary(), sizes, context.lattice, context.options.corner_angle,
                                context.fixed.inside(), rule, affordable);
@@ -126,7 +125,7 @@ FittedStage lay_boundary(const LayoutContext& context, double factor, double exp
   for (int round = 0;; ++round) {
     FittedStage laid = lay_bare(context, fitted, 1, expected, unlimited);
     const std::vector<sizing::SizeLimit> more =
-        round < most_lowering_rounds ? further_limits(context, laid.stage) : std::vector<sizing::SizeLimit>{};
+        round < BoundaryRules::lowering_rounds ? further_limits(context, laid.stage) : std::vector<sizing::SizeLimit>{};
     fitted.limits.insert(fitted.limits.end(), more.begin(), more.end());
     fitted.samples = laid.fitted.samples;
     if (more.empty()) {
@@ -161,10 +160,11 @@ Stage lay_reference(const LayoutContext& context, BoundarySites polygon, double 
 }
 
 FittedStage try_boundary(const LayoutContext& context, const FittedSize& fitted, double expected) {
-  constexpr double times_points = 1.5, at_least = 1000;
   const std::optional<GlobalId>& points = context.options.points;
   const std::size_t affordable =
-      points ? static_cast<std::size_t>(std::max(at_least, times_points * static_cast<double>(*points))) : unlimited;
+      points ? static_cast<std::size_t>(std::max(StartRules::always_affordable,
+                                                 StartRules::affordable_growth * static_cast<double>(*points)))
+             : unlimited;
   return lay_bare(context, fitted, 1, expected, affordable);
 }
 
@@ -172,8 +172,9 @@ std::vector<sizing::SizeLimit> further_limits(const LayoutContext& context, cons
   const auto time = context.timers.scope("boundary");
   std::vector<sizing::SizeLimit> more;
   if (!trial.asked_size->is_uniform() && !trial.boundary.overfull)
-    comm::run_agreed(context.comm,
-                     [&] { more = size_limits(trial.boundary, *trial.size, *trial.asked_size, gradation); });
+    comm::run_agreed(context.comm, [&] {
+      more = size_limits(trial.boundary, *trial.size, *trial.asked_size, BoundaryRules::gradation);
+    });
   return more;
 }
 

@@ -64,9 +64,6 @@ Stage lay_again(const LayoutContext& context, Stage stage, double expected);
 /// A polygon that stands for the boundary, for integrals over the shape: no layout for a mesh. Collective.
 Stage lay_reference(const LayoutContext& context, BoundarySites polygon, double expected, double grid_coarsening);
 
-/// So often limits of the size are looked for.
-inline constexpr int most_lowering_rounds = 2;
-
 /// @brief Boundary sites alone, with neither guard nor state, in search of a size. If the boundary takes far more
 /// points than were asked for, its sites are not finished (`overfull`). Collective.
 FittedStage try_boundary(const LayoutContext& context, const FittedSize& fitted, double expected);

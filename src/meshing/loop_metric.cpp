@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/loop_metric.hpp"
 
+#include "meshing/boundary_rules.hpp"
 #include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/thread_loop.hpp"
@@ -15,7 +16,6 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr std::size_t max_knots = std::size_t{1} << 27;
 constexpr std::size_t run_length = 64; // pieces that one thread measures in a row
 
 double signed_turn(const Piece& before, const Piece& after) {
@@ -26,7 +26,7 @@ double signed_turn(const Piece& before, const Piece& after) {
 [[noreturn]] void fail_for_knots(Vec2 p, double h) {
   throw GeometryError(fmt::format("the element size near ({}, {}) is {}: the boundary would get more than {} sites; "
                                   "ask for fewer points or a larger edge length",
-                                  p.x, p.y, h, max_knots / 2));
+                                  p.x, p.y, h, BoundaryRules::most_samples / 2));
 }
 
 } // namespace
@@ -88,7 +88,7 @@ void LoopMetric::join(const std::vector<Run>& runs, SizePair at_start) {
       t += end.t;
       arc += end.arc;
       count += run.ends[k] - (k > 0 ? run.ends[k - 1] : 0);
-      if (const Vec2 p = loop_.pieces[static_cast<std::size_t>(end.piece)].start; count > max_knots)
+      if (const Vec2 p = loop_.pieces[static_cast<std::size_t>(end.piece)].start; count > BoundaryRules::most_samples)
         fail_for_knots(p, end.sizes.size);
     }
   piece_t_.push_back(t);
@@ -131,7 +131,7 @@ SizePair LoopMetric::add_piece(LocalIndex i, SizePair sizes, Walk& walk, std::ve
     sizes = walk.at(i, end, whole);
     t += step * (1 / h + 8 / (h + sizes.size) + 1 / sizes.size) / 6;
     knots.push_back({t, end, i, end, sizes});
-    if (knots.size() > max_knots)
+    if (knots.size() > BoundaryRules::most_samples)
       fail_for_knots(piece.start, h);
     s = end;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/mesh_quality.hpp"
+#include "trime/core/angle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,6 @@ namespace {
 using geometry::Vec2;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double degrees_per_radian = 57.29577951308232;
 constexpr double most_over_size = 500; // keeps the square within the reach of FixedSum
 
 /// The sums of all ranks, on every rank. Collective.
@@ -127,7 +127,7 @@ mesh::QualitySummary summarize(const comm::Communicator& comm, QualitySums sums)
   quality.alpha = sums.alpha.summary();
   quality.beta = sums.beta.summary();
   quality.alpha_histogram = sums.alpha.histogram();
-  quality.min_angle_degrees = std::min(60.0, std::asin(std::min(1.0, sums.least_sine)) * degrees_per_radian);
+  quality.min_angle_degrees = std::min(60.0, std::asin(std::min(1.0, sums.least_sine)) * (180 / pi));
   quality.worst_place = sums.worst_place;
   const double edges = static_cast<double>(std::max<std::int64_t>(1, sums.edges));
   const double mean = sums.ratio.value() / edges, square = sums.squared_ratio.value() / edges;

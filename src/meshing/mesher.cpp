@@ -8,6 +8,7 @@
 #include "meshing/extraction.hpp"
 #include "meshing/feature_report.hpp"
 #include "meshing/layout.hpp"
+#include "meshing/meshing_rules.hpp"
 #include "meshing/plan_start.hpp"
 #include "meshing/point_scheme.hpp"
 #include "meshing/site_state.hpp"
@@ -27,14 +28,6 @@
 #include <limits>
 
 namespace trime::meshing {
-namespace {
-
-constexpr double cap_in_sizes = 2.5;  // circumradius that counts, in h: a relaxed mesh has 0.6, a start up to 1.5
-constexpr GlobalId few_points = 2000; // below, the cap is the whole container
-constexpr int cap_doublings = 10;     // to 2500 h: a void that no start can leave
-
-} // namespace
-
 class Mesher::Implementation {
 public:
   Implementation(const comm::Communicator& comm, const geometry::Boundary& boundary, const sizing::SizeField& size,
@@ -107,7 +100,7 @@ private:
 
   void make_builder(GlobalId points) {
     const double largest = std::max(options_.container.width(), options_.container.height());
-    cap_factor_ = points < few_points ? std::numeric_limits<double>::infinity() : cap_in_sizes;
+    cap_factor_ = points < MeshingRules::few_points ? std::numeric_limits<double>::infinity() : MeshingRules::cap;
     builder_ = std::make_unique<delaunay::StarBuilder>(lattice_, cap_factor_, largest);
   }
 
@@ -271,7 +264,7 @@ private:
     const double largest = std::max(options_.container.width(), options_.container.height());
     mend_stars(cleanup_.better > 0 ? Sweeper::Lemma::inside : Sweeper::Lemma::up_to_chords);
     stars(Wanted::all_sites);
-    for (int doubling = 0; doubling < cap_doublings && std::isfinite(cap_factor_); ++doubling) {
+    for (int doubling = 0; doubling < MeshingRules::cap_doublings && std::isfinite(cap_factor_); ++doubling) {
       if (comm_.sum(count_incomplete_fans(view())) == 0)
         return;
       cap_factor_ *= 2;
@@ -309,7 +302,8 @@ private:
     result.edge_length = relative_size_.is_uniform() ? stage_.size->size({}) : stage_.typical_size;
     result.start_reason = scheme_->reason();
     result.count_reason = count_reason(result.mesh.point_slab.total);
-    if (static_cast<double>(result.mesh.point_slab.total) < 0.9 * static_cast<double>(result.requested_points))
+    if (static_cast<double>(result.mesh.point_slab.total) <
+        MeshingRules::shortage_warning * static_cast<double>(result.requested_points))
       log_.warning("{} points were asked for, {} made: {}", result.requested_points, result.mesh.point_slab.total,
                    result.count_reason);
     result.corners = stage_.boundary.corners;
@@ -320,7 +314,9 @@ private:
 
   /// Why there are fewer points than asked for; empty if there are nearly as many.
   std::string count_reason(GlobalId points) const {
-    if (!options_.points || static_cast<double>(points) > 0.99 * static_cast<double>(*options_.points) - 3)
+    if (!options_.points ||
+        static_cast<double>(points) >
+            MeshingRules::shortage_note * static_cast<double>(*options_.points) - MeshingRules::shortage_slack)
       return {};
     if (!scheme_->shortage().empty())
       return scheme_->shortage();

@@ -3,6 +3,8 @@
 
 #include "meshing/refinement.hpp"
 #include "meshing/size_fit.hpp"
+#include "meshing/start_rules.hpp"
+#include "trime/core/angle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,15 +12,11 @@
 namespace trime::meshing {
 namespace {
 
-constexpr double pieces_share = 0.1; // points for the clean-up, of the pieces of the boundary
-constexpr double row_height = 0.8660254037844386;
-constexpr double growth = 1.6; // of the number of points by one insertion
-constexpr int most_insertions = 64;
-/// Points from which on the mesh starts from 1/4, 1/16, 1/64 of them; with fewer the coarse mesh starves narrow parts.
-constexpr double one_division = 3000, two_divisions = 20000, three_divisions = 400000;
-
 int divisions_for(double points) {
-  return points < one_division ? 0 : points < two_divisions ? 1 : points < three_divisions ? 2 : 3;
+  return points < StartRules::one_division      ? 0
+         : points < StartRules::two_divisions   ? 1
+         : points < StartRules::three_divisions ? 2
+                                                : 3;
 }
 
 } // namespace
@@ -30,13 +28,13 @@ PointScheme::PointScheme(const LayoutContext& context) : context_(context), opti
 /// Points that are left to the clean-up, for smaller triangles where the boundary is ragged: a share of the number of
 /// its pieces, and of the points at most.
 GlobalId PointScheme::reserve() const {
-  constexpr double most = 0.004;
   double pieces = 0;
   for (const geometry::Loop& loop : context_.boundary.loops)
     pieces += static_cast<double>(loop.pieces.size());
   if (!options_.points || !options_.cleanup)
     return 0;
-  return static_cast<GlobalId>(std::fmin(most * static_cast<double>(*options_.points), pieces_share * pieces));
+  return static_cast<GlobalId>(std::fmin(StartRules::reserved_share * static_cast<double>(*options_.points),
+                                         StartRules::reserved_per_piece * pieces));
 }
 
 double PointScheme::expected_points() const {
@@ -53,7 +51,7 @@ void PointScheme::choose() {
   if (options_.initial_fraction && fraction < 1) {
     scheme_ = Scheme::insertion;
     points_now_ = std::max(3.0, std::ceil(fraction * expected_points()));
-    for (double points = points_now_; points < expected_points(); points *= growth)
+    for (double points = points_now_; points < expected_points(); points *= StartRules::growth)
       ++last_stage_;
     reason_ = fmt::format("{:g} of the points first, the others in {} insertions or more (initial_fraction is given)",
                           fraction, last_stage_);
@@ -88,9 +86,8 @@ Stage PointScheme::first_of_lattice() {
 }
 
 Stage PointScheme::first_of_insertion() {
-  constexpr double coarsest_integral = 8;
   const double coarsening = std::sqrt(expected_points() / points_now_);
-  DensityFit fit = fit_density(context_, expected_points(), std::fmin(coarsening, coarsest_integral));
+  DensityFit fit = fit_density(context_, expected_points(), std::fmin(coarsening, StartRules::coarsest_integral));
   shortage_ = std::move(fit.shortage);
   fitted_ = std::move(fit.laid.fitted);
   Stage stage = lay_coarsened(coarsening, points_now_);
@@ -108,10 +105,9 @@ Stage PointScheme::first_of_insertion() {
 /// The factor is fitted for the final mesh, by a coarse integral. Then the coarsest start is taken that still has as
 /// many sites inside as on the boundary: a boundary full of corners does not become coarser with the size.
 Stage PointScheme::first_of_divisions() {
-  constexpr double coarse_integral = 4; // errs by a few thousandths
-  constexpr double coarse_start = 2;    // of the cells for a mesh that is relaxed and divided: no worse than 1
-  DensityFit fit = fit_density(context_, expected_points(),
-                               last_stage_ == 0 ? 1 : std::fmax(coarse_integral, std::ldexp(1.0, last_stage_)));
+  DensityFit fit =
+      fit_density(context_, expected_points(),
+                  last_stage_ == 0 ? 1 : std::fmax(StartRules::coarse_integral, std::ldexp(1.0, last_stage_)));
   shortage_ = std::move(fit.shortage);
   const double points = fit.inner + static_cast<double>(fit.laid.stage.placed_first());
   fitted_ = std::move(fit.laid.fitted);
@@ -124,7 +120,7 @@ Stage PointScheme::first_of_divisions() {
   for (;; --last_stage_) {
     const double expected = std::ldexp(points, -2 * last_stage_);
     stage = lay_division(fit.laid.stage, expected);
-    start = along_curve(stage, expected, last_stage_ > 0 ? coarse_start : 1);
+    start = along_curve(stage, expected, last_stage_ > 0 ? StartRules::coarse_start : 1);
     inner = start->wanted();
     if (last_stage_ == 0 || inner >= static_cast<double>(stage.placed_first()))
       break;
@@ -173,9 +169,10 @@ void PointScheme::place_along_curve(Stage& stage, double inner, const HilbertSta
   if (!context_.fixed.inside().empty()) { // those too near to a fixed point will go: so many more are placed
     const std::int64_t clear = context_.comm.sum(context_.fixed.count_clear(placed, *stage.size));
     if (clear > 0 && clear < wanted) {
-      placed = start.sites(std::llround(static_cast<double>(wanted) *
-                                        std::fmin(4, static_cast<double>(wanted) / static_cast<double>(clear))),
-                           options_.seed);
+      placed = start.sites(
+          std::llround(static_cast<double>(wanted) *
+                       std::fmin(StartRules::most_replaced, static_cast<double>(wanted) / static_cast<double>(clear))),
+          options_.seed);
       std::erase_if(placed, [&](const mesh::Site& site) {
         return context_.fixed.count_clear(std::span(&site, 1), *stage.size) == 0;
       });
@@ -191,7 +188,6 @@ Stage PointScheme::next(const Stage& previous) {
 }
 
 Stage PointScheme::divide(const Stage& previous) {
-  constexpr double small_shortage = 0.01; // is not filled up: new sites disturb the order
   const comm::Communicator& comm = context_.comm;
   const StageView old{*previous.state, previous.boundary, *previous.size, context_.lattice};
   const GlobalId before = comm.sum(std::int64_t{previous.state->points().owned()});
@@ -203,7 +199,8 @@ Stage PointScheme::divide(const Stage& previous) {
     const std::int64_t most = std::max<std::int64_t>(0, *options_.points - reserve() - stage.placed_first());
     trim(comm, stage, most, sites);
     const std::int64_t missing = most - comm.sum(static_cast<std::int64_t>(sites.size()));
-    if (shortage_.empty() && static_cast<double>(missing) > small_shortage * static_cast<double>(*options_.points))
+    if (shortage_.empty() &&
+        static_cast<double>(missing) > StartRules::small_shortage * static_cast<double>(*options_.points))
       insert_in_triangles(old, stage, missing, sites); // narrow parts that the coarse mesh has starved
   }
   place_sites(context_, stage, std::move(sites));
@@ -214,10 +211,10 @@ Stage PointScheme::insert(const Stage& previous) {
   const comm::Communicator& comm = context_.comm;
   const StageView old{*previous.state, previous.boundary, *previous.size, context_.lattice};
   const GlobalId before = comm.sum(std::int64_t{previous.state->points().owned()});
-  const double grown = std::floor(growth * static_cast<double>(before)), all = expected_points();
-  if (is_last() && 2 * grown < all && stage_ < most_insertions)
+  const double grown = std::floor(StartRules::growth * static_cast<double>(before)), all = expected_points();
+  if (is_last() && 2 * grown < all && stage_ < StartRules::most_insertions)
     ++last_stage_; // too few triangles for the rest: the boundary took the points of the first stages
-  points_now_ = is_last() ? all : std::min(all, std::max(grown, std::floor(growth * points_now_)));
+  points_now_ = is_last() ? all : std::min(all, std::max(grown, std::floor(StartRules::growth * points_now_)));
   const double coarsening = is_last() ? 1 : std::fmax(1, std::sqrt(expected_points() / points_now_));
   Stage stage = lay_coarsened(coarsening, points_now_);
   const auto time = context_.timers.scope("start");

@@ -3,6 +3,7 @@
 
 #include "meshing/density_sampler.hpp"
 #include "meshing/selection.hpp"
+#include "meshing/start_rules.hpp"
 #include "trime/comm/agree.hpp"
 #include "trime/core/thread_loop.hpp"
 
@@ -75,7 +76,7 @@ void keep_marked(List& items, const std::vector<std::uint8_t>& keep) {
 bool is_clear(const Stage& next, Vec2 p) {
   if (!next.guard->inside(p))
     return false;
-  const double free = DensitySampler::strip * sizing::checked_size(*next.size, p);
+  const double free = StartRules::density_strip * sizing::checked_size(*next.size, p);
   return next.guard->distance(p, free) >= free;
 }
 
@@ -159,7 +160,6 @@ void clear_strip(const Stage& next, mesh::SiteList& sites) {
 }
 
 std::int64_t trim(const comm::Communicator& comm, const Stage& next, std::int64_t most, mesh::SiteList& sites) {
-  constexpr double farthest = 4; // h; beyond that only the hash decides
   const std::int64_t excess = comm.sum(static_cast<std::int64_t>(sites.size())) - most;
   if (excess <= 0)
     return 0;
@@ -169,7 +169,9 @@ std::int64_t trim(const comm::Communicator& comm, const Stage& next, std::int64_
       const std::size_t at = static_cast<std::size_t>(k);
       const Vec2 p = sites[at].position;
       const double h = sizing::checked_size(*next.size, p);
-      keys[at] = selection_key(next.guard->distance(p, farthest * h) / (farthest * h), p);
+      keys[at] = selection_key(next.guard->distance(p, StartRules::farthest_from_boundary * h) /
+                                   (StartRules::farthest_from_boundary * h),
+                               p);
     });
   });
   const std::uint64_t threshold = selection_threshold(comm, keys, excess);

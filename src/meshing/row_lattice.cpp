@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/row_lattice.hpp"
 
+#include "meshing/start_rules.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,7 +12,6 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr double tolerated_stretch = 0.02, tolerated_shortage = 0.002;
 constexpr double never = std::numeric_limits<double>::infinity();
 
 struct Fit {
@@ -25,17 +25,18 @@ double square(double v) {
 
 Fit judge(std::int64_t columns, std::int64_t rows, double length, double width, double wanted) {
   const double m = static_cast<double>(columns), n = static_cast<double>(rows);
-  const double stretch = (width / n) / (RowLattice::row_height * length / m) - 1;
-  const double shear = rows % 2 == 0 ? 0 : 0.5 / n / RowLattice::row_height;
+  const double stretch = (width / n) / (row_height * length / m) - 1;
+  const double shear = rows % 2 == 0 ? 0 : 0.5 / n / row_height;
   const double shortage = std::fmax(0, wanted - m * n) / wanted;
   return {columns, rows,
-          (square(stretch) + square(shear)) / square(tolerated_stretch) + square(shortage / tolerated_shortage)};
+          (square(stretch) + square(shear)) / square(StartRules::tolerated_stretch) +
+              square(shortage / StartRules::tolerated_shortage)};
 }
 
 /// Best pair for rows of a `length`, as many as fit a `width`.
 Fit best_fit(double length, double width, double spacing) {
   // A hair more, so that a lattice that fits exactly is not lost to rounding.
-  const double wanted = length * width / (RowLattice::row_height * spacing * spacing) * (1 + 1e-9);
+  const double wanted = length * width / (row_height * spacing * spacing) * (1 + 1e-9);
   const double ideal = length / spacing;
   const auto low = static_cast<std::int64_t>(std::fmax(1, std::floor(0.9 * ideal) - 2));
   const auto high = static_cast<std::int64_t>(std::ceil(1.1 * ideal) + 2);
@@ -73,13 +74,8 @@ RowLattice fit_to_periods(const geometry::Periods& periods, double spacing, Vec2
   if (spacing > length)
     return make_lattice(periods, {}, along);
   const double columns = std::round(length / spacing), fitted = length / columns;
-  return {periods.min,
-          along,
-          fitted,
-          RowLattice::row_height * spacing * spacing / fitted,
-          static_cast<std::int64_t>(columns),
-          0,
-          0};
+  return {periods.min, along, fitted, row_height * spacing * spacing / fitted, static_cast<std::int64_t>(columns),
+          0,           0};
 }
 
 RowLattice fit_to_periods(const geometry::Periods& periods, double spacing) {

@@ -2,6 +2,7 @@
 // Hexagonal lattices in rows, regular in the plane or stretched a little to fit the periods of a container.
 #pragma once
 
+#include "trime/core/angle.hpp"
 #include "trime/geometry/periods.hpp"
 
 #include <cstdint>
@@ -12,8 +13,6 @@ namespace trime::meshing {
 ///
 /// With `columns` or `rows` > 0 the lattice repeats itself after so many; sites are then wrapped by the caller.
 struct RowLattice {
-  static constexpr double row_height = 0.8660254037844386; // of the spacing: sqrt(3)/2
-
   geometry::Vec2 origin, along{1, 0};
   double spacing = 1, height = row_height;
   std::int64_t columns = 0, rows = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/site_path.hpp"
 
+#include "meshing/boundary_rules.hpp"
 #include "trime/core/angle.hpp"
 
 #include <algorithm>
@@ -13,12 +14,6 @@ namespace trime::meshing {
 using geometry::Vec2;
 
 namespace {
-
-constexpr double longest_chord = 1.6;                    // in local sizes
-constexpr std::size_t farthest_place = 64;               // places that one chord may span
-constexpr double farthest_way = 6, farthest_reach = 2.5; // in local sizes
-constexpr double length_weight = 1, ratio_weight = 0.3, deviation_weight = 0.8;
-constexpr double encroachment = 1; // cost of a site in the disc of a neighbouring chord: it would be halved
 
 /// About the square of the logarithm.
 double mismatch(double ratio) {
@@ -75,7 +70,7 @@ public:
     first_.resize(n + 1, 0);
     for (std::size_t from = 0; from + 1 < n; ++from) {
       first_[from] = static_cast<LocalIndex>(chords_.size());
-      for (std::size_t to = from + 1; to < std::min(n, from + farthest_place); ++to) {
+      for (std::size_t to = from + 1; to < std::min(n, from + BoundaryRules::farthest_place); ++to) {
         const Vec2 along = places[to].position - places[from].position;
         const double length = geometry::length(along);
         if (!in_reach(from, to, length))
@@ -117,14 +112,16 @@ private:
   /// Behind a place far out, or far along a winding curve, no chord ends.
   bool in_reach(std::size_t from, std::size_t to, double length) const {
     const Place &a = places_[from], &b = places_[to];
-    return to == from + 1 || (b.t - a.t < farthest_way && length < farthest_reach * a.size);
+    return to == from + 1 ||
+           (b.t - a.t < BoundaryRules::farthest_way && length < BoundaryRules::farthest_reach * a.size);
   }
 
   void add_chord(std::size_t from, std::size_t to, Vec2 along, double length) {
     const Place &a = places_[from], &b = places_[to];
     const double h = 0.5 * (a.size + b.size);
     const bool neighbours = to == from + 1;
-    if (!(length > 0) || (!neighbours && (length > longest_chord * h || length < 0.25 * h)))
+    if (!(length > 0) ||
+        (!neighbours && (length > BoundaryRules::longest_chord * h || length < BoundaryRules::shortest_chord * h)))
       return;
     const double tolerance = std::min(a.tolerance, b.tolerance);
     const double far = tolerance * length * (1 + 1e-9); // beyond it there is no need to divide
@@ -140,13 +137,14 @@ private:
     if (deviation > tolerance)
       return;
     const double relative = deviation / h;
-    chords_.push_back({static_cast<LocalIndex>(from), static_cast<LocalIndex>(to), along, length,
-                       length_weight * mismatch(length / h) + deviation_weight * relative * relative});
+    chords_.push_back(
+        {static_cast<LocalIndex>(from), static_cast<LocalIndex>(to), along, length,
+         BoundaryRules::length_weight * mismatch(length / h) + BoundaryRules::deviation_weight * relative * relative});
   }
 
   /// What the lengths of two neighbours cost, a part of their joint's cost.
   static double ratio_cost(const Chord& in, const Chord& out) {
-    return ratio_weight * mismatch(in.length / out.length);
+    return BoundaryRules::ratio_weight * mismatch(in.length / out.length);
   }
 
   double joint_cost(const Chord& in, const Chord& out, double of_lengths) const {
@@ -154,7 +152,7 @@ private:
     const double dot = -geometry::dot(out.along, in.along), cross = -geometry::cross(out.along, in.along);
     const double shorter = std::min(in.length, out.length);
     const bool encroaches = dot > shorter * shorter;
-    return fan_costs_(dot, cross) + of_lengths + (encroaches ? encroachment : 0);
+    return fan_costs_(dot, cross) + of_lengths + (encroaches ? BoundaryRules::encroachment : 0);
   }
 
   std::span<LocalIndex> into(std::size_t place) {
@@ -191,7 +189,7 @@ private:
           start = chords_[static_cast<std::size_t>(start)].before;
         const Chord& first = chords_[static_cast<std::size_t>(start)];
         if (start == c)
-          cost += 1e3; // goes there and back
+          cost += BoundaryRules::back_and_forth;
         else
           cost += joint_cost(chord, first, ratio_cost(chord, first));
       }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/site_places.hpp"
 
+#include "meshing/boundary_rules.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -9,10 +10,6 @@ namespace trime::meshing {
 using geometry::Vec2;
 
 namespace {
-
-constexpr double spacing = 0.25;     // of places, in local sizes
-constexpr double thinning = 0.1;     // of the tolerance
-constexpr int deepest_division = 64; // of the simplification; below, all places stay
 
 /// Both ends and the junctions between them.
 std::vector<Place> junctions_between(const LoopMetric& metric, double t0, double t1, const geometry::Lattice& lattice) {
@@ -72,7 +69,8 @@ void mark_kept(const std::vector<Place>& places, std::vector<char>& kept) {
     for (std::size_t k = part.from + 1; k < part.to; ++k) {
       const Vec2 p = places[k].position - a;
       const double share = squared > 0 ? std::clamp(geometry::dot(p, along) / squared, 0.0, 1.0) : 0;
-      const double distance = geometry::squared_length(p - share * along), limit = thinning * places[k].tolerance;
+      const double distance = geometry::squared_length(p - share * along),
+                   limit = BoundaryRules::place_thinning * places[k].tolerance;
       far |= distance > limit * limit;
       if (distance > most) {
         most = distance;
@@ -81,7 +79,7 @@ void mark_kept(const std::vector<Place>& places, std::vector<char>& kept) {
     }
     if (!far)
       continue;
-    if (part.depth == deepest_division) {
+    if (part.depth == BoundaryRules::deepest_division) {
       std::fill(kept.begin() + static_cast<std::ptrdiff_t>(part.from),
                 kept.begin() + static_cast<std::ptrdiff_t>(part.to), 1);
       continue;
@@ -113,7 +111,8 @@ std::vector<Place> places_between(const LoopMetric& metric, double t0, double t1
     if (!places.empty()) {
       const Place from = places.back(), &to = junctions[k];
       const double h = std::fmin(from.size, to.size);
-      const double parts = std::ceil(geometry::length(to.position - from.position) / (spacing * h));
+      const double parts =
+          std::ceil(geometry::length(to.position - from.position) / (BoundaryRules::place_spacing * h));
       for (double part = 1; part < parts; ++part) {
         Place place{from.t + (to.t - from.t) * (part / parts), {}};
         place.position = lattice.snap(metric.point(place.t));

@@ -3,7 +3,10 @@
 #include "meshing/size_fit.hpp"
 
 #include "meshing/few_points.hpp"
+#include "meshing/start.hpp"
+#include "meshing/start_rules.hpp"
 #include "trime/comm/agree.hpp"
+#include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -13,16 +16,10 @@
 namespace trime::meshing {
 namespace {
 
-constexpr double row_height = 0.8660254037844386;
-constexpr int boundary_rounds = 3, spacing_rounds = 12;
-constexpr double same_spacing = 0.02;
-
 /// @brief Sites on the boundary at size h, or at the next larger size at which they are not more than the points asked
 /// for. Nothing if there is none, or only one that is too large for so many points.
 std::optional<Stage> lay_affordable_boundary(const LayoutContext& context, double h, double expected, Fewest& fewest) {
-  constexpr int growth_rounds = 24;
-  constexpr double growth = 1.3;
-  for (int round = 0; round < growth_rounds; ++round) {
+  for (int round = 0; round < FitRules::growth_rounds; ++round) {
     Stage stage = try_boundary(context, {h, {}}, expected).stage;
     const double held = static_cast<double>(stage.placed_first());
     if (!context.options.points || stage.placed_first() <= *context.options.points) {
@@ -33,7 +30,7 @@ std::optional<Stage> lay_affordable_boundary(const LayoutContext& context, doubl
       return stage;
     }
     fewest.consider(stage, held);
-    h *= growth;
+    h *= FitRules::size_growth;
   }
   return std::nullopt;
 }
@@ -53,8 +50,10 @@ double fitting_spacing(const LayoutContext& context, const Stage& stage) {
   // below half the size of the boundary's segments is tried.
   double low = 0.5 * h, high = none, spacing = h;
   GlobalId best = 0;
-  double stride = 0.002; // least relative step while no spacing is known that is large enough; doubles each time
-  for (int round = 0; round < spacing_rounds && wanted - best > wanted / 5000; ++round) {
+  double stride =
+      FitRules::least_step; // least relative step while no spacing is known that is large enough; doubles each time
+  for (int round = 0; round < FitRules::spacing_rounds && wanted - best > wanted / FitRules::spacing_precision;
+       ++round) {
     const GlobalId count =
         context.comm.sum(context.fixed.inside().empty()
                              ? start.count(tiles, spacing)
@@ -70,7 +69,7 @@ double fitting_spacing(const LayoutContext& context, const Stage& stage) {
       spacing = std::max(guess, spacing * (1 + stride));
       stride *= 2;
     } else { // not too near an end of the bracket: the count jumps, and a secant alone would creep
-      const double margin = 0.1 * (high - low);
+      const double margin = FitRules::bracket_margin * (high - low);
       spacing = std::clamp(guess, low + margin, high - margin);
     }
   }
@@ -113,8 +112,10 @@ LatticeFit fit_lattice(const LayoutContext& context) {
       break;
     }
     const double spacing = fitting_spacing(context, fit.stage);
-    const bool comparable = spacing < 2 * laid; // else so few sites are wanted that it means nothing
-    if (round + 1 == boundary_rounds || !comparable || std::abs(spacing / laid - 1) < same_spacing) {
+    const bool comparable =
+        spacing < FitRules::comparable_spacing * laid; // else so few sites are wanted that it means nothing
+    if (round + 1 == FitRules::boundary_rounds || !comparable ||
+        std::abs(spacing / laid - 1) < FitRules::same_spacing) {
       fit.spacing = spacing;
       break;
     }

@@ -2,7 +2,6 @@
 // The factor of the relative size, or the spacing of the lattice, that yields the points or the edge length asked for.
 #pragma once
 
-#include "meshing/density_sampler.hpp"
 #include "meshing/layout.hpp"
 
 #include <string>
@@ -38,8 +37,5 @@ struct DensityFit {
 /// @param coarsening of the integral
 /// @throws ConfigError as fit_lattice; GeometryError if the size field is not positive and finite
 DensityFit fit_density(const LayoutContext& context, double points, double coarsening);
-
-/// Inner sites that the size of a stage asks for. Collective.
-DensityTotals wanted_inside(const LayoutContext& context, const Stage& stage, double coarsening = 1);
 
 } // namespace trime::meshing

@@ -2,6 +2,7 @@
 #include "meshing/size_limits.hpp"
 
 #include "core/gather.hpp"
+#include "meshing/boundary_rules.hpp"
 #include "meshing/site_tree.hpp"
 
 #include <algorithm>
@@ -13,14 +14,7 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr double short_chord = 0.65;    // of the local size
-constexpr double short_factor = 1.2;    // limit over the length of a short chord: its neighbours may be longer
-constexpr double narrow_gap = 0.65;     // of the local size: sites that are nearer across the inside
-constexpr double least_share = 0.05;    // of the size that is asked for: no limit is lower
-constexpr double least_lowering = 0.95; // of the size: a limit that is hardly lower changes nothing
-constexpr double lens_offset = 0.134, lens_radius = 0.5176; // of the chord: circle that sees it at 75 degrees
-constexpr int sites_in_a_row = 64;                          // by one thread
-constexpr double width_share = 1.15;                        // chord of an equilateral triangle over its height
+constexpr int sites_in_a_row = 64; // by one thread
 
 class LimitFinder {
 public:
@@ -41,21 +35,21 @@ private:
   /// At a site and at its chord.
   void look(LocalIndex k, std::vector<sizing::SizeLimit>& limits) const {
     const auto add = [&](Vec2 place, double limit, double h) {
-      if (!(limit < least_lowering * h))
+      if (!(limit < BoundaryRules::least_lowering * h))
         return;
-      limit = std::fmax(limit, least_share * asked_.size(place));
-      if (limit < least_lowering * h) // else it is as low already as it may become
+      limit = std::fmax(limit, BoundaryRules::least_limit * asked_.size(place));
+      if (limit < BoundaryRules::least_lowering * h) // else it is as low already as it may become
         limits.push_back({place, limit});
     };
     const geometry::Segment chord = boundary_.chord(k);
     const double at_site = sizing::checked_size(size_, chord.a);
-    add(chord.a, gap_across(k, narrow_gap * at_site), at_site);
+    add(chord.a, gap_across(k, BoundaryRules::narrow_gap * at_site), at_site);
     if (is_near_sharp(k))
       return; // in a wedge chords are short at any size
     const Vec2 middle = boundary_.periods.wrap(0.5 * (chord.a + chord.b));
     const double length = geometry::length(chord.b - chord.a), h = sizing::checked_size(size_, middle);
-    const double limit = length < short_chord * h ? short_factor * length : h;
-    add(middle, std::fmin(limit, width_share * width_across(k, chord, length)), h);
+    const double limit = length < BoundaryRules::short_chord * h ? BoundaryRules::short_factor * length : h;
+    add(middle, std::fmin(limit, BoundaryRules::width_factor * width_across(k, chord, length)), h);
   }
 
   static std::vector<SiteTree::Item> items_of(const BoundarySites& boundary) {
@@ -68,9 +62,9 @@ private:
   /// Least distance from the chord's line of the sites that see it at a large angle; infinite without any.
   double width_across(LocalIndex k, const geometry::Segment& chord, double length) const {
     const Vec2 along = (1 / length) * (chord.b - chord.a), inward{-along.y, along.x};
-    const Vec2 center = 0.5 * (chord.a + chord.b) + lens_offset * length * inward;
+    const Vec2 center = 0.5 * (chord.a + chord.b) + BoundaryRules::lens_offset * length * inward;
     double width = std::numeric_limits<double>::infinity();
-    tree_.for_each_within(center, lens_radius * length, [&](const SiteTree::Item& item) {
+    tree_.for_each_within(center, BoundaryRules::lens_radius * length, [&](const SiteTree::Item& item) {
       const double height = geometry::dot(item.position - chord.a, inward);
       if (height > 0 && !is_near(k, item.index))
         width = std::fmin(width, height);
@@ -104,10 +98,9 @@ private:
 
   /// Are the sites at most two chords apart, or on the arms of one sharp corner?
   bool is_around_corner(LocalIndex k, LocalIndex other) const {
-    constexpr int longest_arms = 24; // chords of both arms together
     LocalIndex forward = k, backward = k;
     bool sharp_ahead = is_sharp(k), sharp_behind = sharp_ahead;
-    for (int hop = 0; hop <= longest_arms; ++hop) {
+    for (int hop = 0; hop <= BoundaryRules::longest_arms; ++hop) {
       if ((forward == other && (hop <= 2 || sharp_ahead)) || (backward == other && (hop <= 2 || sharp_behind)))
         return true;
       forward = next(forward);

@@ -6,6 +6,8 @@
 namespace trime {
 
 inline constexpr double pi = 0x1.921fb54442d18p+1;
+/// Height of an equilateral triangle of side 1: sqrt(3)/2, also the distance of rows of a hexagonal lattice.
+inline constexpr double row_height = 0.8660254037844386;
 
 struct SinCos {
   double sin, cos;

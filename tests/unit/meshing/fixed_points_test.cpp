@@ -2,6 +2,7 @@
 // Fixed points before any mesh: where they lie, what becomes of the boundary, what is refused, what is taken out.
 #include "meshing/fixed_points.hpp"
 
+#include "meshing/boundary_rules.hpp"
 #include "meshing/boundary_sites.hpp"
 #include "trime/core/error.hpp"
 #include "trime/geometry/shape.hpp"
@@ -133,7 +134,7 @@ TEST(FixedPoints, FreeSitesKeepAway) {
     if (site.boundary == mesh::fixed_site)
       fixed_ones.push_back(site.position);
     else
-      EXPECT_GE(length(site.position - Vec2{0.375, 0.375}), FixedPoints::clearance * h * (1 - 1e-9));
+      EXPECT_GE(length(site.position - Vec2{0.375, 0.375}), BoundaryRules::fixed_clearance * h * (1 - 1e-9));
   EXPECT_EQ(fixed_ones, std::vector<Vec2>{(Vec2{0.375, 0.375})}); // the other one is a corner of the boundary
   EXPECT_EQ(sites.size(), 101u - 15u);
 }

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The numbers of the run that no stage of it owns.
+#pragma once
+
+#include "trime/core/types.hpp"
+
+namespace trime::meshing {
+
+/// The numbers of the run.
+struct MeshingRules {
+  /// [h] Larger circumradii are not searched first: a relaxed mesh has 0.6, a start up to 1.5.
+  static constexpr double cap = 2.5;
+  /// [points] With fewer the whole container is searched: it costs little, and h may be as large.
+  static constexpr GlobalId few_points = 2000;
+  /// [1] To 2500 h: a void that no start can leave.
+  static constexpr int cap_doublings = 10;
+  /// [points asked for] With fewer in the mesh a warning is given. Not measured.
+  static constexpr double shortage_warning = 0.9;
+  /// [points asked for] With fewer the result says why. Not measured.
+  static constexpr double shortage_note = 0.99;
+  /// [points] Fewer missing ones are never mentioned: a triangle.
+  static constexpr GlobalId shortage_slack = 3;
+};
+
+} // namespace trime::meshing
