@@ -2,7 +2,7 @@
 // The proof of the boundary finds what is wrong: each falsified input fails just the checks that look at it.
 #include "meshing/boundary_proof.hpp"
 
-#include "trime/geometry/shape.hpp"
+#include "trime/geometry/region_shape.hpp"
 
 #include <gtest/gtest.h>
 

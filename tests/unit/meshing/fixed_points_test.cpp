@@ -3,7 +3,7 @@
 #include "meshing/fixed_points.hpp"
 
 #include "trime/core/error.hpp"
-#include "trime/geometry/shape.hpp"
+#include "trime/geometry/region_shape.hpp"
 
 #include <gtest/gtest.h>
 
