@@ -2,6 +2,7 @@
 #include "trime/decomposition/halo.hpp"
 
 #include "trime/core/error.hpp"
+#include "trime/core/hilbert.hpp"
 
 #include <algorithm>
 
@@ -77,7 +78,7 @@ void Halo::list_bins_around(LocalIndex tile, int margin, std::vector<BinRef>& wa
   const int shift = grid_->tile_shift();
   const std::int64_t side = std::int64_t{1} << shift;
   const auto bin_side = [&](LocalIndex of) { return side >> grid_->bin_bits(of); };
-  const mesh::GridPosition at = grid_->tile_position(tile);
+  const GridPosition at = grid_->tile_position(tile);
   const std::int64_t x0 = std::int64_t{at.x} << shift, y0 = std::int64_t{at.y} << shift;
   const int tiles = static_cast<int>((margin * bin_side(tile) + side - 1) >> shift); // that the margin reaches
   const int column = static_cast<int>(at.x), row = static_cast<int>(at.y);

@@ -3,6 +3,7 @@
 // other, so that no second copy of all of them is ever held.
 #include "trime/mesh/binned_points.hpp"
 
+#include "mesh/mesh_rules.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/thread_loop.hpp"
 
@@ -12,9 +13,6 @@ namespace trime::mesh {
 namespace {
 
 using geometry::Vec2;
-
-constexpr double most_in_bin = 7; // mean number of sites in the bin of a site: levels then give 1.7 to 7, mostly 3.3
-constexpr int bins_per_site = 4;  // at most, however the sites of a tile are clustered
 
 std::size_t at(LocalIndex i) {
   return static_cast<std::size_t>(i);
@@ -92,7 +90,7 @@ int BinnedPoints::suitable_bin_bits(std::span<const Site> sites, LocalIndex tile
   const LocalIndex begin = tile_start_[at(tile - first_tile_)], end = tile_start_[at(tile - first_tile_) + 1];
   const std::int64_t n = end - begin;
   int bits = 0;
-  while (bits < grid_->most_bin_bits() && std::int64_t{4} << (2 * bits) <= bins_per_site * n)
+  while (bits < grid_->most_bin_bits() && std::int64_t{4} << (2 * bits) <= MeshRules::bins_per_site * n)
     ++bits;
   std::vector<std::int64_t> count(std::size_t{1} << (2 * bits), 0);
   for (LocalIndex k = begin; k < end; ++k)
@@ -102,7 +100,7 @@ int BinnedPoints::suitable_bin_bits(std::span<const Site> sites, LocalIndex tile
     std::int64_t pairs = 0;
     for (const std::int64_t c : count)
       pairs += c * c;
-    if (static_cast<double>(pairs) > most_in_bin * static_cast<double>(n))
+    if (static_cast<double>(pairs) > MeshRules::most_in_bin * static_cast<double>(n))
       break;
     suitable = bits;
     if (bits > 0) { // four bins become one
