@@ -4,6 +4,7 @@
 #include "trime/comm/agree.hpp"
 #include "trime/core/read_file.hpp"
 #include "trime/geometry/expression_shape.hpp"
+#include "trime/geometry/trace.hpp"
 
 namespace trime::app {
 namespace {
@@ -32,7 +33,7 @@ geometry::Part build_part(const PartOptions& part, const geometry::Frame& frame,
     return geometry::Part::triangle(part.name, part.corners, frame);
   if (part.type == "expression") {
     const Formula sdf(part.sdf, fmt::format("'sdf' in [shape.{}]", part.name));
-    return geometry::Part::implicit(part.name, geometry::ExpressionShape(sdf), frame);
+    return geometry::traced_part(part.name, geometry::ExpressionShape(sdf), frame);
   }
   const geometry::Contour contour = read_contour(part, comm);
   const geometry::Normalization place =

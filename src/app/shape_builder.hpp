@@ -4,7 +4,7 @@
 
 #include "app/options.hpp"
 #include "trime/comm/communicator.hpp"
-#include "trime/geometry/shape.hpp"
+#include "trime/geometry/region_shape.hpp"
 
 #include <vector>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/size_builder.hpp"
 
+#include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/formula.hpp"
 #include "trime/sizing/automatic_size.hpp"
@@ -69,7 +70,7 @@ double feature_floor(const meshing::MeshOptions& mesh, double area) {
   if (mesh.edge_length)
     return 0.5 * *mesh.edge_length;
   const auto points = static_cast<double>(std::max<GlobalId>(mesh.points.value_or(1), 1));
-  return 0.5 * std::sqrt(2 / std::sqrt(3.0) * area / points);
+  return 0.5 * std::sqrt(2 / sqrt_3 * area / points);
 }
 
 BuiltSize build_size(const RunOptions& options, const geometry::Boundary& boundary, const comm::Communicator& comm) {

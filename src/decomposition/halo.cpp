@@ -2,6 +2,7 @@
 #include "trime/decomposition/halo.hpp"
 
 #include "trime/core/error.hpp"
+#include "trime/core/hilbert.hpp"
 
 #include <algorithm>
 
@@ -77,7 +78,7 @@ void Halo::list_bins_around(LocalIndex tile, int margin, std::vector<BinRef>& wa
   const int shift = grid_->tile_shift();
   const std::int64_t side = std::int64_t{1} << shift;
   const auto bin_side = [&](LocalIndex of) { return side >> grid_->bin_bits(of); };
-  const mesh::GridPosition at = grid_->tile_position(tile);
+  const GridPosition at = grid_->tile_position(tile);
   const std::int64_t x0 = std::int64_t{at.x} << shift, y0 = std::int64_t{at.y} << shift;
   const int tiles = static_cast<int>((margin * bin_side(tile) + side - 1) >> shift); // that the margin reaches
   const int column = static_cast<int>(at.x), row = static_cast<int>(at.y);
@@ -129,7 +130,7 @@ void Halo::refresh(mesh::BinnedPoints& points) {
       const auto [begin, end] = points.bin_range({bin.tile, bin.bin}); // whatever image of it was asked for
       append(counts_out.back().data, static_cast<std::int32_t>(end - begin));
       for (LocalIndex i = begin; i < end; ++i)
-        append(sites_out.back().data, points.ghost(i));
+        append(sites_out.back().data, Ghost{points.position(i), points.boundary(i)});
     }
   }
   for (const Peer& peer : imports_)
@@ -209,7 +210,7 @@ void Halo::refresh_drifts(mesh::BinnedPoints& points) const {
     outgoing.push_back({peer.rank, {}});
     for (std::size_t k = 0; k < peer.bins.size(); ++k)
       if (begins_tile(peer, k))
-        append(outgoing.back().data, points.drift(peer.bins[k].tile));
+        append(outgoing.back().data, points.drifts().of(peer.bins[k].tile));
   }
   std::vector<LocalIndex> tiles;
   for (const Peer& peer : imports_) {
@@ -222,7 +223,7 @@ void Halo::refresh_drifts(mesh::BinnedPoints& points) const {
   comm_->exchange_known(outgoing, incoming);
   const std::vector<double> drifts = concatenate<double>(incoming);
   for (std::size_t k = 0; k < tiles.size(); ++k)
-    points.set_drift(tiles[k], drifts[k]);
+    points.drifts().set(tiles[k], drifts[k]);
 }
 
 /// For each tile of a peer its drift, then the positions of its sites.
@@ -234,7 +235,7 @@ void Halo::begin_positions(const mesh::BinnedPoints& points) {
     std::vector<std::byte>& data = outgoing.back().data;
     for (std::size_t k = 0; k < peer.bins.size(); ++k) {
       if (begins_tile(peer, k))
-        append(data, points.drift(peer.bins[k].tile));
+        append(data, points.drifts().of(peer.bins[k].tile));
       const auto [begin, end] = points.bin_range({peer.bins[k].tile, peer.bins[k].bin});
       const auto bytes = std::as_bytes(
           points.positions().subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)));
@@ -267,7 +268,7 @@ void Halo::finish_positions(mesh::BinnedPoints& points) {
       if (begins_tile(imports_[m], k)) {
         double drift = 0;
         take(&drift, sizeof drift);
-        points.set_drift(bin.tile, drift);
+        points.drifts().set(bin.tile, drift);
       }
       const auto [begin, end] = points.bin_range(bin);
       const std::size_t sites = static_cast<std::size_t>(end - begin);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/decomposition/numbering.hpp"
 
+#include "trime/core/hilbert.hpp"
 #include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
@@ -39,14 +40,14 @@ public:
 private:
   /// The bins along the curve: the key of a bin leads those of its points.
   void list_bins(LocalIndex tile, int bits) {
-    const mesh::GridPosition corner = grid_.curve_position(tile);
+    const GridPosition corner = grid_.curve_position(tile);
     const int level = 32 - grid_.tile_shift() + bits;
     const std::uint32_t side = std::uint32_t{1} << bits;
     const std::uint64_t mask = (std::uint64_t{1} << (2 * bits)) - 1;
     bins_.resize(std::size_t{1} << (2 * bits));
     for (std::uint32_t y = 0; y < side; ++y)
       for (std::uint32_t x = 0; x < side; ++x)
-        bins_[mesh::hilbert_key((corner.x << bits) | x, (corner.y << bits) | y, level) & mask] =
+        bins_[hilbert_key((corner.x << bits) | x, (corner.y << bits) | y, level) & mask] =
             static_cast<std::int32_t>((y << bits) | x);
   }
 

@@ -294,7 +294,7 @@ public:
         stars_.set_certain(i, false); // to be computed once it is wanted
       caps_[static_cast<std::size_t>(i - begin)] = wish == StarWish::compute && !stars_.certain(i) ? cap(i) : 0;
     }
-    if (points_.largest_drift() == 0) // it trusts the bins
+    if (points_.drifts().largest() == 0) // it trusts the bins
       rebuilt_ += wrapper_.compute(tile, caps_);
     for (LocalIndex i = begin; i < end; ++i)
       if (const double limit = caps_[static_cast<std::size_t>(i - begin)]; limit > 0)

@@ -76,7 +76,7 @@ void StarTable::release_overflow(LocalIndex i) {
 
 void StarTable::renumber(std::span<const LocalIndex> new_index, LocalIndex new_size) {
   UnsetVector<std::array<LocalIndex, slots>> rings(static_cast<std::size_t>(new_size));
-  std::vector<std::uint8_t> degrees(static_cast<std::size_t>(new_size), 0);
+  std::vector<std::uint8_t> new_degree(static_cast<std::size_t>(new_size), 0);
   std::vector<std::uint8_t> flags(static_cast<std::size_t>(new_size), 0);
   const LocalIndex old_size = static_cast<LocalIndex>(degree_.size());
   const auto mapped = [&](LocalIndex neighbour) {
@@ -101,13 +101,13 @@ void StarTable::renumber(std::span<const LocalIndex> new_index, LocalIndex new_s
       if (to >= 0 && n != overflowing &&
           map_ring({rings_[static_cast<std::size_t>(i)].data(), n}, rings[static_cast<std::size_t>(to)].data())) {
         repeat(rings[static_cast<std::size_t>(to)], n);
-        degrees[static_cast<std::size_t>(to)] = n;
+        new_degree[static_cast<std::size_t>(to)] = n;
         flags[static_cast<std::size_t>(to)] = flags_[static_cast<std::size_t>(i)] & gapped;
       }
     }
   });
   thread_loop(new_size, 4 * chunk, [&](std::ptrdiff_t to, int) {
-    if (degrees[static_cast<std::size_t>(to)] == 0)
+    if (new_degree[static_cast<std::size_t>(to)] == 0)
       rings[static_cast<std::size_t>(to)] = {};
   });
   std::vector<std::vector<LocalIndex>> overflow;
@@ -119,13 +119,13 @@ void StarTable::renumber(std::span<const LocalIndex> new_index, LocalIndex new_s
     std::vector<LocalIndex> moved(overflow_[static_cast<std::size_t>(rings_[static_cast<std::size_t>(i)][0])]);
     if (map_ring(moved, moved.data())) {
       rings[static_cast<std::size_t>(to)][0] = static_cast<LocalIndex>(overflow.size());
-      degrees[static_cast<std::size_t>(to)] = overflowing;
+      new_degree[static_cast<std::size_t>(to)] = overflowing;
       flags[static_cast<std::size_t>(to)] = flags_[static_cast<std::size_t>(i)] & gapped;
       overflow.push_back(std::move(moved));
     }
   }
   rings_ = std::move(rings);
-  degree_ = std::move(degrees);
+  degree_ = std::move(new_degree);
   flags_ = std::move(flags);
   overflow_ = std::move(overflow);
   free_overflow_.clear();

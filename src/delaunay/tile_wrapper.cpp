@@ -207,7 +207,7 @@ void TileWrapper::collect(Vec2 half) {
 geometry::Box TileWrapper::box_of(mesh::BinRef bin) const {
   const mesh::TileGrid& grid = points_.grid();
   const geometry::Box tile = grid.tile_box(bin.tile);
-  const mesh::GridPosition at = grid.tile_position(bin.tile);
+  const GridPosition at = grid.tile_position(bin.tile);
   const int bits = grid.bin_bits(bin.tile), side = 1 << bits;
   const auto range = [side](double low, double size, int place, bool first, bool last) {
     const double width = size / side, slack = 1e-3 * width;

@@ -3,7 +3,7 @@
 //   mpirun -np 2 graded_rectangle [POINTS [DIRECTORY]]
 #include <trime/comm/communicator.hpp>
 #include <trime/core/error.hpp>
-#include <trime/geometry/shape.hpp>
+#include <trime/geometry/region_shape.hpp>
 #include <trime/io/describe.hpp>
 #include <trime/io/mesh_file.hpp>
 #include <trime/meshing/make_mesh.hpp>

@@ -88,7 +88,7 @@ double Loop::length() const {
 double Loop::turn_degrees(std::size_t i) const {
   const Piece& before = pieces[(i + pieces.size() - 1) % pieces.size()];
   const Vec2 in = before.tangent(before.length()), out = pieces[i].tangent(0);
-  return std::fabs(angle_of(cross(in, out), dot(in, out))) * (180.0 / pi);
+  return std::fabs(angle_of(cross(in, out), dot(in, out))) * degrees_per_radian;
 }
 
 int Boundary::components() const {

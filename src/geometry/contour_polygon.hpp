@@ -4,7 +4,7 @@
 
 #include "trime/geometry/contour.hpp"
 #include "trime/geometry/frame.hpp"
-#include "trime/geometry/part.hpp"
+#include "trime/geometry/part_forms.hpp"
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 // Where segments and circles of one lattice cross, to within a fraction of a lattice step.
 #pragma once
 
-#include "trime/geometry/part.hpp"
+#include "trime/geometry/part_forms.hpp"
 #include "trime/geometry/segment_grid.hpp"
 #include "trime/geometry/vec2.hpp"
 

@@ -10,7 +10,7 @@
 
 namespace trime::geometry {
 
-/// Lengths behind the accuracy that Part::implicit promises.
+/// Lengths behind the accuracy that traced_part promises.
 struct TraceTolerances {
   explicit TraceTolerances(double container_side) : side(container_side) {}
   double side;                      ///< longer side of the container

@@ -2,12 +2,13 @@
 // From the arrangement of the parts to the boundary of the region: classify the pieces, check, chain into loops.
 // In a periodic container the images of all parts are cut at the border of the container, too; opposite points of the
 // border are one node, and the chains are unrolled.
+#include "make_boundary.hpp"
+
 #include "arrangement.hpp"
 #include "part_images.hpp"
 #include "quotient.hpp"
 #include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"
-#include "trime/geometry/shape.hpp"
 
 #include <algorithm>
 #include <cmath>

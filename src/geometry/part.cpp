@@ -2,12 +2,8 @@
 #include "trime/geometry/part.hpp"
 
 #include "contour_polygon.hpp"
-#include "periodic_clip.hpp"
-#include "trace.hpp"
-#include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"
 #include "trime/geometry/predicates.hpp"
-#include "zero_chains.hpp"
 
 #include <cmath>
 
@@ -85,27 +81,9 @@ Part Part::contour(const std::string& name, const Contour& contour, const Normal
   return part;
 }
 
-Part Part::implicit(const std::string& name, const Shape& shape, const Frame& frame, double resolution) {
-  const Contour contour = make_contour(trace_zero_set(name, shape, frame, resolution), name);
-  const auto polygon_of = [&](const Contour& rings) {
-    std::vector<std::string> unused; // of vertices that the lattice made equal, and of pieces: both are fine here
-    try {
-      return make_contour_polygon(rings, {}, frame, unused);
-    } catch (const GeometryError& error) {
-      throw GeometryError(fmt::format("part '{}': its traced boundary is not a set of simple curves; expected curves "
-                                      "that stay apart by more than 1e-6 of the container (vertex numbers stand in "
-                                      "place of lines: {})",
-                                      name, error.what()));
-    }
-  };
-  Part part(name, polygon_of(contour));
-  if (frame.periods().any())
-    part = Part(name, polygon_of(clip_to_periods(part, frame)));
-  const double finest = finest_resolution(std::fmax(frame.inner().width(), frame.inner().height()));
-  if (resolution > 0 && resolution < finest)
-    part.warnings_.push_back(fmt::format("part '{}': a resolution of {:g} is finer than {:g}, the finest there is for "
-                                         "this container, which is used instead",
-                                         name, resolution, finest));
+Part Part::polygon(const std::string& name, Polygon polygon, std::vector<std::string> warnings) {
+  Part part(name, std::move(polygon));
+  part.warnings_ = std::move(warnings);
   return part;
 }
 
@@ -154,27 +132,6 @@ double Part::distance(Vec2 p) const {
   if (const Polygon* polygon = as_polygon())
     return std::sqrt(polygon->grid.nearest(p).squared_distance);
   return std::fabs(length(p - as_circle()->center) - as_circle()->radius);
-}
-
-std::array<Vec2, 4> quadrant_vertices(const Circle& circle) {
-  const Vec2 c = circle.center;
-  const double r = circle.radius;
-  return {{{c.x + r, c.y}, {c.x, c.y + r}, {c.x - r, c.y}, {c.x, c.y - r}}};
-}
-
-Piece make_arc(const Circle& circle, Vec2 a, Vec2 b) {
-  const Vec2 from = a - circle.center, to = b - circle.center;
-  Piece piece;
-  piece.start = a;
-  piece.end = b;
-  piece.circular = true;
-  piece.center = circle.center;
-  piece.radius = circle.radius;
-  piece.start_angle = angle_of(from.y, from.x);
-  piece.sweep = angle_of(cross(from, to), dot(from, to));
-  if (piece.sweep <= 0)
-    piece.sweep += 2 * pi;
-  return piece;
 }
 
 } // namespace trime::geometry

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "periodic_clip.hpp"
 
+#include "make_boundary.hpp"
 #include "trime/core/error.hpp"
 #include "trime/geometry/region.hpp"
-#include "trime/geometry/shape.hpp"
 #include "vertex_table.hpp"
 
 #include <algorithm>

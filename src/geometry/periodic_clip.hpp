@@ -3,6 +3,7 @@
 #pragma once
 
 #include "trime/geometry/contour.hpp"
+#include "trime/geometry/frame.hpp"
 #include "trime/geometry/part.hpp"
 
 namespace trime::geometry {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trace.hpp"
+#include "trime/geometry/trace.hpp"
 
+#include "contour_polygon.hpp"
 #include "curve_refiner.hpp"
+#include "periodic_clip.hpp"
+#include "trime/core/error.hpp"
 #include "trime/geometry/segment_grid.hpp"
 #include "zero_chains.hpp"
 
@@ -89,8 +92,7 @@ double resolution_of(const std::string& name, double given, double side) {
   return given > 0 ? given : default_resolution * side;
 }
 
-} // namespace
-
+/// Closed rings, interior on the left; the same bits for any number of threads.
 std::vector<std::vector<Vec2>> trace_zero_set(const std::string& name, const Shape& shape, const Frame& frame,
                                               double resolution) {
   const Box& box = frame.inner();
@@ -111,6 +113,38 @@ std::vector<std::vector<Vec2>> trace_zero_set(const std::string& name, const Sha
     rings.push_back(std::move(ring));
   }
   return rings;
+}
+
+/// @throws GeometryError if the rings meet
+Polygon traced_polygon(const std::string& name, const Contour& rings, const Frame& frame) {
+  std::vector<std::string> unused; // of vertices that the lattice made equal, and of pieces: both are fine here
+  try {
+    return make_contour_polygon(rings, {}, frame, unused);
+  } catch (const GeometryError& error) {
+    throw GeometryError(fmt::format("part '{}': its traced boundary is not a set of simple curves; expected curves "
+                                    "that stay apart by more than 1e-6 of the container (vertex numbers stand in "
+                                    "place of lines: {})",
+                                    name, error.what()));
+  }
+}
+
+std::vector<std::string> resolution_warnings(const std::string& name, const Frame& frame, double resolution) {
+  const double finest = finest_resolution(std::fmax(frame.inner().width(), frame.inner().height()));
+  if (!(resolution > 0 && resolution < finest))
+    return {};
+  return {fmt::format("part '{}': a resolution of {:g} is finer than {:g}, the finest there is for this container, "
+                      "which is used instead",
+                      name, resolution, finest)};
+}
+
+} // namespace
+
+Part traced_part(const std::string& name, const Shape& shape, const Frame& frame, double resolution) {
+  const Contour contour = make_contour(trace_zero_set(name, shape, frame, resolution), name);
+  Part part = Part::polygon(name, traced_polygon(name, contour, frame), resolution_warnings(name, frame, resolution));
+  if (!frame.periods().any())
+    return part;
+  return Part::polygon(name, traced_polygon(name, clip_to_periods(part, frame), frame), part.warnings());
 }
 
 } // namespace trime::geometry

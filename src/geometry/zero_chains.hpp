@@ -23,7 +23,7 @@ double finest_resolution(double side);
 /// the values and the slopes near by, and along the curves from there. A curve that fits between the nodes of the fine
 /// grid is missed. Builds the wall of the function around the container.
 /// A resolution below finest_resolution() has no further effect.
-/// @throws GeometryError see Part::implicit
+/// @throws GeometryError see traced_part
 ZeroChains march(LevelFunction& function, const Box& container, double resolution);
 
 } // namespace trime::geometry

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/mesh/quality.hpp"
 
+#include "trime/core/angle.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -24,7 +26,6 @@ constexpr std::size_t first_octave_bin = 20700, octave_bins = 64 * 13 + 1;
 constexpr int octave_shift = 52 - 6; // six bits of the fraction
 constexpr std::size_t all_bins = first_octave_bin + octave_bins;
 constexpr double sum_cap = 65536;
-constexpr double degrees_per_radian = 57.29577951308232;
 
 } // namespace
 

@@ -4,7 +4,7 @@
 #include "meshing/certificate_rules.hpp"
 #include "meshing/chord_curve.hpp"
 #include "trime/core/thread_loop.hpp"
-#include "trime/geometry/shape.hpp"
+#include "trime/geometry/piece_tree.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,6 +8,7 @@
 #include "trime/comm/agree.hpp"
 #include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"
+#include "trime/core/hilbert.hpp"
 #include "trime/core/sum.hpp"
 #include "trime/core/thread_loop.hpp"
 #include "trime/geometry/lattice.hpp"
@@ -178,7 +179,7 @@ private:
   }
 
   static geometry::Box quarter_of(const geometry::Box& box, std::uint64_t key, int level, std::uint64_t quarter) {
-    const mesh::GridPosition at = mesh::hilbert_position(4 * key + quarter, level + 1);
+    const GridPosition at = hilbert_position(4 * key + quarter, level + 1);
     const geometry::Vec2 middle = 0.5 * (box.min + box.max);
     return {{at.x & 1 ? middle.x : box.min.x, at.y & 1 ? middle.y : box.min.y},
             {at.x & 1 ? box.max.x : middle.x, at.y & 1 ? box.max.y : middle.y}};

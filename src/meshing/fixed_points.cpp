@@ -5,7 +5,7 @@
 #include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/thread_loop.hpp"
-#include "trime/geometry/shape.hpp"
+#include "trime/geometry/piece_tree.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 #include "meshing/patch_mesh.hpp"
 
 #include "trime/core/error.hpp"
+#include "trime/core/hilbert.hpp"
 #include "trime/geometry/predicates.hpp"
-#include "trime/mesh/tile_grid.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -154,8 +154,7 @@ void PatchMesh::connect_all() {
   work_.on_curve.clear();
   for (LocalIndex v = frame; v < vertices(); ++v) {
     const Vec2 offset = position(v) - low;
-    work_.on_curve.push_back(
-        {static_cast<std::uint32_t>(mesh::hilbert_key(cell(offset.x), cell(offset.y), curve_level)), v});
+    work_.on_curve.push_back({static_cast<std::uint32_t>(hilbert_key(cell(offset.x), cell(offset.y), curve_level)), v});
   }
   std::sort(work_.on_curve.begin(), work_.on_curve.end(),
             [](const OnCurve& a, const OnCurve& b) { return a.key != b.key ? a.key < b.key : a.vertex < b.vertex; });

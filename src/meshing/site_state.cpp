@@ -168,7 +168,7 @@ void SiteState::refresh(const sizing::SizeField& size) {
 void SiteState::begin_advance(const sizing::SizeField& size, double drift, bool new_sizes) {
   points_.advance();
   halo_.begin_positions(points_);
-  points_.set_largest_drift(drift);
+  points_.drifts().set_largest(drift);
   ghosts_need_sizes_ = new_sizes && !size.is_uniform();
   if (ghosts_need_sizes_) {
     sizes_.forget();
@@ -257,7 +257,7 @@ void SiteState::fetch(std::span<const mesh::BinRef> missing, const sizing::SizeF
     values.insert(values.end(), ghosts.begin(), ghosts.end());
   }
   stars_.renumber_ghosts(points_.owned(), halo_.ghost_renumbering());
-  if (points_.largest_drift() > 0)
+  if (points_.drifts().largest() > 0)
     halo_.refresh_drifts(points_);
 }
 

@@ -266,10 +266,10 @@ Sweeper::Counts Sweeper::commit() {
   }
   note_pushes();
   counts_.deleted = 0; // they wait
-  drifts_before_ = points.drifts();
+  drifts_before_ = points.drifts().of_tiles();
   for (LocalIndex t = points.first_tile(); t < points.last_tile(); ++t) {
     const double squared = tallies_[at(t - points.first_tile())].squared_distance;
-    points.set_drift(t, points.drift(t) + std::sqrt(squared) * (1 + 1e-9));
+    points.drifts().set(t, points.drifts().of(t) + std::sqrt(squared) * (1 + 1e-9));
     active_[at(t)] = squared > 0;
   }
   const bool new_sizes = ++age_of_sizes_ >= sweeps_of_a_size;
@@ -292,7 +292,7 @@ void Sweeper::finish_move() {
   const mesh::BinnedPoints& points = state_.points();
   for (std::size_t t = 0; t < active_.size(); ++t)
     if (const LocalIndex tile = static_cast<LocalIndex>(t); tile < points.first_tile() || tile >= points.last_tile())
-      active_[t] = points.drifts()[t] > drifts_before_[t];
+      active_[t] = points.drifts().of(tile) > drifts_before_[t];
 }
 
 /// @param deleted empty: none

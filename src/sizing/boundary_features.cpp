@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sizing/boundary_features.hpp"
 
+#include "comm/shared_work.hpp"
 #include "core/gather.hpp"
 #include "sizing/medial_axis.hpp"
 #include "sizing/piece_locator.hpp"
-#include "sizing/shared_work.hpp"
 
 #include <algorithm>
 #include <array>
@@ -179,7 +179,7 @@ private:
         *found++ = {point.value_or(Vec2{}), point.has_value()};
       }
     };
-    const std::vector<Found> found = compute_shared_runs<Found>(comm_, rays.size(), ray_run, find_run);
+    const std::vector<Found> found = comm::compute_shared_runs<Found>(comm_, rays.size(), ray_run, find_run);
     std::vector<Cone> points;
     for (std::size_t k = 0; k < origins_.size(); ++k)
       if (ends_axis[k])
@@ -193,7 +193,7 @@ private:
 
   /// Old samples have not seen the newest medial points, new samples none.
   void update_feature_sizes() {
-    const std::vector<double> sizes = compute_shared<double>(comm_, samples_.size(), [&](std::size_t k) {
+    const std::vector<double> sizes = comm::compute_shared<double>(comm_, samples_.size(), [&](std::size_t k) {
       const Vec2 p = images_.wrap(samples_[k].apex);
       double size = samples_[k].height;
       std::size_t tree = k < known_ ? medial_trees_.size() - 1 : 0;
@@ -257,7 +257,7 @@ std::vector<Cone> boundary_features(const comm::Communicator& comm, const geomet
     cone = {images.wrap(cone.apex), std::min(largest, std::max(feature_floor, cone.height))};
   cones = thinned(cones, gradation);
   const ConeTree all(with_images(cones, images), gradation);
-  const std::vector<char> covered = compute_shared<char>(comm, cones.size(), [&](std::size_t k) {
+  const std::vector<char> covered = comm::compute_shared<char>(comm, cones.size(), [&](std::size_t k) {
     return static_cast<char>(all.value(cones[k].apex, cones[k].height) < cones[k].height);
   });
   std::vector<Cone> kept;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sizing/cone_tree.hpp"
 
+#include "trime/core/hilbert.hpp"
 #include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
@@ -16,19 +17,7 @@ namespace {
 
 constexpr int cones_in_a_row = 1024; // by one thread
 
-/// Place along a Hilbert curve through a square of 2^16 by 2^16 cells.
-std::uint32_t hilbert_place(std::uint32_t x, std::uint32_t y) {
-  std::uint32_t place = 0;
-  for (int bit = 15; bit >= 0; --bit) {
-    const std::uint32_t right = x >> bit & 1, above = y >> bit & 1;
-    place = 4 * place + ((3 * right) ^ above);
-    const std::uint32_t swap = above - 1, reflect = swap & (0 - right); // as masks: no branch could be foretold
-    const std::uint32_t changed = (x ^ y) & swap;
-    x ^= changed ^ reflect;
-    y ^= changed ^ reflect;
-  }
-  return place;
-}
+constexpr int curve_level = 16; // 2^16 by 2^16 cells
 
 /// A place along the curve, and the index of the cone.
 struct Key {
@@ -59,12 +48,13 @@ std::vector<Cone> in_order(const std::vector<Cone>& cones) {
   for (const Cone& cone : cones)
     box.include(cone.apex);
   const double extent = std::max(box.width(), box.height());
-  const double cells = extent > 1e-300 ? 65535 / extent : 0;
+  const double cells = extent > 1e-300 ? ((1 << curve_level) - 1) / extent : 0;
   std::vector<Key> keys(cones.size());
   thread_loop(std::ssize(cones), cones_in_a_row, [&](std::ptrdiff_t item, int) {
     const auto k = static_cast<std::size_t>(item);
     const Vec2 place = cells * (cones[k].apex - box.min);
-    keys[k] = {hilbert_place(static_cast<std::uint32_t>(place.x), static_cast<std::uint32_t>(place.y)),
+    keys[k] = {static_cast<std::uint32_t>(
+                   hilbert_key(static_cast<std::uint32_t>(place.x), static_cast<std::uint32_t>(place.y), curve_level)),
                static_cast<std::uint32_t>(k)};
   });
   keys = sorted(std::move(keys));

@@ -12,8 +12,8 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr double fan_step = 20 * pi / 180; // between the rays from a vertex
-constexpr double straight = 5 * pi / 180;  // a turn that needs no fan
+constexpr double fan_step = 20 * degrees; // between the rays from a vertex
+constexpr double straight = 5 * degrees;  // a turn that needs no fan
 constexpr int most_shrinks = 50;
 constexpr double first_growth = 4;         // of a first ball that is empty
 constexpr double empty_share = 1 - 1e-3;   // of its radius: so far a ball's centre is from the boundary if it is empty
@@ -73,7 +73,7 @@ void append_rays(Vec2 p, Vec2 before, Vec2 after, std::vector<NormalRay>& rays) 
 }
 
 bool axis_ends_at(Vec2 before, Vec2 after) {
-  return std::fabs(signed_turn(before, after)) >= separation_degrees * (pi / 180) * (1 - 1e-9);
+  return std::fabs(signed_turn(before, after)) >= separation_degrees * degrees * (1 - 1e-9);
 }
 
 std::optional<Vec2> medial_point(const NormalRay& ray, const PieceLocator& boundary, const Images& images,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sizing/size_quadtree.hpp"
 
-#include "sizing/shared_work.hpp"
+#include "comm/shared_work.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -123,10 +123,10 @@ std::vector<CellPart> SizeQuadtree::gather_parts(const comm::Communicator& comm,
     append(joined.numbers, part.numbers);
     part = {};
   }
-  summaries = gather_everywhere(comm, std::move(summaries));
-  joined.roots = gather_everywhere(comm, std::move(joined.roots));
-  joined.children = gather_everywhere(comm, std::move(joined.children));
-  joined.numbers = gather_everywhere(comm, std::move(joined.numbers));
+  summaries = comm::gather_everywhere(comm, std::move(summaries));
+  joined.roots = comm::gather_everywhere(comm, std::move(joined.roots));
+  joined.children = comm::gather_everywhere(comm, std::move(joined.children));
+  joined.numbers = comm::gather_everywhere(comm, std::move(joined.numbers));
   auto summary = summaries.begin();
   auto root = joined.roots.begin();
   auto child = joined.children.begin();

@@ -2,7 +2,7 @@
 // Shapes in periodic containers for the tests, and a torus that a hexagonal lattice fits exactly.
 #pragma once
 
-#include "trime/geometry/shape.hpp"
+#include "trime/geometry/region_shape.hpp"
 
 #include <cmath>
 #include <vector>

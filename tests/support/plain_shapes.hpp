@@ -2,7 +2,7 @@
 // Shapes in the unit square and silent runs of the mesher on them, for the tests of whole meshes.
 #pragma once
 
-#include "trime/geometry/shape.hpp"
+#include "trime/geometry/region_shape.hpp"
 #include "trime/meshing/mesher.hpp"
 #include "trime/sizing/size_field.hpp"
 

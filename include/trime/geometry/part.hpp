@@ -6,7 +6,7 @@
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/contour.hpp"
 #include "trime/geometry/frame.hpp"
-#include "trime/geometry/segment_grid.hpp"
+#include "trime/geometry/part_forms.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <array>
@@ -15,25 +15,6 @@
 #include <vector>
 
 namespace trime::geometry {
-
-class Shape;
-
-/// Centre and radius are multiples of the lattice step.
-struct Circle {
-  Vec2 center;
-  double radius;
-};
-
-/// Simple closed rings that do not meet; inside by the even-odd rule.
-struct Polygon {
-  /// Segments first .. first + count - 1 of the grid; `reversed` if the interior lies on their right.
-  struct Ring {
-    LocalIndex first, count;
-    bool reversed;
-  };
-  SegmentGrid grid; ///< segments ring by ring, each starting where the one before it ends
-  std::vector<Ring> rings;
-};
 
 /// One named part. Immutable.
 class Part {
@@ -51,20 +32,8 @@ public:
   /// area, or leave frame.reach()
   static Part contour(const std::string& name, const Contour& contour, const Normalization& normalization,
                       const Frame& frame);
-  /// @brief The inside of a function, `shape` < 0, as polygons that are traced within the container.
-  ///
-  /// Straight sides become one segment each, smooth curves chords that stray by 1e-6 of the container's longer side at
-  /// most; corners that turn by more than 4 degrees are vertices, to within some lattice steps. A part that reaches
-  /// beyond the container goes on a little way outside, so that `domain` may cut it; across a periodic side it goes on
-  /// in its image, so the function must have the period of the container. Features narrower than
-  /// `resolution` may be missed (default: 1/512 of the longer side; finer than 1/8192 of it is taken as that, with a
-  /// warning, see warnings()). About (side/resolution)^2 / 4 evaluations plus some thousands per unit of length, by all
-  /// threads; the function is not kept.
-  /// @throws GeometryError with the place if a value is not finite, if pieces of the curve touch, and if the function
-  /// oscillates below the resolution: more than 16384 closed curves, 4096 vertices between neighbouring grid lines or
-  /// 2^23 in all before thinning, or 2^25 cells of half the resolution near zeros; and if the function has the same
-  /// sign everywhere
-  static Part implicit(const std::string& name, const Shape& shape, const Frame& frame, double resolution = 0);
+  /// @brief A polygon that is on the lattice already. @param warnings for the user, one sentence each
+  static Part polygon(const std::string& name, Polygon polygon, std::vector<std::string> warnings = {});
 
   const std::string& name() const { return name_; }
   /// For the user, one sentence each: those of the contour, and vertices that the lattice made equal.
@@ -90,11 +59,5 @@ private:
   std::vector<std::string> warnings_;
   bool is_contour_ = false;
 };
-
-/// The four vertices of a circle at angles 0, pi/2, pi, 3 pi/2; exact.
-std::array<Vec2, 4> quadrant_vertices(const Circle& circle);
-
-/// @brief Counter-clockwise arc of `circle` from a to b, less than a full turn.
-Piece make_arc(const Circle& circle, Vec2 a, Vec2 b);
 
 } // namespace trime::geometry

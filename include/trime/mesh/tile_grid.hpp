@@ -3,6 +3,7 @@
 // Geometry only: it holds no points and knows nothing of ranks.
 #pragma once
 
+#include "trime/core/hilbert.hpp"
 #include "trime/core/types.hpp"
 #include "trime/geometry/periods.hpp"
 #include "trime/geometry/vec2.hpp"
@@ -14,14 +15,6 @@
 #include <vector>
 
 namespace trime::mesh {
-
-/// Position along the Hilbert curve of order `level` (a 2^level x 2^level square) of the cell (x, y).
-std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y, int level);
-/// Inverse of hilbert_key.
-struct GridPosition {
-  std::uint32_t x, y;
-};
-GridPosition hilbert_position(std::uint64_t key, int level);
 
 /// What the grid is made of.
 struct GridOptions {
@@ -70,7 +63,7 @@ public:
   int bins_per_side(LocalIndex tile) const { return 1 << bin_bits(tile); }
   int bins_per_tile(LocalIndex tile) const { return 1 << (2 * bin_bits(tile)); }
   /// Largest b possible.
-  int most_bin_bits() const { return std::min(12, tile_shift_); }
+  int most_bin_bits() const { return std::min(finest_bin_bits, tile_shift_); }
   /// @brief Sets the b of every tile. Whatever counts in bins (points, subscriptions) must be built anew.
   /// @pre the same on all ranks; each at most most_bin_bits()
   void set_bin_bits(std::vector<std::uint8_t> bits);
@@ -131,6 +124,10 @@ public:
   }
 
 private:
+  static constexpr int finest_bin_bits = 12; // 2^24 bins a tile
+  void choose_tiles(const GridOptions& options);
+  void set_fixed_point();
+  void number_tiles();
   static constexpr int step_of(int third) { return third == 2 ? -1 : third; }
   static std::uint32_t fixed(double v, std::uint32_t limit) {
     return v <= 0 ? 0 : v >= static_cast<double>(limit) ? limit : static_cast<std::uint32_t>(v);
@@ -139,7 +136,7 @@ private:
   geometry::Box container_;
   geometry::Periods periods_;
   int cells_x_ = 1, cells_y_ = 1, tiles_x_ = 1, tiles_y_ = 1;
-  int typical_bin_bits_ = 4, tile_shift_ = 32;
+  int typical_bin_bits_ = 4, curve_level_ = 1, tile_shift_ = 32;
   double scale_x_ = 1, scale_y_ = 1;
   std::uint32_t limit_x_ = 0, limit_y_ = 0;
   double tile_width_ = 1, tile_height_ = 1;

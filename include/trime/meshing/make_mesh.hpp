@@ -4,7 +4,7 @@
 
 #include "trime/comm/communicator.hpp"
 #include "trime/core/log.hpp"
-#include "trime/geometry/shape.hpp"
+#include "trime/geometry/region_shape.hpp"
 #include "trime/meshing/options.hpp"
 #include "trime/sizing/size_field.hpp"
 

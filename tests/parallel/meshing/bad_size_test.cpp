@@ -4,7 +4,7 @@
 #include "support/plain_shapes.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/formula.hpp"
-#include "trime/geometry/shape.hpp"
+#include "trime/geometry/region_shape.hpp"
 #include "trime/meshing/mesher.hpp"
 #include "trime/sizing/expression_size.hpp"
 

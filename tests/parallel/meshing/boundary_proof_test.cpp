@@ -3,7 +3,7 @@
 #include "meshing/boundary_proof.hpp"
 #include "meshing/boundary_sites.hpp"
 
-#include "trime/geometry/shape.hpp"
+#include "trime/geometry/region_shape.hpp"
 
 #include <gtest/gtest.h>
 

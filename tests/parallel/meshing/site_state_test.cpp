@@ -95,7 +95,7 @@ TEST(SiteState, AFetchKeepsTheDriftThatTheOwnersKnow) {
   const auto drift_of = [](LocalIndex tile) { return tile % 3 == 0 ? 0 : 1e-4 * (1 + tile % 5); };
   points.prepare_to_stay();
   for (LocalIndex tile = points.first_tile(); tile < points.last_tile(); ++tile)
-    points.set_drift(tile, drift_of(tile));
+    points.drifts().set(tile, drift_of(tile));
   state.begin_advance(size, 1e-3, false);
   state.finish_advance(size);
   std::vector<mesh::BinRef> missing;
@@ -108,7 +108,7 @@ TEST(SiteState, AFetchKeepsTheDriftThatTheOwnersKnow) {
   state.fetch(missing, size);
   int known = 0;
   for (const mesh::BinRef& bin : state.halo().imported_bins()) {
-    EXPECT_EQ(points.drift(bin.tile), drift_of(bin.tile));
+    EXPECT_EQ(points.drifts().of(bin.tile), drift_of(bin.tile));
     ++known;
   }
   EXPECT_EQ(known > 0, world.size() > 1);

@@ -3,7 +3,7 @@
 #include "support/distributed.hpp"
 #include "support/plain_shapes.hpp"
 #include "trime/core/simd_level.hpp"
-#include "trime/geometry/shape.hpp"
+#include "trime/geometry/region_shape.hpp"
 #include "trime/meshing/mesher.hpp"
 
 #include <gtest/gtest.h>

@@ -305,7 +305,7 @@ TEST(Stars, UncertainStarsNameTheMissingBinsAndAreRightOnceTheyAreKnown) {
       const auto [begin, end] = whole.points.bin_range(bin);
       counts.push_back(end - begin);
       for (LocalIndex i = begin; i < end; ++i)
-        ghosts.push_back(whole.points.ghost(i));
+        ghosts.push_back(mesh::Ghost{whole.points.position(i), whole.points.boundary(i)});
     }
     points.assign_ghosts(std::vector<mesh::BinRef>(known.begin(), known.end()), counts, ghosts);
     stars.reset(points.owned()); // the ghosts have new indices

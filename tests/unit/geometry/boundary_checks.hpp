@@ -3,7 +3,7 @@
 #pragma once
 
 #include "trime/core/random.hpp"
-#include "trime/geometry/shape.hpp"
+#include "trime/geometry/region_shape.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,6 +3,7 @@
 #include "trime/core/angle.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/thread_loop.hpp"
+#include "trime/geometry/trace.hpp"
 #include "unit/geometry/boundary_checks.hpp"
 
 #include <functional>
@@ -215,7 +216,7 @@ TEST(Implicit, ThinPartsAndManyPieces) {
 
 TEST(Implicit, TakesPartInRegions) {
   const Formula wave([](Vec2 p) { return p.y - 0.5 - 0.1 * std::sin(10 * p.x); }); // reaches beyond the container
-  const std::vector<Part> parts{Part::implicit("wave", wave, unit_frame),
+  const std::vector<Part> parts{traced_part("wave", wave, unit_frame),
                                 Part::circle("disc", {0.5, 0.3}, 0.1, unit_frame)};
   const RegionShape shape(parts, "intersection(domain, difference(wave, disc))", unit_frame);
   expect_valid(shape.boundary());
@@ -267,7 +268,7 @@ TEST(Implicit, RefusesWhatOscillatesBelowTheResolution) {
     for (const int count : {1, 3}) {
       set_thread_count(count);
       try {
-        Part::implicit("wild", Formula(f), unit_frame, 1.0 / 128);
+        traced_part("wild", Formula(f), unit_frame, 1.0 / 128);
       } catch (const GeometryError& error) {
         messages.push_back(error.what());
       }
@@ -299,7 +300,7 @@ TEST(Implicit, FollowsWhatOscillatesAboveTheResolution) {
 TEST(Implicit, SaysThatAResolutionIsTooFine) {
   const Frame frame(Box{{0, 0}, {1, 1. / 64}}); // few cells
   const Formula strip([](Vec2 p) { return std::fabs(p.y - 1. / 128) - 1. / 256; });
-  const Part part = Part::implicit("strip", strip, frame, 1e-4);
+  const Part part = traced_part("strip", strip, frame, 1e-4);
   ASSERT_EQ(part.warnings().size(), 1);
   EXPECT_NE(part.warnings()[0].find("0.0001 is finer than 0.00012207"), std::string::npos) << part.warnings()[0];
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shapes as a whole: distance, names, and the contours of the shared data where they are present.
-#include "trime/geometry/shape.hpp"
+#include "trime/geometry/region_shape.hpp"
 
 #include "trime/core/error.hpp"
 #include "trime/core/timer.hpp"

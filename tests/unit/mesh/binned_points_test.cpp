@@ -185,7 +185,7 @@ TEST(BinnedPoints, UnknownBinsAreReportedUntilTheirSitesArrive) {
     bins.push_back(bin);
     counts.push_back(end - begin);
     for (LocalIndex i = begin; i < end; ++i)
-      ghosts.push_back(all.ghost(i));
+      ghosts.push_back(Ghost{all.position(i), all.boundary(i)});
   }
   for (int round = 0; round < 2; ++round) // the same ghosts again replace the ghosts
     points.assign_ghosts(bins, counts, ghosts);

@@ -7,7 +7,7 @@
 #include "trime/core/angle.hpp"
 #include "trime/core/random.hpp"
 #include "trime/geometry/diametral.hpp"
-#include "trime/geometry/shape.hpp"
+#include "trime/geometry/region_shape.hpp"
 #include "trime/sizing/lowered_size.hpp"
 
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #include "meshing/boundary_rules.hpp"
 #include "meshing/boundary_sites.hpp"
 #include "trime/core/error.hpp"
-#include "trime/geometry/shape.hpp"
+#include "trime/geometry/region_shape.hpp"
 
 #include <gtest/gtest.h>
 

@@ -275,8 +275,8 @@ TEST(SweepKernel, FindsTheStarsThatAreNotRightAnyMore) {
     cloud.points.next_positions()[static_cast<std::size_t>(i)] = sites[static_cast<std::size_t>(i)].position;
   cloud.points.advance();
   for (LocalIndex tile = 0; tile < cloud.grid.tile_count(); ++tile)
-    cloud.points.set_drift(tile, 0.3 * spacing);
-  cloud.points.set_largest_drift(0.3 * spacing);
+    cloud.points.drifts().set(tile, 0.3 * spacing);
+  cloud.points.drifts().set_largest(0.3 * spacing);
   SweepTask task = cloud.task();
   for (const SweepKernels* kernel : kernels()) {
     Pass pass(cloud.points.owned());

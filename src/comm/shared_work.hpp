@@ -10,29 +10,29 @@
 #include <string>
 #include <vector>
 
-namespace trime::sizing {
+namespace trime::comm {
 
 /// The values of all ranks one after the other, on every rank. Collective.
 template <class T>
-std::vector<T> gather_everywhere(const comm::Communicator& comm, std::vector<T> mine) {
+std::vector<T> gather_everywhere(const Communicator& comm, std::vector<T> mine) {
   if (comm.size() == 1)
     return mine;
   std::string all;
   for (const std::string& part :
        comm.gather(std::string(reinterpret_cast<const char*>(mine.data()), mine.size() * sizeof(T))))
     all += part;
-  return comm::from_bytes<T>(std::as_bytes(std::span<const char>(comm.broadcast(std::move(all)))));
+  return from_bytes<T>(std::as_bytes(std::span<const char>(comm.broadcast(std::move(all)))));
 }
 
 /// @brief n results of type T on every rank: work(first, last, results) for runs of `run` results, so that what one of
 /// them leaves for the next does not depend on ranks and threads. Each rank computes a contiguous share. Collective.
 /// @param work thread-safe, does not communicate; what it throws, all ranks throw
 template <class T, class Work>
-std::vector<T> compute_shared_runs(const comm::Communicator& comm, std::size_t n, std::size_t run, const Work& work) {
+std::vector<T> compute_shared_runs(const Communicator& comm, std::size_t n, std::size_t run, const Work& work) {
   const auto ranks = static_cast<std::size_t>(comm.size()), rank = static_cast<std::size_t>(comm.rank());
   const std::size_t runs = (n + run - 1) / run, first = runs * rank / ranks, last = runs * (rank + 1) / ranks;
   std::vector<T> mine;
-  comm::run_agreed(comm, [&] {
+  run_agreed(comm, [&] {
     mine.resize(std::min(n, last * run) - std::min(n, first * run));
     thread_loop(static_cast<std::ptrdiff_t>(last - first), 1, [&](std::ptrdiff_t k, int) {
       const std::size_t from = (first + static_cast<std::size_t>(k)) * run;
@@ -45,11 +45,11 @@ std::vector<T> compute_shared_runs(const comm::Communicator& comm, std::size_t n
 /// @brief work(k) for k = 0 .. n-1, of type T, on every rank. Collective.
 /// @param work thread-safe, does not communicate; what it throws, all ranks throw
 template <class T, class Work>
-std::vector<T> compute_shared(const comm::Communicator& comm, std::size_t n, const Work& work) {
+std::vector<T> compute_shared(const Communicator& comm, std::size_t n, const Work& work) {
   return compute_shared_runs<T>(comm, n, 256, [&](std::size_t first, std::size_t last, T* result) {
     for (std::size_t k = first; k < last; ++k)
       *result++ = work(k);
   });
 }
 
-} // namespace trime::sizing
+} // namespace trime::comm

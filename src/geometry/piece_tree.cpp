@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/geometry/shape.hpp"
+#include "trime/geometry/piece_tree.hpp"
 
-#include "part_images.hpp"
-#include "trime/core/error.hpp"
+#include "trime/geometry/segment.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,18 +21,6 @@ Piece wrapped(Piece piece, const Periods& periods) {
   return piece;
 }
 
-std::vector<std::string> names_of(const std::vector<Part>& parts) {
-  std::vector<std::string> names;
-  for (const Part& part : parts) {
-    if (part.name() == domain_name)
-      throw ConfigError(fmt::format("a part must not be named '{}': this name means the container", domain_name));
-    if (std::find(names.begin(), names.end(), part.name()) != names.end())
-      throw ConfigError(fmt::format("two parts are named '{}'; expected different names", part.name()));
-    names.push_back(part.name());
-  }
-  return names;
-}
-
 } // namespace
 
 PieceTree::PieceTree(const Boundary& boundary) : periods_(boundary.periods) {
@@ -41,12 +28,12 @@ PieceTree::PieceTree(const Boundary& boundary) : periods_(boundary.periods) {
   for (const Loop& loop : boundary.loops)
     for (const Piece& unrolled : loop.pieces) {
       const Piece piece = periods_.any() ? wrapped(unrolled, periods_) : unrolled;
-      if (items_.size() % run_length == 0)
+      if (ends_.size() % run_length == 0)
         runs.emplace_back();
       const Box box = piece.covering_box();
       runs.back().include(box.min);
       runs.back().include(box.max);
-      items_.push_back({piece.start, piece.end, piece.circular ? static_cast<LocalIndex>(arcs_.size()) : -1});
+      ends_.push_back({piece.start, piece.end, piece.circular ? static_cast<LocalIndex>(arcs_.size()) : -1});
       if (piece.circular)
         arcs_.push_back(piece);
     }
@@ -65,12 +52,12 @@ PieceTree::PieceTree(const Boundary& boundary) : periods_(boundary.periods) {
 
 double PieceTree::squared_distance_to_run(std::size_t run, Vec2 p) const {
   double best = std::numeric_limits<double>::infinity();
-  const std::size_t last = std::min(items_.size(), (run + 1) * run_length);
+  const std::size_t last = std::min(ends_.size(), (run + 1) * run_length);
   for (std::size_t k = run * run_length; k < last; ++k) {
-    if (items_[k].arc < 0) {
-      best = std::fmin(best, squared_distance(p, {items_[k].a, items_[k].b}));
+    if (ends_[k].arc < 0) {
+      best = std::fmin(best, squared_distance(p, {ends_[k].a, ends_[k].b}));
     } else {
-      const double distance = arcs_[items_[k].arc].distance(p);
+      const double distance = arcs_[ends_[k].arc].distance(p);
       best = std::fmin(best, distance * distance);
     }
   }
@@ -79,7 +66,7 @@ double PieceTree::squared_distance_to_run(std::size_t run, Vec2 p) const {
 
 double PieceTree::distance(Vec2 p) const {
   double best = std::numeric_limits<double>::infinity();
-  if (items_.empty())
+  if (ends_.empty())
     return best;
   if (!periods_.any()) {
     search(p, best);
@@ -119,29 +106,6 @@ void PieceTree::search(Vec2 p, double& best) const {
     stack[size++] = far;
     stack[size++] = near;
   }
-}
-
-RegionShape::RegionShape(std::vector<Part> parts, std::string_view region, const Frame& frame)
-    : frame_(frame), parts_(std::move(parts)), region_(Region::parse(region, names_of(parts_))),
-      boundary_(make_boundary(region_, parts_, frame)), tree_(boundary_) {
-  parts_.push_back(domain_part(frame));
-  shifts_.resize(parts_.size());
-  for (const int part : region_.parts())
-    shifts_[part] = image_shifts(parts_[part], frame);
-}
-
-bool RegionShape::inside(Vec2 p) const {
-  const Vec2 canonical = frame_.periods().wrap(p);
-  return region_.contains([&](int part) {
-    for (const Vec2 shift : shifts_[part])
-      if (parts_[part].inside(canonical - shift))
-        return true;
-    return false;
-  });
-}
-
-RegionShape traced(const Shape& shape, const Frame& frame, const std::string& name) {
-  return RegionShape({Part::implicit(name, shape, frame)}, name, frame);
 }
 
 } // namespace trime::geometry

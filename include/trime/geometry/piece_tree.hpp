@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The distance from a point to the nearest piece of a boundary.
+#pragma once
+
+#include "trime/core/types.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/periods.hpp"
+#include "trime/geometry/vec2.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace trime::geometry {
+
+/// Nearest piece of a boundary: boxes around runs of consecutive pieces, in a binary hierarchy.
+class PieceTree {
+public:
+  PieceTree() = default;
+  /// O(M) time, about 60 bytes per piece.
+  explicit PieceTree(const Boundary& boundary);
+  /// @brief Distance from p to the nearest piece or image of one, infinity without pieces; O(log M) for curves,
+  /// thread-safe.
+  double distance(Vec2 p) const;
+
+private:
+  static constexpr std::size_t run_length = 4;
+  struct Ends {
+    Vec2 a, b;
+    LocalIndex arc; ///< into arcs_, or -1 for a segment
+  };
+  double squared_distance_to_run(std::size_t run, Vec2 p) const;
+  void search(Vec2 p, double& best) const;
+
+  Periods periods_;
+  std::vector<Ends> ends_;
+  std::vector<Piece> arcs_;
+  std::vector<Box> boxes_; // heap order: the root is 1, the children of k are 2k and 2k+1; the runs are the leaves
+};
+
+} // namespace trime::geometry

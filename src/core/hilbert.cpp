@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/core/hilbert.hpp"
+
+#include <array>
+#include <utility>
+
+namespace trime {
+namespace {
+
+/// One step of the curve: the quadrant order is turned and mirrored so that pieces join end to end.
+void rotate(std::uint32_t side, std::uint32_t& x, std::uint32_t& y, bool right, bool upper) {
+  if (upper)
+    return;
+  if (right) {
+    x = side - 1 - x;
+    y = side - 1 - y;
+  }
+  std::swap(x, y);
+}
+
+/// Quadrants of the curve, and how the pieces in the last of them are turned: 1 stands for x and y exchanged, 2 for
+/// both mirrored.
+struct CurveStep {
+  std::uint8_t key, turn;
+};
+
+constexpr CurveStep curve_step(unsigned x, unsigned y, unsigned turn) {
+  const unsigned right = ((turn & 1) ? y : x) ^ (turn >> 1), upper = ((turn & 1) ? x : y) ^ (turn >> 1);
+  const unsigned quadrant = right ? (upper ? 2 : 3) : upper;
+  return {static_cast<std::uint8_t>(quadrant), static_cast<std::uint8_t>(upper ? turn : turn ^ (right ? 3U : 1U))};
+}
+
+/// Four steps at once, by turn and four bits of x and y each.
+using FourSteps = std::array<std::array<CurveStep, 256>, 4>;
+constexpr FourSteps make_four_steps() {
+  FourSteps table{};
+  for (unsigned turn = 0; turn < 4; ++turn)
+    for (unsigned at = 0; at < 256; ++at) {
+      unsigned key = 0, turned = turn;
+      for (int bit = 3; bit >= 0; --bit) {
+        const CurveStep step = curve_step((at >> (4 + bit)) & 1, (at >> bit) & 1, turned);
+        key = (key << 2) | step.key;
+        turned = step.turn;
+      }
+      table[turn][at] = {static_cast<std::uint8_t>(key), static_cast<std::uint8_t>(turned)};
+    }
+  return table;
+}
+constexpr FourSteps four_steps = make_four_steps();
+
+} // namespace
+
+std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y, int level) {
+  std::uint64_t key = 0;
+  unsigned turn = 0;
+  int bit = level;
+  for (; bit % 4 != 0; --bit) {
+    const CurveStep step = curve_step((x >> (bit - 1)) & 1, (y >> (bit - 1)) & 1, turn);
+    key = (key << 2) | step.key;
+    turn = step.turn;
+  }
+  for (; bit > 0; bit -= 4) {
+    const CurveStep step = four_steps[turn][(((x >> (bit - 4)) & 15) << 4) | ((y >> (bit - 4)) & 15)];
+    key = (key << 8) | step.key;
+    turn = step.turn;
+  }
+  return key;
+}
+
+GridPosition hilbert_position(std::uint64_t key, int level) {
+  std::uint32_t x = 0, y = 0;
+  for (int bit = 0; bit < level; ++bit) {
+    const unsigned quadrant = static_cast<unsigned>(key >> (2 * bit)) & 3;
+    const bool right = quadrant >= 2, upper = quadrant == 1 || quadrant == 2;
+    if (bit > 0)
+      rotate(std::uint32_t{1} << bit, x, y, right, upper);
+    x |= static_cast<std::uint32_t>(right) << bit;
+    y |= static_cast<std::uint32_t>(upper) << bit;
+  }
+  return {x, y};
+}
+
+} // namespace trime

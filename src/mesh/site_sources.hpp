@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What sites are sorted from: a list, or the sites that a rank has at their next places.
+#pragma once
+
+#include "trime/mesh/binned_points.hpp"
+
+#include <span>
+
+namespace trime::mesh {
+
+/// Sites of a list.
+class ListedSites {
+public:
+  explicit ListedSites(std::span<const Site> sites) : sites_(sites) {}
+  LocalIndex size() const { return static_cast<LocalIndex>(sites_.size()); }
+  bool stays(LocalIndex) const { return true; }
+  geometry::Vec2 position(LocalIndex i) const { return sites_[static_cast<std::size_t>(i)].position; }
+  std::int32_t boundary(LocalIndex i) const { return sites_[static_cast<std::size_t>(i)].boundary; }
+  std::int32_t pushes(LocalIndex i) const { return sites_[static_cast<std::size_t>(i)].pushes; }
+  geometry::Vec2 lead(LocalIndex i) const { return sites_[static_cast<std::size_t>(i)].lead; }
+
+private:
+  std::span<const Site> sites_;
+};
+
+/// The owned sites at their next places, but for some that are gone, and after them new ones.
+class MovedSites {
+public:
+  /// @param gone by local index; empty: none
+  MovedSites(const BinnedPoints& points, std::span<const std::uint8_t> gone, std::span<const Site> more)
+      : points_(points), next_positions_(points.next_positions()), next_leads_(points.next_leads()), gone_(gone),
+        more_(more), owned_(points.owned()), has_leads_(points.has_leads()) {}
+  LocalIndex size() const { return owned_ + more_.size(); }
+  bool stays(LocalIndex i) const { return i >= owned_ || gone_.empty() || !gone_[static_cast<std::size_t>(i)]; }
+  geometry::Vec2 position(LocalIndex i) const {
+    return i < owned_ ? next_positions_[static_cast<std::size_t>(i)] : more_.position(i - owned_);
+  }
+  std::int32_t boundary(LocalIndex i) const { return i < owned_ ? points_.boundary(i) : more_.boundary(i - owned_); }
+  std::int32_t pushes(LocalIndex i) const { return i < owned_ ? points_.pushes(i) : more_.pushes(i - owned_); }
+  geometry::Vec2 lead(LocalIndex i) const {
+    if (!has_leads_)
+      return {};
+    return i < owned_ ? next_leads_[static_cast<std::size_t>(i)] : more_.lead(i - owned_);
+  }
+
+private:
+  const BinnedPoints& points_;
+  std::span<const geometry::Vec2> next_positions_, next_leads_;
+  std::span<const std::uint8_t> gone_;
+  ListedSites more_;
+  LocalIndex owned_;
+  bool has_leads_;
+};
+
+} // namespace trime::mesh
