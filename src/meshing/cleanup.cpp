@@ -36,7 +36,7 @@ std::size_t at(LocalIndex i) {
 int gain_of(const std::vector<SiteEdit>& edits) {
   int gain = 0;
   for (const SiteEdit& edit : edits)
-    gain += edit.kind == SiteEdit::Kind::insert ? 1 : edit.kind == SiteEdit::Kind::remove ? -1 : 0;
+    gain += edit.kind == EditKind::insert ? 1 : edit.kind == EditKind::remove ? -1 : 0;
   return gain;
 }
 
@@ -57,7 +57,7 @@ Cleanup::Cleanup(const comm::Communicator& comm, Layout& layout, const geometry:
                  const PatchOptions& options)
     : comm_(comm), layout_(layout), state_(*layout.state), curve_(boundary), lattice_(lattice), builder_(builder),
       options_(options), most_sites_(most_sites), sites_(comm.sum(std::int64_t{state_.points().owned()})),
-      chain_(layout.boundary, curve_), optimizers_(chain_.sites(), curve_, lattice_, options_),
+      chain_(layout.boundary, curve_), optimizers_(chain_, lattice_, options_),
       candidates_(state_.grid()) {
   const GlobalId leeway = static_cast<GlobalId>(largest_loss * static_cast<double>(sites_)) + 1;
   most_sites_ = most_sites_ > 0 ? std::max(most_sites_, sites_) : sites_ + leeway;
@@ -154,10 +154,8 @@ std::vector<PatchResult> Cleanup::try_patches(std::span<const Contender> chosen)
         return geometry::lexicographically_less(a.position, b.position);
       });
       for (PatchSite& site : sites) {
-        if (site.boundary >= 0) {
-          site.loop = chain_.loop(site.boundary);
+        if (site.boundary >= 0)
           site.tolerance = tolerances_[at(site.boundary)];
-        }
         if (stage_ > 1)
           site.rests = 0;
       }
@@ -206,9 +204,9 @@ std::vector<SiteEdit> Cleanup::collect(std::span<const Contender> chosen, const 
       edit.from = periods.wrap(edit.from);
       edit.to = periods.wrap(edit.to);
       edit.patch = hash_of(chosen[k].place, 0);
-      counts.moved += edit.kind == SiteEdit::Kind::move;
-      counts.inserted += edit.kind == SiteEdit::Kind::insert;
-      counts.deleted += edit.kind == SiteEdit::Kind::remove;
+      counts.moved += edit.kind == EditKind::move;
+      counts.inserted += edit.kind == EditKind::insert;
+      counts.deleted += edit.kind == EditKind::remove;
       counts.on_boundary += edit.boundary >= 0;
       all.push_back(edit);
     }
@@ -241,12 +239,8 @@ void Cleanup::take_verdicts(std::span<const Contender> chosen, const std::vector
 void Cleanup::edit_the_boundary(std::vector<SiteEdit>& edits) {
   std::vector<BoundaryEdit> own;
   for (const SiteEdit& edit : edits)
-    if (edit.boundary >= 0) {
-      const BoundaryEdit::Kind kind = edit.kind == SiteEdit::Kind::move     ? BoundaryEdit::Kind::slide
-                                      : edit.kind == SiteEdit::Kind::remove ? BoundaryEdit::Kind::remove
-                                                                            : BoundaryEdit::Kind::insert;
-      own.push_back({edit.boundary, kind, edit.arc, edit.to, edit.patch});
-    }
+    if (edit.boundary >= 0)
+      own.push_back({edit.boundary, edit.kind, edit.arc, edit.to, edit.patch});
   const std::size_t before = chain_.sites().sites.size();
   const std::vector<LocalIndex> changed =
       chain_.apply(comm::from_bytes<BoundaryEdit>(comm_.all_gather(std::as_bytes(std::span<const BoundaryEdit>(own)))));
@@ -255,7 +249,7 @@ void Cleanup::edit_the_boundary(std::vector<SiteEdit>& edits) {
   for (std::size_t k = before; k < chain_.sites().sites.size(); ++k)
     index_at[{chain_.sites().sites[k].position.x, chain_.sites().sites[k].position.y}] = static_cast<LocalIndex>(k);
   for (SiteEdit& edit : edits)
-    if (edit.boundary >= 0 && edit.kind == SiteEdit::Kind::insert)
+    if (edit.boundary >= 0 && edit.kind == EditKind::insert)
       edit.boundary = index_at.at({edit.to.x, edit.to.y});
 }
 
@@ -290,7 +284,7 @@ CleanupCounts Cleanup::round(std::span<const Contender> contenders) {
   const std::vector<SiteEdit> own = send_to_owners(edits);
   places_->apply(own);
   for (const SiteEdit& edit : own)
-    if (edit.kind != SiteEdit::Kind::insert)
+    if (edit.kind != EditKind::insert)
       candidates_.drop(edit.from);
   take_verdicts(chosen, results);
   for (std::size_t k = 0; k < chosen.size(); ++k)
@@ -320,7 +314,8 @@ CleanupCounts Cleanup::run() {
     }
   }
   if (all.better > 0) {
-    places_->finish(state_, chain_.finish(layout_.boundary));
+    places_->finish(state_, chain_.renumber());
+    layout_.boundary = chain_.sites();
     layout_.guard = std::make_unique<BoundaryGuard>(layout_.boundary, lattice_);
   }
   return all;

@@ -202,13 +202,13 @@ void CleanupSites::set_rest(Vec2 p, bool rests) {
 void CleanupSites::apply(std::span<const SiteEdit> edits) {
   std::vector<LocalIndex> origins(edits.size(), -1);
   for (std::size_t k = 0; k < edits.size(); ++k) // first all that go: one may come where another was
-    if (edits[k].kind != SiteEdit::Kind::insert && owner(edits[k].from) == comm_.rank())
+    if (edits[k].kind != EditKind::insert && owner(edits[k].from) == comm_.rank())
       origins[k] = take_out(edits[k].from);
   std::vector<double> sizes(edits.size(), 0);
   comm::run_agreed(comm_, [&] {
     thread_loop(static_cast<std::ptrdiff_t>(edits.size()), 64, [&](std::ptrdiff_t item, int) {
       const SiteEdit& edit = edits[static_cast<std::size_t>(item)];
-      if (edit.kind != SiteEdit::Kind::remove && owner(edit.to) == comm_.rank())
+      if (edit.kind != EditKind::remove && owner(edit.to) == comm_.rank())
         sizes[static_cast<std::size_t>(item)] = sizing::checked_size(size_, edit.to);
     });
   });

@@ -65,7 +65,7 @@ bool PatchOptimizer::build(Vec2 center, double size, std::span<const PatchSite> 
       const BoundarySite& its = boundary_.sites[at(site.boundary)];
       on_boundary.site = site.boundary;
       on_boundary.tolerance = site.tolerance;
-      on_boundary.loop = site.loop >= 0 ? site.loop : loop_of(boundary_, site.boundary);
+      on_boundary.loop = chain_.loop(site.boundary);
       on_boundary.arc = curve_.arc(on_boundary.loop, its);
       if (its.corner)
         role = std::min(role, Role::scored);
@@ -213,11 +213,11 @@ void PatchOptimizer::collect_edits(std::vector<SiteEdit>& edits) const {
       before = now_.boundary[at(before)].previous;
     const std::int32_t site = now_.boundary[at(before)].site;
     if (is_new && !is_gone)
-      edits.push_back({to, to, SiteEdit::Kind::insert, site, on_boundary.arc});
+      edits.push_back({to, to, EditKind::insert, site, on_boundary.arc});
     else if (!is_new && is_gone)
-      edits.push_back({from, from, SiteEdit::Kind::remove, on_boundary.site, on_boundary.arc});
+      edits.push_back({from, from, EditKind::remove, on_boundary.site, on_boundary.arc});
     else if (to != from)
-      edits.push_back({from, to, SiteEdit::Kind::move, on_boundary.site, on_boundary.arc});
+      edits.push_back({from, to, EditKind::move, on_boundary.site, on_boundary.arc});
   }
 }
 

@@ -2,7 +2,7 @@
 // The surroundings of bad triangles and the changes that are tried there. One thread; knows nothing of ranks.
 #pragma once
 
-#include "meshing/boundary_curve.hpp"
+#include "meshing/boundary_chain.hpp"
 #include "meshing/patch_mesh.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/geometry/periods.hpp"
@@ -23,16 +23,13 @@ struct PatchSite {
   double size;            ///< h there
   std::int32_t boundary;  ///< see mesh::Site
   std::int32_t rests = 0; ///< nothing helped here the last time
-  LocalIndex loop = -1;   ///< of a site on the boundary; -1: the sites of the loops follow each other
-  std::int32_t unused = 0;
   double tolerance = 0; ///< on the boundary: how far a new chord may pass from a curve with corners between
 };
 
 /// What becomes of a site: where it goes, or that it is deleted; or a new site (`from` says nothing then).
 struct SiteEdit {
-  enum class Kind : std::int32_t { move, remove, insert };
   geometry::Vec2 from, to;
-  Kind kind = Kind::move;
+  EditKind kind = EditKind::move;
   std::int32_t boundary = mesh::free_site; ///< index of the boundary site; for a new one, of the site before it
   double arc = 0;                          ///< of the new place on the boundary
   std::uint64_t patch = 0;                 ///< set by who collects them
@@ -100,9 +97,8 @@ struct PatchBudget {
 /// predicates inside: a pure function of the sites.
 class PatchOptimizer {
 public:
-  PatchOptimizer(const BoundarySites& boundary, const BoundaryCurve& curve, const geometry::Lattice& lattice,
-                 const PatchOptions& options)
-      : boundary_(boundary), curve_(curve), lattice_(lattice), options_(options), start_(lattice, boundary.periods),
+  PatchOptimizer(const BoundaryChain& chain, const geometry::Lattice& lattice, const PatchOptions& options)
+      : chain_(chain), boundary_(chain.sites()), curve_(chain.curve()), lattice_(lattice), options_(options), start_(lattice, boundary_.periods),
         now_(start_), trial_(start_), best_(start_), runners_(options.runners, Runner{start_}),
         finalists_(options.finalists, Runner{start_}) {}
 
@@ -252,6 +248,7 @@ private:
   bool divide_where_encroached();
   bool is_behind(LocalIndex v);
 
+  const BoundaryChain& chain_;
   const BoundarySites& boundary_;
   const BoundaryCurve& curve_;
   geometry::Lattice lattice_;
