@@ -57,8 +57,7 @@ Cleanup::Cleanup(const comm::Communicator& comm, Layout& layout, const geometry:
                  const PatchOptions& options)
     : comm_(comm), layout_(layout), state_(*layout.state), curve_(boundary), lattice_(lattice), builder_(builder),
       options_(options), most_sites_(most_sites), sites_(comm.sum(std::int64_t{state_.points().owned()})),
-      chain_(layout.boundary, curve_), optimizers_(chain_, lattice_, options_),
-      candidates_(state_.grid()) {
+      chain_(layout.boundary, curve_), optimizers_(chain_, lattice_, options_), candidates_(state_.grid()) {
   const GlobalId leeway = static_cast<GlobalId>(largest_loss * static_cast<double>(sites_)) + 1;
   most_sites_ = most_sites_ > 0 ? std::max(most_sites_, sites_) : sites_ + leeway;
   wanted_sites_ = sites_;

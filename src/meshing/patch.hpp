@@ -23,7 +23,7 @@ struct PatchSite {
   double size;            ///< h there
   std::int32_t boundary;  ///< see mesh::Site
   std::int32_t rests = 0; ///< nothing helped here the last time
-  double tolerance = 0; ///< on the boundary: how far a new chord may pass from a curve with corners between
+  double tolerance = 0;   ///< on the boundary: how far a new chord may pass from a curve with corners between
 };
 
 /// What becomes of a site: where it goes, or that it is deleted; or a new site (`from` says nothing then).
@@ -98,9 +98,9 @@ struct PatchBudget {
 class PatchOptimizer {
 public:
   PatchOptimizer(const BoundaryChain& chain, const geometry::Lattice& lattice, const PatchOptions& options)
-      : chain_(chain), boundary_(chain.sites()), curve_(chain.curve()), lattice_(lattice), options_(options), start_(lattice, boundary_.periods),
-        now_(start_), trial_(start_), best_(start_), runners_(options.runners, Runner{start_}),
-        finalists_(options.finalists, Runner{start_}) {}
+      : chain_(chain), boundary_(chain.sites()), curve_(chain.curve()), lattice_(lattice), options_(options),
+        start_(lattice, boundary_.periods), now_(start_), trial_(start_), best_(start_),
+        runners_(options.runners, Runner{start_}), finalists_(options.finalists, Runner{start_}) {}
 
   /// @brief Tries everything once.
   /// @param sites in lexicographic order, all different; all that lie within `options.reach` times `size` of `center`
