@@ -62,8 +62,8 @@ struct CleanupRules {
   /// [lattice steps] Largest half side of the frame. The predicates are exact up to it, and it is more than the
   /// container at any place of it.
   static constexpr double widest_frame = 0x1.8p44;
-  /// [sites] With more around a place nothing is tried. A hexagonal lattice has 360; spikes far below h crowd many more.
-  /// Measured: a star of 1000 spikes took 176 s without this limit and other savings, 0.7 s with them.
+  /// [sites] With more around a place nothing is tried. A hexagonal lattice has 360; spikes far below h crowd many
+  /// more. Measured: a star of 1000 spikes took 176 s without this limit and other savings, 0.7 s with them.
   static constexpr std::size_t most_sites = 600;
   /// [1] Factor on the radius if a disc holds more than most_sites. Not measured.
   static constexpr double narrowing_factor = 0.75;

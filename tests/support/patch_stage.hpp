@@ -2,7 +2,7 @@
 // A patch by hand: sites around a place, and what the optimizer makes of them.
 #pragma once
 
-#include "meshing/patch.hpp"
+#include "meshing/patch_optimizer.hpp"
 #include "support/boundary_edits.hpp"
 #include "support/boundary_shapes.hpp"
 #include "trime/mesh/quality.hpp"
@@ -67,7 +67,7 @@ struct Stage {
   std::vector<SiteEdit> improve(Vec2 center) {
     std::vector<PatchSite> near;
     for (const PatchSite& site : sites)
-      if (geometry::length(site.position - center) < PatchOptions{}.reach * h)
+      if (geometry::length(site.position - center) < CleanupRules::reach * h)
         near.push_back(site);
     sort_for_a_patch(near);
     const BoundaryChain chain(sites_on, curve);
@@ -91,7 +91,7 @@ struct Stage {
   void expect_allowed(const std::vector<SiteEdit>& edits, Vec2 center) const {
     for (const SiteEdit& edit : edits) {
       EXPECT_EQ(edit.to, unit_lattice().snap(edit.to));
-      EXPECT_LT(geometry::length(edit.from - center), (options.reach - PatchOptions::clearance) * h + h);
+      EXPECT_LT(geometry::length(edit.from - center), (CleanupRules::reach - CleanupRules::free_depth) * h + h);
       const auto site = std::find_if(sites.begin(), sites.end(),
                                      [&](const PatchSite& candidate) { return candidate.position == edit.from; });
       if (edit.kind != Kind::insert) {

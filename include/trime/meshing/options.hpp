@@ -7,6 +7,7 @@
 #include "trime/mesh/distributed_mesh.hpp"
 #include "trime/mesh/quality.hpp"
 #include "trime/mesh/validity.hpp"
+#include "trime/meshing/cleanup_counts.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -87,17 +88,6 @@ struct LoopSummary {
   std::int64_t edges = 0;          ///< of the mesh
   double length = 0;               ///< sum of the lengths of these edges
   std::vector<std::int32_t> parts; ///< DistributedMesh::facet_parts of its edges: each once, in order along the loop
-};
-
-/// What the clean-up of the worst triangles did, over all ranks.
-struct CleanupCounts {
-  std::int64_t patches = 0;                          ///< surroundings of bad triangles on which changes were tried
-  std::int64_t better = 0;                           ///< of these kept
-  std::int64_t moved = 0, inserted = 0, deleted = 0; ///< sites in what was kept; a site may move more than once
-  std::int64_t on_boundary = 0;                      ///< of these sites, those on the boundary
-  std::int64_t left = 0;                             ///< bad places where nothing helped
-
-  void add(const CleanupCounts& other);
 };
 
 /// A corner of the boundary polygon and its angle on the inside.

@@ -70,7 +70,7 @@ TEST(PatchOptimizer, BringsADisplacedSiteBack) {
   }
 }
 
-/// Another patch may begin 2 reach - clearance away: it may read what this one changes otherwise.
+/// Another patch may begin 2 reach - free_depth away: it may read what this one changes otherwise.
 TEST(PatchOptimizer, ChangesNothingNearTheRimHoweverSmallTheTrianglesThere) {
   Stage stage(far_square());
   const Vec2 displaced = add_displaced_lattice(stage);
@@ -80,7 +80,7 @@ TEST(PatchOptimizer, ChangesNothingNearTheRimHoweverSmallTheTrianglesThere) {
   const std::vector<SiteEdit> edits = stage.improve(displaced);
   EXPECT_FALSE(edits.empty());
   for (const SiteEdit& edit : edits)
-    EXPECT_LT(geometry::length(edit.from - displaced), (PatchOptions{}.reach - PatchOptions::clearance) * h);
+    EXPECT_LT(geometry::length(edit.from - displaced), (CleanupRules::reach - CleanupRules::free_depth) * h);
 }
 
 TEST(PatchOptimizer, DeletesOneTooMany) {
@@ -237,8 +237,7 @@ TEST(PatchOptimizer, PatchesThatKeepApartShareNoChord) {
     for (int i = -15; i <= 15; ++i)
       if (std::abs(i) <= 14 - (j & 1))
         stage.add(middle + h * Vec2{i + 0.5 * (j & 1), std::sqrt(0.75) * j});
-  const PatchOptions options;
-  const double half = 0.5 * (2 * options.reach - PatchOptions::clearance) * h;
+  const double half = 0.5 * (2 * CleanupRules::reach - CleanupRules::free_depth) * h;
   std::vector<LocalIndex> left, right;
   for (const auto& [list, side] : {std::pair{&left, -half}, {&right, half}})
     for (const SiteEdit& edit : stage.improve(unit_lattice().snap(middle + Vec2{side, 0})))
@@ -354,7 +353,7 @@ TEST(PatchOptimizer, WhatStaysAsItIsMakesNoNews) {
         Vec2 offset = h * Vec2{i + 0.5 * (j & 1) + 0.4, std::sqrt(0.75) * j};
         if (j == 0 && std::fabs(i - displaced_at) < 0.5)
           offset.x -= 0.35 * h;
-        if (geometry::length(offset) < PatchOptions{}.reach * h)
+        if (geometry::length(offset) < CleanupRules::reach * h)
           sites.push_back({unit_lattice().snap(middle + offset), h, mesh::free_site});
       }
     sort_for_a_patch(sites);
@@ -377,7 +376,7 @@ TEST(PatchOptimizer, NearestImagesMakeAPatchOnATorus) {
     for (int j = -12; j <= 12; ++j)
       for (int i = -12; i <= 12; ++i) {
         const Vec2 offset = i == 0 && j == 0 ? Vec2{} : h * Vec2{i + 0.5 * (j & 1) + 0.3, std::sqrt(0.75) * j};
-        if (geometry::length(offset) < PatchOptions{}.reach * h)
+        if (geometry::length(offset) < CleanupRules::reach * h)
           sites.push_back({center + unit_lattice().snap(offset), h, mesh::free_site});
       }
     sort_for_a_patch(sites);
