@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/boundary_chain.hpp"
 
+#include "meshing/chord_curve.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
-#include <map>
-#include <utility>
+#include <cmath>
+#include <limits>
 
 namespace trime::meshing {
 namespace {
@@ -17,7 +18,7 @@ std::size_t at(LocalIndex i) {
 } // namespace
 
 BoundaryChain::BoundaryChain(const BoundarySites& boundary, const BoundaryCurve& curve)
-    : curve_(curve), sites_(boundary), original_(boundary.sites.size()), fates_(original_, Fate::untouched) {
+    : curve_(curve), sites_(boundary), is_gone_(boundary.sites.size(), 0) {
   for (std::size_t loop = 0; loop + 1 < boundary.loop_start.size(); ++loop)
     loops_.resize(at(boundary.loop_start[loop + 1]), static_cast<LocalIndex>(loop));
 }
@@ -37,61 +38,72 @@ void BoundaryChain::close_chord(LocalIndex site) {
   its.next_shift = sites_.periods.nearest_image(end, its.position) - end;
 }
 
-/// Patches that do not overlap change each site once, and a chord is divided by one of them.
-/// @param edits by site, insertions into a chord by their way
-void BoundaryChain::check_apart(std::span<const BoundaryEdit> edits) {
-  for (std::size_t k = 1; k < edits.size(); ++k) {
-    const BoundaryEdit &one = edits[k - 1], &other = edits[k];
-    const bool divides = other.kind == BoundaryEdit::Kind::insert;
-    if (one.site == other.site && (!divides || one.patch != other.patch || one.arc == other.arc))
-      throw InternalError(
-          fmt::format("two changes of one boundary site or chord, at ({}, {})", other.position.x, other.position.y));
+/// Patches that do not overlap change each site once, only one of them divides a chord, and all know which sites there
+/// are. @param edits by site, insertions into a chord by their arcs
+void BoundaryChain::check(std::span<const BoundaryEdit> edits) const {
+  for (std::size_t k = 0; k < edits.size(); ++k) {
+    const BoundaryEdit& edit = edits[k];
+    const auto fail = [&](const char* what) {
+      throw InternalError(fmt::format("{}, at ({}, {})", what, edit.position.x, edit.position.y));
+    };
+    if (is_gone_[at(edit.site)])
+      fail("a change of a boundary site that is gone");
+    if (k == 0 || edits[k - 1].site != edit.site)
+      continue;
+    const BoundaryEdit& other = edits[k - 1];
+    if (edit.kind != EditKind::insert || edit.patch != other.patch || edit.arc == other.arc)
+      fail("two changes of one boundary site or chord");
   }
 }
 
-std::vector<LocalIndex> BoundaryChain::apply(std::vector<BoundaryEdit> edits) {
-  const auto divisions = std::stable_partition(
-      edits.begin(), edits.end(), [](const BoundaryEdit& edit) { return edit.kind != BoundaryEdit::Kind::insert; });
-  std::sort(edits.begin(), divisions, [](const BoundaryEdit& a, const BoundaryEdit& b) { return a.site < b.site; });
-  check_apart({edits.begin(), divisions});
-  std::vector<LocalIndex> changed;
-  for (const BoundaryEdit& edit : edits) {
-    if (edit.kind == BoundaryEdit::Kind::slide) {
-      place(edit.site, edit.arc, edit.position);
-      fates_[at(edit.site)] = Fate::moved;
-      changed.push_back(edit.site);
-    } else if (edit.kind == BoundaryEdit::Kind::remove) {
-      const BoundarySite& its = sites_.sites[at(edit.site)];
-      sites_.sites[at(its.previous)].next = its.next;
-      sites_.sites[at(its.next)].previous = its.previous;
-      fates_[at(edit.site)] = Fate::gone;
-      changed.push_back(its.previous);
-    }
+void BoundaryChain::move_or_remove(const BoundaryEdit& edit, std::vector<LocalIndex>& changed) {
+  if (edit.kind == EditKind::move) {
+    place(edit.site, edit.arc, edit.position);
+    changed.push_back(edit.site);
+    return;
   }
-  std::erase_if(edits, [](const BoundaryEdit& edit) { return edit.kind != BoundaryEdit::Kind::insert; });
+  const BoundarySite& its = sites_.sites[at(edit.site)];
+  sites_.sites[at(its.previous)].next = its.next;
+  sites_.sites[at(its.next)].previous = its.previous;
+  is_gone_[at(edit.site)] = 1;
+  changed.push_back(its.previous);
+}
+
+/// Behind the site that the edit names.
+void BoundaryChain::insert(const BoundaryEdit& edit, std::vector<LocalIndex>& changed) {
+  const auto made = static_cast<LocalIndex>(sites_.sites.size());
+  BoundarySite site = sites_.sites[at(edit.site)];
+  site.previous = edit.site;
+  site.corner = false;
+  sites_.sites[at(site.next)].previous = made;
+  sites_.sites[at(edit.site)].next = made;
+  sites_.sites.push_back(site);
+  loops_.push_back(loop(edit.site));
+  is_gone_.push_back(0);
+  place(made, edit.arc, edit.position);
+  changed.push_back(made);
+  changed.push_back(edit.site);
+}
+
+std::vector<LocalIndex> BoundaryChain::apply(std::vector<BoundaryEdit> edits) {
+  const auto insertions = std::stable_partition(edits.begin(), edits.end(),
+                                                [](const BoundaryEdit& edit) { return edit.kind != EditKind::insert; });
+  std::sort(edits.begin(), insertions, [](const BoundaryEdit& a, const BoundaryEdit& b) { return a.site < b.site; });
+  check({edits.begin(), insertions});
+  std::vector<LocalIndex> changed;
+  for (auto edit = edits.begin(); edit != insertions; ++edit)
+    move_or_remove(*edit, changed);
   const auto way = [&](const BoundaryEdit& edit) { // from the site before
     const double arc = edit.arc - curve_.arc(loop(edit.site), sites_.sites[at(edit.site)]);
     return arc >= 0 ? arc : arc + curve_.length(loop(edit.site));
   };
-  std::sort(edits.begin(), edits.end(), [&](const BoundaryEdit& a, const BoundaryEdit& b) {
+  std::sort(insertions, edits.end(), [&](const BoundaryEdit& a, const BoundaryEdit& b) {
     return a.site != b.site ? a.site < b.site : way(a) > way(b); // the last comes first: each goes behind `site`
   });
-  check_apart(edits);
-  for (const BoundaryEdit& edit : edits) {
-    const auto made = static_cast<LocalIndex>(sites_.sites.size());
-    BoundarySite site = sites_.sites[at(edit.site)];
-    site.previous = edit.site;
-    site.corner = false;
-    sites_.sites[at(site.next)].previous = made;
-    sites_.sites[at(edit.site)].next = made;
-    sites_.sites.push_back(site);
-    loops_.push_back(loop(edit.site));
-    fates_.push_back(Fate::moved);
-    place(made, edit.arc, edit.position);
-    changed.push_back(made);
-    changed.push_back(edit.site);
-  }
-  std::erase_if(changed, [&](LocalIndex site) { return fates_[at(site)] == Fate::gone; });
+  check({insertions, edits.end()});
+  for (auto edit = insertions; edit != edits.end(); ++edit)
+    insert(*edit, changed);
+  std::erase_if(changed, [&](LocalIndex site) { return is_gone_[at(site)] != 0; });
   for (const LocalIndex site : changed) {
     close_chord(site);
     close_chord(sites_.sites[at(site)].previous);
@@ -99,33 +111,45 @@ std::vector<LocalIndex> BoundaryChain::apply(std::vector<BoundaryEdit> edits) {
   return changed;
 }
 
-std::vector<LocalIndex> BoundaryChain::finish(BoundarySites& boundary) const {
-  std::vector<BoundaryEdit> edits;
-  for (std::size_t k = 0; k < sites_.sites.size(); ++k) {
-    const BoundarySite& site = sites_.sites[k];
-    const double arc = curve_.arc(loops_[k], site);
-    const auto index = static_cast<LocalIndex>(k);
-    if (k < original_ && fates_[k] == Fate::gone)
-      edits.push_back({index, BoundaryEdit::Kind::remove, 0, {}});
-    else if (k < original_ && fates_[k] == Fate::moved)
-      edits.push_back({index, BoundaryEdit::Kind::slide, arc, site.position});
-    else if (k >= original_ && fates_[k] != Fate::gone) {
-      LocalIndex before = site.previous;
-      while (at(before) >= original_)
-        before = sites_.sites[at(before)].previous;
-      edits.push_back({before, BoundaryEdit::Kind::insert, arc, site.position});
-    }
+/// The sites along the loops, by the indices that they have.
+std::vector<LocalIndex> BoundaryChain::list_along_loops() {
+  const std::size_t loops = sites_.loop_start.size() - 1;
+  std::vector<LocalIndex> first(loops, -1), order;
+  for (LocalIndex k = static_cast<LocalIndex>(sites_.sites.size()) - 1; k >= 0; --k)
+    if (!is_gone_[at(k)])
+      first[at(loop(k))] = k;
+  for (std::size_t l = 0; l < loops; ++l) {
+    if (LocalIndex k = first[l]; k >= 0)
+      do
+        order.push_back(k);
+      while ((k = sites_.sites[at(k)].next) != first[l]);
+    sites_.loop_start[l + 1] = static_cast<LocalIndex>(order.size());
   }
-  std::vector<LocalIndex> inserted, new_index(sites_.sites.size(), -1);
-  const std::vector<LocalIndex> of_originals = edit_boundary(boundary, curve_, edits, inserted);
-  std::copy(of_originals.begin(), of_originals.end(), new_index.begin());
-  std::map<std::pair<double, double>, LocalIndex> index_at;
-  for (std::size_t k = 0; k < edits.size(); ++k)
-    if (inserted[k] >= 0)
-      index_at[{edits[k].position.x, edits[k].position.y}] = inserted[k];
-  for (std::size_t k = original_; k < sites_.sites.size(); ++k)
-    if (fates_[k] != Fate::gone)
-      new_index[k] = index_at.at({sites_.sites[k].position.x, sites_.sites[k].position.y});
+  return order;
+}
+
+std::vector<LocalIndex> BoundaryChain::renumber() {
+  const std::vector<LocalIndex> order = list_along_loops();
+  std::vector<LocalIndex> new_index(sites_.sites.size(), -1), loops;
+  for (std::size_t k = 0; k < order.size(); ++k)
+    new_index[at(order[k])] = static_cast<LocalIndex>(k);
+  std::vector<BoundarySite> sites;
+  for (const LocalIndex k : order) {
+    BoundarySite& site = sites.emplace_back(sites_.sites[at(k)]);
+    site.previous = new_index[at(site.previous)];
+    site.next = new_index[at(site.next)];
+    loops.push_back(loop(k));
+  }
+  sites_.sites = std::move(sites);
+  loops_ = std::move(loops);
+  is_gone_.assign(order.size(), 0);
+  sites_.shortest = std::numeric_limits<double>::infinity();
+  for (LocalIndex k = 0; k < static_cast<LocalIndex>(order.size()); ++k) {
+    close_chord(k);
+    const geometry::Segment chord = sites_.chord(k);
+    sites_.shortest = std::fmin(sites_.shortest, geometry::length(chord.b - chord.a));
+  }
+  name_parts(curve_.boundary(), sites_);
   return new_index;
 }
 

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/boundary_curve.hpp"
 
-#include "meshing/chord_curve.hpp"
-#include "trime/core/error.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace trime::meshing {
 
@@ -107,95 +103,6 @@ BoundaryCurve::Strayed BoundaryCurve::strayed(LocalIndex loop, double from, doub
   }
   result.deviation = std::sqrt(squared);
   return result;
-}
-
-LocalIndex loop_of(const BoundarySites& boundary, LocalIndex site) {
-  const auto above = std::upper_bound(boundary.loop_start.begin(), boundary.loop_start.end(), site);
-  return static_cast<LocalIndex>(above - boundary.loop_start.begin()) - 1;
-}
-
-namespace {
-
-/// @brief Sorts the insertions into one chord by their way from its first site.
-/// @return behind the last of them
-std::size_t order_insertions(std::vector<BoundaryEdit>& edits, std::size_t first, double arc, double length) {
-  std::size_t past = first;
-  while (past < edits.size() && edits[past].site == edits[first].site)
-    ++past;
-  const auto way = [&](const BoundaryEdit& edit) { return edit.arc >= arc ? edit.arc - arc : edit.arc - arc + length; };
-  std::sort(edits.begin() + static_cast<std::ptrdiff_t>(first), edits.begin() + static_cast<std::ptrdiff_t>(past),
-            [&](const BoundaryEdit& a, const BoundaryEdit& b) { return way(a) < way(b); });
-  for (std::size_t k = first; k < past; ++k)
-    if (edits[k].kind != BoundaryEdit::Kind::insert ||
-        (k > first && (edits[k].patch != edits[first].patch || !(way(edits[k - 1]) < way(edits[k])))))
-      throw InternalError(fmt::format("two changes of one boundary site or chord, at ({}, {})", edits[k].position.x,
-                                      edits[k].position.y));
-  return past;
-}
-
-} // namespace
-
-std::vector<LocalIndex> edit_boundary(BoundarySites& boundary, const BoundaryCurve& curve,
-                                      std::vector<BoundaryEdit>& edits, std::vector<LocalIndex>& inserted) {
-  std::sort(edits.begin(), edits.end(), [](const BoundaryEdit& a, const BoundaryEdit& b) {
-    return a.site != b.site ? a.site < b.site : a.kind < b.kind;
-  });
-  inserted.assign(edits.size(), -1);
-  const BoundarySites old = std::move(boundary);
-  boundary = old;
-  boundary.sites.clear();
-  boundary.loop_start.assign(1, 0);
-  std::vector<LocalIndex> new_index(old.sites.size(), -1);
-  std::size_t next = 0;
-  const auto put = [&](BoundarySite site, const BoundaryEdit& edit, const BoundaryCurve::Place& place) {
-    site.position = edit.position;
-    site.piece = place.piece;
-    site.along = place.along;
-    boundary.sites.push_back(site);
-    return static_cast<LocalIndex>(boundary.sites.size()) - 1;
-  };
-  for (std::size_t loop = 0; loop + 1 < old.loop_start.size(); ++loop) {
-    const auto number = static_cast<LocalIndex>(loop);
-    const LocalIndex first = boundary.loop_start.back();
-    for (LocalIndex k = old.loop_start[loop]; k < old.loop_start[loop + 1]; ++k) {
-      const BoundarySite& site = old.sites[at(k)];
-      double arc = curve.arc(number, site);
-      if (next < edits.size() && edits[next].site == k && edits[next].kind != BoundaryEdit::Kind::insert) {
-        const BoundaryEdit& edit = edits[next++];
-        if (edit.kind == BoundaryEdit::Kind::slide) {
-          arc = edit.arc;
-          new_index[at(k)] = put(site, edit, curve.place(number, arc));
-        }
-      } else {
-        new_index[at(k)] = static_cast<LocalIndex>(boundary.sites.size());
-        boundary.sites.push_back(site);
-      }
-      const std::size_t past = next < edits.size() && edits[next].site == k
-                                   ? order_insertions(edits, next, arc, curve.length(number))
-                                   : next;
-      for (; next < past; ++next) {
-        inserted[next] = put(site, edits[next], curve.place(number, edits[next].arc));
-        boundary.sites.back().corner = false;
-      }
-    }
-    const auto end = static_cast<LocalIndex>(boundary.sites.size());
-    for (LocalIndex k = first; k < end; ++k) {
-      BoundarySite& site = boundary.sites[at(k)];
-      site.previous = k == first ? end - 1 : k - 1;
-      site.next = k + 1 == end ? first : k + 1;
-    }
-    boundary.loop_start.push_back(end);
-  }
-  TRIME_ASSERT(next == edits.size(), "edits of boundary sites that do not exist");
-  boundary.shortest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < boundary.sites.size(); ++k) {
-    BoundarySite& site = boundary.sites[k];
-    const Vec2 end = boundary.sites[at(site.next)].position, image = boundary.periods.nearest_image(end, site.position);
-    site.next_shift = image - end;
-    boundary.shortest = std::fmin(boundary.shortest, geometry::length(image - site.position));
-  }
-  name_parts(curve.boundary(), boundary);
-  return new_index;
 }
 
 } // namespace trime::meshing

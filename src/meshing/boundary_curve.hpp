@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary as curves by arc length, on which sites slide, come and go after the layout.
+// The boundary as curves by arc length, and what lies on the curve between two places.
 #pragma once
 
 #include "meshing/polygon.hpp"
@@ -8,7 +8,6 @@
 #include "trime/geometry/segment.hpp"
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace trime::meshing {
@@ -57,29 +56,5 @@ private:
   const geometry::Boundary& boundary_;
   std::vector<Arcs> arcs_; // by loop
 };
-
-/// One change of the boundary sites. Sites keep their order along the loop.
-struct BoundaryEdit {
-  enum class Kind : std::int32_t { slide, remove, insert };
-  LocalIndex site = -1; ///< that slides or goes; for an insertion the one before
-  Kind kind = Kind::slide;
-  double arc = 0;          ///< of the new place
-  geometry::Vec2 position; ///< of the new place, canonical
-  std::uint64_t patch = 0; ///< who wants it: one chord is divided by one of them only
-  friend bool operator==(const BoundaryEdit&, const BoundaryEdit&) = default;
-};
-
-/// The loop of a boundary site. O(log loops)
-LocalIndex loop_of(const BoundarySites& boundary, LocalIndex site);
-
-/// @brief Carries out edits; several new sites of one chord stand in the order of their arcs. O(sites + pieces + edits
-/// log edits).
-/// @param edits are sorted here, by site; the same on every rank
-/// @param inserted receives the new index of each inserted site, in the order of the sorted edits
-/// @return by old index of a site its new one, -1 if it is gone
-/// @throws InternalError if a site is changed twice, or a chord by two patches
-/// @pre neighbouring sites lie within half a period of each other; a loop keeps 3 sites
-std::vector<LocalIndex> edit_boundary(BoundarySites& boundary, const BoundaryCurve& curve,
-                                      std::vector<BoundaryEdit>& edits, std::vector<LocalIndex>& inserted);
 
 } // namespace trime::meshing

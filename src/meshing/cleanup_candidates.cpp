@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/cleanup_candidates.hpp"
 
+#include "meshing/cleanup_rules.hpp"
 #include "trime/core/random.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 
@@ -13,14 +13,11 @@ namespace {
 
 using geometry::Vec2;
 
-constexpr int contender_cell = 2;                         // log2 of a cell's width, in once to twice h
-constexpr std::array<double, 3> classes{1.5, 1.28, 1.14}; // of alpha
-
 /// The worst first, in a few classes; then by the hash.
 std::uint64_t order_of(double alpha, std::uint64_t hash) {
-  constexpr int bits = 4;
-  std::uint64_t better = 0; // classes
-  for (const double limit : classes)
+  constexpr int bits = 4;   // of the key, for the class
+  std::uint64_t better = 0; // limits that it is below
+  for (const double limit : CleanupRules::classes)
     better += alpha < limit;
   return (better << (64 - bits)) | (hash >> bits);
 }
@@ -36,8 +33,8 @@ std::uint64_t hash_of(Vec2 place, int salt) {
 std::uint64_t CleanupCandidates::cell_key(Vec2 p, double h) const {
   int exponent = 0;
   std::frexp(h, &exponent);
-  const Vec2 cell{std::floor(std::ldexp(p.x, -contender_cell - exponent)),
-                  std::floor(std::ldexp(p.y, -contender_cell - exponent))};
+  const Vec2 cell{std::floor(std::ldexp(p.x, -CleanupRules::contender_cell - exponent)),
+                  std::floor(std::ldexp(p.y, -CleanupRules::contender_cell - exponent))};
   return mix_bits(hash_of(cell, exponent) + static_cast<std::uint64_t>(grid_.place(p).tile));
 }
 
@@ -51,7 +48,7 @@ void CleanupCandidates::set(const Candidate& candidate) {
   entry.cell = cell_key(candidate.place, candidate.size);
 }
 
-/// It stays in the list until there are many of them.
+/// The entry stays in the list until there are many such.
 void CleanupCandidates::drop(Vec2 place) {
   if (const auto known = entry_at_.find(hash_of(place, 0)); known != entry_at_.end())
     entries_[known->second] = {{place}};
@@ -70,7 +67,7 @@ double CleanupCandidates::worst() const {
   return worst;
 }
 
-/// Takes out those that are none any more, once they are many.
+/// Takes out the entries that are no candidates any more, once they are at least half of all.
 void CleanupCandidates::forget_the_good() {
   const auto is_good = [](const Entry& entry) { return !(entry.candidate.alpha > 0); };
   if (2 * std::count_if(entries_.begin(), entries_.end(), is_good) < std::ssize(entries_))
@@ -81,13 +78,13 @@ void CleanupCandidates::forget_the_good() {
     entry_at_[hash_of(entries_[k].candidate.place, 0)] = static_cast<std::uint32_t>(k);
 }
 
-std::vector<Contender> CleanupCandidates::contenders(const Wanted& wanted) {
+std::vector<Contender> CleanupCandidates::contenders(const ContenderRule& rule) {
   forget_the_good();
   std::unordered_map<std::uint64_t, const Candidate*> worst;
   for (const Entry& entry : entries_) {
     const Candidate& own = entry.candidate;
-    if (!(own.alpha > wanted.above) || entry.settled >= wanted.stage ||
-        !(wanted.separation * own.size < wanted.most_separation))
+    if (!(own.alpha > rule.above) || entry.settled >= rule.stage ||
+        !(rule.separation * own.size < rule.most_separation))
       continue;
     const auto [known, is_new] = worst.try_emplace(entry.cell, &own);
     const Candidate& other = *known->second;
@@ -99,8 +96,8 @@ std::vector<Contender> CleanupCandidates::contenders(const Wanted& wanted) {
   contenders.reserve(worst.size());
   for (const auto& [cell, own] : worst)
     contenders.push_back(
-        {own->place, wanted.separation * own->size, order_of(own->alpha, hash_of(own->place, 1 + wanted.round))});
-  // In an order of their own: that of a map is nobody's.
+        {own->place, rule.separation * own->size, order_of(own->alpha, hash_of(own->place, 1 + rule.round))});
+  // The order of a map may differ from machine to machine.
   std::sort(contenders.begin(), contenders.end(),
             [](const Contender& a, const Contender& b) { return geometry::lexicographically_less(a.place, b.place); });
   return contenders;

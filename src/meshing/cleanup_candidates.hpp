@@ -38,17 +38,17 @@ public:
   /// The largest alpha, or 1.
   double worst() const;
 
-  /// What contenders are made of.
-  struct Wanted {
+  /// Which candidates may contend.
+  struct ContenderRule {
     int stage;              ///< places that are settled in it, or a later one, are left out
     double above;           ///< alpha
     double separation;      ///< in sizes
     double most_separation; ///< larger ones than that find no room
     int round;              ///< another order in each
   };
-  /// @brief The worst candidate of each cell of a few h, and of the equally bad ones the first; in an order of their
-  /// own. O(candidates).
-  std::vector<Contender> contenders(const Wanted& wanted);
+  /// @brief The worst candidate of each cell of a few h, and of equally bad ones the first place; sorted by place.
+  /// O(candidates).
+  std::vector<Contender> contenders(const ContenderRule& rule);
 
 private:
   struct Entry {

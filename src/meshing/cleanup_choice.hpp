@@ -13,13 +13,13 @@ namespace trime::meshing {
 /// A place that would like to be chosen.
 struct Contender {
   geometry::Vec2 place; ///< canonical
-  double separation;    ///< no other one may be chosen within
-  std::uint64_t order;  ///< who comes first; then the place decides
+  double separation;    ///< no other contender may be chosen within this distance
+  std::uint64_t order;  ///< the lower one comes first; then the place decides
 };
 
 /// @brief Of the contenders of all ranks a set of which no two lie within the larger of their separations, as large as
-/// a few passes make it (Luby 1986): who is the first of its surroundings stays, whoever is near it leaves, and again.
-/// Collective.
+/// a few passes make it (Luby 1986): in each pass a contender that is the first of its surroundings is chosen, and
+/// those near it are excluded. Collective.
 /// @return indices of the own ones that are chosen, ascending
 std::vector<std::size_t> choose_apart(const comm::Communicator& comm, const CleanupSites& sites,
                                       const geometry::Periods& periods, std::span<const Contender> contenders);

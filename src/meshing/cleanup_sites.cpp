@@ -12,18 +12,21 @@ namespace {
 
 using geometry::Vec2;
 
+// What one thread takes at a time.
+constexpr int discs_in_a_row = 16, edits_in_a_row = 64, sites_in_a_row = 4096;
+
 std::size_t at(LocalIndex i) {
   return static_cast<std::size_t>(i);
 }
 
-/// A question to another rank: what lies in a disc, which this rank has narrowed already.
-struct Question {
+/// Asks another rank which sites it has in a disc. The rank that asks may have narrowed the disc already.
+struct DiscRequest {
   Disc widest;
   std::int32_t rank, index; // of the disc at the rank that asks
   std::int64_t narrowings;
 };
-/// An answer begins with how often the disc had to be narrowed; its sites follow in another list.
-struct Answer {
+/// Says how often the disc had to be narrowed; the sites follow in another list.
+struct DiscReply {
   std::int32_t rank, index;
   std::int32_t narrowings, sites;
 };
@@ -39,7 +42,7 @@ Disc narrowed(const Disc& widest, int narrowings) {
 } // namespace
 
 CleanupSites::CleanupSites(const comm::Communicator& comm, const SiteState& state, const sizing::SizeField& size)
-    : comm_(comm), state_(state), size_(size), fates_(at(state.points().owned()), Fate::in_place),
+    : comm_(comm), state_(state), size_(size), status_(at(state.points().owned()), SiteStatus::in_place),
       added_(at(state.points().last_tile() - state.points().first_tile())) {}
 
 /// Calls visit(tile) for the tiles that meet the square around a disc.
@@ -64,7 +67,7 @@ std::vector<int> CleanupSites::ranks_near(const Disc& disc) const {
   return ranks;
 }
 
-/// Of this rank: all in the disc, or some of them but more than `most`.
+/// Lists the sites of this rank in a disc: all of them, or more than `most`.
 void CleanupSites::list_sites(const Disc& disc, std::size_t most, std::vector<PatchSite>& sites) const {
   const mesh::BinnedPoints& points = state_.points();
   const geometry::Periods& periods = state_.grid().periods();
@@ -76,8 +79,8 @@ void CleanupSites::list_sites(const Disc& disc, std::size_t most, std::vector<Pa
   };
   const auto add_range = [&](LocalIndex begin, LocalIndex end) {
     for (LocalIndex j = begin; j < std::min(end, points.owned()) && sites.size() <= most; ++j)
-      if (fates_[at(j)] != Fate::gone)
-        add(points.position(j), state_.sizes()[j], points.boundary(j), fates_[at(j)] == Fate::rests);
+      if (status_[at(j)] != SiteStatus::gone)
+        add(points.position(j), state_.sizes()[j], points.boundary(j), status_[at(j)] == SiteStatus::rests);
   };
   std::vector<LocalIndex> tiles;
   for_each_tile(disc, [&](LocalIndex tile) {
@@ -124,33 +127,33 @@ void CleanupSites::merge(Surroundings& all, const Disc& widest, std::size_t most
 
 std::vector<Surroundings> CleanupSites::around(std::span<const Disc> discs, std::size_t most) const {
   std::vector<Surroundings> all(discs.size());
-  thread_loop(static_cast<std::ptrdiff_t>(discs.size()), 16, [&](std::ptrdiff_t item, int) {
+  thread_loop(static_cast<std::ptrdiff_t>(discs.size()), discs_in_a_row, [&](std::ptrdiff_t item, int) {
     const auto k = static_cast<std::size_t>(item);
     narrow_down(discs[k], most, all[k]);
   });
   if (comm_.size() == 1)
     return all;
-  std::map<int, std::vector<Question>> questions;
+  std::map<int, std::vector<DiscRequest>> requests;
   for (std::size_t k = 0; k < discs.size(); ++k)
     for (const int rank : ranks_near(discs[k]))
-      questions[rank].push_back({discs[k], comm_.rank(), static_cast<std::int32_t>(k), all[k].narrowings});
-  std::map<int, std::vector<Answer>> answers;
+      requests[rank].push_back({discs[k], comm_.rank(), static_cast<std::int32_t>(k), all[k].narrowings});
+  std::map<int, std::vector<DiscReply>> replies;
   std::map<int, std::vector<PatchSite>> sites;
   Surroundings own;
-  for (const Question& question : send(comm_, questions)) {
-    own.narrowings = static_cast<int>(question.narrowings);
-    narrow_down(question.widest, most, own);
-    answers[question.rank].push_back(
-        {comm_.rank(), question.index, own.narrowings, static_cast<std::int32_t>(own.sites.size())});
-    std::vector<PatchSite>& list = sites[question.rank];
+  for (const DiscRequest& request : send(comm_, requests)) {
+    own.narrowings = static_cast<int>(request.narrowings);
+    narrow_down(request.widest, most, own);
+    replies[request.rank].push_back(
+        {comm_.rank(), request.index, own.narrowings, static_cast<std::int32_t>(own.sites.size())});
+    std::vector<PatchSite>& list = sites[request.rank];
     list.insert(list.end(), own.sites.begin(), own.sites.end());
   }
-  const std::vector<Answer> heads = send(comm_, answers);
+  const std::vector<DiscReply> heads = send(comm_, replies);
   const std::vector<PatchSite> bodies = send(comm_, sites); // from the same ranks, in the same order
   std::size_t next = 0;
-  for (const Answer& answer : heads) {
-    const auto k = static_cast<std::size_t>(answer.index), count = static_cast<std::size_t>(answer.sites);
-    merge(all[k], discs[k], most, std::span(bodies).subspan(next, count), answer.narrowings);
+  for (const DiscReply& reply : heads) {
+    const auto k = static_cast<std::size_t>(reply.index), count = static_cast<std::size_t>(reply.sites);
+    merge(all[k], discs[k], most, std::span(bodies).subspan(next, count), reply.narrowings);
     next += count;
   }
   return all;
@@ -164,7 +167,7 @@ LocalIndex CleanupSites::find_in_state(Vec2 p) const {
       p, 0,
       [&](LocalIndex begin, LocalIndex end) {
         for (LocalIndex j = begin; j < end && j < points.owned(); ++j)
-          if (points.position(j) == p && fates_[at(j)] != Fate::gone)
+          if (points.position(j) == p && status_[at(j)] != SiteStatus::gone)
             found = j;
       },
       [](mesh::BinRef) {});
@@ -181,7 +184,7 @@ CleanupSites::Added& CleanupSites::find_added(Vec2 p) {
 /// @return the index of the owned site that it was at the beginning, or -1
 LocalIndex CleanupSites::take_out(Vec2 p) {
   if (const LocalIndex i = find_in_state(p); i >= 0) {
-    fates_[at(i)] = Fate::gone;
+    status_[at(i)] = SiteStatus::gone;
     return i;
   }
   Added& added = find_added(p);
@@ -194,7 +197,7 @@ LocalIndex CleanupSites::take_out(Vec2 p) {
 
 void CleanupSites::set_rest(Vec2 p, bool rests) {
   if (const LocalIndex i = find_in_state(p); i >= 0)
-    fates_[at(i)] = rests ? Fate::rests : Fate::in_place;
+    status_[at(i)] = rests ? SiteStatus::rests : SiteStatus::in_place;
   else
     find_added(p).rests = rests;
 }
@@ -202,13 +205,13 @@ void CleanupSites::set_rest(Vec2 p, bool rests) {
 void CleanupSites::apply(std::span<const SiteEdit> edits) {
   std::vector<LocalIndex> origins(edits.size(), -1);
   for (std::size_t k = 0; k < edits.size(); ++k) // first all that go: one may come where another was
-    if (edits[k].kind != SiteEdit::Kind::insert && owner(edits[k].from) == comm_.rank())
+    if (edits[k].kind != EditKind::insert && owner(edits[k].from) == comm_.rank())
       origins[k] = take_out(edits[k].from);
   std::vector<double> sizes(edits.size(), 0);
   comm::run_agreed(comm_, [&] {
-    thread_loop(static_cast<std::ptrdiff_t>(edits.size()), 64, [&](std::ptrdiff_t item, int) {
+    thread_loop(static_cast<std::ptrdiff_t>(edits.size()), edits_in_a_row, [&](std::ptrdiff_t item, int) {
       const SiteEdit& edit = edits[static_cast<std::size_t>(item)];
-      if (edit.kind != SiteEdit::Kind::remove && owner(edit.to) == comm_.rank())
+      if (edit.kind != EditKind::remove && owner(edit.to) == comm_.rank())
         sizes[static_cast<std::size_t>(item)] = sizing::checked_size(size_, edit.to);
     });
   });
@@ -224,9 +227,9 @@ void CleanupSites::finish(SiteState& state, std::span<const LocalIndex> new_inde
   };
   points.prepare_to_stay();
   std::vector<std::uint8_t> deleted(at(points.owned()), 0);
-  thread_loop(points.owned(), 4096, [&](std::ptrdiff_t item, int) {
+  thread_loop(points.owned(), sites_in_a_row, [&](std::ptrdiff_t item, int) {
     const auto i = static_cast<LocalIndex>(item);
-    deleted[at(i)] = fates_[at(i)] == Fate::gone;
+    deleted[at(i)] = status_[at(i)] == SiteStatus::gone;
     points.set_boundary(i, !deleted[at(i)] ? renumbered(points.boundary(i)) : mesh::free_site);
   });
   mesh::SiteList more;

@@ -2,7 +2,7 @@
 // The sites while the clean-up edits some: those of the state, and what has become of them since.
 #pragma once
 
-#include "meshing/patch.hpp"
+#include "meshing/patch_data.hpp"
 #include "meshing/site_state.hpp"
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace trime::meshing {
 
-/// Sends each rank its list; what arrives, own items first. Collective.
+/// Sends each rank its list. @return what arrives, own items first. Collective.
 template <class T>
 std::vector<T> send(const comm::Communicator& comm, const std::map<int, std::vector<T>>& by_rank) {
   std::vector<comm::Message> outgoing;
@@ -33,18 +33,16 @@ std::vector<T> send(const comm::Communicator& comm, const std::map<int, std::vec
 
 /// What is read of the sites in a disc: all of them, or all in a narrower disc around the same place.
 struct Surroundings {
-  static constexpr double narrowing_factor = 0.75; ///< on the radius
-  static constexpr int most_narrowings = 5;        ///< to 0.24 of the radius
-  /// Of the disc that is read, after so many narrowings. The same bits on all ranks.
+  /// The radius of the disc that is read, after so many narrowings. The same bits on all ranks.
   static double radius(double widest, int narrowings) {
     for (int k = 0; k < narrowings; ++k)
-      widest *= narrowing_factor;
+      widest *= CleanupRules::narrowing_factor;
     return widest;
   }
 
-  int narrowings = 0; ///< above most_narrowings: even the narrowest disc holds too many, and none of them are listed
+  int narrowings = 0; ///< above the limit: even the narrowest disc holds too many, and none of them are listed
   std::vector<PatchSite> sites; ///< at the images that lie there, in no particular order
-  bool found() const { return narrowings <= most_narrowings; }
+  bool found() const { return narrowings <= CleanupRules::most_narrowings; }
 };
 
 /// @brief Owned sites of a state that stays as it is: which are still in place, and those that have come since. Edits
@@ -69,7 +67,7 @@ public:
   /// Whether nothing helps at an owned site.
   void set_rest(geometry::Vec2 p, bool rests);
 
-  /// The state with all edits. @param new_index of the boundary's sites. Collective.
+  /// Carries all edits over to the state. @param new_index of the boundary's sites. Collective.
   void finish(SiteState& state, std::span<const LocalIndex> new_index) const;
 
 private:
@@ -80,7 +78,7 @@ private:
     LocalIndex origin; // index of the owned site that it was, -1 if new here
     bool rests = false;
   };
-  enum class Fate : std::uint8_t { gone, in_place, rests };
+  enum class SiteStatus : std::uint8_t { gone, in_place, rests };
   template <class Visit>
   void for_each_tile(const Disc& disc, const Visit& visit) const;
   void list_sites(const Disc& disc, std::size_t most, std::vector<PatchSite>& sites) const;
@@ -100,7 +98,7 @@ private:
   const comm::Communicator& comm_;
   const SiteState& state_;
   const sizing::SizeField& size_;
-  std::vector<Fate> fates_;               // by owned site
+  std::vector<SiteStatus> status_;        // by owned site
   std::vector<std::vector<Added>> added_; // by owned tile
 };
 

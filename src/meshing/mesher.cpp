@@ -5,6 +5,7 @@
 #include "meshing/certificate.hpp"
 #include "meshing/chord_curve.hpp"
 #include "meshing/cleanup.hpp"
+#include "meshing/cleanup_rules.hpp"
 #include "meshing/extraction.hpp"
 #include "meshing/feature_report.hpp"
 #include "meshing/layout.hpp"
@@ -227,14 +228,14 @@ private:
       return;
     mend_stars(Sweeper::Lemma::up_to_chords);
     const auto time = timers_.scope("clean-up");
-    PatchOptions patches;
-    patches.tolerance = options_.keep_features ? 0 : options_.feature_tolerance;
+    const CleanupTask task{state(),  stage_.boundary, *stage_.guard, meshed_boundary(),
+                           lattice_, *builder_,        *stage_.size,  *stage_.asked_size};
     cleanup_ =
-        Cleanup(comm_, stage_, meshed_boundary(), lattice_, *builder_, options_.points.value_or(0), patches).run();
+        mend(comm_, task, {options_.points.value_or(0), options_.keep_features ? 0 : options_.feature_tolerance});
     log_.info("clean-up: {} of {} patches better; {} sites moved, {} inserted, {} deleted; nothing helped at {} "
               "places with alpha above {}",
               cleanup_.better, cleanup_.patches, cleanup_.moved, cleanup_.inserted, cleanup_.deleted, cleanup_.left,
-              patches.bad_alpha);
+              CleanupRules::bad_alpha);
   }
 
   // --- the mesh -----------------------------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/patch_mesh.hpp"
 
+#include "meshing/cleanup_rules.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/hilbert.hpp"
 #include "trime/geometry/predicates.hpp"
@@ -12,8 +13,6 @@ namespace trime::meshing {
 namespace {
 
 using geometry::Vec2;
-
-constexpr int curve_level = 8; // of the Hilbert curve through the frame
 
 constexpr int next(int k) {
   return k == 2 ? 0 : k + 1;
@@ -145,7 +144,8 @@ LocalIndex PatchMesh::append(Vec2 p) {
 
 /// Each near the one before, so that searches are short and cavities small.
 void PatchMesh::connect_all() {
-  constexpr double side = 1 << curve_level;
+  constexpr int level = CleanupRules::curve_level;
+  constexpr double side = 1 << level;
   const Vec2 low = position(0);
   const double scale = side / (position(2).x - low.x);
   const auto cell = [&](double offset) {
@@ -154,7 +154,7 @@ void PatchMesh::connect_all() {
   work_.on_curve.clear();
   for (LocalIndex v = frame; v < vertices(); ++v) {
     const Vec2 offset = position(v) - low;
-    work_.on_curve.push_back({static_cast<std::uint32_t>(hilbert_key(cell(offset.x), cell(offset.y), curve_level)), v});
+    work_.on_curve.push_back({static_cast<std::uint32_t>(hilbert_key(cell(offset.x), cell(offset.y), level)), v});
   }
   std::sort(work_.on_curve.begin(), work_.on_curve.end(),
             [](const OnCurve& a, const OnCurve& b) { return a.key != b.key ? a.key < b.key : a.vertex < b.vertex; });

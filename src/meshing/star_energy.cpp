@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/star_energy.hpp"
 
+#include "meshing/cleanup_rules.hpp"
+
 #include <cmath>
 
 namespace trime::meshing {
@@ -9,17 +11,15 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr double c = 0.28867513459481287; // 1 / (2 sqrt(3)): eta = c (a^2 + b^2 + c^2) / (2 area)
+constexpr double c = 0.28867513459481287; // 1 / (2 sqrt(3)): eta = c (sum of squared edges) / (2 area)
 constexpr double sin_60 = 0.8660254037844386;
-
-constexpr double weight_of_bad = 10; // of the fourth power
 
 Vec2 turned_by_60(Vec2 v) {
   return {0.5 * v.x - sin_60 * v.y, sin_60 * v.x + 0.5 * v.y};
 }
 
 double energy_of(double excess) {
-  return excess * excess * (1 + weight_of_bad * (excess * excess));
+  return excess * excess * (1 + CleanupRules::quartic_weight * (excess * excess));
 }
 
 } // namespace
@@ -55,7 +55,7 @@ EnergyModel star_energy_model(Vec2 p, std::span<const Vec2> ring, bool closed) {
     const double hxx = 2 * (scale - g.x * of_area.x);
     const double hyy = 2 * (scale - g.y * of_area.y);
     const double hxy = -(g.x * of_area.y + g.y * of_area.x);
-    const double square = weight_of_bad * (excess * excess);
+    const double square = CleanupRules::quartic_weight * (excess * excess);
     const double first = excess * (2 + 4 * square), second = 2 + 12 * square;
     model.value += energy_of(excess);
     model.gradient = model.gradient + first * g;
@@ -70,7 +70,7 @@ EnergyModel star_energy_model(Vec2 p, std::span<const Vec2> ring, bool closed) {
 Vec2 newton_step(const EnergyModel& model, double limit) {
   const double determinant = model.xx * model.yy - model.xy * model.xy;
   Vec2 step;
-  if (determinant > 1e-6 * (model.xx * model.xx + model.yy * model.yy) && model.xx > 0)
+  if (determinant > CleanupRules::least_convexity * (model.xx * model.xx + model.yy * model.yy) && model.xx > 0)
     step = (-1 / determinant) * Vec2{model.yy * model.gradient.x - model.xy * model.gradient.y,
                                      model.xx * model.gradient.y - model.xy * model.gradient.x};
   else

@@ -4,7 +4,8 @@
 
 #include "meshing/boundary_guard.hpp"
 #include "meshing/boundary_sites.hpp"
-#include "meshing/patch.hpp"
+#include "meshing/patch_optimizer.hpp"
+#include "support/boundary_edits.hpp"
 #include "support/boundary_shapes.hpp"
 #include "trime/mesh/quality.hpp"
 
@@ -18,8 +19,10 @@ namespace trime::meshing::testing_patch {
 using geometry::Boundary;
 using geometry::Vec2;
 using sizing::UniformSize;
+using trime::testing::edited;
+using trime::testing::loop_of;
 using trime::testing::unit_lattice;
-using Kind = SiteEdit::Kind;
+using Kind = EditKind;
 
 constexpr double h = 0.03125;
 
@@ -42,6 +45,16 @@ struct Stage {
     for (std::size_t k = 0; k < sites_on.sites.size(); ++k)
       sites.push_back({sites_on.sites[k].position, h, static_cast<std::int32_t>(k)});
   }
+  /// What edits make of the boundary.
+  BoundarySites edited_boundary(const std::vector<BoundaryEdit>& edits) const {
+    return edited(sites_on, curve, edits).sites;
+  }
+  /// Edits the boundary; then its sites take part in patches.
+  void add_boundary_with(const std::vector<BoundaryEdit>& edits) {
+    sites_on = edited_boundary(edits);
+    guard = BoundaryGuard(sites_on, unit_lattice());
+    add_boundary();
+  }
   /// Takes the site nearest to p out. @return where it was
   Vec2 take_nearest(Vec2 p) {
     const auto nearest = std::min_element(sites.begin(), sites.end(), [&](const PatchSite& a, const PatchSite& b) {
@@ -55,10 +68,11 @@ struct Stage {
   std::vector<SiteEdit> improve(Vec2 center) {
     std::vector<PatchSite> near;
     for (const PatchSite& site : sites)
-      if (geometry::length(site.position - center) < PatchOptions{}.reach * h)
+      if (geometry::length(site.position - center) < CleanupRules::reach * h)
         near.push_back(site);
     sort_for_a_patch(near);
-    PatchOptimizer optimizer(sites_on, curve, unit_lattice(), options);
+    const BoundaryChain chain(sites_on, curve);
+    PatchOptimizer optimizer(chain, unit_lattice(), options);
     const std::vector<SiteEdit> edits = optimizer.improve(center, h, near, budget).edits;
     optimizer.improve(near.front().position, h, near, budget); // something else in between
     EXPECT_TRUE(equal(edits, optimizer.improve(center, h, near, budget).edits)) << "not a function of the sites";
@@ -78,7 +92,7 @@ struct Stage {
   void expect_allowed(const std::vector<SiteEdit>& edits, Vec2 center) const {
     for (const SiteEdit& edit : edits) {
       EXPECT_EQ(edit.to, unit_lattice().snap(edit.to));
-      EXPECT_LT(geometry::length(edit.from - center), (options.reach - PatchOptions::clearance) * h + h);
+      EXPECT_LT(geometry::length(edit.from - center), (CleanupRules::reach - CleanupRules::free_depth) * h + h);
       const auto site = std::find_if(sites.begin(), sites.end(),
                                      [&](const PatchSite& candidate) { return candidate.position == edit.from; });
       if (edit.kind != Kind::insert) {

@@ -7,6 +7,7 @@
 #include "trime/mesh/distributed_mesh.hpp"
 #include "trime/mesh/quality.hpp"
 #include "trime/mesh/validity.hpp"
+#include "trime/meshing/cleanup_counts.hpp"
 #include "trime/meshing/feature_summary.hpp"
 #include "trime/meshing/fixed_point.hpp"
 #include "trime/meshing/loop_summary.hpp"
@@ -72,17 +73,6 @@ struct SweepRecord {
   double moving_share = 0; ///< share of the sites that moved more than 0.005 h
   GlobalId rebuilt_stars = 0, pushed = 0, deleted = 0;
   double seconds = 0; ///< since the start of the run; differs from run to run
-};
-
-/// What the clean-up of the worst triangles did, over all ranks.
-struct CleanupCounts {
-  std::int64_t patches = 0;                          ///< surroundings of bad triangles on which changes were tried
-  std::int64_t better = 0;                           ///< of these kept
-  std::int64_t moved = 0, inserted = 0, deleted = 0; ///< sites in what was kept; a site may move more than once
-  std::int64_t on_boundary = 0;                      ///< of these sites, those on the boundary
-  std::int64_t left = 0;                             ///< bad places where nothing helped
-
-  void add(const CleanupCounts& other);
 };
 
 struct MeshResult {

@@ -20,7 +20,7 @@ constexpr double h = 0.01;
 mesh::TileGrid unit_grid() {
   return mesh::TileGrid(geometry::Box{{0, 0}, {1, 1}}, mesh::GridOptions{{}, {}, h});
 }
-CleanupCandidates::Wanted first_round() {
+CleanupCandidates::ContenderRule first_round() {
   return {1, 0, 10, 1, 0};
 }
 

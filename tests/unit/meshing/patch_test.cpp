@@ -71,7 +71,7 @@ TEST(PatchOptimizer, BringsADisplacedSiteBack) {
   }
 }
 
-/// Another patch may begin 2 reach - clearance away: it may read what this one changes otherwise.
+/// Another patch may begin 2 reach - free_depth away: it may read what this one changes otherwise.
 TEST(PatchOptimizer, ChangesNothingNearTheRimHoweverSmallTheTrianglesThere) {
   Stage stage(far_square());
   const Vec2 displaced = add_displaced_lattice(stage);
@@ -81,7 +81,7 @@ TEST(PatchOptimizer, ChangesNothingNearTheRimHoweverSmallTheTrianglesThere) {
   const std::vector<SiteEdit> edits = stage.improve(displaced);
   EXPECT_FALSE(edits.empty());
   for (const SiteEdit& edit : edits)
-    EXPECT_LT(geometry::length(edit.from - displaced), (PatchOptions{}.reach - PatchOptions::clearance) * h);
+    EXPECT_LT(geometry::length(edit.from - displaced), (CleanupRules::reach - CleanupRules::free_depth) * h);
 }
 
 TEST(PatchOptimizer, DeletesOneTooMany) {
@@ -181,18 +181,13 @@ TEST(PatchOptimizer, ASiteOfAStraightBoundarySlidesBack) {
     Stage stage(half_plane());
     stage.options.bad_alpha = 1.02; // or it would be content with less
     const Vec2 displaced = unit_lattice().snap(middle + Vec2{away * h, 0});
-    std::vector<LocalIndex> inserted;
+    std::vector<BoundaryEdit> slide;
     for (LocalIndex k = 0; k < static_cast<LocalIndex>(stage.sites_on.sites.size()); ++k)
-      if (geometry::length(stage.sites_on.sites[static_cast<std::size_t>(k)].position - middle) < 1e-12) {
-        std::vector<BoundaryEdit> edits{
-            {k, BoundaryEdit::Kind::slide,
-             stage.curve.arc(0, stage.sites_on.sites[static_cast<std::size_t>(k)]) + (displaced.x - middle.x),
-             displaced}};
-        edit_boundary(stage.sites_on, stage.curve, edits, inserted);
-      }
-    ASSERT_EQ(inserted.size(), 1u);
-    stage.guard = BoundaryGuard(stage.sites_on, unit_lattice());
-    stage.add_boundary();
+      if (const BoundarySite& site = stage.sites_on.sites[static_cast<std::size_t>(k)];
+          geometry::length(site.position - middle) < 1e-12)
+        slide.push_back({k, Kind::move, stage.curve.arc(0, site) + (displaced.x - middle.x), displaced});
+    ASSERT_EQ(slide.size(), 1u);
+    stage.add_boundary_with(slide);
     add_upper_lattice(stage);
     const std::vector<SiteEdit> edits = stage.improve(displaced);
     EXPECT_GE(count(edits, Kind::move, true), 1);
@@ -209,24 +204,19 @@ TEST(PatchOptimizer, SitesOfAStraightBoundaryComeAndGo) {
   for (const bool one_more : {true, false}) {
     Stage stage(half_plane());
     stage.options.bad_alpha = stage.options.operate_alpha = 1.02;
-    std::vector<LocalIndex> inserted;
+    std::vector<BoundaryEdit> change;
     Vec2 center = middle;
     for (LocalIndex k = 0; k < static_cast<LocalIndex>(stage.sites_on.sites.size()); ++k)
       if (geometry::length(stage.sites_on.sites[static_cast<std::size_t>(k)].position - middle) < 1e-12) {
         const double arc = stage.curve.arc(0, stage.sites_on.sites[static_cast<std::size_t>(k)]);
         const Vec2 extra = unit_lattice().snap(middle + Vec2{0.5 * h, 0});
-        std::vector<BoundaryEdit> edits;
-        if (one_more)
-          edits = {{k, BoundaryEdit::Kind::insert, arc + 0.5 * h, extra}};
-        else
-          edits = {{k, BoundaryEdit::Kind::remove, 0, {}}};
-        edit_boundary(stage.sites_on, stage.curve, edits, inserted);
+        change.push_back(one_more ? BoundaryEdit{k, Kind::insert, arc + 0.5 * h, extra}
+                                  : BoundaryEdit{k, Kind::remove, 0, {}});
         center = one_more ? extra : unit_lattice().snap(middle + Vec2{h, 0});
         break;
       }
-    ASSERT_EQ(inserted.size(), 1u);
-    stage.guard = BoundaryGuard(stage.sites_on, unit_lattice());
-    stage.add_boundary();
+    ASSERT_EQ(change.size(), 1u);
+    stage.add_boundary_with(change);
     add_upper_lattice(stage);
     const double before = worst_alpha(stage, {}, middle, 3 * h);
     EXPECT_GT(before, 1.1);
@@ -239,20 +229,16 @@ TEST(PatchOptimizer, SitesOfAStraightBoundaryComeAndGo) {
 /// As near to each other as Cleanup chooses them: then no two of them change one site, or divide one chord.
 TEST(PatchOptimizer, PatchesThatKeepApartShareNoChord) {
   Stage stage(half_plane());
-  std::vector<LocalIndex> inserted;
   std::vector<BoundaryEdit> holes;
   for (std::size_t k = 0; k < stage.sites_on.sites.size(); k += 3)
     if (const Vec2 p = stage.sites_on.sites[k].position; p.y == 0.5 && std::fabs(p.x - 0.5) < 12.5 * h)
-      holes.push_back({static_cast<LocalIndex>(k), BoundaryEdit::Kind::remove, 0, {}});
-  edit_boundary(stage.sites_on, stage.curve, holes, inserted);
-  stage.guard = BoundaryGuard(stage.sites_on, unit_lattice());
-  stage.add_boundary();
+      holes.push_back({static_cast<LocalIndex>(k), Kind::remove, 0, {}});
+  stage.add_boundary_with(holes);
   for (int j = 1; j <= 9; ++j)
     for (int i = -15; i <= 15; ++i)
       if (std::abs(i) <= 14 - (j & 1))
         stage.add(middle + h * Vec2{i + 0.5 * (j & 1), std::sqrt(0.75) * j});
-  const PatchOptions options;
-  const double half = 0.5 * (2 * options.reach - PatchOptions::clearance) * h;
+  const double half = 0.5 * (2 * CleanupRules::reach - CleanupRules::free_depth) * h;
   std::vector<LocalIndex> left, right;
   for (const auto& [list, side] : {std::pair{&left, -half}, {&right, half}})
     for (const SiteEdit& edit : stage.improve(unit_lattice().snap(middle + Vec2{side, 0})))
@@ -292,18 +278,11 @@ TEST(PatchOptimizer, WorksAlongACircleAndAcrossTheStartOfItsLoop) {
 
 /// What the edits make of the boundary.
 BoundarySites edited_boundary(const Stage& stage, const std::vector<SiteEdit>& edits) {
-  BoundarySites after = stage.sites_on;
   std::vector<BoundaryEdit> on_boundary;
   for (const SiteEdit& edit : edits)
     if (edit.boundary >= 0)
-      on_boundary.push_back({edit.boundary,
-                             edit.kind == Kind::move     ? BoundaryEdit::Kind::slide
-                             : edit.kind == Kind::remove ? BoundaryEdit::Kind::remove
-                                                         : BoundaryEdit::Kind::insert,
-                             edit.arc, edit.to});
-  std::vector<LocalIndex> inserted;
-  edit_boundary(after, stage.curve, on_boundary, inserted);
-  return after;
+      on_boundary.push_back({edit.boundary, edit.kind, edit.arc, edit.to});
+  return stage.edited_boundary(on_boundary);
 }
 
 /// Two walls a little more than one disc apart: whatever is edited, the open disc of every chord stays empty.
@@ -350,12 +329,9 @@ TEST(PatchOptimizer, SmallerTrianglesFollowARaggedBoundary) {
   std::vector<BoundaryEdit> zigzag;
   for (std::size_t k = 0; k < stage.sites_on.sites.size(); ++k)
     if (const Vec2 p = stage.sites_on.sites[k].position; p.x > middle.x + 1e-9 && p.y < 0.5 - 1e-9)
-      zigzag.push_back({static_cast<LocalIndex>(k), BoundaryEdit::Kind::remove, 0, {}});
+      zigzag.push_back({static_cast<LocalIndex>(k), Kind::remove, 0, {}});
   ASSERT_EQ(zigzag.size(), 2u);
-  std::vector<LocalIndex> inserted;
-  edit_boundary(stage.sites_on, stage.curve, zigzag, inserted);
-  stage.guard = BoundaryGuard(stage.sites_on, unit_lattice());
-  stage.add_boundary();
+  stage.add_boundary_with(zigzag);
   for (PatchSite& site : stage.sites)
     site.tolerance = 1.1 * stray * edge;
   add_upper_lattice(stage);
@@ -369,8 +345,8 @@ TEST(PatchOptimizer, SmallerTrianglesFollowARaggedBoundary) {
 /// A bad triangle at the rim, where nothing moves, is known already: no word of it.
 TEST(PatchOptimizer, WhatStaysAsItIsMakesNoNews) {
   const geometry::RegionShape torus = testing::whole_torus();
-  const BoundarySites none = make_boundary_sites(torus.boundary(), UniformSize(h), unit_lattice(), 30);
   const BoundaryCurve curve(torus.boundary());
+  const BoundaryChain none(make_boundary_sites(torus.boundary(), UniformSize(h), unit_lattice(), 30), curve);
   const auto improve = [&](double displaced_at) {
     std::vector<PatchSite> sites;
     for (int j = -12; j <= 12; ++j)
@@ -378,11 +354,11 @@ TEST(PatchOptimizer, WhatStaysAsItIsMakesNoNews) {
         Vec2 offset = h * Vec2{i + 0.5 * (j & 1) + 0.4, std::sqrt(0.75) * j};
         if (j == 0 && std::fabs(i - displaced_at) < 0.5)
           offset.x -= 0.35 * h;
-        if (geometry::length(offset) < PatchOptions{}.reach * h)
+        if (geometry::length(offset) < CleanupRules::reach * h)
           sites.push_back({unit_lattice().snap(middle + offset), h, mesh::free_site});
       }
     sort_for_a_patch(sites);
-    return PatchOptimizer(none, curve, unit_lattice(), {}).improve(middle, h, sites, PatchBudget{});
+    return PatchOptimizer(none, unit_lattice(), {}).improve(middle, h, sites, PatchBudget{});
   };
   const PatchResult at_the_rim = improve(6), inside = improve(1);
   EXPECT_TRUE(at_the_rim.edits.empty());
@@ -394,18 +370,18 @@ TEST(PatchOptimizer, WhatStaysAsItIsMakesNoNews) {
 /// A patch across the border of a torus is the patch elsewhere.
 TEST(PatchOptimizer, NearestImagesMakeAPatchOnATorus) {
   const geometry::RegionShape torus = testing::whole_torus();
-  const BoundarySites none = make_boundary_sites(torus.boundary(), UniformSize(h), unit_lattice(), 30);
   const BoundaryCurve curve(torus.boundary());
+  const BoundaryChain none(make_boundary_sites(torus.boundary(), UniformSize(h), unit_lattice(), 30), curve);
   const auto edits_at = [&](Vec2 center) {
     std::vector<PatchSite> sites;
     for (int j = -12; j <= 12; ++j)
       for (int i = -12; i <= 12; ++i) {
         const Vec2 offset = i == 0 && j == 0 ? Vec2{} : h * Vec2{i + 0.5 * (j & 1) + 0.3, std::sqrt(0.75) * j};
-        if (geometry::length(offset) < PatchOptions{}.reach * h)
+        if (geometry::length(offset) < CleanupRules::reach * h)
           sites.push_back({center + unit_lattice().snap(offset), h, mesh::free_site});
       }
     sort_for_a_patch(sites);
-    return PatchOptimizer(none, curve, unit_lattice(), {}).improve(center, h, sites, PatchBudget{}).edits;
+    return PatchOptimizer(none, unit_lattice(), {}).improve(center, h, sites, PatchBudget{}).edits;
   };
   const std::vector<SiteEdit> inside = edits_at(middle), across = edits_at({0, 0});
   ASSERT_FALSE(inside.empty());
