@@ -2,13 +2,13 @@
 // The sites of a run and what holds them together over the ranks: grid, partition, halo, stars.
 #pragma once
 
+#include "meshing/star_view.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/decomposition/halo.hpp"
 #include "trime/decomposition/migration.hpp"
 #include "trime/delaunay/star_builder.hpp"
 #include "trime/mesh/binned_points.hpp"
 #include "trime/mesh/local_sizes.hpp"
-#include "trime/meshing/update_rule.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <vector>

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sine, cosine and the angle of a vector from + - * / sqrt alone: the same bits with every compiler and C library,
-// so that points on circular arcs may become coordinates of a mesh.
+// Constants of angles and of the equilateral triangle; sine, cosine and the angle of a vector from + - * / sqrt alone:
+// the same bits with every compiler and C library, so that points on circular arcs may become coordinates of a mesh.
 #pragma once
 
 namespace trime {
 
 inline constexpr double pi = 0x1.921fb54442d18p+1;
+inline constexpr double degrees = pi / 180;            ///< 60 * degrees is in radians
+inline constexpr double degrees_per_radian = 180 / pi; ///< radians * degrees_per_radian is in degrees
+inline constexpr double sqrt_3 = 1.7320508075688772;
+inline constexpr double row_height = 0.5 * sqrt_3; ///< of an equilateral triangle of side 1, also sin(60 degrees)
 
 struct SinCos {
   double sin, cos;
