@@ -43,8 +43,8 @@ struct Stage {
     task.uniform_size = sizes[0];
     task.next_positions = points.next_positions().data();
     task.next_leads = points.next_leads().data();
-    task.rule.kind = static_cast<meshing::RuleParameters::Kind>(state.range(1));
-    task.rule.length_scale = 1.2;
+    task.rule.mover = static_cast<meshing::Mover>(state.range(1));
+    task.rule.length_scale = meshing::SweepRules::bar_pressure;
     task.rule.momentum = 0.5;
     task.lattice_step = lattice.step();
     task.inverse_lattice_step = lattice.inverse_step();
@@ -82,11 +82,11 @@ void certify_and_move(benchmark::State& state, const SweepKernels& kernels) {
 
 void measure(benchmark::State& state, const SweepKernels& kernels) {
   Stage stage(state);
-  constexpr LocalIndex most = 1024;
-  std::vector<double> excesses(8 * most);
+  std::vector<double> excesses(delaunay::StarTable::slots * meshing::most_measured);
   for (auto _ : state)
-    for (LocalIndex begin = 0; begin < stage.points.owned(); begin += most)
-      benchmark::DoNotOptimize(kernels.measure(stage.task, begin, std::min(stage.points.owned(), begin + most),
+    for (LocalIndex begin = 0; begin < stage.points.owned(); begin += meshing::most_measured)
+      benchmark::DoNotOptimize(kernels.measure(stage.task, begin,
+                                               std::min(stage.points.owned(), begin + meshing::most_measured),
                                                1 / stage.sizes[0], excesses.data()));
   per_point(state, static_cast<double>(stage.points.owned()));
 }

@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/meshing/mesher.hpp"
 
-#include "meshing/boundary_treatment.hpp"
 #include "meshing/certificate.hpp"
 #include "meshing/chord_curve.hpp"
 #include "meshing/cleanup.hpp"
 #include "meshing/cleanup_rules.hpp"
 #include "meshing/extraction.hpp"
 #include "meshing/feature_report.hpp"
+#include "meshing/guard_treatment.hpp"
 #include "meshing/layout.hpp"
 #include "meshing/meshing_rules.hpp"
 #include "meshing/plan_start.hpp"
+#include "meshing/plan.hpp"
 #include "meshing/point_scheme.hpp"
 #include "meshing/site_state.hpp"
 #include "meshing/size_warnings.hpp"
 #include "meshing/stopping.hpp"
 #include "meshing/sweep_record.hpp"
 #include "meshing/sweeper.hpp"
+#include "meshing/update_rule.hpp"
 #include "trime/comm/agree.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/free_memory.hpp"
 #include "trime/core/thread_loop.hpp"
 #include "trime/geometry/lattice.hpp"
-#include "trime/meshing/update_rule.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,10 +35,10 @@ public:
   Implementation(const comm::Communicator& comm, const geometry::Boundary& boundary, const sizing::SizeField& size,
                  const MeshOptions& options, Log& log, TimerTable& timers)
       : comm_(comm), boundary_(boundary), relative_size_(size), options_(options), start_options_(plan_start(options)),
-        log_(log), timers_(timers), lattice_(options.container) {}
+        sweep_options_(sweep_options(options)), log_(log), timers_(timers), lattice_(options.container) {}
 
   MeshResult run() {
-    SweepControl control(options_, history_);
+    SweepControl control(sweep_options_, history_);
     for (begin();; advance()) {
       relax(control);
       if (scheme_->is_last())
@@ -112,30 +113,31 @@ private:
     control.begin_stage(scheme_->inserts(), scheme_->is_last());
     Sweeper::Counts counts; // since the last record
     counts.rebuilt = comm_.sum(stars(Wanted::inner_sites).rebuilt);
-    Sweeper sweeper(state(), *builder_, move_context(), lemma_if(Sweeper::Lemma::up_to_chords));
+    Sweeper sweeper(state(), *builder_, move_context(), allowed(LemmaReach::up_to_chords));
     SweepSums sums = record_sweep(sweeper, counts);
     show_snapshot();
     begun_.reset();
-    while (!is_done(control)) {
+    std::optional<StopReason> end = go_on(control);
+    while (!end) {
       counts = {};
       do {
         counts.follow_by(sweep(sweeper, control, sums));
         show_snapshot();
-      } while (sweeps_ - history_.back().sweep < measuring_interval && sweeps_ < options_.max_sweeps);
+      } while (sweeps_ - history_.back().sweep < StopRules::measuring_interval && sweeps_ < sweep_options_.max_sweeps);
       sums = record_sweep(sweeper, counts);
+      end = go_on(control);
     }
+    stop_reason_ = *end;
     const auto time = timers_.scope("sort");
     sweeper.sort();
     state().points().release_leads();
   }
 
-  Sweeper::Lemma lemma_if(Sweeper::Lemma lemma) const {
-    return options_.stars_by_emptiness ? Sweeper::Lemma::nowhere : lemma;
-  }
+  LemmaReach allowed(LemmaReach reach) const { return sweep_options_.stars_by_emptiness ? LemmaReach::nowhere : reach; }
 
-  /// Certifies the stars of the inner sites, most of which are as they were before the last moves. @param lemma the
-  /// clean-up may move boundary sites into discs of chords
-  void mend_stars(Sweeper::Lemma lemma) {
+  /// Certifies the stars of the inner sites, most of which are as they were before the last moves.
+  /// @param reach the clean-up may have moved boundary sites into discs of chords
+  void mend_stars(LemmaReach reach) {
     const auto time = timers_.scope("stars");
     const std::uint64_t uncertain = thread_sum(static_cast<std::size_t>(state().points().owned()), [&](std::size_t i) {
       const auto site = static_cast<LocalIndex>(i);
@@ -144,7 +146,7 @@ private:
     if (comm_.sum(static_cast<std::int64_t>(uncertain)) == 0)
       return;
     state().refresh(*stage_.size);
-    Sweeper(state(), *builder_, move_context(), lemma_if(lemma)).certify();
+    StarCertifier(state(), *builder_, move_context(), allowed(reach)).certify_all();
   }
 
   /// Moves the sites by the rule and certifies the stars at the new places. That is one pass with the search for the
@@ -163,17 +165,20 @@ private:
     sums.power = moved.power;
     control.rule().begin_sweep(sums);
     sweeper.prepare(control.rule());
-    if (options_.verify_stars)
+    if (sweep_options_.verify_stars)
       sweeper.verify();
     return moved;
   }
 
-  bool is_done(SweepControl& control) {
-    const auto reason = control.decide();
+  /// Carries out what the control decides after a record: switches the rule if it says so, and writes the line of the
+  /// log. Returns why the stage ends, if it does.
+  std::optional<StopReason> go_on(SweepControl& control) {
+    const SweepDecision decision = control.decide();
+    if (decision.next)
+      control.switch_to(*decision.next);
     history_.back().by_bars = control.mover() == Mover::bars;
-    log_sweep(reason && scheme_->is_last());
-    stop_reason_ = reason.value_or(stop_reason_);
-    return reason.has_value();
+    log_sweep(decision.stop && scheme_->is_last());
+    return decision.stop;
   }
 
   /// Shows the present triangulation to the observer, if the options ask for it; the run goes on as without that.
@@ -203,7 +208,7 @@ private:
 
   SweepSums record_sweep(Sweeper& sweeper, const Sweeper::Counts& counts) {
     const auto time = timers_.scope("measure");
-    SweepSummary summary = summarize_sweep(comm_, stage_, sweeper, counts);
+    SweepSummary summary = summarize_sweep(state(), sweeper, counts, stage_.typical_size, stage_.placed_first());
     summary.record.sweep = sweeps_;
     summary.record.stage = scheme_->stage();
     summary.record.seconds = timers_.total();
@@ -226,7 +231,7 @@ private:
   void clean_up() {
     if (!options_.cleanup || history_.empty())
       return;
-    mend_stars(Sweeper::Lemma::up_to_chords);
+    mend_stars(LemmaReach::up_to_chords);
     const auto time = timers_.scope("clean-up");
     const CleanupTask task{state(),  stage_.boundary, *stage_.guard, meshed_boundary(),
                            lattice_, *builder_,        *stage_.size,  *stage_.asked_size};
@@ -263,7 +268,7 @@ private:
   /// sites, a few times; the certificate tells of what remains.
   void complete_stars() {
     const double largest = std::max(options_.container.width(), options_.container.height());
-    mend_stars(cleanup_.better > 0 ? Sweeper::Lemma::inside : Sweeper::Lemma::up_to_chords);
+    mend_stars(cleanup_.better > 0 ? LemmaReach::inside : LemmaReach::up_to_chords);
     stars(Wanted::all_sites);
     for (int doubling = 0; doubling < MeshingRules::cap_doublings && std::isfinite(cap_factor_); ++doubling) {
       if (comm_.sum(count_incomplete_fans(view())) == 0)
@@ -331,6 +336,7 @@ private:
   const sizing::SizeField& relative_size_;
   const MeshOptions options_;
   const StartOptions start_options_;
+  const SweepOptions sweep_options_;
   Log& log_;
   TimerTable& timers_;
 

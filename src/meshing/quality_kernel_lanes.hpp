@@ -23,9 +23,7 @@ TRIME_INLINE void measure_group(const SweepTask& task, const Group& group, doubl
                                 double* excesses) {
   const lanes::Pairs<V> p = load_sites(task.positions, group);
   const double inverse_area = inverse_reference * inverse_reference;
-  V own = V{} + task.uniform_size;
-  if constexpr (graded)
-    own = load_own_sizes(task, group);
+  const V own = sizes_of<graded>(task, group);
   const auto spoke_at = [&](int slot) {
     const lanes::Pairs<V> at = load_neighbours(task, group, slot);
     const V x = at.x - p.x, y = at.y - p.y;
@@ -53,12 +51,12 @@ TRIME_INLINE void measure_group(const SweepTask& task, const Group& group, doubl
     V h = own * inverse_reference;
     if constexpr (graded)
       h = 0.5 * (own + load_sizes(task, group, k)) * inverse_reference;
-    sums.squared_lengths += active & lanes::fixed_point(at_most(a.squared * inverse_area, largest_term));
-    sums.squared_sizes += active & lanes::fixed_point(at_most(h * h, largest_term));
+    sums.squared_lengths += active & lanes::fixed_point(at_most(a.squared * inverse_area, SweepRules::largest_term));
+    sums.squared_sizes += active & lanes::fixed_point(at_most(h * h, SweepRules::largest_term));
     const M counted = active & a_after & b_after;
     if (unsigned found = lanes::bits(counted)) {
       const V excess = excess_of_alpha(a, b, a.x * b.y - a.y * b.x);
-      sums.excess += counted & lanes::fixed_point(at_most(excess, largest_excess_term));
+      sums.excess += counted & lanes::fixed_point(at_most(excess, SweepRules::largest_excess_term));
       sums.largest = lanes::select(counted & (excess > sums.largest), excess, sums.largest);
       for (; found; found &= found - 1)
         excesses[sums.triangles++] = excess[__builtin_ctz(found)];

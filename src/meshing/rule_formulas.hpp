@@ -7,7 +7,9 @@
 #pragma once
 
 #include "core/lanes.hpp"
-#include "trime/meshing/rule_parameters.hpp"
+#include "meshing/rule_parameters.hpp"
+#include "meshing/sweep_rules.hpp"
+#include "trime/core/angle.hpp"
 
 namespace trime::meshing {
 
@@ -48,9 +50,7 @@ public:
     x_ = lanes::select(pushes, x_ - excess * a.x, x_);
     y_ = lanes::select(pushes, y_ - excess * a.y, y_);
   }
-  TRIME_INLINE Move<V> move() const { return {time_step * x_, time_step * y_}; }
-
-  static constexpr double time_step = 0.3;
+  TRIME_INLINE Move<V> move() const { return {SweepRules::bar_time_step * x_, SweepRules::bar_time_step * y_}; }
 
 private:
   V own_size_;
@@ -126,7 +126,7 @@ template <class V, bool graded>
 class TriangleFormula {
 public:
   TRIME_INLINE TriangleFormula(const RuleParameters& rule, V own_size)
-      : own_size_(own_size), wanted_scale_(0.25 * root_3 * rule.area_scale),
+      : own_size_(own_size), wanted_scale_(0.25 * sqrt_3 * rule.area_scale),
         uniform_wanted_(wanted_scale_ * own_size * own_size) {}
 
   /// Adds gradient and second derivatives of the energy of (site, a, b) with respect to the place of the site.
@@ -140,11 +140,12 @@ public:
     const V opposite_x = b.x - a.x, opposite_y = b.y - a.y;
     const V area_x = -0.5 * opposite_y, area_y = 0.5 * opposite_x;          // gradient of the area
     const V squares_x = -2.0 * (a.x + b.x), squares_y = -2.0 * (a.y + b.y); // and of the sum of squared sides
-    const V inverse = 2.0 / twice_area, unit = inverse * (1 / (4 * root_3));
+    const V inverse = 2.0 / twice_area, unit = inverse * (1 / (4 * sqrt_3));
     const V squares = a.squared + b.squared + (opposite_x * opposite_x + opposite_y * opposite_y);
     const V shape = squares * unit, ratio = wanted * inverse;
-    const V by_area = stiffness * (1.0 - ratio * ratio) / wanted - shape * inverse;
-    const V mixed = -2.0 * unit * inverse, curved = 2.0 * (shape + stiffness * ratio) * inverse * inverse;
+    const V by_area = SweepRules::triangle_stiffness * (1.0 - ratio * ratio) / wanted - shape * inverse;
+    const V mixed = -2.0 * unit * inverse,
+            curved = 2.0 * (shape + SweepRules::triangle_stiffness * ratio) * inverse * inverse;
     gradient_x_ = lanes::select(active, gradient_x_ + (unit * squares_x + by_area * area_x), gradient_x_);
     gradient_y_ = lanes::select(active, gradient_y_ + (unit * squares_y + by_area * area_y), gradient_y_);
     xx_ = lanes::select(active, xx_ + (4.0 * unit + mixed * squares_x * area_x + curved * area_x * area_x), xx_);
@@ -154,16 +155,13 @@ public:
   }
   /// To the minimum of the quadratic model, damped; zero where there is none.
   TRIME_INLINE Move<V> move() const {
-    const V determinant = xx_ * yy_ - xy_ * xy_, factor = -damping / determinant;
+    const V determinant = xx_ * yy_ - xy_ * xy_, factor = -SweepRules::triangle_damping / determinant;
     const auto sound = determinant > 0;
     return {lanes::select(sound, factor * (yy_ * gradient_x_ - xy_ * gradient_y_), V{}),
             lanes::select(sound, factor * (xx_ * gradient_y_ - xy_ * gradient_x_), V{})};
   }
 
-  static constexpr double stiffness = 0.25, damping = 0.7; // from 0.9 on the shortest waves come to life
-
 private:
-  static constexpr double root_3 = 1.7320508075688772;
   V own_size_;
   double wanted_scale_;
   V uniform_wanted_;

@@ -4,21 +4,10 @@
 namespace trime::meshing {
 namespace {
 
-constexpr double still = 0.005;                          // of h
-constexpr int window = 2 * measuring_interval;           // sweeps
-constexpr double median_gain = 0.3, good_median = 0.001; // accelerated cells do the rest sooner than bars
-/// What these sweeps must gain. A coarse mesh costs little and decides over the order of the finer ones; before an
-/// insertion the order is about to be disturbed anyway.
-constexpr double tolerance_last = 0.04, tolerance_before_insertion = 0.12;
-constexpr double tolerance_of_coarse_bars = 0.024, tolerance_of_coarse_cells = 0.015;
-constexpr double patience_of_bars = 0.4; // bars settle more slowly than accelerated Voronoi cells
-/// Triangles gain nearly all in a few sweeps.
-constexpr Patience patience_of_triangles{0.084, window, false}, patience_of_coarse_triangles{0.036, window, false};
-
 /// The record from before the window, or none if there is no such record yet.
 const SweepRecord* before_window(std::span<const SweepRecord> records) {
   for (std::size_t k = records.size(); k-- > 0;)
-    if (records[k].sweep <= records.back().sweep - window)
+    if (records[k].sweep <= records.back().sweep - StopRules::window)
       return &records[k];
   return nullptr;
 }
@@ -28,7 +17,7 @@ const SweepRecord* before_window(std::span<const SweepRecord> records) {
 std::optional<StopReason> StopRule::decide(std::span<const SweepRecord> records) const {
   const std::size_t n = records.size();
   const SweepRecord& last = records.back();
-  if (n > 1 && last.max_move < still)
+  if (n > 1 && last.max_move < SweepRules::still)
     return StopReason::converged;
   const SweepRecord* const past = before_window(records);
   if (past && last.sweep - records.front().sweep >= patience_.earliest) {
@@ -36,7 +25,7 @@ std::optional<StopReason> StopRule::decide(std::span<const SweepRecord> records)
     const double least = 1 - patience_.tolerance;
     const bool mean_stalled =
         last.mean_alpha - 1 >= least * (before.mean_alpha - 1) || before.mean_alpha - last.mean_alpha < patience_.seen;
-    const bool middle_stalled = !patience_.median || last.median_alpha - 1 < good_median ||
+    const bool middle_stalled = !patience_.median || last.median_alpha - 1 < StopRules::good_median ||
                                 last.median_alpha - 1 >= least * (before.median_alpha - 1);
     if (mean_stalled && middle_stalled)
       return StopReason::quality_stalled;
@@ -51,10 +40,10 @@ bool median_stalled(std::span<const SweepRecord> records) {
     return false;
   const double now = records.back().median_alpha - 1;
   const SweepRecord* const before = before_window(records);
-  return now < good_median || (before && now >= (1 - median_gain) * (before->median_alpha - 1));
+  return now < StopRules::good_median || (before && now >= (1 - StopRules::median_gain) * (before->median_alpha - 1));
 }
 
-SweepControl::SweepControl(const MeshOptions& options, const std::vector<SweepRecord>& history)
+SweepControl::SweepControl(const SweepOptions& options, const std::vector<SweepRecord>& history)
     : options_(options), history_(history) {
   use(options.method == Method::cvd ? Mover::cells : Mover::bars);
 }
@@ -84,37 +73,47 @@ void SweepControl::begin_stage(bool inserts, bool is_last) {
 }
 
 Patience SweepControl::patience() const {
+  Patience patience{.tolerance = tolerance()};
   if (mover_ == Mover::triangles) {
-    Patience patience = is_last_ ? patience_of_triangles : patience_of_coarse_triangles;
-    if (options_.stop_tolerance) {
-      patience.tolerance = *options_.stop_tolerance;
-      patience.seen = 0;
-    }
-    return patience;
+    patience.earliest = StopRules::window;
+    patience.median = false;
   }
-  if (options_.stop_tolerance)
-    return {.tolerance = *options_.stop_tolerance, .seen = 0};
-  const double tolerance = is_last_                ? tolerance_last
-                           : inserts_              ? tolerance_before_insertion
-                           : mover_ == Mover::bars ? tolerance_of_coarse_bars
-                                                   : tolerance_of_coarse_cells;
-  const bool patient = options_.method == Method::distmesh && records().back().median_alpha - 1 >= good_median;
-  return {(patient ? patience_of_bars : 1) * tolerance};
+  if (options_.stop_tolerance) {
+    patience.tolerance = *options_.stop_tolerance;
+    patience.seen = 0;
+  }
+  return patience;
+}
+
+/// Least gain in a window where the user does not set one.
+double SweepControl::tolerance() const {
+  if (mover_ == Mover::triangles)
+    return is_last_ ? StopRules::triangle_tolerance : StopRules::coarse_triangle_tolerance;
+  const double tolerance = is_last_                ? StopRules::last_tolerance
+                           : inserts_              ? StopRules::insertion_tolerance
+                           : mover_ == Mover::bars ? StopRules::coarse_bar_tolerance
+                                                   : StopRules::coarse_cell_tolerance;
+  const bool patient =
+      options_.method == Method::distmesh && records().back().median_alpha - 1 >= StopRules::good_median;
+  return (patient ? StopRules::bar_patience : 1) * tolerance;
 }
 
 std::span<const SweepRecord> SweepControl::records() const {
   return std::span(history_).subspan(first_record_);
 }
 
-std::optional<StopReason> SweepControl::decide() {
+SweepDecision SweepControl::decide() const {
   const auto reason = StopRule(options_.max_sweeps, patience()).decide(records());
   if (!may_switch_ || mover_ == Mover::triangles || reason == StopReason::sweep_cap)
-    return reason;
-  if (reason || (mover_ == Mover::bars && median_stalled(records()))) {
-    use(mover_ == Mover::bars ? Mover::cells : Mover::triangles);
-    first_record_ = history_.size() - 1;
-  }
-  return std::nullopt;
+    return {reason, std::nullopt};
+  if (reason || (mover_ == Mover::bars && median_stalled(records())))
+    return {std::nullopt, mover_ == Mover::bars ? Mover::cells : Mover::triangles};
+  return {};
+}
+
+void SweepControl::switch_to(Mover mover) {
+  use(mover);
+  first_record_ = history_.size() - 1;
 }
 
 std::string to_string(StopReason reason) {

@@ -3,29 +3,29 @@
 // times.
 #pragma once
 
-#include "trime/meshing/options.hpp"
-#include "trime/meshing/update_rule.hpp"
+#include "meshing/sweep_options.hpp"
+#include "meshing/sweep_rules.hpp"
+#include "meshing/update_rule.hpp"
+#include "trime/meshing/sweep_history.hpp"
 
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace trime::meshing {
 
-/// Sweeps from one measurement of the quality to the next.
-constexpr int measuring_interval = 3;
-
 /// When a rule has done what it can.
 struct Patience {
-  double tolerance;   ///< least share of alpha - 1 that six sweeps must gain
-  int earliest = 9;   ///< sweeps before it may stall
-  bool median = true; ///< the median of alpha must have stalled as well
-  double seen = 5e-5; ///< of mean alpha: as good as stalled if six sweeps gain less
+  double tolerance;                   ///< least share of alpha - 1 that a window must gain
+  int earliest = StopRules::earliest; ///< sweeps before it may stall
+  bool median = true;                 ///< the median of alpha must have stalled as well
+  double seen = StopRules::seen;      ///< of mean alpha: as good as stalled if a window gains less
 };
 
-/// @brief Converged: no site moved by more than 0.005 h in the last sweep. Quality stalled: the mean of
-/// alpha - 1 fell by less than the tolerance, or by less than anybody sees, over the last six sweeps. Sweep cap: the
-/// moves since the start of the run.
+/// @brief Says when a stage ends. Converged: no site moved by more than SweepRules::still in the last sweep. Quality
+/// stalled: the mean of alpha - 1 fell by less than the tolerance, or by less than anybody sees, over the last window.
+/// Sweep cap: the moves since the start of the run.
 class StopRule {
 public:
   StopRule(int max_sweeps, const Patience& patience) : max_sweeps_(max_sweeps), patience_(patience) {}
@@ -37,12 +37,15 @@ private:
   Patience patience_;
 };
 
-/// @brief The median of alpha - 1 fell by less than 0.3 of itself over the last six sweeps, or is below 0.001: bars
-/// have done what they can do quickly.
+/// True if bars have done what they can do quickly: the median of alpha - 1 fell by less than StopRules::median_gain of
+/// itself over the last window, or is good already.
 bool median_stalled(std::span<const SweepRecord> records);
 
-/// What moves the sites.
-enum class Mover { bars, cells, triangles };
+/// What follows a record: the end of the stage, a change of the rule, or neither.
+struct SweepDecision {
+  std::optional<StopReason> stop; ///< why the stage ends
+  std::optional<Mover> next;      ///< what is to move the sites from now on
+};
 
 /// @brief The rule of each sweep. `distmesh` and `cvd` stay with theirs. `hybrid` starts with bars and goes over to
 /// Voronoi cells, once and for all, when the median of alpha stalls: in the first stage if the later ones divide a
@@ -50,21 +53,25 @@ enum class Mover { bars, cells, triangles };
 /// ends the stage, and does all the work in the stages after a division: they start in order.
 class SweepControl {
 public:
-  SweepControl(const MeshOptions& options, const std::vector<SweepRecord>& history);
+  /// @param history of the run, which goes on growing; outlives this object
+  SweepControl(const SweepOptions& options, const std::vector<SweepRecord>& history);
 
   /// @param inserts the stages to come insert points @param is_last no stage comes
   void begin_stage(bool inserts, bool is_last);
-  /// After a triangulation was recorded: the rule of the next move, or why the stage ends.
-  std::optional<StopReason> decide();
+  /// What follows the last record; changes nothing. @pre the stage has a record
+  SweepDecision decide() const;
+  /// Sites are moved by another rule from now on, which counts its gains from the last record.
+  void switch_to(Mover mover);
   UpdateRule& rule() { return *rule_; }
   Mover mover() const { return mover_; }
 
 private:
   void use(Mover mover);
   Patience patience() const;
+  double tolerance() const;
   std::span<const SweepRecord> records() const;
 
-  const MeshOptions options_;
+  const SweepOptions options_;
   const std::vector<SweepRecord>& history_;
   std::unique_ptr<UpdateRule> rule_;
   Mover mover_ = Mover::bars;

@@ -14,26 +14,21 @@ namespace trime::meshing {
 
 /// What the pass does with a site.
 enum class SiteClass : std::uint8_t {
-  held,     ///< stays, and has no star: on the boundary
-  fixed,    ///< stays, but has a star to be certified by emptiness
+  held,     ///< stays, and has no star: a boundary site
+  fixed,    ///< stays, but has a star, which is certified by emptiness: a point that the user has fixed
   exact,    ///< moves; its star is certified by emptiness, since not all neighbours have stars that this rank keeps
   bordered, ///< moves; beside chords of the boundary: as `local` while no site is in the disc of a chord nearby
   local     ///< moves; its star is certified by the stars around it
 };
 
-constexpr double move_cap = 0.4; ///< moves are cut to this, in h
-constexpr double still = 0.005;  ///< sites that move by more are called moving
-constexpr double rest = 1e-5;    ///< shorter moves are not made: most of a lattice then stays as it is, bit for bit
-constexpr double largest_power = 0x1p10; ///< of one site, keeps sums within their reach
-
-/// Plain arrays by local index, and what is the same for all sites.
+/// What a kernel works on: plain arrays by local index, and what is the same for all sites.
 struct SweepTask {
   const geometry::Vec2* positions;
-  const geometry::Vec2* leads; ///< null, like next_leads, where no sites will go: they are only to be certified
+  const geometry::Vec2* leads; ///< null, like next_leads, where sites have none: then all are zero
   const LocalIndex* rings;     ///< 8 slots each, a shorter ring is repeated in them
   const std::uint8_t* degrees;
   const SiteClass* classes;
-  SiteClass least_class = SiteClass::local; ///< sites of a class before it are left to others
+  SiteClass least_class = SiteClass::local; ///< sites of a lower class are left to the caller
   const double* sizes = nullptr;            ///< null: uniform_size everywhere
   double uniform_size = 1;
   geometry::Vec2* next_positions;
@@ -41,7 +36,7 @@ struct SweepTask {
 
   RuleParameters rule;
   double lattice_step = 1, inverse_lattice_step = 1;
-  geometry::Box box;                      ///< that no site leaves
+  geometry::Box box;                      ///< no site leaves it; infinite along periodic axes
   double cap_factor = 1, largest_cap = 1; ///< as in StarBuilder::cap
 
   /// BoundaryGuard::CellView.
@@ -53,7 +48,7 @@ struct SweepTask {
 
 /// What the moves of some sites add up to, in integers: in any order.
 struct SweepTally {
-  std::int64_t moving = 0; ///< moved by more than `still`
+  std::int64_t moving = 0; ///< moved by more than SweepRules::still
   std::int64_t power = 0;  ///< of the moves, in units of FixedSum, see Momentum
   std::int64_t pushed = 0, deleted = 0;
   double squared_ratio = 0;    ///< largest squared move over h^2
@@ -80,18 +75,18 @@ struct SiteTally {
     squared_distance = x * x + y * y;
     squared_ratio = squared_distance * inverse;
     const V raw = -(move_x * (move_x + lead_x) + move_y * (move_y + lead_y)) * inverse;
-    const V low = V{} - largest_power, high = V{} + largest_power;
+    const V low = V{} - SweepRules::largest_power, high = V{} + SweepRules::largest_power;
     const V above = lanes::select(raw > low, raw, low);
     power = lanes::select(above < high, above, high);
   }
 };
 
-/// Sites that the pass leaves to others, each list ascending whatever the number of lanes; room for all of them is the
-/// caller's.
+/// Sites that the pass leaves to its caller, each list ascending with any number of lanes. The caller makes room for
+/// all of them.
 struct SweepLeftovers {
   LocalIndex* suspects;  ///< whose stars must be certified by emptiness before they move
-  LocalIndex* irregular; ///< with good stars, but a long move: not made
-  LocalIndex* guarded;   ///< moved to near the boundary, where they may have to be pushed
+  LocalIndex* irregular; ///< with good stars, but with a move above the cap, which is not made
+  LocalIndex* guarded;   ///< moved to a place near the boundary, where they may have to be pushed
   std::ptrdiff_t suspect_count = 0, irregular_count = 0, guarded_count = 0;
 };
 
@@ -101,6 +96,11 @@ struct SweepLeftovers {
 /// @pre the rings of all local sites and their neighbours agree with each other
 /// @return tally of the sites that it moved
 using SweepKernel = SweepTally (*)(const SweepTask& task, LocalIndex begin, LocalIndex end, SweepLeftovers& leftovers);
+
+/// @brief Certifies the same stars and moves nothing: receives the sites whose stars must be certified by emptiness,
+/// ascending, with room for all of them. Needs no rule, leads and next places. About 10 ns a site.
+/// @return number of these sites
+using CertifyKernel = std::ptrdiff_t (*)(const SweepTask& task, LocalIndex begin, LocalIndex end, LocalIndex* suspects);
 
 /// Sums over the stars of some sites, in units of FixedSum; see SweepSums.
 struct QualityTally {
@@ -115,9 +115,11 @@ struct QualityTally {
     largest_excess = largest_excess < other.largest_excess ? other.largest_excess : largest_excess;
   }
 };
-constexpr double largest_term = 0x1p17, largest_excess_term = 1000; ///< keep sums within their reach
 
-/// @brief Measures the stars of the local sites of [begin, end), at most 1024. A triangle counts at the
+/// Most sites of one call of QualityKernel: keeps its sums within 64 bits, and the list of excesses in the cache.
+constexpr LocalIndex most_measured = 1024;
+
+/// @brief Measures the stars of the local sites of [begin, end), at most `most_measured`. A triangle counts at the
 /// lexicographically smallest of its corners. About 15 ns a site.
 /// @param inverse_reference 1 / h_ref of SweepSums
 /// @param excesses receives alpha - 1 of each triangle; room for 8 a site
@@ -127,6 +129,7 @@ using QualityKernel = QualityTally (*)(const SweepTask& task, LocalIndex begin, 
 /// The kernels for one kind of processor.
 struct SweepKernels {
   SweepKernel sweep;
+  CertifyKernel certify;
   QualityKernel measure;
 };
 extern const SweepKernels portable_kernels, avx2_kernels, avx512_kernels;

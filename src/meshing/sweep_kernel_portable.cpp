@@ -5,6 +5,6 @@
 
 namespace trime::meshing {
 
-const SweepKernels portable_kernels{sweep_lanes, measure_lanes};
+const SweepKernels portable_kernels{sweep_lanes, certify_lanes, measure_lanes};
 
 } // namespace trime::meshing

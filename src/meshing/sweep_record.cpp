@@ -33,20 +33,20 @@ private:
 
 } // namespace
 
-SweepSummary summarize_sweep(const comm::Communicator& comm, const Layout& layout, Sweeper& sweeper,
-                             const Sweeper::Counts& counts) {
+SweepSummary summarize_sweep(const SiteState& state, Sweeper& sweeper, const Sweeper::Counts& counts,
+                             double typical_size, GlobalId held) {
   SweepSummary summary;
   SweepSums& sums = summary.sums;
   SweepRecord& record = summary.record;
-  sums = sweeper.measure(layout.typical_size);
+  sums = sweeper.measure(typical_size);
   Packer packer;
   for (const FixedSum* sum : {&sums.squared_length_ratio, &sums.squared_size_ratio, &sums.excess_alpha})
     packer.add(*sum);
   packer.add(sums.triangles);
-  packer.add(std::int64_t{layout.state->points().owned()});
+  packer.add(std::int64_t{state.points().owned()});
   for (const std::int64_t count : sums.alpha_bins.counts())
     packer.add(count);
-  comm.sum_and_max(packer.values, std::span(&sums.max_alpha, 1));
+  state.comm().sum_and_max(packer.values, std::span(&sums.max_alpha, 1));
 
   for (FixedSum* sum : {&sums.squared_length_ratio, &sums.squared_size_ratio, &sums.excess_alpha})
     *sum = packer.take_sum();
@@ -62,7 +62,7 @@ SweepSummary summarize_sweep(const comm::Communicator& comm, const Layout& layou
   record.pushed = counts.pushed;
   record.deleted = counts.deleted;
   sums.power = counts.power;
-  const GlobalId inner = record.points - layout.placed_first();
+  const GlobalId inner = record.points - held;
   record.moving_share = inner > 0 ? static_cast<double>(counts.moving) / static_cast<double>(inner) : 0;
   return summary;
 }

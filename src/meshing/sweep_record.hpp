@@ -2,10 +2,9 @@
 // What one sweep did, summed over all ranks.
 #pragma once
 
-#include "meshing/layout.hpp"
+#include "meshing/sweep_sums.hpp"
 #include "meshing/sweeper.hpp"
-#include "trime/meshing/options.hpp"
-#include "trime/meshing/update_rule.hpp"
+#include "trime/meshing/sweep_history.hpp"
 
 #include <string>
 
@@ -20,8 +19,10 @@ struct SweepSummary {
 /// @brief Measures the stars of the inner sites, with one packed reduction of quality and sums for the rule. Leaves
 /// `sweep`, `stage`, `by_bars` and `seconds` of the record to the caller. Collective.
 /// @param counts of the sweeps since the last record
-SweepSummary summarize_sweep(const comm::Communicator& comm, const Layout& layout, Sweeper& sweeper,
-                             const Sweeper::Counts& counts);
+/// @param typical_size any typical h, see SweepSums
+/// @param held sites on all ranks that never move: boundary sites and fixed points
+SweepSummary summarize_sweep(const SiteState& state, Sweeper& sweeper, const Sweeper::Counts& counts,
+                             double typical_size, GlobalId held);
 
 /// The line of the log.
 std::string to_string(const SweepRecord& record);

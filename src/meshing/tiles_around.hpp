@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// The tiles beside a tile, and which tiles of a rank have none of another rank beside them.
 #pragma once
 
+#include "trime/mesh/binned_points.hpp"
 #include "trime/mesh/tile_grid.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <vector>
 
 namespace trime::meshing {
 
@@ -15,6 +19,22 @@ void for_tiles_around(const mesh::TileGrid& grid, LocalIndex tile, const Visit& 
   for (int y = std::max(0, row - 1); y <= std::min(grid.tiles_y() - 1, row + 1); ++y)
     for (int x = std::max(0, column - 1); x <= std::min(grid.tiles_x() - 1, column + 1); ++x)
       visit(grid.tile_at(x, y));
+}
+
+/// Where an owned tile lies. Inner tiles have only tiles of this rank around them: they can be swept while the ghosts
+/// are on their way.
+enum class TilePlace : std::uint8_t { inner, at_border };
+
+/// The places of the owned tiles, in order.
+inline std::vector<TilePlace> places_of_tiles(const mesh::BinnedPoints& points) {
+  const LocalIndex first = points.first_tile(), last = points.last_tile();
+  std::vector<TilePlace> places(static_cast<std::size_t>(last - first), TilePlace::inner);
+  for (LocalIndex tile = first; tile < last; ++tile)
+    for_tiles_around(points.grid(), tile, [&](LocalIndex other) {
+      if (other < first || other >= last)
+        places[static_cast<std::size_t>(tile - first)] = TilePlace::at_border;
+    });
+  return places;
 }
 
 } // namespace trime::meshing

@@ -12,6 +12,7 @@
 #include "trime/meshing/fixed_point.hpp"
 #include "trime/meshing/loop_summary.hpp"
 #include "trime/meshing/start_choice.hpp"
+#include "trime/meshing/sweep_history.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -19,10 +20,6 @@
 #include <vector>
 
 namespace trime::meshing {
-
-/// How points move: repulsive bars; centroids of Voronoi cells; bars until the median of alpha stalls, then centroids,
-/// and at last towards equilateral triangles (TriangleRule).
-enum class Method { distmesh, cvd, hybrid };
 
 struct MeshOptions {
   geometry::Box container{{0, 0}, {1, 1}};
@@ -43,8 +40,8 @@ struct MeshOptions {
   /// largest for their place. Empty: all at once, in the way that `start` names.
   std::optional<double> initial_fraction;
   std::optional<double> min_size, max_size; ///< absolute bounds on h
-  /// Exponent of 1/h in the weight of the Voronoi cells: 4 keeps the spacing proportional to h (see CvdRule); others
-  /// are for comparisons.
+  /// Exponent of 1/h in the weight of the Voronoi cells: 4 keeps the spacing proportional to h; others are for
+  /// comparisons.
   int density_exponent = 4;
   bool cleanup = true; ///< mend the worst triangles after the sweeps
   /// Compare every star after every sweep with one that is computed anew: slow, for tests. @throws InternalError
@@ -56,23 +53,6 @@ struct MeshOptions {
   std::vector<FixedPoint> fixed_points;
   /// 0: none; -2: a snapshot of the first triangulation; n > 0: of the first and of every n-th.
   int snapshot_interval = 0;
-};
-
-enum class StopReason { converged, quality_stalled, sweep_cap };
-/// "converged", "quality stalled", "sweep cap".
-std::string to_string(StopReason reason);
-
-/// One line of history: a triangulation whose quality was measured, and what the moves since the last one did.
-struct SweepRecord {
-  int sweep = 0;
-  GlobalId points = 0;
-  int stage = 0;        ///< of the point scheme: a level of the coarse-to-fine start, or an insertion
-  bool by_bars = false; ///< the move after this triangulation is that of DistMesh, else of cells or triangles
-  double median_alpha = 1, mean_alpha = 1, max_alpha = 1;
-  double max_move = 0;     ///< longest move over local h
-  double moving_share = 0; ///< share of the sites that moved more than 0.005 h
-  GlobalId rebuilt_stars = 0, pushed = 0, deleted = 0;
-  double seconds = 0; ///< since the start of the run; differs from run to run
 };
 
 struct MeshResult {

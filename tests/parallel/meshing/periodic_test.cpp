@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The whole mesher in periodic containers: certified, the same bits on any ranks, and lattices that stay.
-#include "meshing/boundary_treatment.hpp"
 #include "meshing/fixed_points.hpp"
+#include "meshing/guard_treatment.hpp"
 #include "meshing/layout.hpp"
 #include "meshing/plan_start.hpp"
 #include "meshing/sweep_record.hpp"
@@ -210,7 +210,7 @@ TEST(PeriodicMesher, APerturbedHexagonalTorusReturns) {
     Sweeper::Counts moved;
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       UpdateRule& rule = sweep < by_bars ? static_cast<UpdateRule&>(bars) : cells;
-      rule.begin_sweep(summarize_sweep(world, layout, sweeper, moved).sums);
+      rule.begin_sweep(summarize_sweep(*layout.state, sweeper, moved, layout.typical_size, layout.placed_first()).sums);
       sweeper.prepare(rule);
       moved = sweeper.commit();
     }

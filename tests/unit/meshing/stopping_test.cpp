@@ -83,20 +83,26 @@ TEST(StopRule, PatienceMayBeShortAndLookAtTheMeanAlone) {
   EXPECT_EQ(StopRule(100, {0.07, 6, true}).decide(records), std::nullopt) << "the median still falls";
 }
 
+/// Decides and carries it out, as the mesher does.
+SweepDecision follow(SweepControl& control) {
+  const SweepDecision decision = control.decide();
+  if (decision.next)
+    control.switch_to(*decision.next);
+  return decision;
+}
+
 /// Feeds a history line by line; notes after how many triangulations the stage ended, and when bars and cells were
 /// left.
 struct StagedRun {
   StagedRun(Method method, bool inserts, bool is_last, double factor) {
-    MeshOptions options;
-    options.method = method;
-    options.max_sweeps = 60;
+    const SweepOptions options{method, 60, {}, SweepRules::density_exponent};
     std::vector<SweepRecord> records;
     SweepControl control(options, records);
     control.begin_stage(inserts, is_last);
     started_with_bars = control.mover() == Mover::bars;
     for (const SweepRecord& record : history(100, factor)) {
       records.push_back(record);
-      reason = control.decide();
+      reason = follow(control).stop;
       if (control.mover() != Mover::bars && left_bars < 0)
         left_bars = record.sweep;
       if (control.mover() == Mover::triangles && left_cells < 0)
@@ -134,13 +140,13 @@ TEST(SweepControl, HybridKeepsBarsWhilePointsAreStillInserted) {
 }
 
 TEST(SweepControl, HybridHasOnlyTrianglesAfterADivision) {
-  MeshOptions options;
+  const SweepOptions options{Method::hybrid, 500, {}, SweepRules::density_exponent};
   std::vector<SweepRecord> records;
   SweepControl control(options, records);
   control.begin_stage(false, false);
   for (const SweepRecord& record : history(60, 0.999)) {
     records.push_back(record);
-    if (control.decide())
+    if (follow(control).stop)
       break;
   }
   EXPECT_EQ(control.mover(), Mover::triangles);
@@ -151,14 +157,14 @@ TEST(SweepControl, HybridHasOnlyTrianglesAfterADivision) {
   for (const SweepRecord& record : history(60, 0.97)) { // 17 % in six sweeps
     records.push_back(record);
     EXPECT_EQ(control.mover(), Mover::triangles);
-    reason = control.decide();
+    reason = follow(control).stop;
     if (reason)
       break;
   }
   EXPECT_EQ(reason, std::nullopt);
   records.push_back(records.back());
   records.back().mean_alpha = records[records.size() - 8].mean_alpha;
-  EXPECT_EQ(control.decide(), StopReason::quality_stalled);
+  EXPECT_EQ(control.decide().stop, StopReason::quality_stalled);
 }
 
 TEST(SweepControl, TheCapEndsWhateverRuns) {

@@ -6,6 +6,6 @@
 
 namespace trime::meshing {
 
-const SweepKernels portable_kernels_of_4_lanes{sweep_lanes, measure_lanes};
+const SweepKernels portable_kernels_of_4_lanes{sweep_lanes, certify_lanes, measure_lanes};
 
 } // namespace trime::meshing

@@ -2,10 +2,10 @@
 // The vector kernels against the rules themselves, star by star: the same bits on every kind of processor.
 #include "meshing/sweep_kernel.hpp"
 
+#include "meshing/update_rule.hpp"
 #include "support/point_sets.hpp"
 #include "trime/core/simd_level.hpp"
 #include "trime/delaunay/star_builder.hpp"
-#include "trime/meshing/update_rule.hpp"
 #include "unit/meshing/portable_sweep_kernels.hpp"
 
 #include <gtest/gtest.h>

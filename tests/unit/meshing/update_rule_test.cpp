@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The update rules and the sums that steer them.
+#include "meshing/update_rule.hpp"
 #include "support/point_sets.hpp"
 #include "trime/delaunay/star_builder.hpp"
 #include "trime/mesh/quality.hpp"
-#include "trime/meshing/update_rule.hpp"
 
 #include <gtest/gtest.h>
 
@@ -266,7 +266,8 @@ double energy_at(const Cloud& cloud, LocalIndex i, Vec2 p, double h) {
     const Vec2 a = cloud.points.position(ring[k]), b = cloud.points.position(ring[(k + 1) % ring.size()]);
     const double area = geometry::cross(a - p, b - p) / 2, wanted = std::sqrt(3) / 4 * h * h;
     const double squares = geometry::dot(a - p, a - p) + geometry::dot(b - p, b - p) + geometry::dot(b - a, b - a);
-    energy += squares / (4 * std::sqrt(3) * area) + TriangleRule::stiffness * (area / wanted + wanted / area - 2);
+    energy +=
+        squares / (4 * std::sqrt(3) * area) + SweepRules::triangle_stiffness * (area / wanted + wanted / area - 2);
   }
   return energy;
 }
@@ -291,7 +292,7 @@ TEST(TriangleRule, StepsTowardsTheLeastEnergyOfTheStar) {
     const double determinant = xx * yy - xy * xy;
     const Vec2 newton = (-1 / determinant) * Vec2{yy * gradient.x - xy * gradient.y, xx * gradient.y - xy * gradient.x};
     const Vec2 step = rule.step(cloud.view(), i).move;
-    EXPECT_LT(geometry::length(step - 0.7 * newton), 1e-4 * spacing);
+    EXPECT_LT(geometry::length(step - SweepRules::triangle_damping * newton), 1e-4 * spacing);
     EXPECT_LT(energy(step), energy({}));
     ++stars;
   }

@@ -1,48 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a sweep wants each inner site to go. One of the two seams of the library (the other is the size field).
+// The update rules: where a sweep wants each inner site to go.
 #pragma once
 
+#include "meshing/rule_parameters.hpp"
 #include "meshing/star_view.hpp"
-#include "trime/core/sum.hpp"
-#include "trime/delaunay/star_table.hpp"
-#include "trime/mesh/binned_points.hpp"
-#include "trime/mesh/local_sizes.hpp"
-#include "trime/meshing/alpha_bins.hpp"
-#include "trime/meshing/rule_parameters.hpp"
-#include "trime/sizing/size_field.hpp"
-
-#include <cstdint>
-#include <span>
-#include <vector>
+#include "meshing/sweep_sums.hpp"
+#include "trime/geometry/vec2.hpp"
 
 namespace trime::meshing {
-
-/// Sums of one sweep over the inner sites of a rank, in integers: their order is irrelevant.
-struct SweepSums {
-  FixedSum squared_length_ratio; ///< L^2 / h_ref^2 over the bars seen from inner sites
-  FixedSum squared_size_ratio;   ///< h^2 / h_ref^2 over the same bars, h the mean of both ends
-  FixedSum excess_alpha;         ///< alpha - 1, each triangle with an inner site once
-  AlphaBins alpha_bins;          ///< of the same triangles
-  std::int64_t triangles = 0;
-  double max_alpha = 1;
-  FixedSum power; ///< of the last move: sum of -move . (move + lead before) / h^2, each term at most 2^10
-
-  void add(const SweepSums& other);
-};
-
-/// Adds the star of the inner site i.
-void measure_star(const StarView& view, LocalIndex i, double reference_size, SweepSums& sums);
-
-/// Sums over the inner owned sites. Threads over tiles. @param reference_size h_ref, any typical size
-SweepSums measure(const StarView& view, double reference_size);
 
 /// What a rule wants of a site: a move to its next iterate, and from there a lead along the way that it came.
 struct Step {
   geometry::Vec2 move, lead;
 };
 
-/// @brief A gather kernel: the new position of a site from its own ring, neighbours in canonical order, old positions
-/// only (Jacobi). The result must be a pure function of these coordinates, of h and of the sums over all ranks.
+/// @brief Finds the next place of a site from its own ring alone: neighbours in canonical order, at their old places,
+/// so that all sites may move at once (Jacobi). The result is a pure function of these places, of h and of the sums
+/// over all ranks. Private to the sweeps: the vector kernels know every rule, so that no user can add one.
 class UpdateRule {
 public:
   virtual ~UpdateRule() = default;
@@ -64,8 +38,7 @@ public:
   RuleParameters parameters() const override;
 
 private:
-  static constexpr double pressure = 1.2;
-  double length_scale_ = pressure; // L0 / h
+  double length_scale_ = SweepRules::bar_pressure; // L0 / h
 };
 
 /// @brief Acceleration of a descent (Nesterov 1983): from the iterate x' = y + move(y) the next move is taken at
@@ -79,7 +52,6 @@ public:
   double factor() const { return factor_; }
 
 private:
-  static constexpr double largest = 0.95;
   int age_ = 0; // sweeps since the last restart
   double factor_ = 0;
 };
@@ -98,7 +70,7 @@ private:
 class CvdRule final : public UpdateRule {
 public:
   /// @param exponent of 1/h in the weight, 0..8
-  explicit CvdRule(int exponent = 4) : exponent_(exponent) {}
+  explicit CvdRule(int exponent = SweepRules::density_exponent) : exponent_(exponent) {}
   void begin_sweep(const SweepSums& sums) override;
   Step step(const StarView& view, LocalIndex i) const override;
   RuleParameters parameters() const override;
@@ -127,8 +99,6 @@ private:
 /// W is taken as constant in a step, so that a mesh with A = W everywhere stays as it is.
 class TriangleRule final : public UpdateRule {
 public:
-  static constexpr double stiffness = 0.25; ///< k
-
   void begin_sweep(const SweepSums& sums) override;
   Step step(const StarView& view, LocalIndex i) const override;
   RuleParameters parameters() const override;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sites in the discs of the boundary are pushed out or go, the same on any ranks.
-#include "meshing/boundary_treatment.hpp"
+#include "meshing/guard_treatment.hpp"
 
 #include "meshing/boundary_sites.hpp"
 #include "support/boundary_shapes.hpp"

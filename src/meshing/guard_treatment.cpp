@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "meshing/boundary_treatment.hpp"
+#include "meshing/guard_treatment.hpp"
 
-#include "meshing/sweep_kernel.hpp"
+#include "meshing/sweep_rules.hpp"
 #include "trime/comm/agree.hpp"
 #include "trime/core/random.hpp"
 #include "trime/core/thread_loop.hpp"
@@ -40,13 +40,14 @@ Vec2 into_box(Vec2 p, const mesh::TileGrid& grid) {
 
 bool is_chosen(Vec2 p, int round) {
   return random_unit(static_cast<std::uint64_t>(round), RandomPurpose::deletion, std::bit_cast<std::uint64_t>(p.x),
-                     std::bit_cast<std::uint64_t>(p.y)) < 1.0 / 3;
+                     std::bit_cast<std::uint64_t>(p.y)) < SweepRules::deleted_share;
 }
 
 Treated treat_step(const MoveContext& context, const mesh::TileGrid& grid, const mesh::Site& site, double h, Step step,
                    int allowed) {
-  step = capped(step, move_cap * h);
-  if (const Vec2 way = step.move + step.lead; geometry::squared_length(way) < (rest * h) * (rest * h))
+  step = capped(step, SweepRules::move_cap * h);
+  if (const Vec2 way = step.move + step.lead;
+      geometry::squared_length(way) < (SweepRules::rest * h) * (SweepRules::rest * h))
     step = {};
   const Vec2 way = step.move + step.lead;
   return treat_place(context, grid, site, h, context.lattice.snap(into_box(site.position + way, grid)), step.lead,
@@ -69,15 +70,13 @@ Treated treat_place(const MoveContext& context, const mesh::TileGrid& grid, cons
 
 namespace {
 
-constexpr int settle_rounds = 12, settle_pushes = 8;
-
-/// @brief All rounds of one site that no rule moves: pushed, then deleted when it is its turn, at last in any case.
-/// Nobody else moves its discs, so it needs nobody else. @return nothing if it may stay where it is
+/// @brief All rounds of one site that no rule moves. It is pushed, then deleted when it is its turn, in the end in any
+/// case. The discs stay, so that the site can be treated without the others. @return nothing if it may stay where it is
 std::optional<Treated> settled(const MoveContext& context, const mesh::TileGrid& grid, mesh::Site site, double h) {
   std::optional<Treated> last;
-  for (int round = 0; round < settle_rounds; ++round) {
-    const bool delete_all = round >= settle_pushes;
-    Treated treated = treat_step(context, grid, site, h, {}, delete_all ? 0 : pushes_allowed);
+  for (int round = 0; round < SweepRules::settling_rounds; ++round) {
+    const bool delete_all = round >= SweepRules::patient_settling_rounds;
+    Treated treated = treat_step(context, grid, site, h, {}, delete_all ? 0 : SweepRules::pushes_allowed);
     if (!treated.deleted && !treated.pushed)
       return last;
     treated.deleted &= delete_all || is_chosen(site.position, round);
