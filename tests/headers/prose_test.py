@@ -112,6 +112,13 @@ def broken_links(page):
     return broken
 
 
+def modules():
+    """The modules that scripts/check_layers.py knows."""
+    sys.path.insert(0, str(ROOT / "scripts"))
+    import check_layers
+    return sorted(check_layers.ARROWS)
+
+
 class Prose(unittest.TestCase):
     def test_the_counter_itself(self):
         self.assertEqual(count_words("A `b c d` [link here](far/away.md), 3 - 4 cm."), 5)
@@ -134,6 +141,14 @@ class Prose(unittest.TestCase):
 
     def test_the_first_page_is_read_in_five_minutes(self):
         self.assertLessEqual((ROOT / "README.md").stat().st_size, MOST_BYTES_OF_README)
+
+    def test_every_module_has_its_line(self):
+        text = (ROOT / "src" / "README.md").read_text(encoding="utf-8")
+        picture = re.search(r"## The layers.*?```(.*?)```", text, re.DOTALL).group(1)
+        for module in modules():
+            with self.subTest(module=module):
+                self.assertRegex(text, rf"(?m)^\| `{module}` \| \w")
+                self.assertRegex(picture, rf"\b{module}\b")
 
     def test_links_lead_somewhere(self):
         self.assertEqual([line for page in PAGES for line in broken_links(page)], [])
