@@ -29,8 +29,9 @@ struct MeshFileOptions {
 /// that view is not wanted.
 std::string field_group(const MeshFileOptions& options, const char* name);
 
-/// @brief Makes the directory if it is missing and sees that the files can be written: to be called before work starts
-/// that would be lost. @return warnings, e.g. of files that a killed run has left; on rank 0 only
+/// @brief Makes the directory if it is missing and sees that the files can be written. To be called before work starts
+/// that would be lost.
+/// @return warnings, e.g. of files that a killed run has left; on rank 0 only
 /// @throws FileError on all ranks if the directory cannot be made or written, or a file exists and may not be
 /// overwritten
 /// @note Collective.

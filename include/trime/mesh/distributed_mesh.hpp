@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The finished mesh as it lies on the ranks: contiguous slabs of points, triangles and boundary edges in the canonical
-// global order (points along the Hilbert curve, triangles and edges by their lowest vertex). Plain data.
+// The finished mesh as it lies on the ranks: contiguous slabs of points, triangles and facets in the canonical global
+// order. Points lie along the Hilbert curve; triangles and facets go by their lowest vertex. Plain data.
 #pragma once
 
 #include "trime/core/types.hpp"
