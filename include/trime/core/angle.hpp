@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sine, cosine and the angle of a vector from + - * / sqrt alone. They give the same bits with every compiler and C
-// library, so points on circular arcs may become coordinates of a mesh.
+// Sine, cosine and the angle of a vector from + - * / sqrt alone: the same bits with every compiler and C library,
+// so that points on circular arcs may become coordinates of a mesh.
 #pragma once
 
 namespace trime {
