@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a sweep wants each inner site to go.
+// Where a sweep wants each inner site to go. One of the two seams of the library (the other is the size field).
 #pragma once
 
 #include "trime/core/sum.hpp"
