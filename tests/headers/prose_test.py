@@ -112,6 +112,17 @@ def broken_links(page):
     return broken
 
 
+def missing_files(page):
+    """Files that a page names in `code` and that are not there; a bare module/file.hpp is one of src or include/trime."""
+    text = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+    missing = []
+    for name in re.findall(r"`((?:[\w.]+/)+[\w.]+\.(?:hpp|cpp|py|sh|ini|sbatch|xy))`", text):
+        places = [ROOT / name, page.parent / name, ROOT / "src" / name, ROOT / "include" / "trime" / name]
+        if not any(place.exists() for place in places):
+            missing.append(f"{page.relative_to(ROOT)}: {name}")
+    return missing
+
+
 def modules():
     """The modules that scripts/check_layers.py knows."""
     sys.path.insert(0, str(ROOT / "scripts"))
@@ -150,6 +161,9 @@ class Prose(unittest.TestCase):
                          [], "modules without a row in the table of duties in src/README.md")
         self.assertEqual([module for module in modules() if not re.search(rf"\b{module}\b", picture)], [],
                          "modules that are not in the picture of src/README.md")
+
+    def test_files_that_pages_name_are_there(self):
+        self.assertEqual([line for page in PAGES for line in missing_files(page)], [])
 
     def test_links_lead_somewhere(self):
         self.assertEqual([line for page in PAGES for line in broken_links(page)], [])
