@@ -8,7 +8,7 @@ A number stands in a struct whose name ends in `Rules` or `Options`, below its u
     static constexpr double still = 0.005;
 
 Usage: rules_table.py [--check PAGE | --write PAGE] [--root ROOT]
-  --check PAGE   compares the tables with the part of PAGE between the lines that MARKS names; exits with 1 if they differ
+  --check PAGE   compares the tables with the part of PAGE between the lines of MARKS; exits with 1 if they differ
   --write PAGE   puts them there
 Exits with 1 for a number without unit or reason. Warns, on the error stream, of one name with several values: two
 structs may use one word for two things only if their reasons say which things these are.

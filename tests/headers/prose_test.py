@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Can a stranger read our prose once? No sentence of the pages or of the public headers has more than 30 words.
 
-Pages are README.md and the README.md of each folder, without tables, code blocks and lists of sources. Run by hand, this
-prints the long sentences of the files that are named: prose_test.py FILE...
+Pages are README.md and the README.md of each folder, without tables, code blocks and lists of sources. Run by hand,
+this prints the long sentences of the files that are named: prose_test.py FILE...
 """
 import pathlib
 import re
@@ -105,7 +105,7 @@ def broken_links(page):
         file = (page.parent / name) if name else page
         if not file.exists():
             broken.append(f"{page.relative_to(ROOT)}: {target}: there is no such file")
-        elif part and part not in {anchor(h) for h in re.findall(r"^#+ +(.*)$", file.read_text(encoding="utf-8"), re.M)}:
+        elif part and part not in map(anchor, re.findall(r"^#+ +(.*)$", file.read_text(encoding="utf-8"), re.M)):
             broken.append(f"{page.relative_to(ROOT)}: {target}: there is no such heading")
         elif target.startswith("/"):
             broken.append(f"{page.relative_to(ROOT)}: {target}: not relative")
@@ -113,7 +113,7 @@ def broken_links(page):
 
 
 def missing_files(page):
-    """Files that a page names in `code` and that are not there; a bare module/file.hpp is one of src or include/trime."""
+    """Files that a page names in `code` and that are not there; module/file.hpp lies in src or include/trime."""
     text = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
     missing = []
     for name in re.findall(r"`((?:[\w.]+/)+[\w.]+\.(?:hpp|cpp|py|sh|ini|sbatch|xy))`", text):
@@ -157,7 +157,7 @@ class Prose(unittest.TestCase):
         text = (ROOT / "src" / "README.md").read_text(encoding="utf-8")
         picture = re.search(r"## The layers.*?```(.*?)```", text, re.DOTALL).group(1)
         rows = [line for line in text.splitlines() if line.startswith("| `")]
-        self.assertEqual([module for module in modules() if not any(row.startswith(f"| `{module}` | ") for row in rows)],
+        self.assertEqual([module for module in modules() if not any(row.startswith(f"| `{module}` |") for row in rows)],
                          [], "modules without a row in the table of duties in src/README.md")
         self.assertEqual([module for module in modules() if not re.search(rf"\b{module}\b", picture)], [],
                          "modules that are not in the picture of src/README.md")

@@ -45,7 +45,8 @@ class RulesTable(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout.splitlines(), [
             "#### sweep", "", "| name | value | unit | reason |", "|---|---|---|---|",
-            "| `SweepRules::still` | 0.005 | h | A move shorter than this counts as rest. With 0.01 sweeps stop \\| earlier. |",
+            "| `SweepRules::still` | 0.005 | h | A move shorter than this counts as rest. "
+            "With 0.01 sweeps stop \\| earlier. |",
             "| `SweepRules::shares` | {0.1, 0.2} | 1 | Two of them. Not measured. |"])
 
     def test_complains_of_a_number_without_unit_or_reason(self):
@@ -57,7 +58,8 @@ class RulesTable(unittest.TestCase):
                 self.assertIn("src/start/start_rules.hpp:3: x: " + complaint, done.stderr)
 
     def test_one_comment_does_not_serve_two_numbers(self):
-        text = "struct XRules {\n  /// [h] Why.\n  static constexpr double x = 1;\n  static constexpr double y = 2;\n};\n"
+        text = ("struct XRules {\n  /// [h] Why.\n  static constexpr double x = 1;\n"
+                "  static constexpr double y = 2;\n};\n")
         done, _ = run({"src/start/start_rules.hpp": text})
         self.assertEqual(done.returncode, 1)
         self.assertIn(":4: y: no unit", done.stderr)
