@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws a mesh file of trime_mpi: all triangles coloured by alpha, the neighbourhood of the worst one, a histogram.
 
+With --size the picture shows the mesh beside its size field: h, the edge length that the mesh was asked for.
 alpha = circumradius / (2 inradius) is 1 for an equilateral triangle. Meshes of more than 200000 triangles are drawn as
 an image (mean alpha per pixel), since single triangles would be smaller than the ink.
 """
@@ -24,12 +25,17 @@ RASTER_ABOVE = 200_000  # triangles
 ZOOM_TRIANGLES = 500    # about that many in the window around the worst triangle
 COLOURS = matplotlib.colors.LinearSegmentedColormap.from_list(
     "alpha", ["#f7f5ee", "#f6e3a1", "#f2ae5f", "#d9603f", "#8c1d40"])
-ALPHA_RANGE = (1.0, 1.5)
+ALPHA_RANGE = (1.0, 1.3)
+SIZE_COLOURS = matplotlib.colors.LinearSegmentedColormap.from_list(
+    "size", ["#0b3954", "#1d6f8a", "#4fa69a", "#a7cf9b", "#f3efc3"])
 INK = "#26323d"
+WINDOW = "#0b6e99"
 
 
 class Mesh:
     """Arrays of a mesh file: xy [N,2], corners [M,3,2] of the triangles, alpha [M], facets [B,2,2] (ends), hash (text).
+
+    size [M,3] is h at the corners of the triangles, None in a file without it.
 
     In a periodic container the corners of a triangle are images that lie together, around its first corner.
     """
@@ -43,6 +49,8 @@ class Mesh:
                 self.xy = file["VTKHDF/Points"][:, :2]
                 triangles = file["VTKHDF/Connectivity"][:].reshape(-1, 3)
             facets = file["Mesh/facets/topology"][:]
+            fields = file["VTKHDF" if "VTKHDF/PointData" in file else "Mesh"]
+            self.size = fields["PointData/size"][:][triangles] if "PointData/size" in fields else None
             attributes = file["trime_mpi"].attrs
             stored = attributes.get("mesh_hash", "unknown")
             periods = [float(attributes.get(name, 0)) for name in ("period_x", "period_y")]
@@ -160,31 +168,105 @@ def draw_histogram(axes, alpha):
         axes.spines[side].set_visible(False)
 
 
+def draw_mesh(axes, mesh):
+    """All triangles, coloured by alpha."""
+    if len(mesh.corners) > RASTER_ABOVE:
+        draw_raster(axes, mesh)
+    else:
+        draw_triangles(axes, mesh, slice(None), float(np.clip(22 / np.sqrt(len(mesh.corners)), 0.03, 0.5)))
+    frame(axes, mesh.xy.min(axis=0), mesh.xy.max(axis=0))
+
+
+def draw_size(axes, mesh):
+    """h as colours, linear over each triangle, on a logarithmic scale; the boundary on top. Returns the colours."""
+    places = mesh.corners.reshape(-1, 2)
+    low, high = float(mesh.size.min()), float(mesh.size.max())
+    high = max(high, 1.001 * low)  # a uniform size has no range
+    colours = axes.tripcolor(places[:, 0], places[:, 1], np.arange(len(places)).reshape(-1, 3), mesh.size.ravel(),
+                             shading="gouraud", cmap=SIZE_COLOURS, norm=matplotlib.colors.LogNorm(low, high))
+    colours.set_rasterized(True)
+    axes.add_collection(LineCollection(mesh.facets, colors=INK, linewidths=0.8))
+    frame(axes, mesh.xy.min(axis=0), mesh.xy.max(axis=0))
+    return colours
+
+
+def add_scale(figure, colours, axes, label):
+    """A bar of colours to the right of axes."""
+    bar = figure.colorbar(colours, ax=axes, fraction=0.03, pad=0.015, aspect=40,
+                          extend="max" if label == "alpha" else "neither")
+    bar.ax.tick_params(labelsize=7, which="both")
+    bar.set_label(label, fontsize=8)
+    return bar
+
+
+def label_sizes(bar, low, high):
+    """Five ticks with three digits, since decades are too far apart for most meshes."""
+    bar.ax.yaxis.set_major_locator(matplotlib.ticker.FixedLocator(np.geomspace(low, high, 5)))
+    bar.ax.yaxis.set_major_formatter(matplotlib.ticker.FuncFormatter(lambda value, _: f"{value:.3g}"))
+    bar.ax.yaxis.set_minor_locator(matplotlib.ticker.NullLocator())
+
+
+def add_header(figure, mesh, name, top):
+    """Name and numbers of the mesh; `top`: heights of the two lines."""
+    figure.text(0.04, top[0], name, fontsize=16, fontweight="bold", color=INK)
+    figure.text(0.04, top[1], f"{len(mesh.xy):,} points   {len(mesh.corners):,} triangles   "
+                f"alpha mean {mesh.alpha.mean():.4f}, max {mesh.alpha.max():.3f}   "
+                f"smallest angle {mesh.min_angle:.1f}°   mesh_hash {mesh.hash}", fontsize=10, color=INK)
+
+
+def draw_with_size(mesh, name):
+    """The mesh and its size field, side by side or, where the shape is wide, one above the other."""
+    width, height = mesh.xy.max(axis=0) - mesh.xy.min(axis=0)
+    beside = width < 1.8 * height
+    rows, columns = (1, 2) if beside else (2, 1)
+    tall = 13 / columns * float(np.clip(height / width, 0.2, 1.4)) * rows + 1.1
+    figure = plt.figure(figsize=(14, tall), facecolor="white")
+    panels = figure.subplots(rows, columns, gridspec_kw={
+        "left": 0.035, "right": 0.95, "top": 1 - 1.15 / tall, "bottom": 0.35 / tall, "wspace": 0.13, "hspace": 0.12})
+    draw_mesh(panels[0], mesh)
+    add_scale(figure, plt.cm.ScalarMappable(plt.Normalize(*ALPHA_RANGE), COLOURS), panels[0], "alpha")
+    panels[0].set_title("the mesh: alpha of its triangles", fontsize=10, color=INK)
+    colours = draw_size(panels[1], mesh)
+    label_sizes(add_scale(figure, colours, panels[1], "h"), *colours.get_clim())
+    panels[1].set_title("its size field: the edge length h that was asked for", fontsize=10, color=INK)
+    add_header(figure, mesh, name, (1 - 0.42 / tall, 1 - 0.72 / tall))
+    return figure
+
+
 def draw(mesh, name):
     """The whole figure."""
     figure = plt.figure(figsize=(14, 8.6), facecolor="white")
     grid = figure.add_gridspec(2, 2, width_ratios=[1.75, 1], height_ratios=[1, 1.45], left=0.04, right=0.985,
-                               top=0.89, bottom=0.06, wspace=0.1, hspace=0.28)
+                               top=0.89, bottom=0.06, wspace=0.15, hspace=0.28)
     main = figure.add_subplot(grid[:, 0])
-    if len(mesh.corners) > RASTER_ABOVE:
-        draw_raster(main, mesh)
-    else:
-        draw_triangles(main, mesh, slice(None), float(np.clip(22 / np.sqrt(len(mesh.corners)), 0.03, 0.5)))
-    frame(main, mesh.xy.min(axis=0), mesh.xy.max(axis=0))
+    draw_mesh(main, mesh)
     draw_histogram(figure.add_subplot(grid[0, 1]), mesh.alpha)
     if len(mesh.corners) > 4 * ZOOM_TRIANGLES:
         middle, reach = draw_zoom(figure.add_subplot(grid[1, 1]), mesh)
-        main.add_patch(plt.Rectangle(middle - reach, 2 * reach, 2 * reach, fill=False, color="#0b6e99", linewidth=1.4,
+        main.add_patch(plt.Rectangle(middle - reach, 2 * reach, 2 * reach, fill=False, color=WINDOW, linewidth=1.4,
                                      zorder=5))
-    scale = plt.cm.ScalarMappable(plt.Normalize(*ALPHA_RANGE), COLOURS)
-    bar = figure.colorbar(scale, ax=main, fraction=0.03, pad=0.015, extend="max", aspect=40)
-    bar.ax.tick_params(labelsize=7)
-    bar.set_label("alpha", fontsize=8)
-    figure.text(0.04, 0.955, name, fontsize=16, fontweight="bold", color=INK)
-    figure.text(0.04, 0.92, f"{len(mesh.xy):,} points   {len(mesh.corners):,} triangles   "
-                f"alpha mean {mesh.alpha.mean():.4f}, max {mesh.alpha.max():.3f}   "
-                f"smallest angle {mesh.min_angle:.1f}°   mesh_hash {mesh.hash}", fontsize=10, color=INK)
+    add_scale(figure, plt.cm.ScalarMappable(plt.Normalize(*ALPHA_RANGE), COLOURS), main, "alpha")
+    add_header(figure, mesh, name, (0.955, 0.92))
     return figure
+
+
+def palette():
+    """The 256 colours of a small picture: both scales, the first also under ink, and ink on white."""
+    ink, white = (np.array(matplotlib.colors.to_rgb(colour)) for colour in (INK, "white"))
+    coarse, fine = (COLOURS(np.linspace(0, 1, count))[:, :3] for count in (24, 48))
+    under_ink = [share * ink + (1 - share) * coarse for share in (0.25, 0.5, 0.75)]
+    greys = [share * ink + (1 - share) * white for share in (0, *np.linspace(0.1, 1, 39))]
+    return np.concatenate([fine, *under_ink, SIZE_COLOURS(np.linspace(0, 1, 94))[:, :3], greys,
+                           [matplotlib.colors.to_rgb(WINDOW), (0, 0, 0)]])
+
+
+def write_with_palette(picture):
+    """Writes a PNG once more in few colours, which makes the file a third as large."""
+    from PIL import Image  # comes with matplotlib
+    colours = Image.new("P", (1, 1))
+    colours.putpalette((255 * palette()).round().astype(np.uint8).tobytes())
+    few = Image.open(picture).convert("RGB").quantize(palette=colours, dither=Image.Dither.NONE)
+    few.save(picture, optimize=True)
 
 
 def main():
@@ -192,6 +274,8 @@ def main():
     parser.add_argument("mesh", type=pathlib.Path, help="mesh file, NAME.h5")
     parser.add_argument("-o", "--output", type=pathlib.Path, help="picture (default: NAME.png beside the mesh)")
     parser.add_argument("--dpi", type=int, default=130, help="dots per inch (default %(default)s)")
+    parser.add_argument("--size", action="store_true", help="the mesh beside its size field")
+    parser.add_argument("--small", action="store_true", help="write the PNG with a palette: a smaller file")
     options = parser.parse_args()
     if not options.mesh.exists():
         sys.exit(f"plot_mesh.py: there is no {options.mesh}")
@@ -202,7 +286,12 @@ def main():
         sys.exit(f"plot_mesh.py: {options.mesh} is not a mesh file of trime_mpi: {error}")
     if len(mesh.corners) == 0:
         sys.exit(f"plot_mesh.py: {options.mesh} holds no triangles")
-    draw(mesh, options.mesh.stem).savefig(picture, dpi=options.dpi)
+    if options.size and mesh.size is None:
+        sys.exit(f"plot_mesh.py: {options.mesh} holds no sizes")
+    figure = draw_with_size(mesh, options.mesh.stem) if options.size else draw(mesh, options.mesh.stem)
+    figure.savefig(picture, dpi=options.dpi)
+    if options.small:
+        write_with_palette(picture)
     print(f"{picture}: {len(mesh.xy)} points, {len(mesh.corners)} triangles")
 
 

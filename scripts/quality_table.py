@@ -3,8 +3,9 @@
 """Quality and sweeps of the three methods on shapes that TriMe++ was measured on, beside its figures.
 
 Writes a config for each row, runs trime_mpi on one rank, and prints a table in Markdown: median, mean and largest
-alpha, moves of all points, seconds, conformity to the size (standard deviation of L / (s h)), and the figures of
-TriMe++ (commit 3929c19, one thread or two, whichever was better) for the same shape and number of points.
+alpha, smallest angle, conformity to the size (standard deviation of L / (s h)), sweeps, full sweeps and seconds. A sweep
+over a coarse mesh counts as that share of a full sweep which it has of the final points. Beside them stand the figures
+of TriMe++ (commit 3929c19, one thread or two, whichever was better) for the same shape and number of points.
 
   scripts/quality_table.py                                  # the shapes that need no data
   scripts/quality_table.py --data DIR                       # with DIR/poker.xy and DIR/north_america.xy
@@ -86,9 +87,9 @@ def main():
     parser.add_argument("--rows", default="", help="only rows whose name contains this")
     parser.add_argument("overrides", nargs="*", help="section.key=value for every run")
     arguments = parser.parse_args()
-    print("| shape, points | method | median | mean | max alpha | min angle | std of L/(s h) | sweeps, worth in final ones "
+    print("| shape, points | method | median | mean | max alpha | min angle | std of L/(s h) | sweeps | full sweeps "
           "| s | TriMe++ median | mean | max | retriangulations |")
-    print("|" + "---|" * 13)
+    print("|" + "---|" * 14)
     with tempfile.TemporaryDirectory() as directory:
         for name, (config, points) in ROWS.items():
             if arguments.rows not in name or ("{data}" in config and not arguments.data):
@@ -99,7 +100,7 @@ def main():
                 reference = REFERENCE.get((name, method), ("", "", "", ""))
                 print(f"| {name} ({q['points']}) | {method} | {q['alpha_median']:.4f} | {q['alpha_mean']:.4f} "
                       f"| {q['alpha_max']:.3f} | {q['min_angle_degrees']:.1f} | {q['size_std']:.3f} "
-                      f"| {q['iterations']}, {q['all_points_sweeps']:.0f} | {q['seconds_total']:.2f} | "
+                      f"| {q['iterations']} | {q['all_points_sweeps']:.0f} | {q['seconds_total']:.2f} | "
                       + " | ".join(str(value) for value in reference) + " |", flush=True)
 
 

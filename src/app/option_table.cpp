@@ -94,7 +94,7 @@ constexpr Option table[] = {
      .fallback = "0.1",
      .range = {0, 2},
      .meaning =
-         "bound on the gradient of the automatic size, TriMe++'s K; 0: uniform; above 0.5 triangles can hardly follow"},
+         "largest gradient of the automatic size, TriMe++'s K; 0: uniform; above 0.5 triangles can hardly follow"},
     {.section = "sizing",
      .key = "expression",
      .kind = Kind::text,
@@ -134,7 +134,7 @@ constexpr Option table[] = {
      .fallback = "auto",
      .choices = "auto",
      .range = {0, 1, true},
-     .meaning = "share of the points placed before the first sweep, the others are inserted where triangles are large; "
+     .meaning = "share of the points placed before the first sweep; the others are inserted where triangles are large; "
                 "auto: the program chooses and says why"},
     {.section = "meshing",
      .key = "fixed_points",
@@ -151,43 +151,42 @@ constexpr Option table[] = {
      .key = "corner_angle",
      .fallback = "30",
      .range = {0, 180, true},
-     .meaning = "degrees; a boundary vertex that turns by more, or by more than 120, is kept as a vertex of the mesh"},
+     .meaning = "degrees; a corner is a vertex of the shape's boundary that turns by more than this, or by more than "
+                "120: it becomes a vertex of the mesh"},
     {.section = "meshing",
      .key = "keep_features",
      .kind = Kind::boolean,
      .fallback = "false",
-     .meaning =
-         "true: every such vertex, island and lake is kept, however small, and the size lowered around it; false: "
-         "islands and lakes with a perimeter below 3 local sizes are dropped, and vertices may be left out, see "
-         "`feature_tolerance`; all is counted"},
+     .meaning = "true: every corner, island and lake is kept, however small, and the size is lowered around it; false: "
+                "islands and lakes with a perimeter below 3 h (h: the local size) are dropped, and corners may be left "
+                "out, see "
+                "`feature_tolerance`; the report counts them"},
     {.section = "meshing",
      .key = "feature_tolerance",
      .fallback = "0.1",
      .range = {0, 0.3},
-     .meaning =
-         "in local sizes: such vertices less than 2 from the next may be left out where boundary edges then pass no "
-         "farther from them"},
+     .meaning = "a corner less than 2 h from the next may be left out if the mesh then passes it at no more than this "
+                "times h"},
     {.section = "meshing",
      .key = "seed",
      .kind = Kind::integer,
      .fallback = "1",
      .range = {0, 9007199254740992.0},
-     .meaning = "of the random numbers"},
+     .meaning = "seed of the random numbers"},
     {.section = "meshing",
      .key = "max_sweeps",
      .kind = Kind::integer,
      .fallback = "500",
      .range = {0, 1e6},
-     .meaning = "a run that is not done by then ends with exit code 5; its mesh is written and marked"},
+     .meaning = "most sweeps of a run; one that needs more ends with exit code 5, and its mesh is written and marked"},
     {.section = "meshing",
      .key = "stop_tolerance",
      .fallback = "auto",
      .choices = "auto",
      .range = positive,
      .meaning =
-         "the sweeps end once six of them lower the mean of alpha - 1 by less than this share of it; auto: 0.04, or by "
-         "less than 0.00005 (0.015 to 0.024 on coarse meshes, 0.12 before points are inserted, 0.4 of these for "
-         "`distmesh`; 0.084 for the triangles that end `hybrid`)"},
+         "the sweeps end once six of them lower the mean of alpha - 1 by less than this share of it; auto: 0.04 for "
+         "most final meshes, and other shares for coarse meshes and for the last rule of `hybrid`"},
 
     {.section = "meshing",
      .key = "cleanup",
@@ -221,7 +220,7 @@ constexpr Option table[] = {
      .key = "overwrite",
      .kind = Kind::boolean,
      .fallback = "false",
-     .meaning = "replace files that exist, all that an older run of this name has left"},
+     .meaning = "replace existing files: all that an older run of this name has left"},
     {.section = "output",
      .key = "formats",
      .kind = Kind::words,
@@ -235,8 +234,8 @@ constexpr Option table[] = {
      .kind = Kind::integer,
      .fallback = "-1",
      .range = {-2, 1e9},
-     .meaning = "0: no mesh; -1: the final mesh; -2: the first and the final one; n: also the first and every n-th "
-                "retriangulation, one file each"},
+     .meaning = "0: no mesh; -1: the final mesh; -2: the first and the final one; n: the first, every n-th and the "
+                "final one, one file each"},
 
     {.section = "checkpoint",
      .key = "interval",

@@ -29,6 +29,10 @@ class Scripts(unittest.TestCase):
             picture = (work / "m.png").read_bytes()
             self.assertTrue(picture.startswith(b"\x89PNG"))
             self.assertGreater(len(picture), 20_000)
+            done = call(SCRIPTS / "plot_mesh.py", work / "m.h5", "--size", "--small", "-o", work / "s.png",
+                        MPLCONFIGDIR=str(work))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual((work / "s.png").read_bytes()[25], 3, "a PNG with a palette")
 
     def test_picture_of_something_else(self):
         with Workspace() as work:
@@ -83,11 +87,11 @@ class Scripts(unittest.TestCase):
                 self.assertEqual(done.returncode, 2)
                 self.assertNotIn("Traceback", done.stderr)
 
-    def test_readme_holds_the_config_table(self):
+    def test_the_page_of_the_configs_holds_the_table_of_keys(self):
         table = run("--help-config").stdout.strip()
         self.assertGreater(len(table.splitlines()), 30)
-        self.assertIn(table, (ROOT / "README.md").read_text(encoding="utf-8"),
-                      "put the output of trime_mpi --help-config into README.md")
+        self.assertIn(table, (ROOT / "configs" / "README.md").read_text(encoding="utf-8"),
+                      "put the output of trime_mpi --help-config into configs/README.md")
 
     def test_first_commands_say_what_they_would_install(self):
         with Workspace() as work:

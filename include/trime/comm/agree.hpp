@@ -10,9 +10,8 @@
 
 namespace trime::comm {
 
-/// @brief If any rank brings an error, all ranks throw the error of the lowest such rank (its message names the rank
-/// when there are several ranks and the failing one is not rank 0). Collective; one integer reduction in the normal
-/// case.
+/// @brief If any rank brings an error, all ranks throw the error of the lowest such rank. The message names the rank
+/// unless it is rank 0 or the only one. Collective; one integer reduction in the normal case.
 void agree(const Communicator& comm, const std::optional<Error>& error);
 
 /// @brief Runs `work` (which must not communicate) and agrees on what it threw. Anything that is not an Error becomes

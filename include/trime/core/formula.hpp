@@ -7,12 +7,14 @@
 
 namespace trime {
 
-/// @brief Parsed expression in `x` and `y`; constants `pi` and `e`; the operators and functions of muParser: + - * / ^,
-/// comparisons, && ||, `condition ? a : b`, sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp ln
-/// log (natural) log2 log10 sqrt sign rint abs min max sum avg. Move-only.
+/// @brief Parsed expression in `x` and `y` with the constants `pi` and `e`. Move-only.
 ///
-/// The same text gives the same bits on every rank and thread of one machine: the only foreign code is the C library's
-/// sin, exp and the like, which may differ in the last bit between C libraries.
+/// Operators are those of muParser: `+ - * / ^`, comparisons, `&& ||`, `condition ? a : b`. So are the functions:
+/// `sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp ln log2 log10 sqrt sign rint abs min max sum
+/// avg`, and `log`, which is the natural one.
+///
+/// The same text gives the same bits on every rank and thread of one machine. The only foreign code is the C library's
+/// sin, exp and the like; they may differ in the last bit between C libraries.
 class Formula {
 public:
   /// @param where what the text belongs to, for messages, such as `config.ini:17: [sizing] expression`

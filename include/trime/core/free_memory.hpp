@@ -6,8 +6,8 @@
 
 namespace trime {
 
-/// What a run needs at its peak, over all ranks, beside the libraries, the shape and the size field: a little more than
-/// is measured (130 on the square, 140 where the size varies).
+/// What a run needs at its peak, over all ranks, beside the libraries, the shape and the size field. It is a little
+/// more than is measured: 130 on the square, 140 where the size varies.
 inline constexpr double bytes_per_point = 150;
 /// The program with its libraries.
 inline constexpr double bytes_per_process = 32 * 0x1p20;

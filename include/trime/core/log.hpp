@@ -30,8 +30,8 @@ public:
     write(LogLevel::warning, fmt::format(f, std::forward<A>(a)...));
   }
 
-  /// One line about sweep number `step`: replaces the last one on a terminal; elsewhere only every `interval`-th step
-  /// (interval 0: steps 1, 2, 5, 10, 20, 50, ...) or `force` is printed.
+  /// One line about sweep number `step`. On a terminal it replaces the last one. Elsewhere only every `interval`-th
+  /// step is printed (interval 0: steps 1, 2, 5, 10, 20, 50, ...), and those with `force`.
   void progress(long step, const std::string& line, bool force = false);
   void set_progress_interval(int interval) { interval_ = interval; }
 

@@ -9,8 +9,10 @@
 namespace trime {
 
 /// @brief The candidate that differs from `word` by the fewest insertions, deletions, replacements and swaps of
-/// neighbours (Damerau-Levenshtein, optimal string alignment), upper and lower case being equal; if none is near
-/// (more than a third of the letters differ), the first that begins with `word`; else empty. The first wins a tie.
+/// neighbours (Damerau-Levenshtein, optimal string alignment). Upper and lower case are equal, and the first wins a
+/// tie.
+///
+/// If more than a third of the letters differ in all of them: the first that begins with `word`, else empty.
 /// O(letters^2) per candidate.
 std::string nearest_name(std::string_view word, std::span<const std::string> candidates);
 

@@ -75,9 +75,9 @@ private:
   std::vector<Slot> slots_;
 };
 
-/// The items [0, n) of a loop, a range for each thread: whoever is done with its own takes from those of others. The
-/// same items come to the same thread in loop after loop as long as all are as quick, and with them what its caches
-/// (and the memory of its socket) hold.
+/// The items [0, n) of a loop, a range for each thread. A thread that is done with its own range takes from those of
+/// others. While all threads are as quick, the same items come to the same thread in loop after loop. So they are in
+/// its caches, and in the memory of its socket.
 class ItemRanges {
 public:
   ItemRanges(std::ptrdiff_t n, int threads, std::ptrdiff_t chunk)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ghost sites: each rank subscribes to bins of foreign tiles, and in a periodic container to images of bins, its own
-// among them; their owners send the sites of these bins at every refresh, the receivers move them to their images.
+// among them. Their owners send the sites of these bins at every refresh; the receivers move them to their images.
 // Subscriptions persist and grow on request. Knows nothing of triangles.
 //
-// Words, seen from this rank: it *imports* the bins that it subscribes to and *exports* those that others subscribe to;
-// an owned site in an exported bin is a *mirror*, its copy elsewhere a *ghost*.
+// Words, seen from this rank: it *imports* the bins that it subscribes to and *exports* those that others subscribe to.
+// An owned site in an exported bin is a *mirror*, its copy elsewhere a *ghost*.
 #pragma once
 
 #include "trime/comm/communicator.hpp"

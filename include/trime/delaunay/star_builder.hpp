@@ -25,18 +25,19 @@ struct StarPass {
 };
 
 /// @brief The star of a site p is its Voronoi cell, kept as the ring of Delaunay neighbours with the circumcentres
-/// between them. It starts as the square of half-width cap around p (four virtual neighbours at 2 cap) or as the last
-/// ring, and every site within the security radius 2 R_max cuts it (Rycroft 2009 for the cell; Shewchuk 2005 for stars
-/// that agree). All decisions are exact: a float test with an error bound, then geometry::in_circle with its symbolic
-/// tie rule. Most stars are found faster than by cutting, sixteen at a time, and proven to be those that cutting finds.
+/// between them. It starts as the last ring, or as the square of half-width cap around p (four virtual neighbours at
+/// 2 cap). Every site within the security radius 2 R_max then cuts it (Rycroft 2009 for the cell; Shewchuk 2005 for
+/// stars that agree). All decisions are exact: a float test with an error bound, then geometry::in_circle with its
+/// symbolic tie rule. Most stars are found faster than by cutting, sixteen at a time, and proven to be those that
+/// cutting finds.
 ///
 /// Only triangles with circumradius below the cap count; no other site within 2 cap can change them, so the search is
 /// bounded whatever lies around. What does not count becomes a gap of the ring.
 ///
 /// The cap of a star follows the local size, so that windows and halos stay bounded where the size varies. Near or
 /// above the cap a triangle may then count in one of its stars and not in another. A mesh cannot suffer: whatever
-/// counts anywhere is a triangle of the one Delaunay triangulation, so once the fan of every site is without gaps
-/// inside the shape (the mesher raises the caps of the others), the fans hold the same triangles.
+/// counts anywhere is a triangle of the one Delaunay triangulation. The mesher raises the caps of sites whose fans have
+/// gaps inside the shape. Once no fan has, all fans hold the same triangles.
 class StarBuilder {
 public:
   /// @param cap largest circumradius that counts, in domain units, the same for all stars
@@ -53,15 +54,17 @@ public:
   /// The cap of a star over the size at its site.
   double cap_factor() const { return factor_; }
 
-  /// @brief A quarter of the shorter period, less a little; infinite without periods. No cap is larger: then edges are
-  /// shorter than half a period, the neighbour at an edge's other end is the nearest image of its point, and triangles
-  /// are told apart by the ids of their vertices.
+  /// @brief A quarter of the shorter period, less a little; infinite without periods. No cap is larger, so edges are
+  /// shorter than half a period. Then the neighbour at an edge's other end is the nearest image of its point, and
+  /// triangles are told apart by the ids of their vertices.
   static double largest_cap(const geometry::Periods& periods);
 
   /// @brief Computes the star of every owned site that is wanted and not certain yet, from its last ring where it has
-  /// one. Threads over tiles. Where many stars of a tile are wanted, most are found together: 120 ns a star in a
-  /// relaxed mesh, 270 ns in a random one, with or without a last ring (AVX-512; 160 and 400 ns with AVX2, 200 and 510
-  /// ns without). The others one by one: 120 ns from a ring that still is right, 500 to 2000 ns from scratch.
+  /// one. Threads over tiles.
+  ///
+  /// Where many stars of a tile are wanted, most are found together, with or without a last ring. A star then takes
+  /// 120 ns in a relaxed mesh and 270 ns in a random one (AVX-512; 160 and 400 ns with AVX2, 200 and 510 ns without).
+  /// The others are found one by one: 120 ns from a ring that still is right, 500 to 2000 ns from scratch.
   /// @param sizes h at the owned sites; empty: the largest cap everywhere
   /// @param wanted what becomes of each site, by local index; empty: all are computed
   /// @param missing receives the bins that uncertain stars miss, ascending, each once

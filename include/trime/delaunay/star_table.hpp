@@ -19,8 +19,8 @@ constexpr LocalIndex gap = -1;
 
 /// @brief Rings of local indices, starting at the lexicographically smallest neighbour, in 8 fixed slots a site; longer
 /// rings lie in an overflow list. A ring with a gap in it (a site at the rim) has the entry `gap` there, never two
-/// in a row; an empty ring belongs to a site without triangles, or one whose star was not computed. What a ring leaves
-/// of its 8 slots repeats it, so that loops over pairs of neighbours need not look for its end.
+/// in a row. An empty ring belongs to a site without triangles, or to one whose star was not computed. What a ring
+/// leaves of its 8 slots repeats it, so that loops over pairs of neighbours need not look for its end.
 class StarTable {
 public:
   static constexpr int slots = 8;

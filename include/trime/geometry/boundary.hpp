@@ -35,8 +35,8 @@ struct Piece {
 
 /// @brief Closed curve: piece i ends where piece i+1 starts, the last where the first starts, moved by `winding`.
 ///
-/// In a periodic container the pieces stand in a row as if the border were not there ("unrolled"), each no farther
-/// than one image of the container goes; the first start is canonical.
+/// In a periodic container the pieces stand in a row as if the border were not there ("unrolled"). None lies farther
+/// out than one image of the container. The first start is canonical.
 struct Loop {
   std::vector<Piece> pieces;
   bool outer = true; ///< counter-clockwise around a component, or clockwise around a hole; true if it winds

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The power-of-two lattice of the container on which every site lies: differences of sites are then exact doubles,
-// integers below 2^45 in lattice steps, and an exact in-circle test has a bounded size.
+// The power-of-two lattice of the container on which every site lies. Differences of sites are then exact doubles:
+// integers below 2^45 in lattice steps. So an exact in-circle test has a bounded size.
 #pragma once
 
 #include "trime/core/sum.hpp"
@@ -13,8 +13,8 @@ namespace trime::geometry {
 
 class Lattice {
 public:
-  /// Smallest power of two that is at least 2^-44 of the longer side of `container` and at least 2^-51 of its
-  /// largest coordinate, so that every multiple inside the container is a double.
+  /// The step is the smallest power of two that is at least 2^-44 of the longer side of `container` and at least 2^-51
+  /// of its largest coordinate. Then every multiple of it inside the container is a double.
   explicit Lattice(const Box& container) {
     const double side = std::fmax(container.width(), container.height());
     const double extent = std::fmax(std::fmax(std::fabs(container.min.x), std::fabs(container.max.x)),

@@ -26,8 +26,8 @@ inline int orient2d(Vec2 a, Vec2 b, Vec2 c) {
 /// @brief +1 if d lies inside the circle through a, b, c (counter-clockwise), -1 outside. Exact; never 0 for four
 /// different points of which a, b, c are not collinear.
 ///
-/// Cocircular points are decided as if the lifted height x^2+y^2 of each point were raised by an infinitesimal, the
-/// larger the later the point comes in lexicographic order (symbolic perturbation, Devillers and Teillaud 2011), so
+/// Cocircular points are decided as if the lifted height x^2+y^2 of each point were raised by an infinitesimal. It is
+/// the larger the later the point comes in lexicographic order (symbolic perturbation, Devillers and Teillaud 2011). So
 /// the answer depends on the coordinates alone. A float filter (Shewchuk 1997, error bound A) decides nearly all
 /// calls; the rest are evaluated in 192-bit integers on lattice steps.
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice);
@@ -49,8 +49,8 @@ inline int in_circle_filter(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
 /// The same without filter: for tests and as the slow path.
 int in_circle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice);
 
-/// @brief The same in a periodic container, for the four points and their images alike: the order behind a tie is that
-/// of the canonical images, so that all views of four points agree. Without periods equal to the above.
+/// @brief The same in a periodic container, for the four points and their images alike. The order behind a tie is that
+/// of the canonical images, so all views of four points agree. Without periods equal to the above.
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice, const Periods& periods);
 
 } // namespace trime::geometry

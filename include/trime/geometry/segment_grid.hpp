@@ -14,8 +14,8 @@
 
 namespace trime::geometry {
 
-/// @brief Bins over M segments: a tree of square cells, each split into 4 x 4 while it meets more than a few segments,
-/// so that a smooth curve of many short segments has 1-4 of them in a bin. O(M log M) to build, O(M) memory, immutable
+/// @brief Bins over M segments: a tree of square cells, each split into 4 x 4 while it meets more than a few segments.
+/// A smooth curve of many short segments has 1 to 4 of them in a bin. O(M log M) to build, O(M) memory, immutable
 /// and thread-safe after.
 ///
 /// The segments together must form closed polygons (every end is shared by an even number of segments) for `inside`;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reader of ini texts that knows where every value came from: sections, `key = value`, comments from `;` or `#`, at the
-// start of a line or after a blank, to its end. It knows no keys: what they mean is the business of the caller. All
+// Reader of ini texts that knows where every value came from: sections, `key = value`, comments. A comment goes from
+// `;` or `#`, at the start of a line or after a blank, to its end. It knows no keys: what they mean is the business of
+// the caller. All
 // problems are collected, so that a user sees every mistake of a file at once.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The mesh file: NAME.h5 with its views NAME.xdmf and NAME.vtkhdf, written by all ranks together under a temporary
-// name, read back, and renamed only when it is whole. The layout is a contract with users, see README.
+// name, read back, and renamed only when it is whole. The layout is a contract with users, see src/README.md.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -29,8 +29,9 @@ struct MeshFileOptions {
 /// that view is not wanted.
 std::string field_group(const MeshFileOptions& options, const char* name);
 
-/// @brief Makes the directory if it is missing and sees that the files can be written: to be called before work starts
-/// that would be lost. @return warnings, e.g. of files that a killed run has left; on rank 0 only
+/// @brief Makes the directory if it is missing and sees that the files can be written. To be called before work starts
+/// that would be lost.
+/// @return warnings, e.g. of files that a killed run has left; on rank 0 only
 /// @throws FileError on all ranks if the directory cannot be made or written, or a file exists and may not be
 /// overwritten
 /// @note Collective.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All files of one run: a mesh file per output step, the final one, the text files if they are wanted, and the
+// All files of one run: a mesh file per output step, the final one, and the text files if they are wanted. Besides, the
 // collections that ParaView plays as a time series.
 #pragma once
 
@@ -37,8 +37,8 @@ public:
   MeshSeries(SeriesOptions options, const comm::Communicator& comm) : options_(std::move(options)), comm_(comm) {}
 
   /// @brief Makes the directories and sees that all files can be written, also those of steps, whose numbers are not
-  /// known yet: to be called before work starts that would be lost. @return warnings, also of a disk that seems too
-  /// small for `expected_points`; on rank 0 only
+  /// known yet. To be called before work starts that would be lost.
+  /// @return warnings, also of a disk that seems too small for `expected_points`; on rank 0 only
   /// @throws FileError on all ranks if not, or if a file of these names exists and may not be overwritten
   /// @note Collective.
   std::vector<std::string> check(double expected_points);

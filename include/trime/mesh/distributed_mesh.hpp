@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The finished mesh as it lies on the ranks: contiguous slabs of points, triangles and boundary edges in the canonical
-// global order (points along the Hilbert curve, triangles and edges by their lowest vertex). Plain data.
+// The finished mesh as it lies on the ranks: contiguous slabs of points, triangles and facets in the canonical global
+// order. Points lie along the Hilbert curve; triangles and facets go by their lowest vertex. Plain data.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -40,7 +40,7 @@ struct DistributedMesh {
   /// Global ids of the vertices that other ranks hold, ascending: the first is vertex points.size().
   std::vector<GlobalId> foreign;
 
-  // Per boundary edge, interior on the left of first -> second.
+  // Per facet, interior on the left of first -> second.
   std::vector<std::array<GlobalId, 2>> facets;
   std::vector<std::int32_t> facet_tags;  ///< of its loop
   std::vector<std::int32_t> facet_parts; ///< which part of the shape it follows: index into Boundary::part_names

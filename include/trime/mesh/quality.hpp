@@ -23,8 +23,8 @@ double aspect_ratio(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
 /// not; false for a few that are, and beyond 1.13 for all of these. No root, no division: for most triangles of a good
 /// mesh it is all that is needed. @pre limit > 1
 ///
-/// With eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area), the largest alpha of all triangles of one eta (an isosceles one has
-/// it) is less than 1 + 1.3 (eta - 1) up to eta = 1.1.
+/// Let eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area). Of all triangles of one eta an isosceles one has the largest alpha.
+/// Up to eta = 1.1 it is less than 1 + 1.3 (eta - 1).
 inline bool is_surely_below(double limit, geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r) {
   constexpr double root_3 = 1.7320508075688772, steepness = 1.3, largest_excess = 0.1;
   const double largest_eta = 1 + std::min((limit - 1) / steepness, largest_excess);
@@ -59,8 +59,8 @@ struct RatioSummary {
   double median = 1, mean = 1, max = 1, half_mean = 1, std = 0;
 };
 
-/// @brief Mergeable statistics of a ratio >= 1: values are capped at 2^16 in the sums, exact in the maximum; the
-/// median comes from bins of 1e-6 up to 1.01, 1e-4 up to 2, 1e-2 up to 10, and 1.6 % beyond.
+/// @brief Mergeable statistics of a ratio >= 1. Values are capped at 2^16 in the sums and exact in the maximum. The
+/// median comes from bins: of 1e-6 up to 1.01, of 1e-4 up to 2, of 1e-2 up to 10, and of 1.6 % beyond.
 class RatioStatistics {
 public:
   RatioStatistics();

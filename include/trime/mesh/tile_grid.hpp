@@ -25,7 +25,7 @@ struct GridOptions {
 };
 
 /// @brief Tiles are numbered 0..tile_count()-1 in Hilbert order; bins of one tile row by row. Every point of the
-/// container has a 32-bit fixed-point position per axis; tile, bin and Hilbert key are its leading bits, so the
+/// container has a 32-bit fixed-point position per axis. Tile, bin and Hilbert key are its leading bits, so the
 /// numbering of tiles is a prefix of the order of points. O(tiles) memory, replicated on every rank.
 ///
 /// Equally large tiles divide the container. Along a periodic axis each tile has images beside the container, one
@@ -48,7 +48,7 @@ public:
   LocalIndex tile_at(int x, int y) const { return tile_number_[static_cast<std::size_t>(y) * tiles_x_ + x]; }
   GridPosition tile_position(LocalIndex tile) const { return tile_position_[static_cast<std::size_t>(tile)]; }
   /// @brief The tile in the square of the Hilbert curve. Along each axis the grid lies in the middle of its own power
-  /// of two: halves and quarters of a square's curve are halves and quarters of the container, and a slender container
+  /// of two. So halves and quarters of a square's curve are halves and quarters of the container. A slender container
   /// is not cut along its length.
   GridPosition curve_position(LocalIndex tile) const {
     const GridPosition at = tile_position(tile);

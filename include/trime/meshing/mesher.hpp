@@ -33,7 +33,7 @@ public:
          const MeshOptions& options, Log& log, TimerTable& timers);
   ~Mesher();
 
-  /// Whom to show the triangulations that MeshOptions::snapshot_interval asks for.
+  /// `observer` is called with each triangulation that MeshOptions::snapshot_interval asks for.
   void on_snapshot(SnapshotObserver observer);
 
   /// @brief Makes the mesh. @note Collective.

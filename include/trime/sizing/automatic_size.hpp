@@ -26,17 +26,18 @@ class SizeQuadtree;
 /// @brief s(x) = min over boundary points b of K |x - b| + lfs(b), at most the container's width + height.
 ///
 /// lfs(b), the local feature size, is the distance from b to the medial axis of the boundary, but at least the feature
-/// floor. The axis has an inner and an outer part; of the outer part only what lies in the container counts (a shape
-/// near the border of the container is not near to anything). Medial points that see their two nearest boundary points
+/// floor. The axis has an inner and an outer part. Of the outer part only what lies in the container counts: a shape
+/// near the border of the container is not near to anything. Medial points that see their two nearest boundary points
 /// at less than 60 degrees are noise of the boundary and dropped. Medial points come from balls that are shrunk until
-/// they touch the boundary on two sides (Ma, Bae, Choi 2012), one for each side of a boundary sample and more around
-/// corners; samples are as dense as the local feature size asks.
+/// they touch the boundary on two sides (Ma, Bae, Choi 2012). There is one for each side of a boundary sample, and more
+/// around corners. Samples are as dense as the local feature size asks.
 ///
-/// The field is kept in a quadtree whose cells hold the few cones K |x - b| + lfs(b) that make the field in them,
-/// within 1 % and exactly at the corners; cells so small that it changes by less than 1 % are bilinear. K is the exact
-/// bound of s, of the values at corners and of the gradient in cells of cones. In a bilinear cell either component of
-/// the gradient is at most K, so that it can be up to sqrt(2) K long, along a diagonal; and where cells meet the field
-/// may jump, by that 1 %.
+/// The field is kept in a quadtree. A cell holds the few cones K |x - b| + lfs(b) that make the field in it, within 1 %
+/// and exactly at its corners. A cell so small that the field changes by less than 1 % is bilinear.
+///
+/// K is the exact bound of s, of the values at corners and of the gradient in cells of cones. In a bilinear cell either
+/// component of the gradient is at most K; along a diagonal it can be up to sqrt(2) K long. Where cells meet the field
+/// may jump by that 1 %.
 class AutomaticSize final : public SizeField {
 public:
   /// @brief O(n log n + cells) for n boundary samples; work is shared by ranks and threads, the result is the same bits

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Element size h(x): the target edge length. One of the two seams of the library (the other is the update rule).
+// Element size h(x): the target edge length. One of the two seams of the library; the other is the shape.
 #pragma once
 
 #include "trime/geometry/vec2.hpp"
