@@ -1,7 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Shapes that meshers break on. Each ends with a certified mesh of the right topology, or with an error that names the
-place; and soon."""
+place; and soon.
+
+Usage: hard_shapes_test.py [HardShapes.test_NAME ...]      all without one
+"""
 import math
 import random
 import unittest

@@ -1,0 +1,69 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""One config, one mesh, at sizes that real runs have: elements of very different sizes, up to 16 ranks, many tiles.
+
+Usage: same_mesh_large_test.py [FIELD ...]      all fields without one
+
+By default each field is meshed by every method on two numbers of ranks; over the methods all numbers of ranks occur.
+With TRIME_FULL_TABLE=1 every number of ranks meshes every field by every method. One thread a rank.
+"""
+import os
+import re
+import sys
+import unittest
+
+from trime_run import Workspace, run
+
+DOMAIN = "[shape]\nregion = domain\n[sizing]\ntype = expression\nexpression = {}\n"
+DISC = "[shape]\nregion = disc\n[shape.disc]\ntype = circle\ncenter = 0.5 0.5\nradius = 0.4\n"
+FIELDS = {  # sections of the config, number of points
+    "steep": (DOMAIN.format("10^(2*x)"), 50_000),
+    "steepest": (DOMAIN.format("10^(5*x)"), 100_000),
+    "valley": (DOMAIN.format("0.001+abs(x-0.5)"), 100_000),
+    "jump": (DOMAIN.format("x<0.5?1:0.03"), 100_000),
+    "uniform": (DISC, 100_000),  # rests soon: tiles sleep
+}
+METHODS = ("hybrid", "distmesh", "cvd")
+PAIRS = ((1, 16), (2, 7), (3, 4))  # of numbers of ranks
+TIMEOUT = 600  # seconds, against a run that hangs
+FULL = os.environ.get("TRIME_FULL_TABLE", "0") == "1"
+CHOSEN = sys.argv[1:] or list(FIELDS)
+del sys.argv[1:]
+
+
+def ranks_of(field, method):
+    """The numbers of ranks that mesh this field by this method."""
+    if FULL:
+        return sorted(ranks for pair in PAIRS for ranks in pair)
+    return PAIRS[(list(FIELDS).index(field) + METHODS.index(method)) % len(PAIRS)]
+
+
+class SameMeshLarge(unittest.TestCase):
+    def hash_of(self, config, method, ranks):
+        """The hash that a finished run prints."""
+        done = run(config, f"meshing.method={method}", f"output.directory={config.parent}", "output.overwrite=true",
+                   ranks=ranks, timeout=TIMEOUT)
+        found = re.search(r"mesh hash\s+([0-9a-f]{16})", done.stdout, re.IGNORECASE)
+        self.assertTrue(done.returncode == 0 and found, f"{method}, {ranks} ranks:\n{done.stdout}{done.stderr}")
+        return found[1]
+
+    def test_every_number_of_ranks_gives_one_mesh(self):
+        table, differ = [], []
+        for field in CHOSEN:
+            text, points = FIELDS[field]
+            with Workspace() as work:
+                config = work / f"{field}.ini"
+                config.write_text(f"{text}[meshing]\npoints = {points}\n", encoding="ascii")
+                for method in METHODS:
+                    hashes = {ranks: self.hash_of(config, method, ranks) for ranks in ranks_of(field, method)}
+                    row = f"{field:9}{points:7} {method:9}" + "".join(f"{n:4}: {text}" for n, text in hashes.items())
+                    print(row, flush=True)
+                    table.append(row)
+                    if len(set(hashes.values())) != 1:
+                        differ.append(f"{field} {method}")
+        self.assertEqual(differ, [], "\n" + "\n".join(table))
+        self.assertEqual(len(table), len(CHOSEN) * len(METHODS))
+
+
+if __name__ == "__main__":
+    unittest.main()
