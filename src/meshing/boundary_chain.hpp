@@ -18,7 +18,7 @@ struct BoundaryEdit {
   EditKind kind = EditKind::move;
   double arc = 0;          ///< of the new place
   geometry::Vec2 position; ///< of the new place, canonical
-  std::uint64_t patch = 0; ///< who wants it: only one patch may divide a chord
+  std::uint64_t patch = 0; ///< which patch wants it: only one may divide a chord
 };
 
 /// @brief A copy of boundary sites as a linked list. Sites keep their index until renumber; new ones are appended, so

@@ -11,11 +11,11 @@
 
 namespace trime::meshing {
 
-/// @brief The number of sites over all ranks and its limits. It stays near that of the beginning, at most half a
-/// percent below, and never above what is allowed. The same on every rank.
+/// @brief The number of sites over all ranks and its limits: never above what is allowed, and at most
+/// CleanupRules::largest_loss below that of the beginning. The same on every rank.
 class CleanupLimits {
 public:
-  /// @param sites over all ranks @param most_sites 0: half a percent above `sites`
+  /// @param sites over all ranks @param most_sites 0: CleanupRules::largest_loss above `sites`
   CleanupLimits(GlobalId sites, GlobalId most_sites);
 
   /// The number of sites has changed.

@@ -13,9 +13,9 @@
 namespace trime::meshing {
 
 /// @brief Tries operations, each on a copy of the patch and followed by moves. Few of them get a second sweep, fewer
-/// the last ones. An operation is better if the sum of the AlphaScore near it falls by 2 % at least and the largest
-/// alpha does not rise. Where none is, and the triangle is bad enough, smaller triangles are tried: they are more, so
-/// only the largest alpha decides, which has to fall by a hundredth of its excess.
+/// the last ones. An operation is better if the sum of the AlphaScore near it falls by CleanupRules::least_gain and the
+/// largest alpha does not rise. Where the triangle is bad enough, smaller triangles are tried, too: they are more, so
+/// only the largest alpha decides; its excess has to fall by CleanupRules::refine_gain.
 class PatchContest {
 public:
   /// References must outlive the object.

@@ -21,6 +21,11 @@ constexpr int previous(int k) {
   return k == 0 ? 2 : k - 1;
 }
 
+/// Which of its vertices v is.
+int place_of(const PatchMesh::Triangle& triangle, LocalIndex v) {
+  return triangle.vertex[0] == v ? 0 : triangle.vertex[1] == v ? 1 : 2;
+}
+
 /// @brief geometry::in_circle, decided here where the determinant is far from 0: with the largest squared distance L
 /// the products add up to 3 L^2 at most, so the rounding error stays below 2^-48 L^2 (Shewchuk 1997, bound A).
 inline bool holds(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const geometry::Lattice& lattice, const geometry::Periods& periods) {
@@ -43,11 +48,6 @@ void PatchMesh::start(Vec2 center, double half_width) {
   unused_.clear();
   changed_.clear();
   last_ = 0;
-}
-
-int PatchMesh::place_in(LocalIndex t, LocalIndex v) const {
-  const auto& vertex = triangle(t).vertex;
-  return vertex[0] == v ? 0 : vertex[1] == v ? 1 : 2;
 }
 
 /// A visibility walk: ends in a Delaunay triangulation.
@@ -196,7 +196,7 @@ void PatchMesh::collect_ring(LocalIndex v, std::vector<LocalIndex>& ring) const 
   const LocalIndex first = corner_of_[static_cast<std::size_t>(v)];
   LocalIndex t = first;
   do {
-    const int k = place_in(t, v);
+    const int k = place_of(triangle(t), v);
     ring.push_back(triangle(t).vertex[static_cast<std::size_t>(next(k))]);
     t = triangle(t).neighbour[static_cast<std::size_t>(next(k))];
   } while (t != first && t >= 0);
@@ -208,7 +208,7 @@ LocalIndex PatchMesh::degree(LocalIndex v) const {
   LocalIndex t = first;
   do {
     ++count;
-    t = triangle(t).neighbour[static_cast<std::size_t>(next(place_in(t, v)))];
+    t = triangle(t).neighbour[static_cast<std::size_t>(next(place_of(triangle(t), v)))];
   } while (t != first && t >= 0);
   return count;
 }
@@ -217,12 +217,12 @@ std::optional<PatchMesh::Apexes> PatchMesh::apexes(LocalIndex from, LocalIndex t
   const LocalIndex first = corner_of_[static_cast<std::size_t>(from)];
   LocalIndex t = first;
   do {
-    const int k = place_in(t, from);
+    const int k = place_of(triangle(t), from);
     const Triangle& left = triangle(t);
     if (left.vertex[static_cast<std::size_t>(next(k))] == to) {
       const LocalIndex u = left.neighbour[static_cast<std::size_t>(previous(k))];
       return Apexes{left.vertex[static_cast<std::size_t>(previous(k))],
-                    u < 0 ? -1 : triangle(u).vertex[static_cast<std::size_t>(next(place_in(u, from)))]};
+                    u < 0 ? -1 : triangle(u).vertex[static_cast<std::size_t>(next(place_of(triangle(u), from)))]};
     }
     t = left.neighbour[static_cast<std::size_t>(next(k))];
   } while (t != first && t >= 0);
@@ -256,18 +256,6 @@ void PatchMesh::flip(LocalIndex t, int k) {
   link(u, 1, beyond_b, t);
   corner_of(a) = corner_of(b) = corner_of(d) = t;
   corner_of(c) = u;
-}
-
-/// All edges of the triangles around v.
-void PatchMesh::push_star(LocalIndex v) {
-  const LocalIndex first = corner_of(v);
-  LocalIndex t = first;
-  do {
-    const int k = place_in(t, v);
-    work_.suspects.push_back({t, k});
-    work_.suspects.push_back({t, next(k)});
-    t = triangle(t).neighbour[static_cast<std::size_t>(next(k))];
-  } while (t != first && t >= 0);
 }
 
 /// Flips until no suspect, and no edge around a flip, has a vertex in its discs. Exact tests: it ends.
@@ -305,7 +293,7 @@ void PatchMesh::restore(std::span<const LocalIndex> shifted) {
     LocalIndex t = first;
     do {
       const Triangle& at = triangle(t);
-      const int k = place_in(t, v);
+      const int k = place_of(triangle(t), v);
       const LocalIndex u = at.vertex[static_cast<std::size_t>(next(k))];
       const LocalIndex w = at.vertex[static_cast<std::size_t>(previous(k))];
       if (!is_shifted(u) && !is_shifted(w))
@@ -327,54 +315,57 @@ bool PatchMesh::move(LocalIndex v, Vec2 to) {
         0)
       return false;
   positions_[static_cast<std::size_t>(v)] = to;
-  push_star(v);
+  const LocalIndex first = corner_of(v);
+  LocalIndex t = first;
+  do { // all edges of the triangles around v
+    const int k = place_of(triangle(t), v);
+    work_.suspects.push_back({t, k});
+    work_.suspects.push_back({t, next(k)});
+    t = triangle(t).neighbour[static_cast<std::size_t>(next(k))];
+  } while (t != first && t >= 0);
   legalize();
   return true;
 }
 
-/// Cuts off ears of the ring until a triangle is left, in which v lies; of the last four corners two may be in line
-/// with v.
-bool PatchMesh::remove(LocalIndex v) {
-  LocalIndex left = degree(v);
-  for (LocalIndex tries = left * left; left > 3; --tries) {
-    if (tries == 0) {
-      work_.suspects.clear();
-      return false;
+/// Flips the first edge at v, of `degree` ones, behind which an ear of the ring can be cut off: with four edges left
+/// two corners of the ring may be in line with v. @return false if there is none
+bool PatchMesh::cut_ear(LocalIndex v, LocalIndex degree) {
+  LocalIndex t = corner_of(v);
+  for (LocalIndex k = 0; k < degree; ++k) { // the edge between this triangle and the next one
+    const int at = place_of(triangle(t), v);
+    const LocalIndex u = triangle(t).neighbour[static_cast<std::size_t>(next(at))];
+    const LocalIndex a = triangle(t).vertex[static_cast<std::size_t>(next(at))];
+    const LocalIndex b = triangle(t).vertex[static_cast<std::size_t>(previous(at))];
+    const LocalIndex c = triangle(u).vertex[static_cast<std::size_t>(previous(place_of(triangle(u), v)))];
+    if (geometry::orient2d(position(a), position(b), position(c)) > 0 &&
+        geometry::orient2d(position(v), position(a), position(c)) >= (degree > 4)) {
+      flip(t, next(at));
+      for (int side = 0; side < 3; ++side) // t is the ear now
+        work_.suspects.push_back({t, side});
+      return true;
     }
-    bool flipped = false;
-    const LocalIndex first = corner_of(v);
-    LocalIndex t = first;
-    for (LocalIndex k = 0; k < left && !flipped; ++k) { // the spoke between this triangle and the next one
-      const int at = place_in(t, v);
-      const LocalIndex u = triangle(t).neighbour[static_cast<std::size_t>(next(at))];
-      const LocalIndex a = triangle(t).vertex[static_cast<std::size_t>(next(at))];
-      const LocalIndex b = triangle(t).vertex[static_cast<std::size_t>(previous(at))];
-      const LocalIndex c = triangle(u).vertex[static_cast<std::size_t>(previous(place_in(u, v)))];
-      if (geometry::orient2d(position(a), position(b), position(c)) > 0 &&
-          geometry::orient2d(position(v), position(a), position(c)) >= (left > 4)) {
-        flip(t, next(at));
-        for (int side = 0; side < 3; ++side) // t is the ear now
-          work_.suspects.push_back({t, side});
-        flipped = true;
-      } else
-        t = u;
-    }
-    if (!flipped) {
-      work_.suspects.clear();
-      return false;
-    }
-    --left;
+    t = u;
   }
+  return false;
+}
+
+/// Cuts off ears of the ring until a triangle is left, in which v lies.
+bool PatchMesh::remove(LocalIndex v) {
+  for (LocalIndex left = degree(v); left > 3; --left)
+    if (!cut_ear(v, left)) {
+      work_.suspects.clear();
+      return false;
+    }
   const LocalIndex t = corner_of(v);
-  const int k = place_in(t, v);
+  const int k = place_of(triangle(t), v);
   const LocalIndex u = triangle(t).neighbour[static_cast<std::size_t>(next(k))];
   const LocalIndex w = triangle(t).neighbour[static_cast<std::size_t>(previous(k))];
   const LocalIndex a = triangle(t).vertex[static_cast<std::size_t>(next(k))];
   const LocalIndex b = triangle(t).vertex[static_cast<std::size_t>(previous(k))];
-  const LocalIndex c = triangle(u).vertex[static_cast<std::size_t>(previous(place_in(u, v)))];
+  const LocalIndex c = triangle(u).vertex[static_cast<std::size_t>(previous(place_of(triangle(u), v)))];
   const LocalIndex beyond_t = triangle(t).neighbour[static_cast<std::size_t>(k)];
-  const LocalIndex beyond_u = triangle(u).neighbour[static_cast<std::size_t>(place_in(u, v))];
-  const LocalIndex beyond_w = triangle(w).neighbour[static_cast<std::size_t>(place_in(w, v))];
+  const LocalIndex beyond_u = triangle(u).neighbour[static_cast<std::size_t>(place_of(triangle(u), v))];
+  const LocalIndex beyond_w = triangle(w).neighbour[static_cast<std::size_t>(place_of(triangle(w), v))];
   changed_.push_back(t);
   triangle(t) = {{a, b, c}, {-1, -1, -1}};
   link(t, 0, beyond_u, u);

@@ -84,7 +84,6 @@ private:
   Triangle& triangle(LocalIndex t) { return triangles_[static_cast<std::size_t>(t)]; }
   const Triangle& triangle(LocalIndex t) const { return triangles_[static_cast<std::size_t>(t)]; }
   LocalIndex& corner_of(LocalIndex v) { return corner_of_[static_cast<std::size_t>(v)]; }
-  int place_in(LocalIndex t, LocalIndex v) const;
   LocalIndex locate(geometry::Vec2 p) const;
   bool disc_holds(LocalIndex t, geometry::Vec2 p) const;
   void open_cavity(LocalIndex t, geometry::Vec2 p);
@@ -93,7 +92,7 @@ private:
   void link(LocalIndex t, int k, LocalIndex other, LocalIndex old);
   void flip(LocalIndex t, int k);
   bool place(LocalIndex v);
-  void push_star(LocalIndex v);
+  bool cut_ear(LocalIndex v, LocalIndex degree);
   void legalize();
 
   geometry::Lattice lattice_;

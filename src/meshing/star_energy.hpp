@@ -9,10 +9,10 @@
 
 namespace trime::meshing {
 
-/// @brief Sum of e^2 + 10 e^4, e = eta - 1, over the triangles (p, ring[k], ring[k+1]), eta = (a^2 + b^2 + c^2) /
-/// (4 sqrt(3) area) of the edges a, b, c: 1 for an equilateral triangle (Bank and Smith 1997), smooth, without a scale.
-/// The square counts for the mean, the fourth power makes the worst triangle rule. Infinity if a triangle is turned
-/// over or flat, or once the sum comes up to `limit`.
+/// @brief Sum of e^2 + w e^4, e = eta - 1, w = CleanupRules::quartic_weight, over the triangles (p, ring[k],
+/// ring[k+1]), eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area) of the edges a, b, c: 1 for an equilateral triangle (Bank and
+/// Smith 1997), smooth, without a scale. The square counts for the mean, the fourth power makes the worst triangle
+/// rule. Infinity if a triangle is turned over or flat, or once the sum comes up to `limit`.
 /// @param closed the ring is closed; else it is the open fan of a vertex on the boundary
 double star_energy(geometry::Vec2 p, std::span<const geometry::Vec2> ring, bool closed, double limit = INFINITY);
 
