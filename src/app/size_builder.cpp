@@ -19,8 +19,8 @@ BuiltSize automatic_size(const RunOptions& options, const geometry::Boundary& bo
   automatic.gradation = options.sizing.gradation;
   automatic.feature_floor = feature_floor(options.mesh, boundary.area);
   automatic.container = options.mesh.container;
-  automatic.period_x = options.output.period.x;
-  automatic.period_y = options.output.period.y;
+  automatic.period_x = boundary.periods.x;
+  automatic.period_y = boundary.periods.y;
   BuiltSize size;
   size.field = sizing::make_automatic_size(comm, boundary, automatic);
   size.description = size.field->is_uniform() ? "uniform: the automatic size with gradation 0"
@@ -30,11 +30,10 @@ BuiltSize automatic_size(const RunOptions& options, const geometry::Boundary& bo
 }
 
 /// A formula of a periodic container must have its periods: compares both ends of some lines across it.
-void check_periods(const Formula& formula, const RunOptions& options) {
+void check_periods(const Formula& formula, const RunOptions& options, const geometry::Periods& period) {
   constexpr int lines = 64;
   constexpr double same = 1e-6; // relative
   const geometry::Box& box = options.mesh.container;
-  const geometry::Vec2 period = options.output.period;
   const auto compare = [&](geometry::Vec2 p, geometry::Vec2 shift) {
     const geometry::Vec2 q = p + shift;
     const double at_p = formula.evaluate(p.x, p.y), at_q = formula.evaluate(q.x, q.y);
@@ -60,7 +59,7 @@ BuiltSize expression_size(const RunOptions& options, const geometry::Boundary& b
   size.formula = std::make_unique<const Formula>(sizing.expression, sizing.expression_place);
   size.field = std::make_unique<const sizing::ExpressionSize>(*size.formula, box);
   size.description = "expression " + sizing.expression;
-  check_periods(*size.formula, options);
+  check_periods(*size.formula, options, boundary.periods);
   return size;
 }
 

@@ -260,10 +260,10 @@ private:
   }
 
   void add_chosen(const Stretch& stretch, bool closed) {
-    const std::vector<Place> places = places_between(metric_, stretch.from, stretch.to, lattice_, tolerance_);
+    const std::vector<SitePlace> places = places_between(metric_, stretch.from, stretch.to, lattice_, tolerance_);
     const std::vector<LocalIndex> path = shortest_site_path(places, closed);
     for (std::size_t k = 1; k + 1 < path.size(); ++k) {
-      const Place& place = places[static_cast<std::size_t>(path[k])];
+      const SitePlace& place = places[static_cast<std::size_t>(path[k])];
       check_size(place.t, place.position);
       const bool round = place.t >= metric_.total();
       sites_.push_back({place.junction >= 0 ? metric_.piece_t(static_cast<std::size_t>(place.junction)) // exactly

@@ -80,7 +80,7 @@ void BoundaryRefiner::add_loop(const std::vector<LoopSite>& loop_sites) {
 /// New segments against everything, old ones against the new sites only; ascending by segment.
 std::vector<BoundaryRefiner::Cut> BoundaryRefiner::find_cuts(const std::vector<LocalIndex>& fresh_sites,
                                                              const std::vector<LocalIndex>& fresh_segments) {
-  std::vector<SiteTree::Item> items;
+  std::vector<SiteTree::Entry> items;
   for (const LocalIndex k : fresh_sites)
     items.push_back({boundary_.periods.wrap(sites_[k].position), k});
   const SiteTree newest(items);
@@ -152,7 +152,7 @@ LocalIndex BoundaryRefiner::find_intruder(const SiteTree& tree, LocalIndex segme
 }
 
 SiteTree BoundaryRefiner::tree_of(std::span<const Vec2> points) const {
-  std::vector<SiteTree::Item> items;
+  std::vector<SiteTree::Entry> items;
   for (std::size_t k = 0; k < points.size(); ++k)
     items.push_back({boundary_.periods.wrap(points[k]), static_cast<LocalIndex>(k)});
   return SiteTree(std::move(items));

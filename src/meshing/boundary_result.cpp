@@ -15,10 +15,12 @@ namespace trime::meshing {
 using geometry::Vec2;
 
 namespace {
-constexpr std::ptrdiff_t segments_in_a_row = 64; // by one thread
-}
 
-/// Of the segment that starts at a site.
+constexpr std::ptrdiff_t segments_in_a_row = 64; // by one thread
+
+} // namespace
+
+/// The segment that starts at site k, as the result has it.
 BoundaryRefiner::Segment BoundaryRefiner::segment_of(LocalIndex k) const {
   const Site& site = sites_[k];
   const LoopMetric& metric = metrics_[site.loop];

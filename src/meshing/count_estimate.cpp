@@ -94,9 +94,10 @@ double count_corners(const geometry::Boundary& boundary, double angle) {
 CountEstimate::CountEstimate(const LayoutContext& context, double points, double spacing, double coarsening)
     : context_(context), points_(points), coarsening_(coarsening) {
   BoundarySites polygon;
-  comm::run_agreed(context.comm,
-                   [&] { polygon = polygon_of(context.fixed.boundary(), context.lattice, spacing, lengths_); });
-  corners_ = count_corners(context.fixed.boundary(), context.options.corner_angle);
+  comm::run_agreed(context.comm, [&] {
+    polygon = polygon_of(context.fixed.cornered_boundary(), context.lattice, spacing, lengths_);
+  });
+  corners_ = count_corners(context.fixed.cornered_boundary(), context.options.corner_angle);
   if (!polygon.sites.empty() || context.boundary.covers_torus)
     reference_ = lay_reference(context, std::move(polygon), points, coarsening);
 }

@@ -19,7 +19,7 @@ std::size_t at(LocalIndex i) {
 }
 
 /// Triangles and boundary edges of one tile, or where those of a tile begin.
-struct Places {
+struct Offsets {
   std::size_t triangles = 0, facets = 0;
 };
 
@@ -34,7 +34,7 @@ public:
     PerThread<QualityMeter> meters(view_.size, points_.grid().periods());
     comm::run_agreed(view_.state.comm(), [&] { // the size field is the user's
       fill_points(made.mesh);
-      const std::vector<Places> begin = places();
+      const std::vector<Offsets> begin = offsets();
       make_room(begin.back(), made.mesh);
       PerThread<FlatFan> fans(view_, numbering_);
       thread_loop(tiles(), 1, [&](std::ptrdiff_t t, int thread) {
@@ -74,11 +74,11 @@ private:
   }
 
   /// Where each tile begins; the last entry is the end.
-  std::vector<Places> places() const {
-    std::vector<Places> begin(static_cast<std::size_t>(tiles()) + 1);
+  std::vector<Offsets> offsets() const {
+    std::vector<Offsets> begin(static_cast<std::size_t>(tiles()) + 1);
     thread_loop(tiles(), 1, [&](std::ptrdiff_t t, int) {
       const auto [first, last] = points_.tile_range(first_tile() + static_cast<LocalIndex>(t));
-      Places& count = begin[static_cast<std::size_t>(t) + 1];
+      Offsets& count = begin[static_cast<std::size_t>(t) + 1];
       for (LocalIndex i = first; i < last; ++i)
         count_site(i, count);
     });
@@ -89,7 +89,7 @@ private:
     return begin;
   }
 
-  void count_site(LocalIndex i, Places& count) const {
+  void count_site(LocalIndex i, Offsets& count) const {
     const Fan fan = inside_fan(view_, i);
     if (fan.triangles == 0)
       return;
@@ -106,7 +106,7 @@ private:
       count.facets += std::size_t{first_above} + above;
   }
 
-  static void make_room(Places total, DistributedMesh& mesh) {
+  static void make_room(Offsets total, DistributedMesh& mesh) {
     mesh.triangles.resize(total.triangles);
     mesh.alpha.resize(total.triangles);
     mesh.beta.resize(total.triangles);
@@ -115,7 +115,7 @@ private:
     mesh.facet_parts.resize(total.facets);
   }
 
-  void fill_tile(LocalIndex tile, Places next, FlatFan& fan, QualityMeter& meter, DistributedMesh& mesh) const {
+  void fill_tile(LocalIndex tile, Offsets next, FlatFan& fan, QualityMeter& meter, DistributedMesh& mesh) const {
     meter.write_to(std::span(mesh.alpha).subspan(next.triangles), std::span(mesh.beta).subspan(next.triangles));
     const auto [first, last] = points_.tile_range(tile);
     for (LocalIndex vertex = first; vertex < last; ++vertex) {
@@ -132,7 +132,7 @@ private:
   }
 
   /// By the second vertex; a fan has few triangles.
-  static void list_triangles(LocalIndex vertex, Vec2 position, FlatFan& fan, QualityMeter& meter, Places& next,
+  static void list_triangles(LocalIndex vertex, Vec2 position, FlatFan& fan, QualityMeter& meter, Offsets& next,
                              DistributedMesh& mesh) {
     for (const std::uint32_t k : fan.triangles_above(vertex)) {
       mesh.triangles[next.triangles++] = {vertex, fan.vertices[k], fan.vertices[k + 1]};
@@ -142,7 +142,7 @@ private:
 
   /// Of the edges to the next boundary site and from the previous one those whose other end is higher, by their first
   /// vertex and then the second.
-  void list_facets(LocalIndex vertex, std::int32_t boundary_site, const FlatFan& fan, Places& next,
+  void list_facets(LocalIndex vertex, std::int32_t boundary_site, const FlatFan& fan, Offsets& next,
                    DistributedMesh& mesh) const {
     const std::vector<BoundarySite>& sites = view_.boundary.sites;
     const std::size_t last = fan.triangles;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is said when no size yields so few points, or the bounds of the size forbid the edge length.
+// Errors for points that are too few for the shape, and for bounds of the size that forbid the edge length.
 #pragma once
 
 #include "meshing/layout.hpp"

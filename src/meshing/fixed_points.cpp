@@ -30,7 +30,7 @@ std::vector<Vec2> images_of(const geometry::Periods& periods) {
 }
 
 SiteTree tree_of(const std::vector<Vec2>& points) {
-  std::vector<SiteTree::Item> items;
+  std::vector<SiteTree::Entry> items;
   for (std::size_t k = 0; k < points.size(); ++k)
     items.push_back({points[k], static_cast<LocalIndex>(k)});
   return SiteTree(std::move(items));

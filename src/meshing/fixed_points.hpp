@@ -34,8 +34,8 @@ public:
   std::span<const geometry::Vec2> all() const { return all_; }
   /// Those not on the boundary.
   std::span<const geometry::Vec2> inside() const { return inside_; }
-  /// The boundary with a corner at each point that lies on it.
-  const geometry::Boundary& boundary() const { return boundary_; }
+  /// The boundary as it was given, with a corner at each point that lies on it.
+  const geometry::Boundary& cornered_boundary() const { return boundary_; }
 
   /// @throws GeometryError for the first point that the boundary leaves outside: its label, and how far outside
   void check_inside(const BoundaryGuard& guard) const;

@@ -73,7 +73,7 @@ void lay_sites(const LayoutContext& context, std::size_t affordable, FittedStage
   const FeatureRule rule{keeps_all ? 0 : context.options.feature_tolerance,
                          keeps_all ? 0 : BoundaryRules::least_perimeter, nullptr};
   const auto make = [&](const BoundarySizes& sizes) {
-    return make_boundary_sites(context.fixed.boundary(), sizes, context.lattice, context.options.corner_angle,
+    return make_boundary_sites(context.fixed.cornered_boundary(), sizes, context.lattice, context.options.corner_angle,
                                context.fixed.inside(), rule, affordable);
   };
   if (stage.size->is_uniform()) {
@@ -82,7 +82,8 @@ void lay_sites(const LayoutContext& context, std::size_t affordable, FittedStage
   }
   std::shared_ptr<const SizeSamples>& samples = laid.fitted.samples;
   if (!samples || !samples->serve(laid.fitted.factor))
-    samples = std::make_shared<SizeSamples>(context.fixed.boundary(), context.relative_size, *stage.asked_size);
+    samples =
+        std::make_shared<SizeSamples>(context.fixed.cornered_boundary(), context.relative_size, *stage.asked_size);
   stage.boundary =
       make({*stage.size, asked, {*samples, *stage.asked_size, stage.lowered_size.get(), stage.coarsening}});
 }

@@ -34,8 +34,9 @@ class Mesher::Implementation {
 public:
   Implementation(const comm::Communicator& comm, const geometry::Boundary& boundary, const sizing::SizeField& size,
                  const MeshOptions& options, Log& log, TimerTable& timers)
-      : comm_(comm), boundary_(boundary), relative_size_(size), options_(options), start_options_(plan_start(options)),
-        sweep_options_(sweep_options(options)), log_(log), timers_(timers), lattice_(options.container) {}
+      : comm_(comm), given_boundary_(boundary), relative_size_(size), options_(options),
+        start_options_(plan_start(options)), sweep_options_(sweep_options(options)), log_(log), timers_(timers),
+        lattice_(options.container) {}
 
   MeshResult run() {
     SweepControl control(sweep_options_, history_);
@@ -45,9 +46,9 @@ public:
         break;
     }
     settle();
-    clean_up();
+    const bool mended = clean_up();
     settle(); // chords that the clean-up has moved, where sizes are steep
-    complete_stars();
+    complete_stars(mended ? LemmaReach::inside : LemmaReach::up_to_chords);
     return extract();
   }
 
@@ -55,11 +56,11 @@ public:
 
 private:
   LayoutContext layout_context() const {
-    return {comm_, boundary_, relative_size_, start_options_, lattice_, log_, timers_, *fixed_};
+    return {comm_, given_boundary_, relative_size_, start_options_, lattice_, log_, timers_, *fixed_};
   }
 
   void begin() {
-    fixed_ = std::make_unique<FixedPoints>(boundary_, options_.container, options_.fixed_points, lattice_, log_);
+    fixed_ = std::make_unique<FixedPoints>(given_boundary_, options_.container, options_.fixed_points, lattice_, log_);
     context_ = std::make_unique<LayoutContext>(layout_context());
     scheme_ = std::make_unique<PointScheme>(*context_);
     Stage first = scheme_->first(); // decides, so that the reason is known
@@ -68,7 +69,7 @@ private:
   }
 
   void advance() {
-    complete_stars();
+    complete_stars(LemmaReach::up_to_chords);
     set_up(scheme_->next(stage_));
   }
 
@@ -76,7 +77,7 @@ private:
     stage_ = std::move(stage);
     return_free_memory();
     if (dropped().any())
-      remaining_ = boundary_without(fixed_->boundary(), dropped());
+      kept_boundary_ = boundary_without(fixed_->cornered_boundary(), dropped());
     placed_ = comm_.sum(std::int64_t{state().points().owned()});
     const mesh::TileGrid& grid = state().grid();
     make_builder(placed_);
@@ -91,7 +92,7 @@ private:
         log_.info("boundary: {}", line);
       comm::run_agreed(comm_, [this] { // they ask the size field, which may be a user's
         warn_of_fine_features(stage_, log_);
-        warn_of_steep_sizes(stage_, boundary_, lattice_, log_);
+        warn_of_steep_sizes(stage_, given_boundary_, lattice_, log_);
         if (!fixed_->empty())
           fixed_->warn_of_close_ones(*stage_.guard, *stage_.size, log_);
       });
@@ -201,7 +202,9 @@ private:
   }
 
   /// What the sites are laid on: the shape's boundary with fixed points as corners, without the loops that are dropped.
-  const geometry::Boundary& meshed_boundary() const { return dropped().any() ? remaining_ : fixed_->boundary(); }
+  const geometry::Boundary& meshed_boundary() const {
+    return dropped().any() ? kept_boundary_ : fixed_->cornered_boundary();
+  }
   SiteState& state() { return *stage_.state; }
   const SiteState& state() const { return *stage_.state; }
   MoveContext move_context() const { return {*stage_.guard, *stage_.size, lattice_}; }
@@ -227,10 +230,10 @@ private:
     settle_sites(state(), move_context(), stage_.typical_size);
   }
 
-  /// Mends the worst triangles, patch by patch.
-  void clean_up() {
+  /// Mends the worst triangles, patch by patch. True if it changed anything: sites of the boundary may have moved.
+  bool clean_up() {
     if (!options_.cleanup || history_.empty())
-      return;
+      return false;
     mend_stars(LemmaReach::up_to_chords);
     const auto time = timers_.scope("clean-up");
     const CleanupTask task{state(),  stage_.boundary, *stage_.guard, meshed_boundary(),
@@ -241,6 +244,7 @@ private:
               "places with alpha above {}",
               cleanup_.better, cleanup_.patches, cleanup_.moved, cleanup_.inserted, cleanup_.deleted, cleanup_.left,
               CleanupRules::bad_alpha);
+    return cleanup_.better > 0;
   }
 
   // --- the mesh -----------------------------------------------------------------------------------------------------
@@ -252,7 +256,7 @@ private:
 
   /// Throws if triangles of a periodic container reach around it: then their ids do not tell them apart.
   void check_periods() {
-    const geometry::Periods& periods = boundary_.periods;
+    const geometry::Periods& periods = given_boundary_.periods;
     const double limit = delaunay::StarBuilder::largest_cap(periods);
     if (builder_->cap(stage_.typical_size) < limit || comm_.sum(count_incomplete_fans(view())) == 0)
       return;
@@ -261,14 +265,16 @@ private:
         "the periodic container needs triangles with circumradii below a quarter of its period, which takes a period "
         "of "
         "about three edges; found an element size of {:.3g} in a period of {:.3g}; about {} points are enough",
-        stage_.typical_size, 4 * limit, static_cast<GlobalId>(std::ceil(boundary_.area / (0.866 * size * size)))));
+        stage_.typical_size, 4 * limit,
+        static_cast<GlobalId>(std::ceil(given_boundary_.area / (0.866 * size * size)))));
   }
 
   /// Stars of all sites. Where a fan is not complete the cap may have been too low (a void): it is doubled for these
   /// sites, a few times; the certificate tells of what remains.
-  void complete_stars() {
+  /// @param lemma up to which sites the stars around one may certify it
+  void complete_stars(LemmaReach lemma) {
     const double largest = std::max(options_.container.width(), options_.container.height());
-    mend_stars(cleanup_.better > 0 ? LemmaReach::inside : LemmaReach::up_to_chords);
+    mend_stars(lemma);
     stars(Wanted::all_sites);
     for (int doubling = 0; doubling < MeshingRules::cap_doublings && std::isfinite(cap_factor_); ++doubling) {
       if (comm_.sum(count_incomplete_fans(view())) == 0)
@@ -281,7 +287,7 @@ private:
       });
       stars(Wanted::all_sites);
     }
-    if (boundary_.periods.any())
+    if (given_boundary_.periods.any())
       check_periods();
   }
 
@@ -299,7 +305,7 @@ private:
     result.quality = std::move(made.quality);
     result.mesh = std::move(made.mesh);
     const double side = std::max(options_.container.width(), options_.container.height());
-    result.checks = certify(context, numbering, {boundary_, meshed_boundary(), side}, result.mesh);
+    result.checks = certify(context, numbering, {given_boundary_, meshed_boundary(), side}, result.mesh);
     result.history = std::move(history_);
     result.triangulations = triangulations_;
     result.stop_reason = stop_reason_;
@@ -332,7 +338,7 @@ private:
   }
 
   const comm::Communicator& comm_;
-  const geometry::Boundary& boundary_;
+  const geometry::Boundary& given_boundary_;
   const sizing::SizeField& relative_size_;
   const MeshOptions options_;
   const StartOptions start_options_;
@@ -343,7 +349,8 @@ private:
   geometry::Lattice lattice_;
   std::unique_ptr<FixedPoints> fixed_;
   Stage stage_;
-  geometry::Boundary remaining_; // without the loops that were dropped, if any
+  geometry::Boundary
+      kept_boundary_; // the cornered one of fixed_ without the loops that were dropped; unused if none was
   FeatureReport features_;
   double cap_factor_ = 0; // of h
   std::unique_ptr<delaunay::StarBuilder> builder_;

@@ -40,7 +40,7 @@ void SegmentWatch::find(Vec2 site, std::vector<LocalIndex>& found) const {
         for (double dx = -1; dx <= 1; ++dx)
           for (double dy = -1; dy <= 1; ++dy)
             if (const auto there = cells.find(key_of(column + dx, row + dy)); there != cells.end())
-              for (const Item& item : there->second)
+              for (const WatchedSegment& item : there->second)
                 if (geometry::squared_length(item.middle - p) <= 0.27 * cell * cell) // the largest radius, and a little
                   found.push_back(item.index);
       }

@@ -28,11 +28,11 @@ public:
 
 private:
   /// Cells of one size, 2^(level + 1), for lengths of 2^level and more.
-  struct Item {
+  struct WatchedSegment {
     geometry::Vec2 middle;
     LocalIndex index;
   };
-  using Cells = std::unordered_map<std::uint64_t, std::vector<Item>>;
+  using Cells = std::unordered_map<std::uint64_t, std::vector<WatchedSegment>>;
 
   const geometry::Periods periods_;
   std::map<int, Cells> levels_;

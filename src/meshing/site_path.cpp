@@ -65,7 +65,7 @@ struct Chord {
 
 class PathFinder {
 public:
-  PathFinder(std::span<const Place> places, bool closed) : places_(places), closed_(closed) {
+  PathFinder(std::span<const SitePlace> places, bool closed) : places_(places), closed_(closed) {
     const std::size_t n = places.size();
     first_.resize(n + 1, 0);
     for (std::size_t from = 0; from + 1 < n; ++from) {
@@ -111,13 +111,13 @@ public:
 private:
   /// Behind a place far out, or far along a winding curve, no chord ends.
   bool in_reach(std::size_t from, std::size_t to, double length) const {
-    const Place &a = places_[from], &b = places_[to];
+    const SitePlace &a = places_[from], &b = places_[to];
     return to == from + 1 ||
            (b.t - a.t < BoundaryRules::farthest_way && length < BoundaryRules::farthest_reach * a.size);
   }
 
   void add_chord(std::size_t from, std::size_t to, Vec2 along, double length) {
-    const Place &a = places_[from], &b = places_[to];
+    const SitePlace &a = places_[from], &b = places_[to];
     const double h = 0.5 * (a.size + b.size);
     const bool neighbours = to == from + 1;
     if (!(length > 0) ||
@@ -215,7 +215,7 @@ private:
   }
 
   const FanCosts& fan_costs_ = fan_costs();
-  std::span<const Place> places_;
+  std::span<const SitePlace> places_;
   bool closed_;
   std::vector<Chord> chords_;
   std::vector<LocalIndex> first_;             // chord of each place
@@ -224,7 +224,7 @@ private:
 
 } // namespace
 
-std::vector<LocalIndex> shortest_site_path(std::span<const Place> places, bool closed) {
+std::vector<LocalIndex> shortest_site_path(std::span<const SitePlace> places, bool closed) {
   return PathFinder(places, closed).run();
 }
 

@@ -12,7 +12,7 @@
 namespace trime::meshing {
 
 /// A place on the curve that may become a site.
-struct Place {
+struct SitePlace {
   double t;                 ///< coordinate of LoopMetric, unwrapped
   geometry::Vec2 position;  ///< on the lattice
   double size = 0;          ///< wanted length of chords
@@ -27,6 +27,6 @@ struct Place {
 /// chords: an estimate of alpha - 1 over the triangles there. Interior on the left. O(n c^2) for c <= 24 chords from a
 /// place; by + - * / sqrt alone.
 /// @param closed the last place is the first one come round; the angle between the last chord and the first counts
-std::vector<LocalIndex> shortest_site_path(std::span<const Place> places, bool closed);
+std::vector<LocalIndex> shortest_site_path(std::span<const SitePlace> places, bool closed);
 
 } // namespace trime::meshing

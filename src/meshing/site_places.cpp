@@ -12,9 +12,10 @@ using geometry::Vec2;
 namespace {
 
 /// Both ends and the junctions between them.
-std::vector<Place> junctions_between(const LoopMetric& metric, double t0, double t1, const geometry::Lattice& lattice) {
+std::vector<SitePlace> junctions_between(const LoopMetric& metric, double t0, double t1,
+                                         const geometry::Lattice& lattice) {
   const auto n = static_cast<LocalIndex>(metric.loop().pieces.size());
-  std::vector<Place> places;
+  std::vector<SitePlace> places;
   double shift = 0;
   Vec2 moved{};
   LocalIndex i = 0;
@@ -51,7 +52,7 @@ std::vector<Place> junctions_between(const LoopMetric& metric, double t0, double
 }
 
 /// Marks the places to keep between two kept ones.
-void mark_kept(const std::vector<Place>& places, std::vector<char>& kept) {
+void mark_kept(const std::vector<SitePlace>& places, std::vector<char>& kept) {
   struct Part {
     std::size_t from, to;
     int depth;
@@ -92,29 +93,29 @@ void mark_kept(const std::vector<Place>& places, std::vector<char>& kept) {
 
 } // namespace
 
-std::vector<Place> places_between(const LoopMetric& metric, double t0, double t1, const geometry::Lattice& lattice,
-                                  const FeatureTolerance& tolerance) {
-  std::vector<Place> junctions = junctions_between(metric, t0, t1, lattice);
-  const auto measure = [&](Place& place) {
+std::vector<SitePlace> places_between(const LoopMetric& metric, double t0, double t1, const geometry::Lattice& lattice,
+                                      const FeatureTolerance& tolerance) {
+  std::vector<SitePlace> junctions = junctions_between(metric, t0, t1, lattice);
+  const auto measure = [&](SitePlace& place) {
     const SizePair sizes = metric.sizes(place.t);
     place.size = sizes.size;
     place.tolerance = tolerance.at(sizes.asked);
   };
-  for (Place& place : junctions)
+  for (SitePlace& place : junctions)
     measure(place);
   std::vector<char> kept(junctions.size(), 0);
   mark_kept(junctions, kept);
-  std::vector<Place> places;
+  std::vector<SitePlace> places;
   for (std::size_t k = 0; k < junctions.size(); ++k) {
     if (!kept[k])
       continue;
     if (!places.empty()) {
-      const Place from = places.back(), &to = junctions[k];
+      const SitePlace from = places.back(), &to = junctions[k];
       const double h = std::fmin(from.size, to.size);
       const double parts =
           std::ceil(geometry::length(to.position - from.position) / (BoundaryRules::place_spacing * h));
       for (double part = 1; part < parts; ++part) {
-        Place place{from.t + (to.t - from.t) * (part / parts), {}};
+        SitePlace place{from.t + (to.t - from.t) * (part / parts), {}};
         place.position = lattice.snap(metric.point(place.t));
         measure(place);
         if (place.position != places.back().position && place.position != to.position)

@@ -24,7 +24,7 @@ struct FeatureTolerance {
 /// @brief Junctions between t0 and t1, and places at most a quarter of the local size apart between them; both ends.
 /// Junctions that lie within a small part of the tolerance of a chord between others are left out (Douglas and Peucker
 /// 1973). O(n log n) for n junctions, at most O(64 n).
-std::vector<Place> places_between(const LoopMetric& metric, double t0, double t1, const geometry::Lattice& lattice,
-                                  const FeatureTolerance& tolerance);
+std::vector<SitePlace> places_between(const LoopMetric& metric, double t0, double t1, const geometry::Lattice& lattice,
+                                      const FeatureTolerance& tolerance);
 
 } // namespace trime::meshing

@@ -16,7 +16,7 @@ constexpr int serial_levels = 5;            // levels of the tree that are built
 constexpr std::size_t worth_threads = 2048; // items
 } // namespace
 
-SiteTree::SiteTree(std::vector<Item> items) : items_(std::move(items)), split_y_(items_.size(), 0) {
+SiteTree::SiteTree(std::vector<Entry> items) : items_(std::move(items)), split_y_(items_.size(), 0) {
   std::vector<Range> parts{{0, items_.size()}};
   for (int level = 0; level < serial_levels && items_.size() > worth_threads; ++level) {
     std::vector<Range> next(2 * parts.size(), Range{0, 0});
@@ -47,7 +47,7 @@ std::size_t SiteTree::split(Range range) {
     box.include(items_[k].position);
   const std::size_t middle = low + (high - low) / 2;
   const bool by_y = box.height() > box.width();
-  const auto less = [by_y](const Item& a, const Item& b) {
+  const auto less = [by_y](const Entry& a, const Entry& b) {
     const double u = by_y ? a.position.y : a.position.x, v = by_y ? b.position.y : b.position.x;
     return u < v || (u == v && a.index < b.index);
   };
@@ -60,7 +60,7 @@ LocalIndex SiteTree::find_in_disc(Vec2 a, Vec2 b, LocalIndex index_a, LocalIndex
   const Vec2 center = 0.5 * (a + b);
   const double radius = 0.5 * geometry::length(b - a) * (1 + 1e-9) +
                         1e-15 * (std::fabs(center.x) + std::fabs(center.y)); // rounding must not hide a site
-  const auto in_disc = [&](const Item& item) {
+  const auto in_disc = [&](const Entry& item) {
     return !(item.index == index_a && item.position == a) && !(item.index == index_b && item.position == b) &&
            (geometry::diametral_side(a, b, item.position) <= 0 || item.position == a || item.position == b);
   };
@@ -76,7 +76,7 @@ LocalIndex SiteTree::find_in_disc(Vec2 a, Vec2 b, LocalIndex index_a, LocalIndex
       continue;
     }
     const std::size_t middle = range.low + (range.high - range.low) / 2;
-    const Item& item = items_[middle];
+    const Entry& item = items_[middle];
     if (in_disc(item))
       return item.index;
     const double offset = split_y_[middle] ? center.y - item.position.y : center.x - item.position.x;

@@ -14,11 +14,11 @@ namespace trime::meshing {
 /// Immutable; O(n log n) to build, by all threads.
 class SiteTree {
 public:
-  struct Item {
+  struct Entry {
     geometry::Vec2 position;
     LocalIndex index;
   };
-  explicit SiteTree(std::vector<Item> items);
+  explicit SiteTree(std::vector<Entry> items);
 
   /// A site strictly inside the diametral disc of a-b, or at the place of a or b, other than `index_a` at a and
   /// `index_b` at b; -1 if there is none. Exact.
@@ -29,7 +29,7 @@ public:
     visit_within(center, radius, 0, items_.size(), visit);
   }
   std::size_t size() const { return items_.size(); }
-  const std::vector<Item>& items() const { return items_; }
+  const std::vector<Entry>& items() const { return items_; }
 
 private:
   struct Range {
@@ -46,7 +46,7 @@ private:
       return;
     }
     const std::size_t middle = low + (high - low) / 2;
-    const Item& item = items_[middle];
+    const Entry& item = items_[middle];
     const double offset = split_y_[middle] ? center.y - item.position.y : center.x - item.position.x;
     if (offset <= radius)
       visit_within(center, radius, low, middle, visit);
@@ -57,7 +57,7 @@ private:
   }
 
   static constexpr std::size_t leaf_size = 8;
-  std::vector<Item> items_;           // the item in the middle of a range splits it
+  std::vector<Entry> items_;          // the item in the middle of a range splits it
   std::vector<std::uint8_t> split_y_; // per item: does it split by y?
 };
 

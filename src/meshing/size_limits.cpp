@@ -52,8 +52,8 @@ private:
     add(middle, std::fmin(limit, BoundaryRules::width_factor * width_across(k, chord, length)), h);
   }
 
-  static std::vector<SiteTree::Item> items_of(const BoundarySites& boundary) {
-    std::vector<SiteTree::Item> items;
+  static std::vector<SiteTree::Entry> items_of(const BoundarySites& boundary) {
+    std::vector<SiteTree::Entry> items;
     for (std::size_t k = 0; k < boundary.sites.size(); ++k)
       items.push_back({boundary.sites[k].position, static_cast<LocalIndex>(k)});
     return items;
@@ -64,7 +64,7 @@ private:
     const Vec2 along = (1 / length) * (chord.b - chord.a), inward{-along.y, along.x};
     const Vec2 center = 0.5 * (chord.a + chord.b) + BoundaryRules::lens_offset * length * inward;
     double width = std::numeric_limits<double>::infinity();
-    tree_.for_each_within(center, BoundaryRules::lens_radius * length, [&](const SiteTree::Item& item) {
+    tree_.for_each_within(center, BoundaryRules::lens_radius * length, [&](const SiteTree::Entry& item) {
       const double height = geometry::dot(item.position - chord.a, inward);
       if (height > 0 && !is_near(k, item.index))
         width = std::fmin(width, height);
@@ -85,7 +85,7 @@ private:
     const geometry::Segment out = boundary_.chord(k);
     const Vec2 ahead = out.b - out.a, back = boundary_.chord(previous(k)).a - boundary_.chord(previous(k)).b;
     double gap = std::numeric_limits<double>::infinity();
-    tree_.for_each_within(out.a, reach, [&](const SiteTree::Item& item) {
+    tree_.for_each_within(out.a, reach, [&](const SiteTree::Entry& item) {
       const Vec2 across = item.position - out.a;
       const bool left_of_ahead = geometry::cross(ahead, across) > 0, right_of_back = geometry::cross(across, back) > 0;
       const bool inside =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a user would want to know of the size before the sweeps begin.
+// Warnings about the size that a user can act on before the sweeps begin.
 #pragma once
 
 #include "meshing/stage.hpp"

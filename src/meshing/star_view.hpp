@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The certified stars of a rank with h at their sites, as those see them who move sites or measure triangles.
+// The certified stars of a rank with h at their sites, for all that moves sites or measures triangles.
 #pragma once
 
 #include "trime/delaunay/star_table.hpp"

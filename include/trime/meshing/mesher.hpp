@@ -33,7 +33,8 @@ public:
          const MeshOptions& options, Log& log, TimerTable& timers);
   ~Mesher();
 
-  /// `observer` is called with each triangulation that MeshOptions::snapshot_interval asks for.
+  /// @brief Sets what is called with the triangulations that MeshOptions::snapshot_interval asks for; at most one
+  /// observer. Call it before run.
   void on_snapshot(SnapshotObserver observer);
 
   /// @brief Makes the mesh. @note Collective.

@@ -23,7 +23,7 @@ namespace trime::meshing {
 
 struct MeshOptions {
   geometry::Box container{{0, 0}, {1, 1}};
-  /// For the frame in which a shape is made; the mesher itself goes by the periods of the boundary that it is given.
+  /// For the frame in which a shape is made. From there on the periods of its boundary are the only ones that count.
   bool periodic_x = false, periodic_y = false;
   std::optional<int> cells_x, cells_y; ///< container grid; empty: about 3.3 points a cell
   Method method = Method::hybrid;

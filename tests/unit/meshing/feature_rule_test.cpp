@@ -186,7 +186,7 @@ TEST(FeatureRule, TheEndsOfASlitStay) {
 }
 
 TEST(SitePath, AStraightLineIsDividedEvenlyAndACornerKept) {
-  std::vector<Place> places;
+  std::vector<SitePlace> places;
   for (int k = 0; k <= 40; ++k)
     places.push_back({0.25 * k, k <= 20 ? Vec2{0.25 * k, 0} : Vec2{5, 0.25 * (k - 20)}, 1, 0.2});
   const std::vector<LocalIndex> path = shortest_site_path(places, false);
@@ -194,7 +194,7 @@ TEST(SitePath, AStraightLineIsDividedEvenlyAndACornerKept) {
 }
 
 TEST(SitePath, NeighbouringPlacesAreJoinedIfNothingElseIsAllowed) {
-  std::vector<Place> places; // a zigzag far beyond the tolerance, and steps longer than any chord is wanted
+  std::vector<SitePlace> places; // a zigzag far beyond the tolerance, and steps longer than any chord is wanted
   for (int k = 0; k <= 6; ++k)
     places.push_back({5.0 * k, {1.0 * k, k % 2 == 0 ? 0.0 : 5.0}, 1, 0.2});
   EXPECT_EQ(shortest_site_path(places, false).size(), places.size());

@@ -48,7 +48,8 @@ std::string error_of(const Work& work) {
 }
 
 BoundarySites sites_for(const FixedPoints& fixed, double h) {
-  return make_boundary_sites(fixed.boundary(), sizing::UniformSize(h), unit_frame.lattice(), 30, fixed.inside());
+  return make_boundary_sites(fixed.cornered_boundary(), sizing::UniformSize(h), unit_frame.lattice(), 30,
+                             fixed.inside());
 }
 
 std::vector<Vec2> corners_of(const BoundarySites& sites) {
@@ -67,8 +68,8 @@ TEST(FixedPoints, OnTheBoundaryTheyAreCorners) {
   const FixedPoints fixed = make(options);
   EXPECT_EQ(fixed.all().size(), 5u);
   EXPECT_EQ(fixed.inside().size(), 1u);
-  EXPECT_NEAR(fixed.boundary().length(), shape.boundary().length(), 1e-12);
-  for (const geometry::Loop& loop : fixed.boundary().loops)
+  EXPECT_NEAR(fixed.cornered_boundary().length(), shape.boundary().length(), 1e-12);
+  for (const geometry::Loop& loop : fixed.cornered_boundary().loops)
     for (std::size_t k = 0; k < loop.pieces.size(); ++k)
       EXPECT_EQ(loop.pieces[k].end, loop.pieces[(k + 1) % loop.pieces.size()].start);
   const std::vector<Vec2> corners = corners_of(sites_for(fixed, 0.03));
