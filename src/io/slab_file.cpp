@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/slab_file.hpp"
 
+#include "io/hdf5_values.hpp"
 #include "io/temporary_file.hpp"
 #include "trime/comm/agree.hpp"
 #include "trime/comm/native.hpp"
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
-#include <type_traits>
 
 namespace trime::io {
 namespace {
@@ -63,97 +63,12 @@ Hdf5Properties transfer(const comm::Communicator& comm, bool collective) {
   return properties;
 }
 
-Hdf5Type text_type(std::size_t length, H5T_cset_t characters) {
-  Hdf5Type type(H5Tcopy(H5T_C_S1), "make an HDF5 type");
-  checked(H5Tset_size(type, std::max<std::size_t>(1, length)), "make an HDF5 type"); // HDF5 has no empty strings
-  checked(H5Tset_strpad(type, H5T_STR_NULLPAD), "make an HDF5 type");
-  checked(H5Tset_cset(type, characters), "make an HDF5 type");
-  return type;
-}
-
-Hdf5Space scalar_space() {
-  return Hdf5Space(H5Screate(H5S_SCALAR), "make an HDF5 space");
-}
-
-Hdf5Space array_space(hsize_t rows, hsize_t columns) {
-  const hsize_t extent[2] = {rows, columns};
-  return Hdf5Space(H5Screate_simple(columns == 0 ? 1 : 2, extent, nullptr), "make an HDF5 space");
-}
-
 /// Selects rows [first, first + count) of a space, or nothing.
 void select_rows(hid_t space, hsize_t first, hsize_t count, hsize_t columns) {
   const hsize_t start[2] = {first, 0}, extent[2] = {count, columns};
   checked(count == 0 ? H5Sselect_none(space)
                      : H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, extent, nullptr),
           "select rows of an HDF5 array");
-}
-
-template <class T>
-hid_t native_type();
-template <>
-hid_t native_type<std::int32_t>() {
-  return H5T_NATIVE_INT32;
-}
-template <>
-hid_t native_type<std::int64_t>() {
-  return H5T_NATIVE_INT64;
-}
-template <>
-hid_t native_type<std::uint64_t>() {
-  return H5T_NATIVE_UINT64;
-}
-template <>
-hid_t native_type<double>() {
-  return H5T_NATIVE_DOUBLE;
-}
-
-/// Values of an attribute or of a small dataset, ready to be written.
-struct SmallValues {
-  Hdf5Type type;
-  Hdf5Space space;
-  std::string bytes;
-};
-
-template <class T>
-SmallValues plain_values(Hdf5Space space, const T* values, std::size_t count) {
-  Hdf5Type type(H5Tcopy(native_type<T>()), "make an HDF5 type");
-  return {std::move(type), std::move(space), std::string(reinterpret_cast<const char*>(values), count * sizeof(T))};
-}
-
-SmallValues text_value(const std::string& text, H5T_cset_t characters) {
-  return {text_type(text.size(), characters), scalar_space(), text};
-}
-
-SmallValues attribute_value(const Attribute& attribute) {
-  return std::visit(
-      [](const auto& value) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>)
-          return text_value(shortened(value, longest_attribute), H5T_CSET_UTF8);
-        else
-          return plain_values(scalar_space(), &value, 1);
-      },
-      attribute.value);
-}
-
-SmallValues text_column(const std::vector<std::string>& texts) {
-  std::size_t longest = 1;
-  for (const std::string& text : texts)
-    longest = std::max(longest, text.size());
-  std::string packed;
-  for (const std::string& text : texts)
-    packed += text + std::string(longest - text.size(), '\0');
-  return {text_type(longest, H5T_CSET_UTF8), array_space(texts.size(), 0), packed};
-}
-
-SmallValues column_values(const Column& column) {
-  return std::visit(
-      [](const auto& values) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(values)>, std::vector<std::string>>)
-          return text_column(values);
-        else
-          return plain_values(array_space(values.size(), 0), values.data(), values.size());
-      },
-      column.values);
 }
 
 } // namespace
@@ -232,8 +147,7 @@ void SlabFile::attribute(const std::string& object, const Attribute& attribute) 
 }
 
 void SlabFile::attribute(const std::string& object, const std::string& name, std::span<const std::int64_t> values) {
-  write_attribute(object, name,
-                  [&] { return plain_values(array_space(values.size(), 0), values.data(), values.size()); });
+  write_attribute(object, name, [&] { return list_value(values); });
 }
 
 void SlabFile::ascii_attribute(const std::string& object, const std::string& name, const std::string& text) {

@@ -261,17 +261,6 @@ void SiteState::fetch(std::span<const mesh::BinRef> missing, const sizing::SizeF
     halo_.refresh_drifts(points_);
 }
 
-void SiteState::reveal(std::span<const Disc> discs, const sizing::SizeField& size) {
-  std::vector<mesh::BinRef> missing;
-  for (const Disc& disc : discs)
-    points_.for_each_near(
-        disc.center, disc.radius, [](LocalIndex, LocalIndex) {}, [&](mesh::BinRef bin) { missing.push_back(bin); });
-  std::sort(missing.begin(), missing.end());
-  missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-  if (comm_.sum(static_cast<std::int64_t>(missing.size())) > 0)
-    fetch(missing, size);
-}
-
 void SiteState::release_work_space() {
   points_.release_moves();
   sizes_.forget();

@@ -49,10 +49,6 @@ public:
   /// The same for some stars: `wanted` by local index of the owned sites.
   delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size,
                                    std::span<const delaunay::StarWish> wanted);
-  /// @brief Makes all sites in the discs known, with their sizes; local indices of ghosts may change. Collective.
-  /// @pre in a periodic container radii below half a period
-  void reveal(std::span<const Disc> discs, const sizing::SizeField& size);
-
   /// @brief Fetches the ghosts and evaluates h at sites that moved; part of compute_stars. Collective.
   void refresh(const sizing::SizeField& size);
   /// h is evaluated anew at the next move, also of sites that stay: theirs may be older than their place.

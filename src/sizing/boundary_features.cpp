@@ -5,6 +5,7 @@
 #include "core/gather.hpp"
 #include "sizing/medial_axis.hpp"
 #include "sizing/piece_locator.hpp"
+#include "sizing/sizing_rules.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,15 +20,8 @@ using geometry::Vec2;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double spacing_share = 0.35;  // of the local feature size: largest distance of samples with medial points
-constexpr double envelope_error = 0.02; // of the field between two samples, as a share of it
-constexpr double nearest_slack = 1e-3;  // of local feature sizes: all balls of a polygon like a disc have one centre
-constexpr double thinning_error = 0.01; // of the field, for leaving out samples much like the one before
-constexpr double first_radius_share = 1.0 / 32; // of the container: first radius that is tried along a run of rays
-constexpr double radius_growth = 1.5;           // from the ball of one ray to the first that the next tries
 constexpr std::size_t ray_run = 64;
 constexpr std::ptrdiff_t origins_in_a_row = 256; // of rays, by one thread
-constexpr int first_samples = 32;                // along a line as long as the container
 constexpr int most_rounds = 40;
 
 /// All images within reach.
@@ -47,7 +41,7 @@ std::vector<Cone> with_images(const std::vector<Cone>& cones, const Images& imag
 std::vector<Cone> thinned(const std::vector<Cone>& cones, double slope) {
   std::vector<Cone> kept;
   for (const Cone& cone : cones)
-    if (kept.empty() || kept.back().value(cone.apex, slope) > (1 + thinning_error) * cone.height)
+    if (kept.empty() || kept.back().value(cone.apex, slope) > (1 + SizingRules::thinning_error) * cone.height)
       kept.push_back(cone);
   return kept;
 }
@@ -89,7 +83,8 @@ private:
   };
 
   void place_first() {
-    const double longest = std::max(images_.container().width(), images_.container().height()) / first_samples;
+    const double longest =
+        std::max(images_.container().width(), images_.container().height()) / SizingRules::first_samples;
     for (const geometry::Loop& loop : boundary_.loops) {
       const auto loop_start = static_cast<LocalIndex>(samples_.size());
       const std::vector<bool> kept = kept_vertices(loop);
@@ -114,7 +109,7 @@ private:
 
   /// Which pieces start with a sample: of runs of short pieces only some.
   std::vector<bool> kept_vertices(const geometry::Loop& loop) const {
-    const double shortest = std::min(spacing_share, 2 * envelope_error / slope_) * floor_;
+    const double shortest = std::min(SizingRules::sample_spacing, 2 * SizingRules::envelope_error / slope_) * floor_;
     std::vector<bool> kept(loop.pieces.size(), true);
     double since = loop.pieces.front().length(); // the last that was kept
     for (std::size_t k = 1; k < kept.size(); ++k) {
@@ -169,13 +164,13 @@ private:
           const auto at = static_cast<std::size_t>(k);
           ends_axis[at] = append_rays_from(origins_[at], list);
         });
-    const double first_radius = std::max(floor_, first_radius_share * images_.container().width());
+    const double first_radius = std::max(floor_, SizingRules::first_radius * images_.container().width());
     const auto find_run = [&](std::size_t first, std::size_t last, Found* found) {
       std::array<double, 2> radius{first_radius, first_radius}; // to the left and to the right
       for (std::size_t k = first; k < last; ++k) {
         double& start = radius[rays[k].side];
         const std::optional<Vec2> point = medial_point(rays[k], locator_, images_, start);
-        start = std::max(floor_, radius_growth * start);
+        start = std::max(floor_, SizingRules::radius_growth * start);
         *found++ = {point.value_or(Vec2{}), point.has_value()};
       }
     };
@@ -198,7 +193,7 @@ private:
       double size = samples_[k].height;
       std::size_t tree = k < known_ ? medial_trees_.size() - 1 : 0;
       for (; tree < medial_trees_.size() && size > floor_; ++tree)
-        size = medial_trees_[tree].value(p, size, nearest_slack);
+        size = medial_trees_[tree].value(p, size, SizingRules::nearest_slack);
       return size;
     });
     for (std::size_t k = 0; k < sizes.size(); ++k)
@@ -210,7 +205,7 @@ private:
     std::vector<Interval> next;
     for (const Interval& interval : intervals_) {
       const double size = std::min(samples_[interval.first].height, samples_[interval.last].height);
-      if (interval.to - interval.from <= spacing_share * std::max(size, floor_)) {
+      if (interval.to - interval.from <= SizingRules::sample_spacing * std::max(size, floor_)) {
         next.push_back(interval);
         continue;
       }
@@ -227,7 +222,7 @@ private:
     for (const Interval& interval : intervals_) {
       const double size = std::max(std::min(samples_[interval.first].height, samples_[interval.last].height), floor_);
       const double length = interval.to - interval.from;
-      const double parts = std::ceil(length * slope_ / (2 * envelope_error * size));
+      const double parts = std::ceil(length * slope_ / (2 * SizingRules::envelope_error * size));
       for (double k = 1; k < parts; ++k) {
         const double along = interval.from + length * (k / parts);
         samples_.push_back({interval.piece->point(along), upper_bound(interval, along)});

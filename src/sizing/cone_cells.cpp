@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sizing/cone_cells.hpp"
 
+#include "sizing/cone_rules.hpp"
 #include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
@@ -16,13 +17,7 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr double cones_per_block = 4;
-constexpr double most_blocks_along = 128;
-constexpr std::size_t enough = 12; // cones in a cell that is not split
-constexpr std::size_t most = 24;   // in a leaf; of the smallest cells with more the tree is asked
-constexpr double small = 2;        // side of a cell that is not split, over the envelope: few look-ups come to one cell
-constexpr double margin = 0.1;     // around the apexes, of the longer side of their box
-constexpr double rounding = 1e-12; // of the extent and of values
+constexpr double rounding = 1e-12;                    // of the extent and of values
 constexpr double half_diagonal = 0.70710678118654757; // of a unit square
 
 /// The last one stands twice if their number is odd.
@@ -97,14 +92,15 @@ private:
   }
   /// A cone that is higher than this in the middle of a cell is never the lowest in it, if that is `lowest` there.
   double limit(double lowest, const CellPlace& place) const {
-    const double reach = half_diagonal * grid_.side_at(place.level) + rounding * grid_.side * most_blocks_along;
+    const double reach =
+        half_diagonal * grid_.side_at(place.level) + rounding * grid_.side * ConeRules::most_blocks_along;
     return (lowest + 2 * slope_ * reach) * (1 + rounding);
   }
 
   CellNode build(const CellPlace& place) {
     const List& list = lists_[static_cast<std::size_t>(place.level)];
-    if (list.count <= enough || place.level == most_levels || grid_.side_at(place.level) <= small * list.lowest ||
-        is_hopeless(place.level))
+    if (list.count <= ConeRules::enough || place.level == most_levels ||
+        grid_.side_at(place.level) <= ConeRules::smallest_cell * list.lowest || is_hopeless(place.level))
       return leaf(list);
     const std::size_t node = part_.quarters.size();
     part_.quarters.emplace_back();
@@ -143,7 +139,7 @@ private:
   }
 
   CellNode leaf(const List& list) {
-    if (list.count == 0 || list.count > most)
+    if (list.count == 0 || list.count > ConeRules::most_in_leaf)
       return CellLeaf::bilinear(0).node(); // stands for the tree
     const std::size_t first = part_.numbers.size();
     part_.numbers.insert(part_.numbers.end(), list.numbers.begin(),
@@ -160,7 +156,7 @@ private:
 };
 
 ConeCells::ConeCells(const ConeTree& tree, double slope) : tree_(tree), slope_(slope) {
-  static_assert(most <= CellLeaf::most_cones);
+  static_assert(ConeRules::most_in_leaf <= CellLeaf::most_cones);
   const std::size_t count = tree.cones().size();
   if (count == 0 || count > most_cones)
     return;
@@ -175,13 +171,13 @@ ConeCells::ConeCells(const ConeTree& tree, double slope) : tree_(tree), slope_(s
   const double longer = std::max(box.width(), box.height());
   if (!(longer > 1e-300))
     return; // the tree is as fast
-  const Vec2 around{margin * longer, margin * longer};
+  const Vec2 around{ConeRules::margin * longer, ConeRules::margin * longer};
   box = {box.min - around, box.max + around};
-  const double blocks =
-      std::clamp(static_cast<double>(count) / cones_per_block, 1.0, most_blocks_along * most_blocks_along);
+  const double blocks = std::clamp(static_cast<double>(count) / ConeRules::cones_per_block, 1.0,
+                                   ConeRules::most_blocks_along * ConeRules::most_blocks_along);
   grid_.origin = box.min;
-  grid_.side =
-      std::max(std::sqrt(box.width() * box.height() / blocks), std::max(box.width(), box.height()) / most_blocks_along);
+  grid_.side = std::max(std::sqrt(box.width() * box.height() / blocks),
+                        std::max(box.width(), box.height()) / ConeRules::most_blocks_along);
   inverse_side_ = 1 / grid_.side;
   columns_ = static_cast<int>(std::ceil(box.width() * inverse_side_));
   rows_ = static_cast<int>(std::ceil(box.height() * inverse_side_));

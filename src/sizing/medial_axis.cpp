@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sizing/medial_axis.hpp"
 
+#include "sizing/sizing_rules.hpp"
 #include "trime/core/angle.hpp"
 
 #include <algorithm>
@@ -12,12 +13,7 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr double fan_step = 20 * degrees; // between the rays from a vertex
-constexpr double straight = 5 * degrees;  // a turn that needs no fan
 constexpr int most_shrinks = 50;
-constexpr double first_growth = 4;         // of a first ball that is empty
-constexpr double empty_share = 1 - 1e-3;   // of its radius: so far a ball's centre is from the boundary if it is empty
-constexpr double nearly_empty_share = 0.7; // the same for a ball with nothing but noise in it
 
 double signed_turn(Vec2 before, Vec2 after) {
   return angle_of(cross(before, after), dot(before, after));
@@ -63,10 +59,10 @@ void append_rays(Vec2 p, Vec2 tangent, std::vector<NormalRay>& rays) {
 
 void append_rays(Vec2 p, Vec2 before, Vec2 after, std::vector<NormalRay>& rays) {
   const double turn = signed_turn(before, after);
-  if (std::fabs(turn) < straight)
+  if (std::fabs(turn) < SizingRules::straight)
     return append_rays(p, turned(before, 0.5 * turn), rays);
   const Vec2 normal = turn < 0 ? left_normal(before) : -1 * left_normal(before); // to the side of the fan
-  const int steps = static_cast<int>(std::ceil(std::fabs(turn) / fan_step));
+  const int steps = static_cast<int>(std::ceil(std::fabs(turn) / SizingRules::fan_step));
   for (int k = 0; k <= steps; ++k)
     rays.push_back({p, turned(normal, turn * k / steps), turn < 0 ? 0 : 1});
   rays.push_back({p, turned(-1 * normal, 0.5 * turn), turn < 0 ? 1 : 0});
@@ -81,17 +77,19 @@ std::optional<Vec2> medial_point(const NormalRay& ray, const PieceLocator& bound
   const geometry::Box& container = images.container();
   const double largest = geometry::length(container.max - container.min), smallest = 1e-12 * largest;
   const auto center_of = [&](double of) { return ray.origin + of * ray.normal; };
-  const auto nearest = [&](double of) { return boundary.nearest(images.wrap(center_of(of)), empty_share * of); };
+  const auto nearest = [&](double of) {
+    return boundary.nearest(images.wrap(center_of(of)), SizingRules::empty_share * of);
+  };
   radius = std::min(radius, largest);
   std::optional<PieceLocator::Nearest> near = nearest(radius);
   for (; !near && radius < largest; near = nearest(radius))
-    radius = std::min(largest, first_growth * radius);
+    radius = std::min(largest, SizingRules::first_growth * radius);
   // The ball before the last, unless it sees the boundary at a small angle only.
   std::optional<Vec2> found;
   bool touches = false;
   for (int round = 0; round < most_shrinks; ++round, near = nearest(radius)) {
     const Vec2 center = center_of(radius), wrapped = images.wrap(center);
-    if (touches && (!near || length(near->point - wrapped) >= nearly_empty_share * radius))
+    if (touches && (!near || length(near->point - wrapped) >= SizingRules::nearly_empty_share * radius))
       found = wrapped;
     if (!near)
       break;

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Attributes and small datasets in the types and spaces of HDF5. Nothing here touches a file.
+#pragma once
+
+#include "io/hdf5_handle.hpp"
+#include "trime/io/metadata.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace trime::io {
+
+/// The space of an array. @param columns 0: of one dimension
+Hdf5Space array_space(hsize_t rows, hsize_t columns);
+
+/// Values of an attribute or of a small dataset, ready to be written.
+struct SmallValues {
+  Hdf5Type type;
+  Hdf5Space space;
+  std::string bytes;
+};
+
+SmallValues attribute_value(const Attribute& attribute);
+SmallValues text_value(const std::string& text, H5T_cset_t characters);
+SmallValues list_value(std::span<const std::int64_t> values);
+SmallValues column_values(const Column& column);
+
+} // namespace trime::io
