@@ -181,6 +181,32 @@ TEST(SweepKernel, MovesSitesByTheBitsOfTheRules) {
     }
 }
 
+/// Where some stars are not right any more: sites have moved under their rings.
+TEST(CertifyKernel, FindsTheSuspectsOfTheSweepAndMovesNothing) {
+  for (const bool is_graded : {false, true}) {
+    Cloud cloud(0.3, is_graded, true);
+    std::vector<Vec2> places(cloud.points.positions().begin(), cloud.points.positions().end());
+    for (std::size_t i = 0; i < places.size(); ++i)
+      places[i] =
+          testing::unit_lattice().snap(places[i] + (0.3 * spacing) * (testing::random_vec2(9, i) - Vec2{0.5, 0.5}));
+    SweepTask task = cloud.task();
+    task.positions = places.data();
+    for (const SweepKernels* kernel : kernels())
+      for (const SiteClass least : {SiteClass::local, SiteClass::bordered}) {
+        task.least_class = least;
+        Pass pass(cloud.points.owned());
+        pass.run(*kernel, task, cloud.points.owned() - 3);
+        SweepTask at_rest = task;
+        at_rest.leads = at_rest.next_positions = at_rest.next_leads = nullptr;
+        std::vector<LocalIndex> suspects(places.size());
+        suspects.resize(
+            static_cast<std::size_t>(kernel->certify(at_rest, 0, cloud.points.owned() - 3, suspects.data())));
+        EXPECT_EQ(suspects, pass.suspects);
+        EXPECT_GT(suspects.size(), 50U);
+      }
+  }
+}
+
 TEST(SweepKernel, TakesSitesBesideTheBoundaryWhereItIsTold) {
   Cloud cloud(0.3, true, true);
   TriangleRule rule;
