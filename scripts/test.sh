@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs every test: installs what is missing (Debian 12), then format, layers, a release build with all its tests, the
-# serial tests under sanitizers, and a build with a second compiler.
+# Runs every test: installs what is missing (Debian 12), then format, layers, a release build with all its tests, and the
+# serial tests under sanitizers; the thread sanitizer's build is that of all code with a second compiler, clang.
 #   scripts/test.sh [--quick]      --quick: without sanitizers and second compiler
-# The last line says how many tests passed and failed. Environment: TRIME_JOBS (cores), TRIME_NO_INSTALL=1.
+# The last line says how many tests passed and failed. Environment: TRIME_JOBS (cores), TRIME_NO_INSTALL=1,
+# TRIME_FULL_TABLE=1 (equal meshes on 1 to 16 ranks in all combinations), TRIME_SIMD (see README.md).
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/scripts/packages.sh"
@@ -13,14 +14,16 @@ quick=no
 case "${1:-}" in
   --quick) quick=yes ;;
   '') ;;
-  *) sed -n '3,6s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 2 ;;
+  *) sed -n '3,7s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 2 ;;
 esac
 
 trime_need_packages "${trime_run_packages[@]}" "${trime_test_packages[@]}"
 trime_mpi_environment
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMP_WAIT_POLICY=passive
+precompile=ON
 if command -v ccache >/dev/null; then
   export CMAKE_CXX_COMPILER_LAUNCHER=ccache
+  precompile=OFF # ccache keeps nothing that is made with precompiled headers
 fi
 jobs=${TRIME_JOBS:-$(nproc)}
 # Sanitizers of this age need addresses that are not spread too widely.
@@ -34,13 +37,34 @@ failures=()
 output=$(mktemp "${TMPDIR:-/tmp}/trime-test-XXXXXX.log")
 trap 'rm -f "$output"' EXIT
 
+# Sets `used`: the seconds of all processors that whatever has ended until now has taken.
+processor_seconds() {
+  times >"$output" # no pipe: its end would be a process of its own, with times of its own
+  used=$(awk '{ for (k = 1; k <= 2; ++k) { split($k, part, "[ms]"); sum += 60 * part[1] + part[2] } }
+              END { printf "%.0f", sum }' "$output")
+}
+
+# Notes the time, for `stop_clock`.
+start_clock() {
+  processor_seconds
+  begin=$SECONDS begin_used=$used
+}
+
+# Sets `took`: the time since `start_clock`, as text.
+stop_clock() {
+  processor_seconds
+  took="$((SECONDS - begin)) s, $((used - begin_used)) s of processors"
+}
+
 # stage NAME COMMAND...: one test of its own; what it prints is shown only if it fails.
 stage() {
-  local name=$1 start=$SECONDS
+  local name=$1
   shift
+  start_clock
   if trime_quietly "$name" "$@"; then
     passed=$((passed + 1))
-    echo "-- $name: passed ($((SECONDS - start)) s)"
+    stop_clock
+    echo "-- $name: passed ($took)"
   else
     failed=$((failed + 1))
     failures+=("$name")
@@ -54,6 +78,7 @@ tests() {
   local preset=$1 status=0 total bad
   shift
   echo "-- ctest, preset $preset"
+  start_clock
   ${fixed_addresses[@]+"${fixed_addresses[@]}"} ctest --preset "$preset" "$@" 2>&1 | tee "$output" || status=$?
   read -r bad total < <(sed -n 's/^.*% tests passed, \([0-9]*\) tests failed out of \([0-9]*\).*/\1 \2/p' "$output") ||
     { bad=1 total=1; }
@@ -61,12 +86,16 @@ tests() {
   passed=$((passed + total - bad))
   failed=$((failed + bad))
   [ "$bad" -eq 0 ] || failures+=("ctest $preset")
+  stop_clock
+  echo "-- ctest, preset $preset: $took"
 }
 
 # build PRESET: configures and builds it.
 build() {
   echo "-- building $1"
-  stage "configure_$1" cmake --preset "$1" && stage "build_$1" \
+  local options=()
+  [ "$1" = ci ] || options=(-D "TRIME_PRECOMPILE=$precompile") # ci: a source that forgets an include must fail
+  stage "configure_$1" cmake --preset "$1" ${options[@]+"${options[@]}"} && stage "build_$1" \
     ${fixed_addresses[@]+"${fixed_addresses[@]}"} cmake --build --preset "$1" -j "$jobs"
 }
 
@@ -87,7 +116,6 @@ if [ "$quick" = no ]; then
       tests "$preset" -j "$jobs"
     fi
   done
-  build clang || true
 fi
 
 [ "$failed" -eq 0 ] || printf 'Failed: %s\n' "${failures[*]}"

