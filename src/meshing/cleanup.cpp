@@ -3,7 +3,7 @@
 
 #include "core/gather.hpp"
 #include "meshing/cleanup_rounds.hpp"
-#include "meshing/extraction.hpp"
+#include "meshing/fan.hpp"
 #include "trime/mesh/quality.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ double worst_alpha(const mesh::BinnedPoints& points, LocalIndex site, const Fan&
 std::vector<Candidate> find_candidates(const CleanupTask& task) {
   SiteState& state = task.state;
   state.compute_stars(task.builder, task.size, Wanted::all_sites);
-  const ExtractionContext context{state, task.polygon, task.size, task.lattice};
+  const StageView context{state, task.polygon, task.size, task.lattice};
   const mesh::BinnedPoints& points = state.points();
   return gather_in_order<Candidate>(points.owned(), sites_in_a_row,
                                     [&](std::ptrdiff_t item, std::vector<Candidate>& list) {

@@ -9,7 +9,6 @@
 
 namespace trime::meshing {
 
-using ExtractionContext = StageView; // until all that includes this file says StageView
 
 /// The mesh in canonical numbering, with its quality.
 struct Extraction {

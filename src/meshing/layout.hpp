@@ -38,7 +38,6 @@ struct FittedSize {
   std::shared_ptr<const SizeSamples> samples{}; ///< of the relative size, on the boundary; made when they are needed
 };
 
-using Layout = Stage; // until all that includes this file says Stage
 
 /// A stage that was laid, and what its size field follows from.
 struct FittedStage {
