@@ -12,13 +12,23 @@ import sys
 # Direct arrows; a module may also use all that lies below its arrows.
 ARROWS = {
     "core": [],
-    "geometry": ["core"],
     "comm": ["core"],
-    "sizing": ["geometry", "comm"],
+    "geometry": ["core"],
     "mesh": ["geometry"],
+    "cones": ["geometry", "comm"],
+    "shape": ["geometry"],
+    "sizing": ["cones"],
     "delaunay": ["mesh"],
     "decomposition": ["mesh", "comm"],
-    "meshing": ["delaunay", "decomposition", "sizing"],
+    "polygon": ["geometry"],
+    "boundary": ["polygon", "sizing", "mesh"],
+    "sites": ["polygon", "delaunay", "decomposition", "sizing"],
+    "start": ["sites", "boundary"],
+    "sweep": ["sites"],
+    "cleanup": ["sites"],
+    "extraction": ["sites"],
+    "certificate": ["sites"],
+    "meshing": ["start", "sweep", "cleanup", "extraction", "certificate", "shape"],
     "io": ["mesh", "comm"],
     "app": ["meshing", "io"],
 }
@@ -28,7 +38,7 @@ FOREIGN = [
     (re.compile(r"(hdf5|H5\w*)\.h$"), "HDF5", {"io"}),
     (re.compile(r"omp\.h$"), "OpenMP", {"core"}),
 ]
-NATIVE_HANDLE = "trime/comm/native.hpp"  # brings mpi.h with it
+NATIVE_HANDLE = "comm/native.hpp"  # brings mpi.h with it
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 

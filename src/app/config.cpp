@@ -3,11 +3,11 @@
 
 #include "app/config_sizing.hpp"
 #include "app/settings.hpp"
+#include "core/nearest_name.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/formula.hpp"
-#include "trime/core/nearest_name.hpp"
 #include "trime/geometry/frame.hpp"
-#include "trime/geometry/region.hpp"
+#include "trime/shape/region.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ constexpr double shortest_side = 1e-30,
 
 /// `low < high`, unless one of them was refused already.
 void check_interval(const Settings& settings, const std::string& section, const std::string& axis,
-                    io::Diagnostics& problems) {
+                    Diagnostics& problems) {
   const std::string low = axis + "_min", high = axis + "_max";
   const auto from = settings.optional_number(section, low), to = settings.optional_number(section, high);
   if (settings.was_refused(section, low) || settings.was_refused(section, high) || !from || !to || *from < *to)
@@ -35,7 +35,7 @@ void check_interval(const Settings& settings, const std::string& section, const 
 }
 
 /// Sides for which the predicates are exact, unless an end of them was refused already.
-void check_side(const Settings& settings, const std::string& axis, io::Diagnostics& problems) {
+void check_side(const Settings& settings, const std::string& axis, Diagnostics& problems) {
   const std::string low = axis + "_min", high = axis + "_max";
   const double side = settings.number("domain", high) - settings.number("domain", low);
   if (settings.was_refused("domain", low) || settings.was_refused("domain", high))
@@ -53,7 +53,7 @@ geometry::Box box_of(const Settings& settings, const std::string& section) {
 
 /// The formula must parse; the error knows the position in it.
 void check_formula(const Settings& settings, const std::string& section, const std::string& key,
-                   io::Diagnostics& problems) {
+                   Diagnostics& problems) {
   const std::string text = settings.text(section, key);
   if (text.empty())
     return; // reported as missing
@@ -65,7 +65,7 @@ void check_formula(const Settings& settings, const std::string& section, const s
 }
 
 PartOptions part_of(const Settings& settings, const std::string& name, const fs::path& directory,
-                    io::Diagnostics& problems) {
+                    Diagnostics& problems) {
   const std::string section = "shape." + name;
   PartOptions part;
   part.name = name;
@@ -91,18 +91,18 @@ PartOptions part_of(const Settings& settings, const std::string& name, const fs:
 }
 
 /// The region must parse; parts that it does not use are worth a word.
-void read_region(const Settings& settings, RunOptions& options, io::Diagnostics& problems) {
+void read_region(const Settings& settings, RunOptions& options, Diagnostics& problems) {
   options.region = settings.text("shape", "region");
   if (options.region.empty()) {
     if (!settings.is_set("shape", "region"))
-      problems.add(io::whole_file,
+      problems.add(whole_file,
                    settings.parts().empty()
                        ? "no shape is given; set 'region' in [shape] and describe its parts, or 'region = domain'"
                        : fmt::format("'region' in [shape] is not set; for example 'region = {}'", settings.parts()[0]));
     return;
   }
   try {
-    const geometry::Region region = geometry::Region::parse(options.region, settings.parts());
+    const shape::Region region = shape::Region::parse(options.region, settings.parts());
     for (int part = 0; part < static_cast<int>(settings.parts().size()); ++part)
       if (std::find(region.parts().begin(), region.parts().end(), part) == region.parts().end())
         options.warnings.push_back(fmt::format("part '{}' does not occur in the region '{}'",
@@ -112,13 +112,13 @@ void read_region(const Settings& settings, RunOptions& options, io::Diagnostics&
   }
 }
 
-void read_shape(const Settings& settings, const fs::path& directory, RunOptions& options, io::Diagnostics& problems) {
+void read_shape(const Settings& settings, const fs::path& directory, RunOptions& options, Diagnostics& problems) {
   for (const std::string& name : settings.parts())
     options.parts.push_back(part_of(settings, name, directory, problems));
   read_region(settings, options, problems);
 }
 
-void read_domain(const Settings& settings, meshing::MeshOptions& mesh, io::Diagnostics& problems) {
+void read_domain(const Settings& settings, meshing::MeshOptions& mesh, Diagnostics& problems) {
   check_interval(settings, "domain", "x", problems);
   check_interval(settings, "domain", "y", problems);
   check_side(settings, "x", problems);
@@ -133,7 +133,7 @@ void read_domain(const Settings& settings, meshing::MeshOptions& mesh, io::Diagn
 }
 
 /// Exactly one of points and edge_length, and no edge length that asks for an absurd number of points.
-void read_resolution(const Settings& settings, meshing::MeshOptions& mesh, io::Diagnostics& problems) {
+void read_resolution(const Settings& settings, meshing::MeshOptions& mesh, Diagnostics& problems) {
   mesh.points = settings.optional_integer("meshing", "points");
   mesh.edge_length = settings.optional_number("meshing", "edge_length");
   const bool points = settings.is_set("meshing", "points"), length = settings.is_set("meshing", "edge_length");
@@ -142,7 +142,7 @@ void read_resolution(const Settings& settings, meshing::MeshOptions& mesh, io::D
                  "both 'points' and 'edge_length' are set in [meshing]; keep one of them (on the command line, "
                  "'meshing.points=' takes the value of the file away)");
   if (!points && !length)
-    problems.add(io::whole_file, "set 'points' or 'edge_length' in [meshing], for example 'points = 5000'");
+    problems.add(whole_file, "set 'points' or 'edge_length' in [meshing], for example 'points = 5000'");
   const double area = mesh.container.width() * mesh.container.height();
   const double expected = mesh.edge_length ? area / (std::sqrt(0.75) * *mesh.edge_length * *mesh.edge_length) : 0;
   if (expected > most_points)
@@ -154,8 +154,7 @@ void read_resolution(const Settings& settings, meshing::MeshOptions& mesh, io::D
 }
 
 /// The edge length is within the bounds of the size, which were read before.
-void check_bounds_of_edge_length(const Settings& settings, const meshing::MeshOptions& mesh,
-                                 io::Diagnostics& problems) {
+void check_bounds_of_edge_length(const Settings& settings, const meshing::MeshOptions& mesh, Diagnostics& problems) {
   if (mesh.edge_length && mesh.min_size && *mesh.min_size > *mesh.edge_length)
     problems.add(settings.line("meshing", "edge_length"),
                  fmt::format("'edge_length = {}' in [meshing] is below 'min_size = {}' in [sizing]: expected at least "
@@ -168,10 +167,10 @@ void check_bounds_of_edge_length(const Settings& settings, const meshing::MeshOp
                              *mesh.edge_length, *mesh.max_size));
 }
 
-constexpr std::pair<const char*, meshing::Method> methods[] = {
-    {"distmesh", meshing::Method::distmesh}, {"cvd", meshing::Method::cvd}, {"hybrid", meshing::Method::hybrid}};
+constexpr std::pair<const char*, sweep::Method> methods[] = {
+    {"distmesh", sweep::Method::distmesh}, {"cvd", sweep::Method::cvd}, {"hybrid", sweep::Method::hybrid}};
 
-void read_meshing(const Settings& settings, meshing::MeshOptions& mesh, io::Diagnostics& problems) {
+void read_meshing(const Settings& settings, meshing::MeshOptions& mesh, Diagnostics& problems) {
   read_resolution(settings, mesh, problems);
   check_bounds_of_edge_length(settings, mesh, problems);
   for (const auto& [name, method] : methods)
@@ -191,7 +190,7 @@ void read_meshing(const Settings& settings, meshing::MeshOptions& mesh, io::Diag
 
 /// The file, and a part that is a normalised contour.
 void read_fixed_points(const Settings& settings, const fs::path& directory, RunOptions& options,
-                       io::Diagnostics& problems) {
+                       Diagnostics& problems) {
   const std::string file = settings.text("meshing", "fixed_points");
   const std::string name = settings.text("meshing", "fixed_points_normalize_with");
   if (file != "none") {
@@ -220,7 +219,7 @@ void read_parallel(const Settings& settings, RunOptions& options) {
   options.mesh_threads = static_cast<int>(settings.integer("parallel", "mesh_threads"));
 }
 
-void read_output(const Settings& settings, RunOptions& options, io::Diagnostics& problems) {
+void read_output(const Settings& settings, RunOptions& options, Diagnostics& problems) {
   io::MeshFileOptions& file = options.output.file;
   file.directory = settings.text("output", "directory");
   file.name = settings.text("output", "name");
@@ -262,7 +261,7 @@ void read_log(const Settings& settings, RunOptions& options) {
 
 } // namespace
 
-std::string method_name(meshing::Method method) {
+std::string method_name(sweep::Method method) {
   for (const auto& [name, known] : methods)
     if (known == method)
       return name;
@@ -270,13 +269,13 @@ std::string method_name(meshing::Method method) {
 }
 
 RunOptions parse_config(std::string_view text, const std::string& path, const std::vector<std::string>& overrides) {
-  io::Diagnostics problems(path);
-  io::IniDocument document = io::parse_ini(text, problems);
+  Diagnostics problems(path);
+  IniDocument document = parse_ini(text, problems);
   for (const std::string& override_text : overrides)
-    io::apply_override(document, override_text, problems);
+    apply_override(document, override_text, problems);
   if (!document.find("output", "name")) {
     const std::string stem = fs::path(path).stem().string();
-    document.entries.push_back({"output", "name", stem.empty() ? "mesh" : stem, io::whole_file});
+    document.entries.push_back({"output", "name", stem.empty() ? "mesh" : stem, whole_file});
   }
   const Settings settings(document, problems);
   RunOptions options;

@@ -18,6 +18,6 @@ namespace trime::app {
 RunOptions parse_config(std::string_view text, const std::string& path, const std::vector<std::string>& overrides);
 
 /// "distmesh", "cvd", "hybrid".
-std::string method_name(meshing::Method method);
+std::string method_name(sweep::Method method);
 
 } // namespace trime::app

@@ -8,7 +8,7 @@ namespace trime::app {
 namespace {
 
 /// The formula must parse; it is made anew when the number of threads is known.
-void read_expression(const Settings& settings, SizingOptions& sizing, io::Diagnostics& problems) {
+void read_expression(const Settings& settings, SizingOptions& sizing, Diagnostics& problems) {
   sizing.expression = settings.text("sizing", "expression");
   if (sizing.expression == "none") {
     problems.add(settings.line("sizing", "type"),
@@ -25,7 +25,7 @@ void read_expression(const Settings& settings, SizingOptions& sizing, io::Diagno
   }
 }
 
-void read_bounds(const Settings& settings, meshing::MeshOptions& mesh, io::Diagnostics& problems) {
+void read_bounds(const Settings& settings, meshing::MeshOptions& mesh, Diagnostics& problems) {
   mesh.min_size = settings.optional_number("sizing", "min_size");
   mesh.max_size = settings.optional_number("sizing", "max_size");
   if (mesh.min_size && mesh.max_size && *mesh.min_size > *mesh.max_size)
@@ -43,7 +43,7 @@ void warn_without_effect(const Settings& settings, const std::string& key, const
 
 } // namespace
 
-void read_sizing(const Settings& settings, RunOptions& options, io::Diagnostics& problems) {
+void read_sizing(const Settings& settings, RunOptions& options, Diagnostics& problems) {
   SizingOptions& sizing = options.sizing;
   sizing.type = settings.text("sizing", "type");
   sizing.gradation = settings.number("sizing", "gradation");

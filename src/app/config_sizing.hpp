@@ -2,13 +2,13 @@
 // The section [sizing] of a config.
 #pragma once
 
+#include "app/ini.hpp"
 #include "app/options.hpp"
 #include "app/settings.hpp"
-#include "trime/io/ini.hpp"
 
 namespace trime::app {
 
 /// Fills `options.sizing` and the bounds of the size; keys that have no effect earn a warning.
-void read_sizing(const Settings& settings, RunOptions& options, io::Diagnostics& problems);
+void read_sizing(const Settings& settings, RunOptions& options, Diagnostics& problems);
 
 } // namespace trime::app

@@ -2,9 +2,9 @@
 #include "app/machine.hpp"
 
 #include "app/build_info.hpp"
-#include "trime/core/processors.hpp"
-#include "trime/core/random.hpp"
-#include "trime/core/thread_loop.hpp"
+#include "core/processors.hpp"
+#include "core/random.hpp"
+#include "core/thread_loop.hpp"
 #include "trime/io/mesh_file.hpp"
 
 #include <unistd.h>

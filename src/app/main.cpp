@@ -2,7 +2,7 @@
 // trime_mpi: starts and ends MPI, and turns errors into messages and exit codes. The only try of the program.
 #include "app/large_arrays.hpp"
 #include "app/program.hpp"
-#include "trime/core/free_memory.hpp"
+#include "core/free_memory.hpp"
 #include "trime/io/mesh_file.hpp"
 
 #include <unistd.h>

@@ -2,7 +2,7 @@
 #include "app/option_value.hpp"
 
 #include "app/option_table.hpp"
-#include "trime/core/nearest_name.hpp"
+#include "core/nearest_name.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

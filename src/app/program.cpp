@@ -8,8 +8,8 @@
 #include "app/run_report.hpp"
 #include "app/shape_builder.hpp"
 #include "app/size_builder.hpp"
-#include "trime/core/free_memory.hpp"
-#include "trime/core/thread_loop.hpp"
+#include "core/free_memory.hpp"
+#include "core/thread_loop.hpp"
 #include "trime/io/mesh_series.hpp"
 #include "trime/meshing/mesher.hpp"
 
@@ -87,7 +87,7 @@ ExitCode make_mesh(const Job& job) {
   for (const std::string& warning : options.warnings)
     log.warning("{}", warning);
 
-  const geometry::RegionShape shape = [&] {
+  const shape::RegionShape shape = [&] {
     const auto timing = timers.scope("shape");
     return build_shape(options, comm, log);
   }();

@@ -60,7 +60,7 @@ Attributes mesh_attributes(const mesh::DistributedMesh& mesh, int retriangulatio
 Attributes result_attributes(const meshing::MeshResult& result, const SizeSummary& size, const Measurements& measured) {
   const auto points = static_cast<double>(std::max<GlobalId>(result.mesh.point_slab.total, 1));
   return {{"iterations", std::int64_t{result.history.empty() ? 0 : result.history.back().sweep}},
-          {"stop_reason", meshing::to_string(result.stop_reason)},
+          {"stop_reason", sweep::to_string(result.stop_reason)},
           {"requested_points", result.requested_points},
           {"count_reason", result.count_reason},
           {"start_reason", result.start_reason},
@@ -102,8 +102,8 @@ std::vector<io::Text> texts(const Provenance& p) {
   return {{"command_line", p.line.as_given}, {"config_text", p.config_text}, {"config_resolved", p.options.resolved}};
 }
 
-io::MetadataGroup history_group(const std::vector<meshing::SweepRecord>& history) {
-  using Record = meshing::SweepRecord;
+io::MetadataGroup history_group(const std::vector<sweep::SweepRecord>& history) {
+  using Record = sweep::SweepRecord;
   return {
       "history",
       {},
@@ -129,7 +129,7 @@ io::MetadataGroup timers_group(const std::vector<TimeRow>& times) {
 }
 
 /// Names of the parts along a loop, in order, each once: "square" or "square+disc".
-std::string loop_name(const geometry::Boundary& boundary, const meshing::LoopSummary& loop) {
+std::string loop_name(const geometry::Boundary& boundary, const polygon::LoopSummary& loop) {
   std::string name;
   for (const std::int32_t part : loop.parts)
     name += (name.empty() ? "" : "+") + boundary.part_names.at(static_cast<std::size_t>(part));
@@ -137,24 +137,24 @@ std::string loop_name(const geometry::Boundary& boundary, const meshing::LoopSum
 }
 
 /// Corners where small angles cannot be avoided.
-io::MetadataGroup sharp_corners_group(const std::vector<meshing::SharpCorner>& corners) {
-  using Corner = meshing::SharpCorner;
+io::MetadataGroup sharp_corners_group(const std::vector<boundary::SharpCorner>& corners) {
+  using Corner = boundary::SharpCorner;
   return {"sharp_corners",
-          {{"below_degrees", meshing::FeatureReport::sharp_angle}},
+          {{"below_degrees", boundary::FeatureReport::sharp_angle}},
           {column<double>("x", corners, [](const Corner& c) { return c.place.x; }),
            column<double>("y", corners, [](const Corner& c) { return c.place.y; }),
            column<double>("degrees", corners, &Corner::degrees)}};
 }
 
-std::string kind_name(const meshing::LoopSummary& loop) {
-  using Kind = meshing::LoopSummary::Kind;
+std::string kind_name(const polygon::LoopSummary& loop) {
+  using Kind = polygon::LoopSummary::Kind;
   return loop.kind == Kind::outer ? "outer" : loop.kind == Kind::hole ? "hole" : "band";
 }
 
 /// What the numbers in /Mesh/facets mean: `values` are edge_id, `parts` are part_id.
-io::MetadataGroup tags_group(const geometry::Boundary& boundary, const std::vector<meshing::LoopSummary>& loops,
+io::MetadataGroup tags_group(const geometry::Boundary& boundary, const std::vector<polygon::LoopSummary>& loops,
                              const std::string& region) {
-  using meshing::LoopSummary;
+  using polygon::LoopSummary;
   std::vector<std::int32_t> part_ids(boundary.part_names.size());
   std::iota(part_ids.begin(), part_ids.end(), 0);
   return {"tags",

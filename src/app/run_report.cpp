@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/run_report.hpp"
 
-#include "trime/core/thread_loop.hpp"
+#include "core/thread_loop.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +53,7 @@ std::string count_text(const meshing::MeshResult& result) {
 /// What was done about features below the resolution.
 std::string boundary_text(const meshing::MeshResult& result) {
   std::string text;
-  for (const std::string& line : meshing::describe(result.features))
+  for (const std::string& line : boundary::describe(result.features))
     text += "Boundary: " + line + "\n";
   return text;
 }
@@ -82,7 +82,7 @@ std::string quality_text(const mesh::QualitySummary& q) {
   return text;
 }
 
-std::string cleanup_text(const meshing::CleanupCounts& cleanup) {
+std::string cleanup_text(const cleanup::CleanupCounts& cleanup) {
   if (cleanup.patches == 0)
     return {};
   return fmt::format("Clean-up: {} of {} patches better; {} points moved, {} inserted, {} deleted ({} of all these on "
@@ -172,7 +172,7 @@ std::string run_report(const meshing::MeshResult& result, const SizeSummary& siz
   if (!result.start_reason.empty())
     text += "Start: " + result.start_reason + "\n";
   text += fmt::format("Stopped after {} sweeps: {}\n", result.history.empty() ? 0 : result.history.back().sweep,
-                      meshing::to_string(result.stop_reason));
+                      sweep::to_string(result.stop_reason));
   text += boundary_text(result) + area_text(result) + cleanup_text(result.cleanup);
   text += quality_text(result.quality) + "\n" + checks_text(result.checks) + "\n" + times_text(measured);
   text += fmt::format("  {:.0f} points per second\n\n", points / std::max(measured.total, 1e-9));

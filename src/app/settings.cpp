@@ -2,8 +2,8 @@
 #include "app/settings.hpp"
 
 #include "app/option_value.hpp"
+#include "core/nearest_name.hpp"
 #include "trime/core/error.hpp"
-#include "trime/core/nearest_name.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -38,9 +38,9 @@ std::string other_home(const std::string& section, const std::string& key) {
 
 } // namespace
 
-Settings::Settings(const io::IniDocument& document, io::Diagnostics& problems) : document_(document) {
+Settings::Settings(const IniDocument& document, Diagnostics& problems) : document_(document) {
   check_sections(problems);
-  for (const io::IniEntry& entry : document.entries)
+  for (const IniEntry& entry : document.entries)
     if (is_known_section(entry.section))
       check_entry(entry, problems);
     else
@@ -58,8 +58,8 @@ bool Settings::is_known_section(const std::string& section) const {
   return section != part_section && std::find(known.begin(), known.end(), section) != known.end();
 }
 
-void Settings::check_sections(io::Diagnostics& problems) {
-  for (const io::IniSection& section : document_.sections) {
+void Settings::check_sections(Diagnostics& problems) {
+  for (const IniSection& section : document_.sections) {
     if (!section.name.starts_with(part_prefix)) {
       if (!is_known_section(section.name))
         problems.add(section.line,
@@ -78,7 +78,7 @@ void Settings::check_sections(io::Diagnostics& problems) {
   }
 }
 
-void Settings::check_entry(const io::IniEntry& entry, io::Diagnostics& problems) {
+void Settings::check_entry(const IniEntry& entry, Diagnostics& problems) {
   const Option* option = find_option(entry.section, entry.key);
   if (!option) {
     const std::string near = suggestion(entry.key, key_names(entry.section));
@@ -87,7 +87,7 @@ void Settings::check_entry(const io::IniEntry& entry, io::Diagnostics& problems)
                                          near.empty() ? other_home(entry.section, entry.key) : near));
     return;
   }
-  io::IniEntry meant = entry;
+  IniEntry meant = entry;
   if (option->kind == Kind::path)
     meant.value = without_quotes(entry.value);
   const std::string problem = value_problem(*option, entry.section, meant.value);
@@ -98,18 +98,18 @@ void Settings::check_entry(const io::IniEntry& entry, io::Diagnostics& problems)
 }
 
 /// A key that the user left out may have a default that this version does not obey: that must be said, too.
-void Settings::check_default(const Option& option, io::Diagnostics& problems) const {
+void Settings::check_default(const Option& option, Diagnostics& problems) const {
   const std::string fallback = option.fallback;
   if (fallback.empty() || is_set(option.section, option.key) || value_problem(option, option.section, fallback).empty())
     return;
   const std::vector<std::string> supported = split_words(option.supported);
-  problems.add(io::whole_file, fmt::format("'{0}' in [{1}] is not set, and its default '{2}' is not supported yet; set "
-                                           "'{0} = {3}' in [{1}]",
-                                           option.key, option.section, fallback, supported.at(0)));
+  problems.add(whole_file, fmt::format("'{0}' in [{1}] is not set, and its default '{2}' is not supported yet; set "
+                                       "'{0} = {3}' in [{1}]",
+                                       option.key, option.section, fallback, supported.at(0)));
 }
 
 /// The keys of a part against its type. A line that was refused already is not reported again.
-void Settings::check_part(const std::string& section, io::Diagnostics& problems) const {
+void Settings::check_part(const std::string& section, Diagnostics& problems) const {
   if (!is_set(section, "type")) {
     problems.add(section_line(section),
                  fmt::format("[{}] needs a type: {}", section, expectation(*find_option(section, "type"))));
@@ -118,7 +118,7 @@ void Settings::check_part(const std::string& section, io::Diagnostics& problems)
   const std::string type = text(section, "type");
   if (type.empty())
     return;
-  for (const io::IniEntry& entry : good_) {
+  for (const IniEntry& entry : good_) {
     const Option* option = entry.section == section ? find_option(section, entry.key) : nullptr;
     bool belongs = option == nullptr || *option->part_type == '\0';
     for (const Option& other : option_table()) // x_min stands in the table once per type that has it
@@ -135,37 +135,37 @@ void Settings::check_part(const std::string& section, io::Diagnostics& problems)
 }
 
 int Settings::section_line(const std::string& section) const {
-  for (const io::IniSection& known : document_.sections)
+  for (const IniSection& known : document_.sections)
     if (known.name == section)
       return known.line;
-  return io::whole_file;
+  return whole_file;
 }
 
 bool Settings::is_set(const std::string& section, const std::string& key) const {
   return document_.find(section, key) != nullptr ||
          std::any_of(meant_.begin(), meant_.end(),
-                     [&](const io::IniEntry& entry) { return entry.section == section && entry.key == key; });
+                     [&](const IniEntry& entry) { return entry.section == section && entry.key == key; });
 }
 
 bool Settings::was_refused(const std::string& section, const std::string& key) const {
-  return is_set(section, key) && std::none_of(good_.begin(), good_.end(), [&](const io::IniEntry& entry) {
+  return is_set(section, key) && std::none_of(good_.begin(), good_.end(), [&](const IniEntry& entry) {
            return entry.section == section && entry.key == key;
          });
 }
 
 int Settings::line(const std::string& section, const std::string& key) const {
-  const io::IniEntry* entry = document_.find(section, key);
-  return entry ? entry->line : io::whole_file;
+  const IniEntry* entry = document_.find(section, key);
+  return entry ? entry->line : whole_file;
 }
 
 int Settings::later_line(const std::string& section, const std::string& a, const std::string& b) const {
   const int first = line(section, a), second = line(section, b);
-  const bool overridden = first == io::command_line_origin || second == io::command_line_origin;
-  return overridden ? io::command_line_origin : std::max(first, second);
+  const bool overridden = first == command_line_origin || second == command_line_origin;
+  return overridden ? command_line_origin : std::max(first, second);
 }
 
 std::string Settings::text(const std::string& section, const std::string& key) const {
-  for (const io::IniEntry& entry : good_)
+  for (const IniEntry& entry : good_)
     if (entry.section == section && entry.key == key)
       return entry.value;
   const Option* option = find_option(section, key);

@@ -3,9 +3,9 @@
 // is looked up with the defaults of the table.
 #pragma once
 
+#include "app/ini.hpp"
 #include "app/option_table.hpp"
 #include "trime/geometry/vec2.hpp"
-#include "trime/io/ini.hpp"
 
 #include <optional>
 #include <string>
@@ -16,7 +16,7 @@ namespace trime::app {
 class Settings {
 public:
   /// Entries with problems are told to `problems` and read as if they were absent.
-  Settings(const io::IniDocument& document, io::Diagnostics& problems);
+  Settings(const IniDocument& document, Diagnostics& problems);
 
   /// Names of the sections [shape.NAME], in the order of the file.
   const std::vector<std::string>& parts() const { return parts_; }
@@ -48,16 +48,16 @@ public:
   std::string resolved(const std::string& directory) const;
 
 private:
-  void check_sections(io::Diagnostics& problems);
-  void check_entry(const io::IniEntry& entry, io::Diagnostics& problems);
-  void check_default(const Option& option, io::Diagnostics& problems) const;
-  void check_part(const std::string& section, io::Diagnostics& problems) const;
+  void check_sections(Diagnostics& problems);
+  void check_entry(const IniEntry& entry, Diagnostics& problems);
+  void check_default(const Option& option, Diagnostics& problems) const;
+  void check_part(const std::string& section, Diagnostics& problems) const;
   bool is_known_section(const std::string& section) const;
 
-  const io::IniDocument& document_;
+  const IniDocument& document_;
   std::vector<std::string> parts_;
-  std::vector<io::IniEntry> good_;
-  std::vector<io::IniEntry> meant_; ///< what misspelt sections and keys were probably meant to set
+  std::vector<IniEntry> good_;
+  std::vector<IniEntry> meant_; ///< what misspelt sections and keys were probably meant to set
 };
 
 } // namespace trime::app

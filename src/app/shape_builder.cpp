@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/shape_builder.hpp"
 
-#include "trime/comm/agree.hpp"
-#include "trime/core/read_file.hpp"
-#include "trime/geometry/expression_shape.hpp"
-#include "trime/geometry/trace.hpp"
+#include "comm/agree.hpp"
+#include "core/read_file.hpp"
+#include "shape/trace.hpp"
+#include "trime/shape/expression_shape.hpp"
 
 namespace trime::app {
 namespace {
@@ -14,31 +14,31 @@ std::string read_text(const std::string& file, bool is_relative, const comm::Com
   std::string text;
   comm::run_agreed(comm, [&] {
     if (comm.is_root())
-      text = geometry::read_contour_text(
-          file, is_relative ? " (relative to the config file, not to the working directory)" : "");
+      text = shape::read_contour_text(file, is_relative ? " (relative to the config file, not to the working directory)"
+                                                        : "");
   });
   return comm.broadcast(std::move(text));
 }
 
-geometry::Contour read_contour(const PartOptions& part, const comm::Communicator& comm) {
-  return geometry::parse_xy(read_text(part.file, part.file_is_relative, comm), part.file);
+shape::Contour read_contour(const PartOptions& part, const comm::Communicator& comm) {
+  return shape::parse_xy(read_text(part.file, part.file_is_relative, comm), part.file);
 }
 
-geometry::Part build_part(const PartOptions& part, const geometry::Frame& frame, const comm::Communicator& comm) {
+shape::Part build_part(const PartOptions& part, const geometry::Frame& frame, const comm::Communicator& comm) {
   if (part.type == "rectangle")
-    return geometry::Part::rectangle(part.name, part.box, frame);
+    return shape::Part::rectangle(part.name, part.box, frame);
   if (part.type == "circle")
-    return geometry::Part::circle(part.name, part.center, part.radius, frame);
+    return shape::Part::circle(part.name, part.center, part.radius, frame);
   if (part.type == "triangle")
-    return geometry::Part::triangle(part.name, part.corners, frame);
+    return shape::Part::triangle(part.name, part.corners, frame);
   if (part.type == "expression") {
     const Formula sdf(part.sdf, fmt::format("'sdf' in [shape.{}]", part.name));
-    return geometry::traced_part(part.name, geometry::ExpressionShape(sdf), frame);
+    return shape::traced_part(part.name, shape::ExpressionShape(sdf), frame);
   }
-  const geometry::Contour contour = read_contour(part, comm);
-  const geometry::Normalization place =
-      part.normalize ? geometry::fit_to_container(contour, frame.container()) : geometry::Normalization{};
-  return geometry::Part::contour(part.name, contour, place, frame);
+  const shape::Contour contour = read_contour(part, comm);
+  const shape::Normalization place =
+      part.normalize ? shape::fit_to_container(contour, frame.container()) : shape::Normalization{};
+  return shape::Part::contour(part.name, contour, place, frame);
 }
 
 } // namespace
@@ -53,28 +53,28 @@ std::string read_shared(const std::string& path, const comm::Communicator& comm)
 }
 
 /// All ranks build the same shape from the same numbers, so they throw the same errors without asking each other.
-geometry::RegionShape build_shape(const RunOptions& options, const comm::Communicator& comm, Log& log) {
+shape::RegionShape build_shape(const RunOptions& options, const comm::Communicator& comm, Log& log) {
   const geometry::Frame frame(options.mesh.container, options.mesh.periodic_x, options.mesh.periodic_y);
-  std::vector<geometry::Part> parts;
+  std::vector<shape::Part> parts;
   for (const PartOptions& part : options.parts) {
     parts.push_back(build_part(part, frame, comm));
     for (const std::string& warning : parts.back().warnings())
       log.warning("{}", warning);
   }
-  return geometry::RegionShape(std::move(parts), options.region, frame);
+  return shape::RegionShape(std::move(parts), options.region, frame);
 }
 
-std::vector<meshing::FixedPoint> read_fixed_points(const RunOptions& options, const comm::Communicator& comm) {
+std::vector<boundary::FixedPoint> read_fixed_points(const RunOptions& options, const comm::Communicator& comm) {
   const FixedPointsFile& source = options.fixed_points;
   if (source.file.empty())
     return {};
-  geometry::Normalization place;
+  shape::Normalization place;
   for (const PartOptions& part : options.parts)
     if (part.name == source.normalize_with)
-      place = geometry::fit_to_container(read_contour(part, comm), options.mesh.container);
-  std::vector<meshing::FixedPoint> points;
+      place = shape::fit_to_container(read_contour(part, comm), options.mesh.container);
+  std::vector<boundary::FixedPoint> points;
   const std::string text = read_text(source.file, source.file_is_relative, comm);
-  for (const geometry::FilePoint& point : geometry::parse_points(text, source.file))
+  for (const shape::FilePoint& point : shape::parse_points(text, source.file))
     points.push_back({place.apply(point.position), fmt::format("{}:{}", source.file, point.line)});
   return points;
 }

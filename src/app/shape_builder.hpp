@@ -4,7 +4,7 @@
 
 #include "app/options.hpp"
 #include "trime/comm/communicator.hpp"
-#include "trime/geometry/region_shape.hpp"
+#include "trime/shape/region_shape.hpp"
 
 #include <vector>
 
@@ -15,11 +15,11 @@ std::string read_shared(const std::string& path, const comm::Communicator& comm)
 
 /// @throws GeometryError, ConfigError, FileError on all ranks together
 /// @note Collective.
-geometry::RegionShape build_shape(const RunOptions& options, const comm::Communicator& comm, Log& log);
+shape::RegionShape build_shape(const RunOptions& options, const comm::Communicator& comm, Log& log);
 
 /// @brief The fixed points with labels `file:line`, normalised; none if the options name no file.
 /// @throws GeometryError, ConfigError, FileError on all ranks together
 /// @note Collective.
-std::vector<meshing::FixedPoint> read_fixed_points(const RunOptions& options, const comm::Communicator& comm);
+std::vector<boundary::FixedPoint> read_fixed_points(const RunOptions& options, const comm::Communicator& comm);
 
 } // namespace trime::app

@@ -2,10 +2,10 @@
 // Point sets of the benchmarks: the unit square filled with n points.
 #pragma once
 
-#include "trime/core/angle.hpp"
-#include "trime/core/random.hpp"
+#include "core/angle.hpp"
+#include "core/random.hpp"
+#include "mesh/binned_points.hpp"
 #include "trime/geometry/lattice.hpp"
-#include "trime/mesh/binned_points.hpp"
 
 #include <cmath>
 #include <vector>

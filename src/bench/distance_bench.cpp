@@ -2,8 +2,8 @@
 // Queries against a contour of 1e5 segments: nearest segment, inside test, and what every inner site asks in every
 // sweep. Argument: distance of the query points from the curve in segment lengths; 0: anywhere in the unit square.
 #include "bench/bench_points.hpp"
-#include "meshing/boundary_guard.hpp"
-#include "trime/core/angle.hpp"
+#include "core/angle.hpp"
+#include "polygon/boundary_guard.hpp"
 #include "trime/geometry/segment_grid.hpp"
 
 #include <benchmark/benchmark.h>
@@ -47,7 +47,7 @@ struct Stage {
   }
 
   geometry::Lattice lattice;
-  meshing::BoundarySites sites;
+  polygon::BoundarySites sites;
   geometry::SegmentGrid grid;
 };
 
@@ -74,13 +74,13 @@ void inside_contour(benchmark::State& state) {
   run(state, [](Vec2 p) { return stage().grid.inside(p); });
 }
 void guard_correct(benchmark::State& state) {
-  const meshing::BoundaryGuard guard(stage().sites, stage().lattice);
+  const polygon::BoundaryGuard guard(stage().sites, stage().lattice);
   const double h = stage().spacing();
   run(state, [&](Vec2 p) { return guard.correct(p, h, stage().lattice); });
 }
 void guard_build(benchmark::State& state) {
   for (auto _ : state)
-    benchmark::DoNotOptimize(meshing::BoundaryGuard(stage().sites, stage().lattice).memory_bytes());
+    benchmark::DoNotOptimize(polygon::BoundaryGuard(stage().sites, stage().lattice).memory_bytes());
 }
 
 BENCHMARK(nearest_segment)->ArgName("distance")->Arg(0)->Arg(1)->Arg(100)->Unit(benchmark::kMillisecond);

@@ -2,8 +2,8 @@
 // What a sweep exchanges: the ghosts of the halo, and the sites that change their owner. Argument: points on all ranks.
 // For mpirun; every benchmark runs a fixed number of iterations, the same on each rank.
 #include "bench/bench_points.hpp"
-#include "trime/decomposition/halo.hpp"
-#include "trime/decomposition/migration.hpp"
+#include "decomposition/halo.hpp"
+#include "decomposition/migration.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -2,7 +2,7 @@
 // The automatic size field of a rough closed coast with 5000 segments: set-up for a mesh of so many points, and what
 // each look-up costs, for random points and for points row by row.
 #include "bench/bench_points.hpp"
-#include "trime/core/angle.hpp"
+#include "core/angle.hpp"
 #include "trime/sizing/automatic_size.hpp"
 
 #include <benchmark/benchmark.h>

@@ -2,7 +2,7 @@
 // Stars against CGAL's Delaunay triangulation of the same points in the same run. Arguments: number of points; 0 like a
 // relaxed mesh, 1 random, 2 random with density ratio 900.
 #include "bench/bench_points.hpp"
-#include "trime/delaunay/star_builder.hpp"
+#include "delaunay/star_builder.hpp"
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -2,9 +2,9 @@
 // The passes of a sweep over a relaxed mesh where nothing changes any more: certified update and move, and the quality,
 // for each kind of processor. Arguments: number of points; rule (0 bars, 1 cells, 2 triangles).
 #include "bench/bench_points.hpp"
-#include "meshing/sweep_kernel.hpp"
-#include "trime/core/simd_level.hpp"
-#include "trime/delaunay/star_builder.hpp"
+#include "core/simd_level.hpp"
+#include "delaunay/star_builder.hpp"
+#include "sweep/sweep_kernel.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -13,9 +13,9 @@
 namespace trime::bench {
 namespace {
 
-using meshing::SiteClass;
-using meshing::SweepKernels;
-using meshing::SweepTask;
+using sweep::SiteClass;
+using sweep::SweepKernels;
+using sweep::SweepTask;
 
 /// A jittered lattice with its stars.
 struct Stage {
@@ -43,8 +43,8 @@ struct Stage {
     task.uniform_size = sizes[0];
     task.next_positions = points.next_positions().data();
     task.next_leads = points.next_leads().data();
-    task.rule.mover = static_cast<meshing::Mover>(state.range(1));
-    task.rule.length_scale = meshing::SweepRules::bar_pressure;
+    task.rule.mover = static_cast<sweep::Mover>(state.range(1));
+    task.rule.length_scale = sweep::SweepRules::bar_pressure;
     task.rule.momentum = 0.5;
     task.lattice_step = lattice.step();
     task.inverse_lattice_step = lattice.inverse_step();
@@ -74,7 +74,7 @@ void certify_and_move(benchmark::State& state, const SweepKernels& kernels) {
   for (auto _ : state)
     for (LocalIndex tile = 0; tile < stage.grid.tile_count(); ++tile) {
       const auto [begin, end] = stage.points.tile_range(tile);
-      meshing::SweepLeftovers leftovers{suspects.data(), irregular.data(), guarded.data()};
+      sweep::SweepLeftovers leftovers{suspects.data(), irregular.data(), guarded.data()};
       benchmark::DoNotOptimize(kernels.sweep(stage.task, begin, end, leftovers));
     }
   per_point(state, static_cast<double>(stage.points.owned()));
@@ -82,11 +82,11 @@ void certify_and_move(benchmark::State& state, const SweepKernels& kernels) {
 
 void measure(benchmark::State& state, const SweepKernels& kernels) {
   Stage stage(state);
-  std::vector<double> excesses(delaunay::StarTable::slots * meshing::most_measured);
+  std::vector<double> excesses(delaunay::StarTable::slots * sweep::most_measured);
   for (auto _ : state)
-    for (LocalIndex begin = 0; begin < stage.points.owned(); begin += meshing::most_measured)
+    for (LocalIndex begin = 0; begin < stage.points.owned(); begin += sweep::most_measured)
       benchmark::DoNotOptimize(kernels.measure(stage.task, begin,
-                                               std::min(stage.points.owned(), begin + meshing::most_measured),
+                                               std::min(stage.points.owned(), begin + sweep::most_measured),
                                                1 / stage.sizes[0], excesses.data()));
   per_point(state, static_cast<double>(stage.points.owned()));
 }
@@ -97,10 +97,10 @@ void measure(benchmark::State& state, const SweepKernels& kernels) {
     SimdLevel level;
     const SweepKernels* kernels;
   };
-  std::vector<Level> levels{{"portable", SimdLevel::portable, &meshing::portable_kernels}};
+  std::vector<Level> levels{{"portable", SimdLevel::portable, &sweep::portable_kernels}};
 #if defined(__x86_64__)
-  levels.push_back({"avx2", SimdLevel::avx2, &meshing::avx2_kernels});
-  levels.push_back({"avx512", SimdLevel::avx512, &meshing::avx512_kernels});
+  levels.push_back({"avx2", SimdLevel::avx2, &sweep::avx2_kernels});
+  levels.push_back({"avx512", SimdLevel::avx512, &sweep::avx512_kernels});
 #endif
   for (const Level& level : levels) {
     if (level.level > simd_level())

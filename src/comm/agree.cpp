@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/comm/agree.hpp"
+#include "comm/agree.hpp"
 
-#include "trime/core/free_memory.hpp"
+#include "core/free_memory.hpp"
 
 #include <new>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/comm/communicator.hpp"
 
-#include "trime/comm/native.hpp"
+#include "comm/native.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 // Work that ranks and threads share and whose results every rank needs.
 #pragma once
 
-#include "trime/comm/agree.hpp"
+#include "comm/agree.hpp"
+#include "core/thread_loop.hpp"
 #include "trime/comm/communicator.hpp"
-#include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/core/angle.hpp"
+#include "core/angle.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/core/formula.hpp"
 
-#include "trime/core/angle.hpp"
+#include "core/angle.hpp"
+#include "core/nearest_name.hpp"
+#include "core/thread_loop.hpp"
 #include "trime/core/error.hpp"
-#include "trime/core/nearest_name.hpp"
-#include "trime/core/thread_loop.hpp"
 
 #include <muParser.h>
 

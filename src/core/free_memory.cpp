@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/core/free_memory.hpp"
+#include "core/free_memory.hpp"
 
 #include <cstdlib>
 #ifdef __GLIBC__

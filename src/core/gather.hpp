@@ -2,7 +2,7 @@
 // A list that many threads make, in the order in which one would make it.
 #pragma once
 
-#include "trime/core/thread_loop.hpp"
+#include "core/thread_loop.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/core/hilbert.hpp"
+#include "core/hilbert.hpp"
 
 #include <array>
 #include <utility>

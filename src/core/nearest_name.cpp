@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/core/nearest_name.hpp"
+#include "core/nearest_name.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/core/read_file.hpp"
+#include "core/read_file.hpp"
 
 #include "trime/core/error.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/decomposition/halo.hpp"
+#include "decomposition/halo.hpp"
 
+#include "core/hilbert.hpp"
 #include "trime/core/error.hpp"
-#include "trime/core/hilbert.hpp"
 
 #include <algorithm>
 

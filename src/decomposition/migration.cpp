@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/decomposition/migration.hpp"
+#include "decomposition/migration.hpp"
 
-#include "trime/core/thread_loop.hpp"
+#include "core/thread_loop.hpp"
 
 #include <algorithm>
 #include <functional>

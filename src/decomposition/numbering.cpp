@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/decomposition/numbering.hpp"
+#include "decomposition/numbering.hpp"
 
-#include "trime/core/hilbert.hpp"
-#include "trime/core/thread_loop.hpp"
+#include "core/hilbert.hpp"
+#include "core/thread_loop.hpp"
 
 #include <algorithm>
 

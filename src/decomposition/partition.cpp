@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/decomposition/partition.hpp"
+#include "decomposition/partition.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/delaunay/star_builder.hpp"
+#include "delaunay/star_builder.hpp"
 
+#include "core/thread_loop.hpp"
 #include "delaunay/double2.hpp"
 #include "delaunay/star_kernel.hpp"
 #include "delaunay/tile_wrapper.hpp"
-#include "trime/core/thread_loop.hpp"
-#include "trime/geometry/predicates.hpp"
+#include "geometry/predicates.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 // The Voronoi cell of one site while it is being cut: work space of one thread, reused from site to site.
 #pragma once
 
-#include "trime/delaunay/star_table.hpp"
+#include "delaunay/star_table.hpp"
+#include "geometry/predicates.hpp"
 #include "trime/geometry/lattice.hpp"
-#include "trime/geometry/predicates.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/delaunay/star_table.hpp"
+#include "delaunay/star_table.hpp"
 
-#include "trime/core/thread_loop.hpp"
+#include "core/thread_loop.hpp"
 
 #include <algorithm>
 

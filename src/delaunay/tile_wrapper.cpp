@@ -3,7 +3,7 @@
 
 #include "delaunay/circumcenter.hpp"
 #include "delaunay/double2.hpp"
-#include "trime/delaunay/star_builder.hpp"
+#include "delaunay/star_builder.hpp"
 
 #include <algorithm>
 #include <array>

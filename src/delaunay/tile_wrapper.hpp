@@ -2,10 +2,10 @@
 // Stars of many sites of a tile at once: groups of sites that lie together share their candidates (wrap.hpp).
 #pragma once
 
+#include "delaunay/star_table.hpp"
 #include "delaunay/wrap.hpp"
-#include "trime/delaunay/star_table.hpp"
+#include "mesh/binned_points.hpp"
 #include "trime/geometry/lattice.hpp"
-#include "trime/mesh/binned_points.hpp"
 
 #include <array>
 #include <memory>

@@ -3,7 +3,7 @@
 // exactly right, what it cannot prove it leaves to others. Built once for each SIMD level.
 #pragma once
 
-#include "trime/core/simd_level.hpp"
+#include "core/simd_level.hpp"
 
 #include <cstdint>
 

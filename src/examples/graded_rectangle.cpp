@@ -3,10 +3,10 @@
 //   mpirun -np 2 graded_rectangle [POINTS [DIRECTORY]]
 #include <trime/comm/communicator.hpp>
 #include <trime/core/error.hpp>
-#include <trime/geometry/region_shape.hpp>
 #include <trime/io/describe.hpp>
 #include <trime/io/mesh_file.hpp>
 #include <trime/meshing/make_mesh.hpp>
+#include <trime/shape/region_shape.hpp>
 #include <trime/sizing/size_field.hpp>
 
 #include <cstdio>
@@ -34,8 +34,7 @@ int main(int argc, char** argv) {
     options.points = argc > 1 ? std::atoll(argv[1]) : 5000;
     const geometry::Frame frame(options.container);
     // Parts are joined by name; with more of them the region could be "difference(plate, union(hole, slot))".
-    const geometry::RegionShape shape({geometry::Part::rectangle("plate", {{0.1, 0.3}, {0.9, 0.7}}, frame)}, "plate",
-                                      frame);
+    const shape::RegionShape shape({shape::Part::rectangle("plate", {{0.1, 0.3}, {0.9, 0.7}}, frame)}, "plate", frame);
     trime::Log log(trime::LogLevel::warning, comm.is_root());
     const trime::meshing::MeshResult result = trime::meshing::make_mesh(comm, shape, Graded(), options, log);
 

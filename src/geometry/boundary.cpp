@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/geometry/boundary.hpp"
 
-#include "trime/core/angle.hpp"
+#include "core/angle.hpp"
 #include "trime/geometry/segment.hpp"
 
 #include <algorithm>

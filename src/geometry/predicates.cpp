@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/geometry/predicates.hpp"
+#include "geometry/predicates.hpp"
 
 #include <algorithm>
 #include <array>

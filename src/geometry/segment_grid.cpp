@@ -3,8 +3,8 @@
 // corner along cell edges, from a corner outside of everything; a query walks from its cell's corner to the point.
 #include "trime/geometry/segment_grid.hpp"
 
+#include "geometry/predicates.hpp"
 #include "trime/core/error.hpp"
-#include "trime/geometry/predicates.hpp"
 
 #include <algorithm>
 #include <array>

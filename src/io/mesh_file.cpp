@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/io/mesh_file.hpp"
 
+#include "comm/agree.hpp"
 #include "io/slab_file.hpp"
 #include "io/temporary_file.hpp"
 #include "io/xdmf.hpp"
-#include "trime/comm/agree.hpp"
 
 #include <sys/stat.h>
 #include <unistd.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/io/mesh_series.hpp"
 
+#include "comm/agree.hpp"
 #include "io/output_files.hpp"
 #include "io/temporary_file.hpp"
 #include "io/xdmf.hpp"
-#include "trime/comm/agree.hpp"
 
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/io/point_lookup.hpp"
+#include "io/point_lookup.hpp"
 
 #include <algorithm>
 

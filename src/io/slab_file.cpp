@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/slab_file.hpp"
 
+#include "comm/agree.hpp"
+#include "comm/native.hpp"
+#include "core/thread_loop.hpp"
 #include "io/hdf5_values.hpp"
 #include "io/temporary_file.hpp"
-#include "trime/comm/agree.hpp"
-#include "trime/comm/native.hpp"
-#include "trime/core/thread_loop.hpp"
 
 #include <algorithm>
 #include <cstring>

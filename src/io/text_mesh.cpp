@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/io/text_mesh.hpp"
 
+#include "comm/agree.hpp"
 #include "io/boundary_loops.hpp"
+#include "io/point_lookup.hpp"
 #include "io/temporary_file.hpp"
 #include "io/text_rows.hpp"
-#include "trime/comm/agree.hpp"
-#include "trime/io/point_lookup.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/text_rows.hpp"
 
+#include "comm/agree.hpp"
+#include "core/thread_loop.hpp"
 #include "io/temporary_file.hpp"
-#include "trime/comm/agree.hpp"
-#include "trime/core/thread_loop.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

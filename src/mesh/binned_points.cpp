@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sites that are sorted anew go from array to array, one array after the other, so that no second copy of all of them
 // is ever held.
-#include "trime/mesh/binned_points.hpp"
+#include "mesh/binned_points.hpp"
 
+#include "core/thread_loop.hpp"
 #include "mesh/site_sources.hpp"
 #include "trime/core/error.hpp"
-#include "trime/core/thread_loop.hpp"
 #include "trime/core/unset_vector.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/mesh/distributed_mesh.hpp"
 
-#include "trime/core/random.hpp"
-#include "trime/core/thread_loop.hpp"
+#include "core/random.hpp"
+#include "core/thread_loop.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/mesh/drifts.hpp"
+#include "mesh/drifts.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/mesh/known_bins.hpp"
+#include "mesh/known_bins.hpp"
 
 #include "trime/core/unset_vector.hpp"
 

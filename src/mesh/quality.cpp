@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/mesh/quality.hpp"
 
-#include "trime/core/angle.hpp"
+#include "core/angle.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/mesh/site_order.hpp"
+#include "mesh/site_order.hpp"
 
-#include "mesh/mesh_rules.hpp"
+#include "mesh/rules.hpp"
 #include "mesh/site_sources.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/unset_vector.hpp"

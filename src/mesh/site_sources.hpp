@@ -2,7 +2,7 @@
 // What sites are sorted from: a list, or the sites that a rank has at their next places.
 #pragma once
 
-#include "trime/mesh/binned_points.hpp"
+#include "mesh/binned_points.hpp"
 
 #include <span>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/mesh/tile_grid.hpp"
+#include "mesh/tile_grid.hpp"
 
-#include "mesh/mesh_rules.hpp"
-#include "trime/core/angle.hpp"
+#include "core/angle.hpp"
+#include "mesh/rules.hpp"
 #include "trime/core/error.hpp"
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // Some tiles of a grid, one after the other along its Hilbert curve.
 #pragma once
 
-#include "trime/mesh/tile_grid.hpp"
+#include "mesh/tile_grid.hpp"
 
 namespace trime::mesh {
 

@@ -5,17 +5,18 @@
 #include "trime/meshing/mesher.hpp"
 
 namespace trime::meshing {
+using sweep::StopReason;
 
-MeshResult make_mesh(const comm::Communicator& comm, const geometry::RegionShape& shape, const sizing::SizeField& size,
+MeshResult make_mesh(const comm::Communicator& comm, const shape::RegionShape& shape, const sizing::SizeField& size,
                      const MeshOptions& options, Log& log) {
   TimerTable timers;
   return Mesher(comm, shape.boundary(), size, options, log, timers).run();
 }
 
-MeshResult make_mesh(const comm::Communicator& comm, const geometry::Shape& shape, const sizing::SizeField& size,
+MeshResult make_mesh(const comm::Communicator& comm, const shape::Shape& shape, const sizing::SizeField& size,
                      const MeshOptions& options, Log& log) {
   return make_mesh(comm,
-                   geometry::traced(shape, geometry::Frame(options.container, options.periodic_x, options.periodic_y)),
+                   shape::traced(shape, geometry::Frame(options.container, options.periodic_x, options.periodic_y)),
                    size, options, log);
 }
 

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/meshing/mesher.hpp"
 
-#include "meshing/certificate.hpp"
-#include "meshing/chord_curve.hpp"
-#include "meshing/cleanup.hpp"
-#include "meshing/cleanup_rules.hpp"
-#include "meshing/extraction.hpp"
-#include "meshing/feature_report.hpp"
-#include "meshing/guard_treatment.hpp"
-#include "meshing/layout.hpp"
-#include "meshing/meshing_rules.hpp"
-#include "meshing/plan_start.hpp"
+#include "boundary/feature_report.hpp"
+#include "certificate/certificate.hpp"
+#include "cleanup/cleanup.hpp"
+#include "cleanup/rules.hpp"
+#include "comm/agree.hpp"
+#include "core/free_memory.hpp"
+#include "core/thread_loop.hpp"
+#include "extraction/extraction.hpp"
 #include "meshing/plan.hpp"
-#include "meshing/point_scheme.hpp"
-#include "meshing/site_state.hpp"
-#include "meshing/size_warnings.hpp"
-#include "meshing/stopping.hpp"
-#include "meshing/sweep_record.hpp"
-#include "meshing/sweeper.hpp"
-#include "meshing/update_rule.hpp"
-#include "trime/comm/agree.hpp"
+#include "meshing/plan_start.hpp"
+#include "meshing/rules.hpp"
+#include "polygon/chord_curve.hpp"
+#include "sites/site_state.hpp"
+#include "start/layout.hpp"
+#include "start/point_scheme.hpp"
+#include "start/size_warnings.hpp"
+#include "sweep/guard_treatment.hpp"
+#include "sweep/stopping.hpp"
+#include "sweep/sweep_record.hpp"
+#include "sweep/sweeper.hpp"
+#include "sweep/update_rule.hpp"
 #include "trime/core/error.hpp"
-#include "trime/core/free_memory.hpp"
-#include "trime/core/thread_loop.hpp"
 #include "trime/geometry/lattice.hpp"
 
 #include <algorithm>
@@ -30,6 +30,50 @@
 #include <limits>
 
 namespace trime::meshing {
+using boundary::boundary_without;
+using boundary::describe;
+using boundary::FeatureReport;
+using boundary::FixedPoints;
+using boundary::report_features;
+using certificate::certify;
+using cleanup::CleanupCounts;
+using cleanup::CleanupRules;
+using cleanup::CleanupTask;
+using cleanup::mend;
+using extraction::extract_mesh;
+using extraction::Extraction;
+using polygon::DroppedLoops;
+using polygon::LoopSummary;
+using polygon::summarize_loops;
+using sites::count_incomplete_fans;
+using sites::inside_fan;
+using sites::SiteState;
+using sites::Stage;
+using sites::StageView;
+using sites::view_of;
+using sites::Wanted;
+using start::LayoutContext;
+using start::PointScheme;
+using start::StartOptions;
+using start::warn_of_fine_features;
+using start::warn_of_steep_sizes;
+using sweep::LemmaReach;
+using sweep::MoveContext;
+using sweep::Mover;
+using sweep::settle_sites;
+using sweep::StarCertifier;
+using sweep::StopReason;
+using sweep::StopRules;
+using sweep::summarize_sweep;
+using sweep::SweepControl;
+using sweep::SweepDecision;
+using sweep::Sweeper;
+using sweep::SweepOptions;
+using sweep::SweepRecord;
+using sweep::SweepSummary;
+using sweep::SweepSums;
+using sweep::to_string;
+
 class Mesher::Implementation {
 public:
   Implementation(const comm::Communicator& comm, const geometry::Boundary& boundary, const sizing::SizeField& size,
@@ -237,7 +281,7 @@ private:
     mend_stars(LemmaReach::up_to_chords);
     const auto time = timers_.scope("clean-up");
     const CleanupTask task{state(),  stage_.boundary, *stage_.guard, meshed_boundary(),
-                           lattice_, *builder_,        *stage_.size,  *stage_.asked_size};
+                           lattice_, *builder_,       *stage_.size,  *stage_.asked_size};
     cleanup_ =
         mend(comm_, task, {options_.points.value_or(0), options_.keep_features ? 0 : options_.feature_tolerance});
     log_.info("clean-up: {} of {} patches better; {} sites moved, {} inserted, {} deleted; nothing helped at {} "

@@ -2,6 +2,7 @@
 #include "meshing/plan.hpp"
 
 namespace trime::meshing {
+using sweep::SweepOptions;
 
 SweepOptions sweep_options(const MeshOptions& options) {
   SweepOptions sweeps{options.method, options.max_sweeps, options.stop_tolerance, options.density_exponent};

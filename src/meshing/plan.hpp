@@ -2,11 +2,11 @@
 // From what a user asks of the mesher to what each of its parts is told.
 #pragma once
 
-#include "meshing/sweep_options.hpp"
+#include "sweep/sweep_options.hpp"
 #include "trime/meshing/options.hpp"
 
 namespace trime::meshing {
 
-SweepOptions sweep_options(const MeshOptions& options);
+sweep::SweepOptions sweep_options(const MeshOptions& options);
 
 } // namespace trime::meshing

@@ -2,6 +2,7 @@
 #include "meshing/plan_start.hpp"
 
 namespace trime::meshing {
+using start::StartOptions;
 
 StartOptions plan_start(const MeshOptions& options) {
   StartOptions start;

@@ -2,11 +2,11 @@
 // The options of the start, out of those of the run.
 #pragma once
 
-#include "meshing/start_options.hpp"
+#include "start/start_options.hpp"
 #include "trime/meshing/options.hpp"
 
 namespace trime::meshing {
 
-StartOptions plan_start(const MeshOptions& options);
+start::StartOptions plan_start(const MeshOptions& options);
 
 } // namespace trime::meshing

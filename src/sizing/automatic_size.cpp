@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/sizing/automatic_size.hpp"
 
+#include "cones/size_quadtree.hpp"
 #include "sizing/boundary_features.hpp"
-#include "sizing/size_quadtree.hpp"
 #include "trime/core/error.hpp"
 
 #include <cmath>
@@ -10,6 +10,9 @@
 namespace trime::sizing {
 
 namespace {
+
+using cones::ConeTree;
+using cones::SizeQuadtree;
 
 constexpr double least_side_share = 1.0 / 128; // of the feature floor: smallest cell that is split
 

@@ -5,7 +5,7 @@
 #include "core/gather.hpp"
 #include "sizing/medial_axis.hpp"
 #include "sizing/piece_locator.hpp"
-#include "sizing/sizing_rules.hpp"
+#include "sizing/rules.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,6 +13,8 @@
 
 namespace trime::sizing {
 
+using cones::Cone;
+using cones::ConeTree;
 using geometry::Box;
 using geometry::Piece;
 using geometry::Vec2;

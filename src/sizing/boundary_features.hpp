@@ -2,7 +2,7 @@
 // Boundary samples with their local feature sizes: the cones whose lower envelope is the automatic size field.
 #pragma once
 
-#include "sizing/cone_tree.hpp"
+#include "cones/cone_tree.hpp"
 #include "sizing/images.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/geometry/boundary.hpp"
@@ -15,7 +15,7 @@ namespace trime::sizing {
 /// those that others cover completely, at slope `gradation`, are left out; periodic images within reach included.
 /// O(n log n) for n samples, shared by ranks and threads. Collective.
 /// @pre feature_floor > 0, gradation > 0, the boundary has a piece
-std::vector<Cone> boundary_features(const comm::Communicator& comm, const geometry::Boundary& boundary,
-                                    const Images& images, double feature_floor, double gradation);
+std::vector<cones::Cone> boundary_features(const comm::Communicator& comm, const geometry::Boundary& boundary,
+                                           const Images& images, double feature_floor, double gradation);
 
 } // namespace trime::sizing

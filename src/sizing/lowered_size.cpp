@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/sizing/lowered_size.hpp"
+#include "sizing/lowered_size.hpp"
 
-#include "sizing/cone_cells.hpp"
+#include "cones/cone_cells.hpp"
 
 namespace trime::sizing {
 namespace {
+
+using cones::Cone;
+using cones::ConeCells;
+using cones::ConeTree;
 
 /// With the images next to the container: a nearest one is among them.
 std::vector<Cone> cones_of(const std::vector<SizeLimit>& limits, const geometry::Periods& periods) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sizing/medial_axis.hpp"
 
-#include "sizing/sizing_rules.hpp"
-#include "trime/core/angle.hpp"
+#include "core/angle.hpp"
+#include "sizing/rules.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,6 +8,10 @@
 
 namespace trime::sizing {
 
+using cones::BoxTree;
+using cones::NearestPoint;
+using cones::search_kernel;
+using cones::SegmentLeaf;
 using geometry::Box;
 using geometry::Piece;
 using geometry::Vec2;

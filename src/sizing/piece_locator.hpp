@@ -2,7 +2,7 @@
 // Nearest point of a boundary and of its periodic images.
 #pragma once
 
-#include "sizing/box_tree.hpp"
+#include "cones/box_tree.hpp"
 #include "sizing/images.hpp"
 #include "trime/core/types.hpp"
 #include "trime/geometry/boundary.hpp"
@@ -34,11 +34,11 @@ private:
     geometry::Vec2 shift;
     geometry::Box box;
   };
-  std::vector<SegmentLeaf> segments_;
-  BoxTree segment_tree_;
+  std::vector<cones::SegmentLeaf> segments_;
+  cones::BoxTree segment_tree_;
   std::vector<Arc> arcs_;
-  BoxTree arc_tree_;
-  SearchKernel kernel_;
+  cones::BoxTree arc_tree_;
+  cones::SearchKernel kernel_;
 };
 
 } // namespace trime::sizing

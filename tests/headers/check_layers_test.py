@@ -39,9 +39,18 @@ class Layers(unittest.TestCase):
             ("src/delaunay/a.cpp", "decomposition/halo.hpp"),
             ("src/decomposition/a.cpp", "trime/delaunay/star.hpp"),
             ("src/io/a.cpp", "trime/meshing/options.hpp"),
-            ("src/meshing/a.cpp", "trime/io/ini.hpp"),
+            ("src/meshing/a.cpp", "trime/io/mesh_file.hpp"),
             ("src/mesh/a.cpp", "trime/sizing/size_field.hpp"),
             ("src/io/a.cpp", "app/config_table.hpp"),
+            ("src/geometry/a.cpp", "trime/shape/shape.hpp"),
+            ("src/cones/a.cpp", "trime/sizing/size_field.hpp"),
+            ("src/boundary/a.cpp", "sites/stage.hpp"),
+            ("src/sites/a.cpp", "boundary/boundary_layout.hpp"),
+            ("src/sweep/a.cpp", "boundary/boundary_layout.hpp"),
+            ("src/cleanup/a.cpp", "sweep/sweeper.hpp"),
+            ("src/certificate/a.cpp", "extraction/extraction.hpp"),
+            ("src/start/a.cpp", "trime/shape/shape.hpp"),
+            ("src/sweep/a.cpp", "trime/meshing/options.hpp"),
         ]:
             with self.subTest(path=path, header=header):
                 self.assert_refused(path, f'#include "{header}"', "may use")
@@ -52,7 +61,7 @@ class Layers(unittest.TestCase):
             ("src/meshing/a.cpp", "delaunay/star_kernel.hpp"),
             ("src/app/main.cpp", "trime/core/error.hpp"),
             ("src/decomposition/a.cpp", "trime/comm/communicator.hpp"),
-            ("src/io/a.cpp", "trime/comm/native.hpp"),
+            ("src/io/a.cpp", "comm/native.hpp"),
             ("src/bench/a.cpp", "trime/io/mesh_file.hpp"),
         ]:
             with self.subTest(path=path, header=header):
@@ -64,7 +73,7 @@ class Layers(unittest.TestCase):
             ("src/app/a.cpp", "#  include <hdf5.h>", "HDF5"),
             ("src/comm/a.cpp", "#include <H5Fpublic.h>", "HDF5"),
             ("src/delaunay/a.cpp", "#include <omp.h>", "OpenMP"),
-            ("src/meshing/a.cpp", '#include "trime/comm/native.hpp"', "MPI handle"),
+            ("src/meshing/a.cpp", '#include "comm/native.hpp"', "MPI handle"),
         ]:
             with self.subTest(path=path, include=include):
                 self.assert_refused(path, include, reason)

@@ -41,7 +41,7 @@ def run(files, *arguments):
 
 class RulesTable(unittest.TestCase):
     def test_reads_name_value_unit_and_reason(self):
-        done, _ = run({"src/sweep/sweep_rules.hpp": GOOD, "src/sweep/other.hpp": "static constexpr int n = 1;\n"})
+        done, _ = run({"src/sweep/rules.hpp": GOOD, "src/sweep/other.hpp": "static constexpr int n = 1;\n"})
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout.splitlines(), [
             "#### sweep", "", "| name | value | unit | reason |", "|---|---|---|---|",
@@ -53,27 +53,27 @@ class RulesTable(unittest.TestCase):
         for comment, complaint in (("", "no unit"), ("/// It is small.", "no unit"), ("/// [h]", "no reason")):
             with self.subTest(comment=comment):
                 text = "struct XRules {\n" + comment + "\n  static constexpr double x = 1;\n};\n"
-                done, _ = run({"src/start/start_rules.hpp": text})
+                done, _ = run({"src/start/rules.hpp": text})
                 self.assertEqual(done.returncode, 1)
-                self.assertIn("src/start/start_rules.hpp:3: x: " + complaint, done.stderr)
+                self.assertIn("src/start/rules.hpp:3: x: " + complaint, done.stderr)
 
     def test_one_comment_does_not_serve_two_numbers(self):
         text = ("struct XRules {\n  /// [h] Why.\n  static constexpr double x = 1;\n"
                 "  static constexpr double y = 2;\n};\n")
-        done, _ = run({"src/start/start_rules.hpp": text})
+        done, _ = run({"src/start/rules.hpp": text})
         self.assertEqual(done.returncode, 1)
         self.assertIn(":4: y: no unit", done.stderr)
 
     def test_warns_of_one_name_for_several_numbers(self):
-        done, _ = run({"src/sweep/sweep_rules.hpp": GOOD,
-                       "src/start/start_rules.hpp": GOOD.replace("SweepRules", "StartRules").replace("0.005", "0.1")})
+        done, _ = run({"src/sweep/rules.hpp": GOOD,
+                       "src/start/rules.hpp": GOOD.replace("SweepRules", "StartRules").replace("0.005", "0.1")})
         self.assertEqual(done.returncode, 0)
         self.assertIn("still: one name, several numbers", done.stderr)
         self.assertIn("shares: one number twice", done.stderr)
 
     def test_writes_a_page_and_finds_what_has_changed_since(self):
         page = "before\n" + "\n".join(MARKS) + "\nafter\n"
-        files = {"src/sweep/sweep_rules.hpp": GOOD, "page.md": page}
+        files = {"src/sweep/rules.hpp": GOOD, "page.md": page}
         self.assertEqual(run(files, "--check", "page.md")[0].returncode, 1)
         done, written = run(files, "--write", "page.md")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -81,7 +81,7 @@ class RulesTable(unittest.TestCase):
         self.assertTrue(written.endswith("|\n" + MARKS[1] + "\nafter\n"), written)
         files["page.md"] = written
         self.assertEqual(run(files, "--check", "page.md")[0].returncode, 0)
-        files["src/sweep/sweep_rules.hpp"] = GOOD.replace("0.005", "0.006")
+        files["src/sweep/rules.hpp"] = GOOD.replace("0.005", "0.006")
         done, _ = run(files, "--check", "page.md")
         self.assertEqual(done.returncode, 1)
         self.assertIn("0.006", done.stderr)

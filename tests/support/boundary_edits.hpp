@@ -2,26 +2,26 @@
 // Boundary sites after some edits, as BoundaryChain carries them out.
 #pragma once
 
-#include "meshing/boundary_chain.hpp"
+#include "polygon/boundary_chain.hpp"
 
 #include <vector>
 
 namespace trime::testing {
 
 struct EditedBoundary {
-  meshing::BoundarySites sites;      ///< numbered along the loops
+  polygon::BoundarySites sites;      ///< numbered along the loops
   std::vector<LocalIndex> new_index; ///< by the old index, then of the new sites in the order of BoundaryChain
 };
-inline EditedBoundary edited(const meshing::BoundarySites& sites, const meshing::BoundaryCurve& curve,
-                             const std::vector<meshing::BoundaryEdit>& edits) {
-  meshing::BoundaryChain chain(sites, curve);
+inline EditedBoundary edited(const polygon::BoundarySites& sites, const polygon::BoundaryCurve& curve,
+                             const std::vector<polygon::BoundaryEdit>& edits) {
+  polygon::BoundaryChain chain(sites, curve);
   chain.apply(edits);
   std::vector<LocalIndex> new_index = chain.renumber();
   return {chain.sites(), std::move(new_index)};
 }
 
 /// The loop of a site, where sites are numbered along the loops.
-inline LocalIndex loop_of(const meshing::BoundarySites& sites, LocalIndex site) {
+inline LocalIndex loop_of(const polygon::BoundarySites& sites, LocalIndex site) {
   LocalIndex loop = 0;
   while (sites.loop_start[static_cast<std::size_t>(loop) + 1] <= site)
     ++loop;

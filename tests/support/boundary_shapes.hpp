@@ -2,7 +2,7 @@
 // Boundaries built by hand for the tests: polygons and circles on the lattice of the unit square, nothing normalised.
 #pragma once
 
-#include "trime/core/angle.hpp"
+#include "core/angle.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 

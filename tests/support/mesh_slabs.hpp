@@ -2,8 +2,8 @@
 // A small real mesh, and its slabs on any number of ranks, empty ones included.
 #pragma once
 
+#include "core/random.hpp"
 #include "trime/comm/communicator.hpp"
-#include "trime/core/random.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
 
 #include <algorithm>

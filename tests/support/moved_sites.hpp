@@ -2,7 +2,7 @@
 // Help for tests that move all sites of a state at once.
 #pragma once
 
-#include "meshing/site_state.hpp"
+#include "sites/site_state.hpp"
 
 #include <cstdint>
 #include <span>
@@ -12,7 +12,7 @@ namespace trime::testing {
 
 /// sites[i] is what becomes of owned site i, or it goes where deleted[i] is set; more sites than are owned are new.
 /// Only positions may differ from the owned sites. Collective.
-inline void move_sites(meshing::SiteState& state, std::span<const mesh::Site> sites,
+inline void move_sites(sites::SiteState& state, std::span<const mesh::Site> sites,
                        std::span<const std::uint8_t> deleted) {
   const std::size_t owned = static_cast<std::size_t>(state.points().owned());
   state.points().prepare_to_stay();

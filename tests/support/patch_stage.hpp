@@ -2,9 +2,9 @@
 // A patch by hand: sites around a place, and what the optimizer makes of them.
 #pragma once
 
-#include "meshing/boundary_guard.hpp"
-#include "meshing/boundary_sites.hpp"
-#include "meshing/patch_optimizer.hpp"
+#include "boundary/boundary_sites.hpp"
+#include "cleanup/patch_optimizer.hpp"
+#include "polygon/boundary_guard.hpp"
 #include "support/boundary_edits.hpp"
 #include "support/boundary_shapes.hpp"
 #include "trime/mesh/quality.hpp"

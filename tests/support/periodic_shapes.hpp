@@ -2,7 +2,7 @@
 // Shapes in periodic containers for the tests, and a torus that a hexagonal lattice fits exactly.
 #pragma once
 
-#include "trime/geometry/region_shape.hpp"
+#include "trime/shape/region_shape.hpp"
 
 #include <cmath>
 #include <vector>
@@ -19,40 +19,40 @@ inline const geometry::Frame& unit_cylinder() {
   return frame;
 }
 
-inline geometry::RegionShape whole_torus() {
+inline shape::RegionShape whole_torus() {
   return {{}, "domain", unit_torus()};
 }
 /// The torus without a disc across all four corners.
-inline geometry::RegionShape torus_with_hole(double radius = 0.2) {
-  return {{geometry::Part::circle("hole", {0, 0}, radius, unit_torus())}, "difference(domain, hole)", unit_torus()};
+inline shape::RegionShape torus_with_hole(double radius = 0.2) {
+  return {{shape::Part::circle("hole", {0, 0}, radius, unit_torus())}, "difference(domain, hole)", unit_torus()};
 }
 /// A disc across all four corners.
-inline geometry::RegionShape disc_at_corner() {
-  return {{geometry::Part::circle("disc", {1, 1}, 0.3, unit_torus())}, "disc", unit_torus()};
+inline shape::RegionShape disc_at_corner() {
+  return {{shape::Part::circle("disc", {1, 1}, 0.3, unit_torus())}, "disc", unit_torus()};
 }
 /// A band around the cylinder between y = 0.25 and y = 0.75.
-inline geometry::RegionShape band() {
-  return {{geometry::Part::rectangle("band", {{0, 0.25}, {1, 0.75}}, unit_cylinder())}, "band", unit_cylinder()};
+inline shape::RegionShape band() {
+  return {{shape::Part::rectangle("band", {{0, 0.25}, {1, 0.75}}, unit_cylinder())}, "band", unit_cylinder()};
 }
 /// A band around the cylinder with half a disc on its upper side and half a disc cut out of the lower one.
-inline geometry::RegionShape wavy_band() {
-  return {{geometry::Part::rectangle("band", {{0, 0.25}, {1, 0.75}}, unit_cylinder()),
-           geometry::Part::circle("bump", {0.98, 0.75}, 0.1, unit_cylinder()),
-           geometry::Part::circle("dent", {0.03, 0.25}, 0.15, unit_cylinder())},
+inline shape::RegionShape wavy_band() {
+  return {{shape::Part::rectangle("band", {{0, 0.25}, {1, 0.75}}, unit_cylinder()),
+           shape::Part::circle("bump", {0.98, 0.75}, 0.1, unit_cylinder()),
+           shape::Part::circle("dent", {0.03, 0.25}, 0.15, unit_cylinder())},
           "difference(union(band, bump), dent)",
           unit_cylinder()};
 }
 /// A band that winds around the torus both ways, with a tilted triangle cut out across the border.
-inline geometry::RegionShape slanted_band() {
-  const geometry::Contour contour = geometry::make_contour(
+inline shape::RegionShape slanted_band() {
+  const shape::Contour contour = shape::make_contour(
       {{{-0.25, -0.25}, {0.25, -0.25}, {1.25, 0.75}, {1.25, 1.25}, {0.75, 1.25}, {-0.25, 0.25}}}, "slanted");
-  return {{geometry::Part::contour("slanted", contour, {}, unit_torus()),
-           geometry::Part::triangle("cut", {{{-0.05, 0.47}, {0.12, 0.5}, {0.02, 0.62}}}, unit_torus())},
+  return {{shape::Part::contour("slanted", contour, {}, unit_torus()),
+           shape::Part::triangle("cut", {{{-0.05, 0.47}, {0.12, 0.5}, {0.02, 0.62}}}, unit_torus())},
           "difference(slanted, cut)",
           unit_torus()};
 }
 
-inline std::vector<geometry::RegionShape> periodic_shapes() {
+inline std::vector<shape::RegionShape> periodic_shapes() {
   return {whole_torus(), torus_with_hole(), disc_at_corner(), band(), wavy_band(), slanted_band()};
 }
 

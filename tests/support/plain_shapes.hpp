@@ -2,8 +2,8 @@
 // Shapes in the unit square and silent runs of the mesher on them, for the tests of whole meshes.
 #pragma once
 
-#include "trime/geometry/region_shape.hpp"
 #include "trime/meshing/mesher.hpp"
+#include "trime/shape/region_shape.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <gtest/gtest.h>
@@ -15,27 +15,27 @@ inline const geometry::Frame& unit_frame() {
   return frame;
 }
 
-inline geometry::RegionShape whole_container() {
+inline shape::RegionShape whole_container() {
   return {{}, "domain", unit_frame()};
 }
 /// Side 0.8, in the middle.
-inline geometry::RegionShape square() {
-  return {{geometry::Part::rectangle("s", {{0.1, 0.1}, {0.9, 0.9}}, unit_frame())}, "s", unit_frame()};
+inline shape::RegionShape square() {
+  return {{shape::Part::rectangle("s", {{0.1, 0.1}, {0.9, 0.9}}, unit_frame())}, "s", unit_frame()};
 }
-inline geometry::RegionShape triangle(geometry::Vec2 a = {0.1, 0.1}, geometry::Vec2 b = {0.9, 0.2},
-                                      geometry::Vec2 c = {0.4, 0.8}) {
-  return {{geometry::Part::triangle("t", {a, b, c}, unit_frame())}, "t", unit_frame()};
+inline shape::RegionShape triangle(geometry::Vec2 a = {0.1, 0.1}, geometry::Vec2 b = {0.9, 0.2},
+                                   geometry::Vec2 c = {0.4, 0.8}) {
+  return {{shape::Part::triangle("t", {a, b, c}, unit_frame())}, "t", unit_frame()};
 }
 /// Radius 0.4, in the middle.
-inline geometry::RegionShape disc() {
-  return {{geometry::Part::circle("d", {0.5, 0.5}, 0.4, unit_frame())}, "d", unit_frame()};
+inline shape::RegionShape disc() {
+  return {{shape::Part::circle("d", {0.5, 0.5}, 0.4, unit_frame())}, "d", unit_frame()};
 }
 /// The disc without another.
-inline geometry::RegionShape disc_with_hole(geometry::Vec2 center = {0.55, 0.5}, double radius = 0.15) {
-  return {{geometry::Part::circle("d", {0.5, 0.5}, 0.4, unit_frame()),
-           geometry::Part::circle("h", center, radius, unit_frame())},
-          "difference(d, h)",
-          unit_frame()};
+inline shape::RegionShape disc_with_hole(geometry::Vec2 center = {0.55, 0.5}, double radius = 0.15) {
+  return {
+      {shape::Part::circle("d", {0.5, 0.5}, 0.4, unit_frame()), shape::Part::circle("h", center, radius, unit_frame())},
+      "difference(d, h)",
+      unit_frame()};
 }
 
 inline meshing::MeshResult mesh_silently(const comm::Communicator& comm, const geometry::Boundary& boundary,

@@ -2,10 +2,10 @@
 // Point sets of the tests, easy and ugly, all on the lattice of the unit square.
 #pragma once
 
+#include "core/random.hpp"
+#include "core/thread_loop.hpp"
+#include "mesh/binned_points.hpp"
 #include "support/boundary_shapes.hpp"
-#include "trime/core/random.hpp"
-#include "trime/core/thread_loop.hpp"
-#include "trime/mesh/binned_points.hpp"
 
 #include <cmath>
 #include <vector>

@@ -2,9 +2,9 @@
 // What must hold for the stars of any point set, by exact predicates and brute force.
 #pragma once
 
+#include "delaunay/star_builder.hpp"
+#include "geometry/predicates.hpp"
 #include "support/point_sets.hpp"
-#include "trime/delaunay/star_builder.hpp"
-#include "trime/geometry/predicates.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 
 #include "trime/comm/communicator.hpp"
 #include "trime/core/log.hpp"
-#include "trime/geometry/region_shape.hpp"
 #include "trime/meshing/options.hpp"
+#include "trime/shape/region_shape.hpp"
 #include "trime/sizing/size_field.hpp"
 
 namespace trime::meshing {
@@ -13,12 +13,12 @@ namespace trime::meshing {
 /// @brief Meshes a shape that is made of parts. `shape` and `size` must give the same bits on every rank.
 /// @throws ConfigError, GeometryError on all ranks together, see Mesher::run
 /// @note Collective.
-MeshResult make_mesh(const comm::Communicator& comm, const geometry::RegionShape& shape, const sizing::SizeField& size,
+MeshResult make_mesh(const comm::Communicator& comm, const shape::RegionShape& shape, const sizing::SizeField& size,
                      const MeshOptions& options, Log& log);
 
 /// @brief Meshes a shape that is given by a function: traces it in options.container first, see geometry::traced.
 /// @note Collective.
-MeshResult make_mesh(const comm::Communicator& comm, const geometry::Shape& shape, const sizing::SizeField& size,
+MeshResult make_mesh(const comm::Communicator& comm, const shape::Shape& shape, const sizing::SizeField& size,
                      const MeshOptions& options, Log& log);
 
 /// True if the stop rule was met and every check passed.

@@ -20,7 +20,7 @@ struct Snapshot {
   double seconds;      ///< since the start of the run
   const mesh::DistributedMesh& mesh;
   const mesh::QualitySummary& quality;
-  const std::vector<LoopSummary>& loops; ///< see MeshResult
+  const std::vector<polygon::LoopSummary>& loops; ///< see MeshResult
 };
 /// Called on all ranks together; may communicate.
 using SnapshotObserver = std::function<void(const Snapshot&)>;

@@ -2,17 +2,17 @@
 // What a user asks of the mesher, and what comes back beside the mesh. Plain data.
 #pragma once
 
+#include "trime/boundary/feature_summary.hpp"
+#include "trime/boundary/fixed_point.hpp"
+#include "trime/cleanup/cleanup_counts.hpp"
 #include "trime/core/types.hpp"
 #include "trime/geometry/vec2.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
 #include "trime/mesh/quality.hpp"
 #include "trime/mesh/validity.hpp"
-#include "trime/meshing/cleanup_counts.hpp"
-#include "trime/meshing/feature_summary.hpp"
-#include "trime/meshing/fixed_point.hpp"
-#include "trime/meshing/loop_summary.hpp"
-#include "trime/meshing/start_choice.hpp"
-#include "trime/meshing/sweep_history.hpp"
+#include "trime/polygon/loop_summary.hpp"
+#include "trime/start/start_choice.hpp"
+#include "trime/sweep/sweep_history.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -26,7 +26,7 @@ struct MeshOptions {
   /// For the frame in which a shape is made. From there on the periods of its boundary are the only ones that count.
   bool periodic_x = false, periodic_y = false;
   std::optional<int> cells_x, cells_y; ///< container grid; empty: about 3.3 points a cell
-  Method method = Method::hybrid;
+  sweep::Method method = sweep::Method::hybrid;
   std::optional<GlobalId> points;    ///< exactly one of points and edge_length is set
   std::optional<double> edge_length; ///< target edge length (uniform size)
   double corner_angle = 30;          ///< degrees
@@ -34,8 +34,8 @@ struct MeshOptions {
   double feature_tolerance = 0.1;    ///< in local sizes: how far chords may pass from corners that they leave out
   std::uint64_t seed = 1;
   int max_sweeps = 500;
-  std::optional<double> stop_tolerance; ///< empty: the default of the method
-  Start start = Start::automatic;       ///< lattice for a uniform size field, else coarse to fine
+  std::optional<double> stop_tolerance;         ///< empty: the default of the method
+  start::Start start = start::Start::automatic; ///< lattice for a uniform size field, else coarse to fine
   /// Share of the points placed before the first sweep; the others are inserted in stages where the triangles are
   /// largest for their place. Empty: all at once, in the way that `start` names.
   std::optional<double> initial_fraction;
@@ -50,7 +50,7 @@ struct MeshOptions {
   bool stars_by_emptiness = false;
   /// @brief Kept bit for bit (on the lattice) and never moved. On the boundary (to within 1e-10 of the container) they
   /// become corners; outside of the shape they are a GeometryError.
-  std::vector<FixedPoint> fixed_points;
+  std::vector<boundary::FixedPoint> fixed_points;
   /// 0: none; -2: a snapshot of the first triangulation; n > 0: of the first and of every n-th.
   int snapshot_interval = 0;
 };
@@ -59,19 +59,19 @@ struct MeshResult {
   mesh::DistributedMesh mesh;
   mesh::QualitySummary quality;
   mesh::Checks checks;
-  std::vector<SweepRecord> history;
+  std::vector<sweep::SweepRecord> history;
   int triangulations = 0; ///< sites were triangulated so often: once a stage, and once after every move
-  StopReason stop_reason = StopReason::sweep_cap;
-  GlobalId requested_points = 0;  ///< 0 if an edge length was asked for
-  double edge_length = 0;         ///< uniform size: h; graded: edge length of as many equal triangles
-  std::string start_reason;       ///< which start was chosen and why, one line
-  std::string count_reason;       ///< why there are fewer points than requested; empty if they are nearly as many
-  std::vector<LoopSummary> loops; ///< by tag
-  CleanupCounts cleanup;
+  sweep::StopReason stop_reason = sweep::StopReason::sweep_cap;
+  GlobalId requested_points = 0; ///< 0 if an edge length was asked for
+  double edge_length = 0;        ///< uniform size: h; graded: edge length of as many equal triangles
+  std::string start_reason;      ///< which start was chosen and why, one line
+  std::string count_reason;      ///< why there are fewer points than requested; empty if they are nearly as many
+  std::vector<polygon::LoopSummary> loops; ///< by tag
+  cleanup::CleanupCounts cleanup;
   GlobalId corners = 0;
   int components = 0, holes = 0;
   double shape_area = 0; ///< of what is meshed: without islands, with lakes that were dropped
-  FeatureReport features;
+  boundary::FeatureReport features;
 };
 
 } // namespace trime::meshing

@@ -8,6 +8,10 @@
 
 #include <memory>
 
+namespace trime::cones {
+class SizeQuadtree;
+}
+
 namespace trime::sizing {
 
 struct AutomaticSizeOptions {
@@ -21,7 +25,6 @@ struct AutomaticSizeOptions {
 };
 
 class Images;
-class SizeQuadtree;
 
 /// @brief s(x) = min over boundary points b of K |x - b| + lfs(b), at most the container's width + height.
 ///
@@ -55,7 +58,7 @@ public:
 
 private:
   std::unique_ptr<const Images> images_;
-  std::unique_ptr<const SizeQuadtree> tree_;
+  std::unique_ptr<const cones::SizeQuadtree> tree_;
 };
 
 /// @brief The automatic size field, or a uniform one if the gradation is 0 or there is no boundary. Collective.

@@ -13,7 +13,7 @@ meshing::MeshResult good_result() {
   result.mesh.triangle_slab.total = 1900;
   result.mesh.hash = 0x1234;
   result.checks = {{"not_delaunay", 0, 0, true, "edges"}};
-  result.stop_reason = meshing::StopReason::converged;
+  result.stop_reason = sweep::StopReason::converged;
   return result;
 }
 
@@ -47,7 +47,7 @@ TEST(RunReport, MarksWhatIsNotComplete) {
   EXPECT_NE(incompleteness(result, true).find("failed checks: not_delaunay"), std::string::npos);
   EXPECT_EQ(incompleteness(result, false).find("in the file"), std::string::npos);
   result = good_result();
-  result.stop_reason = meshing::StopReason::sweep_cap;
+  result.stop_reason = sweep::StopReason::sweep_cap;
   EXPECT_FALSE(is_complete(result));
   EXPECT_NE(incompleteness(result, true).find("sweep cap"), std::string::npos);
 }
@@ -98,7 +98,7 @@ TEST(RunReport, TheTableOfTagsNamesLoopsAndParts) {
   boundary.part_names = {"square", "unused", "disc"};
   const Provenance provenance{line, options, text, placement, boundary};
   meshing::MeshResult result = good_result();
-  using Kind = meshing::LoopSummary::Kind;
+  using Kind = polygon::LoopSummary::Kind;
   result.loops = {{1, Kind::outer, 40, 3.25, {0, 2}}, {2, Kind::hole, 7, 0.5, {2}}, {3, Kind::band, 9, 1, {0}}};
   const io::Metadata metadata = describe_run(provenance, result, {}, {});
   using Names = std::vector<std::string>;

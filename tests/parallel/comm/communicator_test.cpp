@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The few collectives that the program uses, on any number of ranks.
-#include "trime/comm/agree.hpp"
+#include "comm/agree.hpp"
 #include "trime/comm/communicator.hpp"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ghosts are the sites of their owners; subscriptions grow; the numbering of the mesh does not know the ranks.
-#include "meshing/site_state.hpp"
+#include "decomposition/halo.hpp"
+#include "decomposition/numbering.hpp"
+#include "sites/site_state.hpp"
 #include "support/distributed.hpp"
-#include "trime/decomposition/halo.hpp"
-#include "trime/decomposition/numbering.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sites travel to the owner of their tile; nobody is lost.
+#include "decomposition/migration.hpp"
 #include "support/distributed.hpp"
-#include "trime/decomposition/migration.hpp"
 
 #include <gtest/gtest.h>
 

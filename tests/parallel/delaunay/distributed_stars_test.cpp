@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stars computed on several ranks are those of one rank, from the start and while sites move and migrate.
-#include "meshing/site_state.hpp"
+#include "sites/site_state.hpp"
 #include "support/distributed.hpp"
 #include "support/moved_sites.hpp"
 #include "support/star_checks.hpp"

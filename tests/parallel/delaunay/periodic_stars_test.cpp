@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stars in periodic containers: those of the planar set of all images, the same on any ranks and threads, with exactly
 // the triangles of a torus.
-#include "meshing/site_state.hpp"
+#include "decomposition/numbering.hpp"
+#include "sites/site_state.hpp"
 #include "support/distributed.hpp"
 #include "support/moved_sites.hpp"
 #include "support/star_checks.hpp"
-#include "trime/decomposition/numbering.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,11 +3,11 @@
 // same for any distribution over ranks, empty ranks included.
 #include "trime/io/mesh_file.hpp"
 
+#include "core/random.hpp"
 #include "support/hdf5_reading.hpp"
 #include "support/mesh_slabs.hpp"
 #include "support/temporary_directory.hpp"
 #include "trime/core/error.hpp"
-#include "trime/core/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include "support/plain_shapes.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/formula.hpp"
-#include "trime/geometry/region_shape.hpp"
 #include "trime/meshing/mesher.hpp"
+#include "trime/shape/region_shape.hpp"
 #include "trime/sizing/expression_size.hpp"
 
 #include <gtest/gtest.h>
@@ -20,6 +20,8 @@ namespace trime::meshing {
 namespace {
 
 using geometry::Vec2;
+using start::Start;
+using sweep::Method;
 
 MeshOptions with_points(GlobalId points, Start start = Start::automatic) {
   MeshOptions options;

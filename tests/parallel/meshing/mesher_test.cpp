@@ -12,9 +12,12 @@
 namespace trime::meshing {
 namespace {
 
-using geometry::Part;
-using geometry::RegionShape;
 using geometry::Vec2;
+using shape::Part;
+using shape::RegionShape;
+using start::Start;
+using sweep::Method;
+using sweep::StopReason;
 using testing::disc_with_hole;
 using testing::mesh_silently;
 using testing::square;

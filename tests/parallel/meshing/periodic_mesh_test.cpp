@@ -15,8 +15,9 @@
 namespace trime::meshing {
 namespace {
 
-using geometry::RegionShape;
 using geometry::Vec2;
+using shape::RegionShape;
+using sweep::Method;
 using testing::expect_certified;
 
 /// Periodic along both axes.

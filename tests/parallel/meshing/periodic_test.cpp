@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The whole mesher in periodic containers: certified, the same bits on any ranks, and lattices that stay.
-#include "meshing/fixed_points.hpp"
-#include "meshing/guard_treatment.hpp"
-#include "meshing/layout.hpp"
+#include "boundary/fixed_points.hpp"
+#include "core/random.hpp"
 #include "meshing/plan_start.hpp"
-#include "meshing/sweep_record.hpp"
+#include "start/layout.hpp"
 #include "support/distributed.hpp"
 #include "support/periodic_shapes.hpp"
 #include "support/plain_shapes.hpp"
-#include "trime/core/random.hpp"
+#include "sweep/guard_treatment.hpp"
+#include "sweep/sweep_record.hpp"
 #include "trime/meshing/mesher.hpp"
 
 #include <gtest/gtest.h>
@@ -19,9 +19,24 @@
 namespace trime::meshing {
 namespace {
 
+using boundary::FixedPoints;
 using geometry::Frame;
-using geometry::RegionShape;
 using geometry::Vec2;
+using shape::RegionShape;
+using sites::SiteState;
+using sites::Stage;
+using sites::Wanted;
+using start::lay_boundary;
+using start::LayoutContext;
+using start::place_sites;
+using start::StartOptions;
+using sweep::CvdRule;
+using sweep::DistMeshRule;
+using sweep::Method;
+using sweep::summarize_sweep;
+using sweep::Sweeper;
+using sweep::SweepRecord;
+using sweep::UpdateRule;
 
 MeshOptions options_for(const Frame& frame, GlobalId points, Method method) {
   MeshOptions options;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The automatic size field against shapes whose medial axis is known, on periodic containers, and with bad input.
+#include "core/random.hpp"
 #include "support/boundary_shapes.hpp"
 #include "trime/core/error.hpp"
-#include "trime/core/random.hpp"
 #include "trime/sizing/automatic_size.hpp"
 
 #include <gtest/gtest.h>

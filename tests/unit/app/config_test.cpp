@@ -232,7 +232,7 @@ TEST(Config, TakesTheDefaultsWhenTheyAreSpeltOut) {
 }
 
 TEST(Config, TakesMethodsAndPointSchemes) {
-  EXPECT_EQ(parse_config(good, "c.ini", {"meshing.method="}).mesh.method, meshing::Method::hybrid);
+  EXPECT_EQ(parse_config(good, "c.ini", {"meshing.method="}).mesh.method, sweep::Method::hybrid);
   for (const char* method : {"distmesh", "cvd", "hybrid"})
     EXPECT_EQ(method_name(parse_config(good, "c.ini", {std::string("meshing.method=") + method}).mesh.method), method);
   EXPECT_FALSE(parse_config(good, "c.ini", {}).mesh.initial_fraction.has_value());

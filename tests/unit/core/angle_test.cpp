@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sine, cosine and angle against the C library, which is accurate here but not the same everywhere.
-#include "trime/core/angle.hpp"
+#include "core/angle.hpp"
 
-#include "trime/core/random.hpp"
+#include "core/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The Hilbert curve.
-#include "trime/core/hilbert.hpp"
+#include "core/hilbert.hpp"
 
-#include "trime/core/random.hpp"
+#include "core/random.hpp"
 
 #include <gtest/gtest.h>
 

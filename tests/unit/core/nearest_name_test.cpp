@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Suggestions for misspelt names.
-#include "trime/core/nearest_name.hpp"
+#include "core/nearest_name.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/core/processors.hpp"
+#include "core/processors.hpp"
 
 #include "support/point_sets.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Whole files: bytes as they are, and why a file cannot be read.
-#include "trime/core/read_file.hpp"
+#include "core/read_file.hpp"
 
 #include "support/temporary_directory.hpp"
 #include "trime/core/error.hpp"

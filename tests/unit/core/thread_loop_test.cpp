@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/core/thread_loop.hpp"
+#include "core/thread_loop.hpp"
 
 #include "support/point_sets.hpp"
 

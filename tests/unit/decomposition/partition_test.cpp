@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contiguous ranges of tiles of about equal weight.
-#include "trime/core/random.hpp"
-#include "trime/decomposition/partition.hpp"
+#include "core/random.hpp"
+#include "decomposition/partition.hpp"
 
 #include <gtest/gtest.h>
 

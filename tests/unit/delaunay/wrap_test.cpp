@@ -2,9 +2,9 @@
 // Stars found many at a time: the same on every SIMD level as one by one, and never claimed where float32 cannot tell.
 #include "delaunay/wrap.hpp"
 
+#include "core/angle.hpp"
+#include "delaunay/star_builder.hpp"
 #include "support/star_checks.hpp"
-#include "trime/core/angle.hpp"
-#include "trime/delaunay/star_builder.hpp"
 #include "unit/delaunay/wrap_lanes.hpp"
 
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 // What the tests of geometry share: the invariants of every boundary, and shapes made in one line.
 #pragma once
 
-#include "trime/core/random.hpp"
-#include "trime/geometry/region_shape.hpp"
+#include "core/random.hpp"
+#include "trime/shape/region_shape.hpp"
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ inline void expect_valid(const Boundary& boundary) {
 }
 
 /// The region lies on the left of every piece, seen from points next to its middle.
-inline void expect_inside_on_left(const RegionShape& shape) {
+inline void expect_inside_on_left(const shape::RegionShape& shape) {
   for (const Loop& loop : shape.boundary().loops)
     for (const Piece& piece : loop.pieces) {
       const double s = 0.5 * piece.length(), offset = std::fmin(1e-6, 1e-3 * piece.length());

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pieces and loops by themselves.
-#include "trime/core/angle.hpp"
+#include "core/angle.hpp"
 #include "trime/geometry/segment.hpp"
 #include "unit/geometry/boundary_checks.hpp"
 
 namespace trime::geometry {
 namespace {
+
+using shape::Part;
+using shape::RegionShape;
 
 const Frame unit_frame(Box{{0, 0}, {1, 1}});
 

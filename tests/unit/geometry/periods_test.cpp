@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Images are exact: wrapping any image gives back the canonical point, bit for bit.
-#include "trime/core/random.hpp"
+#include "core/random.hpp"
 #include "trime/geometry/frame.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // orient2d and in_circle against big integers, on sets of points that make floating-point predicates fail.
-#include "trime/core/random.hpp"
-#include "trime/geometry/predicates.hpp"
+#include "core/random.hpp"
+#include "geometry/predicates.hpp"
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>

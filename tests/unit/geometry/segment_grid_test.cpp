@@ -2,9 +2,9 @@
 // SegmentGrid against brute force: parity with the same symbolic perturbation, nearest segments, box queries.
 #include "trime/geometry/segment_grid.hpp"
 
-#include "trime/core/random.hpp"
+#include "core/random.hpp"
+#include "geometry/predicates.hpp"
 #include "trime/geometry/lattice.hpp"
-#include "trime/geometry/predicates.hpp"
 
 #include <gtest/gtest.h>
 

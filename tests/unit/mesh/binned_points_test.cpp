@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sites in tiles and bins: nothing is lost, nothing is found twice, what is unknown is said.
+#include "core/thread_loop.hpp"
+#include "mesh/binned_points.hpp"
 #include "support/point_sets.hpp"
-#include "trime/core/thread_loop.hpp"
-#include "trime/mesh/binned_points.hpp"
 
 #include <gtest/gtest.h>
 

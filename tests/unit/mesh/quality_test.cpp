@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Quality of single triangles and the statistics over many.
-#include "trime/core/random.hpp"
+#include "core/random.hpp"
 #include "trime/mesh/quality.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The grid of tiles and bins.
-#include "trime/core/random.hpp"
-#include "trime/mesh/tile_grid.hpp"
+#include "core/random.hpp"
+#include "mesh/tile_grid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contours: rings of vertices as users draw them, read from `.xy` text, and their place in the container.
+// Reading and parsing are apart, so that one rank can read the bytes and all ranks parse the same text.
+#pragma once
+
+#include "trime/geometry/vec2.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trime::shape {
+
+/// One closed ring: the last vertex is joined to the first, which is not repeated. Either orientation.
+struct ContourRing {
+  std::vector<geometry::Vec2> points;
+  std::vector<int> lines; ///< line of each vertex in the file, from 1
+};
+
+/// Rings in the coordinates of their file. Which rings are holes follows from even-odd nesting.
+struct Contour {
+  std::string source; ///< name used in messages, for example the path
+  std::vector<ContourRing> rings;
+  std::vector<std::string> warnings; ///< for the user, one sentence each
+};
+
+/// @brief Bytes of a contour file. `hint` ends the message if it cannot be opened.
+/// @throws ConfigError for `.poly` and `.geojson`, which this version does not read; FileError if it cannot be read
+std::string read_contour_text(const std::string& path, const std::string& hint = "");
+
+/// @brief Rings of `.xy` text: one `x y` a line, a blank line ends a ring, `#` and `;` start comments.
+///
+/// A ring may repeat its first vertex at its end or not; repeated consecutive vertices are merged with a warning.
+/// @throws GeometryError `source:line: ...` for a line that is not two finite numbers, a ring with fewer than three
+/// distinct vertices, a text without vertices
+Contour parse_xy(std::string_view text, const std::string& source);
+
+/// A point with its line in the file.
+struct FilePoint {
+  geometry::Vec2 position;
+  int line;
+};
+
+/// @brief Points of `.xy` text: one `x y` a line; blank lines mean nothing, `#` and `;` start comments.
+/// @throws GeometryError `source:line: ...` for a line that is not two finite numbers, or without any point
+std::vector<FilePoint> parse_points(std::string_view text, const std::string& source);
+
+/// read_contour_text and parse_xy.
+Contour read_xy(const std::string& path);
+
+/// @brief A contour from rings made by a program; vertices are counted from 1 through all rings in place of lines.
+/// @throws GeometryError as parse_xy
+Contour make_contour(const std::vector<std::vector<geometry::Vec2>>& rings, const std::string& source);
+
+/// Uniform scaling with a shift: how the coordinates of a file become those of the container. Identity by default.
+struct Normalization {
+  geometry::Vec2 from; ///< point of the file that goes to `to`
+  geometry::Vec2 to;
+  double scale = 1;
+
+  geometry::Vec2 apply(geometry::Vec2 p) const { return to + scale * (p - from); }
+  geometry::Vec2 undo(geometry::Vec2 p) const { return from + (1 / scale) * (p - to); }
+};
+
+/// @brief Moves the centre of the bounding box of all rings to the centre of the container, and scales its longer side
+/// to 0.8 of the container's shorter side.
+Normalization fit_to_container(const Contour& contour, const geometry::Box& container);
+
+} // namespace trime::shape

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which parts make the shape, and how: the expression of the config key `region`.
+//   expression = name | union(e, e, ...) | intersection(e, e, ...) | difference(e, e, ...)
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trime::shape {
+
+/// Name that stands for the container itself; no part may have it.
+inline constexpr std::string_view domain_name = "domain";
+
+/// A parsed expression over parts that are known by their index. Immutable.
+class Region {
+public:
+  static constexpr int max_depth = 64; ///< of nested operations
+
+  /// @brief Parses `text`; leaves refer to `part_names` by index, `domain` to the index part_names.size().
+  /// @throws ConfigError with the position, or with the known names and the nearest one
+  static Region parse(std::string_view text, std::span<const std::string> part_names);
+
+  const std::string& text() const { return text_; }
+  /// Indices of the parts that occur, ascending, each once.
+  const std::vector<int>& parts() const { return parts_; }
+
+  /// @brief Value for a point of which inside(part index) tells whether it lies in a part; asks no more than needed.
+  template <class Inside>
+  bool contains(const Inside& inside) const {
+    return value(0, inside);
+  }
+
+private:
+  enum class Operation { part, unite, intersect, subtract };
+  struct Node {
+    Operation operation;
+    int part;                  ///< leaves only
+    std::vector<int> operands; ///< indices into nodes_
+  };
+  class Parser;
+
+  template <class Inside>
+  bool value(int node, const Inside& inside) const {
+    const Node& n = nodes_[node];
+    if (n.operation == Operation::part)
+      return inside(n.part);
+    // An operation is decided by the first operand with the deciding value; subtraction negates all but the first.
+    const bool decides = n.operation == Operation::unite;
+    for (std::size_t k = 0; k < n.operands.size(); ++k) {
+      const bool negated = n.operation == Operation::subtract && k > 0;
+      if ((value(n.operands[k], inside) != negated) == decides)
+        return decides;
+    }
+    return !decides;
+  }
+
+  std::string text_;
+  std::vector<Node> nodes_; // the root first
+  std::vector<int> parts_;
+};
+
+} // namespace trime::shape

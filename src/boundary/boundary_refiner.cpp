@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "boundary/boundary_refiner.hpp"
+
+#include "boundary/rules.hpp"
+#include "core/gather.hpp"
+
+#include "core/angle.hpp"
+#include "trime/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::boundary {
+
+using geometry::Vec2;
+
+namespace {
+
+constexpr std::ptrdiff_t segments_in_a_row = 64; // by one thread
+
+double nearest_power_of_two(double v) {
+  int exponent = 0;
+  const double fraction = std::frexp(v, &exponent);
+  return std::ldexp(1.0, fraction * fraction < 0.5 ? exponent - 1 : exponent);
+}
+
+} // namespace
+
+BoundaryRefiner::BoundaryRefiner(const geometry::Boundary& boundary, const BoundarySizes& sizes,
+                                 const geometry::Lattice& lattice, double corner_angle, std::span<const Vec2> inside,
+                                 const FeatureRule& rule, std::size_t affordable)
+    : boundary_(boundary), lattice_(lattice), corner_angle_(corner_angle), tolerance_{rule.tolerance}, inside_(inside),
+      inside_tree_(tree_of(inside)), dropped_(drop_small_loops(boundary, sizes.asked(), rule.least_perimeter, inside)),
+      affordable_(affordable) {
+  metrics_.reserve(boundary.loops.size());
+  for (std::size_t k = 0; k < boundary.loops.size(); ++k) {
+    if (dropped_.dropped[k])
+      continue;
+    metrics_.emplace_back(boundary, k, sizes);
+    add_loop(lay_out_loop(metrics_.back(), lattice, corner_angle, tolerance_));
+  }
+  most_sites_ = std::max(BoundaryRules::most_sites, BoundaryRules::halving_growth * sites_.size());
+}
+
+void BoundaryRefiner::run() {
+  std::vector<LocalIndex> fresh_sites(sites_.size());
+  for (std::size_t k = 0; k < sites_.size(); ++k)
+    fresh_sites[k] = static_cast<LocalIndex>(k);
+  std::vector<LocalIndex> fresh_segments = fresh_sites;
+  for (rounds_ = 0; !fresh_sites.empty(); ++rounds_) {
+    const std::vector<Cut> cuts = find_cuts(fresh_sites, fresh_segments);
+    fresh_sites.clear();
+    fresh_segments.clear();
+    for (const Cut& cut : cuts) {
+      if (sites_.size() >= affordable_) {
+        overfull_ = true;
+        return;
+      }
+      fresh_segments.push_back(cut.segment);
+      fresh_sites.push_back(divide(cut));
+      fresh_segments.push_back(fresh_sites.back());
+      if (sites_.size() > most_sites_)
+        fail(cut);
+    }
+    halvings_ += static_cast<LocalIndex>(cuts.size());
+  }
+  --rounds_;
+  overfull_ = sites_.size() > affordable_;
+}
+
+void BoundaryRefiner::add_loop(const std::vector<LoopSite>& loop_sites) {
+  const LocalIndex first = static_cast<LocalIndex>(sites_.size()), n = static_cast<LocalIndex>(loop_sites.size());
+  loop_first_.push_back(first);
+  const auto loop = static_cast<std::int32_t>(loop_first_.size() - 1);
+  for (LocalIndex k = 0; k < n; ++k)
+    sites_.push_back({loop_sites[k].t, loop_sites[k].position, first + (k + n - 1) % n, first + (k + 1) % n, loop,
+                      loop_sites[k].kind});
+}
+
+/// New segments against everything, old ones against the new sites only; ascending by segment.
+std::vector<BoundaryRefiner::Cut> BoundaryRefiner::find_cuts(const std::vector<LocalIndex>& fresh_sites,
+                                                             const std::vector<LocalIndex>& fresh_segments) {
+  std::vector<SiteTree::Entry> items;
+  for (const LocalIndex k : fresh_sites)
+    items.push_back({boundary_.periods.wrap(sites_[k].position), k});
+  const SiteTree newest(items);
+  for (; !trees_.empty() && trees_.back().size() <= 2 * items.size(); trees_.pop_back())
+    items.insert(items.end(), trees_.back().items().begin(), trees_.back().items().end());
+  trees_.emplace_back(std::move(items));
+  std::vector<LocalIndex> fresh = fresh_segments;
+  std::sort(fresh.begin(), fresh.end());
+  const auto look = [&](LocalIndex k, std::vector<Cut>& cuts) {
+    const bool is_fresh = std::binary_search(fresh.begin(), fresh.end(), k);
+    LocalIndex intruder = -1;
+    if (!is_fresh)
+      intruder = find_intruder(newest, k);
+    for (std::size_t tree = 0; is_fresh && tree < trees_.size() && intruder < 0; ++tree)
+      intruder = find_intruder(trees_[tree], k);
+    const LocalIndex point = is_fresh && intruder < 0 ? find_intruder(inside_tree_, k, true) : -1;
+    if (intruder >= 0 || point >= 0 || (is_fresh && curve_offends(k)))
+      cuts.push_back({k, intruder, point});
+  };
+  if (rounds_ < BoundaryRules::full_rounds)
+    return gather_in_order<Cut>(std::ssize(sites_), segments_in_a_row, [&](std::ptrdiff_t k, std::vector<Cut>& cuts) {
+      look(static_cast<LocalIndex>(k), cuts);
+    });
+  std::vector<Cut> cuts;
+  for (const LocalIndex k : candidates(fresh_sites, fresh))
+    look(k, cuts);
+  return cuts;
+}
+
+/// The new segments, and the others that a new site may encroach upon; ascending.
+std::vector<LocalIndex> BoundaryRefiner::candidates(const std::vector<LocalIndex>& fresh_sites,
+                                                    const std::vector<LocalIndex>& fresh_segments) {
+  const auto watch = [&](LocalIndex k) {
+    const Vec2 from = sites_[k].position;
+    watch_->add(boundary_.periods.wrap(from), end_of(sites_[k]) - from, k);
+  };
+  if (watch_) {
+    std::for_each(fresh_segments.begin(), fresh_segments.end(), watch);
+  } else {
+    watch_.emplace(boundary_.periods);
+    for (LocalIndex k = 0; k < static_cast<LocalIndex>(sites_.size()); ++k)
+      watch(k);
+  }
+  std::vector<LocalIndex> found = fresh_segments;
+  for (const LocalIndex k : fresh_sites)
+    watch_->find(boundary_.periods.wrap(sites_[k].position), found);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+/// A site, or an image of one, in the disc of a segment; see SiteTree. The tree holds canonical positions.
+/// Numbers of foreign items are not those of sites.
+LocalIndex BoundaryRefiner::find_intruder(const SiteTree& tree, LocalIndex segment, bool foreign) const {
+  const Site& site = sites_[segment];
+  const geometry::Periods& periods = boundary_.periods;
+  const Vec2 a = periods.wrap(site.position), b = end_of(site) + (a - site.position);
+  const double reach = geometry::length(b - a);
+  const auto images = [reach](double period) { // to each side that the disc may meet
+    return period > 0 ? static_cast<int>(std::fmin(4.0, 1 + std::floor(reach / period))) : 0;
+  };
+  const LocalIndex own = foreign ? -1 : segment, end = foreign ? -1 : site.next;
+  LocalIndex intruder = tree.find_in_disc(a, b, own, end);
+  for (int i = -images(periods.x); i <= images(periods.x) && intruder < 0; ++i)
+    for (int j = -images(periods.y); j <= images(periods.y) && intruder < 0; ++j)
+      if (const Vec2 shift{i * periods.x, j * periods.y}; i != 0 || j != 0)
+        intruder = tree.find_in_disc(a + shift, b + shift, own, end);
+  return intruder;
+}
+
+SiteTree BoundaryRefiner::tree_of(std::span<const Vec2> points) const {
+  std::vector<SiteTree::Entry> items;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    items.push_back({boundary_.periods.wrap(points[k]), static_cast<LocalIndex>(k)});
+  return SiteTree(std::move(items));
+}
+
+bool BoundaryRefiner::curve_offends(LocalIndex segment) const {
+  const Site& a = sites_[segment];
+  const PartSummary part = summarize(a);
+  if (part.leaves_disc || a.position == end_of(a))
+    return true;
+  const double tolerance = this->tolerance(a);
+  const bool strays = tolerance > 0 && part.sharpest_turn > corner_angle_ * (pi / 180) &&
+                      part.deviation > BoundaryRules::most_deviation * tolerance; // from a corner, after a division
+  // The arc of a circle has no corner that could be left out.
+  const bool is_smooth = part.sharpest_turn < BoundaryRules::smooth_junction;
+  return strays || (std::fabs(part.turn) > BoundaryRules::largest_turn && (is_smooth || part.deviation > tolerance));
+}
+
+/// Where to divide the segment from a to b, as t after a.
+BoundaryRefiner::CutPlace BoundaryRefiner::cut_place(const Site& a, const Site& b, double end) const {
+  const LoopMetric& metric = metrics_[a.loop];
+  const PartSummary part = summarize(a);
+  if (part.sharpest_turn > BoundaryRules::junction_turn) {
+    const double t = metric.piece_t(static_cast<std::size_t>(part.sharpest));
+    return {t > a.t ? t : t + metric.total(), part.sharpest};
+  }
+  const bool sharp_a = a.kind == SiteKind::sharp_corner, sharp_b = b.kind == SiteKind::sharp_corner;
+  if (sharp_a != sharp_b) {
+    const Site& apex = sharp_a ? a : b;
+    const double radius = nearest_power_of_two(0.5 * geometry::length(b.position - a.position));
+    const auto t = sharp_a ? metric.first_at_radius(a.t, end, apex.position, radius)
+                           : metric.first_at_radius(end, a.t, apex.position, radius);
+    if (t && *t > a.t && *t < end)
+      return {*t};
+  }
+  if (std::fabs(part.turn) > BoundaryRules::largest_turn)
+    return {part.half_turn_t};
+  return {0.5 * (a.t + end)};
+}
+
+LocalIndex BoundaryRefiner::divide(const Cut& cut) {
+  const Site a = sites_[cut.segment];
+  Site b = next(a);
+  b.position = end_of(a);
+  const LoopMetric& metric = metrics_[a.loop];
+  const double end = end_t(a);
+  if (metric.arc_length(a.t, end) < BoundaryRules::shortest_in_steps * lattice_.step() ||
+      (cut.intruder >= 0 && cut.intruder != cut.segment && cut.intruder != a.next &&
+       (boundary_.periods.same_point(sites_[cut.intruder].position, a.position) ||
+        boundary_.periods.same_point(sites_[cut.intruder].position, b.position))))
+    fail(cut);
+  const CutPlace place = cut_place(a, b, end);
+  Vec2 position = lattice_.snap(metric.point(place.t));
+  if (position == a.position || position == b.position)
+    fail(cut);
+  const bool round = place.t >= metric.total();
+  if (round)
+    position = position - metric.loop().winding;
+  const auto junction = static_cast<std::size_t>(place.junction);
+  const double t = place.junction >= 0 ? metric.piece_t(junction) : round ? place.t - metric.total() : place.t;
+  const auto index = static_cast<LocalIndex>(sites_.size());
+  sites_.push_back({t, position, cut.segment, a.next, a.loop,
+                    place.junction >= 0 ? kind_of_junction(metric.loop(), junction, corner_angle_) : SiteKind::plain});
+  sites_[cut.segment].next = index;
+  sites_[a.next].previous = index;
+  return index;
+}
+
+void BoundaryRefiner::fail(const Cut& cut) const {
+  const Site& a = sites_[cut.segment];
+  const Vec2 from = a.position, to = end_of(a);
+  std::string cause = "the curve turns back on itself there";
+  if (cut.intruder >= 0) {
+    const Vec2 p = boundary_.periods.nearest_image(sites_[cut.intruder].position, from);
+    const double gap = std::sqrt(std::fmin(geometry::squared_length(p - from), geometry::squared_length(p - to)));
+    cause = fmt::format("another part of the boundary passes at a distance of {:.3g}, at ({:.17g}, {:.17g})", gap, p.x,
+                        p.y);
+  }
+  if (cut.point >= 0) {
+    const Vec2 p = inside_[static_cast<std::size_t>(cut.point)];
+    cause = fmt::format("the fixed point ({:.17g}, {:.17g}) lies too near to it, but not on it", p.x, p.y);
+  }
+  throw GeometryError(fmt::format(
+      "the boundary is too narrow near ({:.17g}, {:.17g}): {}; expected parts that are at least {:.3g} apart (the "
+      "resolution of the container), divided in {} rounds down to a segment of {:.3g}. More points are not the cure: "
+      "simplify the contour there, or move its parts clearly apart or together, or make the container smaller",
+      from.x, from.y, cause, BoundaryRules::shortest_in_steps * lattice_.step(), rounds_, geometry::length(to - from)));
+}
+
+} // namespace trime::boundary

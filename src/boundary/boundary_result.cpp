@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What comes out of the layout of a boundary.
+
+#include "boundary/boundary_refiner.hpp"
+#include "core/gather.hpp"
+#include "polygon/chord_curve.hpp"
+
+#include "core/angle.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace trime::boundary {
+
+using geometry::Vec2;
+using polygon::BoundarySites;
+using polygon::name_parts;
+
+namespace {
+
+constexpr std::ptrdiff_t segments_in_a_row = 64; // by one thread
+
+} // namespace
+
+/// The segment that starts at site k, as the result has it.
+BoundaryRefiner::Segment BoundaryRefiner::segment_of(LocalIndex k) const {
+  const Site& site = sites_[k];
+  const LoopMetric& metric = metrics_[site.loop];
+  const geometry::Periods& periods = boundary_.periods;
+  const Vec2 canonical = periods.wrap(site.position), end = end_of(site) + (canonical - site.position);
+  const auto [piece, along] = metric.place(site.t);
+  Segment out;
+  out.site = {canonical, 0, 0, metric.loop().tag, site.kind != SiteKind::plain, end - periods.wrap(end), piece, along};
+  out.squared_length = geometry::squared_length(end - canonical);
+  if (tolerance_.share == 0)
+    return out;
+  const double turn = corner_angle_ * (pi / 180);
+  if (const PartSummary part = summarize(site); part.sharpest_turn > turn) {
+    out.left_out = metric.corners_between(site.t, end_t(site), turn);
+    out.deviation = tolerance_.share * part.deviation / tolerance(site);
+  }
+  return out;
+}
+
+BoundarySites BoundaryRefiner::result() const {
+  BoundarySites out;
+  out.periods = boundary_.periods;
+  out.halvings = halvings_;
+  out.rounds = rounds_;
+  out.overfull = overfull_;
+  std::vector<LocalIndex> order;
+  order.reserve(sites_.size());
+  for (const LocalIndex first : loop_first_) {
+    out.loop_start.push_back(static_cast<LocalIndex>(order.size()));
+    LocalIndex k = first;
+    do {
+      order.push_back(k);
+      k = sites_[k].next;
+    } while (k != first);
+  }
+  out.loop_start.push_back(static_cast<LocalIndex>(order.size()));
+  const std::vector<Segment> segments =
+      gather_in_order<Segment>(std::ssize(order), segments_in_a_row, [&](std::ptrdiff_t k, std::vector<Segment>& list) {
+        list.push_back(segment_of(order[static_cast<std::size_t>(k)]));
+      });
+  out.sites.reserve(segments.size());
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t loop = 0; loop < loop_first_.size(); ++loop) {
+    const LocalIndex first = out.loop_start[loop], end = out.loop_start[loop + 1];
+    for (LocalIndex k = first; k < end; ++k) {
+      const Segment& segment = segments[k];
+      out.sites.push_back(segment.site);
+      out.sites.back().previous = k == first ? end - 1 : k - 1;
+      out.sites.back().next = k + 1 == end ? first : k + 1;
+      const SiteKind kind = sites_[order[k]].kind;
+      out.corners += kind != SiteKind::plain;
+      out.sharp_corners += kind == SiteKind::sharp_corner;
+      out.left_out += segment.left_out;
+      out.deviation = std::fmax(out.deviation, segment.deviation);
+      shortest = std::fmin(shortest, segment.squared_length);
+    }
+  }
+  out.shortest = std::sqrt(shortest);
+  out.dropped = dropped_;
+  if (dropped_.any())
+    name_parts(boundary_without(boundary_, dropped_), out);
+  else
+    name_parts(boundary_, out);
+  return out;
+}
+
+BoundarySites make_boundary_sites(const geometry::Boundary& boundary, const BoundarySizes& sizes,
+                                  const geometry::Lattice& lattice, double corner_angle, std::span<const Vec2> inside,
+                                  const FeatureRule& rule, std::size_t affordable) {
+  BoundaryRefiner refiner(boundary, sizes, lattice, corner_angle, inside, rule, affordable);
+  refiner.run();
+  return refiner.result();
+}
+
+BoundarySites make_boundary_sites(const geometry::Boundary& boundary, const sizing::SizeField& size,
+                                  const geometry::Lattice& lattice, double corner_angle, std::span<const Vec2> inside,
+                                  const FeatureRule& rule, std::size_t affordable) {
+  return make_boundary_sites(boundary, BoundarySizes(size, rule.size ? *rule.size : size), lattice, corner_angle,
+                             inside, rule, affordable);
+}
+
+} // namespace trime::boundary

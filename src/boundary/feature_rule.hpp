@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What becomes of features of the boundary that are smaller than the elements.
+#pragma once
+
+#include "polygon/polygon.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <span>
+
+namespace trime::boundary {
+
+/// @brief Loops whose perimeter is below `least_perimeter` local sizes are dropped; corners may be left out where
+/// chords then pass no farther from the boundary than `tolerance` local sizes. Corners with arms of two local sizes and
+/// more on both sides, and corners that are asked for (Piece::corner), are always kept. The default keeps everything.
+struct FeatureRule {
+  double tolerance = 0;
+  double least_perimeter = 0;
+  /// The local size that counts, if it differs from that by which the sites are laid. Must outlive what uses the rule.
+  const sizing::SizeField* size = nullptr;
+};
+
+/// The boundary of what is left. O(pieces)
+geometry::Boundary boundary_without(const geometry::Boundary& boundary, const polygon::DroppedLoops& dropped);
+
+/// @brief Applies the rule. A loop stays if it winds around the container, has a corner that is asked for, encloses
+/// more than 1 % of the area of the shape, a loop that stays or one of `inside`, and one component always stays.
+/// O(pieces + loops log loops) for loops apart.
+/// @param inside points of the shape that must remain in it, in lexicographic order
+polygon::DroppedLoops drop_small_loops(const geometry::Boundary& boundary, const sizing::SizeField& size,
+                                       double least_perimeter, std::span<const geometry::Vec2> inside = {});
+
+} // namespace trime::boundary

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "boundary/size_limits.hpp"
+
+#include "boundary/rules.hpp"
+#include "boundary/site_tree.hpp"
+#include "core/gather.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::boundary {
+
+using geometry::Vec2;
+using polygon::BoundarySites;
+
+namespace {
+
+constexpr int sites_in_a_row = 64; // by one thread
+
+class LimitFinder {
+public:
+  LimitFinder(const BoundarySites& boundary, const sizing::SizeField& size, const sizing::SizeField& asked)
+      : boundary_(boundary), size_(size), asked_(asked), tree_(items_of(boundary)), sharp_(boundary.sites.size()) {
+    thread_loop(std::ssize(sharp_), sites_in_a_row, [this](std::ptrdiff_t k, int) {
+      sharp_[static_cast<std::size_t>(k)] = chords_meet_sharply(static_cast<LocalIndex>(k));
+    });
+  }
+
+  std::vector<sizing::SizeLimit> run() const {
+    return gather_in_order<sizing::SizeLimit>(
+        std::ssize(boundary_.sites), sites_in_a_row,
+        [&](std::ptrdiff_t k, std::vector<sizing::SizeLimit>& limits) { look(static_cast<LocalIndex>(k), limits); });
+  }
+
+private:
+  /// At a site and at its chord.
+  void look(LocalIndex k, std::vector<sizing::SizeLimit>& limits) const {
+    const auto add = [&](Vec2 place, double limit, double h) {
+      if (!(limit < BoundaryRules::least_lowering * h))
+        return;
+      limit = std::fmax(limit, BoundaryRules::least_limit * asked_.size(place));
+      if (limit < BoundaryRules::least_lowering * h) // else it is as low already as it may become
+        limits.push_back({place, limit});
+    };
+    const geometry::Segment chord = boundary_.chord(k);
+    const double at_site = sizing::checked_size(size_, chord.a);
+    add(chord.a, gap_across(k, BoundaryRules::narrow_gap * at_site), at_site);
+    if (is_near_sharp(k))
+      return; // in a wedge chords are short at any size
+    const Vec2 middle = boundary_.periods.wrap(0.5 * (chord.a + chord.b));
+    const double length = geometry::length(chord.b - chord.a), h = sizing::checked_size(size_, middle);
+    const double limit = length < BoundaryRules::short_chord * h ? BoundaryRules::short_factor * length : h;
+    add(middle, std::fmin(limit, BoundaryRules::width_factor * width_across(k, chord, length)), h);
+  }
+
+  static std::vector<SiteTree::Entry> items_of(const BoundarySites& boundary) {
+    std::vector<SiteTree::Entry> items;
+    for (std::size_t k = 0; k < boundary.sites.size(); ++k)
+      items.push_back({boundary.sites[k].position, static_cast<LocalIndex>(k)});
+    return items;
+  }
+
+  /// Least distance from the chord's line of the sites that see it at a large angle; infinite without any.
+  double width_across(LocalIndex k, const geometry::Segment& chord, double length) const {
+    const Vec2 along = (1 / length) * (chord.b - chord.a), inward{-along.y, along.x};
+    const Vec2 center = 0.5 * (chord.a + chord.b) + BoundaryRules::lens_offset * length * inward;
+    double width = std::numeric_limits<double>::infinity();
+    tree_.for_each_within(center, BoundaryRules::lens_radius * length, [&](const SiteTree::Entry& item) {
+      const double height = geometry::dot(item.position - chord.a, inward);
+      if (height > 0 && !is_near(k, item.index))
+        width = std::fmin(width, height);
+    });
+    return width;
+  }
+
+  LocalIndex next(LocalIndex k) const { return boundary_.sites[static_cast<std::size_t>(k)].next; }
+  LocalIndex previous(LocalIndex k) const { return boundary_.sites[static_cast<std::size_t>(k)].previous; }
+
+  /// Is one of the ends of chord k, or a neighbour of them, a sharp corner?
+  bool is_near_sharp(LocalIndex k) const {
+    return is_sharp(previous(k)) || is_sharp(k) || is_sharp(next(k)) || is_sharp(next(next(k)));
+  }
+
+  /// Distance from site k to the nearest other one across the inside, if below `reach`; else infinite.
+  double gap_across(LocalIndex k, double reach) const {
+    const geometry::Segment out = boundary_.chord(k);
+    const Vec2 ahead = out.b - out.a, back = boundary_.chord(previous(k)).a - boundary_.chord(previous(k)).b;
+    double gap = std::numeric_limits<double>::infinity();
+    tree_.for_each_within(out.a, reach, [&](const SiteTree::Entry& item) {
+      const Vec2 across = item.position - out.a;
+      const bool left_of_ahead = geometry::cross(ahead, across) > 0, right_of_back = geometry::cross(across, back) > 0;
+      const bool inside =
+          geometry::cross(ahead, back) > 0 ? left_of_ahead && right_of_back : left_of_ahead || right_of_back;
+      if (inside && !is_around_corner(k, item.index))
+        gap = std::fmin(gap, geometry::length(across));
+    });
+    return gap;
+  }
+
+  /// Are the sites at most two chords apart, or on the arms of one sharp corner?
+  bool is_around_corner(LocalIndex k, LocalIndex other) const {
+    LocalIndex forward = k, backward = k;
+    bool sharp_ahead = is_sharp(k), sharp_behind = sharp_ahead;
+    for (int hop = 0; hop <= BoundaryRules::longest_arms; ++hop) {
+      if ((forward == other && (hop <= 2 || sharp_ahead)) || (backward == other && (hop <= 2 || sharp_behind)))
+        return true;
+      forward = next(forward);
+      backward = previous(backward);
+      sharp_ahead |= is_sharp(forward);
+      sharp_behind |= is_sharp(backward);
+    }
+    return false;
+  }
+
+  bool is_sharp(LocalIndex k) const { return sharp_[static_cast<std::size_t>(k)]; }
+
+  /// Do the chords of site k meet at less than 60 degrees, on the inside?
+  bool chords_meet_sharply(LocalIndex k) const {
+    const geometry::Segment out = boundary_.chord(k),
+                            in = boundary_.chord(boundary_.sites[static_cast<std::size_t>(k)].previous);
+    const Vec2 ahead = out.b - out.a, back = in.a - in.b;
+    const double dot = geometry::dot(ahead, back);
+    return geometry::cross(ahead, back) > 0 && dot > 0 &&
+           4 * dot * dot > geometry::squared_length(ahead) * geometry::squared_length(back);
+  }
+
+  /// Is the site at most two chords from chord k along the boundary?
+  bool is_near(LocalIndex k, LocalIndex other) const {
+    const auto& sites = boundary_.sites;
+    const LocalIndex next = sites[k].next, previous = sites[k].previous;
+    return other == k || other == next || other == previous || other == sites[next].next;
+  }
+
+  const BoundarySites& boundary_;
+  const sizing::SizeField &size_, &asked_;
+  const SiteTree tree_;
+  std::vector<char> sharp_; // for each site, whether its chords meet sharply
+};
+
+/// Without limits that another of those next to them in the list implies. What that one implies the limit that implied
+/// it does, too.
+std::vector<sizing::SizeLimit> without_implied(const std::vector<sizing::SizeLimit>& limits, double gradation) {
+  constexpr std::ptrdiff_t neighbours = 32; // to each side
+  const std::ptrdiff_t n = std::ssize(limits);
+  return gather_in_order<sizing::SizeLimit>(n, sites_in_a_row, [&](std::ptrdiff_t k, auto& kept) {
+    const sizing::SizeLimit& limit = limits[static_cast<std::size_t>(k)];
+    for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(0, k - neighbours); j < std::min(n, k + neighbours + 1); ++j) {
+      const sizing::SizeLimit& other = limits[static_cast<std::size_t>(j)];
+      const double reach = limit.size - other.size;
+      if (reach > 0 && gradation * gradation * geometry::squared_length(limit.place - other.place) <= reach * reach)
+        return;
+    }
+    kept.push_back(limit);
+  });
+}
+
+} // namespace
+
+std::vector<sizing::SizeLimit> size_limits(const BoundarySites& boundary, const sizing::SizeField& size,
+                                           const sizing::SizeField& asked, double gradation) {
+  return without_implied(LimitFinder(boundary, size, asked).run(), gradation);
+}
+
+} // namespace trime::boundary

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "certificate/boundary_proof.hpp"
+
+#include "certificate/rules.hpp"
+#include "core/thread_loop.hpp"
+#include "polygon/chord_curve.hpp"
+#include "trime/geometry/piece_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace trime::certificate {
+namespace {
+
+using geometry::Vec2;
+using polygon::area_of_loops;
+using polygon::BoundarySite;
+using polygon::ChordCurve;
+using polygon::compare_chords;
+
+std::size_t at(LocalIndex i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Largest distance of a boundary vertex from the curve: of those written, from the nearest piece of the shape; of
+/// those laid out, from their places on it. Collective.
+double vertex_distance(const BoundaryTruth& truth, const std::vector<ChordCurve>& chords,
+                       const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
+  const geometry::PieceTree pieces(truth.shape);
+  PerThread<double> of_thread(0);
+  thread_loop(static_cast<std::ptrdiff_t>(mesh.points.size()), 4096, [&](std::ptrdiff_t item, int thread) {
+    const auto k = static_cast<std::size_t>(item);
+    double& largest = of_thread[thread];
+    if (mesh.boundary[k] > 0)
+      largest = std::max(largest, pieces.distance(mesh.points[k]));
+  });
+  double largest = 0;
+  for (const double one : of_thread)
+    largest = std::max(largest, one);
+  for (const ChordCurve& chord : chords)
+    largest = std::max(largest, chord.offset);
+  return comm.max(largest);
+}
+
+/// Corner sites that are a vertex of the shape, bit for bit.
+std::int64_t corners_in_place(const BoundaryTruth& truth) {
+  std::int64_t count = 0;
+  for (std::size_t loop = 0; loop < truth.meshed.loops.size(); ++loop)
+    for (LocalIndex k = truth.sites.loop_start[loop]; k < truth.sites.loop_start[loop + 1]; ++k) {
+      const BoundarySite& site = truth.sites.sites[at(k)];
+      const Vec2 vertex = truth.meshed.loops[loop].pieces[at(site.piece)].start;
+      count += site.corner && site.along == 0 && site.position == truth.meshed.periods.wrap(vertex);
+    }
+  return count;
+}
+
+/// The chords against their curves.
+struct ChordExtremes {
+  double deviation = 0; ///< largest, over h
+  double of_arcs = 0;   ///< largest of a chord of a circle, over what a good one has
+  double area = 0;      ///< that all chords take from the shape
+};
+
+ChordExtremes extremes_of(const BoundaryTruth& truth, const std::vector<ChordCurve>& chords) {
+  ChordExtremes extremes;
+  for (LocalIndex k = 0; k < std::ssize(truth.sites.sites); ++k) {
+    const ChordCurve& chord = chords[at(k)];
+    const geometry::Segment segment = truth.sites.chord(k);
+    const BoundarySite& next = truth.sites.sites[at(truth.sites.sites[at(k)].next)];
+    const double h = 0.5 * (truth.size.size(segment.a) + truth.size.size(next.position));
+    const double sagitta = squared_length(segment.b - segment.a) * chord.curvature / 8;
+    extremes.deviation = std::max(extremes.deviation, chord.deviation / h);
+    if (chord.curvature > 0)
+      extremes.of_arcs = std::max(extremes.of_arcs, chord.deviation / (CertificateRules::arc_tolerance * sagitta +
+                                                                       CertificateRules::arc_slack * h));
+    extremes.area += chord.area;
+  }
+  return extremes;
+}
+
+/// @brief Area of the mesh, with what its chords take from the shape, against that of the shape: over the latter.
+double area_residual(const BoundaryTruth& truth, double chord_area, double shape_area) {
+  const geometry::Periods& periods = truth.meshed.periods;
+  const double torus = periods.x * periods.y;
+  double residual = truth.mesh_area + chord_area - shape_area;
+  if (torus > 0) // areas inside loops are known up to whole areas of the torus
+    residual -= torus * std::round(residual / torus);
+  return std::fabs(residual) / shape_area;
+}
+
+/// Over all ranks. Collective.
+CycleCounts cycles_of(const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
+  std::vector<TaggedEdge> edges;
+  for (std::size_t k = 0; k < mesh.facets.size(); ++k)
+    edges.push_back({mesh.facets[k][0], mesh.facets[k][1], mesh.facet_tags[k]});
+  std::vector<TaggedEdge> all;
+  for (const comm::Message& message : comm.exchange_any({{0, comm::to_bytes<TaggedEdge>(edges)}})) {
+    const auto part = comm::from_bytes<TaggedEdge>(message.data);
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  const CycleCounts counts = count_cycles(std::move(all)); // nothing but on rank 0
+  std::array<std::int64_t, 3> packed{counts.irregular, counts.cycles, counts.foreign};
+  comm.sum(packed);
+  return {packed[0], packed[1], packed[2]};
+}
+
+mesh::Check count_check(const char* name, std::int64_t expected, std::int64_t found, const char* meaning) {
+  return {name, static_cast<double>(expected), static_cast<double>(found), expected == found, meaning};
+}
+mesh::Check limit_check(const char* name, double limit, double found, const char* meaning) {
+  return {name, limit, found, found <= limit, meaning};
+}
+
+} // namespace
+
+CycleCounts count_cycles(std::vector<TaggedEdge> edges) {
+  CycleCounts counts;
+  std::sort(edges.begin(), edges.end(), [](const TaggedEdge& a, const TaggedEdge& b) { return a.first < b.first; });
+  std::vector<GlobalId> starts, ends, irregular;
+  for (const TaggedEdge& edge : edges) {
+    starts.push_back(edge.first);
+    ends.push_back(edge.second);
+  }
+  std::sort(ends.begin(), ends.end());
+  for (const std::vector<GlobalId>* ids : {&starts, &ends}) // those that come more than once
+    for (std::size_t k = 1; k < ids->size(); ++k)
+      if ((*ids)[k] == (*ids)[k - 1])
+        irregular.push_back((*ids)[k]);
+  std::set_symmetric_difference(starts.begin(), starts.end(), ends.begin(), ends.end(), std::back_inserter(irregular));
+  std::sort(irregular.begin(), irregular.end());
+  irregular.erase(std::unique(irregular.begin(), irregular.end()), irregular.end());
+  counts.irregular = std::ssize(irregular);
+
+  std::vector<bool> seen(edges.size(), false);
+  std::set<std::int64_t> tags;
+  for (std::size_t first = 0; first < edges.size(); ++first) {
+    if (seen[first])
+      continue;
+    std::int64_t length = 0, foreign = 0;
+    bool closed = false;
+    for (std::size_t k = first; !seen[k] && !closed; ++length) {
+      seen[k] = true;
+      foreign += edges[k].tag != edges[first].tag;
+      closed = edges[k].second == edges[first].first;
+      const auto next = std::lower_bound(starts.begin(), starts.end(), edges[k].second);
+      if (next == starts.end() || *next != edges[k].second)
+        break;
+      if (!closed)
+        k = static_cast<std::size_t>(next - starts.begin());
+    }
+    counts.cycles += closed;
+    counts.foreign += tags.insert(edges[first].tag).second ? foreign : length;
+  }
+  return counts;
+}
+
+mesh::Checks prove_boundary(const BoundaryTruth& truth, const mesh::DistributedMesh& mesh,
+                            const comm::Communicator& comm) {
+  const std::vector<ChordCurve> chords = compare_chords(truth.meshed, truth.sites);
+  const ChordExtremes extremes = extremes_of(truth, chords);
+  const CycleCounts cycles = cycles_of(mesh, comm);
+  const double distance = vertex_distance(truth, chords, mesh, comm) / truth.side;
+  const double shape_area = truth.meshed.loops.empty() ? truth.meshed.area : area_of_loops(truth.meshed);
+  // Vertices lie on the lattice: in a container far larger than the shape, or far from the origin, its step is what
+  // limits them, and with them the area.
+  const double step = truth.lattice.step();
+  return {count_check("irregular_boundary_points", 0, cycles.irregular,
+                      "boundary points without exactly one boundary edge in and one out"),
+          count_check("boundary_cycles", std::ssize(truth.meshed.loops), cycles.cycles,
+                      "loops of the shape; closed cycles of boundary edges"),
+          count_check("foreign_tags", 0, cycles.foreign, "boundary edges with another tag than their cycle"),
+          count_check("corner_places", truth.sites.corners, corners_in_place(truth),
+                      "corners that are vertices of the shape, bit for bit"),
+          limit_check("vertex_distance", std::max(CertificateRules::vertex_limit, step / truth.side), distance,
+                      "boundary vertices from the shape's boundary, over the longer side of the container (at most)"),
+          limit_check("chord_deviation", CertificateRules::chord_limit, extremes.deviation,
+                      "the shape's boundary from the boundary edges, over h (at most)"),
+          limit_check("arc_deviation", 1, extremes.of_arcs,
+                      "arcs of circles from their edges, over 1.08 l^2/8R + h/1000, edge l, radius R (at most)"),
+          limit_check("area_residual", CertificateRules::area_limit + step * truth.meshed.length() / shape_area,
+                      area_residual(truth, extremes.area, shape_area),
+                      "mesh, with what lies between edges and curve, from the shape, over the shape's area (at most)")};
+}
+
+} // namespace trime::certificate

@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The proof that ends every run. What is counted here comes from the stars and the boundary anew, not from the way in
+// which the mesh was made.
+#include "certificate/certificate.hpp"
+
+#include "certificate/boundary_proof.hpp"
+#include "core/random.hpp"
+#include "core/thread_loop.hpp"
+#include "geometry/predicates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::certificate {
+namespace {
+
+using geometry::Vec2;
+using polygon::BoundarySite;
+using polygon::BoundarySites;
+using sites::FlatFan;
+using sites::StageView;
+__extension__ using Int128 = __int128;
+
+std::size_t at(LocalIndex i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Twice an area in squared lattice steps: exact, also over ranks (in three parts of 40 bits and the rest).
+struct ExactArea {
+  Int128 twice = 0;
+
+  void add_triangle(Vec2 p, Vec2 q, Vec2 r, const geometry::Lattice& lattice) {
+    const Int128 ux = lattice.steps(q.x - p.x), uy = lattice.steps(q.y - p.y);
+    const Int128 vx = lattice.steps(r.x - p.x), vy = lattice.steps(r.y - p.y);
+    twice += ux * vy - uy * vx;
+  }
+  std::array<std::int64_t, 3> split() const {
+    constexpr Int128 mask = (Int128{1} << 40) - 1;
+    return {static_cast<std::int64_t>(twice & mask), static_cast<std::int64_t>((twice >> 40) & mask),
+            static_cast<std::int64_t>(twice >> 80)};
+  }
+  static ExactArea join(const std::array<std::int64_t, 3>& parts) {
+    return {(Int128{parts[2]} << 80) + (Int128{parts[1]} << 40) + parts[0]};
+  }
+  double value(const geometry::Lattice& lattice) const {
+    return 0.5 * static_cast<double>(twice) * lattice.step() * lattice.step();
+  }
+};
+
+/// Everything that is counted, mergeable.
+struct Counts {
+  std::int64_t points = 0, edges = 0, triangles = 0, facets = 0, listings = 0;
+  std::uint64_t hash_of_listings = 0, hash_of_triangles = 0, hash_of_written = 0;
+  std::uint64_t hash_of_facets = 0, hash_of_written_facets = 0;
+  std::int64_t not_positive = 0, not_delaunay = 0, incomplete = 0, unused = 0, corners = 0, fixed = 0;
+  ExactArea area;
+
+  static constexpr std::size_t size = 19;
+  std::array<std::int64_t, size> pack() const {
+    const auto parts = area.split();
+    const auto bits = [](std::uint64_t hash) { return static_cast<std::int64_t>(hash); };
+    return {points,
+            edges,
+            triangles,
+            facets,
+            listings,
+            bits(hash_of_listings),
+            bits(hash_of_triangles),
+            bits(hash_of_written),
+            bits(hash_of_facets),
+            bits(hash_of_written_facets),
+            not_positive,
+            not_delaunay,
+            incomplete,
+            unused,
+            corners,
+            fixed,
+            parts[0],
+            parts[1],
+            parts[2]};
+  }
+  static Counts unpack(const std::array<std::int64_t, size>& p) {
+    const auto hash = [&](std::size_t k) { return static_cast<std::uint64_t>(p[k]); };
+    Counts c{p[0],    p[1],  p[2],  p[3],  p[4],  hash(5), hash(6), hash(7), hash(8),
+             hash(9), p[10], p[11], p[12], p[13], p[14],   p[15],   {}};
+    c.area = ExactArea::join({p[16], p[17], p[18]});
+    return c;
+  }
+  void add(const Counts& other) {
+    auto sum = pack();
+    const auto more = other.pack();
+    for (std::size_t k = 0; k < size; ++k)
+      sum[k] = static_cast<std::int64_t>(static_cast<std::uint64_t>(sum[k]) + static_cast<std::uint64_t>(more[k]));
+    *this = unpack(sum);
+  }
+};
+
+/// Hash of a triangle that does not depend on the vertex from which it is seen.
+std::uint64_t triangle_hash(GlobalId a, GlobalId b, GlobalId c) {
+  const GlobalId first = std::min(std::min(a, b), c); // without a branch: nobody can foresee which
+  const GlobalId second = first == a ? b : first == b ? c : a, third = first == a ? c : first == b ? a : b;
+  const std::uint64_t two =
+      static_cast<std::uint64_t>(first) + 0xd6e8feb86659fd93ULL * static_cast<std::uint64_t>(second);
+  return mix_bits(mix_bits(two) ^ static_cast<std::uint64_t>(third));
+}
+
+std::uint64_t facet_hash(GlobalId first, GlobalId second, std::int32_t tag, std::int32_t part) {
+  const auto labels = static_cast<std::uint64_t>((std::int64_t{tag} << 32) + part);
+  return mix_bits(mix_bits(mix_bits(static_cast<std::uint64_t>(first)) ^ static_cast<std::uint64_t>(second)) ^ labels);
+}
+
+/// @brief Counts quadruples of points whose last lies inside the circle of the others, many at a time: nearly all are
+/// found outside by the float filter.
+class CircleTests {
+public:
+  CircleTests(const geometry::Lattice& lattice, const geometry::Periods& periods)
+      : lattice_(lattice), periods_(periods) {}
+
+  void add(Vec2 p, Vec2 q, Vec2 r, Vec2 s) {
+    const std::array<Vec2, 4> points{p, q, r, s};
+    for (std::size_t k = 0; k < 4; ++k) {
+      x_[k][size_] = points[k].x;
+      y_[k][size_] = points[k].y;
+    }
+    if (++size_ == most)
+      finish();
+  }
+  void finish() {
+    std::array<double, most> outside;
+    for (std::size_t n = 0; n < size_; ++n)
+      outside[n] = geometry::in_circle_filter(at(0, n), at(1, n), at(2, n), at(3, n)) < 0 ? 1 : 0;
+    for (std::size_t n = 0; n < size_; ++n)
+      if (outside[n] == 0)
+        inside_ += geometry::in_circle(at(0, n), at(1, n), at(2, n), at(3, n), lattice_, periods_) > 0;
+    size_ = 0;
+  }
+  /// @pre finished
+  std::int64_t inside() const { return inside_; }
+
+private:
+  static constexpr std::size_t most = 256;
+  Vec2 at(std::size_t k, std::size_t n) const { return {x_[k][n], y_[k][n]}; }
+
+  const geometry::Lattice& lattice_;
+  const geometry::Periods& periods_;
+  std::array<std::array<double, most>, 4> x_, y_;
+  std::size_t size_ = 0;
+  std::int64_t inside_ = 0;
+};
+
+/// Counts at the stars of sites, one after the other.
+class StarCounter {
+public:
+  StarCounter(const StageView& view, const decomposition::Numbering& numbering)
+      : view_(view), numbering_(numbering), points_(view.state.points()), fan_(view, numbering),
+        circles_(view.lattice, points_.grid().periods()) {}
+
+  void count(LocalIndex site) {
+    fan_.load(site);
+    const std::size_t n = fan_.vertices.size();
+    ids_.resize(n);
+    if (numbering_.foreign.empty())
+      std::transform(fan_.vertices.begin(), fan_.vertices.end(), ids_.begin(),
+                     [first = numbering_.first](LocalIndex vertex) { return first + vertex; });
+    else
+      std::transform(fan_.vertices.begin(), fan_.vertices.end(), ids_.begin(),
+                     [&](LocalIndex vertex) { return numbering_.global_id(vertex); });
+    ++counts_.points;
+    counts_.incomplete += !fan_.complete;
+    counts_.unused += fan_.triangles == 0;
+    counts_.listings += static_cast<std::int64_t>(fan_.triangles);
+    if (points_.boundary(site) != mesh::free_site)
+      count_kept(site, points_.boundary(site));
+    const LocalIndex own = numbering_.vertex(site);
+    for (std::size_t k = 0; k < fan_.edges; ++k)
+      counts_.edges += fan_.place[k] > own;
+    count_triangles(own, points_.position(site));
+  }
+  /// What was counted so far.
+  const Counts& finish() {
+    circles_.finish();
+    counts_.not_delaunay = circles_.inside();
+    return counts_;
+  }
+
+private:
+  /// Boundary sites and fixed points.
+  void count_kept(LocalIndex site, std::int32_t b) {
+    const Vec2 p = points_.position(site);
+    const bool is_corner = b >= 0 && view_.boundary.sites[at(b)].corner;
+    if (b == mesh::fixed_site || is_corner)
+      counts_.fixed += std::binary_search(view_.fixed.begin(), view_.fixed.end(), p, geometry::lexicographically_less);
+    if (b < 0 || p != view_.boundary.sites[at(b)].position)
+      return;
+    counts_.corners += is_corner;
+    if (!fan_.complete)
+      return;
+    const BoundarySite& to_next = view_.boundary.sites[at(b)]; // the segment to the next boundary site
+    ++counts_.facets;
+    counts_.hash_of_facets +=
+        facet_hash(numbering_.global_id(numbering_.vertex(site)), ids_[0], to_next.tag, to_next.part);
+  }
+
+  void count_triangles(LocalIndex own, Vec2 p) {
+    const GlobalId id = numbering_.global_id(own);
+    for (std::size_t k = 0; k < fan_.triangles; ++k) {
+      const Vec2 q = fan_.positions[k], r = fan_.positions[k + 1];
+      const std::uint64_t hash = triangle_hash(id, ids_[k], ids_[k + 1]);
+      counts_.hash_of_listings += hash;
+      if (fan_.place[k + 1] < own)
+        continue;
+      if (fan_.place[k] > own) {
+        ++counts_.triangles;
+        counts_.hash_of_triangles += hash;
+        counts_.not_positive += geometry::orient2d(p, q, r) <= 0;
+        counts_.area.add_triangle(p, q, r, view_.lattice);
+      }
+      // The edge to r lies between two triangles: seen from its lower end, once all stars agree on their triangles.
+      if (k + 1 < fan_.triangles || fan_.closed)
+        circles_.add(p, q, r, fan_.positions[k + 2]);
+    }
+  }
+
+  const StageView& view_;
+  const decomposition::Numbering& numbering_;
+  const mesh::BinnedPoints& points_;
+  FlatFan fan_;
+  CircleTests circles_;
+  UnsetVector<GlobalId> ids_;
+  Counts counts_;
+};
+
+/// Of this rank: from the stars.
+Counts count_stars(const StageView& view, const decomposition::Numbering& numbering) {
+  const mesh::BinnedPoints& points = view.state.points();
+  PerThread<StarCounter> of_thread(view, numbering);
+  thread_loop(points.last_tile() - points.first_tile(), 1, [&](std::ptrdiff_t t, int thread) {
+    const auto [begin, end] = points.tile_range(points.first_tile() + static_cast<LocalIndex>(t));
+    StarCounter& counter = of_thread[thread];
+    for (LocalIndex i = begin; i < end; ++i)
+      counter.count(i);
+  });
+  Counts counts;
+  for (StarCounter& counter : of_thread)
+    counts.add(counter.finish());
+  return counts;
+}
+
+/// Of this rank: from the arrays that will be written.
+void add_written(const mesh::DistributedMesh& mesh, Counts& counts) {
+  counts.hash_of_written = thread_sum(mesh.triangles.size(), [&](std::size_t t) {
+    const auto [a, b, c] = mesh.triangle_ids(t);
+    return triangle_hash(a, b, c);
+  });
+  counts.hash_of_written_facets = thread_sum(mesh.facets.size(), [&](std::size_t k) {
+    return facet_hash(mesh.facets[k][0], mesh.facets[k][1], mesh.facet_tags[k], mesh.facet_parts[k]);
+  });
+}
+
+/// @brief Area on the left of all chords. Each loop is unrolled and counts with the area between it and the line from
+/// the first image of its start to the last; in a periodic container the sum is right but for whole images of it.
+ExactArea polygon_area(const BoundarySites& boundary, const geometry::Lattice& lattice) {
+  const geometry::Periods& periods = boundary.periods;
+  ExactArea area;
+  for (std::size_t loop = 0; loop + 1 < boundary.loop_start.size(); ++loop) {
+    const Vec2 origin = boundary.sites[at(boundary.loop_start[loop])].position;
+    Vec2 from = origin;
+    for (LocalIndex k = boundary.loop_start[loop]; k < boundary.loop_start[loop + 1]; ++k) {
+      const geometry::Segment chord = boundary.chord(k);
+      const Vec2 to = from + (chord.b - chord.a);
+      area.add_triangle(origin, from, to, lattice);
+      from = to;
+    }
+    if (from != origin) { // it winds: the sum over all loops does not depend on the corner that is chosen here
+      area.add_triangle(periods.min, origin, from, lattice);
+      area.add_triangle(periods.min, origin, from, lattice);
+    }
+  }
+  if (periods.x > 0 && periods.y > 0) {
+    const Int128 torus = Int128{2} * lattice.steps(periods.x) * lattice.steps(periods.y);
+    area.twice = (area.twice % torus + torus) % torus;
+    if (area.twice == 0)
+      area.twice = torus;
+  }
+  return area;
+}
+
+mesh::Check check(const char* name, std::int64_t expected, std::int64_t found, const char* meaning) {
+  return {name, static_cast<double>(expected), static_cast<double>(found), expected == found, meaning};
+}
+
+} // namespace
+
+mesh::Checks certify(const StageView& view, const decomposition::Numbering& numbering, const Expectation& expectation,
+                     const mesh::DistributedMesh& mesh) {
+  Counts counts = count_stars(view, numbering);
+  add_written(mesh, counts);
+  auto packed = counts.pack();
+  view.state.comm().sum(packed);
+  counts = Counts::unpack(packed);
+
+  const std::int64_t segments = static_cast<std::int64_t>(view.boundary.sites.size());
+  const ExactArea polygon = polygon_area(view.boundary, view.lattice);
+  mesh::Checks checks;
+  checks.push_back(
+      check("incomplete_fans", 0, counts.incomplete, "manifold: each site has one unbroken fan of triangles"));
+  checks.push_back(
+      check("star_listings", 3 * counts.triangles, counts.listings, "every triangle is listed by its three stars"));
+  checks.push_back(check("star_disagreements", 0, 3 * counts.hash_of_triangles != counts.hash_of_listings,
+                         "and all three list the same one"));
+  checks.push_back(check("written_triangles", counts.triangles,
+                         counts.hash_of_written == counts.hash_of_triangles ? mesh.triangle_slab.total : -1,
+                         "the triangles to be written are these"));
+  checks.push_back(check("written_facets", segments,
+                         counts.hash_of_written_facets == counts.hash_of_facets ? mesh.facet_slab.total : -1,
+                         "the boundary edges to be written are these, with their tags"));
+  checks.push_back(check("not_positive", 0, counts.not_positive, "triangles that are not counter-clockwise"));
+  checks.push_back(check("euler_characteristic", expectation.meshed.euler_characteristic(),
+                         counts.points - counts.edges + counts.triangles,
+                         "of the shape; in the plane components minus holes"));
+  checks.push_back(check("edge_count", (3 * counts.triangles + segments) / 2, counts.edges,
+                         "inner edges have two triangles, boundary edges one"));
+  checks.push_back(check("not_delaunay", 0, counts.not_delaunay, "edges that are not locally Delaunay (exact test)"));
+  checks.push_back(check("boundary_segments", segments, counts.facets, "boundary segments that are edges of the mesh"));
+  checks.push_back(
+      check("corners", view.boundary.corners, counts.corners, "corners that are vertices, bit for bit on the lattice"));
+  if (!view.fixed.empty())
+    checks.push_back(check("fixed_points", static_cast<std::int64_t>(view.fixed.size()), counts.fixed,
+                           "fixed points that are vertices, bit for bit on the lattice"));
+  checks.push_back(check("unused_points", 0, counts.unused, "points without a triangle"));
+  checks.push_back({"area", polygon.value(view.lattice), counts.area.value(view.lattice),
+                    polygon.twice == counts.area.twice, "triangles fill the boundary polygon (exact integers)"});
+  const BoundaryTruth truth{expectation.shape,
+                            expectation.meshed,
+                            view.boundary,
+                            view.size,
+                            view.lattice,
+                            expectation.side,
+                            counts.area.value(view.lattice)};
+  for (mesh::Check& proof : prove_boundary(truth, mesh, view.state.comm()))
+    checks.push_back(std::move(proof));
+  return checks;
+}
+
+} // namespace trime::certificate

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The proof that ends every run. Sees stars, chords, shape and arrays, never what made them.
+#pragma once
+
+#include "decomposition/numbering.hpp"
+#include "sites/fan.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/mesh/distributed_mesh.hpp"
+#include "trime/mesh/validity.hpp"
+
+namespace trime::certificate {
+
+/// What the mesh is to be a mesh of.
+struct Expectation {
+  const geometry::Boundary& shape;  ///< as it was given
+  const geometry::Boundary& meshed; ///< as it was laid out: with fixed points as corners
+  double side;                      ///< longer side of the container
+};
+
+/// @brief The certificate: manifold, positive, Euler characteristic, area, Delaunay, boundary segments, corners, fixed
+/// points, agreement of all stars with each other and with `mesh`, the arrays that will be written: exact integers
+/// throughout. Then the boundary of the mesh against that of the shape, see prove_boundary. Collective.
+/// O(points + pieces log(pieces))
+mesh::Checks certify(const sites::StageView& view, const decomposition::Numbering& numbering,
+                     const Expectation& expectation, const mesh::DistributedMesh& mesh);
+
+} // namespace trime::certificate

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How much the mesh may differ from the shape.
+#pragma once
+
+namespace trime::certificate {
+
+/// The limits of the certificate.
+struct CertificateRules {
+  /// [side of the container] A boundary vertex lies no farther from the shape: curves are computed in doubles.
+  static constexpr double vertex_limit = 1e-9;
+  /// [h] An arc of length h strays from its chord by h/2 at most, and sites may lie a little more than h apart.
+  static constexpr double chord_limit = 0.75;
+  /// [l^2/8R] The sagitta of an arc of 60 degrees is 1.072 of that.
+  static constexpr double arc_tolerance = 1.08;
+  /// [h] On top of it: vertices lie on the lattice.
+  static constexpr double arc_slack = 1e-3;
+  /// [area of the shape] Between the mesh with its curved rim and the shape: sums of doubles.
+  static constexpr double area_limit = 1e-10;
+};
+
+} // namespace trime::certificate

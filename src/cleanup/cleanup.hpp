@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The tail of the quality: what the sweeps leave of bad triangles is mended patch by patch, after all sweeps.
+#pragma once
+
+#include "polygon/boundary_guard.hpp"
+#include "polygon/polygon.hpp"
+#include "sites/site_state.hpp"
+#include "trime/cleanup/cleanup_counts.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/lattice.hpp"
+
+namespace trime::cleanup {
+
+/// What the clean-up works on. The first three change.
+struct CleanupTask {
+  sites::SiteState& state;
+  polygon::BoundarySites& polygon;
+  polygon::BoundaryGuard& guard;      ///< of the polygon
+  const geometry::Boundary& boundary; ///< the curves on which the sites of the polygon lie
+  const geometry::Lattice& lattice;
+  const delaunay::StarBuilder& builder;
+  const sizing::SizeField& size;       ///< h
+  const sizing::SizeField& asked_size; ///< h before it was lowered where the boundary needs it
+};
+
+struct CleanupOptions {
+  GlobalId most_sites = 0; ///< never exceeded; 0: half a percent above the number of the beginning
+  double tolerance = 0;    ///< in asked sizes: how far chords may pass from corners that they leave out; 0: none may be
+};
+
+/// @brief Mends bad triangles in rounds of try and keep, until nothing is left to be tried. Stars are to be computed
+/// anew afterwards if any patch became better. Collective. About 0.5 ms a patch.
+///
+/// A site is a candidate if it has a bad triangle; the worst one of each cell of a few h is a contender for the middle
+/// of a patch (PatchOptimizer). Of the contenders those act that are the first of their surroundings in the order of a
+/// hash of place and round: their patches do not overlap, and the choice is the same for any partition. The owner of a
+/// contender asks the others for what it does not know of its patch, computes it, and sends the changes to the owners
+/// of the sites; what changes on the boundary goes to all ranks. A site of a triangle for which nothing helped rests
+/// until it has moved by some share of h. The number of sites keeps to CleanupLimits.
+///
+/// Nothing in a round costs more than what it touches: stars are computed once at the beginning; then the patches tell
+/// what has become of their triangles, and the state learns of all edits at the end.
+CleanupCounts mend(const comm::Communicator& comm, const CleanupTask& task, const CleanupOptions& options);
+
+} // namespace trime::cleanup

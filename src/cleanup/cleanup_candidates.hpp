@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The places of bad triangles, and which of them are to be mended next.
+#pragma once
+
+#include "cleanup/cleanup_choice.hpp"
+#include "mesh/tile_grid.hpp"
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace trime::cleanup {
+
+/// A site that has a bad triangle.
+struct Candidate {
+  geometry::Vec2 place; ///< canonical
+  double size = 0;      ///< h
+  double alpha = 0;     ///< of the worst triangle
+};
+
+/// A hash of a place, the same on any number of ranks.
+std::uint64_t hash_of(geometry::Vec2 place, int salt);
+
+/// @brief The candidates among the owned sites of a rank, by place. Where nothing helped in a stage (1, 2, ...) none is
+/// listed again in that stage.
+class CleanupCandidates {
+public:
+  /// @pre the grid outlives the object
+  explicit CleanupCandidates(const mesh::TileGrid& grid) : grid_(grid) {}
+
+  /// What is known of a place is replaced; in which stage nothing helped there is kept.
+  void set(const Candidate& candidate);
+  /// The site has gone, or none of its triangles is bad any more.
+  void drop(geometry::Vec2 place);
+  /// Nothing helps at a place, if it is one of the list, in this stage.
+  void settle(geometry::Vec2 place, int stage);
+
+  /// The largest alpha, or 1.
+  double worst() const;
+
+  /// Which candidates may contend.
+  struct ContenderRule {
+    int stage;              ///< places that are settled in it, or a later one, are left out
+    double above;           ///< alpha
+    double separation;      ///< in sizes
+    double most_separation; ///< larger ones than that find no room
+    int round;              ///< another order in each
+  };
+  /// @brief The worst candidate of each cell of a few h, and of equally bad ones the first place; sorted by place.
+  /// O(candidates).
+  std::vector<Contender> contenders(const ContenderRule& rule);
+
+private:
+  struct Entry {
+    Candidate candidate; // alpha 0: none any more
+    int settled = 0;     // the last stage in which nothing helped
+    std::uint64_t cell = 0;
+  };
+  std::uint64_t cell_key(geometry::Vec2 p, double h) const;
+  void forget_the_good();
+
+  const mesh::TileGrid& grid_;
+  std::vector<Entry> entries_;
+  std::unordered_map<std::uint64_t, std::uint32_t> entry_at_; // by hash of the place
+};
+
+} // namespace trime::cleanup

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cleanup/cleanup_limits.hpp"
+
+#include "decomposition/selection.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+namespace trime::cleanup {
+namespace {
+
+using decomposition::selection_threshold;
+using polygon::EditKind;
+
+using Rules = CleanupRules;
+
+int gain_of(const std::vector<SiteEdit>& edits) {
+  int gain = 0;
+  for (const SiteEdit& edit : edits)
+    gain += edit.kind == EditKind::insert ? 1 : edit.kind == EditKind::remove ? -1 : 0;
+  return gain;
+}
+
+/// Takes back what gains sites (sign 1), or loses them (sign -1), beyond the first `most` of them.
+void limit(const comm::Communicator& comm, int sign, GlobalId most, std::span<const Contender> chosen,
+           std::vector<PatchResult>& results) {
+  std::vector<std::uint64_t> keys;
+  for (std::size_t k = 0; k < results.size(); ++k) // as often as it counts
+    keys.insert(keys.end(), static_cast<std::size_t>(std::max(0, sign * gain_of(results[k].edits))), chosen[k].order);
+  const std::uint64_t threshold = selection_threshold(comm, keys, std::max<GlobalId>(0, most));
+  for (std::size_t k = 0; k < results.size(); ++k)
+    if (sign * gain_of(results[k].edits) > 0 && !(chosen[k].order < threshold))
+      results[k] = {{}, {}, true};
+}
+
+} // namespace
+
+CleanupLimits::CleanupLimits(GlobalId sites, GlobalId most_sites) : wanted_sites_(sites), sites_(sites) {
+  const GlobalId leeway = static_cast<GlobalId>(Rules::largest_loss * static_cast<double>(sites)) + 1;
+  most_sites_ = most_sites > 0 ? std::max(most_sites, sites) : sites + leeway;
+  least_sites_ = sites - leeway;
+}
+
+/// For more sites. Some are kept for places where nothing but smaller triangles helps.
+GlobalId CleanupLimits::room(int stage) const {
+  const GlobalId reserve =
+      stage == Rules::stages ? 0 : 1 + static_cast<GlobalId>(Rules::reserved * static_cast<double>(most_sites_));
+  return most_sites_ - sites_ - reserve;
+}
+
+PatchBudget CleanupLimits::budget(GlobalId patches, int stage, double again_alpha) const {
+  const auto share = [&](GlobalId of) {
+    return std::min(std::max<GlobalId>(of, 0), std::max(Rules::least_budget, of / std::max<GlobalId>(1, patches)));
+  };
+  const double most = static_cast<double>(most_sites_), wanted = static_cast<double>(wanted_sites_);
+  const bool crowded = static_cast<double>(room(stage)) < Rules::scarcity * most;
+  const bool scarce = static_cast<double>(sites_) < (1 - Rules::scarcity) * wanted;
+  PatchBudget budget;
+  budget.may_insert = share(room(stage));
+  budget.may_refine = std::min(GlobalId{Rules::most_refined}, most_sites_ - sites_);
+  budget.may_delete = share(sites_ - least_sites_);
+  budget.is_again = stage > 1;
+  budget.again_alpha = again_alpha;
+  budget.deletion_handicap = crowded ? Rules::handicap_if_crowded : scarce ? Rules::handicap_if_scarce : 1;
+  return budget;
+}
+
+void CleanupLimits::keep_within(const comm::Communicator& comm, std::span<const Contender> chosen,
+                                std::vector<PatchResult>& results) const {
+  std::array<std::int64_t, 2> gains{}; // of those that add, and those that take
+  for (const PatchResult& result : results) {
+    const int gain = gain_of(result.edits);
+    gains[gain < 0] += std::abs(gain);
+  }
+  comm.sum(gains);
+  if (const GlobalId most = std::max<GlobalId>(0, most_sites_ - sites_); gains[0] - gains[1] > most)
+    limit(comm, 1, most + gains[1], chosen, results);
+  else if (gains[1] - gains[0] > sites_ - least_sites_)
+    limit(comm, -1, sites_ - least_sites_ + gains[0], chosen, results);
+}
+
+} // namespace trime::cleanup

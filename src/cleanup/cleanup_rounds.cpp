@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cleanup/cleanup_rounds.hpp"
+
+#include "comm/agree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace trime::cleanup {
+namespace {
+
+using polygon::BoundaryGuard;
+using polygon::EditKind;
+using sites::Disc;
+
+using Rules = CleanupRules;
+
+/// [h] Two patches keep so far apart that none reads what the other one changes.
+constexpr double separation = 2 * Rules::reach - Rules::free_depth;
+
+} // namespace
+
+CleanupRounds::CleanupRounds(const comm::Communicator& comm, const CleanupTask& task, const CleanupOptions& options,
+                             std::span<const Candidate> candidates)
+    : comm_(comm), periods_(task.state.grid().periods()),
+      limits_(comm.sum(std::int64_t{task.state.points().owned()}), options.most_sites),
+      boundary_(comm, task.boundary, task.polygon, task.asked_size, options.tolerance),
+      sites_(comm, task.state, task.size), candidates_(task.state.grid()) {
+  for (std::unique_ptr<PatchOptimizer>& optimizer : optimizers_)
+    optimizer = std::make_unique<PatchOptimizer>(boundary_.chain(), task.lattice, PatchOptions{});
+  for (const Candidate& candidate : candidates)
+    candidates_.set(candidate);
+}
+
+CleanupCounts CleanupRounds::run_stage(int stage) {
+  stage_ = stage;
+  again_alpha_ = find_again_alpha();
+  CleanupCounts all;
+  for (int k = 0; k < Rules::most_rounds; ++k) {
+    const std::vector<Contender> contenders = list_contenders();
+    if (comm_.sum(static_cast<std::int64_t>(contenders.size())) == 0)
+      break;
+    all.add(round(contenders));
+  }
+  return all;
+}
+
+void CleanupRounds::finish(const CleanupTask& task) {
+  sites_.finish(task.state, boundary_.renumber());
+  task.polygon = boundary_.chain().sites();
+  task.guard = BoundaryGuard(task.polygon, task.lattice);
+}
+
+/// What is bad enough to be tried again: in a good mesh also what is bad there only.
+double CleanupRounds::find_again_alpha() const {
+  return std::clamp(1 + Rules::again_share * (comm_.max(candidates_.worst()) - 1), Rules::bad_alpha,
+                    Rules::again_alpha);
+}
+
+std::vector<Contender> CleanupRounds::list_contenders() {
+  const double shorter_period =
+      std::min(periods_.x > 0 ? periods_.x : INFINITY, periods_.y > 0 ? periods_.y : INFINITY);
+  return candidates_.contenders(
+      {stage_, stage_ == 1 ? 0 : again_alpha_, separation, Rules::largest_share_of_period * shorter_period, round_});
+}
+
+CleanupCounts CleanupRounds::round(std::span<const Contender> contenders) {
+  std::vector<Contender> chosen;
+  for (const std::size_t k : choose_apart(comm_, sites_, periods_, contenders))
+    chosen.push_back(contenders[k]);
+  std::vector<PatchResult> results = try_patches(chosen);
+  limits_.keep_within(comm_, chosen, results);
+  CleanupCounts counts;
+  std::vector<SiteEdit> edits = collect(chosen, results, counts);
+  boundary_.apply(edits);
+  take_edits(edits);
+  take_verdicts(chosen, results);
+  ++round_;
+  counts = sum_over_ranks(counts);
+  limits_.add(counts.inserted - counts.deleted);
+  return counts;
+}
+
+/// What is read around each place.
+std::vector<Disc> CleanupRounds::discs_of(std::span<const Contender> chosen) const {
+  constexpr double share = Rules::reach / separation;
+  std::vector<Disc> discs;
+  for (const Contender& contender : chosen)
+    discs.push_back({contender.place, share * contender.separation});
+  return discs;
+}
+
+/// As PatchOptimizer takes them. In later stages all may be tried once more.
+void CleanupRounds::prepare(std::vector<PatchSite>& sites) const {
+  std::sort(sites.begin(), sites.end(), [](const PatchSite& a, const PatchSite& b) {
+    return geometry::lexicographically_less(a.position, b.position);
+  });
+  for (PatchSite& site : sites) {
+    if (site.boundary >= 0)
+      site.tolerance = boundary_.tolerance(site.boundary);
+    if (stage_ > 1)
+      site.rests = 0;
+  }
+}
+
+std::vector<PatchResult> CleanupRounds::try_patches(std::span<const Contender> chosen) {
+  const std::vector<Disc> discs = discs_of(chosen);
+  std::vector<Surroundings> around = sites_.around(discs, Rules::most_sites);
+  std::vector<PatchResult> results(chosen.size());
+  const GlobalId patches = comm_.sum(static_cast<std::int64_t>(chosen.size()));
+  const PatchBudget budget = limits_.budget(patches, stage_, again_alpha_);
+  comm::run_agreed(comm_, [&] {
+    thread_loop(std::ssize(chosen), 1, [&](std::ptrdiff_t item, int thread) {
+      const auto k = static_cast<std::size_t>(item);
+      if (!around[k].found()) // where sites crowd so much, nothing is tried
+        return;
+      prepare(around[k].sites);
+      const double size = Surroundings::radius(discs[k].radius, around[k].narrowings) / Rules::reach;
+      results[k] = optimizers_[thread]->improve(chosen[k].place, size, around[k].sites, budget);
+    });
+  });
+  return results;
+}
+
+/// All edits of this rank, with canonical places, counted.
+std::vector<SiteEdit> CleanupRounds::collect(std::span<const Contender> chosen, std::span<const PatchResult> results,
+                                             CleanupCounts& counts) const {
+  std::vector<SiteEdit> all;
+  counts.patches = static_cast<std::int64_t>(chosen.size());
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    const PatchResult& result = results[k];
+    counts.better += !result.edits.empty();
+    counts.left += result.edits.empty() && !result.put_off;
+    for (SiteEdit edit : result.edits) {
+      edit.from = periods_.wrap(edit.from);
+      edit.to = periods_.wrap(edit.to);
+      edit.patch = hash_of(chosen[k].place, 0);
+      counts.moved += edit.kind == EditKind::move;
+      counts.inserted += edit.kind == EditKind::insert;
+      counts.deleted += edit.kind == EditKind::remove;
+      counts.on_boundary += edit.boundary >= 0;
+      all.push_back(edit);
+    }
+  }
+  return all;
+}
+
+/// Edits go to the owners of the old places and of the new ones, who carry them out.
+void CleanupRounds::take_edits(std::span<const SiteEdit> edits) {
+  std::map<int, std::vector<SiteEdit>> by_rank;
+  for (const SiteEdit& edit : edits) {
+    const int from = sites_.owner(edit.from), to = sites_.owner(edit.to);
+    by_rank[from].push_back(edit);
+    if (to != from)
+      by_rank[to].push_back(edit);
+  }
+  const std::vector<SiteEdit> own = send(comm_, by_rank);
+  sites_.apply(own);
+  for (const SiteEdit& edit : own)
+    if (edit.kind != EditKind::insert)
+      candidates_.drop(edit.from);
+}
+
+/// The owners learn what the triangles of their sites are like, and where nothing helped.
+void CleanupRounds::take_verdicts(std::span<const Contender> chosen, std::span<const PatchResult> results) {
+  std::map<int, std::vector<SiteVerdict>> by_rank;
+  for (const PatchResult& result : results)
+    for (SiteVerdict verdict : result.verdicts) {
+      verdict.position = periods_.wrap(verdict.position);
+      by_rank[sites_.owner(verdict.position)].push_back(verdict);
+    }
+  for (const SiteVerdict& verdict : send(comm_, by_rank)) {
+    sites_.set_rest(verdict.position, verdict.rests != 0);
+    if (!(verdict.alpha > 0)) {
+      candidates_.drop(verdict.position);
+      continue;
+    }
+    candidates_.set({verdict.position, verdict.size, verdict.alpha}); // it has not moved
+    if (verdict.rests)
+      candidates_.settle(verdict.position, stage_);
+  }
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+    if (results[k].edits.empty() && !results[k].put_off)
+      candidates_.settle(chosen[k].place, stage_);
+}
+
+CleanupCounts CleanupRounds::sum_over_ranks(const CleanupCounts& own) const {
+  std::array<std::int64_t, 7> all{own.patches, own.better,      own.moved, own.inserted,
+                                  own.deleted, own.on_boundary, own.left};
+  comm_.sum(all);
+  return {all[0], all[1], all[2], all[3], all[4], all[5], all[6]};
+}
+
+} // namespace trime::cleanup

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sites while the clean-up edits some: those of the state, and what has become of them since.
+#pragma once
+
+#include "cleanup/patch_data.hpp"
+#include "sites/site_state.hpp"
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+namespace trime::cleanup {
+
+/// Sends each rank its list. @return what arrives, own items first. Collective.
+template <class T>
+std::vector<T> send(const comm::Communicator& comm, const std::map<int, std::vector<T>>& by_rank) {
+  std::vector<comm::Message> outgoing;
+  std::vector<T> all;
+  for (const auto& [rank, list] : by_rank)
+    if (rank == comm.rank())
+      all = list;
+    else
+      outgoing.push_back({rank, comm::to_bytes(std::span<const T>(list))});
+  if (comm.size() == 1)
+    return all;
+  for (const comm::Message& message : comm.exchange_any(outgoing)) {
+    const std::vector<T> arrived = comm::from_bytes<T>(message.data);
+    all.insert(all.end(), arrived.begin(), arrived.end());
+  }
+  return all;
+}
+
+/// What is read of the sites in a disc: all of them, or all in a narrower disc around the same place.
+struct Surroundings {
+  /// The radius of the disc that is read, after so many narrowings. The same bits on all ranks.
+  static double radius(double widest, int narrowings) {
+    for (int k = 0; k < narrowings; ++k)
+      widest *= CleanupRules::narrowing_factor;
+    return widest;
+  }
+
+  int narrowings = 0; ///< above the limit: even the narrowest disc holds too many, and none of them are listed
+  std::vector<PatchSite> sites; ///< at the images that lie there, in no particular order
+  bool found() const { return narrowings <= CleanupRules::most_narrowings; }
+};
+
+/// @brief Owned sites of a state that stays as it is: which are still in place, and those that have come since. Edits
+/// cost what they touch; the state learns of them at the end. Sites belong to the owner of the tile they lie in.
+class CleanupSites {
+public:
+  /// References must outlive the object. @pre sizes of the owned sites are known
+  CleanupSites(const comm::Communicator& comm, const sites::SiteState& state, const sizing::SizeField& size);
+
+  /// The other ranks with tiles that a disc meets, ascending. @pre in a periodic container: the radius below the period
+  std::vector<int> ranks_near(const sites::Disc& disc) const;
+  int owner(geometry::Vec2 p) const { return state_.partition().owner(state_.grid().place(p).tile); }
+
+  /// @brief All sites in each disc or, where these are more than `most`, in the largest of its narrowings that holds no
+  /// more: the same on any number of ranks. Each rank looks at O(most) sites a disc. Collective.
+  std::vector<Surroundings> around(std::span<const sites::Disc> discs, std::size_t most) const;
+
+  /// Carries out edits in canonical places, with the boundary's indices as they are now: what concerns the owned
+  /// sites. Collective, throws on all ranks together if the size field does.
+  void apply(std::span<const SiteEdit> edits);
+
+  /// Whether nothing helps at an owned site.
+  void set_rest(geometry::Vec2 p, bool rests);
+
+  /// Carries all edits over to the state. @param new_index of the boundary's sites. Collective.
+  void finish(sites::SiteState& state, std::span<const LocalIndex> new_index) const;
+
+private:
+  struct Added {
+    geometry::Vec2 position;
+    double size;
+    std::int32_t boundary;
+    LocalIndex origin; // index of the owned site that it was, -1 if new here
+    bool rests = false;
+  };
+  enum class SiteStatus : std::uint8_t { gone, in_place, rests };
+  template <class Visit>
+  void for_each_tile(const sites::Disc& disc, const Visit& visit) const;
+  void list_sites(const sites::Disc& disc, std::size_t most, std::vector<PatchSite>& sites) const;
+  void narrow_down(const sites::Disc& widest, std::size_t most, Surroundings& own) const;
+  static void merge(Surroundings& all, const sites::Disc& widest, std::size_t most, std::span<const PatchSite> more,
+                    int narrowings);
+  LocalIndex find_in_state(geometry::Vec2 p) const;
+  Added& find_added(geometry::Vec2 p);
+  LocalIndex take_out(geometry::Vec2 p);
+  std::vector<Added>& added_in(LocalIndex tile) {
+    return added_[static_cast<std::size_t>(tile - state_.points().first_tile())];
+  }
+  const std::vector<Added>& added_in(LocalIndex tile) const {
+    return added_[static_cast<std::size_t>(tile - state_.points().first_tile())];
+  }
+
+  const comm::Communicator& comm_;
+  const sites::SiteState& state_;
+  const sizing::SizeField& size_;
+  std::vector<SiteStatus> status_;        // by owned site
+  std::vector<std::vector<Added>> added_; // by owned tile
+};
+
+} // namespace trime::cleanup

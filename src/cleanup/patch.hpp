@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The triangulation around a bad triangle, what is known of its vertices, and how good its triangles are.
+#pragma once
+
+#include "cleanup/patch_mesh.hpp"
+#include "cleanup/rules.hpp"
+#include "mesh/binned_points.hpp"
+#include "trime/geometry/segment.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace trime::cleanup {
+
+/// The vertices of a triangle, counter-clockwise.
+using Corners = std::array<LocalIndex, 3>;
+
+/// What may happen to a vertex. Scored: it is held, but its triangles count.
+enum class VertexRole : std::uint8_t { gone, held, scored, free };
+
+/// A vertex on the boundary: its place there, and its neighbours along the loop.
+struct BoundaryVertex {
+  std::int32_t site = mesh::free_site; ///< its index; of a new one, that of the last old one before it; -1: inside
+  LocalIndex previous = -1, next = -1; ///< -1 beyond the patch
+  LocalIndex loop = -1;
+  double arc = 0;
+  double tolerance = 0; ///< see PatchSite
+  bool changed = false; ///< the chord to the next is not what it was
+};
+
+/// How bad triangles are: the sum over them of (alpha - 1)^2, bad ones weighing more, and the largest alpha.
+struct AlphaScore {
+  double sum = 0, max = 1;
+
+  void add(double alpha, double bad_alpha) {
+    const double excess = alpha - 1, bad = std::max(0.0, alpha - bad_alpha);
+    sum += excess * excess + CleanupRules::bad_weight * bad * bad;
+    max = std::max(max, alpha);
+  }
+};
+
+/// A bad triangle for which operations are tried.
+struct BadPlace {
+  Corners corners;
+  geometry::Vec2 middle;
+  double alpha;
+  double size; ///< h in the middle
+};
+
+/// @brief A triangulation and what is known of its vertices. Copies are how trials are taken back.
+struct Patch {
+  Patch(const geometry::Lattice& lattice, const geometry::Periods& periods) : mesh(lattice, periods) {}
+
+  static std::size_t at(LocalIndex v) { return static_cast<std::size_t>(v); }
+
+  /// Empties it: only the frame is left. @param size h that the vertices of the frame are given
+  void start(geometry::Vec2 center, double half_width, double size);
+  /// @brief Adds a vertex to the triangulation. @return its index, or -1 if one lies there already
+  LocalIndex add(geometry::Vec2 p, double h, const BoundaryVertex& on_boundary, VertexRole its_role);
+  /// Notes what is known of vertex v, the last one of the triangulation.
+  void append(LocalIndex v, double h, const BoundaryVertex& on_boundary, VertexRole its_role);
+
+  bool is_gone(LocalIndex v) const { return role[at(v)] == VertexRole::gone; }
+  bool on_boundary(LocalIndex v) const { return boundary[at(v)].site >= 0; }
+  bool is_chord(LocalIndex from, LocalIndex to) const { return boundary[at(from)].next == to; }
+  geometry::Segment chord(LocalIndex v) const { return {mesh.position(v), mesh.position(boundary[at(v)].next)}; }
+  /// How many chords of the boundary are no edges.
+  LocalIndex missing_chords() const;
+  /// A chord in whose closed diametral disc p lies.
+  std::optional<geometry::Segment> entered_disc(geometry::Vec2 p) const;
+
+  /// Whether a triangle lies inside the shape and has a vertex whose triangles count.
+  bool counts(const PatchMesh::Triangle& triangle) const {
+    return may_count(triangle) && (has_inner_vertex(triangle) || lies_inside(triangle));
+  }
+  /// Whether a triangle is one of sites, with one whose triangles count.
+  bool may_count(const PatchMesh::Triangle& triangle) const {
+    const auto& [a, b, c] = triangle.vertex;
+    return std::min(a, std::min(b, c)) >= PatchMesh::frame &&
+           std::max(role[at(a)], std::max(role[at(b)], role[at(c)])) >= VertexRole::scored;
+  }
+  /// Whether a triangle counts and is worse than `bad_alpha`. Most are good, which takes no root to see.
+  bool is_bad(const PatchMesh::Triangle& triangle, double bad_alpha) const {
+    return may_count(triangle) && !is_surely_below(bad_alpha, triangle.vertex) && counts(triangle) &&
+           alpha(triangle.vertex) > bad_alpha;
+  }
+  /// See mesh::is_surely_below.
+  bool is_surely_below(double limit, const Corners& corners) const;
+  /// As mesh::aspect_ratio; infinite without area.
+  double alpha(const Corners& corners) const {
+    const geometry::Vec2 p = mesh.position(corners[0]), u = mesh.position(corners[1]) - p,
+                         v = mesh.position(corners[2]) - p;
+    const double a = geometry::length(u), b = geometry::length(v), c = geometry::length(v - u);
+    const double twice_area = geometry::cross(u, v);
+    return twice_area == 0 ? INFINITY : std::max(1.0, a * b * c * (a + b + c) / (4 * twice_area * twice_area));
+  }
+  geometry::Vec2 middle_of(const Corners& corners) const {
+    return (1.0 / 3) * (mesh.position(corners[0]) + mesh.position(corners[1]) + mesh.position(corners[2]));
+  }
+
+  PatchMesh mesh;
+  std::vector<VertexRole> role;         ///< by vertex
+  std::vector<double> size;             ///< h, by vertex
+  std::vector<BoundaryVertex> boundary; ///< by vertex
+  std::vector<LocalIndex> rim;          ///< vertices on the boundary, those that are gone included
+  GlobalId gain = 0;                    ///< of sites, since the start
+  bool broken = false;                  ///< an operation of the triangulation failed: the patch is of no use any more
+
+private:
+  bool has_inner_vertex(const PatchMesh::Triangle& triangle) const {
+    const auto& [a, b, c] = triangle.vertex;
+    return !on_boundary(a) || !on_boundary(b) || !on_boundary(c);
+  }
+  bool lies_inside(const PatchMesh::Triangle& triangle) const;
+};
+
+} // namespace trime::cleanup

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cleanup/patch_contest.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace trime::cleanup {
+namespace {
+
+using Rules = CleanupRules;
+
+std::size_t at(LocalIndex v) {
+  return static_cast<std::size_t>(v);
+}
+
+/// How far the degree of a vertex inside is from 6, squared.
+int strain(const Patch& patch, LocalIndex v) {
+  if (v >= patch.mesh.vertices() || patch.on_boundary(v) || patch.is_gone(v))
+    return 0;
+  const int excess = patch.mesh.degree(v) - 6;
+  return excess * excess;
+}
+
+} // namespace
+
+PatchContest::PatchContest(const PatchStart& start, PatchChords& chords, PatchMover& mover, const PatchOptions& options)
+    : operate_alpha_(options.operate_alpha), chords_(chords), mover_(mover), editor_(start, chords),
+      refiner_(chords, editor_), score_(options.bad_alpha), trial_(start.patch()), best_(start.patch()),
+      runners_(Rules::runners, Runner{start.patch()}), finalists_(Rules::finalists, Runner{start.patch()}) {}
+
+BadPlace PatchContest::place_of(const Patch& now, const Corners& worst) const {
+  BadPlace place{worst, now.middle_of(worst), now.alpha(worst), 0};
+  for (const LocalIndex v : worst)
+    place.size += now.size[at(v)] / 3;
+  return place;
+}
+
+bool PatchContest::hold(Patch& now, const Corners& worst, const PatchBudget& budget, Turn turn) {
+  const BadPlace place = place_of(now, worst);
+  const bool is_first = turn == Turn::before_moves;
+  is_thorough_ = !is_first && place.alpha > (budget.is_again ? budget.again_alpha : Rules::very_bad_alpha);
+  mover_.set_thorough(is_thorough_);
+  chords_.allow(place.alpha >= Rules::bend_alpha ? Rules::bent_at_last : Rules::bent_at_first);
+  const AlphaScore before = score_.begin(now, place);
+  if (!is_first && !is_worth(now, place, before.max, budget))
+    return false;
+  const double first = (1 - Rules::least_gain) * before.sum;
+  Bar bar{first, first, before.max, before.max};
+  if (is_first && !set_bar_by_moves(now, bar))
+    return false;
+  operations_.list(now, place, is_thorough_);
+  try_operations(now, place, budget, bar);
+  const double least_bad = budget.is_again ? Rules::refine_alpha : Rules::refine_alpha_at_first;
+  if (!is_first && std::fmin(place.alpha, bar.largest) > least_bad && !operations_.all().empty())
+    try_refining(now, place, budget, bar);
+  if (bar.found)
+    std::swap(now, best_);
+  return bar.found;
+}
+
+/// An operation with moves has to be better than the same moves alone. @return false if these do
+bool PatchContest::set_bar_by_moves(const Patch& now, Bar& bar) {
+  Patch& moved = runners_.front().patch;
+  moved = now;
+  for (int sweep = 0; sweep < Rules::first_sweeps; ++sweep)
+    relax_near(now, moved, score_.nearest());
+  for (int sweep = 0; sweep < Rules::trial_sweeps; ++sweep)
+    relax_near(now, moved, score_.near());
+  if (moved.broken || !chords_.hold(moved))
+    return true;
+  const AlphaScore after = score_.score(moved);
+  bar.first = bar.least = std::min(bar.first, (1 - Rules::least_gain) * after.sum);
+  bar.before = bar.largest = std::min(bar.before, after.max);
+  return after.max > operate_alpha_;
+}
+
+/// Beside a worse triangle, and along the boundary, a slightly bad one hardly ever becomes better; in a patch that is
+/// tried again hardly any that is not to be refined.
+bool PatchContest::is_worth(const Patch& now, const BadPlace& place, double largest_near,
+                            const PatchBudget& budget) const {
+  constexpr double as_bad = 1 + 1e-12; // alpha of one triangle, from whichever corner on
+  if (largest_near <= as_bad * place.alpha)
+    return true;
+  const auto on_boundary = static_cast<std::size_t>(
+      std::count_if(place.corners.begin(), place.corners.end(), [&](LocalIndex v) { return now.on_boundary(v); }));
+  return place.alpha > (budget.is_again ? Rules::refine_alpha : Rules::least_beside_worse[on_boundary]);
+}
+
+/// Whether the trial has a number of sites that is allowed.
+bool PatchContest::is_within(GlobalId may_insert, const PatchBudget& budget) const {
+  return trial_.gain <= may_insert && -trial_.gain <= budget.may_delete;
+}
+
+/// One sweep over those of the list and the new ones.
+void PatchContest::relax_near(const Patch& now, Patch& trial, std::span<const LocalIndex> near) {
+  mover_.relax(trial, near);
+  for (LocalIndex v = now.mesh.vertices(); v < trial.mesh.vertices(); ++v)
+    mover_.relax(trial, {&v, 1});
+}
+
+/// One more sweep near the middle; then the trial enters the list, if there is hope and it is good enough for that.
+/// @param hopeless_sum a trial above it is given up
+void PatchContest::run(const Patch& now, Patch& trial, double handicap, double hopeless_sum, std::span<Runner> list) {
+  relax_near(now, trial, score_.nearest());
+  if (trial.broken)
+    return;
+  const double sum = handicap * score_.sum(now, trial);
+  if (sum <= hopeless_sum && sum < list.back().sum && chords_.hold(trial))
+    enter(list, trial, sum, handicap);
+}
+
+/// The trial takes its place in a list by sum, the last one falls out. @pre it is better than that
+void PatchContest::enter(std::span<Runner> list, Patch& trial, double sum, double handicap) {
+  auto place = list.end() - 1;
+  while (place != list.begin() && sum < (place - 1)->sum)
+    --place;
+  std::rotate(place, list.end() - 1, list.end());
+  place->sum = sum;
+  place->handicap = handicap;
+  std::swap(place->patch, trial);
+}
+
+/// @return the sum after the other sweeps, infinite if the trial was given up
+double PatchContest::last_sweeps(const Patch& now, const Runner& finalist, Patch& trial, double hopeless_sum) {
+  double last = INFINITY;
+  const int sweeps = (is_thorough_ ? 2 : 1) * Rules::trial_sweeps;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    relax_near(now, trial, score_.near());
+    if (trial.broken)
+      return INFINITY;
+    const double before = std::exchange(last, score_.sum(now, trial));
+    if (!(finalist.handicap * last < hopeless_sum))
+      return INFINITY;
+    if (!is_thorough_ && last > Rules::least_fall * before)
+      break;
+  }
+  return last;
+}
+
+/// The last sweeps; keeps the trial if it is better than what there was.
+void PatchContest::finish(const Patch& now, Runner& finalist, Bar& bar) {
+  Patch& trial = finalist.patch;
+  if (!(last_sweeps(now, finalist, trial, Rules::hopeless_at_last * bar.least) < INFINITY))
+    return;
+  const AlphaScore after = score_.score(trial);
+  const double sum = std::fmax(finalist.handicap, 1) * after.sum; // a preference makes nothing better that is not
+  if (!(finalist.handicap * after.sum < bar.least) || !(sum < bar.first) || after.max > bar.before ||
+      !chords_.hold(trial))
+    return;
+  bar.least = finalist.handicap * after.sum;
+  bar.largest = after.max;
+  bar.found = true;
+  std::swap(best_, trial);
+}
+
+/// By how much the operation has raised the sum of (degree - 6)^2 over the vertices inside. Few degrees are not 6 in
+/// a good mesh; moves cannot mend them.
+int PatchContest::strain_added(const Patch& now, const PatchOperation& operation) {
+  touched_.clear();
+  const auto touch_around = [&](const Patch& patch, LocalIndex v) {
+    patch.mesh.collect_ring(v, ring_);
+    ring_.push_back(v);
+    for (const LocalIndex u : ring_)
+      if (u >= PatchMesh::frame && std::find(touched_.begin(), touched_.end(), u) == touched_.end())
+        touched_.push_back(u);
+  };
+  for (const LocalIndex v : operation.removed)
+    if (v >= 0)
+      touch_around(now, v);
+  for (LocalIndex v = now.mesh.vertices(); v < trial_.mesh.vertices(); ++v)
+    touch_around(trial_, v);
+  int added = 0;
+  for (const LocalIndex v : touched_)
+    added += strain(trial_, v) - strain(now, v);
+  return added;
+}
+
+/// Places for the best trials, all of them free. @param few places if the contest is not thorough
+std::span<PatchContest::Runner> PatchContest::best_of(std::vector<Runner>& all, std::size_t few) const {
+  for (Runner& runner : all)
+    runner.sum = INFINITY;
+  return std::span(all).first(is_thorough_ ? all.size() : std::min(few, all.size()));
+}
+
+void PatchContest::try_operations(const Patch& now, const BadPlace& place, const PatchBudget& budget, Bar& bar) {
+  const std::span<Runner> runners = best_of(runners_, Rules::few_runners),
+                          finalists = best_of(finalists_, Rules::few_finalists);
+  const double no_others_below = (is_thorough_ ? Rules::excellent_if_thorough : Rules::excellent) * bar.first;
+  const double patience = is_thorough_ ? Rules::patience : 1;
+  for (const PatchOperation& operation : operations_.all()) {
+    trial_ = now;
+    const double handicap = operation.inserts() ? 1 : budget.deletion_handicap;
+    if (editor_.apply(trial_, operation, place.size) && is_within(budget.may_insert, budget) &&
+        (is_thorough_ || strain_added(now, operation) <= Rules::most_strain))
+      run(now, trial_, handicap, patience * Rules::hopeless_at_first * bar.first, runners);
+    if (runners.front().sum < no_others_below)
+      break;
+  }
+  for (Runner& runner : runners)
+    if (runner.sum < INFINITY)
+      run(now, runner.patch, runner.handicap, patience * Rules::hopeless_then * bar.first, finalists);
+  for (Runner& finalist : finalists)
+    if (finalist.sum < INFINITY)
+      finish(now, finalist, bar);
+}
+
+/// Smaller triangles: more of them, so their largest alpha decides and not the sum.
+void PatchContest::try_refining(const Patch& now, const BadPlace& place, const PatchBudget& budget, Bar& bar) {
+  trial_ = now;
+  if (!refiner_.refine(now, trial_, place) || !is_within(std::max(budget.may_insert, budget.may_refine), budget))
+    return;
+  for (int sweep = 0; sweep < Rules::refine_sweeps; ++sweep) {
+    relax_near(now, trial_, score_.near());
+    if (trial_.broken || (sweep == Rules::refine_sweeps / 2 && !(score_.score(trial_).max < bar.largest)))
+      return;
+  }
+  const double largest = score_.score(trial_).max;
+  if (largest - 1 > (1 - Rules::refine_gain) * (bar.largest - 1) || !chords_.hold(trial_))
+    return;
+  bar.largest = largest;
+  bar.found = true;
+  std::swap(best_, trial_);
+}
+
+} // namespace trime::cleanup

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What goes into a patch and what comes out of it. Plain data; some of it travels from rank to rank.
+#pragma once
+
+#include "cleanup/rules.hpp"
+#include "mesh/binned_points.hpp"
+#include "polygon/boundary_chain.hpp"
+#include "trime/geometry/vec2.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace trime::cleanup {
+
+/// A site near a bad triangle, at that image of it which lies there.
+struct PatchSite {
+  geometry::Vec2 position;
+  double size;            ///< h there
+  std::int32_t boundary;  ///< see mesh::Site
+  std::int32_t rests = 0; ///< nothing helped here the last time
+  double tolerance = 0;   ///< on the boundary: how far a new chord may pass from a curve with corners between
+};
+
+/// A change of one site: it moves, it goes, or it is new (`from` says nothing then).
+struct SiteEdit {
+  geometry::Vec2 from, to;
+  polygon::EditKind kind = polygon::EditKind::move;
+  std::int32_t boundary = mesh::free_site; ///< index of the boundary site; for a new one, of the site before it
+  double arc = 0;                          ///< of the new place on the boundary
+  std::uint64_t patch = 0;                 ///< which patch wants it; Cleanup sets it
+};
+
+/// What is known of a site after a patch has been tried.
+struct SiteVerdict {
+  geometry::Vec2 position; ///< after the patch
+  double size;             ///< h
+  double alpha;            ///< of its worst triangle if that is bad, else 0
+  std::int64_t rests;      ///< nothing helped for its bad triangles, and it has not moved much since
+};
+
+/// What comes of a patch.
+struct PatchResult {
+  std::vector<SiteEdit> edits;       ///< empty if nothing was better
+  std::vector<SiteVerdict> verdicts; ///< of the sites that have or had bad triangles, where something has changed
+  bool put_off = false;              ///< the edits were dropped to keep the number of sites; CleanupLimits sets it
+};
+
+/// When something is tried. Tests lower these limits to see what becomes of nearly good triangles.
+struct PatchOptions {
+  double bad_alpha = CleanupRules::bad_alpha;
+  double operate_alpha = CleanupRules::operate_alpha;
+  double first_alpha = CleanupRules::first_alpha;
+};
+
+/// What a patch may do with the number of sites.
+struct PatchBudget {
+  GlobalId may_insert = 100;                      ///< largest number of sites that the patch may gain
+  GlobalId may_refine = 100;                      ///< the same where smaller triangles are the last resort
+  GlobalId may_delete = 2;                        ///< largest number of sites that the patch may lose
+  bool is_again = false;                          ///< whether the patch has been tried before
+  double again_alpha = CleanupRules::again_alpha; ///< then operations are tried for triangles above it
+  double deletion_handicap = 1; ///< factor on the sum of a trial with fewer sites: above 1 if sites are scarce
+};
+
+} // namespace trime::cleanup

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cleanup/patch_mover.hpp"
+
+#include "geometry/diametral.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::cleanup {
+namespace {
+
+using geometry::Vec2;
+using polygon::BoundaryCurve;
+using Rules = CleanupRules;
+
+std::size_t at(LocalIndex v) {
+  return static_cast<std::size_t>(v);
+}
+
+/// The step along a tangent that Newton's method asks for, or the longest one downwards.
+double step_along(const EnergyModel& model, Vec2 along, double limit) {
+  const double slope = geometry::dot(model.gradient, along);
+  const double bend = model.xx * along.x * along.x + 2 * model.xy * along.x * along.y + model.yy * along.y * along.y;
+  const double step = bend > 0 ? -slope / bend : slope < 0 ? limit : -limit;
+  return std::clamp(step, -limit, limit);
+}
+
+} // namespace
+
+void PatchMover::relax(Patch& patch, std::span<const LocalIndex> vertices) {
+  if (patch.broken)
+    return;
+  shifted_.clear();
+  for (const LocalIndex v : vertices)
+    if (patch.role[at(v)] == VertexRole::free && !patch.on_boundary(v) && relax_inside(patch, v))
+      shifted_.push_back(v);
+  patch.mesh.restore(shifted_);
+  for (const LocalIndex v : vertices)
+    if (patch.role[at(v)] == VertexRole::free && patch.on_boundary(v) && !patch.broken)
+      slide(patch, v);
+}
+
+/// @return false if a neighbour is a vertex of the frame
+bool PatchMover::load_ring(const Patch& patch, LocalIndex v) {
+  patch.mesh.collect_ring(v, ring_);
+  around_.clear();
+  for (const LocalIndex u : ring_) {
+    if (u < PatchMesh::frame)
+      return false;
+    around_.push_back(patch.mesh.position(u));
+  }
+  return true;
+}
+
+/// @return whether the vertex has been shifted; then PatchMesh::restore must follow
+bool PatchMover::relax_inside(Patch& patch, LocalIndex v) {
+  if (!load_ring(patch, v))
+    return false;
+  const Vec2 from = patch.mesh.position(v);
+  const double h = patch.size[at(v)];
+  const EnergyModel model = star_energy_model(from, around_, true);
+  if (model.value < Rules::rest_energy)
+    return false;
+  const bool is_flat = !(model.value < Rules::flat_energy);
+  Vec2 step = newton_step(model, Rules::longest_step * h);
+  for (int halving = 0; halving <= Rules::halvings; ++halving, step = 0.5 * step) {
+    if (geometry::squared_length(step) < Rules::shortest_step * Rules::shortest_step * h * h)
+      return false;
+    const Vec2 to = start_.lattice().snap(from + step);
+    if (!(star_energy(to, around_, true, model.value) < model.value) || !keeps_clear(patch, to))
+      continue;
+    if (is_flat) { // the signs of the areas are not certain
+      patch.mesh.move(v, to);
+      return false;
+    }
+    patch.mesh.shift(v, to);
+    return true;
+  }
+  return false;
+}
+
+/// Whether a place within the ring keeps off the discs of the chords in it, and off the rim of the patch.
+bool PatchMover::keeps_clear(const Patch& patch, Vec2 to) const {
+  if (!start_.is_off_rim(to))
+    return false;
+  for (std::size_t k = 0; k < ring_.size() && !patch.rim.empty(); ++k) {
+    const LocalIndex u = ring_[k], w = ring_[k + 1 == ring_.size() ? 0 : k + 1];
+    if ((patch.is_chord(u, w) || patch.is_chord(w, u)) &&
+        geometry::diametral_side(patch.mesh.position(u), patch.mesh.position(w), to) <= 0)
+      return false;
+  }
+  return true;
+}
+
+/// The neighbours of a vertex on the boundary, from its next one there to its previous one, in `around_`.
+/// @return false if one of the two is no neighbour in the triangulation
+bool PatchMover::load_fan(const Patch& patch, LocalIndex v) {
+  const BoundaryVertex& own = patch.boundary[at(v)];
+  patch.mesh.collect_ring(v, ring_);
+  const auto first = std::find(ring_.begin(), ring_.end(), own.next);
+  if (first == ring_.end())
+    return false;
+  std::rotate(ring_.begin(), first, ring_.end());
+  const auto last = std::find(ring_.begin(), ring_.end(), own.previous);
+  if (last == ring_.end())
+    return false;
+  around_.clear();
+  for (auto u = ring_.begin(); u <= last; ++u)
+    around_.push_back(patch.mesh.position(*u));
+  return true;
+}
+
+/// Moves a vertex along the boundary; its neighbours there stay where they are.
+void PatchMover::slide(Patch& patch, LocalIndex v) {
+  if (!load_fan(patch, v))
+    return;
+  BoundaryVertex& own = patch.boundary[at(v)];
+  const Vec2 from = patch.mesh.position(v);
+  const double h = patch.size[at(v)];
+  const EnergyModel model = star_energy_model(from, around_, false);
+  if (model.value < Rules::rest_energy)
+    return;
+  const BoundaryCurve& curve = start_.curve();
+  const double limit =
+      std::fmin(Rules::longest_slide * h, Rules::slide_share * std::fmin(geometry::length(around_.front() - from),
+                                                                         geometry::length(around_.back() - from)));
+  double step = step_along(model, curve.place(own.loop, own.arc).tangent, limit);
+  const double length = curve.length(own.loop);
+  const int halvings = is_thorough_ ? Rules::halvings : Rules::slide_halvings;
+  for (int halving = 0; halving <= halvings; ++halving, step *= 0.5) {
+    if (std::fabs(step) < Rules::shortest_step * h)
+      return;
+    const double arc = own.arc + step;
+    const Vec2 to =
+        start_.boundary().periods.nearest_image(start_.lattice().snap(curve.place(own.loop, arc).point), from);
+    BoundaryVertex moved = own;
+    moved.arc = arc >= length ? arc - length : arc < 0 ? arc + length : arc;
+    if (!(star_energy(to, around_, false, model.value) < model.value) || !may_slide(patch, v, moved, to))
+      continue;
+    if (!patch.mesh.move(v, to) && !patch.mesh.replace(v, to)) {
+      patch.broken = true;
+      return;
+    }
+    own.arc = moved.arc;
+    own.changed = patch.boundary[at(own.previous)].changed = true;
+    return;
+  }
+}
+
+/// Whether the chords on both sides of a vertex would be allowed.
+bool PatchMover::may_slide(const Patch& patch, LocalIndex v, const BoundaryVertex& moved, Vec2 to) const {
+  return leaves_discs_empty(patch, v, to) &&
+         chords_.stands_for_curve(moved, patch.boundary[at(moved.next)], {to, around_.front()}, patch.size[at(v)]) &&
+         chords_.stands_for_curve(patch.boundary[at(moved.previous)], moved, {around_.back(), to},
+                                  patch.size[at(moved.previous)]);
+}
+
+/// Whether the discs of the chords around are empty when a vertex of the boundary comes to lie elsewhere, as far as its
+/// neighbours tell; PatchChords::hold says it for certain.
+bool PatchMover::leaves_discs_empty(const Patch& patch, LocalIndex v, Vec2 to) const {
+  const BoundaryVertex& own = patch.boundary[at(v)];
+  const Vec2 behind = patch.mesh.position(own.previous), ahead = patch.mesh.position(own.next);
+  for (const LocalIndex u : ring_) {
+    const Vec2 p = patch.mesh.position(u);
+    if ((u != own.previous && geometry::diametral_side(behind, to, p) <= 0) ||
+        (u != own.next && geometry::diametral_side(to, ahead, p) <= 0))
+      return false;
+  }
+  return keeps_clear(patch, to);
+}
+
+} // namespace trime::cleanup

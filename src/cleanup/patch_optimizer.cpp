@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cleanup/patch_optimizer.hpp"
+
+#include <algorithm>
+
+namespace trime::cleanup {
+namespace {
+
+using geometry::Vec2;
+using Rules = CleanupRules;
+
+constexpr std::uint8_t of_bad_triangle = 2, beside_one = 1; // marks of vertices
+
+std::size_t at(LocalIndex v) {
+  return static_cast<std::size_t>(v);
+}
+
+} // namespace
+
+PatchResult PatchOptimizer::improve(Vec2 center, double size, std::span<const PatchSite> sites,
+                                    const PatchBudget& budget) {
+  if (!start_.build(center, size, sites))
+    return give_up(sites);
+  now_ = start_.patch();
+  rests_.start(sites);
+  if (!budget.is_again)
+    operate_first(budget);
+  move_bad_sites();
+  rests_.wake_moved(start_.patch(), now_);
+  operate(budget);
+  let_failures_rest();
+  return {report_.edits(now_), report_.verdicts(now_, options_.bad_alpha)};
+}
+
+/// Nothing can be done here: the sites around the middle are not to ask for it again.
+PatchResult PatchOptimizer::give_up(std::span<const PatchSite> sites) const {
+  PatchResult result;
+  for (const PatchSite& site : sites)
+    if (start_.distance(site.position) < Rules::given_up_share * Rules::reach * start_.size())
+      result.verdicts.push_back({site.position, site.size, options_.bad_alpha, 1});
+  return result;
+}
+
+/// Where a site is missing or one too many, moves alone would spread what is wrong until no triangle is bad enough for
+/// an operation: there operations come first. Each has to be better than such moves.
+void PatchOptimizer::operate_first(const PatchBudget& budget) {
+  worst_.begin(options_.first_alpha);
+  for (int k = 0; k < Rules::most_tried; ++k) {
+    const std::optional<Corners> worst = worst_.next(now_);
+    if (!worst)
+      return;
+    if (!try_at(*worst, budget, PatchContest::Turn::before_moves))
+      worst_.set_tried(*worst);
+  }
+}
+
+/// From the worst triangle on, each once, and as long as something helps.
+void PatchOptimizer::operate(const PatchBudget& budget) {
+  worst_.begin(budget.is_again ? budget.again_alpha : options_.operate_alpha);
+  for (int k = 0; k < Rules::most_tried; ++k) {
+    const std::optional<Corners> worst = worst_.next(now_);
+    if (!worst)
+      return;
+    if (try_at(*worst, budget, PatchContest::Turn::after_moves))
+      continue;
+    if (is_settled(*worst))
+      rests_.let_rest(*worst);
+    else
+      worst_.set_tried(*worst);
+  }
+}
+
+/// @return whether something helped
+bool PatchOptimizer::try_at(const Corners& worst, const PatchBudget& budget, PatchContest::Turn turn) {
+  if (!contest_.hold(now_, worst, budget, turn))
+    return false;
+  worst_.forget();
+  rests_.wake_moved(contest_.before(), now_);
+  rests_.wake(contest_.near());
+  return true;
+}
+
+/// Whether a triangle that was tried here in vain is not to be tried elsewhere. Very bad ones are, unless they lie in
+/// the middle of this patch.
+bool PatchOptimizer::is_settled(const Corners& corners) const {
+  return now_.alpha(corners) <= Rules::very_bad_alpha ||
+         start_.distance(now_.middle_of(corners)) < Rules::middle_reach * start_.size();
+}
+
+/// The sites of the bad triangles in the middle that stay, but for those that may be tried in another patch.
+void PatchOptimizer::let_failures_rest() {
+  for (const PatchMesh::Triangle& triangle : now_.mesh.triangles())
+    if (now_.is_bad(triangle, options_.bad_alpha) && start_.is_in_core(now_.middle_of(triangle.vertex)) &&
+        !worst_.is_tried(triangle.vertex))
+      rests_.let_rest(triangle.vertex);
+}
+
+/// Sweeps over the free sites of bad triangles and their neighbours.
+void PatchOptimizer::move_bad_sites() {
+  chords_.allow(Rules::bent_at_first);
+  mover_.set_thorough(false);
+  AlphaScore before;
+  if (!list_movers(before))
+    return;
+  const AlphaScore first = before;
+  double least = first.sum;
+  best_ = now_;
+  for (int sweep = 0; sweep < Rules::moving_sweeps; ++sweep) {
+    mover_.relax(now_, movers_);
+    AlphaScore after;
+    const bool any = !now_.broken && list_movers(after);
+    if (now_.broken || after.max > first.max || !chords_.hold(now_))
+      break;
+    if (after.sum < least) {
+      least = after.sum;
+      best_ = now_;
+    }
+    if (!any || after.sum > (1 - Rules::least_gain) * before.sum)
+      break;
+    before = after;
+  }
+  std::swap(now_, best_);
+}
+
+/// Marks the sites of bad triangles that do not rest. @return whether there are any
+bool PatchOptimizer::mark_bad(AlphaScore& score) {
+  mark_.assign(at(now_.mesh.vertices()), 0);
+  score = {};
+  bool any = false;
+  for (const PatchMesh::Triangle& triangle : now_.mesh.triangles()) {
+    if (!now_.counts(triangle))
+      continue;
+    const double alpha = now_.alpha(triangle.vertex);
+    score.add(alpha, options_.bad_alpha);
+    if (alpha > options_.bad_alpha && !rests_.all_rest(triangle.vertex)) {
+      any = true;
+      for (const LocalIndex v : triangle.vertex)
+        mark_[at(v)] = of_bad_triangle;
+    }
+  }
+  return any;
+}
+
+/// @param score of the whole patch @return whether there are bad triangles that do not rest
+bool PatchOptimizer::list_movers(AlphaScore& score) {
+  const bool any = mark_bad(score);
+  const auto is_of_bad_triangle = [&](LocalIndex v) { return mark_[at(v)] == of_bad_triangle; };
+  for (const PatchMesh::Triangle& triangle : now_.mesh.triangles())
+    if (triangle.vertex[0] >= 0 && std::any_of(triangle.vertex.begin(), triangle.vertex.end(), is_of_bad_triangle))
+      for (const LocalIndex v : triangle.vertex)
+        mark_[at(v)] = std::max(mark_[at(v)], beside_one);
+  movers_.clear();
+  for (LocalIndex v = PatchMesh::frame; v < now_.mesh.vertices(); ++v)
+    if (mark_[at(v)] > 0 && now_.role[at(v)] == VertexRole::free)
+      movers_.push_back(v);
+  return any;
+}
+
+} // namespace trime::cleanup

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What has become of the sites of a patch.
+#pragma once
+
+#include "cleanup/patch_rests.hpp"
+#include "cleanup/patch_start.hpp"
+
+#include <vector>
+
+namespace trime::cleanup {
+
+/// @brief Compares a patch with what it was at its start.
+class PatchReport {
+public:
+  /// References must outlive the object.
+  PatchReport(const PatchStart& start, const PatchRests& rests) : start_(start), rests_(rests) {}
+
+  /// The difference between the sites and what they have become.
+  std::vector<SiteEdit> edits(const Patch& now) const;
+  /// Of all sites whose triangles are all known, if the patch has changed anything about them.
+  std::vector<SiteVerdict> verdicts(const Patch& now, double bad_alpha);
+
+private:
+  static void find_worst(const Patch& patch, double bad_alpha, std::vector<double>& worst);
+  bool is_news(const Patch& now, LocalIndex v) const;
+  static std::int32_t site_before(const Patch& now, LocalIndex v, LocalIndex first_new);
+
+  const PatchStart& start_;
+  const PatchRests& rests_;
+  std::vector<double> worst_before_, worst_after_; // by vertex: alpha of its worst triangle if that is bad, else 0
+};
+
+} // namespace trime::cleanup

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cleanup/patch_start.hpp"
+
+namespace trime::cleanup {
+namespace {
+
+using geometry::Vec2;
+
+std::size_t at(LocalIndex i) {
+  return static_cast<std::size_t>(i);
+}
+
+} // namespace
+
+bool PatchStart::build(Vec2 center, double size, std::span<const PatchSite> sites) {
+  center_ = center;
+  size_ = size;
+  if (sites.size() > CleanupRules::most_sites)
+    return false;
+  const double reach = CleanupRules::reach * size;
+  patch_.start(center,
+               std::min(lattice_.snap(CleanupRules::frame_share * reach), CleanupRules::widest_frame * lattice_.step()),
+               size);
+  for (const PatchSite& site : sites)
+    patch_.append(patch_.mesh.append(site.position), site.size, on_boundary(site), role_of(site));
+  patch_.mesh.connect_all();
+  patch_.gain = 0;
+  link_boundary();
+  missing_chords_ = patch_.missing_chords();
+  return std::find(patch_.role.begin(), patch_.role.end(), VertexRole::free) != patch_.role.end();
+}
+
+VertexRole PatchStart::role_of(const PatchSite& site) const {
+  const double away = distance(site.position), reach = CleanupRules::reach * size_;
+  const double coarser = std::fmax(site.size, size_);
+  const bool is_corner = site.boundary >= 0 && boundary().sites[at(site.boundary)].corner;
+  VertexRole role = VertexRole::held;
+  if (away + CleanupRules::free_depth * coarser < reach && site.boundary != mesh::fixed_site)
+    role = VertexRole::free;
+  else if (away + CleanupRules::scored_depth * coarser < reach)
+    role = VertexRole::scored;
+  return is_corner ? std::min(role, VertexRole::scored) : role;
+}
+
+BoundaryVertex PatchStart::on_boundary(const PatchSite& site) const {
+  BoundaryVertex vertex;
+  if (site.boundary < 0)
+    return vertex;
+  vertex.site = site.boundary;
+  vertex.tolerance = site.tolerance;
+  vertex.loop = chain_.loop(site.boundary);
+  vertex.arc = curve().arc(vertex.loop, boundary().sites[at(site.boundary)]);
+  return vertex;
+}
+
+/// Joins neighbours along the boundary. A site whose neighbour there is beyond the patch is held.
+void PatchStart::link_boundary() {
+  for (const LocalIndex v : patch_.rim) {
+    BoundaryVertex& own = patch_.boundary[at(v)];
+    const geometry::Segment chord = boundary().chord(own.site);
+    const Vec2 end = patch_.mesh.position(v) + (chord.b - chord.a);
+    for (const LocalIndex u : patch_.rim)
+      if (patch_.boundary[at(u)].site == boundary().sites[at(own.site)].next && patch_.mesh.position(u) == end) {
+        own.next = u;
+        patch_.boundary[at(u)].previous = v;
+      }
+  }
+  for (const LocalIndex v : patch_.rim) {
+    const BoundaryVertex& own = patch_.boundary[at(v)];
+    if (own.next < 0 || own.previous < 0)
+      patch_.role[at(v)] = std::min(patch_.role[at(v)], VertexRole::scored);
+  }
+}
+
+} // namespace trime::cleanup

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A patch as it is before any change: which sites there are, and which of them may take part.
+#pragma once
+
+#include "cleanup/patch.hpp"
+#include "cleanup/patch_data.hpp"
+#include "polygon/boundary_chain.hpp"
+#include "trime/geometry/lattice.hpp"
+
+#include <span>
+
+namespace trime::cleanup {
+
+/// @brief The place of a patch and the sites around it before any change. Everything that is asked of a trial is asked
+/// against it. One object serves one patch after the other.
+class PatchStart {
+public:
+  /// The chain must outlive the object.
+  PatchStart(const polygon::BoundaryChain& chain, const geometry::Lattice& lattice)
+      : chain_(chain), lattice_(lattice), patch_(lattice, chain.sites().periods) {}
+
+  /// @brief Triangulates the sites. @return false if nothing can be done: there are too many sites, or none may move
+  /// @param sites see PatchOptimizer::improve
+  bool build(geometry::Vec2 center, double size, std::span<const PatchSite> sites);
+
+  const Patch& patch() const { return patch_; }
+  LocalIndex vertices() const { return patch_.mesh.vertices(); }
+  LocalIndex missing_chords() const { return missing_chords_; }
+  const polygon::BoundarySites& boundary() const { return chain_.sites(); }
+  const polygon::BoundaryCurve& curve() const { return chain_.curve(); }
+  const geometry::Lattice& lattice() const { return lattice_; }
+  geometry::Vec2 center() const { return center_; }
+  double size() const { return size_; }
+
+  /// Whether a vertex is new or has moved.
+  bool has_changed(const Patch& now, LocalIndex v) const {
+    return v >= vertices() || now.mesh.position(v) != patch_.mesh.position(v);
+  }
+  /// Whether a place belongs to the middle of the patch, far enough from the sites that are held.
+  bool is_in_core(geometry::Vec2 p) const {
+    return distance(p) < (CleanupRules::reach - CleanupRules::free_depth - CleanupRules::core_depth) * size_;
+  }
+  /// Whether a new site with size h would be far enough from the rim.
+  bool has_room(geometry::Vec2 p, double h) const {
+    return distance(p) + CleanupRules::free_depth * std::fmax(h, size_) < CleanupRules::reach * size_;
+  }
+  /// Whether a site may move to a place, as far as the rim is concerned.
+  bool is_off_rim(geometry::Vec2 p) const {
+    return !(distance(p) > (CleanupRules::reach - CleanupRules::free_depth + CleanupRules::most_outwards) * size_);
+  }
+  double distance(geometry::Vec2 p) const { return geometry::length(p - center_); }
+
+private:
+  VertexRole role_of(const PatchSite& site) const;
+  BoundaryVertex on_boundary(const PatchSite& site) const;
+  void link_boundary();
+
+  const polygon::BoundaryChain& chain_;
+  geometry::Lattice lattice_;
+  Patch patch_;
+  geometry::Vec2 center_;
+  double size_ = 1;
+  LocalIndex missing_chords_ = 0;
+};
+
+} // namespace trime::cleanup

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The lower envelope of a few thousand cones for very many look-ups: a quadtree whose leaves list the cones that can be
+// the lowest somewhere in them.
+#pragma once
+
+#include "cones/cone_tree.hpp"
+#include "cones/size_cells.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace trime::cones {
+
+/// @brief Exact: gives what the tree of the cones gives. That is asked outside of the cells, and where a small cell has
+/// many cones. Immutable; queries are thread-safe.
+class ConeCells {
+public:
+  /// Of more cones no cells are made: they take about one KiB for each, more where cones lie together.
+  static constexpr std::size_t most_cones = std::size_t{1} << 15;
+
+  /// So few cones need no cells.
+  static constexpr std::size_t few_cones = 8;
+
+  /// About O(n log n), over threads. @pre `tree` outlives this object and has been made for the same slope
+  ConeCells(const ConeTree& tree, double slope);
+
+  /// The least of `bound` and the values of all cones at p.
+  double value(geometry::Vec2 p, double bound) const {
+    const double x = (p.x - grid_.origin.x) * inverse_side_, y = (p.y - grid_.origin.y) * inverse_side_;
+    if (!(x >= 0 && y >= 0 && x < columns_ && y < rows_))
+      return few_ ? lowest_cone(numbers_.data(), numbers_.size() / ConePair::numbers, p, slope_, bound)
+                  : tree_.value(p, bound);
+    const auto column = static_cast<std::uint32_t>(x * finest), row = static_cast<std::uint32_t>(y * finest);
+    int shift = most_levels;
+    CellNode node = roots_[(row >> shift) * static_cast<std::uint32_t>(columns_) + (column >> shift)];
+    while (node >= 0) {
+      --shift;
+      node = quarters_[static_cast<std::size_t>(node)][(column >> shift & 1) + 2 * (row >> shift & 1)];
+    }
+    const CellLeaf leaf = CellLeaf::of(node);
+    return leaf.is_bilinear() ? tree_.value(p, bound)
+                              : lowest_cone(&numbers_[leaf.first], leaf.pairs(), p, slope_, bound);
+  }
+
+private:
+  static constexpr int most_levels = 8; ///< below a block
+  static constexpr double finest = 1 << most_levels;
+  using Quarters = std::array<CellNode, 4>;
+  /// A block with the cells below it, with indices of its own.
+  struct Part {
+    CellNode root;
+    std::vector<Quarters> quarters;
+    std::vector<double> numbers;
+  };
+  class Builder;
+  void assemble(const std::vector<Part>& parts);
+
+  const ConeTree& tree_;
+  double slope_;
+  CellGrid grid_{};
+  double inverse_side_ = 1; ///< of a block
+  int columns_ = 0, rows_ = 0;
+  bool few_ = false;            ///< all cones are looked at, everywhere
+  std::vector<CellNode> roots_; ///< of the blocks, row by row
+  std::vector<Quarters> quarters_;
+  std::vector<double> numbers_; ///< of the leaves: pairs of cones
+};
+
+} // namespace trime::cones

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The source of the three builds of cone_kernel.hpp. All is in an anonymous namespace and calls nothing outside, so
+// that no code for a newer processor can be linked into the rest of the program. One lane is one cone.
+#pragma once
+
+#include "cones/cone_kernel.hpp"
+#include "core/lanes.hpp"
+
+namespace trime::cones {
+namespace {
+
+constexpr double nowhere = 1e300; // value of padding
+constexpr double done = 1e301;
+
+template <int n>
+class Cones {
+  using V = typename lanes::Types<n>::Doubles;
+  using M = typename lanes::Types<n>::Mask;
+  static constexpr int corners[4] = {0, 2, 6, 8};
+
+public:
+  static void evaluate(ConeList& list, double slope, const ConePoints& points) {
+    pad(list.x(), list.count, 0);
+    pad(list.y(), list.count, 0);
+    pad(list.height(), list.count, nowhere);
+    for (std::int64_t k = 0; k < list.count; k += n) {
+      const V x = load(list.x() + k), y = load(list.y() + k), height = load(list.height() + k);
+      for (int p = 0; p < points.count; ++p) {
+        const V dx = points.x[p] - x, dy = points.y[p] - y;
+        store(list.at(points.number[p]) + k, slope * lanes::square_root(dx * dx + dy * dy) + height);
+      }
+    }
+    for (int p = 0; p < points.count; ++p) {
+      pad(list.at(points.number[p]), list.count, nowhere);
+      find_lowest(list, points.number[p]);
+    }
+  }
+
+  static void pass_on(const ConeList& from, int quarter, ConeList& to) {
+    const int first = (quarter & 1) + 3 * (quarter >> 1); // of its corners
+    const int points[5] = {first, first + 1, first + 3, first + 4, ConeList::first_quarter + quarter};
+    constexpr int new_points[5] = {0, 2, 6, 8, ConeList::center};
+    Winner winners[5];
+    int winner_count = 0;
+    for (int p = 0; p < 5; ++p)
+      add_winner(from, points, from.lowest[points[p]], winners, winner_count);
+    const double* source[8];
+    double* target[8];
+    for (int p = 0; p < 5; ++p) {
+      source[p] = from.at(points[p]);
+      target[p] = to.at(new_points[p]);
+    }
+    for (int a = 0; a < 3; ++a) {
+      source[5 + a] = from.at(ConeList::points + a);
+      target[5 + a] = to.at(ConeList::points + a);
+    }
+    std::int64_t count = 0;
+    for (std::int64_t k = 0; k < from.count; k += n) {
+      const V at[4] = {load(source[0] + k), load(source[1] + k), load(source[2] + k), load(source[3] + k)};
+      const V height = load(source[7] + k);
+      M covered = lane_numbers() + k >= from.count;
+      M spared{}; // two that are alike must not cover each other: a winner is covered by those before it alone
+      for (int w = 0; w < winner_count; ++w) {
+        const V higher = winners[w].height - height, margin = lanes::select(higher < V{}, higher, V{});
+        spared |= lane_numbers() + k == winners[w].cone;
+        covered |= is_below(winners[w], at, margin) & ~spared;
+      }
+      for (unsigned kept = ~lanes::bits(covered) & ((1u << n) - 1); kept != 0; kept &= kept - 1) {
+        const std::int64_t cone = k + __builtin_ctz(kept);
+        for (int a = 0; a < 8; ++a)
+          target[a][count] = source[a][cone];
+        ++count;
+      }
+    }
+    to.count = count;
+    for (int p = 0; p < 5; ++p) {
+      pad(target[p], count, nowhere);
+      find_lowest(to, new_points[p]);
+    }
+  }
+
+  static int choose(const ConeList& list, int most, ConeChoice& choice) {
+    if (list.count > ConeChoice::most_listed)
+      return 0;
+    double slack[ConeChoice::most_listed], open[ConeChoice::most_listed + ConeList::padding];
+    for (std::int64_t k = 0; k < list.count; k += n) {
+      store(slack + k, slack_of(choice, load(list.x() + k), load(list.y() + k)));
+      store(open + k, load(list.at(ConeList::center) + k));
+    }
+    pad(open, list.count, done);
+    int count = 0;
+    for (const int corner : corners)
+      if (const std::int64_t cone = list.lowest[corner]; !is_among(choice, count, cone))
+        take(list, choice, count, cone, slack, open);
+    while (count <= most) {
+      const std::int64_t next = first_least(open, list.count);
+      if (open[next] >= done)
+        return count;
+      if (count == most)
+        break;
+      take(list, choice, count, next, slack, open);
+    }
+    return 0;
+  }
+
+private:
+  struct Winner {
+    std::int64_t cone;
+    double height, at[4];
+  };
+
+  TRIME_INLINE static V load(const double* from) {
+    V v;
+    std::memcpy(&v, from, sizeof v);
+    return v;
+  }
+  TRIME_INLINE static void store(double* to, V v) { std::memcpy(to, &v, sizeof v); }
+  TRIME_INLINE static M lane_numbers() {
+    M m;
+    for (int k = 0; k < n; ++k)
+      m[k] = k;
+    return m;
+  }
+  TRIME_INLINE static void pad(double* values, std::int64_t count, double with) {
+    for (std::int64_t k = count; k % ConeList::padding != 0; ++k)
+      values[k] = with;
+  }
+
+  TRIME_INLINE static std::int64_t first_least(const double* values, std::int64_t count) {
+    V least = load(values);
+    for (std::int64_t k = n; k < count; k += n) {
+      const V v = load(values + k);
+      least = lanes::select(v < least, v, least);
+    }
+    double low = least[0];
+    for (int k = 1; k < n; ++k)
+      low = least[k] < low ? least[k] : low;
+    for (std::int64_t k = 0; k < count; k += n)
+      if (const unsigned same = lanes::bits(load(values + k) <= low); same != 0)
+        return k + __builtin_ctz(same);
+    return 0;
+  }
+  TRIME_INLINE static void find_lowest(ConeList& list, int point) {
+    list.lowest[point] = 0;
+    list.low[point] = nowhere;
+    if (list.count == 0)
+      return;
+    list.lowest[point] = first_least(list.at(point), list.count);
+    list.low[point] = list.at(point)[list.lowest[point]];
+  }
+
+  TRIME_INLINE static void add_winner(const ConeList& list, const int (&points)[5], std::int64_t cone,
+                                      Winner (&winners)[5], int& count) {
+    for (int w = 0; w < count; ++w)
+      if (winners[w].cone == cone)
+        return;
+    Winner& winner = winners[count++];
+    winner.cone = cone;
+    winner.height = list.height()[cone];
+    for (int c = 0; c < 4; ++c)
+      winner.at[c] = list.at(points[c])[cone];
+  }
+  /// Is it lower at the corners, and by more than -margin?
+  TRIME_INLINE static M is_below(const Winner& winner, const V (&at)[4], V margin) {
+    return (winner.at[0] <= at[0] + margin) & (winner.at[1] <= at[1] + margin) & (winner.at[2] <= at[2] + margin) &
+           (winner.at[3] <= at[3] + margin);
+  }
+
+  /// By how much other cones may be higher at the corners if they shall be too high by the slack at most inside.
+  TRIME_INLINE static V slack_of(const ConeChoice& choice, V x, V y) {
+    const V zero{}, dx = larger(zero, larger(choice.min_x - x, x - choice.max_x));
+    const V dy = larger(zero, larger(choice.min_y - y, y - choice.max_y)), squared = dx * dx + dy * dy;
+    return choice.slack - choice.bend / lanes::square_root(squared + 1e-300); // of a cone in the cell: none
+  }
+  TRIME_INLINE static V larger(V a, V b) { return lanes::select(a < b, b, a); }
+
+  TRIME_INLINE static bool is_among(const ConeChoice& choice, int count, std::int64_t cone) {
+    for (int k = 0; k < count; ++k)
+      if (choice.chosen[k] == cone)
+        return true;
+    return false;
+  }
+  /// Chooses a cone and marks what it covers.
+  TRIME_INLINE static void take(const ConeList& list, ConeChoice& choice, int& count, std::int64_t cone,
+                                const double* slack, double* open) {
+    choice.chosen[count++] = cone;
+    open[cone] = done;
+    const double* const at[4] = {list.at(0), list.at(2), list.at(6), list.at(8)};
+    const Winner winner{cone, list.height()[cone], {at[0][cone], at[1][cone], at[2][cone], at[3][cone]}};
+    for (std::int64_t k = 0; k < list.count; k += n) {
+      const V values[4] = {load(at[0] + k), load(at[1] + k), load(at[2] + k), load(at[3] + k)};
+      const V higher = winner.height - load(list.height() + k);
+      const V margin = larger(lanes::select(higher < V{}, higher, V{}), load(slack + k));
+      const V was = load(open + k);
+      store(open + k, lanes::select(is_below(winner, values, margin), V{} + done, was));
+    }
+  }
+};
+
+} // namespace
+} // namespace trime::cones

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The lower envelope of cones of one slope, min over k of slope |x - apex_k| + height_k, by branch and bound: nearest
+// neighbours with additive weights, and plain nearest neighbours (slope 1, heights 0).
+#pragma once
+
+#include "cones/box_tree.hpp"
+#include "trime/core/types.hpp"
+#include "trime/geometry/vec2.hpp"
+
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace trime::cones {
+
+struct Cone {
+  geometry::Vec2 apex;
+  double height;
+
+  double value(geometry::Vec2 p, double slope) const { return slope * geometry::length(p - apex) + height; }
+};
+
+/// Immutable; queries are thread-safe.
+class ConeTree {
+public:
+  ConeTree() = default;
+  /// O(n), about 60 bytes per cone.
+  ConeTree(const std::vector<Cone>& cones, double slope);
+
+  /// @brief The least of `bound` and the values of all cones at p. A good bound makes it faster. O(log n) for points
+  /// near a few cones.
+  /// @param slack share by which the answer may be too high, for points that are nearly as near to many cones
+  double value(geometry::Vec2 p, double bound = std::numeric_limits<double>::infinity(), double slack = 0) const;
+
+  /// The index of the cone that is lowest at p, below `bound`; -1 if there is none.
+  LocalIndex lowest(geometry::Vec2 p, double bound) const;
+
+  /// Calls visit(index) for the cones, in the order of the tree, without those below nodes with skip(box, least): box
+  /// of their apexes, least of their heights.
+  template <class Skip, class Visit>
+  void visit_unless(const Skip& skip, const Visit& visit) const {
+    tree_.visit_unless(skip, [&](std::size_t k) { visit(static_cast<LocalIndex>(k)); });
+  }
+
+  /// Appends to `found` the indices of all cones whose value at p is at most `bound`, in the order of the tree.
+  void collect(geometry::Vec2 p, double bound, std::vector<LocalIndex>& found) const;
+
+  /// In the order of the tree.
+  std::span<const Cone> cones() const { return cones_; }
+
+private:
+  LowestCone find(geometry::Vec2 p, double bound, double slack) const;
+
+  std::vector<Cone> cones_;      // along a Hilbert curve
+  std::vector<ConeLeaf> leaves_; // the same, eight at a time
+  BoxTree tree_;                 // of apexes, with heights
+  double slope_ = 1;
+  SearchKernel kernel_ = search_kernel(simd_level());
+};
+
+} // namespace trime::cones

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The cells of a quadtree of the size field: how they are stored, and how those of some blocks are built.
+#pragma once
+
+#include "cones/cone_kernel.hpp"
+#include "cones/cone_tree.hpp"
+#include "core/lanes.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace trime::cones {
+
+/// Values at the corners of a cell: lower left, lower right, upper left, upper right.
+using CornerValues = std::array<double, 4>;
+
+/// What a quadtree of the size field is made from.
+struct SizeSource {
+  const ConeTree& cones;
+  double slope;      ///< of the cones
+  double cap;        ///< the field is the lower of the envelope and this
+  geometry::Box box; ///< where it is defined
+  double least_side; ///< smaller cells are not split
+};
+
+/// A cell: column and row among the squares of its level, each half as wide as those of the level before.
+struct CellPlace {
+  int level;
+  std::int64_t i, j;
+
+  CellPlace quarter(int k) const { return {level + 1, 2 * i + (k & 1), 2 * j + (k >> 1)}; }
+};
+
+/// Squares over a rectangle, divided by halves. A point has one set of bits as corner of cells of any level.
+struct CellGrid {
+  geometry::Vec2 origin;
+  double side; ///< of the squares of level 0, the blocks
+
+  double side_at(int level) const {
+    return level < 0 ? side * static_cast<double>(1 << -level) : side / static_cast<double>(1 << level);
+  }
+  /// Lower left corner.
+  geometry::Vec2 corner(const CellPlace& place) const {
+    return origin + side_at(place.level) * geometry::Vec2{static_cast<double>(place.i), static_cast<double>(place.j)};
+  }
+  geometry::Box box(const CellPlace& place) const {
+    return {corner(place), corner({place.level, place.i + 1, place.j + 1})};
+  }
+};
+
+/// A node of a tree is the index of its children, or the complement of a leaf.
+using CellNode = std::int32_t;
+/// Two levels at once, row by row; a leaf one level down stands in four places.
+using CellChildren = std::array<CellNode, 16>;
+
+/// A cell that is not split: either bilinear between its corners, or the lower envelope of a few cones.
+struct CellLeaf {
+  static constexpr int kinds = 16; ///< two of bilinear cells, the others of 1, 2, ... pairs of cones
+  static constexpr std::size_t most_numbers = (std::size_t{1} << 31) / kinds;
+  static constexpr int most_cones = 2 * (kinds - 2);
+
+  std::size_t first; ///< of its numbers: corner values, or pairs of cones
+  int kind;
+
+  static CellLeaf of(CellNode node) {
+    return {static_cast<std::size_t>(~node) / kinds, static_cast<int>(~node % kinds)};
+  }
+  static CellLeaf bilinear(std::size_t first) { return {first, 0}; }
+  static CellLeaf with_pairs(std::size_t first, std::size_t count) { return {first, static_cast<int>(count) + 1}; }
+  CellNode node() const { return ~static_cast<CellNode>(first * kinds + static_cast<std::size_t>(kind)); }
+
+  bool is_bilinear() const { return kind < 2; }
+  /// Of a bilinear leaf: by so many levels it is larger than a child of the node that it is found at.
+  int levels_up() const { return kind; }
+  std::size_t pairs() const { return static_cast<std::size_t>(kind) - 1; }
+};
+
+/// Two cones side by side.
+struct ConePair {
+  using Lanes = lanes::Types<2>::Doubles;
+  static constexpr std::size_t numbers = 6; ///< two x, two y, two heights
+
+  static Lanes load(const double* from) {
+    Lanes v;
+    std::memcpy(&v, from, sizeof v);
+    return v;
+  }
+  /// With the bits of Cone::value.
+  static Lanes values(const double* pair, Lanes x, Lanes y, double slope) {
+    const Lanes dx = x - load(pair), dy = y - load(pair + 2);
+    return slope * lanes::square_root(dx * dx + dy * dy) + load(pair + 4);
+  }
+};
+
+/// The value at p of the lowest of some pairs of cones, or `cap` if that is lower.
+inline double lowest_cone(const double* pairs, std::size_t count, geometry::Vec2 p, double slope, double cap) {
+  const ConePair::Lanes x{p.x, p.x}, y{p.y, p.y};
+  ConePair::Lanes low{cap, cap};
+  for (const double* pair = pairs; pair != pairs + ConePair::numbers * count; pair += ConePair::numbers)
+    low = lanes::smaller(ConePair::values(pair, x, y, slope), low);
+  return std::min(low[0], low[1]);
+}
+
+/// Where in the cell they are lowest.
+geometry::Vec2 lowest_point(const double* pairs, std::size_t count, const geometry::Box& cell, double slope);
+
+/// Some blocks with the cells below them, with indices of their own.
+struct CellPart {
+  std::vector<CellNode> roots; ///< of the blocks, row by row
+  std::vector<CellChildren> children;
+  std::vector<double> numbers; ///< of the leaves
+  std::int64_t leaves = 0;
+  double least = std::numeric_limits<double>::infinity(), largest = 0; ///< bounds of the field
+};
+
+/// Builds groups of blocks, top down. Every cell passes on to its quarters only those cones that can be the lowest
+/// somewhere in them, so that lists are short and no tree of cones is asked again.
+class CellBuilder {
+public:
+  struct Limits {
+    double tolerance; ///< largest error of a cell, as a share of the value
+    int most_levels;  ///< below a block; even
+    int most_cones;   ///< in a cell
+    double highest;   ///< what cells of cones must not exceed
+  };
+  CellBuilder(const SizeSource& source, const CellGrid& grid, const Limits& limits)
+      : source_(source), grid_(grid), limits_(limits), kernel_(cone_kernel(simd_level())),
+        levels_(static_cast<std::size_t>(limits.most_levels) + top + 1) {}
+
+  /// The blocks of the cell, of level <= 0. Those in columns and rows from `columns` and `rows` on are left out.
+  CellPart build(const CellPlace& place, std::int64_t columns, std::int64_t rows);
+
+private:
+  static constexpr int top = 8; ///< no group is larger than a cell of level -8
+  /// The cell of a level that is being built.
+  struct Level {
+    ConeList cones;
+    std::vector<double> numbers; ///< of the cones
+
+    void reserve(std::int64_t count);
+  };
+  /// Of a plain quadtree; two levels at once come later.
+  using Quarters = std::array<CellNode, 4>;
+
+  ConeList& cones_of(const CellPlace& place, std::int64_t room = 0);
+  std::array<geometry::Vec2, 4> corners_of(const CellPlace& place) const;
+  CornerValues values(const ConeList& cones) const;
+  void collect(const CellPlace& place);
+  void evaluate_inside(ConeList& cones, const CellPlace& place) const;
+  void build_blocks(const CellPlace& place);
+  CellNode build_cell(const CellPlace& place);
+  CellNode bilinear_leaf(const ConeList& cones);
+  CellNode cones_leaf(const ConeList& cones, const CellPlace& place, int count);
+  int choose_cones(const ConeList& cones, const CellPlace& place, double slack);
+  void include_in_range(const CornerValues& corners);
+  CellNode in_pairs(CellNode node);
+
+  const SizeSource& source_;
+  CellGrid grid_;
+  Limits limits_;
+  ConeKernel kernel_;
+  std::vector<Level> levels_;
+  std::vector<Quarters> quarters_;
+  ConeChoice choice_;
+  CellPart part_;
+  std::int64_t first_column_ = 0, first_row_ = 0, columns_ = 0, rows_ = 0; ///< of blocks
+};
+
+} // namespace trime::cones

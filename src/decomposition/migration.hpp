@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sites that have left the tiles of their owner travel to the new owner.
+#pragma once
+
+#include "decomposition/partition.hpp"
+#include "mesh/binned_points.hpp"
+#include "trime/comm/communicator.hpp"
+
+#include <vector>
+
+namespace trime::decomposition {
+
+/// @brief Sites of each owned tile, summed over ranks: the weights of a partition. O(tiles) memory. Collective.
+std::vector<std::int64_t> tile_weights(const comm::Communicator& comm, const mesh::TileGrid& grid,
+                                       std::span<const mesh::Site> sites);
+
+/// @brief Gives every site to the owner of its tile. Sites that stay keep their order and position in the list's front;
+/// arrivals follow, ordered by sending rank. Collective.
+void migrate(const comm::Communicator& comm, const mesh::TileGrid& grid, const Partition& partition,
+             mesh::SiteList& sites);
+
+} // namespace trime::decomposition

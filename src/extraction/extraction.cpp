@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "extraction/extraction.hpp"
+
+#include "comm/agree.hpp"
+#include "core/thread_loop.hpp"
+#include "extraction/mesh_quality.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::extraction {
+namespace {
+
+using geometry::Vec2;
+using mesh::DistributedMesh;
+using polygon::BoundarySite;
+using sites::Fan;
+using sites::FlatFan;
+using sites::inside_fan;
+using sites::StageView;
+
+std::size_t at(LocalIndex i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Triangles and boundary edges of one tile, or where those of a tile begin.
+struct Offsets {
+  std::size_t triangles = 0, facets = 0;
+};
+
+/// Lists triangles and boundary edges at that of their vertices which has the lowest global id.
+class Extractor {
+public:
+  Extractor(const StageView& view, const decomposition::Numbering& numbering)
+      : view_(view), numbering_(numbering), points_(view.state.points()) {}
+
+  Extraction run() {
+    Extraction made;
+    PerThread<QualityMeter> meters(view_.size, points_.grid().periods());
+    comm::run_agreed(view_.state.comm(), [&] { // the size field is the user's
+      fill_points(made.mesh);
+      const std::vector<Offsets> begin = offsets();
+      make_room(begin.back(), made.mesh);
+      PerThread<FlatFan> fans(view_, numbering_);
+      thread_loop(tiles(), 1, [&](std::ptrdiff_t t, int thread) {
+        fill_tile(first_tile() + static_cast<LocalIndex>(t), begin[static_cast<std::size_t>(t)], fans[thread],
+                  meters[thread], made.mesh);
+      });
+    });
+    QualitySums sums;
+    for (const QualityMeter& meter : meters)
+      sums.add(meter.sums());
+    made.quality = summarize(view_.state.comm(), std::move(sums));
+    return made;
+  }
+
+private:
+  LocalIndex first_tile() const { return points_.first_tile(); }
+  LocalIndex tiles() const { return points_.last_tile() - points_.first_tile(); }
+  LocalIndex place(LocalIndex site) const { return numbering_.place(numbering_.vertex(site)); }
+
+  void fill_points(DistributedMesh& mesh) const {
+    const std::size_t n = numbering_.order.size();
+    mesh.points.resize(n);
+    mesh.boundary.resize(n);
+    mesh.size.resize(n);
+    mesh.fixed.resize(n);
+    thread_loop(static_cast<std::ptrdiff_t>(n), 4096, [&](std::ptrdiff_t item, int) {
+      const std::size_t k = static_cast<std::size_t>(item);
+      const LocalIndex i = numbering_.order[k];
+      const std::int32_t b = points_.boundary(i);
+      mesh.points[k] = points_.position(i);
+      mesh.boundary[k] = b < 0 ? 0 : view_.boundary.sites[at(b)].tag;
+      mesh.size[k] = static_cast<float>(view_.size.size(points_.position(i))); // that of the state may be older
+      mesh.fixed[k] = b >= 0 ? view_.boundary.sites[at(b)].corner : b == mesh::fixed_site;
+    });
+    mesh.point_slab = {numbering_.first, numbering_.total};
+    mesh.foreign = numbering_.foreign;
+  }
+
+  /// Where each tile begins; the last entry is the end.
+  std::vector<Offsets> offsets() const {
+    std::vector<Offsets> begin(static_cast<std::size_t>(tiles()) + 1);
+    thread_loop(tiles(), 1, [&](std::ptrdiff_t t, int) {
+      const auto [first, last] = points_.tile_range(first_tile() + static_cast<LocalIndex>(t));
+      Offsets& count = begin[static_cast<std::size_t>(t) + 1];
+      for (LocalIndex i = first; i < last; ++i)
+        count_site(i, count);
+    });
+    for (std::size_t t = 1; t < begin.size(); ++t) {
+      begin[t].triangles += begin[t - 1].triangles;
+      begin[t].facets += begin[t - 1].facets;
+    }
+    return begin;
+  }
+
+  void count_site(LocalIndex i, Offsets& count) const {
+    const Fan fan = inside_fan(view_, i);
+    if (fan.triangles == 0)
+      return;
+    const LocalIndex own = numbering_.vertex(i);
+    const auto is_above = [&](std::size_t k) { return place(fan.neighbour(k)) > own; };
+    bool above = is_above(0);
+    const bool first_above = above;
+    for (std::size_t k = 1; k <= fan.triangles; ++k) {
+      const bool next_above = k == fan.triangles && fan.closed ? first_above : is_above(k);
+      count.triangles += above && next_above;
+      above = next_above;
+    }
+    if (!fan.closed)
+      count.facets += std::size_t{first_above} + above;
+  }
+
+  static void make_room(Offsets total, DistributedMesh& mesh) {
+    mesh.triangles.resize(total.triangles);
+    mesh.alpha.resize(total.triangles);
+    mesh.beta.resize(total.triangles);
+    mesh.facets.resize(total.facets);
+    mesh.facet_tags.resize(total.facets);
+    mesh.facet_parts.resize(total.facets);
+  }
+
+  void fill_tile(LocalIndex tile, Offsets next, FlatFan& fan, QualityMeter& meter, DistributedMesh& mesh) const {
+    meter.write_to(std::span(mesh.alpha).subspan(next.triangles), std::span(mesh.beta).subspan(next.triangles));
+    const auto [first, last] = points_.tile_range(tile);
+    for (LocalIndex vertex = first; vertex < last; ++vertex) {
+      const LocalIndex site = numbering_.order[at(vertex)];
+      fan.load(site);
+      list_triangles(vertex, points_.position(site), fan, meter, next, mesh);
+      for (std::size_t k = 0; k < fan.edges; ++k)
+        if (fan.place[k] > vertex)
+          meter.add_edge(points_.position(site), fan.positions[k]);
+      if (!fan.closed && fan.complete)
+        list_facets(vertex, points_.boundary(site), fan, next, mesh);
+    }
+    meter.finish();
+  }
+
+  /// By the second vertex; a fan has few triangles.
+  static void list_triangles(LocalIndex vertex, Vec2 position, FlatFan& fan, QualityMeter& meter, Offsets& next,
+                             DistributedMesh& mesh) {
+    for (const std::uint32_t k : fan.triangles_above(vertex)) {
+      mesh.triangles[next.triangles++] = {vertex, fan.vertices[k], fan.vertices[k + 1]};
+      meter.add_triangle(position, fan.positions[k], fan.positions[k + 1]);
+    }
+  }
+
+  /// Of the edges to the next boundary site and from the previous one those whose other end is higher, by their first
+  /// vertex and then the second.
+  void list_facets(LocalIndex vertex, std::int32_t boundary_site, const FlatFan& fan, Offsets& next,
+                   DistributedMesh& mesh) const {
+    const std::vector<BoundarySite>& sites = view_.boundary.sites;
+    const std::size_t last = fan.triangles;
+    const auto add = [&](LocalIndex from, LocalIndex to, const BoundarySite& site) {
+      mesh.facets[next.facets] = {numbering_.global_id(from), numbering_.global_id(to)};
+      mesh.facet_tags[next.facets] = site.tag;
+      mesh.facet_parts[next.facets++] = site.part;
+    };
+    const auto from_previous = [&] { add(fan.vertices[last], vertex, sites[at(sites[at(boundary_site)].previous)]); };
+    const bool with_next = fan.place[0] > vertex, with_previous = fan.place[last] > vertex;
+    const bool previous_first = with_previous && (!with_next || fan.place[last] < fan.place[0]);
+    if (previous_first)
+      from_previous();
+    if (with_next)
+      add(vertex, fan.vertices[0], sites[at(boundary_site)]);
+    if (with_previous && !previous_first)
+      from_previous();
+  }
+
+  const StageView& view_;
+  const decomposition::Numbering& numbering_;
+  const mesh::BinnedPoints& points_;
+};
+
+mesh::Slab slab_of(const comm::Communicator& comm, std::size_t count) {
+  const std::int64_t n = static_cast<std::int64_t>(count);
+  return {comm.exclusive_scan(n), comm.sum(n)};
+}
+
+} // namespace
+
+Extraction extract_mesh(const StageView& view, const decomposition::Numbering& numbering) {
+  const comm::Communicator& comm = view.state.comm();
+  Extraction made = Extractor(view, numbering).run();
+  mesh::DistributedMesh& mesh = made.mesh;
+  mesh.triangle_slab = slab_of(comm, mesh.triangles.size());
+  mesh.facet_slab = slab_of(comm, mesh.facets.size());
+  mesh.hash = static_cast<std::uint64_t>(comm.sum(static_cast<std::int64_t>(partial_hash(mesh))));
+  return made;
+}
+
+} // namespace trime::extraction

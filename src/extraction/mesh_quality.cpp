@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "extraction/mesh_quality.hpp"
+#include "core/angle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::extraction {
+namespace {
+
+using geometry::Vec2;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double most_over_size = 500; // keeps the square within the reach of FixedSum
+
+/// The sums of all ranks, on every rank. Collective.
+void reduce(const comm::Communicator& comm, QualitySums& sums) {
+  for (mesh::RatioStatistics* statistics : {&sums.alpha, &sums.beta}) {
+    std::vector<std::int64_t> packed = statistics->pack();
+    comm.sum(packed);
+    statistics->unpack(packed, comm.max(statistics->max()));
+  }
+  const auto ratio = sums.ratio.split(), squared = sums.squared_ratio.split();
+  std::array<std::int64_t, 5> packed{ratio.low, ratio.high, squared.low, squared.high, sums.edges};
+  comm.sum(packed);
+  sums.ratio = FixedSum::join({packed[0], packed[1]});
+  sums.squared_ratio = FixedSum::join({packed[2], packed[3]});
+  sums.edges = packed[4];
+  sums.least_sine = comm.min(sums.least_sine);
+  const double worst = comm.max(sums.worst_alpha);
+  const bool here = sums.worst_alpha == worst;
+  const double x = comm.min(here ? sums.worst_place.x : infinity);
+  const double y = comm.min(here && sums.worst_place.x == x ? sums.worst_place.y : infinity);
+  sums.worst_alpha = worst;
+  sums.worst_place = {x, y};
+}
+
+} // namespace
+
+void QualitySums::note_worst(double a, Vec2 place) {
+  if (a > worst_alpha || (a == worst_alpha && geometry::lexicographically_less(place, worst_place))) {
+    worst_alpha = a;
+    worst_place = place;
+  }
+}
+
+void QualitySums::add(const QualitySums& other) {
+  alpha.merge(other.alpha);
+  beta.merge(other.beta);
+  least_sine = std::min(least_sine, other.least_sine);
+  note_worst(other.worst_alpha, other.worst_place);
+  ratio.add(other.ratio);
+  squared_ratio.add(other.squared_ratio);
+  edges += other.edges;
+}
+
+void QualityMeter::add_triangle(Vec2 p, Vec2 q, Vec2 r) {
+  p_.set(triangles_, p);
+  q_.set(triangles_, q);
+  r_.set(triangles_, r);
+  if (++triangles_ == block)
+    measure_triangles();
+}
+
+void QualityMeter::add_edge(Vec2 p, Vec2 q) {
+  from_.set(edges_, p);
+  to_.set(edges_, q);
+  if (++edges_ == block)
+    measure_edges();
+}
+
+void QualityMeter::finish() {
+  measure_triangles();
+  measure_edges();
+}
+
+void QualityMeter::measure_triangles() {
+  const std::size_t n = triangles_;
+  Values alpha, beta, sine;
+  for (std::size_t k = 0; k < n; ++k) {
+    const mesh::TriangleMeasures m = mesh::measure_triangle(p_[k], q_[k], r_[k]);
+    alpha[k] = m.alpha;
+    beta[k] = m.beta;
+    sine[k] = m.least_sine;
+  }
+  double least = sums_.least_sine, worst = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    alpha_[k] = static_cast<float>(alpha[k]);
+    beta_[k] = static_cast<float>(beta[k]);
+    least = std::min(least, sine[k]);
+    worst = std::max(worst, alpha[k]);
+  }
+  sums_.least_sine = least;
+  if (worst >= sums_.worst_alpha)
+    for (std::size_t k = 0; k < n; ++k)
+      if (alpha[k] == worst)
+        sums_.note_worst(worst, periods_.wrap((1.0 / 3) * (p_[k] + q_[k] + r_[k])));
+  sums_.alpha.add(std::span(alpha).first(n));
+  sums_.beta.add(std::span(beta).first(n));
+  write_to(alpha_.subspan(n), beta_.subspan(n));
+  triangles_ = 0;
+}
+
+void QualityMeter::measure_edges() {
+  const std::size_t n = edges_;
+  Values size;
+  if (size_.is_uniform())
+    size.fill(sizing::checked_size(size_, {}));
+  else
+    for (std::size_t k = 0; k < n; ++k)
+      size[k] = sizing::checked_size(size_, periods_.wrap(0.5 * (from_[k] + to_[k])));
+  std::int64_t ratios = 0, squares = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double capped = std::min(most_over_size, geometry::length(to_[k] - from_[k]) / size[k]);
+    ratios += FixedSum::units(capped);
+    squares += FixedSum::units(capped * capped);
+  }
+  sums_.ratio.add_units(ratios);
+  sums_.squared_ratio.add_units(squares);
+  sums_.edges += static_cast<std::int64_t>(n);
+  edges_ = 0;
+}
+
+mesh::QualitySummary summarize(const comm::Communicator& comm, QualitySums sums) {
+  reduce(comm, sums);
+  mesh::QualitySummary quality;
+  quality.alpha = sums.alpha.summary();
+  quality.beta = sums.beta.summary();
+  quality.alpha_histogram = sums.alpha.histogram();
+  quality.min_angle_degrees = std::min(60.0, std::asin(std::min(1.0, sums.least_sine)) * (180 / pi));
+  quality.worst_place = sums.worst_place;
+  const double edges = static_cast<double>(std::max<std::int64_t>(1, sums.edges));
+  const double mean = sums.ratio.value() / edges, square = sums.squared_ratio.value() / edges;
+  quality.size_mean = mean;
+  quality.size_std = mean > 0 ? std::sqrt(std::max(0.0, square / (mean * mean) - 1)) : 0;
+  return quality;
+}
+
+} // namespace trime::extraction

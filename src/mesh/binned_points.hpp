@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sites that one rank knows: its own, sorted by tile and bin, and after them the ghosts, sorted likewise. Bins of
+// foreign tiles are known or unknown; a search that meets an unknown bin says so. Holds no MPI and no triangles.
+#pragma once
+
+#include "mesh/drifts.hpp"
+#include "mesh/known_bins.hpp"
+#include "mesh/site.hpp"
+#include "mesh/site_order.hpp"
+#include "mesh/tile_grid.hpp"
+#include "trime/core/types.hpp"
+#include "trime/core/unset_vector.hpp"
+#include "trime/geometry/vec2.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace trime::mesh {
+
+/// @brief The sites and their bins. What may be called follows from the state:
+/// - empty: at first. Only suitable_bin_bits and assign_owned.
+/// - grouped: after suitable_bin_bits. Only assign_owned with the same sites and tiles.
+/// - sorted: after assign_owned and sort_moved. All but advance, sort_moved and what asks for next places.
+/// - prepared: after prepare_advance and prepare_to_stay. All. `advance` leads back to sorted: the bins are older than
+///   the places then, and the drifts must be set; so do release_leads, and sort_moved with fresh bins. Once other
+///   ghosts are assigned, places must be prepared anew before `advance`.
+/// - released: after release_moves. Only positions, boundary, tile_range, and assign_owned.
+/// Calls that change the state check it; queries of single sites and bins do not.
+class BinnedPoints {
+public:
+  /// @pre `grid` outlives this object
+  explicit BinnedPoints(const TileGrid& grid);
+
+  const TileGrid& grid() const { return bins_.grid(); }
+
+  /// @brief Replaces the owned sites: those of tiles [first_tile, last_tile). Sorts them by tile and bin and drops
+  /// all but one of interior sites at equal coordinates (a boundary site stays, the larger push count is kept).
+  /// Forgets the ghosts.
+  /// @param new_index if not null: for each input site its new local index, -1 if dropped
+  /// @return number of dropped sites. O(n); threads.
+  LocalIndex assign_owned(std::span<const Site> sites, LocalIndex first_tile, LocalIndex last_tile,
+                          std::vector<LocalIndex>* new_index = nullptr);
+
+  /// @brief Replaces the ghosts: `bins` (ascending, of foreign tiles or of images of any) are known from now on and
+  /// hold counts[k] sites each, concatenated in `sites` at their canonical positions; here they are moved to their
+  /// images.
+  void assign_ghosts(std::span<const BinRef> bins, std::span<const std::int32_t> counts, std::span<const Ghost> sites);
+
+  LocalIndex owned() const { return owned_; }
+  LocalIndex size() const { return static_cast<LocalIndex>(positions_.size()); }
+  std::span<const geometry::Vec2> positions() const { return positions_; }
+  geometry::Vec2 position(LocalIndex i) const { return positions_[static_cast<std::size_t>(i)]; }
+  /// Index of the boundary site that site i is, or -1.
+  std::int32_t boundary(LocalIndex i) const { return boundary_[static_cast<std::size_t>(i)]; }
+  /// @pre site i is owned
+  Site site(LocalIndex i) const {
+    const std::size_t at = static_cast<std::size_t>(i);
+    return {positions_[at], boundary_[at], pushes_[at], leads_.empty() ? geometry::Vec2{} : leads_[at]};
+  }
+
+  LocalIndex first_tile() const { return order_.first_tile(); }
+  LocalIndex last_tile() const { return order_.last_tile(); }
+  /// Owned sites of an owned tile.
+  SiteRange tile_range(LocalIndex tile) const { return order_.of_tile(tile); }
+  /// Sites of a bin of an owned or partly known tile; empty if unknown.
+  SiteRange bin_range(BinRef bin) const { return bins_.range(bin); }
+
+  /// @brief Calls visit(begin, end) for runs of local indices that together hold every known site of all bins that
+  /// meet the square of half-width `reach` around `center`, and missing(BinRef) for each such bin that is unknown.
+  /// @pre in a periodic container: `center` canonical, reach below the period
+  template <class Visit, class Missing>
+  void for_each_near(geometry::Vec2 center, double reach, const Visit& visit, const Missing& missing) const {
+    if (drifts_.largest() > 0)
+      reach += drifts_.margin(center, reach, bins_);
+    bins_.for_each_near(center, reach, visit, missing);
+  }
+
+  /// @brief For each of the tiles [first_tile, last_tile) the b for which 2^b x 2^b bins suit those of the sites that
+  /// lie in it: the smallest for which a site shares its bin with a few others on average, with at most four bins a
+  /// site. What was found out on the way serves the next assign_owned. O(n); threads.
+  /// @post assign_owned with the same sites and tiles must come next; another number of them is an InternalError
+  std::vector<std::uint8_t> suitable_bin_bits(std::span<const Site> sites, LocalIndex first_tile, LocalIndex last_tile);
+
+  /// @brief Moves without sorting: the places (and leads) that the owned sites will take at the next `advance`, to be
+  /// filled by the caller. The bins stay those of the last assign_owned; for_each_near then searches as much farther as
+  /// sites may have come since (the drift of their tile).
+  std::span<geometry::Vec2> next_positions() { return next_positions_; }
+  std::span<geometry::Vec2> next_leads() { return next_leads_; }
+  std::span<const geometry::Vec2> next_positions() const { return next_positions_; }
+  std::span<const geometry::Vec2> next_leads() const { return next_leads_; }
+  std::span<const geometry::Vec2> leads() const { return leads_; }
+  /// Makes room for the above; what it holds is not set.
+  void prepare_advance();
+  /// The next places are the present ones, until the caller changes some.
+  void prepare_to_stay();
+  /// Moves the owned sites to their next places; the ghosts stay.
+  void advance();
+  /// What would travel with an owned site to its next place. @pre it has one
+  Site next_site(LocalIndex i) const {
+    const std::size_t at = static_cast<std::size_t>(i);
+    return {next_positions_[at], boundary_[at], pushes_[at], next_leads_.empty() ? geometry::Vec2{} : next_leads_[at]};
+  }
+  /// @brief Sorts the owned sites at their next places, but for those that are gone (by local index; empty: none), and
+  /// more of them besides; as assign_owned does, with the same tiles. The next places are used up. Needs 9 bytes a site
+  /// more than the sites and their next places.
+  /// @param new_index for each owned site, then for each of `more`, its new local index, -1 if gone or dropped
+  /// @pre all lie in the owned tiles
+  void sort_moved(std::span<const std::uint8_t> gone, std::span<const Site> more, std::vector<LocalIndex>& new_index);
+  /// How far sites have come since they were sorted; searches go so much farther.
+  const Drifts& drifts() const { return drifts_; }
+  Drifts& drifts() { return drifts_; }
+  void set_pushes(LocalIndex i, std::int32_t pushes) {
+    pushes_[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::min(pushes, 255));
+  }
+  void set_boundary(LocalIndex i, std::int32_t boundary) { boundary_[static_cast<std::size_t>(i)] = boundary; }
+  std::int32_t pushes(LocalIndex i) const { return pushes_[static_cast<std::size_t>(i)]; }
+  /// The ghosts, to be moved by their owners.
+  std::span<geometry::Vec2> ghost_positions() {
+    return std::span(positions_).subspan(static_cast<std::size_t>(owned_));
+  }
+
+  /// Frees the leads, and those of arriving sites are forgotten: no rule moves the sites any more. @post site() says 0;
+  /// leads() and next_leads() are empty, until assign_owned
+  void release_leads();
+  bool has_leads() const { return has_leads_; }
+  /// Frees what only sites that move have, and the bins. @post nothing but positions, boundary and tile_range may be
+  /// asked for, until assign_owned
+  void release_moves();
+
+private:
+  enum class State { empty, grouped, sorted, prepared, released };
+  template <class Sites>
+  LocalIndex sort(const Sites& sites);
+  template <class Sites>
+  void take_places(const Sites& sites);
+  template <class Sites>
+  void take_labels(const Sites& sites);
+
+  State state_ = State::empty;
+  KnownBins bins_;
+  Drifts drifts_;
+  SiteOrder order_;
+  LocalIndex owned_ = 0;
+  UnsetVector<geometry::Vec2> positions_;
+  UnsetVector<std::int32_t> boundary_;
+  UnsetVector<std::uint8_t> pushes_;                        // owned only
+  UnsetVector<geometry::Vec2> leads_;                       // owned only
+  UnsetVector<geometry::Vec2> next_positions_, next_leads_; // by local index; of use only while sites move
+  bool has_leads_ = true;
+};
+
+} // namespace trime::mesh

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which sites lie in which bin, for the bins that a rank knows: those of its own tiles, and some of foreign tiles.
+#pragma once
+
+#include "mesh/site.hpp"
+#include "mesh/tile_grid.hpp"
+#include "trime/core/types.hpp"
+#include "trime/geometry/vec2.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace trime::mesh {
+
+/// Local indices begin .. end - 1.
+struct SiteRange {
+  LocalIndex begin, end;
+};
+
+/// @brief For each known bin the range of local indices of its sites. It holds no sites. O(tiles of the container and
+/// known bins) memory.
+class KnownBins {
+public:
+  /// @pre `grid` outlives this object
+  explicit KnownBins(const TileGrid& grid);
+
+  const TileGrid& grid() const { return *grid_; }
+
+  /// All bins of tiles [first_tile, last_tile) are known from now on, and no others; their ranges are to be set.
+  void own(LocalIndex first_tile, LocalIndex last_tile);
+  /// Only the bins of the owned tiles stay known.
+  void forget_foreign();
+  /// The bin of a foreign tile, or of an image of any, is known from now on and holds these sites.
+  void add_foreign(BinRef bin, SiteRange sites);
+  /// Frees the ranges; they may not be asked for until own().
+  void release_ranges();
+
+  /// The bins of one owned tile, row by row: where each begins and ends.
+  struct TileBins {
+    std::span<LocalIndex> begin, end;
+    int bits; ///< 2^bits x 2^bits bins
+  };
+  /// @param k the tile, counted from the first owned one
+  TileBins owned_tile(LocalIndex k);
+
+  /// The sites of a bin; none if it is unknown.
+  SiteRange range(BinRef bin) const {
+    const LocalIndex block = tile_block_[slot(bin.tile, bin.image)];
+    if (block < 0)
+      return {0, 0};
+    const std::size_t at = blocks_[static_cast<std::size_t>(block)].first_bin + static_cast<std::size_t>(bin.bin);
+    return {begin_[at], end_[at]};
+  }
+  /// Is any bin of the tile itself known?
+  bool knows_tile(LocalIndex tile) const { return tile_block_[slot(tile, 0)] >= 0; }
+
+  /// See BinnedPoints::for_each_near; sites are where they were when the bins were filled.
+  template <class Visit, class Missing>
+  void for_each_near(geometry::Vec2 center, double reach, const Visit& visit, const Missing& missing) const;
+
+private:
+  struct Block {           // bins of one tile that is owned or partly known
+    std::size_t first_bin; // into begin_, end_ and known_
+    int bits;              // 2^bits x 2^bits bins
+    bool complete;         // every bin known
+  };
+  template <class Visit, class Missing>
+  void visit_row(BinRef first_bin, int bx0, int bx1, const Visit& visit, const Missing& missing) const;
+  std::size_t slot(LocalIndex tile, std::int32_t image) const {
+    return static_cast<std::size_t>(tile) * static_cast<std::size_t>(images_) + static_cast<std::size_t>(image);
+  }
+
+  const TileGrid* grid_;
+  int images_;                         // of a tile
+  std::vector<LocalIndex> tile_block_; // by tile and image: index into blocks_, -1 unknown; O(tiles of the container)
+  std::vector<Block> blocks_;          // of the owned tiles first
+  std::vector<LocalIndex> begin_, end_;
+  std::vector<std::uint8_t> known_;
+  LocalIndex owned_blocks_ = 0;
+  std::size_t owned_bins_ = 0;
+};
+
+template <class Visit, class Missing>
+void KnownBins::for_each_near(geometry::Vec2 center, double reach, const Visit& visit, const Missing& missing) const {
+  const TileGrid& grid = *grid_;
+  const std::int64_t x0 = grid.unrolled_x(center.x - reach), x1 = grid.unrolled_x(center.x + reach);
+  const std::int64_t y0 = grid.unrolled_y(center.y - reach), y1 = grid.unrolled_y(center.y + reach);
+  const int tx0 = grid.tile_of(x0), tx1 = grid.tile_of(x1), ty0 = grid.tile_of(y0), ty1 = grid.tile_of(y1);
+  if (tx0 == tx1 && ty0 == ty1) { // most squares lie in one tile
+    const TileGrid::TileImage at = grid.tile_image_at(tx0, ty0);
+    const LocalIndex block = tile_block_[slot(at.tile, at.image)];
+    if (block >= 0 && blocks_[static_cast<std::size_t>(block)].complete) {
+      const Block& b = blocks_[static_cast<std::size_t>(block)];
+      const LocalIndex* begin = begin_.data() + b.first_bin + grid.bin_of(x0, b.bits);
+      const LocalIndex* end = end_.data() + b.first_bin + grid.bin_of(x1, b.bits);
+      const int last_row = grid.bin_of(y1, b.bits) << b.bits;
+      for (int row = grid.bin_of(y0, b.bits) << b.bits; row <= last_row; row += 1 << b.bits)
+        visit(begin[row], end[row]); // the bins of a row are contiguous in memory
+      return;
+    }
+  }
+  for (int ty = ty0; ty <= ty1; ++ty)
+    for (int tx = tx0; tx <= tx1; ++tx) {
+      const TileGrid::TileImage at = grid.tile_image_at(tx, ty);
+      const int bits = grid.bin_bits(at.tile), last = (1 << bits) - 1;
+      const int bx0 = tx == tx0 ? grid.bin_of(x0, bits) : 0, bx1 = tx == tx1 ? grid.bin_of(x1, bits) : last;
+      const int by0 = ty == ty0 ? grid.bin_of(y0, bits) : 0, by1 = ty == ty1 ? grid.bin_of(y1, bits) : last;
+      for (int by = by0; by <= by1; ++by)
+        visit_row({at.tile, by << bits, at.image}, bx0, bx1, visit, missing);
+    }
+}
+
+/// Bins first_bin.bin + bx0 .. first_bin.bin + bx1 of one row of one tile.
+template <class Visit, class Missing>
+void KnownBins::visit_row(BinRef first_bin, int bx0, int bx1, const Visit& visit, const Missing& missing) const {
+  const LocalIndex block = tile_block_[slot(first_bin.tile, first_bin.image)];
+  if (block < 0) {
+    for (int bx = bx0; bx <= bx1; ++bx)
+      missing(BinRef{first_bin.tile, first_bin.bin | bx, first_bin.image});
+    return;
+  }
+  const Block& b = blocks_[static_cast<std::size_t>(block)];
+  const std::size_t first = b.first_bin + static_cast<std::size_t>(first_bin.bin);
+  if (b.complete) {
+    visit(begin_[first + bx0], end_[first + bx1]);
+    return;
+  }
+  for (int bx = bx0; bx <= bx1; ++bx) {
+    if (known_[first + bx])
+      visit(begin_[first + bx], end_[first + bx]);
+    else
+      missing(BinRef{first_bin.tile, first_bin.bin | bx, first_bin.image});
+  }
+}
+
+} // namespace trime::mesh

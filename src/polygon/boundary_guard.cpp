@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "polygon/boundary_guard.hpp"
+
+#include "core/thread_loop.hpp"
+#include "geometry/diametral.hpp"
+#include "polygon/chord_closure.hpp"
+#include "polygon/rules.hpp"
+#include "trime/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trime::polygon {
+
+using geometry::Segment;
+using geometry::Vec2;
+
+namespace {
+
+constexpr int strip_rows = 64; // of cells, for one thread
+
+std::vector<Segment> chords_of(const BoundarySites& sites) {
+  std::vector<Segment> chords;
+  chords.reserve(sites.sites.size());
+  for (std::size_t k = 0; k < sites.sites.size(); ++k) {
+    const Segment chord = sites.chord(static_cast<LocalIndex>(k));
+    const Vec2 middle = 0.5 * (chord.a + chord.b), shift = sites.periods.wrap(middle) - middle;
+    chords.push_back({chord.a + shift, chord.b + shift});
+  }
+  return chords;
+}
+
+/// Calls visit(shift) for the shifts by up to so many periods that `reach` asks for, none excluded.
+template <class Visit>
+void for_each_shift(const geometry::Periods& periods, double reach, const Visit& visit) {
+  const auto images = [reach](double period) { return period > 0 ? 1 + static_cast<int>(reach / period) : 0; };
+  for (int i = -images(periods.x); i <= images(periods.x); ++i)
+    for (int j = -images(periods.y); j <= images(periods.y); ++j)
+      visit(Vec2{i * periods.x, j * periods.y});
+}
+
+/// Radius around the middle of the chord that covers its disc and everything nearer than `PolygonRules::near_chord`.
+double reach_of(const Segment& chord) {
+  return (0.5 + PolygonRules::near_chord) * geometry::length(chord.b - chord.a) * (1 + 1e-9);
+}
+
+} // namespace
+
+BoundaryGuard::BoundaryGuard(const BoundarySites& sites, const geometry::Lattice& lattice)
+    : periods_(sites.periods), chords_(chords_of(sites)) {
+  TRIME_ASSERT(!is_empty() || periods_.any());
+  if (is_empty())
+    return;
+  const geometry::Box window = choose_cells();
+  if (periods_.any()) {
+    add_images(window);
+    close_chords(window, lattice);
+  }
+  list_discs();
+  classify_cells(lattice);
+}
+
+/// Chooses the cells: around all discs, or one period long. Returns the box that holds all cells; it has no end along
+/// axes that are not periodic.
+geometry::Box BoundaryGuard::choose_cells() {
+  geometry::Box box;
+  double area_of_discs = 0;
+  for (const Segment& chord : chords_.segments()) {
+    const Vec2 middle = 0.5 * (chord.a + chord.b);
+    const double reach = reach_of(chord);
+    box.include(middle - Vec2{reach, reach});
+    box.include(middle + Vec2{reach, reach});
+    area_of_discs += 4 * reach * reach;
+  }
+  if (periods_.x > 0) {
+    box.min.x = periods_.min.x;
+    box.max.x = periods_.min.x + periods_.x;
+  }
+  if (periods_.y > 0) {
+    box.min.y = periods_.min.y;
+    box.max.y = periods_.min.y + periods_.y;
+  }
+  const double n = static_cast<double>(chords_.segments().size()), area = box.width() * box.height();
+  const double cells = std::clamp(PolygonRules::cells_per_chord * n, 4096.0, PolygonRules::most_cells);
+  const double affordable =
+      std::clamp(PolygonRules::entries_per_chord * n, PolygonRules::entries, PolygonRules::most_entries);
+  side_ = std::sqrt(std::fmax(area / cells, area_of_discs / affordable));
+  side_ = std::fmax(side_, std::fmax(box.width(), box.height()) * 0x1p-14);
+  inverse_side_ = 1 / side_;
+  corner_ = box.min - Vec2{side_, side_};
+  columns_ = static_cast<int>(box.width() * inverse_side_) + 3;
+  rows_ = static_cast<int>(box.height() * inverse_side_) + 3;
+  const double margin = 4 * side_, far = std::numeric_limits<double>::infinity();
+  return {{periods_.x > 0 ? box.min.x - margin : -far, periods_.y > 0 ? box.min.y - margin : -far},
+          {periods_.x > 0 ? box.max.x + margin : far, periods_.y > 0 ? box.max.y + margin : far}};
+}
+
+/// The images whose discs meet the window, and with them all that meet it themselves.
+void BoundaryGuard::add_images(const geometry::Box& window) {
+  for (const Segment& chord : chords_.segments()) {
+    const Vec2 middle = 0.5 * (chord.a + chord.b);
+    const double reach = reach_of(chord);
+    for_each_shift(periods_, reach + 4 * side_, [&](Vec2 shift) {
+      const Vec2 low = middle + shift - Vec2{reach, reach}, high = middle + shift + Vec2{reach, reach};
+      if (shift != Vec2{} && low.x <= window.max.x && high.x >= window.min.x && low.y <= window.max.y &&
+          high.y >= window.min.y)
+        images_.push_back({chord.a + shift, chord.b + shift});
+    });
+  }
+}
+
+void BoundaryGuard::close_chords(const geometry::Box& window, const geometry::Lattice& lattice) {
+  std::vector<Segment> all(chords_.segments().begin(), chords_.segments().end());
+  all.insert(all.end(), images_.begin(), images_.end());
+  closed_ = geometry::SegmentGrid(close_outside(std::move(all), window, std::fmax(periods_.x, periods_.y)));
+  // No other chord leads through the disc of the first: what lies in it on the left is inside.
+  const Segment& first = chords_.segments()[0];
+  const Vec2 middle = 0.5 * (first.a + first.b);
+  inverted_ = !closed_.inside(periods_.wrap(lattice.snap(middle + 0.25 * geometry::left_normal(first.b - first.a))));
+}
+
+/// Lists the discs of each cell by counting, summing and filling, strips of rows at the same time.
+void BoundaryGuard::list_discs() {
+  const auto strips = static_cast<std::size_t>((rows_ - 1) / strip_rows + 1);
+  std::vector<std::vector<LocalIndex>> discs_of(strips);
+  for (LocalIndex k = 0; k < disc_count(); ++k) {
+    const Segment& s = disc(k);
+    const auto [first, last] = rows_of(0.5 * (s.a.y + s.b.y), reach_of(s));
+    for (int strip = first / strip_rows; strip <= last / strip_rows; ++strip)
+      discs_of[static_cast<std::size_t>(strip)].push_back(k);
+  }
+  const auto for_each_strip = [&](const auto& body) {
+    thread_loop(static_cast<std::ptrdiff_t>(strips), 1, [&](std::ptrdiff_t k, int) {
+      const int first = static_cast<int>(k) * strip_rows, last = std::min(rows_, first + strip_rows);
+      body(static_cast<std::size_t>(k), first, last);
+    });
+  };
+  const auto cells_before = [this](int row) { return static_cast<std::size_t>(row) * columns_; };
+  cell_start_.assign(cells_before(rows_) + 1, 0);
+  std::vector<LocalIndex> entries_of(strips + 1, 0);
+  for_each_strip([&](std::size_t strip, int first, int last) {
+    for (const LocalIndex k : discs_of[strip])
+      for_each_cell_of(disc(k), first, last, [&](std::size_t cell) { ++cell_start_[cell]; });
+    for (std::size_t cell = cells_before(first); cell < cells_before(last); ++cell)
+      entries_of[strip + 1] += cell_start_[cell];
+  });
+  for (std::size_t strip = 0; strip < strips; ++strip)
+    entries_of[strip + 1] += entries_of[strip];
+  cell_chord_.resize(static_cast<std::size_t>(entries_of.back()));
+  cell_start_.back() = entries_of.back();
+  // Each list is filled from its end; then its start is known.
+  for_each_strip([&](std::size_t strip, int first, int last) {
+    LocalIndex end = entries_of[strip];
+    for (std::size_t cell = cells_before(first); cell < cells_before(last); ++cell)
+      cell_start_[cell] = end += cell_start_[cell];
+    for (auto k = discs_of[strip].rbegin(); k != discs_of[strip].rend(); ++k)
+      for_each_cell_of(disc(*k), first, last,
+                       [&](std::size_t cell) { cell_chord_[static_cast<std::size_t>(--cell_start_[cell])] = *k; });
+  });
+}
+
+/// First and last row that a disc, a little enlarged, may meet.
+std::pair<int, int> BoundaryGuard::rows_of(double middle, double reach) const {
+  const auto row = [this](double y) {
+    return static_cast<int>(std::clamp((y - corner_.y) * inverse_side_, 0.0, rows_ - 1.0));
+  };
+  const double enlarged = reach + 1e-9 * side_;
+  return {row(middle - enlarged), row(middle + enlarged)};
+}
+
+/// Calls visit(cell) for the cells of rows [first, last) that the disc of a chord, a little enlarged, may meet.
+template <class Visit>
+void BoundaryGuard::for_each_cell_of(const Segment& s, int first, int last, const Visit& visit) const {
+  const Vec2 middle = 0.5 * (s.a + s.b) - corner_;
+  const double reach = reach_of(s) + 1e-9 * side_;
+  const auto column = [this](double x) { return static_cast<int>(std::clamp(x * inverse_side_, 0.0, columns_ - 1.0)); };
+  const auto [low, high] = rows_of(0.5 * (s.a.y + s.b.y), reach_of(s));
+  const int i0 = column(middle.x - reach), i1 = column(middle.x + reach);
+  for (int j = std::max(low, first); j <= std::min(high, last - 1); ++j) {
+    const double dy = std::max(0.0, std::max(j * side_ - middle.y, middle.y - (j + 1) * side_));
+    for (int i = i0; i <= i1; ++i) {
+      const double dx = std::max(0.0, std::max(i * side_ - middle.x, middle.x - (i + 1) * side_));
+      if (dx * dx + dy * dy <= reach * reach)
+        visit(static_cast<std::size_t>(j) * columns_ + i);
+    }
+  }
+}
+
+/// Strips of rows at the same time, each with as many rows around it as the clearance can reach.
+void BoundaryGuard::classify_cells(const geometry::Lattice& lattice) {
+  state_.assign(static_cast<std::size_t>(columns_) * rows_, near_disc);
+  thread_loop((rows_ - 1) / strip_rows + 1, 1, [&](std::ptrdiff_t strip, int) {
+    const int first = static_cast<int>(strip) * strip_rows, last = std::min(rows_, first + strip_rows);
+    const int low = std::max(0, first - PolygonRules::farthest_cell),
+              high = std::min(rows_, last + PolygonRules::farthest_cell);
+    std::vector<std::int8_t> clearance = clearance_of(low, high);
+    for (int j = first; j < last; ++j)
+      classify_row(j, &clearance[static_cast<std::size_t>(j - low) * columns_], lattice);
+  });
+}
+
+/// @brief Chessboard distance of each cell of rows [low, high) to the nearest of them with a disc (Rosenfeld and Pfaltz
+/// 1966). What lies beyond the border of a periodic axis is not known, and may be a disc.
+std::vector<std::int8_t> BoundaryGuard::clearance_of(int low, int high) const {
+  const std::size_t width = static_cast<std::size_t>(columns_), rows = static_cast<std::size_t>(high - low);
+  std::vector<std::int8_t> clearance(width * rows);
+  const std::size_t offset = static_cast<std::size_t>(low) * width;
+  for (std::size_t cell = 0; cell < clearance.size(); ++cell)
+    clearance[cell] = cell_start_[offset + cell + 1] > cell_start_[offset + cell] ? 0 : PolygonRules::farthest_cell;
+  constexpr auto next = [](std::int8_t v) { return static_cast<std::int8_t>(v + 1); };
+  const std::int8_t beyond = periods_.x > 0 ? 0 : PolygonRules::farthest_cell;
+  const auto look_aside = [&](std::int8_t* row, const std::int8_t* other, bool border) {
+    if (other == nullptr) {
+      if (border && periods_.y > 0)
+        for (std::size_t i = 0; i < width; ++i)
+          row[i] = std::min(row[i], std::int8_t{1});
+      return;
+    }
+    row[0] = std::min(row[0], next(std::min(other[0], other[1])));
+    for (std::size_t i = 1; i + 1 < width; ++i)
+      row[i] = std::min(row[i], next(std::min(std::min(other[i - 1], other[i]), other[i + 1])));
+    row[width - 1] = std::min(row[width - 1], next(std::min(other[width - 2], other[width - 1])));
+  };
+  for (std::size_t j = 0; j < rows; ++j) {
+    std::int8_t* row = &clearance[j * width];
+    look_aside(row, j > 0 ? row - width : nullptr, low == 0);
+    std::int8_t before = beyond;
+    for (std::size_t i = 0; i < width; ++i)
+      before = row[i] = std::min(row[i], next(before));
+  }
+  for (std::size_t j = rows; j-- > 0;) {
+    std::int8_t* row = &clearance[j * width];
+    look_aside(row, j + 1 < rows ? row + width : nullptr, high == rows_);
+    std::int8_t behind = beyond;
+    for (std::size_t i = width; i-- > 0;)
+      behind = row[i] = std::min(row[i], next(behind));
+  }
+  return clearance;
+}
+
+/// A cell without disc meets no chord, so one point decides for all of it, and for its clear right neighbours.
+void BoundaryGuard::classify_row(int j, const std::int8_t* clearance, const geometry::Lattice& lattice) {
+  const std::size_t first = static_cast<std::size_t>(j) * columns_;
+  bool inside = false, known = false;
+  for (int i = 0; i < columns_; ++i) {
+    if (clearance[i] == 0) {
+      known = false;
+      continue;
+    }
+    if (!known)
+      inside = inside_polygon(lattice.snap(corner_ + Vec2{(i + 0.5) * side_, (j + 0.5) * side_}));
+    known = true;
+    state_[first + static_cast<std::size_t>(i)] = inside ? clearance[i] : static_cast<std::int8_t>(-clearance[i]);
+  }
+}
+
+std::int64_t BoundaryGuard::cell_at(Vec2 p) const {
+  const double x = (p.x - corner_.x) * inverse_side_, y = (p.y - corner_.y) * inverse_side_;
+  if (!(x >= 0 && y >= 0 && x < columns_ && y < rows_))
+    return -1;
+  return static_cast<std::int64_t>(y) * columns_ + static_cast<std::int64_t>(x);
+}
+
+int BoundaryGuard::state_at(Vec2 p) const {
+  const std::int64_t cell = cell_at(p);
+  return cell >= 0 ? state_[static_cast<std::size_t>(cell)] : is_empty() ? 1 : -1;
+}
+
+std::span<const LocalIndex> BoundaryGuard::chords_at(std::int64_t cell) const {
+  if (cell < 0)
+    return {};
+  return std::span(cell_chord_).subspan(cell_start_[cell], cell_start_[cell + 1] - cell_start_[cell]);
+}
+
+bool BoundaryGuard::inside_polygon(Vec2 p) const {
+  return periods_.any() ? closed_.inside(p) != inverted_ : chords_.inside(p);
+}
+
+bool BoundaryGuard::inside(Vec2 p) const {
+  p = periods_.wrap(p);
+  const int state = state_at(p);
+  return state == near_disc ? inside_polygon(p) : state > 0;
+}
+
+/// Middles of chords are canonical: of a point that is, one image to each side is enough.
+std::optional<BoundaryGuard::NearChord> BoundaryGuard::nearest(Vec2 p, double reach) const {
+  std::optional<NearChord> best;
+  const auto look_from = [&](Vec2 shift) {
+    const auto found = chords_.nearest(p + shift, best ? std::sqrt(best->squared_distance) : reach);
+    if (!found || (best && found->squared_distance >= best->squared_distance))
+      return;
+    const Segment& chord = chords_.segments()[found->segment];
+    best = {{chord.a - shift, chord.b - shift}, found->squared_distance};
+  };
+  look_from({});
+  if (periods_.any())
+    for_each_shift(periods_, 0, [&](Vec2 shift) {
+      if (shift != Vec2{})
+        look_from(shift);
+    });
+  return best;
+}
+
+double BoundaryGuard::distance(Vec2 p, double reach) const {
+  p = periods_.wrap(p);
+  if (clear_way(p) >= reach)
+    return reach;
+  const auto found = nearest(p, reach);
+  return found ? std::sqrt(found->squared_distance) : reach;
+}
+
+BoundaryGuard::CellView BoundaryGuard::cells() const {
+  return {is_empty() ? nullptr : state_.data(), corner_, inverse_side_, columns_, rows_};
+}
+
+/// From a cell n cells away from all discs it is at least n - 1 of their sides to any chord.
+double BoundaryGuard::clear_way(Vec2 p) const {
+  constexpr double rounding = 1 - 1e-6;
+  return (std::abs(state_at(p)) - 1) * (side_ * rounding);
+}
+
+std::optional<Vec2> BoundaryGuard::correct(Vec2 image, double h, const geometry::Lattice& lattice) const {
+  const Vec2 p = periods_.wrap(image), shift = image - p;
+  const int state = state_at(p);
+  if (state > 0)
+    return std::nullopt;
+  const bool p_inside = state == near_disc && inside_polygon(p);
+  const LocalIndex deepest = p_inside ? deepest_disc(p) : -1;
+  if (p_inside && deepest < 0)
+    return std::nullopt;
+  Segment s;
+  if (p_inside) {
+    s = disc(deepest);
+  } else {
+    const auto near = nearest(p, 2 * h);
+    s = near ? near->chord : nearest(p, std::numeric_limits<double>::infinity())->chord;
+  }
+  const Vec2 along = s.b - s.a, middle = 0.5 * (s.a + s.b), toward = p - middle;
+  const double chord_length = geometry::length(along), distance = geometry::length(toward);
+  if (p_inside && distance > 0 && geometry::cross(along, toward) >= 0.5 * chord_length * distance) {
+    const Vec2 pushed = lattice.snap(middle + (PolygonRules::push_way * chord_length / distance) * toward);
+    if (inside(pushed) && deepest_disc(periods_.wrap(pushed)) < 0)
+      return pushed + shift;
+  }
+  return lattice.snap(middle + PolygonRules::push_way * geometry::left_normal(along)) + shift;
+}
+
+bool BoundaryGuard::pushes(Vec2 p) const {
+  p = periods_.wrap(p);
+  const int state = state_at(p);
+  return state <= 0 && !(state == near_disc && inside_polygon(p) && deepest_disc(p) < 0);
+}
+
+LocalIndex BoundaryGuard::deepest_disc(Vec2 p) const {
+  LocalIndex deepest = -1;
+  double smallest = 0; // (distance from the middle / radius)^2
+  for (const LocalIndex k : chords_at(cell_at(p))) {
+    const Segment& chord = disc(k);
+    if (geometry::diametral_side(chord.a, chord.b, p) > 0)
+      continue;
+    const double ratio =
+        4 * geometry::squared_length(p - 0.5 * (chord.a + chord.b)) / geometry::squared_length(chord.b - chord.a);
+    if (deepest < 0 || ratio < smallest) {
+      deepest = k;
+      smallest = ratio;
+    }
+  }
+  return deepest;
+}
+
+bool BoundaryGuard::encroaches(Vec2 p) const {
+  p = periods_.wrap(p);
+  const std::int64_t cell = cell_at(p);
+  const int state = state_at(p);
+  if (state != near_disc)
+    return state < 0;
+  for (const LocalIndex k : chords_at(cell)) {
+    const Segment& chord = disc(k);
+    if (geometry::diametral_side(chord.a, chord.b, p) < 0)
+      return true;
+    const double limit =
+        PolygonRules::near_chord * PolygonRules::near_chord * geometry::squared_length(chord.b - chord.a);
+    if (geometry::squared_distance(p, chord) < limit)
+      return true;
+  }
+  return !inside_polygon(p);
+}
+
+std::size_t BoundaryGuard::memory_bytes() const {
+  return chords_.memory_bytes() + closed_.memory_bytes() + images_.capacity() * sizeof(Segment) + state_.capacity() +
+         (cell_start_.capacity() + cell_chord_.capacity()) * sizeof(LocalIndex);
+}
+
+} // namespace trime::polygon

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The curve of the shape between a boundary site and its next, held against the chord that stands for it in the mesh.
+// Goes by the boundary and the places of the sites on it alone, not by the way in which they were laid out.
+#pragma once
+
+#include "polygon/polygon.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/polygon/loop_summary.hpp"
+
+#include <vector>
+
+namespace trime::polygon {
+
+/// How a chord and its curve differ.
+struct ChordCurve {
+  double offset = 0;    ///< distance of the site from its place on the curve
+  double deviation = 0; ///< largest distance of a point of the curve from the chord
+  double area = 0;      ///< between chord and curve: what the chord takes from the shape, negative if it adds some
+  double curvature = 0; ///< of the circle of which the curve is a part; 0 if it is anything else
+};
+
+/// @brief One for each site, for the chord to its next. Exact but for rounding; serial order of operations in each, so
+/// the same bits on any threads and ranks. O(sites + pieces), by all threads.
+/// @pre the loops of `sites` are those of `boundary`, in the same order
+std::vector<ChordCurve> compare_chords(const geometry::Boundary& boundary, const BoundarySites& sites);
+
+/// @brief Sets BoundarySite::part: that of the piece in the middle of the curve between the site and its next.
+/// O(sites + pieces). @pre as for compare_chords
+void name_parts(const geometry::Boundary& boundary, BoundarySites& sites);
+
+/// @brief Area that the loops enclose, arcs included, from the pieces as they are. On a torus it is only known up to
+/// whole areas of it: from 0, below one. O(pieces)
+double area_of_loops(const geometry::Boundary& boundary);
+
+/// The loops as the mesh has them, in the order of the boundary. @pre as for compare_chords
+std::vector<LoopSummary> summarize_loops(const geometry::Boundary& boundary, const BoundarySites& sites);
+
+} // namespace trime::polygon

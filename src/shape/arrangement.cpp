@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "arrangement.hpp"
+
+#include "crossings.hpp"
+#include "geometry/predicates.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace trime::shape {
+
+namespace {
+
+using geometry::Box;
+using geometry::Frame;
+using geometry::length;
+using geometry::orient2d;
+using geometry::Piece;
+using geometry::Segment;
+using geometry::SegmentGrid;
+using geometry::squared_length;
+using geometry::Vec2;
+
+std::size_t vertex_count(const std::vector<PlacedPart>& parts) {
+  std::size_t count = 0;
+  for (const PlacedPart& placed : parts)
+    count += placed.part->as_polygon() != nullptr ? placed.part->as_polygon()->grid.segments().size() : 4;
+  return count;
+}
+
+/// Around the segment moved by -shift.
+Box inflated_box(const Segment& s, Vec2 shift, double margin) {
+  Box box;
+  box.include(s.a - shift);
+  box.include(s.b - shift);
+  box.min = box.min - Vec2{margin, margin};
+  box.max = box.max + Vec2{margin, margin};
+  return box;
+}
+
+/// Order by angle from 0 to 2 pi around the origin; exact.
+bool comes_before(Vec2 u, Vec2 v) {
+  const auto lower = [](Vec2 w) { return w.y < 0 || (w.y == 0 && w.x < 0); };
+  if (lower(u) != lower(v))
+    return lower(v);
+  return orient2d({0, 0}, u, v) > 0;
+}
+
+} // namespace
+
+Arrangement::Arrangement(const std::vector<PlacedPart>& parts, const Frame& frame)
+    : parts_(parts), frame_(frame), tolerance_(on_curve_steps * frame.step()),
+      vertices_(frame.lattice(), vertex_count(parts)), first_line_(parts.size(), 0) {
+  // Contours first: the first vertex at a place keeps its coordinates.
+  for (const bool contours : {true, false})
+    for (std::size_t k = 0; k < parts.size(); ++k)
+      if (const Polygon* polygon = parts[k].part->as_polygon(); polygon && parts[k].part->is_contour() == contours) {
+        first_line_[k] = static_cast<LocalIndex>(lines_.size());
+        add_polygon(k);
+      }
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (parts[k].part->as_circle() != nullptr)
+      add_circle(k);
+
+  const auto cross_with_circles = [&](std::size_t a) {
+    for (LocalIndex circle = 0; circle < static_cast<LocalIndex>(circles_.size()); ++circle)
+      cross_polygon_circle(a, circle);
+  };
+  const std::size_t last = parts.empty() || parts.back().index >= 0 ? parts.size() : parts.size() - 1;
+  for (std::size_t a = 0; a < last; ++a)
+    if (parts[a].part->as_polygon() != nullptr) {
+      for (std::size_t b = a + 1; b < last; ++b)
+        if (parts[b].part->as_polygon() != nullptr)
+          cross_polygons(a, b);
+      cross_with_circles(a);
+    }
+  cross_circles();
+  if (last < parts.size()) {
+    for (std::size_t a = 0; a < last; ++a)
+      if (parts[a].part->as_polygon() != nullptr)
+        cross_polygons(a, last);
+    cross_with_circles(last);
+  }
+  make_pieces();
+  join_twins();
+}
+
+void Arrangement::cross_circles() {
+  for (LocalIndex a = 0; a < static_cast<LocalIndex>(circles_.size()); ++a)
+    for (LocalIndex b = a + 1; b < static_cast<LocalIndex>(circles_.size()); ++b) {
+      const Crossings crossings = circle_crossings(circles_[a], circles_[b], tolerance_);
+      for (int k = 0; k < crossings.count; ++k) {
+        const LocalIndex v = vertices_.insert(frame_.snap(crossings.at[k]), VertexTable::nobody);
+        split_circle(a, v);
+        split_circle(b, v);
+      }
+    }
+}
+
+void Arrangement::add_polygon(std::size_t place) {
+  const Polygon& polygon = *parts_[place].part->as_polygon();
+  const Vec2 shift = parts_[place].shift;
+  const int part = static_cast<int>(place);
+  for (const Polygon::Ring& ring : polygon.rings) {
+    const std::size_t first = lines_.size();
+    for (LocalIndex k = 0; k < ring.count; ++k)
+      lines_.push_back({vertices_.insert(polygon.grid.segments()[ring.first + k].a + shift, part), 0, part});
+    for (LocalIndex k = 0; k < ring.count; ++k)
+      lines_[first + k].to = lines_[first + (k + 1) % ring.count].from;
+    if (ring.reversed)
+      for (LocalIndex k = 0; k < ring.count; ++k)
+        std::swap(lines_[first + k].from, lines_[first + k].to);
+  }
+}
+
+void Arrangement::add_circle(std::size_t place) {
+  Circle circle = *parts_[place].part->as_circle();
+  circle.center = circle.center + parts_[place].shift;
+  const int part = static_cast<int>(place);
+  for (std::size_t k = 0; k < circles_.size(); ++k)
+    if (length(circles_[k].center - circle.center) <= tolerance_ &&
+        std::fabs(circles_[k].radius - circle.radius) <= tolerance_) {
+      circle_parts_[k].push_back(part);
+      return;
+    }
+  circles_.push_back(circle);
+  circle_parts_.push_back({part});
+}
+
+void Arrangement::cross_polygons(std::size_t a, std::size_t b) {
+  if (parts_[a].part->as_polygon()->grid.segments().size() > parts_[b].part->as_polygon()->grid.segments().size())
+    std::swap(a, b);
+  const LocalIndex count = static_cast<LocalIndex>(parts_[a].part->as_polygon()->grid.segments().size());
+  const SegmentGrid& other = parts_[b].part->as_polygon()->grid;
+  const double margin = VertexTable::merge_steps * frame_.step();
+  for (LocalIndex s = first_line_[a]; s < first_line_[a] + count; ++s)
+    other.for_each_near(inflated_box(segment(s), parts_[b].shift, margin), [&](LocalIndex t) {
+      cross_lines(s, first_line_[b] + t);
+      return true;
+    });
+}
+
+bool Arrangement::touch(LocalIndex vertex, LocalIndex line) {
+  if (vertex == lines_[line].from || vertex == lines_[line].to)
+    return true;
+  const Segment s = segment(line);
+  const Vec2 d = s.b - s.a, u = vertices_.point(vertex) - s.a;
+  const double along = accurate_dot(u, d), whole = squared_length(d);
+  if (along <= 0 || along >= whole || std::fabs(accurate_cross(d, u)) > tolerance_ * std::sqrt(whole))
+    return false;
+  split_line(line, vertex);
+  return true;
+}
+
+void Arrangement::cross_lines(LocalIndex s, LocalIndex t) {
+  const Line a = lines_[s], b = lines_[t];
+  if (a.from == a.to || b.from == b.to)
+    return;
+  const bool touches[] = {touch(a.from, t), touch(a.to, t), touch(b.from, s), touch(b.to, s)};
+  if (std::any_of(std::begin(touches), std::end(touches), [](bool v) { return v; }))
+    return;
+  const Segment p = segment(s), q = segment(t);
+  if (orient2d(p.a, p.b, q.a) * orient2d(p.a, p.b, q.b) >= 0 || orient2d(q.a, q.b, p.a) * orient2d(q.a, q.b, p.b) >= 0)
+    return;
+  const LocalIndex v = vertices_.insert(frame_.snap(line_crossing(p, q)), VertexTable::nobody);
+  split_line(s, v);
+  split_line(t, v);
+}
+
+void Arrangement::cross_polygon_circle(std::size_t a, LocalIndex circle) {
+  const Circle& disc = circles_[circle];
+  const double merged = VertexTable::merge_steps * frame_.step(); // how far vertices of the grid's segments have moved
+  const auto around = [&](double reach) {
+    return Box{disc.center - Vec2{reach, reach}, disc.center + Vec2{reach, reach}};
+  };
+  std::vector<LocalIndex> near;
+  Box search = around(disc.radius + 2 * merged);
+  search = {search.min - parts_[a].shift, search.max - parts_[a].shift};
+  parts_[a].part->as_polygon()->grid.for_each_near(search, [&](LocalIndex s) {
+    near.push_back(first_line_[a] + s);
+    return true;
+  });
+  std::sort(near.begin(), near.end()); // vertices are numbered in the order of the lines, not of the bins
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  const Box reach = around(disc.radius + merged);
+  for (const LocalIndex line : near) {
+    const Segment s = segment(line);
+    if (std::fmax(s.a.x, s.b.x) >= reach.min.x && std::fmin(s.a.x, s.b.x) <= reach.max.x &&
+        std::fmax(s.a.y, s.b.y) >= reach.min.y && std::fmin(s.a.y, s.b.y) <= reach.max.y)
+      add_contact(line, circle);
+  }
+}
+
+void Arrangement::add_contact(LocalIndex line, LocalIndex circle) {
+  if (lines_[line].from == lines_[line].to)
+    return;
+  for (const LocalIndex end : {lines_[line].from, lines_[line].to})
+    if (std::fabs(signed_distance(vertices_.point(end), circles_[circle])) <= tolerance_)
+      split_circle(circle, end);
+  const Crossings crossings = segment_circle_crossings(segment(line), circles_[circle], tolerance_);
+  for (int k = 0; k < crossings.count; ++k) {
+    const LocalIndex v = vertices_.insert(frame_.snap(crossings.at[k]), VertexTable::nobody);
+    split_line(line, v);
+    split_circle(circle, v);
+  }
+}
+
+void Arrangement::split_line(LocalIndex line, LocalIndex vertex) {
+  vertices_.set_shared(vertex);
+  splits_.push_back({line, vertex});
+}
+
+void Arrangement::split_circle(LocalIndex circle, LocalIndex vertex) {
+  vertices_.set_shared(vertex);
+  splits_.push_back({static_cast<LocalIndex>(lines_.size()) + circle, vertex});
+}
+
+void Arrangement::make_pieces() {
+  const LocalIndex lines = static_cast<LocalIndex>(lines_.size());
+  for (std::size_t k = 0; k < circles_.size(); ++k)
+    for (const Vec2 p : quadrant_vertices(circles_[k]))
+      splits_.push_back({lines + static_cast<LocalIndex>(k), vertices_.insert(p, circle_parts_[k][0])});
+  std::sort(splits_.begin(), splits_.end(), [](const Split& a, const Split& b) {
+    return a.curve != b.curve ? a.curve < b.curve : a.vertex < b.vertex;
+  });
+  const auto same = [](const Split& a, const Split& b) { return a.curve == b.curve && a.vertex == b.vertex; };
+  splits_.erase(std::unique(splits_.begin(), splits_.end(), same), splits_.end());
+  pieces_.reserve(lines_.size() + splits_.size());
+  const Split *split = splits_.data(), *end = split + splits_.size();
+  for (LocalIndex curve = 0; curve < lines + static_cast<LocalIndex>(circles_.size()); ++curve) {
+    const Split* first = split;
+    while (split < end && split->curve == curve)
+      ++split;
+    if (curve < lines)
+      chain_line(curve, first, split);
+    else
+      chain_circle(curve - lines, first, split);
+  }
+}
+
+void Arrangement::chain_line(LocalIndex line, const Split* first, const Split* last) {
+  const Line& l = lines_[line];
+  const Segment s = segment(line);
+  std::vector<std::pair<double, LocalIndex>> between; // position along the line, vertex
+  for (const Split* split = first; split < last; ++split)
+    if (split->vertex != l.from && split->vertex != l.to)
+      between.emplace_back(accurate_dot(vertices_.point(split->vertex) - s.a, s.b - s.a), split->vertex);
+  std::sort(between.begin(), between.end());
+  LocalIndex from = l.from;
+  for (const auto& stop : between) {
+    pieces_.push_back({from, stop.second, -1, l.part, 0, 0});
+    from = stop.second;
+  }
+  if (from != l.to)
+    pieces_.push_back({from, l.to, -1, l.part, 0, 0});
+}
+
+void Arrangement::chain_circle(LocalIndex circle, const Split* first, const Split* last) {
+  const Vec2 center = circles_[circle].center;
+  std::vector<LocalIndex> around;
+  for (const Split* split = first; split < last; ++split)
+    around.push_back(split->vertex);
+  std::sort(around.begin(), around.end(), [&](LocalIndex a, LocalIndex b) {
+    return comes_before(vertices_.point(a) - center, vertices_.point(b) - center);
+  });
+  const std::vector<int>& parts = circle_parts_[circle];
+  for (std::size_t k = 0; k < around.size(); ++k) {
+    pieces_.push_back({around[k], around[(k + 1) % around.size()], circle, parts[0],
+                       static_cast<LocalIndex>(twins_.size()), static_cast<LocalIndex>(parts.size()) - 1});
+    for (std::size_t j = 1; j < parts.size(); ++j)
+      twins_.push_back({parts[j], true});
+  }
+}
+
+void Arrangement::join_twins() {
+  // Coincident segments have both ends on several parts, so few pieces need to be sorted.
+  std::vector<LocalIndex> suspects;
+  for (std::size_t k = 0; k < pieces_.size(); ++k)
+    if (pieces_[k].circle < 0 && vertices_.is_shared(pieces_[k].from) && vertices_.is_shared(pieces_[k].to))
+      suspects.push_back(static_cast<LocalIndex>(k));
+  const auto key = [&](LocalIndex k) {
+    return std::array<LocalIndex, 3>{std::min(pieces_[k].from, pieces_[k].to), std::max(pieces_[k].from, pieces_[k].to),
+                                     k};
+  };
+  std::sort(suspects.begin(), suspects.end(), [&](LocalIndex a, LocalIndex b) { return key(a) < key(b); });
+  std::vector<bool> dropped(pieces_.size(), false);
+  for (std::size_t k = 0, next = 0; k < suspects.size(); k = next) {
+    Piece& kept = pieces_[suspects[k]];
+    const auto first = key(suspects[k]);
+    kept.first_twin = static_cast<LocalIndex>(twins_.size());
+    for (next = k + 1; next < suspects.size(); ++next) {
+      const auto other = key(suspects[next]);
+      if (other[0] != first[0] || other[1] != first[1])
+        break;
+      const Piece& twin = pieces_[suspects[next]];
+      twins_.push_back({twin.part, twin.from == kept.from});
+      dropped[suspects[next]] = true;
+    }
+    kept.twin_count = static_cast<LocalIndex>(next - k) - 1;
+  }
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < pieces_.size(); ++k)
+    if (!dropped[k])
+      pieces_[count++] = pieces_[k];
+  pieces_.resize(count);
+}
+
+} // namespace trime::shape

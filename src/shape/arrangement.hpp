@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The boundaries of several parts, cut at all their mutual crossings: pieces that meet at shared vertices only.
+#pragma once
+
+#include "trime/geometry/frame.hpp"
+#include "trime/shape/part.hpp"
+#include "vertex_table.hpp"
+
+#include <vector>
+
+namespace trime::shape {
+
+/// One part in an arrangement, or one of its images in a periodic container.
+struct PlacedPart {
+  const Part* part;
+  int index;            ///< its number in the region; -1: a rectangle that only cuts the others
+  geometry::Vec2 shift; ///< on the lattice
+};
+
+/// @brief Built once; O(M log M) for M pieces and few crossings.
+///
+/// Crossings are snapped to the lattice; nearer than VertexTable::merge_steps to a vertex they become that vertex.
+/// Vertices of contours keep their coordinates bit for bit. Pieces that coincide are kept once. A cutting rectangle
+/// must stand last: it is crossed with what the others have become.
+class Arrangement {
+public:
+  /// How near a vertex counts as lying on a curve, in lattice steps.
+  static constexpr int on_curve_steps = 4;
+
+  /// From vertex to vertex, straight, or counter-clockwise along a circle by at most a quarter of a turn.
+  struct Piece {
+    LocalIndex from, to;
+    int circle;            ///< into circles, -1 for straight ones
+    int part;              ///< the interior of this part (its place in the list) lies on the left
+    LocalIndex first_twin; ///< further parts with this piece: twins first_twin .. first_twin + twin_count - 1
+    LocalIndex twin_count;
+  };
+  struct Twin {
+    int part;
+    bool along; ///< interior on the left, too; else on the right
+  };
+
+  Arrangement(const std::vector<PlacedPart>& parts, const geometry::Frame& frame);
+
+  const std::vector<Piece>& pieces() const { return pieces_; }
+  const std::vector<Twin>& twins() const { return twins_; }
+  const std::vector<Circle>& circles() const { return circles_; }
+  const VertexTable& vertices() const { return vertices_; }
+
+private:
+  struct Line {
+    LocalIndex from, to;
+    int part;
+  };
+  struct Split {
+    LocalIndex curve, vertex; // curve: a line, or lines_.size() + circle
+  };
+
+  void add_polygon(std::size_t place);
+  void add_circle(std::size_t place);
+  void cross_circles();
+  void cross_polygons(std::size_t a, std::size_t b);
+  void cross_polygon_circle(std::size_t a, LocalIndex circle);
+  void cross_lines(LocalIndex s, LocalIndex t);
+  bool touch(LocalIndex vertex, LocalIndex line);
+  void split_line(LocalIndex line, LocalIndex vertex);
+  void split_circle(LocalIndex circle, LocalIndex vertex);
+  void add_contact(LocalIndex line, LocalIndex circle);
+  void make_pieces();
+  void chain_line(LocalIndex line, const Split* first, const Split* last);
+  void chain_circle(LocalIndex circle, const Split* first, const Split* last);
+  void join_twins();
+
+  geometry::Segment segment(LocalIndex line) const {
+    return {vertices_.point(lines_[line].from), vertices_.point(lines_[line].to)};
+  }
+
+  const std::vector<PlacedPart>& parts_;
+  const geometry::Frame& frame_;
+  double tolerance_;
+  VertexTable vertices_;
+  std::vector<Line> lines_;
+  std::vector<LocalIndex> first_line_; // of each polygon in parts_, else unused
+  std::vector<Circle> circles_;
+  std::vector<std::vector<int>> circle_parts_;
+  std::vector<Split> splits_;
+  std::vector<Piece> pieces_;
+  std::vector<Twin> twins_;
+};
+
+} // namespace trime::shape

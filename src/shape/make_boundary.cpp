@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From the arrangement of the parts to the boundary of the region: classify the pieces, check, chain into loops.
+// In a periodic container the images of all parts are cut at the border of the container, too; opposite points of the
+// border are one node, and the chains are unrolled.
+#include "make_boundary.hpp"
+
+#include "arrangement.hpp"
+#include "core/angle.hpp"
+#include "part_images.hpp"
+#include "quotient.hpp"
+#include "trime/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+namespace trime::shape {
+
+namespace {
+
+using geometry::Boundary;
+using geometry::Box;
+using geometry::cross;
+using geometry::Frame;
+using geometry::length;
+using geometry::lexicographically_less;
+using geometry::Loop;
+using geometry::Piece;
+using geometry::Vec2;
+
+/// Cuts a periodic container out of the images of the parts; reaches beyond all parts along the other axis.
+Part cutting_part(const Frame& frame) {
+  Box box = frame.reach();
+  if (frame.periods().x > 0) {
+    box.min.x = frame.inner().min.x;
+    box.max.x = frame.inner().max.x;
+  }
+  if (frame.periods().y > 0) {
+    box.min.y = frame.inner().min.y;
+    box.max.y = frame.inner().max.y;
+  }
+  return Part::rectangle("the border of the container", box, frame);
+}
+
+double twice_area_under(const Piece& piece, Vec2 origin) {
+  double area = cross(piece.start - origin, piece.end - origin);
+  if (piece.circular)
+    area += piece.radius * piece.radius * (piece.sweep - sin_cos(piece.sweep).sin);
+  return area;
+}
+
+Piece reversed_arc(Piece arc) {
+  const Vec2 from = arc.end - arc.center;
+  std::swap(arc.start, arc.end);
+  arc.start_angle = angle_of(from.y, from.x);
+  arc.sweep = -arc.sweep;
+  return arc;
+}
+
+class BoundaryMaker {
+public:
+  BoundaryMaker(const Region& region, std::span<const Part> parts, const Frame& frame)
+      : region_(region), frame_(frame), domain_(domain_part(frame)), cut_(cutting_part(frame)), placed_(place(parts)),
+        arrangement_(placed_, frame) {
+    for (const Part& part : parts)
+      boundary_.part_names.push_back(part.name());
+    if (region.parts().back() == static_cast<int>(parts.size()))
+      boundary_.part_names.emplace_back(domain_name);
+    boundary_.periods = frame.periods();
+  }
+
+  Boundary make() {
+    classify();
+    if (!kept_.empty())
+      check_container();
+    link();
+    chain();
+    if (frame_.periods().any())
+      finish_periodic_area();
+    if (boundary_.loops.empty() && !boundary_.covers_torus)
+      throw GeometryError(fmt::format("the region '{}' is empty: no part of the plane lies in it", region_.text()));
+    return std::move(boundary_);
+  }
+
+private:
+  static constexpr int cut_index = -1;
+
+  /// A piece of the arrangement, directed so that the region lies on its left.
+  struct Kept {
+    LocalIndex from, to, piece;
+    bool reversed;
+  };
+
+  /// The parts that occur, ascending by index, with their images; the cutting part last. Fills first_place_.
+  std::vector<PlacedPart> place(std::span<const Part> parts) {
+    std::vector<PlacedPart> placed;
+    first_place_.assign(parts.size() + 2, 0);
+    for (const int index : region_.parts()) {
+      const Part& part = index < static_cast<int>(parts.size()) ? parts[index] : domain_;
+      first_place_[index] = placed.size();
+      for (const Vec2 shift : image_shifts(part, frame_))
+        placed.push_back({&part, index, shift});
+      first_place_[index + 1] = placed.size();
+    }
+    if (frame_.periods().any())
+      placed.push_back({&cut_, cut_index, {}});
+    return placed;
+  }
+
+  int index_of(const Arrangement::Piece& piece) const { return placed_[piece.part].index; }
+  bool region_holds(const std::vector<char>& in_place) const;
+  /// Where a vertex lies once it is an exact image of its node.
+  Vec2 place_of(LocalIndex vertex) const { return nodes_->point(nodes_->node(vertex)) + nodes_->shift(vertex); }
+  Vec2 middle(const Arrangement::Piece& piece) const;
+  void classify();
+  void classify_sides(LocalIndex k, const std::vector<char>& left, const std::vector<char>& right);
+  void check_container() const;
+  void link();
+  [[noreturn]] void report_node(LocalIndex node) const;
+  void chain();
+  Piece finished(const Kept& kept, Vec2 offset) const;
+  void add_loop(std::vector<LocalIndex>& cycle);
+  void finish_periodic_area();
+
+  const Region& region_;
+  const Frame& frame_;
+  const Part domain_, cut_;
+  std::vector<std::size_t> first_place_; // in placed_, of each part
+  const std::vector<PlacedPart> placed_;
+  const Arrangement arrangement_;
+  std::vector<Kept> kept_;
+  std::optional<Quotient> nodes_;
+  std::vector<LocalIndex> next_; // the kept piece that leaves each node, or -1
+  Boundary boundary_;
+};
+
+/// A lattice point next to the middle of the piece.
+Vec2 BoundaryMaker::middle(const Arrangement::Piece& piece) const {
+  const Vec2 a = arrangement_.vertices().point(piece.from), b = arrangement_.vertices().point(piece.to);
+  if (piece.circle < 0)
+    return frame_.lattice().snap(a + 0.5 * (b - a));
+  const Circle& circle = arrangement_.circles()[piece.circle];
+  const Vec2 bisector = (a - circle.center) + (b - circle.center);
+  return frame_.lattice().snap(circle.center + (circle.radius / length(bisector)) * bisector);
+}
+
+/// Is the region where the placed parts with a set flag are? A part is where any of its images is.
+bool BoundaryMaker::region_holds(const std::vector<char>& in_place) const {
+  return region_.contains([&](int part) {
+    for (std::size_t k = first_place_[part]; k < first_place_[part + 1]; ++k)
+      if (in_place[k] != 0)
+        return true;
+    return false;
+  });
+}
+
+void BoundaryMaker::classify() {
+  std::vector<char> left(placed_.size(), 0), right = left;
+  const std::vector<Arrangement::Piece>& pieces = arrangement_.pieces();
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const Arrangement::Piece& piece = pieces[k];
+    constexpr char unknown = 2;
+    std::fill(left.begin(), left.end(), unknown);
+    left[piece.part] = 1;
+    right[piece.part] = 0;
+    for (LocalIndex t = piece.first_twin; t < piece.first_twin + piece.twin_count; ++t) {
+      const Arrangement::Twin& twin = arrangement_.twins()[t];
+      left[twin.part] = twin.along ? 1 : 0;
+      right[twin.part] = twin.along ? 0 : 1;
+    }
+    const Vec2 p = middle(piece);
+    for (std::size_t place = 0; place < placed_.size(); ++place)
+      if (left[place] == unknown)
+        left[place] = right[place] = placed_[place].part->inside(p - placed_[place].shift) ? 1 : 0;
+    classify_sides(static_cast<LocalIndex>(k), left, right);
+  }
+}
+
+/// Keeps pieces with the region on one side only; of a piece on the border of a periodic container and its image on
+/// the other side that one whose region lies in the container.
+void BoundaryMaker::classify_sides(LocalIndex k, const std::vector<char>& left, const std::vector<char>& right) {
+  const Arrangement::Piece& piece = arrangement_.pieces()[k];
+  const bool cuts = placed_.back().index == cut_index;
+  const bool in_left = !cuts || left.back() != 0, in_right = !cuts || right.back() != 0;
+  if (!in_left && !in_right)
+    return;
+  const bool on_left = region_holds(left), on_right = region_holds(right);
+  if (on_left && !on_right && in_left)
+    kept_.push_back({piece.from, piece.to, k, false});
+  else if (on_right && !on_left && in_right)
+    kept_.push_back({piece.to, piece.from, k, true});
+}
+
+void BoundaryMaker::check_container() const {
+  const Box& box = frame_.container();
+  const double allowed = VertexTable::merge_steps * frame_.step();
+  double worst = allowed;
+  const Kept* farthest = nullptr;
+  std::size_t outside = 0;
+  // Arcs reach farthest at their ends or at quadrant vertices, which are ends, too.
+  for (const Kept& kept : kept_) {
+    const Vec2 p = arrangement_.vertices().point(kept.from);
+    const double excess = std::max(frame_.periods().x > 0 ? 0 : std::max(box.min.x - p.x, p.x - box.max.x),
+                                   frame_.periods().y > 0 ? 0 : std::max(box.min.y - p.y, p.y - box.max.y));
+    outside += excess > allowed ? 1 : 0;
+    if (excess > worst) {
+      worst = excess;
+      farthest = &kept;
+    }
+  }
+  if (farthest == nullptr)
+    return;
+  const Vec2 p = arrangement_.vertices().point(farthest->from);
+  throw GeometryError(fmt::format(
+      "the region '{}' {} the container [{}, {}] x [{}, {}]: part '{}' reaches ({:.9g}, {:.9g}), {:.3g} "
+      "beyond it; enlarge [domain], move the part, or intersect with 'domain'",
+      region_.text(), outside == kept_.size() ? "lies outside" : "lies partly outside", box.min.x, box.max.x, box.min.y,
+      box.max.y, boundary_.part_names[index_of(arrangement_.pieces()[farthest->piece])], p.x, p.y, worst));
+}
+
+void BoundaryMaker::link() {
+  std::vector<LocalIndex> used;
+  for (const Kept& kept : kept_)
+    used.insert(used.end(), {kept.from, kept.to});
+  nodes_.emplace(arrangement_.vertices(), used, frame_);
+  const LocalIndex count = nodes_->size();
+  std::vector<LocalIndex> arrivals(count, 0), departures(count, 0);
+  next_.assign(count, -1);
+  for (std::size_t k = 0; k < kept_.size(); ++k) {
+    next_[nodes_->node(kept_[k].from)] = static_cast<LocalIndex>(k);
+    ++departures[nodes_->node(kept_[k].from)];
+    ++arrivals[nodes_->node(kept_[k].to)];
+  }
+  for (const LocalIndex vertex : used)
+    if (const LocalIndex node = nodes_->node(vertex); arrivals[node] != 1 || departures[node] != 1)
+      report_node(node);
+}
+
+void BoundaryMaker::report_node(LocalIndex node) const {
+  std::set<std::string> names;
+  int arrivals = 0, departures = 0;
+  for (const Kept& kept : kept_) {
+    const bool arrives = nodes_->node(kept.to) == node, departs = nodes_->node(kept.from) == node;
+    if (arrives || departs)
+      names.insert(boundary_.part_names[index_of(arrangement_.pieces()[kept.piece])]);
+    arrivals += arrives ? 1 : 0;
+    departures += departs ? 1 : 0;
+  }
+  std::string list;
+  for (const std::string& name : names)
+    list += fmt::format("{}'{}'", list.empty() ? "" : ", ", name);
+  const Vec2 p = nodes_->point(node);
+  if (arrivals == departures)
+    throw GeometryError(fmt::format("the boundary of the region '{}' touches itself at ({:.12g}, {:.12g}) (part {}); "
+                                    "expected curves that do not meet: move the parts apart, or make them overlap",
+                                    region_.text(), p.x, p.y, list));
+  throw GeometryError(fmt::format("boundaries of parts of the region '{}' nearly coincide at ({:.12g}, {:.12g}) (part "
+                                  "{}): they are nearer than about {:.2g} to each other but not equal; make them "
+                                  "equal, or move them apart",
+                                  region_.text(), p.x, p.y, list, VertexTable::merge_steps * frame_.step()));
+}
+
+void BoundaryMaker::chain() {
+  std::vector<bool> used(kept_.size(), false);
+  std::vector<LocalIndex> cycle;
+  for (std::size_t first = 0; first < kept_.size(); ++first) {
+    if (used[first])
+      continue;
+    cycle.clear();
+    for (LocalIndex k = static_cast<LocalIndex>(first); !used[k]; k = next_[nodes_->node(kept_[k].to)]) {
+      used[k] = true;
+      cycle.push_back(k);
+    }
+    add_loop(cycle);
+  }
+  std::sort(boundary_.loops.begin(), boundary_.loops.end(),
+            [](const Loop& a, const Loop& b) { return lexicographically_less(a.pieces[0].start, b.pieces[0].start); });
+  for (std::size_t k = 0; k < boundary_.loops.size(); ++k)
+    boundary_.loops[k].tag = static_cast<int>(k) + 1;
+}
+
+/// The piece moved by `offset`.
+Piece BoundaryMaker::finished(const Kept& kept, Vec2 offset) const {
+  const Arrangement::Piece& source = arrangement_.pieces()[kept.piece];
+  const Vec2 from = place_of(source.from) + offset, to = place_of(source.to) + offset;
+  Piece piece;
+  if (source.circle >= 0) {
+    Circle circle = arrangement_.circles()[source.circle];
+    circle.center = circle.center + offset;
+    piece = make_arc(circle, from, to);
+    if (kept.reversed)
+      piece = reversed_arc(piece);
+  } else {
+    piece.start = kept.reversed ? to : from;
+    piece.end = kept.reversed ? from : to;
+  }
+  piece.part = index_of(source);
+  return piece;
+}
+
+void BoundaryMaker::add_loop(std::vector<LocalIndex>& cycle) {
+  const auto canonical_start = [&](LocalIndex k) {
+    return frame_.periods().wrap(nodes_->point(nodes_->node(kept_[k].from)));
+  };
+  const auto smallest = std::min_element(cycle.begin(), cycle.end(), [&](LocalIndex a, LocalIndex b) {
+    return lexicographically_less(canonical_start(a), canonical_start(b));
+  });
+  std::rotate(cycle.begin(), smallest, cycle.end());
+  Loop loop;
+  loop.pieces.reserve(cycle.size());
+  double twice_area = 0;
+  const Vec2 start = canonical_start(cycle.front());
+  Vec2 at = start;
+  for (const LocalIndex k : cycle) {
+    loop.pieces.push_back(finished(kept_[k], at - place_of(kept_[k].from)));
+    at = loop.pieces.back().end;
+    twice_area += twice_area_under(loop.pieces.back(), start);
+  }
+  loop.winding = at - start;
+  // Slivers of a few lattice steps, where sides of parts were meant to be equal, are no features.
+  if (!loop.winds() && std::fabs(twice_area) <= VertexTable::merge_steps * frame_.step() * loop.length())
+    return;
+  // What a winding loop lacks to a closed one; the sum over all loops does not depend on the origin.
+  if (loop.winds())
+    twice_area += 2 * cross(start - frame_.inner().min, loop.winding);
+  loop.outer = loop.winds() || twice_area > 0;
+  boundary_.area += 0.5 * twice_area;
+  boundary_.loops.push_back(std::move(loop));
+}
+
+/// The areas under unrolled loops add up to the area of the region but for multiples of the area of the torus.
+void BoundaryMaker::finish_periodic_area() {
+  const double torus = frame_.periods().x * frame_.periods().y;
+  const std::vector<Loop>& loops = boundary_.loops;
+  if (torus == 0)
+    return;
+  if (loops.empty()) { // all of the torus, or nothing
+    const Vec2 p = frame_.lattice().snap(0.5 * (frame_.inner().min + frame_.inner().max));
+    std::vector<char> in_place(placed_.size(), 0);
+    for (std::size_t place = 0; place < placed_.size(); ++place)
+      in_place[place] = placed_[place].part->inside(p - placed_[place].shift) ? 1 : 0;
+    boundary_.covers_torus = region_holds(in_place);
+    boundary_.area = boundary_.covers_torus ? torus : 0;
+    return;
+  }
+  const bool winds = std::any_of(loops.begin(), loops.end(), [](const Loop& loop) { return loop.winds(); });
+  boundary_.covers_torus = !winds && boundary_.area < 0;
+  boundary_.area -= torus * std::floor(boundary_.area / torus);
+}
+
+} // namespace
+
+Boundary make_boundary(const Region& region, std::span<const Part> parts, const Frame& frame) {
+  return BoundaryMaker(region, parts, frame).make();
+}
+
+} // namespace trime::shape

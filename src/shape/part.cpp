@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/shape/part.hpp"
+
+#include "contour_polygon.hpp"
+#include "geometry/predicates.hpp"
+#include "trime/core/error.hpp"
+
+#include <cmath>
+
+namespace trime::shape {
+
+namespace {
+
+using geometry::Box;
+using geometry::cross;
+using geometry::Frame;
+using geometry::length;
+using geometry::Loop;
+using geometry::orient2d;
+using geometry::Piece;
+using geometry::Segment;
+using geometry::Vec2;
+
+constexpr int smallest_radius = 64; // lattice steps
+
+void check_reach(const std::string& name, Vec2 p, const Frame& frame) {
+  if (!std::isfinite(p.x) || !std::isfinite(p.y))
+    throw GeometryError(fmt::format("part '{}': expected finite numbers, found the point ({}, {})", name, p.x, p.y));
+  const Box& box = frame.container();
+  if (!frame.reach().contains(p))
+    throw GeometryError(fmt::format("part '{}': the point ({}, {}) lies far outside the container [{}, {}] x [{}, {}]; "
+                                    "expected it within twice the container's size; enlarge [domain]",
+                                    name, p.x, p.y, box.min.x, box.max.x, box.min.y, box.max.y));
+}
+
+Vec2 place(const std::string& name, Vec2 p, const Frame& frame) {
+  check_reach(name, p, frame);
+  return frame.snap(p);
+}
+
+/// Rounding may carry a circle that touches the border of the container a step beyond: takes that step back.
+double radius_within(const Circle& circle, const Frame& frame) {
+  double radius = circle.radius;
+  const Box& box = frame.inner();
+  for (const double room : {circle.center.x - box.min.x, box.max.x - circle.center.x, circle.center.y - box.min.y,
+                            box.max.y - circle.center.y})
+    if (room < radius && room >= radius - 4 * frame.step())
+      radius = room;
+  return radius;
+}
+
+} // namespace
+
+Part Part::rectangle(const std::string& name, const Box& box, const Frame& frame) {
+  const Vec2 low = place(name, box.min, frame), high = place(name, box.max, frame);
+  if (!(low.x < high.x && low.y < high.y))
+    throw GeometryError(fmt::format("part '{}': expected x_min < x_max and y_min < y_max, found [{}, {}] x [{}, {}]",
+                                    name, box.min.x, box.max.x, box.min.y, box.max.y));
+  return Part(name, make_simple_polygon({low, {high.x, low.y}, high, {low.x, high.y}}));
+}
+
+Part Part::circle(const std::string& name, Vec2 center, double radius, const Frame& frame) {
+  if (!(radius > smallest_radius * frame.step()) || !std::isfinite(radius))
+    throw GeometryError(fmt::format("part '{}': expected a positive radius, at least {:.3g} in this container, found "
+                                    "{}",
+                                    name, smallest_radius * frame.step(), radius));
+  check_reach(name, center - Vec2{radius, radius}, frame);
+  check_reach(name, center + Vec2{radius, radius}, frame);
+  Circle circle{frame.lattice().snap(center), frame.lattice().snap(radius)};
+  circle.radius = radius_within(circle, frame);
+  return Part(name, circle);
+}
+
+Part Part::triangle(const std::string& name, const std::array<Vec2, 3>& corners, const Frame& frame) {
+  const Vec2 a = place(name, corners[0], frame), b = place(name, corners[1], frame), c = place(name, corners[2], frame);
+  const int orientation = orient2d(a, b, c);
+  if (orientation == 0)
+    throw GeometryError(fmt::format("part '{}': the corners ({}, {}), ({}, {}), ({}, {}) lie on one line; expected a "
+                                    "triangle with an area",
+                                    name, corners[0].x, corners[0].y, corners[1].x, corners[1].y, corners[2].x,
+                                    corners[2].y));
+  return Part(name, make_simple_polygon(orientation > 0 ? std::vector<Vec2>{a, b, c} : std::vector<Vec2>{a, c, b}));
+}
+
+Part Part::contour(const std::string& name, const Contour& contour, const Normalization& normalization,
+                   const Frame& frame) {
+  std::vector<std::string> warnings = contour.warnings;
+  Part part(name, make_contour_polygon(contour, normalization, frame, warnings));
+  part.warnings_ = std::move(warnings);
+  part.is_contour_ = true;
+  return part;
+}
+
+Part Part::polygon(const std::string& name, Polygon polygon, std::vector<std::string> warnings) {
+  Part part(name, std::move(polygon));
+  part.warnings_ = std::move(warnings);
+  return part;
+}
+
+std::vector<Loop> Part::boundary() const {
+  std::vector<Loop> loops;
+  if (const Circle* circle = as_circle()) {
+    const std::array<Vec2, 4> v = quadrant_vertices(*circle);
+    loops.emplace_back();
+    for (int k = 0; k < 4; ++k)
+      loops[0].pieces.push_back(make_arc(*circle, v[k], v[(k + 1) % 4]));
+    return loops;
+  }
+  const Polygon& polygon = *as_polygon();
+  for (const Polygon::Ring& ring : polygon.rings) {
+    Loop loop;
+    loop.tag = static_cast<int>(loops.size()) + 1;
+    double twice_area = 0;
+    const Vec2 origin = polygon.grid.segments()[ring.first].a;
+    for (LocalIndex k = 0; k < ring.count; ++k) {
+      const Segment& s = polygon.grid.segments()[ring.first + (ring.reversed ? ring.count - 1 - k : k)];
+      Piece piece;
+      piece.start = ring.reversed ? s.b : s.a;
+      piece.end = ring.reversed ? s.a : s.b;
+      twice_area += cross(piece.start - origin, piece.end - origin);
+      loop.pieces.push_back(piece);
+    }
+    loop.outer = twice_area > 0;
+    loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+bool Part::inside(Vec2 p) const {
+  if (const Polygon* polygon = as_polygon())
+    return polygon->grid.inside(p);
+  // Products of lattice differences: the float decides unless the two sides are equal, then their errors do.
+  const Circle& circle = *as_circle();
+  const Vec2 d = p - circle.center;
+  const double left = d.x * d.x, right = (circle.radius - d.y) * (circle.radius + d.y);
+  if (left != right)
+    return left < right;
+  return std::fma(d.x, d.x, -left) < std::fma(circle.radius - d.y, circle.radius + d.y, -right);
+}
+
+double Part::distance(Vec2 p) const {
+  if (const Polygon* polygon = as_polygon())
+    return std::sqrt(polygon->grid.nearest(p).squared_distance);
+  return std::fabs(length(p - as_circle()->center) - as_circle()->radius);
+}
+
+} // namespace trime::shape

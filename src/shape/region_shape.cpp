@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/shape/region_shape.hpp"
+
+#include "make_boundary.hpp"
+#include "part_images.hpp"
+#include "shape/trace.hpp"
+#include "trime/core/error.hpp"
+
+#include <algorithm>
+
+namespace trime::shape {
+
+namespace {
+
+using geometry::Frame;
+using geometry::Vec2;
+
+std::vector<std::string> names_of(const std::vector<Part>& parts) {
+  std::vector<std::string> names;
+  for (const Part& part : parts) {
+    if (part.name() == domain_name)
+      throw ConfigError(fmt::format("a part must not be named '{}': this name means the container", domain_name));
+    if (std::find(names.begin(), names.end(), part.name()) != names.end())
+      throw ConfigError(fmt::format("two parts are named '{}'; expected different names", part.name()));
+    names.push_back(part.name());
+  }
+  return names;
+}
+
+} // namespace
+
+RegionShape::RegionShape(std::vector<Part> parts, std::string_view region, const Frame& frame)
+    : frame_(frame), parts_(std::move(parts)), region_(Region::parse(region, names_of(parts_))),
+      boundary_(make_boundary(region_, parts_, frame)), tree_(boundary_) {
+  parts_.push_back(domain_part(frame));
+  shifts_.resize(parts_.size());
+  for (const int part : region_.parts())
+    shifts_[part] = image_shifts(parts_[part], frame);
+}
+
+bool RegionShape::inside(Vec2 p) const {
+  const Vec2 canonical = frame_.periods().wrap(p);
+  return region_.contains([&](int part) {
+    for (const Vec2 shift : shifts_[part])
+      if (parts_[part].inside(canonical - shift))
+        return true;
+    return false;
+  });
+}
+
+RegionShape traced(const Shape& shape, const Frame& frame, const std::string& name) {
+  return RegionShape({traced_part(name, shape, frame)}, name, frame);
+}
+
+} // namespace trime::shape

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sites/site_state.hpp"
+
+#include "comm/agree.hpp"
+#include "core/free_memory.hpp"
+#include "core/thread_loop.hpp"
+#include "trime/core/error.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace trime::sites {
+namespace {
+
+/// Bins around the owned tiles that are fetched unasked: wide enough for the discs of a relaxed mesh.
+constexpr int halo_margin = 2;
+/// Rounds of asking for more bins; every round reaches at least one bin farther, two suffice in practice.
+constexpr int max_halo_rounds = 100;
+constexpr double unknown_size = 0;
+constexpr int size_chunk = 1024; // sites whose size one thread evaluates in a row
+
+/// Owned sites and ghosts are counted by LocalIndex; one in eight is left for ghosts and growth. Weights are
+/// replicated, so all ranks find the same.
+void check_counts(const std::vector<std::int64_t>& weights, const decomposition::Partition& partition) {
+  constexpr std::int64_t most = std::numeric_limits<LocalIndex>::max() / 8 * 7;
+  for (int rank = 0; rank < partition.ranks(); ++rank) {
+    const std::int64_t sites = std::accumulate(weights.begin() + partition.first_tile(rank),
+                                               weights.begin() + partition.last_tile(rank), std::int64_t{0});
+    if (sites > most)
+      throw ConfigError(
+          fmt::format("rank {} would own {} points, at most {} are possible; start more ranks", rank, sites, most));
+  }
+}
+
+} // namespace
+
+SiteState::SiteState(const comm::Communicator& comm, const geometry::Box& box, const mesh::GridOptions& grid_options)
+    : comm_(comm), grid_(box, grid_options), partition_(grid_.tile_count(), comm.size()), points_(grid_),
+      halo_(comm, grid_) {}
+
+SiteState::SiteState(const SiteState& other)
+    : comm_(other.comm_), grid_(other.grid_), partition_(other.partition_), points_(grid_), halo_(comm_, grid_) {
+  mesh::SiteList sites;
+  sites.reserve(static_cast<std::size_t>(other.points_.owned()));
+  for (LocalIndex i = 0; i < other.points_.owned(); ++i)
+    sites.push_back(other.points_.site(i));
+  distribute(std::move(sites));
+}
+
+/// Into the container, where it is periodic.
+void SiteState::wrap(mesh::SiteList& sites) const {
+  const geometry::Periods& periods = grid_.periods();
+  if (periods.any())
+    for (mesh::Site& site : sites)
+      site.position = periods.wrap(site.position);
+}
+
+void SiteState::distribute(mesh::SiteList sites) {
+  wrap(sites);
+  const std::vector<std::int64_t> weights = decomposition::tile_weights(comm_, grid_, sites);
+  partition_ = decomposition::Partition(weights, comm_.size());
+  check_counts(weights, partition_);
+  decomposition::migrate(comm_, grid_, partition_, sites);
+  choose_bins(sites);
+  points_.assign_owned(sites, partition_.first_tile(comm_.rank()), partition_.last_tile(comm_.rank()));
+  release(sites);
+  sizes_.forget();
+  carried_.clear();
+  stars_.reset(points_.owned());
+  halo_.reset(partition_, halo_margin);
+}
+
+/// Each owner finds what suits its tiles; then all know.
+void SiteState::choose_bins(std::span<const mesh::Site> sites) {
+  const LocalIndex first = partition_.first_tile(comm_.rank()), last = partition_.last_tile(comm_.rank());
+  const std::vector<std::uint8_t> own = points_.suitable_bin_bits(sites, first, last);
+  std::vector<std::int64_t> bits(static_cast<std::size_t>(grid_.tile_count()), 0);
+  std::copy(own.begin(), own.end(), bits.begin() + first);
+  comm_.sum(bits);
+  grid_.set_bin_bits({bits.begin(), bits.end()});
+}
+
+void SiteState::move_sites(std::vector<std::uint8_t> gone, mesh::SiteList more) {
+  const std::size_t before = static_cast<std::size_t>(points_.owned());
+  wrap_next();
+  wrap(more);
+  remember_sizes();
+  list_leaving(gone, more);
+  decomposition::migrate(comm_, grid_, partition_, more);
+  std::vector<LocalIndex> new_index;
+  points_.sort_moved(gone, more, new_index);
+  new_index.resize(before);
+  sizes_.forget();
+  carry_sizes(new_index);
+  stars_.renumber(new_index, points_.owned());
+}
+
+/// Into the container, where it is periodic.
+void SiteState::wrap_next() {
+  const geometry::Periods& periods = grid_.periods();
+  if (periods.any())
+    for (geometry::Vec2& place : points_.next_positions().first(static_cast<std::size_t>(points_.owned())))
+      place = periods.wrap(place);
+}
+
+/// Sites whose next places belong to other ranks are gone here.
+void SiteState::list_leaving(std::vector<std::uint8_t>& gone, mesh::SiteList& leaving) const {
+  if (comm_.size() == 1)
+    return;
+  gone.resize(static_cast<std::size_t>(points_.owned()), 0);
+  const LocalIndex first_tile = points_.first_tile(), last_tile = points_.last_tile();
+  std::vector<mesh::SiteList> of_tile(static_cast<std::size_t>(last_tile - first_tile)); // that they come from
+  thread_loop(last_tile - first_tile, 4, [&](std::ptrdiff_t t, int) {
+    const auto [begin, end] = points_.tile_range(first_tile + static_cast<LocalIndex>(t));
+    for (LocalIndex i = begin; i < end; ++i) {
+      std::uint8_t& is_gone = gone[static_cast<std::size_t>(i)];
+      if (is_gone)
+        continue;
+      const LocalIndex tile = grid_.tile_at(points_.next_positions()[static_cast<std::size_t>(i)]);
+      if (tile < first_tile || tile >= last_tile) {
+        is_gone = 1;
+        of_tile[static_cast<std::size_t>(t)].push_back(points_.next_site(i));
+      }
+    }
+  });
+  for (const mesh::SiteList& list : of_tile)
+    leaving.insert(leaving.end(), list.begin(), list.end());
+}
+
+/// h of the owned sites that stay where they are, if most do.
+void SiteState::remember_sizes() {
+  carried_.clear();
+  if (points_.owned() == 0 || !sizes_.known(0) || sizes_.is_uniform())
+    return;
+  const auto stays = [&](LocalIndex i) {
+    return points_.next_positions()[static_cast<std::size_t>(i)] == points_.position(i);
+  };
+  LocalIndex staying = 0;
+  for (LocalIndex i = 0; i < points_.owned(); ++i)
+    staying += stays(i);
+  if (staying <= points_.owned() / 2)
+    return;
+  carried_ = std::move(sizes_.values());
+  carried_.resize(static_cast<std::size_t>(points_.owned()));
+  for (LocalIndex i = 0; i < points_.owned(); ++i)
+    if (!stays(i))
+      carried_[static_cast<std::size_t>(i)] = unknown_size;
+}
+
+/// The same by their new indices.
+void SiteState::carry_sizes(std::span<const LocalIndex> new_index) {
+  if (carried_.empty())
+    return;
+  std::vector<double> carried(static_cast<std::size_t>(points_.owned()), unknown_size);
+  for (std::size_t i = 0; i < new_index.size(); ++i)
+    if (new_index[i] >= 0)
+      carried[static_cast<std::size_t>(new_index[i])] = carried_[i];
+  carried_ = std::move(carried);
+}
+
+/// Fetches the ghosts and evaluates h where it is not known.
+void SiteState::refresh(const sizing::SizeField& size) {
+  halo_.refresh(points_);
+  evaluate_agreed(size, points_.size());
+}
+
+void SiteState::begin_advance(const sizing::SizeField& size, double drift, bool new_sizes) {
+  points_.advance();
+  halo_.begin_positions(points_);
+  points_.drifts().set_largest(drift);
+  ghosts_need_sizes_ = new_sizes && !size.is_uniform();
+  if (ghosts_need_sizes_) {
+    sizes_.forget();
+    sizes_.values().reserve(static_cast<std::size_t>(points_.size()));
+    evaluate_agreed(size, points_.owned());
+  }
+}
+
+void SiteState::finish_advance(const sizing::SizeField& size) {
+  halo_.finish_positions(points_);
+  if (ghosts_need_sizes_)
+    evaluate_agreed(size, points_.size());
+  ghosts_need_sizes_ = false;
+}
+
+void SiteState::evaluate_agreed(const sizing::SizeField& size, LocalIndex end) {
+  try {
+    comm::run_agreed(comm_, [&] { evaluate_sizes(size, end); });
+  } catch (...) {
+    sizes_.forget();
+    carried_.clear();
+    throw;
+  }
+}
+
+/// Owned sites are checked in the order of the curve, so that the first bad one does not depend on the ranks; ghosts
+/// are checked by their owners.
+void SiteState::evaluate_sizes(const sizing::SizeField& size, LocalIndex end) {
+  if (size.is_uniform()) {
+    sizes_ = mesh::LocalSizes(sizing::checked_size(size, {}));
+    return;
+  }
+  const geometry::Periods& periods = grid_.periods();
+  std::vector<double>& values = sizes_.values();
+  const LocalIndex first = std::min(end, sizes_.known(0) ? points_.owned() : 0);
+  values.resize(static_cast<std::size_t>(end));
+  thread_loop(end - first, size_chunk, [&](std::ptrdiff_t k, int) {
+    const LocalIndex i = first + static_cast<LocalIndex>(k);
+    const double carried =
+        static_cast<std::size_t>(i) < carried_.size() ? carried_[static_cast<std::size_t>(i)] : unknown_size;
+    values[static_cast<std::size_t>(i)] =
+        carried != unknown_size ? carried : size.size(periods.wrap(points_.position(i)));
+  });
+  carried_.clear();
+  for (LocalIndex i = first; i < points_.owned(); ++i)
+    if (const double h = values[static_cast<std::size_t>(i)]; !sizing::is_valid_size(h))
+      sizing::fail_for_size(periods.wrap(points_.position(i)), h);
+}
+
+delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size,
+                                            Wanted wanted) {
+  wanted_.clear();
+  if (wanted == Wanted::inner_sites) {
+    wanted_.resize(static_cast<std::size_t>(points_.owned()));
+    thread_loop(points_.owned(), 4096, [&](std::ptrdiff_t i, int) {
+      wanted_[static_cast<std::size_t>(i)] =
+          points_.boundary(static_cast<LocalIndex>(i)) < 0 ? delaunay::StarWish::compute : delaunay::StarWish::none;
+    });
+  }
+  return compute_stars(builder, size, wanted_);
+}
+
+delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size,
+                                            std::span<const delaunay::StarWish> wanted) {
+  refresh(size);
+  delaunay::StarPass all;
+  std::vector<mesh::BinRef> missing;
+  for (int round = 0; round < max_halo_rounds; ++round) {
+    missing.clear();
+    const delaunay::StarPass pass = builder.update(points_, stars_, sizes_, wanted, missing);
+    all.rebuilt += pass.rebuilt;
+    if (comm_.sum(pass.uncertain) == 0)
+      return all;
+    fetch(missing, size);
+  }
+  throw InternalError(fmt::format("the halo still grows after {} rounds", max_halo_rounds));
+}
+
+void SiteState::fetch(std::span<const mesh::BinRef> missing, const sizing::SizeField& size) {
+  halo_.subscribe(missing);
+  halo_.refresh(points_);
+  if (!size.is_uniform()) { // h of a site that has moved may be older than its place: all must see that of its owner
+    std::vector<double>& values = sizes_.values();
+    values.resize(static_cast<std::size_t>(points_.owned()));
+    const std::vector<double> ghosts = halo_.exchange(points_, std::span<const double>(values));
+    values.insert(values.end(), ghosts.begin(), ghosts.end());
+  }
+  stars_.renumber_ghosts(points_.owned(), halo_.ghost_renumbering());
+  if (points_.drifts().largest() > 0)
+    halo_.refresh_drifts(points_);
+}
+
+void SiteState::release_work_space() {
+  points_.release_moves();
+  sizes_.forget();
+  release(sizes_.values());
+  release(carried_);
+  release(wanted_);
+  return_free_memory();
+}
+
+} // namespace trime::sites

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sites of a run and what holds them together over the ranks: grid, partition, halo, stars.
+#pragma once
+
+#include "decomposition/halo.hpp"
+#include "decomposition/migration.hpp"
+#include "delaunay/star_builder.hpp"
+#include "mesh/binned_points.hpp"
+#include "mesh/local_sizes.hpp"
+#include "sites/star_view.hpp"
+#include "trime/comm/communicator.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <vector>
+
+namespace trime::sites {
+
+/// Which stars are to be computed.
+enum class Wanted { inner_sites, all_sites };
+
+/// A place and how far around it sites must be known.
+struct Disc {
+  geometry::Vec2 center;
+  double radius;
+};
+
+/// @brief Owned and ghost sites with their stars. After each change of sites: set_sites, then compute_stars.
+class SiteState {
+public:
+  /// @param box that holds all sites, now and later
+  SiteState(const comm::Communicator& comm, const geometry::Box& box, const mesh::GridOptions& grid_options);
+  /// @brief The sites of another state at their present places, sorted, without stars; that state stays as it is.
+  /// Collective.
+  explicit SiteState(const SiteState& other);
+
+  /// First sites, from any ranks: partitions the tiles by their counts. Collective.
+  /// @throws ConfigError on all ranks if one would own more sites than a local index can count
+  void distribute(mesh::SiteList sites);
+  /// @brief The owned sites go to BinnedPoints::next_positions, but for those that are gone (by local index; empty:
+  /// none); more sites come, whoever owns their places. Migrates, sorts, keeps the rings. Collective.
+  void move_sites(std::vector<std::uint8_t> gone = {}, mesh::SiteList more = {});
+
+  /// @brief Refreshes the halo and the sizes and computes the wanted stars, asking for more bins until every one is
+  /// certain. Collective.
+  /// @param size the same field in all calls: h of sites that stay in place is not evaluated again
+  /// @throws GeometryError on all ranks together if h at a site is not positive and finite
+  delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size, Wanted wanted);
+
+  /// The same for some stars: `wanted` by local index of the owned sites.
+  delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size,
+                                   std::span<const delaunay::StarWish> wanted);
+  /// @brief Fetches the ghosts and evaluates h at sites that moved; part of compute_stars. Collective.
+  void refresh(const sizing::SizeField& size);
+  /// h is evaluated anew at the next move, also of sites that stay: theirs may be older than their place.
+  void forget_sizes() { sizes_.forget(); }
+  /// @brief Moves the owned sites to BinnedPoints::next_positions, without sorting. The ghosts follow on their way:
+  /// nothing about them may be asked until finish_advance. Collective. @pre no periods
+  /// @param drift bound on how far any site of any rank has come since sites were sorted
+  /// @param new_sizes evaluates h at the new places; else sites keep theirs
+  void begin_advance(const sizing::SizeField& size, double drift, bool new_sizes);
+  void finish_advance(const sizing::SizeField& size);
+  /// Adds bins to those that this rank knows; local indices of ghosts may change. Collective.
+  void fetch(std::span<const mesh::BinRef> missing, const sizing::SizeField& size);
+
+  const mesh::TileGrid& grid() const { return grid_; }
+  const mesh::BinnedPoints& points() const { return points_; }
+  mesh::BinnedPoints& points() { return points_; }
+  const delaunay::StarTable& stars() const { return stars_; }
+  delaunay::StarTable& stars() { return stars_; }
+  /// h at every known site since the last compute_stars; unknown after a move.
+  const mesh::LocalSizes& sizes() const { return sizes_; }
+  const decomposition::Halo& halo() const { return halo_; }
+  const decomposition::Partition& partition() const { return partition_; }
+  const comm::Communicator& comm() const { return comm_; }
+  /// Frees what only further moves would need: there must be none.
+  void release_work_space();
+
+private:
+  void wrap(mesh::SiteList& sites) const;
+  void wrap_next();
+  void list_leaving(std::vector<std::uint8_t>& gone, mesh::SiteList& leaving) const;
+  void choose_bins(std::span<const mesh::Site> sites);
+  void evaluate_agreed(const sizing::SizeField& size, LocalIndex end);
+  void remember_sizes();
+  void carry_sizes(std::span<const LocalIndex> new_index);
+  void evaluate_sizes(const sizing::SizeField& size, LocalIndex end);
+
+  const comm::Communicator& comm_;
+  mesh::TileGrid grid_;
+  decomposition::Partition partition_;
+  mesh::BinnedPoints points_;
+  decomposition::Halo halo_;
+  delaunay::StarTable stars_;
+  mesh::LocalSizes sizes_;
+  std::vector<delaunay::StarWish> wanted_;
+  bool ghosts_need_sizes_ = false;
+  std::vector<double> carried_; // h of owned sites from before a move, 0 where they moved
+};
+
+/// Points, stars and sizes, as an update rule sees them. @param size the field of the last compute_stars
+inline StarView view_of(const SiteState& state, const sizing::SizeField& size) {
+  return {state.points(), state.stars(), size, &state.sizes()};
+}
+
+} // namespace trime::sites

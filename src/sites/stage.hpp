@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What one stage of a run works on: the size of the triangles, the sites on the boundary, and the sites inside.
+#pragma once
+
+#include "polygon/boundary_guard.hpp"
+#include "polygon/polygon.hpp"
+#include "sites/site_state.hpp"
+#include "sizing/lowered_size.hpp"
+#include "trime/core/types.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <memory>
+
+namespace trime::sites {
+
+/// @brief All that the sweeps of a stage start from. Only `state` differs from rank to rank.
+///
+/// h has three ages, each made of the one before it. `asked_size` is the relative size of the user times the factor
+/// that yields the points, within the least and the largest size. `lowered_size` is that, lowered around places where
+/// the boundary needs smaller triangles. `size` is that times `coarsening`, and what this stage goes by.
+struct Stage {
+  double coarsening = 1;                             ///< h of this stage over that of the last
+  double typical_size = 1;                           ///< edge length of as many equal triangles
+  std::unique_ptr<sizing::ScaledSize> asked_size;    ///< of the last stage
+  std::unique_ptr<sizing::LoweredSize> lowered_size; ///< of the last stage; null if nothing lowers the size
+  std::unique_ptr<sizing::SizeField> size;           ///< of this stage
+  polygon::BoundarySites boundary;
+  std::unique_ptr<polygon::BoundaryGuard> guard;
+  std::unique_ptr<SiteState> state;
+
+  GlobalId fixed_inside = 0; ///< fixed points that are not on the boundary
+
+  /// Sites that have their place before all others: those on the boundary, and the fixed ones inside.
+  GlobalId placed_first() const { return static_cast<GlobalId>(boundary.sites.size()) + fixed_inside; }
+};
+
+} // namespace trime::sites

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A size field that is lowered around some places, as far as a gradation allows.
+#pragma once
+
+#include "trime/geometry/periods.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace trime::cones {
+class ConeCells;
+class ConeTree;
+} // namespace trime::cones
+
+namespace trime::sizing {
+
+/// Where the size shall be no larger than a limit.
+struct SizeLimit {
+  geometry::Vec2 place;
+  double size;
+};
+
+/// @brief min(field(x), min over limits k of size_k + gradation |x - place_k|), nearest images in a periodic container.
+class LoweredSize final : public SizeField {
+public:
+  /// O(n log n) for n limits. @pre `field` outlives this object
+  LoweredSize(const SizeField& field, const std::vector<SizeLimit>& limits, double gradation,
+              const geometry::Periods& periods);
+  ~LoweredSize() override;
+  /// About 60 ns among a thousand limits. What is no valid size comes through as it is.
+  double size(geometry::Vec2 p) const override;
+  /// The same where the field is known to have a valid value.
+  double lowered(geometry::Vec2 p, double field_size) const;
+  bool is_uniform() const override { return false; }
+
+private:
+  const SizeField& field_;
+  geometry::Periods periods_;
+  std::unique_ptr<const cones::ConeTree> cones_;
+  std::unique_ptr<const cones::ConeCells> cells_;
+};
+
+} // namespace trime::sizing

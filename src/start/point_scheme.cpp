@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "start/point_scheme.hpp"
+
+#include "core/angle.hpp"
+#include "start/refinement.hpp"
+#include "start/rules.hpp"
+#include "start/size_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::start {
+namespace {
+
+using sites::Stage;
+using sites::StageView;
+
+int divisions_for(double points) {
+  return points < StartRules::one_division      ? 0
+         : points < StartRules::two_divisions   ? 1
+         : points < StartRules::three_divisions ? 2
+                                                : 3;
+}
+
+} // namespace
+
+PointScheme::PointScheme(const LayoutContext& context) : context_(context), options_(context.options) {
+  choose();
+}
+
+/// Points that are left to the clean-up, for smaller triangles where the boundary is ragged: a share of the number of
+/// its pieces, and of the points at most.
+GlobalId PointScheme::reserve() const {
+  double pieces = 0;
+  for (const geometry::Loop& loop : context_.boundary.loops)
+    pieces += static_cast<double>(loop.pieces.size());
+  if (!options_.points || !options_.cleanup)
+    return 0;
+  return static_cast<GlobalId>(std::fmin(StartRules::reserved_share * static_cast<double>(*options_.points),
+                                         StartRules::reserved_per_piece * pieces));
+}
+
+double PointScheme::expected_points() const {
+  if (options_.points)
+    return static_cast<double>(*options_.points - reserve());
+  const double h = *options_.edge_length, area = context_.boundary.area;
+  return std::max(3.0, area / (row_height * h * h) + 0.5 * context_.boundary.length() / h);
+}
+
+void PointScheme::choose() {
+  const bool uniform = context_.relative_size.is_uniform();
+  const Start start = options_.start;
+  const double fraction = options_.initial_fraction.value_or(1);
+  if (options_.initial_fraction && fraction < 1) {
+    scheme_ = Scheme::insertion;
+    points_now_ = std::max(3.0, std::ceil(fraction * expected_points()));
+    for (double points = points_now_; points < expected_points(); points *= StartRules::growth)
+      ++last_stage_;
+    reason_ = fmt::format("{:g} of the points first, the others in {} insertions or more (initial_fraction is given)",
+                          fraction, last_stage_);
+  } else if (start == Start::lattice || (start == Start::automatic && uniform)) {
+    scheme_ = Scheme::lattice;
+    reason_ = start == Start::lattice ? "hexagonal lattice, all points at once (asked for)"
+                                      : "hexagonal lattice, all points at once: the size is uniform";
+  } else if (start == Start::hilbert || options_.initial_fraction) {
+    scheme_ = Scheme::hilbert;
+    reason_ = "quantiles of the density, all points at once (asked for)";
+  } else {
+    scheme_ = Scheme::coarse_to_fine;
+    last_stage_ = divisions_for(expected_points());
+  }
+}
+
+Stage PointScheme::first() {
+  return scheme_ == Scheme::lattice     ? first_of_lattice()
+         : scheme_ == Scheme::insertion ? first_of_insertion()
+                                        : first_of_divisions();
+}
+
+Stage PointScheme::first_of_lattice() {
+  LatticeFit fit = fit_lattice(context_);
+  shortage_ = std::move(fit.shortage);
+  const auto time = context_.timers.scope("start");
+  place_sites(context_, fit.stage,
+              LatticeStart(context_.boundary, *fit.stage.guard, context_.lattice)
+                  .sites(even_share(fit.stage, context_.comm), fit.spacing,
+                         static_cast<std::size_t>(fit.stage.placed_first())));
+  return std::move(fit.stage);
+}
+
+Stage PointScheme::first_of_insertion() {
+  const double coarsening = std::sqrt(expected_points() / points_now_);
+  DensityFit fit = fit_density(context_, expected_points(), std::fmin(coarsening, StartRules::coarsest_integral));
+  shortage_ = std::move(fit.shortage);
+  fitted_ = std::move(fit.laid.fitted);
+  Stage stage = lay_coarsened(coarsening, points_now_);
+  if (const double held = static_cast<double>(stage.placed_first()); points_now_ < 2 * held) {
+    points_now_ = std::min(expected_points(), 2 * held); // a stage of boundary alone has no order to pass on
+    stage = lay_coarsened(std::sqrt(expected_points() / points_now_), points_now_);
+    reason_ += fmt::format("; the first share was raised to {:.3g}, since the boundary alone takes half of it",
+                           points_now_ / expected_points());
+  }
+  const double inner = points_now_ - static_cast<double>(stage.placed_first());
+  place_along_curve(stage, inner, *along_curve(stage, inner, 1));
+  return stage;
+}
+
+/// The factor is fitted for the final mesh, by a coarse integral. Then the coarsest start is taken that still has as
+/// many sites inside as on the boundary: a boundary full of corners does not become coarser with the size.
+Stage PointScheme::first_of_divisions() {
+  DensityFit fit =
+      fit_density(context_, expected_points(),
+                  last_stage_ == 0 ? 1 : std::fmax(StartRules::coarse_integral, std::ldexp(1.0, last_stage_)));
+  shortage_ = std::move(fit.shortage);
+  const double points = fit.inner + static_cast<double>(fit.laid.stage.placed_first());
+  fitted_ = std::move(fit.laid.fitted);
+  Stage stage;
+  std::unique_ptr<const HilbertStart> start;
+  double inner = 0;
+  const double on_boundary = static_cast<double>(fit.laid.stage.boundary.sites.size());
+  while (last_stage_ > 0 && std::ldexp(fit.inner, -2 * last_stage_) < std::ldexp(on_boundary, -last_stage_))
+    --last_stage_; // the share of the strip and of corners only grows
+  for (;; --last_stage_) {
+    const double expected = std::ldexp(points, -2 * last_stage_);
+    stage = lay_division(fit.laid.stage, expected);
+    start = along_curve(stage, expected, last_stage_ > 0 ? StartRules::coarse_start : 1);
+    inner = start->wanted();
+    if (last_stage_ == 0 || inner >= static_cast<double>(stage.placed_first()))
+      break;
+  }
+  if (scheme_ == Scheme::coarse_to_fine)
+    reason_ =
+        last_stage_ == 0
+            ? "quantiles of the density, all points at once: too few of them lie inside to divide a coarser mesh"
+            : fmt::format("coarse to fine, the edges of a mesh of 1/{} of the points are divided {}: {}",
+                          1 << (2 * last_stage_), last_stage_ == 1 ? "once" : fmt::format("{} times", last_stage_),
+                          options_.start == Start::coarse_to_fine ? "asked for" : "the size is graded");
+  if (last_stage_ == 0 && options_.points && shortage_.empty())
+    inner = expected_points() - static_cast<double>(stage.placed_first());
+  laid_last_ = std::move(fit.laid.stage);
+  place_along_curve(stage, inner, *start);
+  return stage;
+}
+
+/// A stage whose size is `coarsening` times that of the last.
+Stage PointScheme::lay_coarsened(double coarsening, double expected) {
+  FittedStage laid = lay_stage(context_, fitted_, coarsening, expected);
+  fitted_ = std::move(laid.fitted);
+  return std::move(laid.stage);
+}
+
+/// The present stage of divisions. @param last the last of them, which was laid for the fit and becomes this one if it
+/// is the last
+Stage PointScheme::lay_division(Stage& last, double expected) {
+  const double coarsening = std::ldexp(1.0, last_stage_ - stage_);
+  if (coarsening == 1)
+    return lay_again(context_, std::move(last), expected);
+  return lay_coarsened(coarsening, expected);
+}
+
+std::unique_ptr<const HilbertStart> PointScheme::along_curve(const Stage& stage, double expected,
+                                                             double coarsening) const {
+  const auto time = context_.timers.scope("start");
+  return std::make_unique<const HilbertStart>(context_.comm, even_share(stage, context_.comm), *stage.guard,
+                                              *stage.size, context_.lattice, expected, coarsening);
+}
+
+void PointScheme::place_along_curve(Stage& stage, double inner, const HilbertStart& start) const {
+  const auto time = context_.timers.scope("start");
+  const auto wanted = std::max<std::int64_t>(0, std::llround(inner));
+  mesh::SiteList placed = start.sites(wanted, options_.seed);
+  if (!context_.fixed.inside().empty()) { // those too near to a fixed point will go: so many more are placed
+    const std::int64_t clear = context_.comm.sum(context_.fixed.count_clear(placed, *stage.size));
+    if (clear > 0 && clear < wanted) {
+      placed = start.sites(
+          std::llround(static_cast<double>(wanted) *
+                       std::fmin(StartRules::most_replaced, static_cast<double>(wanted) / static_cast<double>(clear))),
+          options_.seed);
+      std::erase_if(placed, [&](const mesh::Site& site) {
+        return context_.fixed.count_clear(std::span(&site, 1), *stage.size) == 0;
+      });
+      trim(context_.comm, stage, wanted, placed);
+    }
+  }
+  place_sites(context_, stage, std::move(placed));
+}
+
+Stage PointScheme::next(const Stage& previous) {
+  ++stage_;
+  return scheme_ == Scheme::insertion ? insert(previous) : divide(previous);
+}
+
+Stage PointScheme::divide(const Stage& previous) {
+  const comm::Communicator& comm = context_.comm;
+  const StageView old{*previous.state, previous.boundary, *previous.size, context_.lattice};
+  const GlobalId before = comm.sum(std::int64_t{previous.state->points().owned()});
+  Stage stage = lay_division(laid_last_, 4 * static_cast<double>(before));
+  const auto time = context_.timers.scope("start");
+  mesh::SiteList sites = split_edges(old);
+  clear_strip(stage, sites);
+  if (options_.points && is_last()) {
+    const std::int64_t most = std::max<std::int64_t>(0, *options_.points - reserve() - stage.placed_first());
+    trim(comm, stage, most, sites);
+    const std::int64_t missing = most - comm.sum(static_cast<std::int64_t>(sites.size()));
+    if (shortage_.empty() &&
+        static_cast<double>(missing) > StartRules::small_shortage * static_cast<double>(*options_.points))
+      insert_in_triangles(old, stage, missing, sites); // narrow parts that the coarse mesh has starved
+  }
+  place_sites(context_, stage, std::move(sites));
+  return stage;
+}
+
+Stage PointScheme::insert(const Stage& previous) {
+  const comm::Communicator& comm = context_.comm;
+  const StageView old{*previous.state, previous.boundary, *previous.size, context_.lattice};
+  const GlobalId before = comm.sum(std::int64_t{previous.state->points().owned()});
+  const double grown = std::floor(StartRules::growth * static_cast<double>(before)), all = expected_points();
+  if (is_last() && 2 * grown < all && stage_ < StartRules::most_insertions)
+    ++last_stage_; // too few triangles for the rest: the boundary took the points of the first stages
+  points_now_ = is_last() ? all : std::min(all, std::max(grown, std::floor(StartRules::growth * points_now_)));
+  const double coarsening = is_last() ? 1 : std::fmax(1, std::sqrt(expected_points() / points_now_));
+  Stage stage = lay_coarsened(coarsening, points_now_);
+  const auto time = context_.timers.scope("start");
+  mesh::SiteList sites = inner_sites(*previous.state);
+  clear_strip(stage, sites);
+  const std::int64_t most = std::max<std::int64_t>(0, std::llround(points_now_) - stage.placed_first());
+  insert_in_triangles(old, stage, most - comm.sum(static_cast<std::int64_t>(sites.size())), sites);
+  if (options_.points)
+    trim(comm, stage, most, sites);
+  place_sites(context_, stage, std::move(sites));
+  return stage;
+}
+
+} // namespace trime::start

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How the points come into the mesh: all at once, from a coarse mesh that is divided, or in insertions.
+#pragma once
+
+#include "start/layout.hpp"
+#include "start/start.hpp"
+
+#include <memory>
+#include <span>
+#include <string>
+
+namespace trime::start {
+
+/// @brief The stages of a run. Lattice: one stage of a hexagonal lattice whose spacing fits the count. Hilbert: one
+/// stage of quantiles along the Hilbert curve. Coarse to fine: 1/4^k of the points, relaxed, then all edges are
+/// divided, k times (the quality of 100 sweeps for the price of 20). Insertion, as TriMe++ does it: a share of the
+/// points first, then stages of 60 % more in the triangles that are largest for their place, h rescaled each time.
+class PointScheme {
+public:
+  explicit PointScheme(const LayoutContext& context);
+
+  /// First stage, sites distributed. Collective.
+  /// @throws ConfigError if the points are too few for the shape, or for max_size; GeometryError; on all ranks together
+  sites::Stage first();
+  /// Next stage from the last one. @pre !is_last(), and the stars of all sites of `previous` are certain. Collective.
+  sites::Stage next(const sites::Stage& previous);
+  /// No further stage comes.
+  bool is_last() const { return stage_ == last_stage_; }
+  int stage() const { return stage_; }
+  /// The stages to come insert points into the mesh of this one.
+  bool inserts() const { return scheme_ == Scheme::insertion; }
+
+  /// Where the boundary needs smaller triangles than the size that is asked for. @pre first() was called
+  std::span<const sizing::SizeLimit> limits() const { return fitted_.limits; }
+  /// Which scheme was chosen and why, one line.
+  const std::string& reason() const { return reason_; }
+  /// Why the scheme made fewer points than asked for; empty if it did not.
+  const std::string& shortage() const { return shortage_; }
+
+private:
+  enum class Scheme { lattice, hilbert, coarse_to_fine, insertion };
+
+  void choose();
+  GlobalId reserve() const;
+  double expected_points() const;
+  sites::Stage first_of_lattice();
+  sites::Stage first_of_insertion();
+  sites::Stage first_of_divisions();
+  sites::Stage lay_coarsened(double coarsening, double expected);
+  sites::Stage lay_division(sites::Stage& last, double expected);
+  std::unique_ptr<const HilbertStart> along_curve(const sites::Stage& stage, double expected, double coarsening) const;
+  void place_along_curve(sites::Stage& stage, double inner, const HilbertStart& start) const;
+  /// The next stages after `previous`.
+  sites::Stage divide(const sites::Stage& previous);
+  sites::Stage insert(const sites::Stage& previous);
+
+  const LayoutContext& context_;
+  const StartOptions& options_;
+  Scheme scheme_ = Scheme::lattice;
+  int stage_ = 0, last_stage_ = 0;
+  FittedSize fitted_;      // what the size of all stages follows from
+  sites::Stage laid_last_; // the last stage of divisions, until it begins
+  double points_now_ = 0;  // that the current stage aims at (insertion)
+  std::string reason_, shortage_;
+};
+
+} // namespace trime::start

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The numbers of the sweeps, each once: how far sites move, when tiles sleep, and when a stage ends.
+#pragma once
+
+namespace trime::sweep {
+
+/// The numbers of the update rules and of the sweeps.
+struct SweepRules {
+  /// [h] All sites move at once, so that long moves would turn triangles over: moves are cut to this. Not measured.
+  static constexpr double move_cap = 0.4;
+  /// [h] A site that moves by more counts as moving; if none does, the stage has converged. Not measured.
+  static constexpr double still = 0.005;
+  /// [h] A shorter move is not made, so that most of a lattice stays as it is, bit for bit. With 1e-4 a perturbed
+  /// torus did not return to its lattice.
+  static constexpr double rest = 1e-5;
+
+  /// [1] Rest length of a bar over h: most bars push. With 1.1, 20 sweeps gave mean alpha 1.050 in place of 1.053, but
+  /// the largest was 1.98 in place of 1.73; with 1.0 and bars that also pull, the sweeps stalled.
+  static constexpr double bar_pressure = 1.2;
+  /// [1] Explicit Euler step of the bars: stable below 1/3 on a hexagonal lattice. Other values: not measured.
+  static constexpr double bar_time_step = 0.3;
+  /// [1] Exponent of 1/h in the weight of a Voronoi cell: 4 makes the spacing proportional to h (see CvdRule). With 2,
+  /// 100 sweeps doubled the deviation from h (0.128 in place of 0.063).
+  static constexpr int density_exponent = 4;
+  /// [1] Largest factor of the momentum. 0.9, 0.95 and 0.98 were alike, 0.7 and 0.8 slightly worse.
+  static constexpr double largest_momentum = 0.95;
+  /// [sweeps] The momentum of sweep k after a restart is k / (k + this), as is usual. Not measured.
+  static constexpr int momentum_delay = 3;
+  /// [1] k in the energy of TriangleRule: the resistance to a change of area is half that to shear. alpha - 1 fell to
+  /// less than half of what the cells leave, and the deviation of lengths from h grew by a sixth at most.
+  static constexpr double triangle_stiffness = 0.25;
+  /// [1] Share of the Newton step of TriangleRule, since neighbours move at the same time. From 0.9 on the shortest
+  /// waves come to life.
+  static constexpr double triangle_damping = 0.7;
+
+  /// [1] A site may be pushed out of discs of the boundary so often; then it is deleted. Not measured.
+  static constexpr int pushes_allowed = 3;
+  /// [1] Share of those to be deleted that go in one round: the room that one leaves may be enough for the others. Not
+  /// measured.
+  static constexpr double deleted_share = 1.0 / 3;
+  /// [rounds] Where no rule moves sites, an offender is pushed or chosen for deletion in so many rounds. Not measured.
+  static constexpr int settling_rounds = 12;
+  /// [rounds] From this round of settling on, every offender is deleted, so that settling ends. Not measured.
+  static constexpr int patient_settling_rounds = 8;
+
+  /// [sweeps] h is evaluated anew after so many: the size field may be dear, and sites have moved little by then. With
+  /// other changes of the same time, 6 in place of 4 left mean alpha as it was.
+  static constexpr int sweeps_of_a_size = 6;
+  /// [sweeps] Sites that are to be deleted wait so long for the next sorting, which is what deletes them. Not measured.
+  static constexpr int sweeps_of_a_sort = 8;
+  /// [h] Sites are sorted again when one may have come so far since: searches become long. Not measured.
+  static constexpr double drift_in_sizes = 4;
+  /// [tile sides] Sites are sorted again when one may have come so far since: what lies around a tile is found in the
+  /// tiles beside it. Not measured.
+  static constexpr double drift_in_tiles = 0.25;
+  /// [1] All tiles wake when a scale of the rule has changed by this share. Not measured.
+  static constexpr double scale_change = 1e-3;
+  /// [1] Factor by which bounds on distances are raised, far above the rounding of the sums in them.
+  static constexpr double drift_rounding = 1 + 1e-9;
+  /// [rounds] The halo grows at most so often in a sweep; more means a fault of the program.
+  static constexpr int most_halo_rounds = 100;
+
+  /// [rounding units] Bound on the error of the convexity test, relative to its largest terms: stars that are nearer to
+  /// a tie are left to the exact test. The same as in the exact kernel's own filter.
+  static constexpr double convexity_error = 20 * 0x1p-53;
+  /// [1] A spoke must turn against the one before by about this angle, so that its triangle has an orientation without
+  /// doubt. Not measured.
+  static constexpr double least_turn = 1e-7;
+  /// [1] Share of the squared cap below which rounding cannot decide whether a triangle counts; the others are left to
+  /// the exact test. Not measured.
+  static constexpr double cap_margin = 0.98;
+
+  /// [1] Bound on what one site adds to the power of the moves, which keeps sums within the reach of FixedSum.
+  static constexpr double largest_power = 0x1p10;
+  /// [1] Bound on a squared length over h_ref^2 in a sum, which keeps sums within the reach of FixedSum.
+  static constexpr double largest_term = 0x1p17;
+  /// [1] Bound on alpha - 1 in a sum, which keeps sums within the reach of FixedSum.
+  static constexpr double largest_excess_term = 1000;
+};
+
+/// The numbers that say when a stage ends.
+struct StopRules {
+  /// [sweeps] From one measurement of the quality to the next: measuring takes about as long as a move. Not measured.
+  static constexpr int measuring_interval = 3;
+  /// [sweeps] Gains are counted over so many: two measurements, so that one odd sweep decides nothing. Not measured.
+  static constexpr int window = 2 * measuring_interval;
+  /// [sweeps] A rule has so many before it may stall: bars and cells first pay for the disorder of the start. Not
+  /// measured.
+  static constexpr int earliest = 9;
+  /// [1] As good as stalled if the mean of alpha falls by less in a window: nobody sees it. Together with a higher
+  /// momentum, a square of 1e6 points took 21 sweeps in place of 48, for a mean alpha of 1.0002 in place of 1.0001.
+  static constexpr double seen = 5e-5;
+
+  /// [1] Bars give way to cells when a window brings less than this share of the median of alpha - 1: accelerated cells
+  /// do the rest sooner than bars. Measured with other changes only, see `seen`.
+  static constexpr double median_gain = 0.3;
+  /// [1] A median of alpha - 1 below this leaves bars nothing to gain. Not measured.
+  static constexpr double good_median = 0.001;
+
+  /// [1] Least gain of bars or cells in a window, in the last stage. Not measured.
+  static constexpr double last_tolerance = 0.04;
+  /// [1] The same before points are inserted: their coming disturbs the order anyway. Not measured.
+  static constexpr double insertion_tolerance = 0.12;
+  /// [1] The same for bars on a coarse mesh: it costs little and decides over the order of the finer ones. Not
+  /// measured.
+  static constexpr double coarse_bar_tolerance = 0.024;
+  /// [1] The same for cells on a coarse mesh, with twice the patience of an earlier value, for the same reason.
+  static constexpr double coarse_cell_tolerance = 0.015;
+  /// [1] Method `distmesh` multiplies the tolerance by this: bars settle more slowly than accelerated cells. With 158
+  /// sweeps in place of 83 a domain of 1e4 points had a median alpha of 1.0163 in place of 1.0197.
+  static constexpr double bar_patience = 0.4;
+  /// [1] Least gain of triangles in a window, in the last stage: they gain nearly all in a few sweeps. Not measured.
+  static constexpr double triangle_tolerance = 0.084;
+  /// [1] The same on a coarse mesh. Not measured.
+  static constexpr double coarse_triangle_tolerance = 0.036;
+};
+
+} // namespace trime::sweep

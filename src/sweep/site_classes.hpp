@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// For which stars the Delaunay lemma may do: what the sweeps know of chords and ghosts.
+#pragma once
+
+#include "sites/site_state.hpp"
+#include "sweep/guard_treatment.hpp"
+#include "sweep/sweep_kernel.hpp"
+#include "sweep/tiles_around.hpp"
+
+#include <span>
+#include <vector>
+
+namespace trime::sweep {
+
+/// For which stars the lemma may do; the others are certified by emptiness. `nowhere` is slow, for tests;
+/// `up_to_chords` needs that no boundary site is in the disc of a chord.
+enum class LemmaReach { nowhere, inside, up_to_chords };
+
+/// @brief The class of each owned site, by its star and by where it lies; and the tiles in which the chords of the
+/// boundary may be trusted. See StarCertifier for the reasons.
+class SiteClasses {
+public:
+  /// The state and all of the context outlive this object.
+  SiteClasses(const sites::SiteState& state, const MoveContext& context, LemmaReach reach)
+      : state_(state), context_(context), reach_(reach) {}
+
+  /// Classifies all sites; to be called after sites were sorted.
+  void reset();
+  SiteClass operator[](LocalIndex i) const { return classes_[static_cast<std::size_t>(i)]; }
+  const SiteClass* data() const { return classes_.data(); }
+  /// The star of site i may have changed: finds its class anew. Different sites may be classified concurrently.
+  SiteClass update(LocalIndex i, LocalIndex tile);
+
+  /// Of the owned tiles, in order.
+  std::span<const TilePlace> places() const { return places_; }
+  /// The lowest class for which the lemma does in a tile of the container.
+  SiteClass least_certified(LocalIndex tile) const;
+  /// Some site of owned tile t may be in the disc of a chord, or none is.
+  void set_encroached(std::size_t t, bool encroached) { encroached_[t] = encroached; }
+
+private:
+  SiteClass class_of(LocalIndex i, LocalIndex tile) const;
+  bool vouches_for(LocalIndex neighbour, LocalIndex i) const;
+  bool may_be_bordered(LocalIndex i, LocalIndex tile) const;
+  bool is_chord_within_reach(LocalIndex from, LocalIndex to, LocalIndex tile) const;
+  void find_encroached_tiles();
+
+  const sites::SiteState& state_;
+  const MoveContext context_;
+  const LemmaReach reach_;
+  std::vector<SiteClass> classes_;       // by owned site
+  std::vector<TilePlace> places_;        // by owned tile
+  std::vector<std::uint8_t> encroached_; // by owned tile: some site of it may be in the disc of a chord
+};
+
+/// The owned tile of an owned site, among those of the container. O(log(tiles)).
+LocalIndex tile_of_site(const mesh::BinnedPoints& points, LocalIndex i);
+
+} // namespace trime::sweep

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// TRIME_LANES sites side by side with their stars, and the test that certifies these. Included once by each file that
+// is compiled for one kind of processor; all of it is local to that file.
+#pragma once
+
+#include "core/lanes.hpp"
+#include "sweep/sweep_kernel.hpp"
+
+namespace trime::sweep {
+namespace {
+
+constexpr int width = TRIME_LANES;
+using V = lanes::Types<width>::Doubles;
+using M = lanes::Types<width>::Mask;
+constexpr int slots = 8;
+
+/// Sites i, i + 1, ..., one in each lane. Lanes whose site is not local repeat one that is.
+struct Group {
+  LocalIndex site[width];
+  unsigned local = 0;    // a bit for each lane whose site is local
+  bool bordered = false; // some of these sites are
+  int largest_degree = 0;
+  V degree{};
+};
+
+TRIME_INLINE Group group_at(const SweepTask& task, LocalIndex i, LocalIndex end) {
+  Group group;
+  LocalIndex any = -1;
+  for (int l = 0; l < width; ++l) {
+    group.site[l] = -1;
+    if (i + l < end && task.classes[i + l] >= task.least_class) {
+      group.site[l] = any = i + l;
+      group.local |= 1U << l;
+      group.bordered |= task.classes[i + l] == SiteClass::bordered;
+    }
+  }
+  if (any < 0)
+    return group;
+  for (int l = 0; l < width; ++l) {
+    if (group.site[l] < 0)
+      group.site[l] = any;
+    const int degree = task.degrees[group.site[l]];
+    group.degree[l] = degree;
+    group.largest_degree = degree > group.largest_degree ? degree : group.largest_degree;
+  }
+  return group;
+}
+
+/// The positions (or h) of one neighbour of each site of a group.
+TRIME_INLINE lanes::Pairs<V> load_neighbours(const SweepTask& task, const Group& group, int slot) {
+  const double* from[width];
+  for (int l = 0; l < width; ++l)
+    from[l] = &task.positions[task.rings[slots * std::ptrdiff_t{group.site[l]} + slot]].x;
+  return lanes::load_pairs<V>(from);
+}
+TRIME_INLINE V load_sizes(const SweepTask& task, const Group& group, int slot) {
+  V h{};
+  for (int l = 0; l < width; ++l)
+    h[l] = task.sizes[task.rings[slots * std::ptrdiff_t{group.site[l]} + slot]];
+  return h;
+}
+
+TRIME_INLINE V load_own_sizes(const SweepTask& task, const Group& group) {
+  V h{};
+  for (int l = 0; l < width; ++l)
+    h[l] = task.sizes[group.site[l]];
+  return h;
+}
+
+/// The positions of the sites of a group.
+TRIME_INLINE lanes::Pairs<V> load_sites(const geometry::Vec2* all, const Group& group) {
+  const double* from[width];
+  for (int l = 0; l < width; ++l)
+    from[l] = &all[group.site[l]].x;
+  return lanes::load_pairs<V>(from);
+}
+
+/// @brief Tests the stars of a group spoke by spoke: they must wind once and be locally convex, as for
+/// StarKernel::is_locally_convex. Every triangle must be smaller than the cap, too, and the first neighbour still the
+/// lexicographically smallest.
+class ConvexityTest {
+public:
+  TRIME_INLINE explicit ConvexityTest(V cap) : four_squared_caps_(4.0 * SweepRules::cap_margin * cap * cap) {}
+
+  /// Spokes a, b, q in a row; `ab`, `bq` the cross products.
+  TRIME_INLINE void add(const Spoke<V>& a, const Spoke<V>& b, const Spoke<V>& q, V ab, V bq, const Spoke<V>& first,
+                        M active) {
+    const V qa = q.x * a.y - q.y * a.x;
+    const V determinant = a.squared * bq + b.squared * qa + q.squared * ab;
+    const V product = a.squared * b.squared;
+    const V magnitude = product + b.squared * q.squared + q.squared * a.squared;
+    const V ex = a.x - b.x, ey = a.y - b.y;
+    const M convex = determinant > SweepRules::convexity_error * magnitude,
+            turned = ab > SweepRules::least_turn * (a.squared + b.squared);
+    const M small = product * (ex * ex + ey * ey) < four_squared_caps_ * (ab * ab);
+    const M smaller = (a.x < first.x) | ((a.x == first.x) & (a.y < first.y));
+    bad_ |= active & (~(convex & turned & small) | smaller);
+    turns_ -= active & (a.y < 0.0) & (b.y >= 0.0);
+  }
+  /// The lanes whose stars pass, a bit for each.
+  TRIME_INLINE unsigned good() const { return ~lanes::bits(bad_ | (turns_ != 1)); }
+
+private:
+  V four_squared_caps_;
+  M bad_{}, turns_{};
+};
+
+/// h at the sites of a group.
+template <bool graded>
+TRIME_INLINE V sizes_of(const SweepTask& task, const Group& group) {
+  if constexpr (graded)
+    return load_own_sizes(task, group);
+  return V{} + task.uniform_size;
+}
+
+/// The caps of the stars of a group, see StarBuilder::cap.
+TRIME_INLINE V caps_of(const SweepTask& task, V own_size) {
+  const V uncapped = task.cap_factor * own_size, all_caps = V{} + task.largest_cap;
+  return lanes::select(uncapped < all_caps, uncapped, all_caps);
+}
+
+/// The spokes of a group, slot by slot; those of a ring that ends before the last slot repeat it, two at least.
+template <bool graded>
+TRIME_INLINE void load_spokes(const SweepTask& task, const Group& group, const lanes::Pairs<V>& p, V own_size,
+                              Spoke<V> (&spoke)[slots + 2]) {
+  const int n = group.largest_degree;
+  for (int k = 0; k < slots; ++k) {
+    if (k >= n + 2)
+      break;
+    const lanes::Pairs<V> at = load_neighbours(task, group, k);
+    const V x = at.x - p.x, y = at.y - p.y;
+    spoke[k] = {x, y, x * x + y * y, own_size};
+    if constexpr (graded)
+      spoke[k].size = load_sizes(task, group, k);
+  }
+  if (n + 2 > slots) { // beyond the last slot the ring of 8 begins again, that of 7 is at its second
+    const M eight = group.degree == 8.0;
+    spoke[slots] = {lanes::select(eight, spoke[0].x, spoke[1].x), lanes::select(eight, spoke[0].y, spoke[1].y),
+                    lanes::select(eight, spoke[0].squared, spoke[1].squared),
+                    lanes::select(eight, spoke[0].size, spoke[1].size)};
+    spoke[slots + 1] = spoke[1];
+  }
+}
+
+/// Shows every triangle of the stars of a group to the test and to a formula.
+template <class Formula>
+TRIME_INLINE void visit_triangles(const Group& group, const Spoke<V> (&spoke)[slots + 2], ConvexityTest& test,
+                                  Formula& formula) {
+  V cross = spoke[0].x * spoke[1].y - spoke[0].y * spoke[1].x;
+  for (int k = 0; k < group.largest_degree; ++k) {
+    const Spoke<V>&a = spoke[k], &b = spoke[k + 1], &q = spoke[k + 2];
+    const M active = group.degree > static_cast<double>(k);
+    const V next_cross = b.x * q.y - b.y * q.x;
+    test.add(a, b, q, cross, next_cross, spoke[0], active);
+    formula.add(a, b, cross, active);
+    cross = next_cross;
+  }
+}
+
+} // namespace
+} // namespace trime::sweep

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// When the sweeps sort their sites, and when they evaluate h anew.
+#pragma once
+
+#include "sweep/rules.hpp"
+
+namespace trime::sweep {
+
+/// @brief Sites are not sorted in every sweep: bins stay as they are, and searches go as much farther as sites have
+/// come (BinnedPoints::for_each_near), until that is too much. h is evaluated anew every few sweeps. All numbers are
+/// bounds over all ranks, so that all ranks decide alike.
+class SortSchedule {
+public:
+  /// @param distance, ratio bounds on the move of any site, and on its move over h
+  void add_move(double distance, double ratio) {
+    drift_ += distance * SweepRules::drift_rounding;
+    drift_in_sizes_ += ratio;
+    ++moves_since_sort_;
+  }
+  /// Have sites come too far for their bins? @param tile_side the shorter one
+  bool is_sort_due(double tile_side) const {
+    return drift_in_sizes_ > SweepRules::drift_in_sizes || drift_ > SweepRules::drift_in_tiles * tile_side;
+  }
+  /// Have sites that are to be deleted waited long enough?
+  bool may_sort_to_delete() const { return moves_since_sort_ >= SweepRules::sweeps_of_a_sort; }
+  /// How far any site may have come since the last sorting.
+  double drift() const { return drift_; }
+  /// The sites have been moved without sorting; is h to be evaluated at the new places?
+  bool advance() {
+    if (++age_of_sizes_ < SweepRules::sweeps_of_a_size)
+      return false;
+    age_of_sizes_ = 0;
+    return true;
+  }
+  /// The sites have been sorted, and h evaluated.
+  void reset() { *this = {}; }
+
+private:
+  double drift_ = 0, drift_in_sizes_ = 0;
+  int age_of_sizes_ = 0, moves_since_sort_ = 0; // in sweeps
+};
+
+} // namespace trime::sweep

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which rule moves the sites, and when a stage ends: from maxima and integer sums over all ranks only, never from
+// times.
+#pragma once
+
+#include "sweep/rules.hpp"
+#include "sweep/sweep_options.hpp"
+#include "sweep/update_rule.hpp"
+#include "trime/sweep/sweep_history.hpp"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace trime::sweep {
+
+/// When a rule has done what it can.
+struct Patience {
+  double tolerance;                   ///< least share of alpha - 1 that a window must gain
+  int earliest = StopRules::earliest; ///< sweeps before it may stall
+  bool median = true;                 ///< the median of alpha must have stalled as well
+  double seen = StopRules::seen;      ///< of mean alpha: as good as stalled if a window gains less
+};
+
+/// @brief Says when a stage ends. Converged: no site moved by more than SweepRules::still in the last sweep. Quality
+/// stalled: the mean of alpha - 1 fell by less than the tolerance, or by less than anybody sees, over the last window.
+/// Sweep cap: the moves since the start of the run.
+class StopRule {
+public:
+  StopRule(int max_sweeps, const Patience& patience) : max_sweeps_(max_sweeps), patience_(patience) {}
+  /// @param records of the stage, or of the part of it that the present rule has moved; the same on every rank
+  std::optional<StopReason> decide(std::span<const SweepRecord> records) const;
+
+private:
+  int max_sweeps_;
+  Patience patience_;
+};
+
+/// True if bars have done what they can do quickly: the median of alpha - 1 fell by less than StopRules::median_gain of
+/// itself over the last window, or is good already.
+bool median_stalled(std::span<const SweepRecord> records);
+
+/// What follows a record: the end of the stage, a change of the rule, or neither.
+struct SweepDecision {
+  std::optional<StopReason> stop; ///< why the stage ends
+  std::optional<Mover> next;      ///< what is to move the sites from now on
+};
+
+/// @brief The rule of each sweep. `distmesh` and `cvd` stay with theirs. `hybrid` starts with bars and goes over to
+/// Voronoi cells, once and for all, when the median of alpha stalls: in the first stage if the later ones divide a
+/// relaxed mesh, in the last one if they insert points (as TriMe++ does). When the cells have stalled, TriangleRule
+/// ends the stage, and does all the work in the stages after a division: they start in order.
+class SweepControl {
+public:
+  /// @param history of the run, which goes on growing; outlives this object
+  SweepControl(const SweepOptions& options, const std::vector<SweepRecord>& history);
+
+  /// @param inserts the stages to come insert points @param is_last no stage comes
+  void begin_stage(bool inserts, bool is_last);
+  /// What follows the last record; changes nothing. @pre the stage has a record
+  SweepDecision decide() const;
+  /// Sites are moved by another rule from now on, which counts its gains from the last record.
+  void switch_to(Mover mover);
+  UpdateRule& rule() { return *rule_; }
+  Mover mover() const { return mover_; }
+
+private:
+  void use(Mover mover);
+  Patience patience() const;
+  double tolerance() const;
+  std::span<const SweepRecord> records() const;
+
+  const SweepOptions options_;
+  const std::vector<SweepRecord>& history_;
+  std::unique_ptr<UpdateRule> rule_;
+  Mover mover_ = Mover::bars;
+  std::size_t first_record_ = 0; // that the present rule counts from
+  bool may_switch_ = true, inserts_ = false, is_last_ = true;
+};
+
+} // namespace trime::sweep

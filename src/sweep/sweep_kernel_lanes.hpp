@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The passes of sweep_kernel.hpp that certify and move, for TRIME_LANES sites side by side. Included once by each file
+// that is compiled for one kind of processor; all of it is local to that file.
+#pragma once
+
+#include "sweep/site_group.hpp"
+
+namespace trime::sweep {
+namespace {
+
+/// Where the sites of a group are to go.
+struct GroupMove {
+  V x, y;                     // next places
+  lanes::Pairs<V> lead{};     // leads before the move
+  V next_lead_x, next_lead_y; // and after it
+  M is_short;                 // neither move nor move and lead exceed the cap
+};
+
+TRIME_INLINE V clamped(V v, double low, double high) {
+  const V above = lanes::select(v > low, v, V{} + low);
+  return lanes::select(above < high, above, V{} + high);
+}
+
+TRIME_INLINE V snapped(const SweepTask& task, V v) {
+  return lanes::nearest(v * task.inverse_lattice_step) * task.lattice_step;
+}
+
+/// The move of a rule with its momentum, onto the lattice; short moves rest.
+TRIME_INLINE GroupMove next_places(const SweepTask& task, const Group& group, const lanes::Pairs<V>& p, V own,
+                                   const Move<V>& move) {
+  GroupMove next;
+  if (task.leads)
+    next.lead = load_sites(task.leads, group);
+  const lanes::Pairs<V>& lead = next.lead;
+  const V next_lead_x = task.rule.momentum * (move.x + lead.x), next_lead_y = task.rule.momentum * (move.y + lead.y);
+  const V limit = (SweepRules::move_cap * own) * (SweepRules::move_cap * own);
+  const V way_x = move.x + next_lead_x, way_y = move.y + next_lead_y;
+  const V squared_way = way_x * way_x + way_y * way_y;
+  next.is_short = (move.x * move.x + move.y * move.y <= limit) & (squared_way <= limit);
+  const M rests = squared_way < (SweepRules::rest * own) * (SweepRules::rest * own);
+  next.x = lanes::select(rests, p.x, snapped(task, clamped(p.x + way_x, task.box.min.x, task.box.max.x)));
+  next.y = lanes::select(rests, p.y, snapped(task, clamped(p.y + way_y, task.box.min.y, task.box.max.y)));
+  next.next_lead_x = lanes::select(rests, V{}, next_lead_x);
+  next.next_lead_y = lanes::select(rests, V{}, next_lead_y);
+  return next;
+}
+
+/// Those of the lanes `moved` whose new place is not known to be clear of the boundary's discs, a bit for each.
+TRIME_INLINE unsigned guarded_lanes(const SweepTask& task, unsigned moved, V x, V y) {
+  unsigned guarded = 0;
+  if (!task.guard_cells)
+    return guarded;
+  const V column = (x - task.guard_corner.x) * task.guard_inverse_side;
+  const V row = (y - task.guard_corner.y) * task.guard_inverse_side;
+  for (int l = 0; l < width; ++l) {
+    if (!(moved >> l & 1))
+      continue;
+    const bool known = column[l] >= 0 && row[l] >= 0 && column[l] < task.guard_columns && row[l] < task.guard_rows;
+    if (!known || task.guard_cells[static_cast<std::int64_t>(row[l]) * task.guard_columns +
+                                   static_cast<std::int64_t>(column[l])] <= 0)
+      guarded |= 1U << l;
+  }
+  return guarded;
+}
+
+/// Stores the moves of the lanes `moved` and lists what is left to the caller.
+TRIME_INLINE M store_moves(const SweepTask& task, LocalIndex begin, unsigned certified, unsigned moved,
+                           const GroupMove& next, SweepLeftovers& leftovers) {
+  const unsigned guarded = guarded_lanes(task, moved, next.x, next.y);
+  M counted{};
+  for (int l = 0; l < width; ++l) {
+    counted[l] = -static_cast<std::int64_t>(moved >> l & 1);
+    if (moved >> l & 1) {
+      task.next_positions[begin + l] = {next.x[l], next.y[l]};
+      if (task.next_leads)
+        task.next_leads[begin + l] = {next.next_lead_x[l], next.next_lead_y[l]};
+      if (guarded >> l & 1)
+        leftovers.guarded[leftovers.guarded_count++] = begin + l;
+    } else if (certified >> l & 1) {
+      leftovers.irregular[leftovers.irregular_count++] = begin + l;
+    }
+  }
+  return counted;
+}
+
+/// What the moves of a range add up to, lane by lane.
+struct LaneTally {
+  std::int64_t moving = 0;
+  M power{};
+  V ratio{}, distance{};
+
+  TRIME_INLINE void add(const SiteTally<V>& one, M counted) {
+    moving -= lanes::sum_of_lanes(counted & (one.squared_ratio > SweepRules::still * SweepRules::still));
+    power += counted & lanes::fixed_point(one.power);
+    ratio = lanes::select(counted & (one.squared_ratio > ratio), one.squared_ratio, ratio);
+    distance = lanes::select(counted & (one.squared_distance > distance), one.squared_distance, distance);
+  }
+  TRIME_INLINE SweepTally sum() const {
+    SweepTally tally;
+    tally.moving = moving;
+    tally.power = lanes::sum_of_lanes(power);
+    tally.squared_ratio = lanes::largest_lane(ratio);
+    tally.squared_distance = lanes::largest_lane(distance);
+    return tally;
+  }
+};
+
+/// Moves the local sites of a group; returns those whose stars it cannot certify, a bit for each.
+template <template <class, bool> class Formula, bool graded>
+TRIME_INLINE unsigned sweep_group(const SweepTask& task, const Group& group, LocalIndex begin,
+                                  SweepLeftovers& leftovers, LaneTally& tally) {
+  const lanes::Pairs<V> p = load_sites(task.positions, group);
+  const V own = sizes_of<graded>(task, group);
+  ConvexityTest test(caps_of(task, own));
+  Formula<V, graded> formula(task.rule, own);
+  Spoke<V> spoke[slots + 2];
+  load_spokes<graded>(task, group, p, own, spoke);
+  visit_triangles(group, spoke, test, formula);
+
+  const GroupMove next = next_places(task, group, p, own, formula.move());
+  const unsigned certified = group.local & test.good();
+  const unsigned moved = certified & lanes::bits(next.is_short);
+  const M counted = store_moves(task, begin, certified, moved, next, leftovers);
+  tally.add({next.x - p.x, next.y - p.y, next.lead.x, next.lead.y, next.next_lead_x, next.next_lead_y, own}, counted);
+  return group.local & ~certified;
+}
+
+/// Those of [begin, end) that are not local stay where they are; returns those with stars, a bit for each.
+TRIME_INLINE unsigned hold_others(const SweepTask& task, const Group& group, LocalIndex begin, LocalIndex end) {
+  unsigned with_stars = 0;
+  for (LocalIndex i = begin; i < begin + width && i < end; ++i) {
+    if (group.local >> (i - begin) & 1)
+      continue;
+    task.next_positions[i] = task.positions[i];
+    if (task.next_leads)
+      task.next_leads[i] = {};
+    if (task.classes[i] != SiteClass::held)
+      with_stars |= 1U << (i - begin);
+  }
+  return with_stars;
+}
+
+/// Appends the sites of the lanes `listed` of the group that begins at `begin`.
+TRIME_INLINE void append(LocalIndex begin, unsigned listed, LocalIndex* list, std::ptrdiff_t& count) {
+  for (LocalIndex i = begin; listed; ++i, listed >>= 1)
+    if (listed & 1)
+      list[count++] = i;
+}
+
+template <template <class, bool> class Formula, bool graded>
+SweepTally sweep_range(const SweepTask& task, LocalIndex begin, LocalIndex end, SweepLeftovers& leftovers) {
+  LaneTally tally;
+  for (LocalIndex i = begin; i < end; i += width) {
+    const Group group = group_at(task, i, end);
+    unsigned suspects = hold_others(task, group, i, end);
+    if (group.local)
+      suspects |= sweep_group<Formula, graded>(task, group, i, leftovers, tally);
+    append(i, suspects, leftovers.suspects, leftovers.suspect_count);
+  }
+  return tally.sum();
+}
+
+SweepTally sweep_lanes(const SweepTask& task, LocalIndex begin, LocalIndex end, SweepLeftovers& leftovers) {
+  const bool graded = task.sizes != nullptr;
+  switch (task.rule.mover) {
+  case Mover::bars:
+    return graded ? sweep_range<BarFormula, true>(task, begin, end, leftovers)
+                  : sweep_range<BarFormula, false>(task, begin, end, leftovers);
+  case Mover::cells:
+    return graded ? sweep_range<CellFormula, true>(task, begin, end, leftovers)
+                  : sweep_range<CellFormula, false>(task, begin, end, leftovers);
+  case Mover::triangles:
+    break;
+  }
+  return graded ? sweep_range<TriangleFormula, true>(task, begin, end, leftovers)
+                : sweep_range<TriangleFormula, false>(task, begin, end, leftovers);
+}
+
+/// Stands for a rule where nothing moves.
+struct NoFormula {
+  TRIME_INLINE void add(const Spoke<V>&, const Spoke<V>&, V, M) {}
+};
+
+/// The local sites of a group whose stars it cannot certify, a bit for each.
+template <bool graded>
+TRIME_INLINE unsigned suspects_of(const SweepTask& task, const Group& group) {
+  const lanes::Pairs<V> p = load_sites(task.positions, group);
+  const V own = sizes_of<graded>(task, group);
+  ConvexityTest test(caps_of(task, own));
+  NoFormula formula;
+  Spoke<V> spoke[slots + 2];
+  load_spokes<false>(task, group, p, own, spoke);
+  visit_triangles(group, spoke, test, formula);
+  return group.local & ~test.good();
+}
+
+template <bool graded>
+std::ptrdiff_t certify_range(const SweepTask& task, LocalIndex begin, LocalIndex end, LocalIndex* suspects) {
+  std::ptrdiff_t count = 0;
+  for (LocalIndex i = begin; i < end; i += width) {
+    const Group group = group_at(task, i, end);
+    unsigned found = group.local ? suspects_of<graded>(task, group) : 0;
+    for (LocalIndex j = i; j < i + width && j < end; ++j)
+      if (!(group.local >> (j - i) & 1) && task.classes[j] != SiteClass::held)
+        found |= 1U << (j - i);
+    append(i, found, suspects, count);
+  }
+  return count;
+}
+
+std::ptrdiff_t certify_lanes(const SweepTask& task, LocalIndex begin, LocalIndex end, LocalIndex* suspects) {
+  return task.sizes ? certify_range<true>(task, begin, end, suspects)
+                    : certify_range<false>(task, begin, end, suspects);
+}
+
+} // namespace
+} // namespace trime::sweep

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What one sweep did, summed over all ranks.
+#pragma once
+
+#include "sweep/sweep_sums.hpp"
+#include "sweep/sweeper.hpp"
+#include "trime/sweep/sweep_history.hpp"
+
+#include <string>
+
+namespace trime::sweep {
+
+/// A line of the history, and the sums that steer the next move.
+struct SweepSummary {
+  SweepRecord record;
+  SweepSums sums;
+};
+
+/// @brief Measures the stars of the inner sites, with one packed reduction of quality and sums for the rule. Leaves
+/// `sweep`, `stage`, `by_bars` and `seconds` of the record to the caller. Collective.
+/// @param counts of the sweeps since the last record
+/// @param typical_size any typical h, see SweepSums
+/// @param held sites on all ranks that never move: boundary sites and fixed points
+SweepSummary summarize_sweep(const sites::SiteState& state, Sweeper& sweeper, const Sweeper::Counts& counts,
+                             double typical_size, GlobalId held);
+
+/// The line of the log.
+std::string to_string(const SweepRecord& record);
+
+} // namespace trime::sweep

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sweep/sweep_task.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace trime::sweep {
+namespace {
+
+using polygon::BoundaryGuard;
+using sites::SiteState;
+
+/// The container; without borders along periodic axes.
+geometry::Box borders_of(const mesh::TileGrid& grid) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  geometry::Box box = grid.container();
+  if (grid.periods().x > 0) {
+    box.min.x = -infinity;
+    box.max.x = infinity;
+  }
+  if (grid.periods().y > 0) {
+    box.min.y = -infinity;
+    box.max.y = infinity;
+  }
+  return box;
+}
+
+void set_sizes(SweepTask& task, const SiteState& state) {
+  if (state.points().size() == 0)
+    return;
+  task.sizes = state.sizes().is_uniform() ? nullptr : state.sizes().values().data();
+  task.uniform_size = state.sizes().is_uniform() ? state.sizes()[0] : 1;
+}
+
+void set_guard(SweepTask& task, const BoundaryGuard& guard) {
+  const BoundaryGuard::CellView cells = guard.cells();
+  task.guard_cells = cells.states;
+  task.guard_corner = cells.corner;
+  task.guard_inverse_side = cells.inverse_side;
+  task.guard_columns = cells.columns;
+  task.guard_rows = cells.rows;
+}
+
+} // namespace
+
+SweepTask make_sweep_task(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context,
+                          const SiteClasses& classes) {
+  mesh::BinnedPoints& points = state.points();
+  SweepTask task;
+  task.positions = points.positions().data();
+  task.leads = points.leads().data();
+  task.rings = state.stars().all_slots();
+  task.degrees = state.stars().degrees();
+  task.classes = classes.data();
+  set_sizes(task, state);
+  task.next_positions = points.next_positions().data();
+  task.next_leads = points.next_leads().data();
+  task.lattice_step = context.lattice.step();
+  task.inverse_lattice_step = context.lattice.inverse_step();
+  task.box = borders_of(state.grid());
+  task.cap_factor = builder.cap_factor();
+  task.largest_cap = std::min(builder.cap(), delaunay::StarBuilder::largest_cap(state.grid().periods()));
+  set_guard(task, context.guard);
+  return task;
+}
+
+} // namespace trime::sweep

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the kernels of a sweep are told of the sites of a rank.
+#pragma once
+
+#include "sites/site_state.hpp"
+#include "sweep/guard_treatment.hpp"
+#include "sweep/site_classes.hpp"
+#include "sweep/sweep_kernel.hpp"
+
+namespace trime::sweep {
+
+/// All but the rule. It points into its arguments, and holds until sites are sorted or ghosts are fetched; next places
+/// and leads are null before BinnedPoints::prepare_advance.
+SweepTask make_sweep_task(sites::SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context,
+                          const SiteClasses& classes);
+
+} // namespace trime::sweep

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sweep/sweeper.hpp"
+
+#include "core/thread_loop.hpp"
+#include "sweep/sweep_task.hpp"
+#include "trime/core/error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace trime::sweep {
+namespace {
+
+using sites::SiteState;
+using sites::StarView;
+using sites::view_of;
+
+constexpr int chunk = 64; // sites that one thread treats in a row
+
+std::size_t at(LocalIndex i) {
+  return static_cast<std::size_t>(i);
+}
+
+} // namespace
+
+/// What the kernel leaves of the tiles of a thread.
+struct Sweeper::TileLeftovers {
+  std::vector<LocalIndex> suspects, irregular; // of all tiles
+  std::vector<LocalIndex> guarded;             // of one tile
+};
+
+Sweeper::Sweeper(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context, LemmaReach reach)
+    : state_(state), builder_(builder), context_(context), certifier_(state, builder, context, reach),
+      activity_(state, builder), outcomes_(state, certifier_.classes()) {
+  activity_.reset();
+  outcomes_.reset();
+}
+
+/// Begins anew after sites were sorted.
+void Sweeper::reset() {
+  certifier_.reset();
+  activity_.reset();
+  outcomes_.reset();
+  measures_.reset();
+  schedule_.reset();
+}
+
+void Sweeper::Counts::follow_by(Counts later) {
+  later.rebuilt += rebuilt;
+  later.pushed += pushed;
+  later.deleted += deleted;
+  *this = later;
+}
+
+SweepSums Sweeper::measure(double reference_size) {
+  return measures_.measure(make_sweep_task(state_, builder_, context_, certifier_.classes()),
+                           view_of(state_, context_.size), reference_size);
+}
+
+// --- prepare -------------------------------------------------------------------------------------------------------
+
+/// The sites of a sleeping tile stay where they are.
+void Sweeper::stay(const SweepTask& task, std::size_t t) {
+  outcomes_.set_tally(t, {});
+  if (!activity_.needs_copy(t))
+    return;
+  const auto [begin, end] = state_.points().tile_range(state_.points().first_tile() + static_cast<LocalIndex>(t));
+  std::copy(task.positions + begin, task.positions + end, task.next_positions + begin);
+  if (task.next_leads)
+    std::fill(task.next_leads + begin, task.next_leads + end, geometry::Vec2{});
+}
+
+/// The pass of the kernel over an awake tile, and the treatment of those that it moves near the boundary.
+void Sweeper::sweep_tile(const SweepTask& task, std::size_t t, TileLeftovers& mine) {
+  activity_.note_moves(t);
+  measures_.forget(t);
+  const LocalIndex tile = state_.points().first_tile() + static_cast<LocalIndex>(t);
+  const auto [begin, end] = state_.points().tile_range(tile);
+  const std::size_t suspects = mine.suspects.size(), irregular = mine.irregular.size(), n = at(end - begin);
+  mine.suspects.resize(suspects + n);
+  mine.irregular.resize(irregular + n);
+  mine.guarded.resize(std::max(mine.guarded.size(), n));
+  SweepLeftovers leftovers{mine.suspects.data() + suspects, mine.irregular.data() + irregular, mine.guarded.data()};
+  SweepTask here = task;
+  here.least_class = certifier_.classes().least_certified(tile);
+  outcomes_.set_tally(t, sweep_kernels().sweep(here, begin, end, leftovers));
+  mine.suspects.resize(suspects + static_cast<std::size_t>(leftovers.suspect_count));
+  mine.irregular.resize(irregular + static_cast<std::size_t>(leftovers.irregular_count));
+  const bool pushes = treat_guarded(std::span(mine.guarded).first(static_cast<std::size_t>(leftovers.guarded_count)));
+  if (pushes || leftovers.suspect_count + leftovers.irregular_count > 0)
+    outcomes_.tally_again(t);
+}
+
+/// Certifies and moves the sites of the tiles that lie so, as far as the kernel can.
+void Sweeper::run_kernel(const UpdateRule& rule, TilePlace which) {
+  SweepTask task = make_sweep_task(state_, builder_, context_, certifier_.classes());
+  task.rule = rule.parameters();
+  const std::span<const TilePlace> places = certifier_.classes().places();
+  activity_.wake(task.rule, which, places);
+  PerThread<TileLeftovers> of_thread;
+  thread_loop(static_cast<std::ptrdiff_t>(places.size()), 1, [&](std::ptrdiff_t item, int thread) {
+    const std::size_t t = static_cast<std::size_t>(item);
+    if (places[t] != which)
+      return;
+    if (activity_.is_awake(t))
+      sweep_tile(task, t, of_thread[thread]);
+    else
+      stay(task, t);
+  });
+  for (const TileLeftovers& mine : of_thread) {
+    certifier_.suspect(mine.suspects);
+    irregular_.insert(irregular_.end(), mine.irregular.begin(), mine.irregular.end());
+  }
+}
+
+/// Pushes those that the kernel has moved into a disc; true if there are any.
+bool Sweeper::treat_guarded(std::span<const LocalIndex> sites) {
+  const mesh::BinnedPoints& points = state_.points();
+  bool any = false;
+  for (const LocalIndex i : sites) {
+    const Treated treated =
+        treat_place(context_, state_.grid(), points.site(i), state_.sizes()[i], points.next_positions()[at(i)],
+                    points.next_site(i).lead, SweepRules::pushes_allowed);
+    if (treated.pushed || treated.deleted) {
+      outcomes_.record(i, treated);
+      any = true;
+    }
+  }
+  return any;
+}
+
+/// The moves that the kernel has left, with all that can happen to a site.
+void Sweeper::move_one_by_one(const UpdateRule& rule, std::span<const LocalIndex> sites) {
+  const mesh::BinnedPoints& points = state_.points();
+  const StarView view = view_of(state_, context_.size);
+  thread_loop(static_cast<std::ptrdiff_t>(sites.size()), chunk, [&](std::ptrdiff_t k, int) {
+    const LocalIndex i = sites[static_cast<std::size_t>(k)];
+    const LocalIndex tile = tile_of_site(points, i);
+    if (certifier_.classes().update(i, tile) == SiteClass::fixed)
+      return;
+    outcomes_.record(i, treat_step(context_, state_.grid(), points.site(i), view.size(i), rule.step(view, i),
+                                   SweepRules::pushes_allowed));
+    const std::size_t t = at(tile - points.first_tile());
+    outcomes_.tally_again(t);
+    activity_.note_moves(t);
+    measures_.forget(t);
+  });
+}
+
+/// Certifies the suspects by emptiness, as far as bins are known, and moves these and the irregular ones.
+void Sweeper::move_others(const UpdateRule& rule) {
+  std::vector<LocalIndex> to_move = certifier_.certify_suspects();
+  for (const LocalIndex i : irregular_)
+    if (!certifier_.was_checked(i))
+      to_move.push_back(i);
+  irregular_.clear();
+  move_one_by_one(rule, to_move);
+}
+
+/// Counts what all ranks have done in this sweep, in one packed reduction; returns how many stars are uncertain.
+std::int64_t Sweeper::sum_over_ranks() {
+  const SweepTally mine = outcomes_.sum();
+  std::array<std::int64_t, 7> sums{certifier_.uncertain(), certifier_.rebuilt(),    mine.moving,     mine.pushed,
+                                   mine.deleted,           mine.power & 0xffffffff, mine.power >> 32};
+  std::array<double, 2> largest{mine.squared_ratio, mine.squared_distance};
+  state_.comm().sum_and_max(sums, largest);
+  counts_ = {};
+  counts_.rebuilt = sums[1];
+  counts_.moving = sums[2];
+  counts_.pushed = sums[3];
+  counts_.deleted = sums[4];
+  counts_.power = FixedSum::join({sums[5], sums[6]});
+  counts_.max_move = std::sqrt(largest[0]);
+  largest_distance_ = std::sqrt(largest[1]);
+  return sums[0];
+}
+
+void Sweeper::prepare(const UpdateRule& rule) {
+  state_.points().prepare_advance();
+  certifier_.begin_sweep();
+  irregular_.clear();
+  for (const TilePlace which : {TilePlace::inner, TilePlace::at_border}) {
+    run_kernel(rule, which);
+    finish_move(); // the ghosts have been on their way
+  }
+  activity_.end_waking();
+  for (int round = 0;; ++round) { // fetch_missing ends it
+    move_others(rule);
+    if (sum_over_ranks() == 0)
+      break;
+    certifier_.fetch_missing(round);
+    state_.points().prepare_advance();
+  }
+  certifier_.end_sweep();
+  prepared_ = true;
+}
+
+// --- commit --------------------------------------------------------------------------------------------------------
+
+/// Counts pushes, and notes where sites that were pushed go into a disc all the same: only these can be in one, and in
+/// tiles that sleep nothing changes.
+void Sweeper::note_pushes() {
+  const std::vector<std::uint8_t> encroached = outcomes_.count_pushes(context_.guard);
+  for (std::size_t t = 0; t < encroached.size(); ++t)
+    if (activity_.is_awake(t) || encroached[t])
+      certifier_.classes().set_encroached(t, encroached[t]);
+}
+
+bool Sweeper::must_sort() const {
+  const geometry::Box tile = state_.grid().tile_box(0);
+  return (counts_.deleted > 0 && schedule_.may_sort_to_delete()) || state_.grid().periods().any() ||
+         schedule_.is_sort_due(std::min(tile.width(), tile.height()));
+}
+
+Sweeper::Counts Sweeper::commit() {
+  TRIME_ASSERT(prepared_);
+  prepared_ = false;
+  schedule_.add_move(largest_distance_, counts_.max_move);
+  ++moves_;
+  if (must_sort()) {
+    std::vector<std::uint8_t> deleted = outcomes_.deletions(moves_);
+    counts_.deleted = state_.comm().sum(std::accumulate(deleted.begin(), deleted.end(), std::int64_t{0}));
+    note_pushes();
+    move_and_sort(std::move(deleted));
+    return counts_;
+  }
+  note_pushes();
+  counts_.deleted = 0; // they wait
+  activity_.begin_move(state_.points(), outcomes_.tallies());
+  const bool new_sizes = schedule_.advance();
+  state_.begin_advance(context_.size, schedule_.drift(), new_sizes);
+  under_way_ = true;
+  if (new_sizes && !state_.sizes().is_uniform())
+    activity_.wake_all(); // h has changed where nothing moves, too
+  sorted_ = false;
+  return counts_;
+}
+
+/// Waits for the ghosts of the last move.
+void Sweeper::finish_move() {
+  if (!under_way_)
+    return;
+  under_way_ = false;
+  state_.finish_advance(context_.size);
+  activity_.finish_move();
+}
+
+/// @param deleted empty: none
+void Sweeper::move_and_sort(std::vector<std::uint8_t> deleted) {
+  state_.forget_sizes();
+  state_.move_sites(std::move(deleted));
+  state_.refresh(context_.size);
+  sorted_ = true;
+  reset();
+}
+
+void Sweeper::discard() {
+  outcomes_.forget();
+  prepared_ = false;
+}
+
+void Sweeper::sort() {
+  finish_move();
+  discard();
+  if (sorted_)
+    return;
+  state_.points().prepare_to_stay();
+  move_and_sort({});
+}
+
+} // namespace trime::sweep

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sweeps of a stage: stars certified and sites moved in one pass, in place.
+#pragma once
+
+#include "sweep/move_outcomes.hpp"
+#include "sweep/sort_schedule.hpp"
+#include "sweep/star_certifier.hpp"
+#include "sweep/star_measures.hpp"
+#include "sweep/tile_activity.hpp"
+#include "sweep/update_rule.hpp"
+
+#include <vector>
+
+namespace trime::sweep {
+
+/// @brief Moves the inner sites, sweep by sweep. `prepare` certifies every star at the present places and computes the
+/// next ones; `commit` goes there.
+///
+/// A kernel passes over the sites of a tile, certifies their stars by the Delaunay lemma and moves them. What it leaves
+/// is certified by emptiness (StarCertifier) and moved one by one, with all that can happen to a site near the
+/// boundary. Tiles where nothing moves sleep (TileActivity). In a periodic container sites are sorted after every move,
+/// so that they are in it; else when it is due (SortSchedule).
+class Sweeper {
+public:
+  /// As StarCertifier. @pre each star of an inner site was certain before the last moves, or its ring is empty; h is
+  /// known at all sites; all arguments outlive this object
+  Sweeper(sites::SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context,
+          LemmaReach reach = LemmaReach::up_to_chords);
+
+  /// What one sweep did, over all ranks.
+  struct Counts {
+    std::int64_t rebuilt = 0; ///< stars that were not right any more, and those beside borders that were lost; depends
+                              ///< on the ranks
+    std::int64_t moving = 0, pushed = 0, deleted = 0;
+    double max_move = 0; ///< over h
+    FixedSum power;      ///< see SweepSums
+
+    /// Counts of both; the rest is that of the later sweep.
+    void follow_by(Counts later);
+  };
+
+  /// Certifies the stars and finds where the sites go by `rule`. Collective.
+  void prepare(const UpdateRule& rule);
+  bool is_prepared() const { return prepared_; }
+  /// Forgets the moves; the stars stay.
+  void discard();
+  /// Moves the sites to where `prepare` found that they go. Collective. @pre is_prepared()
+  Counts commit();
+  /// @brief Sorts the sites if they were moved since: then bins are right again, rings stay, and all stars count as
+  /// uncertain. Without it the state has bins that are too old for others. Collective.
+  void sort();
+
+  /// Sums over the stars of the inner owned sites, of this rank.
+  SweepSums measure(double reference_size);
+  /// See StarCertifier::verify. Collective.
+  void verify() const { certifier_.verify(); }
+
+private:
+  void reset();
+  void run_kernel(const UpdateRule& rule, TilePlace which);
+  struct TileLeftovers;
+  void sweep_tile(const SweepTask& task, std::size_t t, TileLeftovers& mine);
+  void stay(const SweepTask& task, std::size_t t);
+  bool treat_guarded(std::span<const LocalIndex> sites);
+  void move_others(const UpdateRule& rule);
+  void move_one_by_one(const UpdateRule& rule, std::span<const LocalIndex> sites);
+  std::int64_t sum_over_ranks();
+  bool must_sort() const;
+  void finish_move();
+  void note_pushes();
+  void move_and_sort(std::vector<std::uint8_t> deleted);
+
+  sites::SiteState& state_;
+  const delaunay::StarBuilder& builder_;
+  const MoveContext context_;
+  StarCertifier certifier_;
+  TileActivity activity_;
+  MoveOutcomes outcomes_;
+  StarMeasures measures_;
+  SortSchedule schedule_;
+  std::vector<LocalIndex> irregular_; // stars are right, but the kernel has not made the move
+  Counts counts_;
+  double largest_distance_ = 0; // of this sweep, over all ranks
+  int moves_ = 0;
+  bool sorted_ = true, prepared_ = false, under_way_ = false;
+};
+
+} // namespace trime::sweep

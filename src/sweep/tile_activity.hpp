@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which tiles take part in a sweep: where nothing moves, nothing is done.
+#pragma once
+
+#include "sites/site_state.hpp"
+#include "sweep/sweep_kernel.hpp"
+#include "sweep/tiles_around.hpp"
+
+#include <atomic>
+#include <span>
+#include <vector>
+
+namespace trime::sweep {
+
+/// @brief A tile sleeps while no site of it and of the tiles around it has moved in the last sweep, and the rule stays
+/// as it is. Tiles are the same on any ranks, so that no result depends on who sleeps. Owned tiles are counted from 0
+/// here (`t`), tiles of the container as the grid does.
+class TileActivity {
+public:
+  /// Both arguments outlive this object.
+  TileActivity(const sites::SiteState& state, const delaunay::StarBuilder& builder)
+      : state_(state), builder_(builder) {}
+
+  /// All tiles wake; to be called after sites were sorted.
+  void reset();
+  /// All tiles wake in the next sweep.
+  void wake_all() { all_awake_ = true; }
+  /// Decides which of the tiles that lie so take part in this sweep: first for the inner ones, then for the others.
+  /// @param places of the owned tiles
+  void wake(const RuleParameters& rule, TilePlace which, std::span<const TilePlace> places);
+  /// All tiles have been asked: from now on they may fall asleep.
+  void end_waking() { all_awake_ = false; }
+  bool is_awake(std::size_t t) const { return awake_[t]; }
+  std::size_t tiles() const { return awake_.size(); }
+
+  /// Do the next places of a sleeping tile hold those of the last sweep, not yet the present ones? Asked once a sweep.
+  bool needs_copy(std::size_t t) {
+    const bool needs = !copied_[t];
+    copied_[t] = 1;
+    return needs;
+  }
+  /// Sites of this tile have got next places of their own. May be called concurrently.
+  void note_moves(std::size_t t) { std::atomic_ref(copied_[t]).store(0, std::memory_order_relaxed); }
+
+  /// Notes that the sites of the owned tiles are going as far as their tallies say.
+  void begin_move(mesh::BinnedPoints& points, std::span<const SweepTally> tallies);
+  /// Notes which tiles of other ranks had moves, once their drifts are here.
+  void finish_move();
+
+private:
+  const sites::SiteState& state_;
+  const delaunay::StarBuilder& builder_;
+  std::vector<std::uint8_t> awake_;   // by owned tile
+  std::vector<std::uint8_t> copied_;  // by owned tile: its sites have the same places now and next
+  std::vector<std::uint8_t> wide_;    // by owned tile: triangles may reach beyond the tiles around it
+  std::vector<std::uint8_t> active_;  // by tile of the container: sites were moved by the last sweep
+  std::vector<double> drifts_before_; // by tile of the container: before the last move
+  RuleParameters waking_rule_;        // of the last sweep with all tiles awake
+  bool all_awake_ = true;             // in the next sweep
+};
+
+} // namespace trime::sweep

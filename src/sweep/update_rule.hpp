@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The update rules: where a sweep wants each inner site to go.
+#pragma once
+
+#include "sites/star_view.hpp"
+#include "sweep/rule_parameters.hpp"
+#include "sweep/sweep_sums.hpp"
+#include "trime/geometry/vec2.hpp"
+
+namespace trime::sweep {
+
+/// What a rule wants of a site: a move to its next iterate, and from there a lead along the way that it came.
+struct Step {
+  geometry::Vec2 move, lead;
+};
+
+/// @brief Finds the next place of a site from its own ring alone: neighbours in canonical order, at their old places,
+/// so that all sites may move at once (Jacobi). The result is a pure function of these places, of h and of the sums
+/// over all ranks. Private to the sweeps: the vector kernels know every rule, so that no user can add one.
+class UpdateRule {
+public:
+  virtual ~UpdateRule() = default;
+  /// Sums over all ranks, before the sites move.
+  virtual void begin_sweep(const SweepSums& sums) = 0;
+  /// Step of site i (not capped). Called concurrently.
+  virtual Step step(const sites::StarView& view, LocalIndex i) const = 0;
+  /// The same for the vector kernels, which move most sites: they give the same bits.
+  virtual RuleParameters parameters() const = 0;
+};
+
+/// @brief DistMesh (Persson and Strang 2004) as in TriMe++: bars repel where they are shorter than
+/// L0 = 1.2 h sqrt(sum L^2 / sum h^2), h the mean of both ends; explicit Euler with step 0.3. Bars between two boundary
+/// sites are not in the sums, since the boundary is held.
+class DistMeshRule final : public UpdateRule {
+public:
+  void begin_sweep(const SweepSums& sums) override;
+  Step step(const sites::StarView& view, LocalIndex i) const override;
+  RuleParameters parameters() const override;
+
+private:
+  double length_scale_ = SweepRules::bar_pressure; // L0 / h
+};
+
+/// @brief Acceleration of a descent (Nesterov 1983): from the iterate x' = y + move(y) the next move is taken at
+/// y' = x' + b (x' - x), b = min(0.95, k/(k+3)), and k starts again from 0 when the last moves went uphill
+/// (sum of (y - x').(x' - x) / h^2 > 0; O'Donoghue and Candes 2015), which one sweep later is early enough.
+class Momentum {
+public:
+  void begin_sweep(const SweepSums& sums);
+  /// The step of site i whose plain move is `move`.
+  Step step(const sites::StarView& view, LocalIndex i, geometry::Vec2 move) const;
+  double factor() const { return factor_; }
+
+private:
+  int age_ = 0; // sweeps since the last restart
+  double factor_ = 0;
+};
+
+/// @brief Centroidal Voronoi tessellation by accelerated Lloyd steps (see Momentum).
+///
+/// Each site goes to the centroid of its Voronoi cell (exact: the polygon of circumcentres of its star; the discs of
+/// the boundary segments are empty, so no cell of an inner site leaves the shape) under the weight h^-4. Why 4: a
+/// centroidal tessellation minimises the sum over cells of the integral of w |x - site|^2; a cell of spacing d has
+/// about w d^4, and in the limit of many sites all cells have the same share (Gersho 1979; Du, Faber and Gunzburger
+/// 1999), so d grows like w^(-1/4) and w = h^-4 makes it proportional to h. The weight h^-2 of TriMe++ drifts towards d
+/// ~ sqrt(h).
+///
+/// The weight is linear over each triangle (site, circumcentre, circumcentre), its value at a circumcentre from the
+/// mean of h at the three sites: no look into the field, nothing allocated, exact for the uniform weight.
+class CvdRule final : public UpdateRule {
+public:
+  /// @param exponent of 1/h in the weight, 0..8
+  explicit CvdRule(int exponent = SweepRules::density_exponent) : exponent_(exponent) {}
+  void begin_sweep(const SweepSums& sums) override;
+  Step step(const sites::StarView& view, LocalIndex i) const override;
+  RuleParameters parameters() const override;
+  /// Centroid of the cell of site i, relative to the site; zero if the star has a gap.
+  geometry::Vec2 centroid(const sites::StarView& view, LocalIndex i) const;
+
+private:
+  int exponent_;
+  Momentum momentum_;
+};
+
+/// @brief Moves every site towards the minimum of an energy of the triangles around it, their neighbours held.
+///
+/// The energy of a triangle of area A is S / (4 sqrt(3) A) + k (A/W + W/A - 2): S is the sum of its squared sides, so
+/// that the first term is 1 for an equilateral triangle of any size and grows with its shear (Bank and Smith 1997); W
+/// is the area that h asks for (the mean of h at its corners, scaled to the mean edge of the whole mesh). One Newton
+/// step per site with exact second derivatives, which are positive definite, times 0.7: all sites move at once.
+///
+/// Why it comes after the cells: where h varies, a mesh must hold dislocations, and between them it is strained. alpha
+/// sees shear alone. Voronoi cells resist a change of area 7 times as much as shear, so they leave the strain as shear;
+/// a dislocation in a material without any resistance to a change of area has no shear at all (its displacement is
+/// b/(2 pi i) log z, which is analytic). k = 1/4 makes the resistance to a change of area half that to shear: alpha - 1
+/// falls to less than half, and the standard deviation of L / (s h) grows by a sixth at most. The order of the mesh,
+/// that is where its dislocations lie, is better left to the cells.
+///
+/// W is taken as constant in a step, so that a mesh with A = W everywhere stays as it is.
+class TriangleRule final : public UpdateRule {
+public:
+  void begin_sweep(const SweepSums& sums) override;
+  Step step(const sites::StarView& view, LocalIndex i) const override;
+  RuleParameters parameters() const override;
+
+private:
+  Momentum momentum_;
+  double area_scale_ = 1; // W over sqrt(3)/4 h^2
+};
+
+} // namespace trime::sweep

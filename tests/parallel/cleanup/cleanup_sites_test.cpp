@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the clean-up reads around a place: the same on any ranks, and whole, however the sites crowd.
+#include "cleanup/cleanup_sites.hpp"
+
+#include "support/distributed.hpp"
+#include "support/periodic_shapes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+namespace trime::cleanup {
+namespace {
+
+using geometry::Vec2;
+using sites::Disc;
+using sites::SiteState;
+
+constexpr std::size_t most = 60;
+
+/// Crowded towards the left: 200 times as dense there as on the right.
+mesh::SiteList crowded_sites() {
+  mesh::SiteList sites;
+  for (std::uint64_t k = 0; k < 6000; ++k) {
+    const Vec2 p = testing::random_vec2(9, k);
+    sites.push_back({testing::unit_lattice().snap(Vec2{p.x * p.x * p.x, p.y})});
+  }
+  return sites;
+}
+
+bool is_less(const PatchSite& a, const PatchSite& b) {
+  return geometry::lexicographically_less(a.position, b.position);
+}
+
+/// Around some places, asked for by whichever rank owns them.
+std::map<std::uint64_t, Surroundings> surroundings(const comm::Communicator& comm, const geometry::Periods& periods) {
+  SiteState state(comm, {{0, 0}, {1, 1}}, {{}, {}, 0.02, false, periods});
+  state.distribute(testing::dealt(comm, crowded_sites()));
+  const sizing::UniformSize size(0.02);
+  state.refresh(size);
+  const CleanupSites sites(comm, state, size);
+  std::vector<Disc> discs;
+  std::vector<std::uint64_t> keys;
+  for (std::uint64_t k = 0; k < 80; ++k) {
+    const Vec2 p = testing::random_vec2(17, k);
+    if (sites.owner(p) == comm.rank()) {
+      discs.push_back({p, 0.02 + 0.2 * testing::random_vec2(18, k).x});
+      keys.push_back(k);
+    }
+  }
+  std::vector<Surroundings> found = sites.around(discs, most);
+  std::map<std::uint64_t, Surroundings> all;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    std::sort(found[k].sites.begin(), found[k].sites.end(), is_less);
+    // The widest of the discs that hold few enough, and all that lies in it.
+    const auto count_in = [&](int narrowings) {
+      std::size_t count = 0;
+      const double radius = Surroundings::radius(discs[k].radius, narrowings);
+      for (const mesh::Site& site : crowded_sites())
+        count += geometry::squared_length(periods.nearest_image(site.position, discs[k].center) - discs[k].center) <
+                 radius * radius;
+      return count;
+    };
+    EXPECT_EQ(found[k].sites.size(), found[k].found() ? count_in(found[k].narrowings) : 0);
+    EXPECT_LE(found[k].sites.size(), most);
+    if (found[k].narrowings > 0) {
+      EXPECT_GT(count_in(found[k].narrowings - 1), most);
+    }
+    all[keys[k]] = std::move(found[k]);
+  }
+  return all;
+}
+
+void expect_whole(const geometry::Periods& periods) {
+  const comm::Communicator world = comm::Communicator::world();
+  const std::map<std::uint64_t, Surroundings> truth = surroundings(comm::Communicator::self(), periods);
+  int narrowed = 0, crowded = 0;
+  for (const auto& [key, one] : truth) {
+    narrowed += one.found() && one.narrowings > 0;
+    crowded += !one.found();
+  }
+  EXPECT_GT(narrowed, 10);
+  EXPECT_GT(crowded, 2);
+  std::int64_t checked = 0;
+  for (const auto& [key, mine] : surroundings(world, periods)) {
+    const Surroundings& its = truth.at(key);
+    EXPECT_EQ(mine.narrowings, its.narrowings);
+    ASSERT_EQ(mine.sites.size(), its.sites.size());
+    for (std::size_t k = 0; k < its.sites.size(); ++k)
+      EXPECT_EQ(mine.sites[k].position, its.sites[k].position);
+    ++checked;
+  }
+  EXPECT_EQ(world.sum(checked), 80);
+}
+
+TEST(CleanupSites, SurroundingsAreWholeOnAnyRanks) {
+  expect_whole({});
+}
+
+TEST(CleanupSites, AcrossAPeriodicBorderToo) {
+  expect_whole(testing::unit_torus().periods());
+}
+
+} // namespace
+} // namespace trime::cleanup

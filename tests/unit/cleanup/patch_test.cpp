@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the optimizer makes of patches whose remedy is known.
+#include "boundary/boundary_sites.hpp"
+#include "geometry/diametral.hpp"
+#include "support/patch_stage.hpp"
+#include "support/periodic_shapes.hpp"
+#include "support/point_sets.hpp"
+#include "trime/mesh/quality.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::cleanup {
+namespace {
+
+using boundary::make_boundary_sites;
+using geometry::Boundary;
+using geometry::Vec2;
+using polygon::BoundaryChain;
+using polygon::BoundaryCurve;
+using polygon::BoundaryEdit;
+using polygon::BoundaryGuard;
+using polygon::BoundarySite;
+using polygon::BoundarySites;
+using sizing::UniformSize;
+using testing::boundary_of;
+using testing::circle_loop;
+using testing::polygon_loop;
+using testing::unit_lattice;
+using namespace testing_patch;
+
+const Vec2 middle{0.5, 0.5};
+
+Boundary far_square() {
+  return boundary_of({polygon_loop({{0.05, 0.05}, {0.95, 0.05}, {0.95, 0.95}, {0.05, 0.95}})});
+}
+
+/// A hexagonal lattice about the middle, rows along x.
+void add_lattice(Stage& stage, int rings = 9, Vec2 about = middle) {
+  for (int j = -rings; j <= rings; ++j)
+    for (int i = -rings; i <= rings; ++i)
+      stage.add(about + h * Vec2{i + 0.5 * (j & 1), std::sqrt(0.75) * j});
+}
+
+/// The same with the site in the middle elsewhere. @return where
+Vec2 add_displaced_lattice(Stage& stage) {
+  add_lattice(stage);
+  stage.take_nearest(middle);
+  const Vec2 displaced = unit_lattice().snap(middle + h * Vec2{0.3, 0.1});
+  stage.add(displaced);
+  return displaced;
+}
+
+TEST(PatchOptimizer, LeavesAPerfectLatticeAlone) {
+  Stage stage(far_square());
+  add_lattice(stage);
+  EXPECT_TRUE(stage.improve(middle).empty());
+}
+
+TEST(PatchOptimizer, BringsADisplacedSiteBack) {
+  for (const Vec2 away : {Vec2{0.3, 0.1}, {-0.2, 0.25}, {0, -0.4}}) {
+    Stage stage(far_square());
+    stage.options.bad_alpha = 1.02; // or it would be content with less
+    add_lattice(stage);
+    stage.take_nearest(middle);
+    const Vec2 displaced = unit_lattice().snap(middle + h * away);
+    stage.add(displaced);
+    EXPECT_GT(worst_alpha(stage, {}, middle, 3 * h), 1.07);
+    const std::vector<SiteEdit> edits = stage.improve(displaced);
+    EXPECT_LT(worst_alpha(stage, edits, middle, 3 * h), 1.02);
+    EXPECT_EQ(count(edits, Kind::insert) + count(edits, Kind::remove), 0);
+    const auto back =
+        std::find_if(edits.begin(), edits.end(), [&](const SiteEdit& edit) { return edit.from == displaced; });
+    ASSERT_NE(back, edits.end());
+    EXPECT_LT(geometry::length(back->to - middle), 0.8 * h * geometry::length(away)); // it does not move alone
+  }
+}
+
+/// Another patch may begin 2 reach - free_depth away: it may read what this one changes otherwise.
+TEST(PatchOptimizer, ChangesNothingNearTheRimHoweverSmallTheTrianglesThere) {
+  Stage stage(far_square());
+  const Vec2 displaced = add_displaced_lattice(stage);
+  for (PatchSite& site : stage.sites)
+    if (geometry::length(site.position - middle) > 2 * h)
+      site.size = 0.05 * h;
+  const std::vector<SiteEdit> edits = stage.improve(displaced);
+  EXPECT_FALSE(edits.empty());
+  for (const SiteEdit& edit : edits)
+    EXPECT_LT(geometry::length(edit.from - displaced), (CleanupRules::reach - CleanupRules::free_depth) * h);
+}
+
+TEST(PatchOptimizer, DeletesOneTooMany) {
+  Stage stage(far_square());
+  stage.options.bad_alpha = stage.options.operate_alpha = 1.02;
+  add_lattice(stage);
+  const Vec2 extra = unit_lattice().snap(middle + h * Vec2{0.5, 0.3});
+  stage.add(extra);
+  const std::vector<SiteEdit> edits = stage.improve(extra);
+  EXPECT_EQ(count(edits, Kind::remove), 1);
+  EXPECT_EQ(count(edits, Kind::insert), 0);
+  EXPECT_LT(worst_alpha(stage, edits, middle, 3 * h), 1.01);
+}
+
+TEST(PatchOptimizer, InsertsOneThatIsMissing) {
+  Stage stage(far_square());
+  stage.options.bad_alpha = stage.options.operate_alpha = 1.02;
+  add_lattice(stage);
+  const Vec2 hole = stage.take_nearest(middle);
+  Vec2 center{9, 9}; // the first of the hexagon around the hole
+  for (const PatchSite& site : stage.sites)
+    if (geometry::length(site.position - hole) < 1.1 * h && geometry::lexicographically_less(site.position, center))
+      center = site.position;
+  const std::vector<SiteEdit> edits = stage.improve(center);
+  EXPECT_EQ(count(edits, Kind::insert), 1);
+  EXPECT_EQ(count(edits, Kind::remove), 0);
+  EXPECT_LT(worst_alpha(stage, edits, middle, 2 * h), 1.02);
+}
+
+/// Where nothing helped all three sites rest: nothing is tried until one of them moves.
+TEST(PatchOptimizer, TrianglesWhoseSitesAllRestAreLeftAlone) {
+  Stage stage(far_square());
+  const Vec2 displaced = add_displaced_lattice(stage);
+  EXPECT_FALSE(stage.improve(displaced).empty());
+  for (PatchSite& site : stage.sites)
+    site.rests = 1;
+  EXPECT_TRUE(stage.improve(displaced).empty());
+  stage.sites.back().rests = 0; // the one in the middle of what is bad
+  EXPECT_FALSE(stage.improve(displaced).empty());
+}
+
+/// In a patch that is tried again operations are for what is worse than elsewhere; sites move as before.
+TEST(PatchOptimizer, APatchThatIsTriedAgainOperatesOnWhatIsWorseAlone) {
+  Stage stage(far_square());
+  stage.options.bad_alpha = stage.options.operate_alpha = 1.02;
+  stage.options.first_alpha = 10; // no operations before the moves
+  add_lattice(stage);
+  const Vec2 extra = unit_lattice().snap(middle + h * Vec2{0.5, 0.3});
+  stage.add(extra);
+  const auto removed = [&](bool is_again, double again_alpha) {
+    stage.budget.is_again = is_again;
+    stage.budget.again_alpha = again_alpha;
+    const std::vector<SiteEdit> edits = stage.improve(extra);
+    EXPECT_FALSE(edits.empty());
+    return count(edits, Kind::remove);
+  };
+  EXPECT_EQ(removed(false, 10), 1);
+  EXPECT_EQ(removed(true, 1.02), 1);
+  EXPECT_EQ(removed(true, 10), 0);
+}
+
+TEST(PatchOptimizer, FixedSitesStayWhereTheyAre) {
+  for (const bool crowd : {false, true}) {
+    Stage stage(far_square());
+    add_lattice(stage);
+    if (!crowd)
+      stage.take_nearest(middle);
+    const Vec2 fixed = unit_lattice().snap(middle + h * Vec2{0.35, 0.2});
+    stage.add(fixed, mesh::fixed_site);
+    const double before = worst_alpha(stage, {}, middle, 3 * h);
+    const std::vector<SiteEdit> edits = stage.improve(fixed); // see expect_allowed
+    EXPECT_FALSE(edits.empty());
+    EXPECT_LT(worst_alpha(stage, edits, middle, 3 * h), before);
+  }
+}
+
+/// The lower half of the container is outside: rows of the lattice from y = 0.5 on.
+Boundary half_plane() {
+  return boundary_of({polygon_loop({{0.03125, 0.5}, {0.96875, 0.5}, {0.96875, 0.96875}, {0.03125, 0.96875}})});
+}
+void add_upper_lattice(Stage& stage) {
+  for (int j = 1; j <= 8; ++j)
+    for (int i = -9; i <= 9; ++i)
+      stage.add(middle + h * Vec2{i + 0.5 * (j & 1), std::sqrt(0.75) * j});
+}
+
+TEST(PatchOptimizer, KnowsAPerfectStraightBoundary) {
+  Stage stage(half_plane());
+  stage.add_boundary();
+  add_upper_lattice(stage);
+  EXPECT_LT(worst_alpha(stage, {}, middle, 3 * h), 1.001);
+  EXPECT_TRUE(stage.improve(middle).empty());
+}
+
+TEST(PatchOptimizer, ASiteOfAStraightBoundarySlidesBack) {
+  for (const double away : {0.25, -0.35}) {
+    Stage stage(half_plane());
+    stage.options.bad_alpha = 1.02; // or it would be content with less
+    const Vec2 displaced = unit_lattice().snap(middle + Vec2{away * h, 0});
+    std::vector<BoundaryEdit> slide;
+    for (LocalIndex k = 0; k < static_cast<LocalIndex>(stage.sites_on.sites.size()); ++k)
+      if (const BoundarySite& site = stage.sites_on.sites[static_cast<std::size_t>(k)];
+          geometry::length(site.position - middle) < 1e-12)
+        slide.push_back({k, Kind::move, stage.curve.arc(0, site) + (displaced.x - middle.x), displaced});
+    ASSERT_EQ(slide.size(), 1u);
+    stage.add_boundary_with(slide);
+    add_upper_lattice(stage);
+    const std::vector<SiteEdit> edits = stage.improve(displaced);
+    EXPECT_GE(count(edits, Kind::move, true), 1);
+    EXPECT_LT(worst_alpha(stage, edits, middle, 2 * h), 1.02);
+    for (const SiteEdit& edit : edits)
+      if (edit.boundary >= 0) {
+        EXPECT_EQ(edit.to.y, 0.5);
+      }
+  }
+}
+
+/// One boundary site more, or less, than the lattice wants.
+TEST(PatchOptimizer, SitesOfAStraightBoundaryComeAndGo) {
+  for (const bool one_more : {true, false}) {
+    Stage stage(half_plane());
+    stage.options.bad_alpha = stage.options.operate_alpha = 1.02;
+    std::vector<BoundaryEdit> change;
+    Vec2 center = middle;
+    for (LocalIndex k = 0; k < static_cast<LocalIndex>(stage.sites_on.sites.size()); ++k)
+      if (geometry::length(stage.sites_on.sites[static_cast<std::size_t>(k)].position - middle) < 1e-12) {
+        const double arc = stage.curve.arc(0, stage.sites_on.sites[static_cast<std::size_t>(k)]);
+        const Vec2 extra = unit_lattice().snap(middle + Vec2{0.5 * h, 0});
+        change.push_back(one_more ? BoundaryEdit{k, Kind::insert, arc + 0.5 * h, extra}
+                                  : BoundaryEdit{k, Kind::remove, 0, {}});
+        center = one_more ? extra : unit_lattice().snap(middle + Vec2{h, 0});
+        break;
+      }
+    ASSERT_EQ(change.size(), 1u);
+    stage.add_boundary_with(change);
+    add_upper_lattice(stage);
+    const double before = worst_alpha(stage, {}, middle, 3 * h);
+    EXPECT_GT(before, 1.1);
+    const std::vector<SiteEdit> edits = stage.improve(center);
+    EXPECT_GE(count(edits, one_more ? Kind::remove : Kind::insert, true), 1);
+    EXPECT_LT(worst_alpha(stage, edits, middle, 3 * h), 1.03);
+  }
+}
+
+/// As near to each other as Cleanup chooses them: then no two of them change one site, or divide one chord.
+TEST(PatchOptimizer, PatchesThatKeepApartShareNoChord) {
+  Stage stage(half_plane());
+  std::vector<BoundaryEdit> holes;
+  for (std::size_t k = 0; k < stage.sites_on.sites.size(); k += 3)
+    if (const Vec2 p = stage.sites_on.sites[k].position; p.y == 0.5 && std::fabs(p.x - 0.5) < 12.5 * h)
+      holes.push_back({static_cast<LocalIndex>(k), Kind::remove, 0, {}});
+  stage.add_boundary_with(holes);
+  for (int j = 1; j <= 9; ++j)
+    for (int i = -15; i <= 15; ++i)
+      if (std::abs(i) <= 14 - (j & 1))
+        stage.add(middle + h * Vec2{i + 0.5 * (j & 1), std::sqrt(0.75) * j});
+  const double half = 0.5 * (2 * CleanupRules::reach - CleanupRules::free_depth) * h;
+  std::vector<LocalIndex> left, right;
+  for (const auto& [list, side] : {std::pair{&left, -half}, {&right, half}})
+    for (const SiteEdit& edit : stage.improve(unit_lattice().snap(middle + Vec2{side, 0})))
+      if (edit.boundary >= 0)
+        list->push_back(edit.boundary);
+  EXPECT_FALSE(left.empty());
+  EXPECT_FALSE(right.empty());
+  for (const LocalIndex site : left)
+    EXPECT_EQ(std::count(right.begin(), right.end(), site), 0);
+}
+
+/// Where sites slide on circles and across the start of the loop.
+TEST(PatchOptimizer, WorksAlongACircleAndAcrossTheStartOfItsLoop) {
+  Stage stage(boundary_of({circle_loop({0.5, 0.5}, 0.3)}));
+  stage.add_boundary();
+  const auto rim = static_cast<double>(stage.sites_on.sites.size());
+  for (int ring = 1; ring < 9; ++ring) { // rings of fewer and fewer sites: dislocations everywhere
+    const double r = 0.3 - std::sqrt(0.75) * h * ring;
+    const int n = static_cast<int>(rim * r / 0.3);
+    for (int k = 0; k < n; ++k) {
+      const SinCos turn = sin_cos(2 * pi * (k + 0.5 * (ring & 1)) / n);
+      stage.add(Vec2{0.5, 0.5} + r * Vec2{turn.cos, turn.sin});
+    }
+  }
+  int improved = 0, slid = 0;
+  for (std::size_t k = 0; k < stage.sites_on.sites.size(); k += 2) {
+    const Vec2 center = stage.sites_on.sites[k].position;
+    const std::vector<SiteEdit> edits = stage.improve(center);
+    improved += !edits.empty();
+    for (const SiteEdit& edit : edits)
+      slid += edit.boundary >= 0;
+    EXPECT_LE(worst_alpha(stage, edits, center, h), worst_alpha(stage, {}, center, 6 * h) + 1e-12);
+  }
+  EXPECT_GT(improved, 10);
+  EXPECT_GT(slid, 10);
+}
+
+/// What the edits make of the boundary.
+BoundarySites edited_boundary(const Stage& stage, const std::vector<SiteEdit>& edits) {
+  std::vector<BoundaryEdit> on_boundary;
+  for (const SiteEdit& edit : edits)
+    if (edit.boundary >= 0)
+      on_boundary.push_back({edit.boundary, edit.kind, edit.arc, edit.to});
+  return stage.edited_boundary(on_boundary);
+}
+
+/// Two walls a little more than one disc apart: whatever is edited, the open disc of every chord stays empty.
+TEST(PatchOptimizer, ChordsOfAThinGapKeepTheirDiscs) {
+  for (const double gap : {0.55, 0.62, 0.8}) {
+    Stage stage(boundary_of({polygon_loop({{0.0625, 0.25}, {0.9375, 0.25}, {0.9375, 0.5}, {0.0625, 0.5}}),
+                             polygon_loop({{0.1, 0.5 + gap * h}, {0.9, 0.5 + gap * h}, {0.8, 0.75}, {0.2, 0.75}})}));
+    stage.add_boundary();
+    for (int j = 1; j < 8; ++j)
+      for (int i = -10; i <= 10; ++i)
+        stage.add(Vec2{0.5, 0.5} + h * Vec2{i + 0.3 * (j & 1), -0.85 * j});
+    for (std::size_t k = 0; k < stage.sites_on.sites.size(); k += 2) {
+      const Vec2 center = stage.sites_on.sites[k].position;
+      const std::vector<SiteEdit> edits = stage.improve(center);
+      const BoundarySites after = edited_boundary(stage, edits);
+      const bool is_edited =
+          count(edits, Kind::move, true) + count(edits, Kind::insert, true) + count(edits, Kind::remove, true) > 0;
+      for (LocalIndex i = 0; i < static_cast<LocalIndex>(after.sites.size()) && is_edited; ++i)
+        for (const BoundarySite& site : after.sites)
+          ASSERT_GE(geometry::diametral_side(after.chord(i).a, after.chord(i).b, site.position), 0) << gap;
+    }
+  }
+}
+
+/// A notch with an angle of 105 degrees, where only smaller triangles are allowed. One of its chords stands for a
+/// zigzag that strays from half of it by more than the tolerance.
+TEST(PatchOptimizer, SmallerTrianglesFollowARaggedBoundary) {
+  constexpr double edge = 0.8 * h, stray = 0.15;
+  const SinCos half = sin_cos(0.5 * 105 * (pi / 180));
+  const Vec2 apex = middle - Vec2{0, edge * half.cos}, left = middle - Vec2{edge * half.sin, 0},
+             right = middle + Vec2{edge * half.sin, 0}, along = right - apex;
+  const auto beside = [&](double share, double offset) {
+    return apex + share * along + offset * geometry::left_normal(along);
+  };
+  Stage stage(boundary_of({polygon_loop({{0.03125, 0.5},
+                                         left,
+                                         apex,
+                                         beside(0.5, stray),
+                                         beside(0.75, -stray),
+                                         right,
+                                         {0.96875, 0.5},
+                                         {0.96875, 0.96875},
+                                         {0.03125, 0.96875}})}));
+  std::vector<BoundaryEdit> zigzag;
+  for (std::size_t k = 0; k < stage.sites_on.sites.size(); ++k)
+    if (const Vec2 p = stage.sites_on.sites[k].position; p.x > middle.x + 1e-9 && p.y < 0.5 - 1e-9)
+      zigzag.push_back({static_cast<LocalIndex>(k), Kind::remove, 0, {}});
+  ASSERT_EQ(zigzag.size(), 2u);
+  stage.add_boundary_with(zigzag);
+  for (PatchSite& site : stage.sites)
+    site.tolerance = 1.1 * stray * edge;
+  add_upper_lattice(stage);
+  EXPECT_GT(worst_alpha(stage, {}, middle, 3 * h), 1.5);
+  stage.budget.may_insert = stage.budget.may_delete = 0;
+  const std::vector<SiteEdit> edits = stage.improve(unit_lattice().snap(apex));
+  stage.guard = BoundaryGuard(edited_boundary(stage, edits), unit_lattice());
+  EXPECT_LT(worst_alpha(stage, edits, middle, 3 * h), 1.4); // the bar of contours_test.py
+}
+
+/// A bad triangle at the rim, where nothing moves, is known already: no word of it.
+TEST(PatchOptimizer, WhatStaysAsItIsMakesNoNews) {
+  const shape::RegionShape torus = testing::whole_torus();
+  const BoundaryCurve curve(torus.boundary());
+  const BoundaryChain none(make_boundary_sites(torus.boundary(), UniformSize(h), unit_lattice(), 30), curve);
+  const auto improve = [&](double displaced_at) {
+    std::vector<PatchSite> sites;
+    for (int j = -12; j <= 12; ++j)
+      for (int i = -16; i <= 16; ++i) {
+        Vec2 offset = h * Vec2{i + 0.5 * (j & 1) + 0.4, std::sqrt(0.75) * j};
+        if (j == 0 && std::fabs(i - displaced_at) < 0.5)
+          offset.x -= 0.35 * h;
+        if (geometry::length(offset) < CleanupRules::reach * h)
+          sites.push_back({unit_lattice().snap(middle + offset), h, mesh::free_site});
+      }
+    sort_for_a_patch(sites);
+    return PatchOptimizer(none, unit_lattice(), {}).improve(middle, h, sites, PatchBudget{});
+  };
+  const PatchResult at_the_rim = improve(6), inside = improve(1);
+  EXPECT_TRUE(at_the_rim.edits.empty());
+  EXPECT_TRUE(at_the_rim.verdicts.empty());
+  EXPECT_FALSE(inside.edits.empty());
+  EXPECT_FALSE(inside.verdicts.empty());
+}
+
+/// A patch across the border of a torus is the patch elsewhere.
+TEST(PatchOptimizer, NearestImagesMakeAPatchOnATorus) {
+  const shape::RegionShape torus = testing::whole_torus();
+  const BoundaryCurve curve(torus.boundary());
+  const BoundaryChain none(make_boundary_sites(torus.boundary(), UniformSize(h), unit_lattice(), 30), curve);
+  const auto edits_at = [&](Vec2 center) {
+    std::vector<PatchSite> sites;
+    for (int j = -12; j <= 12; ++j)
+      for (int i = -12; i <= 12; ++i) {
+        const Vec2 offset = i == 0 && j == 0 ? Vec2{} : h * Vec2{i + 0.5 * (j & 1) + 0.3, std::sqrt(0.75) * j};
+        if (geometry::length(offset) < CleanupRules::reach * h)
+          sites.push_back({center + unit_lattice().snap(offset), h, mesh::free_site});
+      }
+    sort_for_a_patch(sites);
+    return PatchOptimizer(none, unit_lattice(), {}).improve(center, h, sites, PatchBudget{}).edits;
+  };
+  const std::vector<SiteEdit> inside = edits_at(middle), across = edits_at({0, 0});
+  ASSERT_FALSE(inside.empty());
+  ASSERT_EQ(inside.size(), across.size());
+  for (std::size_t k = 0; k < inside.size(); ++k) {
+    EXPECT_EQ(inside[k].from - middle, across[k].from);
+    EXPECT_EQ(inside[k].to - middle, across[k].to);
+  }
+}
+
+/// A strip of 0.4 h whose end is a triangle with an angle of 104 degrees.
+Boundary blunt_strip() {
+  const double length = 12 * h, tip = length + 0.156 * h;
+  return boundary_of({polygon_loop({{0.25, 0.5},
+                                    {0.25 + length, 0.5},
+                                    {0.25 + tip, 0.5 + 0.2 * h},
+                                    {0.25 + length, 0.5 + 0.4 * h},
+                                    {0.25, 0.5 + 0.4 * h}})});
+}
+
+TEST(PatchOptimizer, InsertsNoMoreThanItMay) {
+  const auto inserted = [](GlobalId may_insert, GlobalId may_refine) {
+    Stage stage(blunt_strip());
+    stage.add_boundary();
+    stage.budget.may_insert = may_insert;
+    stage.budget.may_refine = may_refine;
+    const std::vector<SiteEdit> edits = stage.improve(unit_lattice().snap({0.25 + 12.156 * h, 0.5 + 0.2 * h}));
+    return count(edits, Kind::insert, true) + count(edits, Kind::insert);
+  };
+  EXPECT_GT(inserted(100, 100), 2);
+  EXPECT_LE(inserted(2, 2), 2);
+  EXPECT_LE(inserted(2, 0), 2);
+  EXPECT_LE(inserted(0, 2), 2);
+  EXPECT_EQ(inserted(0, 0), 0);
+}
+
+} // namespace
+} // namespace trime::cleanup
