@@ -34,7 +34,8 @@ int main(int argc, char** argv) {
     options.points = argc > 1 ? std::atoll(argv[1]) : 5000;
     const geometry::Frame frame(options.container);
     // Parts are joined by name; with more of them the region could be "difference(plate, union(hole, slot))".
-    const shape::RegionShape shape({shape::Part::rectangle("plate", {{0.1, 0.3}, {0.9, 0.7}}, frame)}, "plate", frame);
+    const trime::shape::RegionShape shape({trime::shape::Part::rectangle("plate", {{0.1, 0.3}, {0.9, 0.7}}, frame)},
+                                          "plate", frame);
     trime::Log log(trime::LogLevel::warning, comm.is_root());
     const trime::meshing::MeshResult result = trime::meshing::make_mesh(comm, shape, Graded(), options, log);
 

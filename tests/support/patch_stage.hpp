@@ -14,10 +14,18 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trime::meshing::testing_patch {
+namespace trime::cleanup::testing_patch {
 
+using boundary::make_boundary_sites;
 using geometry::Boundary;
 using geometry::Vec2;
+using polygon::BoundaryChain;
+using polygon::BoundaryCurve;
+using polygon::BoundaryEdit;
+using polygon::BoundaryGuard;
+using polygon::BoundarySite;
+using polygon::BoundarySites;
+using polygon::EditKind;
 using sizing::UniformSize;
 using trime::testing::edited;
 using trime::testing::loop_of;
@@ -161,4 +169,4 @@ inline std::ptrdiff_t count(const std::vector<SiteEdit>& edits, Kind kind, bool 
                        [&](const SiteEdit& edit) { return edit.kind == kind && (edit.boundary >= 0) == on_boundary; });
 }
 
-} // namespace trime::meshing::testing_patch
+} // namespace trime::cleanup::testing_patch

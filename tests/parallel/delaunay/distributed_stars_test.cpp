@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <string>
 
-namespace trime::meshing {
+namespace trime::sites {
 namespace {
 
 using delaunay::gap;
@@ -163,4 +163,4 @@ TEST(DistributedStars, OnlyInnerSitesHaveStarsIfOnlyTheyAreWanted) {
 }
 
 } // namespace
-} // namespace trime::meshing
+} // namespace trime::sites

@@ -14,7 +14,7 @@
 #include <memory>
 #include <set>
 
-namespace trime::meshing {
+namespace trime::sites {
 namespace {
 
 using delaunay::gap;
@@ -193,4 +193,4 @@ TEST(PeriodicStars, AreTheSameOnAnyRanksAndThreadsWhileSitesMove) {
 }
 
 } // namespace
-} // namespace trime::meshing
+} // namespace trime::sites

@@ -2,12 +2,13 @@
 // Pieces and loops by themselves.
 #include "core/angle.hpp"
 #include "trime/geometry/segment.hpp"
-#include "unit/geometry/boundary_checks.hpp"
+#include "unit/shape/boundary_checks.hpp"
 
 namespace trime::geometry {
 namespace {
 
 using shape::Part;
+using shape::random;
 using shape::RegionShape;
 
 const Frame unit_frame(Box{{0, 0}, {1, 1}});

@@ -3,7 +3,7 @@
 #include "trime/shape/contour.hpp"
 
 #include "trime/core/error.hpp"
-#include "unit/geometry/boundary_checks.hpp"
+#include "unit/shape/boundary_checks.hpp"
 
 #include <cstdio>
 

@@ -4,7 +4,7 @@
 #include "core/thread_loop.hpp"
 #include "shape/trace.hpp"
 #include "trime/core/error.hpp"
-#include "unit/geometry/boundary_checks.hpp"
+#include "unit/shape/boundary_checks.hpp"
 
 #include <functional>
 #include <limits>

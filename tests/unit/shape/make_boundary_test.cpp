@@ -2,7 +2,7 @@
 // Boundaries of regions: areas by independent formulas, components and holes, coincident and touching parts.
 #include "core/angle.hpp"
 #include "trime/core/error.hpp"
-#include "unit/geometry/boundary_checks.hpp"
+#include "unit/shape/boundary_checks.hpp"
 
 namespace trime::shape {
 namespace {

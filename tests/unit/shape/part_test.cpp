@@ -5,7 +5,7 @@
 #include "core/angle.hpp"
 #include "geometry/predicates.hpp"
 #include "trime/core/error.hpp"
-#include "unit/geometry/boundary_checks.hpp"
+#include "unit/shape/boundary_checks.hpp"
 
 namespace trime::shape {
 namespace {

@@ -2,7 +2,7 @@
 // Boundaries in periodic containers: loops that cross the border or lead around, area, topology, inside, distance.
 #include "core/angle.hpp"
 #include "trime/core/error.hpp"
-#include "unit/geometry/boundary_checks.hpp"
+#include "unit/shape/boundary_checks.hpp"
 
 namespace trime::shape {
 namespace {

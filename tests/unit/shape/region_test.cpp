@@ -3,7 +3,7 @@
 #include "trime/shape/region.hpp"
 
 #include "trime/core/error.hpp"
-#include "unit/geometry/boundary_checks.hpp"
+#include "unit/shape/boundary_checks.hpp"
 
 namespace trime::shape {
 namespace {

@@ -5,7 +5,7 @@
 #include "core/angle.hpp"
 #include "support/temporary_directory.hpp"
 #include "trime/core/error.hpp"
-#include "unit/geometry/boundary_checks.hpp"
+#include "unit/shape/boundary_checks.hpp"
 
 #include <fmt/format.h>
 

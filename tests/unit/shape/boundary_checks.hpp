@@ -10,7 +10,14 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trime::geometry {
+namespace trime::shape {
+
+using geometry::Boundary;
+using geometry::Box;
+using geometry::Frame;
+using geometry::Loop;
+using geometry::Piece;
+using geometry::Vec2;
 
 inline double random(std::uint64_t i, int slot) {
   return random_unit(1, RandomPurpose::test, i, slot);
@@ -80,4 +87,4 @@ std::string message_of(const Make& make) {
   return {};
 }
 
-} // namespace trime::geometry
+} // namespace trime::shape
