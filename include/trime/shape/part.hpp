@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The named parts that a region is made of: polygons (rectangle, triangle, contour, traced function) and circles, with
-// all numbers on the lattice of the container, so that the inside tests are exact.
+// The named parts that a region is made of: polygons (rectangle, triangle, contour, traced function) and circles. All
+// numbers lie on the lattice of the container, so the inside tests are exact.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"

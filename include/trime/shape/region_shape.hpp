@@ -20,9 +20,8 @@ class RegionShape final : public Shape {
 public:
   /// @brief Parses the region and makes the boundary.
   /// @param parts named differently, none of them `domain`; see Region::parse for `region`
-  /// @throws ConfigError for the region, or for names; GeometryError if the
-  /// region is empty, leaves the container, or its boundary touches itself, or if a part sticks out of a periodic side
-  /// by more than one period
+  /// @throws ConfigError for the region, or for names. GeometryError if the region is empty, leaves the container or
+  /// has a boundary that touches itself. Also if a part sticks out of a periodic side by more than one period.
   RegionShape(std::vector<Part> parts, std::string_view region, const geometry::Frame& frame);
 
   const geometry::Frame& frame() const { return frame_; }
