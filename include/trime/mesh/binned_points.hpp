@@ -125,8 +125,8 @@ public:
   /// @param new_index for each owned site, then for each of `more`, its new local index, -1 if gone or dropped
   /// @pre all lie in the owned tiles
   void sort_moved(std::span<const std::uint8_t> gone, std::span<const Site> more, std::vector<LocalIndex>& new_index);
-  /// No site that was sorted into this tile has come farther since. Of a tile of which no bin is known, the largest drift
-  /// is assumed.
+  /// No site that was sorted into this tile has come farther since. Of a tile of which no bin is known, the largest
+  /// drift is assumed.
   void set_drift(LocalIndex tile, double distance) { drift_[static_cast<std::size_t>(tile)] = distance; }
   double drift(LocalIndex tile) const { return drift_[static_cast<std::size_t>(tile)]; }
   const std::vector<double>& drifts() const { return drift_; }
