@@ -4,7 +4,7 @@
 # serial tests under sanitizers; the thread sanitizer's build is that of all code with a second compiler, clang.
 #   scripts/test.sh [--quick]      --quick: without sanitizers and second compiler
 # The last line says how many tests passed and failed. Environment: TRIME_JOBS (cores), TRIME_NO_INSTALL=1,
-# TRIME_FULL_TABLE=1 (equal meshes on 1 to 16 ranks in all combinations), TRIME_SIMD (see README.md).
+# TRIME_FULL_TABLE=1 (equal meshes on 1 to 16 ranks in all combinations), TRIME_SIMD (see src/README.md).
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/scripts/packages.sh"

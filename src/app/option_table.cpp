@@ -165,8 +165,8 @@ constexpr Option table[] = {
      .key = "feature_tolerance",
      .fallback = "0.1",
      .range = {0, 0.3},
-     .meaning = "a corner less than 2 h from the next may be left out if the mesh then passes it at no more than this "
-                "times h"},
+     .meaning = "a corner less than 2 h from the next may be left out if the boundary of the mesh passes within this "
+                "times h of it"},
     {.section = "meshing",
      .key = "seed",
      .kind = Kind::integer,
@@ -185,8 +185,8 @@ constexpr Option table[] = {
      .choices = "auto",
      .range = positive,
      .meaning =
-         "the sweeps end once six of them lower the mean of alpha - 1 by less than this share of it; auto: 0.04 for "
-         "most final meshes, and other shares for coarse meshes and for the last rule of `hybrid`"},
+         "a rule has stalled once six sweeps lower alpha - 1, its mean and its median, by less than this share; auto: "
+         "0.04 for most final meshes, and other shares for coarse meshes and for the last rule of `hybrid`"},
 
     {.section = "meshing",
      .key = "cleanup",

@@ -16,7 +16,7 @@ namespace trime::meshing {
 MeshResult make_mesh(const comm::Communicator& comm, const shape::RegionShape& shape, const sizing::SizeField& size,
                      const MeshOptions& options, Log& log);
 
-/// @brief Meshes a shape that is given by a function: traces it in options.container first, see geometry::traced.
+/// @brief Meshes a shape that is given by a function: traces it in options.container first, see shape::traced.
 /// @note Collective.
 MeshResult make_mesh(const comm::Communicator& comm, const shape::Shape& shape, const sizing::SizeField& size,
                      const MeshOptions& options, Log& log);
