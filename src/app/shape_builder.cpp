@@ -3,7 +3,7 @@
 
 #include "comm/agree.hpp"
 #include "core/read_file.hpp"
-#include "shape/trace.hpp"
+#include "trime/shape/trace.hpp"
 #include "trime/shape/expression_shape.hpp"
 
 namespace trime::app {

@@ -6,6 +6,7 @@
 #include "trime/core/error.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace trime::cleanup {
 namespace {
@@ -106,7 +107,7 @@ void CleanupSites::list_sites(const Disc& disc, std::size_t most, std::vector<Pa
 
 /// Lists the sites of this rank, after as few narrowings as do, but no fewer than there are already.
 void CleanupSites::narrow_down(const Disc& widest, std::size_t most, Surroundings& own) const {
-  for (; own.found(); ++own.narrowings) {
+  for (; !own.is_crowded(); ++own.narrowings) {
     list_sites(narrowed(widest, own.narrowings), most, own.sites);
     if (own.sites.size() <= most)
       return;
@@ -119,7 +120,7 @@ void CleanupSites::merge(Surroundings& all, const Disc& widest, std::size_t most
                          int narrowings) {
   all.sites.insert(all.sites.end(), more.begin(), more.end());
   all.narrowings = std::max(all.narrowings, narrowings);
-  for (; all.found(); ++all.narrowings) {
+  for (; !all.is_crowded(); ++all.narrowings) {
     const Disc disc = narrowed(widest, all.narrowings);
     std::erase_if(all.sites, [&](const PatchSite& site) { return !lies_in(disc, site.position); });
     if (all.sites.size() <= most)
@@ -203,6 +204,17 @@ void CleanupSites::set_rest(Vec2 p, bool rests) {
     status_[at(i)] = rests ? SiteStatus::rests : SiteStatus::in_place;
   else
     find_added(p).rests = rests;
+}
+
+std::vector<Vec2> CleanupSites::let_rest(const Disc& disc) {
+  std::vector<PatchSite> sites;
+  list_sites(disc, std::numeric_limits<std::size_t>::max(), sites);
+  std::vector<Vec2> places;
+  for (const PatchSite& site : sites) {
+    places.push_back(state_.grid().periods().wrap(site.position));
+    set_rest(places.back(), true);
+  }
+  return places;
 }
 
 void CleanupSites::apply(std::span<const SiteEdit> edits) {

@@ -3,7 +3,7 @@
 
 #include "make_boundary.hpp"
 #include "part_images.hpp"
-#include "shape/trace.hpp"
+#include "trime/shape/trace.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>

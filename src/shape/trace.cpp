@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shape/trace.hpp"
+#include "trime/shape/trace.hpp"
 
 #include "contour_polygon.hpp"
 #include "curve_refiner.hpp"

@@ -24,7 +24,7 @@ struct Disc {
   double radius;
 };
 
-/// @brief Owned and ghost sites with their stars. After each change of sites: set_sites, then compute_stars.
+/// @brief Owned and ghost sites with their stars. After each change of sites (distribute, move_sites): compute_stars.
 class SiteState {
 public:
   /// @param box that holds all sites, now and later
