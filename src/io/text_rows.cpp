@@ -152,7 +152,7 @@ void write_text_rows(const std::string& final_path, std::span<const TextRows> ar
   std::optional<Output> output;
   comm::run_agreed(comm, [&] {
     if (comm.is_root())
-      output.emplace(final_path);
+      output.emplace(final_path, files);
   });
   std::int64_t end = 0;
   for (const TextRows& array : arrays)
