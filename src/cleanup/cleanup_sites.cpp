@@ -19,10 +19,6 @@ using sites::SiteState;
 // What one thread takes at a time.
 constexpr int discs_in_a_row = 16, edits_in_a_row = 64, sites_in_a_row = 4096;
 
-std::size_t at(LocalIndex i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Asks another rank which sites it has in a disc. The rank that asks may have narrowed the disc already.
 struct DiscRequest {
   Disc widest;
@@ -54,9 +50,9 @@ template <class Visit>
 void CleanupSites::for_each_tile(const Disc& disc, const Visit& visit) const {
   const mesh::TileGrid& grid = state_.grid();
   const Vec2 reach{disc.radius, disc.radius}, low = disc.center - reach, high = disc.center + reach;
-  const int x1 = grid.tile_of(grid.unrolled_x(high.x)), y1 = grid.tile_of(grid.unrolled_y(high.y));
-  for (int y = grid.tile_of(grid.unrolled_y(low.y)); y <= y1; ++y)
-    for (int x = grid.tile_of(grid.unrolled_x(low.x)); x <= x1; ++x)
+  const int x1 = grid.tile_of(grid.x_axis().unrolled(high.x)), y1 = grid.tile_of(grid.y_axis().unrolled(high.y));
+  for (int y = grid.tile_of(grid.y_axis().unrolled(low.y)); y <= y1; ++y)
+    for (int x = grid.tile_of(grid.x_axis().unrolled(low.x)); x <= x1; ++x)
       visit(grid.tile_image_at(x, y).tile);
 }
 
@@ -240,7 +236,7 @@ void CleanupSites::finish(SiteState& state, std::span<const LocalIndex> new_inde
   const auto renumbered = [&](std::int32_t boundary) {
     return boundary >= 0 ? new_index[static_cast<std::size_t>(boundary)] : boundary;
   };
-  points.prepare_to_stay();
+  prepare_to_stay(points);
   std::vector<std::uint8_t> deleted(at(points.owned()), 0);
   thread_loop(points.owned(), sites_in_a_row, [&](std::ptrdiff_t item, int) {
     const auto i = static_cast<LocalIndex>(item);
@@ -251,7 +247,7 @@ void CleanupSites::finish(SiteState& state, std::span<const LocalIndex> new_inde
   for (const std::vector<Added>& list : added_)
     for (const Added& added : list)
       if (added.origin >= 0) {
-        points.next_positions()[at(added.origin)] = added.position;
+        points.next().positions()[at(added.origin)] = added.position;
         points.set_boundary(added.origin, renumbered(added.boundary));
         deleted[at(added.origin)] = 0;
       } else {

@@ -129,7 +129,7 @@ private:
     log_.info("boundary: {} component{}, {} hole{}, {} sites, {} corners", components, components == 1 ? "" : "s",
               holes, holes == 1 ? "" : "s", stage_.boundary.sites.size(), stage_.boundary.corners);
     log_.info("start: {} points in {} tiles ({} x {} cells), mean edge about {:.6g}", placed_, grid.tile_count(),
-              grid.cells_x(), grid.cells_y(), stage_.typical_size);
+              grid.cells().x, grid.cells().y, stage_.typical_size);
     if (scheme_->is_last()) {
       features_ = report_features(stage_.boundary, scheme_->limits(), *stage_.asked_size);
       for (const std::string& line : describe(features_))

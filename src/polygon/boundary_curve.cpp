@@ -12,10 +12,6 @@ namespace {
 
 constexpr double cosine_of_bent = 0.99996, cosine_of_sharp = 0.8660254037844386; // half a degree, 30 degrees
 
-std::size_t at(LocalIndex i) {
-  return static_cast<std::size_t>(i);
-}
-
 } // namespace
 
 BoundaryCurve::BoundaryCurve(const geometry::Boundary& boundary) : boundary_(boundary) {
