@@ -99,7 +99,7 @@ CountEstimate::CountEstimate(const LayoutContext& context, double points, double
   comm::run_agreed(context.comm, [&] {
     polygon = polygon_of(context.fixed.cornered_boundary(), context.lattice, spacing, lengths_);
   });
-  corners_ = count_corners(context.fixed.cornered_boundary(), context.options.corner_angle);
+  corners_ = count_corners(context.fixed.cornered_boundary(), context.options.features.corner_angle);
   if (!polygon.sites.empty() || context.boundary.covers_torus)
     reference_ = lay_reference(context, std::move(polygon), points, coarsening);
 }
@@ -138,7 +138,7 @@ double CountEstimate::crowding(double factor) const {
 
 /// Simpson's rule, in steps of about the local size.
 std::optional<double> CountEstimate::boundary_points(const sizing::SizeField& size) const {
-  const BoundarySites& polygon = reference_.boundary;
+  const BoundarySites& polygon = reference_.polygon;
   std::vector<double> counts(polygon.sites.size());
   const double most = FitRules::far_too_many * points_;
   thread_loop(std::ssize(counts), 64, [&](std::ptrdiff_t k, int) {
@@ -167,7 +167,7 @@ std::optional<double> CountEstimate::boundary_points(const sizing::SizeField& si
       sites += counts[static_cast<std::size_t>(k)];
     if (!std::isfinite(sites))
       return std::nullopt;
-    if (sites >= FitRules::least_sites || context_.options.keep_features)
+    if (sites >= FitRules::least_sites || context_.options.features.keep_all)
       all += std::max(FitRules::least_sites, sites);
   }
   return all;

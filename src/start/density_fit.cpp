@@ -65,7 +65,7 @@ private:
   /// @brief The trial as it is if its sites are nearly as many as wanted, or with a size so little larger or smaller
   /// that the sites inside make up the difference: those on the boundary may stay.
   std::optional<DensityFit> accepted(SizeTrial& trial) const {
-    if (trial.fit.laid.stage.boundary.overfull)
+    if (trial.fit.laid.stage.polygon.overfull)
       return std::nullopt;
     if (trial.points <= points_ &&
         (trial.points >= (1 - FitRules::close_enough) * points_ || trial.points > points_ - 2))
@@ -99,7 +99,7 @@ private:
         return {factor, trials_.count(std::move(laid), trials_.coarsening())};
       if (first) {
         crowded = static_cast<double>(trials_.limits()) >
-                  FitRules::crowded_share * static_cast<double>(laid.stage.boundary.sites.size());
+                  FitRules::crowded_share * static_cast<double>(laid.stage.polygon.sites.size());
         continue;
       }
       const double growth =
@@ -120,7 +120,7 @@ private:
     for (int round = 0; round < FitRules::most_trials && !bracket.is_closed(); ++round) {
       SizeTrial trial = approach.trial ? *std::exchange(approach.trial, std::nullopt) : trials_.run(factor);
       const double points = trial.points;
-      const bool overfull = trial.fit.laid.stage.boundary.overfull;
+      const bool overfull = trial.fit.laid.stage.polygon.overfull;
       if (std::optional<DensityFit> fit = accepted(trial))
         return std::move(*fit);
       if (points > points_)

@@ -17,10 +17,10 @@ void Fewest::consider(const Stage& stage, double trial_points) {
   if (trial_points >= points)
     return;
   points = trial_points;
-  counted = !stage.boundary.overfull;
+  counted = !stage.polygon.overfull;
   double least = INFINITY;
-  for (LocalIndex k = 0; k < std::ssize(stage.boundary.sites); ++k) {
-    const geometry::Segment chord = stage.boundary.chord(k);
+  for (LocalIndex k = 0; k < std::ssize(stage.polygon.sites); ++k) {
+    const geometry::Segment chord = stage.polygon.chord(k);
     if (const double length = geometry::length(chord.b - chord.a); length < least) {
       least = length;
       shortest = chord;

@@ -117,7 +117,7 @@ Stage PointScheme::first_of_divisions() {
   Stage stage;
   std::unique_ptr<const HilbertStart> start;
   double inner = 0;
-  const double on_boundary = static_cast<double>(fit.laid.stage.boundary.sites.size());
+  const double on_boundary = static_cast<double>(fit.laid.stage.polygon.sites.size());
   while (last_stage_ > 0 && std::ldexp(fit.inner, -2 * last_stage_) < std::ldexp(on_boundary, -last_stage_))
     --last_stage_; // the share of the strip and of corners only grows
   for (;; --last_stage_) {
@@ -192,7 +192,7 @@ Stage PointScheme::next(const Stage& previous) {
 
 Stage PointScheme::divide(const Stage& previous) {
   const comm::Communicator& comm = context_.comm;
-  const StageView old{*previous.state, previous.boundary, *previous.size, context_.lattice};
+  const StageView old = previous.view(context_.lattice);
   const GlobalId before = comm.sum(std::int64_t{previous.state->points().owned()});
   Stage stage = lay_division(laid_last_, 4 * static_cast<double>(before));
   const auto time = context_.timers.scope("start");
@@ -212,7 +212,7 @@ Stage PointScheme::divide(const Stage& previous) {
 
 Stage PointScheme::insert(const Stage& previous) {
   const comm::Communicator& comm = context_.comm;
-  const StageView old{*previous.state, previous.boundary, *previous.size, context_.lattice};
+  const StageView old = previous.view(context_.lattice);
   const GlobalId before = comm.sum(std::int64_t{previous.state->points().owned()});
   const double grown = std::floor(StartRules::growth * static_cast<double>(before)), all = expected_points();
   if (is_last() && 2 * grown < all && stage_ < StartRules::most_insertions)

@@ -25,7 +25,7 @@ std::optional<Stage> lay_affordable_boundary(const LayoutContext& context, doubl
     Stage stage = try_boundary(context, {h, {}}, expected).stage;
     const double held = static_cast<double>(stage.placed_first());
     if (!context.options.points || stage.placed_first() <= *context.options.points) {
-      const double size = stage.size->size({}), area = context.boundary.area + stage.boundary.dropped.change;
+      const double size = stage.size->size({}), area = context.boundary.area + stage.polygon.dropped.change;
       if (round > 0 && is_jump(held + area / (row_height * size * size), expected))
         break;
       complete(context, stage);

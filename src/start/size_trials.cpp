@@ -27,7 +27,7 @@ FittedStage SizeTrials::lay(double factor) {
 }
 
 bool SizeTrials::find_limits(const FittedStage& laid) {
-  if (limit_rounds_ == BoundaryRules::lowering_rounds || laid.stage.boundary.overfull)
+  if (limit_rounds_ == BoundaryRules::lowering_rounds || laid.stage.polygon.overfull)
     return false;
   const std::vector<sizing::SizeLimit> more = further_limits(context_, laid.stage);
   for (const sizing::SizeLimit& limit : more)
@@ -41,7 +41,7 @@ SizeTrial SizeTrials::count(FittedStage laid, double coarsening) const {
   trial.fit.laid = std::move(laid);
   Stage& stage = trial.fit.laid.stage;
   complete(context_, stage, coarsening);
-  if (!stage.boundary.overfull) {
+  if (!stage.polygon.overfull) {
     trial.totals = wanted_inside(context_, stage, coarsening);
     trial.fit.inner = std::floor(trial.totals.sites);
   }

@@ -38,10 +38,10 @@ void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary,
 }
 
 void warn_of_fine_features(const Stage& stage, Log& log) {
-  const auto& sites = stage.boundary.sites;
+  const auto& sites = stage.polygon.sites;
   double least = 1, length = 0, size = 0; // chord over local size
   for (std::size_t k = 0; k < sites.size(); ++k) {
-    const geometry::Segment segment = stage.boundary.chord(static_cast<LocalIndex>(k));
+    const geometry::Segment segment = stage.polygon.chord(static_cast<LocalIndex>(k));
     const double chord = geometry::length(segment.b - segment.a), h = stage.size->size(segment.a);
     if (chord < least * h) {
       least = chord / h;
