@@ -39,7 +39,7 @@ BoundaryRefiner::BoundaryRefiner(const geometry::Boundary& boundary, const Bound
     metrics_.emplace_back(boundary, k, sizes);
     add_loop(lay_out_loop(metrics_.back(), lattice, corner_angle, tolerance_));
   }
-  most_sites_ = std::max(BoundaryRules::most_sites, BoundaryRules::halving_growth * sites_.size());
+  most_sites_ = std::max(BoundaryRules::always_halved, BoundaryRules::halving_growth * sites_.size());
 }
 
 void BoundaryRefiner::run() {

@@ -108,7 +108,7 @@ void CleanupRounds::prepare(std::vector<PatchSite>& sites) const {
 
 std::vector<PatchResult> CleanupRounds::try_patches(std::span<const Contender> chosen) {
   const std::vector<Disc> discs = discs_of(chosen);
-  std::vector<Surroundings> around = sites_.around(discs, Rules::most_sites);
+  std::vector<Surroundings> around = sites_.around(discs, Rules::most_in_patch);
   std::vector<PatchResult> results(chosen.size());
   const GlobalId patches = comm_.sum(static_cast<std::int64_t>(chosen.size()));
   const PatchBudget budget = limits_.budget(patches, stage_, again_alpha_);

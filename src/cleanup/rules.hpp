@@ -64,8 +64,8 @@ struct CleanupRules {
   static constexpr double widest_frame = 0x1.8p44;
   /// [sites] With more around a place nothing is tried. A hexagonal lattice has 360; spikes far below h crowd many
   /// more. Measured: a star of 1000 spikes took 176 s without this limit and other savings, 0.7 s with them.
-  static constexpr std::size_t most_sites = 600;
-  /// [1] Factor on the radius if a disc holds more than most_sites. Not measured.
+  static constexpr std::size_t most_in_patch = 600;
+  /// [1] Factor on the radius if a disc holds more than most_in_patch. Not measured.
   static constexpr double narrowing_factor = 0.75;
   /// [narrowings] At most: to 0.24 of the radius. Not measured.
   static constexpr int most_narrowings = 5;
@@ -84,10 +84,10 @@ struct CleanupRules {
   /// [1] Least determinant of the second derivatives over their squares for a Newton step. Only rounding is kept out.
   static constexpr double least_convexity = 1e-6;
   /// [h] Longest Newton step: the energy is far from a parabola beyond it. Not measured.
-  static constexpr double longest_step = 0.25;
+  static constexpr double longest_move = 0.25;
   /// [h] Shorter steps are no moves. Measured: 0.006 saved instructions, but left single triangles of the square with
   /// 1e5 points at alpha 1.11; with 0.003 they come to 1.07.
-  static constexpr double shortest_step = 3e-3;
+  static constexpr double shortest_move = 3e-3;
   /// [1] Energy of a star below which its site stays: six triangles with eta below 1.006. Not measured.
   static constexpr double rest_energy = 2e-4;
   /// [1] Energy of a star from which rounding may change the signs of its areas.
@@ -122,8 +122,6 @@ struct CleanupRules {
   // --- operations ---------------------------------------------------------------------------------------------------
   /// [1] Share of a chord: within it of the middle a left-out corner is where the chord is divided. Not measured.
   static constexpr double most_off_middle = 0.3;
-  /// [chords] How far from the middle of a chord a new site comes that would lie in its disc: 0.5 is the disc.
-  static constexpr double push_off_chord = 0.6;
   /// [sites] A loop with fewer loses none, so that it stays a loop. Not measured.
   static constexpr LocalIndex least_in_loop = 8;
   /// [neighbours] From so many on a site is crowded: new sites are tried on its edges. Not measured.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "polygon/boundary_curve.hpp"
 
+#include "polygon/rules.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,8 +11,6 @@ namespace trime::polygon {
 using geometry::Vec2;
 
 namespace {
-
-constexpr double cosine_of_bent = 0.99996, cosine_of_sharp = 0.8660254037844386; // half a degree, 30 degrees
 
 std::size_t at(LocalIndex i) {
   return static_cast<std::size_t>(i);
@@ -86,8 +86,8 @@ BoundaryCurve::Strayed BoundaryCurve::strayed(LocalIndex loop, double from, doub
       look(piece.start + moved, starts[k] + turns * starts.back()); // bit for bit that of the junction
       const geometry::Piece& before = curve.pieces[k == 0 ? curve.pieces.size() - 1 : k - 1];
       const double cosine = geometry::dot(before.tangent(before.length()), piece.tangent(0));
-      result.bent |= cosine < cosine_of_bent;
-      result.sharp |= cosine < cosine_of_sharp;
+      result.bent |= cosine < PolygonRules::cosine_of_bent;
+      result.sharp |= cosine < PolygonRules::cosine_of_sharp;
     }
     for (int quarter = 1; piece.circular && quarter < 4; ++quarter) {
       const double low = std::fmax(from - passed, 0), high = std::fmin(to - passed, length);

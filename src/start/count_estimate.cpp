@@ -150,7 +150,7 @@ std::optional<double> CountEstimate::boundary_points(const sizing::SizeField& si
     double& count = counts[static_cast<std::size_t>(k)];
     double share = 0, first = inverse(0);
     while (share < 1 && count < most && std::isfinite(first)) {
-      double step = std::max(FitRules::longest_step / (first * length), 1e-9);
+      double step = std::max(FitRules::integral_step / (first * length), 1e-9);
       step = share + 1.25 * step < 1 ? step : 1 - share;
       const double last = inverse(share + step);
       count += step * length * (first + 4 * inverse(share + 0.5 * step) + last) / 6;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "start/size_warnings.hpp"
 
+#include "start/rules.hpp"
+
 #include <cmath>
 
 namespace trime::start {
@@ -8,8 +10,7 @@ using sites::Stage;
 
 void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary, const geometry::Lattice& lattice,
                          Log& log) {
-  constexpr int per_side = 64;
-  constexpr double steep = 1;
+  constexpr int per_side = StartRules::slope_samples;
   if (stage.size->is_uniform() || boundary.loops.empty())
     return;
   const geometry::Box box = boundary.bounding_box();
@@ -31,7 +32,7 @@ void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary,
       look(p, {stride.x, 0});
       look(p, {0, stride.y});
     }
-  if (steepest > steep)
+  if (steepest > StartRules::warned_slope)
     log.warning("the edge length that is asked for changes by {:.3g} times the way near ({:.4g}, {:.4g}); triangles "
                 "can follow about 0.5: expect fewer points and small angles, or take more points or a gentler size",
                 steepest, place.x, place.y);
@@ -49,7 +50,7 @@ void warn_of_fine_features(const Stage& stage, Log& log) {
       size = h;
     }
   }
-  if (least < 0.1)
+  if (least < StartRules::warned_chord)
     log.warning("the boundary has segments of {:.3g} where edges of {:.3g} are asked for: expect small angles there",
                 length, size);
 }

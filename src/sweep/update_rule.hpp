@@ -42,8 +42,8 @@ private:
 };
 
 /// @brief Acceleration of a descent (Nesterov 1983): from the iterate x' = y + move(y) the next move is taken at
-/// y' = x' + b (x' - x), b = min(0.95, k/(k+3)), and k starts again from 0 when the last moves went uphill
-/// (sum of (y - x').(x' - x) / h^2 > 0; O'Donoghue and Candes 2015), which one sweep later is early enough.
+/// y' = x' + b (x' - x), b = min(SweepRules::largest_momentum, k/(k+3)), and k starts again from 0 when the last moves
+/// went uphill (sum of (y - x').(x' - x) / h^2 > 0; O'Donoghue and Candes 2015), which one sweep later is early enough.
 class Momentum {
 public:
   void begin_sweep(const SweepSums& sums);
