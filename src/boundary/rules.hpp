@@ -31,9 +31,9 @@ struct BoundaryRules {
   /// [tolerance] A chord that leaves corners farther off is divided. The layout keeps within 1.1; the rest is leeway
   /// for snapping and halving. Not measured.
   static constexpr double most_deviation = 1.25;
-  /// [radians] A junction that turns by more becomes a site when its segment is divided. Not measured.
+  /// [radians] A junction that turns by more becomes a site when its chord is divided. Not measured.
   static constexpr double junction_turn = pi / 4;
-  /// [rounds] Later rounds of halving look only at segments near the new sites. Not measured.
+  /// [rounds] Later rounds of halving look only at chords near the new sites. Not measured.
   static constexpr int full_rounds = 20;
   /// [sites] Halving of chords may always make so many; beyond, halving_growth is the bound. Not measured.
   static constexpr std::size_t always_halved = 4000000;

@@ -195,7 +195,7 @@ private:
     counts_.corners += is_corner;
     if (!fan_.complete)
       return;
-    const BoundarySite& to_next = view_.polygon.sites[at(b)]; // the segment to the next boundary site
+    const BoundarySite& to_next = view_.polygon.sites[at(b)]; // its chord leads to the next boundary site
     ++counts_.facets;
     counts_.hash_of_facets +=
         facet_hash(numbering_.global_id(numbering_.vertex(site)), ids_[0], to_next.tag, to_next.part);
@@ -299,7 +299,7 @@ mesh::Checks certify(const StageView& view, const decomposition::Numbering& numb
   view.state.comm().sum(packed);
   counts = Counts::unpack(packed);
 
-  const std::int64_t segments = static_cast<std::int64_t>(view.polygon.sites.size());
+  const std::int64_t chords = static_cast<std::int64_t>(view.polygon.sites.size());
   const ExactArea polygon = polygon_area(view.polygon, view.lattice);
   mesh::Checks checks;
   checks.push_back(
@@ -311,17 +311,17 @@ mesh::Checks certify(const StageView& view, const decomposition::Numbering& numb
   checks.push_back(check("written_triangles", counts.triangles,
                          counts.hash_of_written == counts.hash_of_triangles ? mesh.triangle_slab.total : -1,
                          "the triangles to be written are these"));
-  checks.push_back(check("written_facets", segments,
+  checks.push_back(check("written_facets", chords,
                          counts.hash_of_written_facets == counts.hash_of_facets ? mesh.facet_slab.total : -1,
-                         "the boundary edges to be written are these, with their tags"));
+                         "the facets to be written are these, with their tags"));
   checks.push_back(check("not_positive", 0, counts.not_positive, "triangles that are not counter-clockwise"));
   checks.push_back(check("euler_characteristic", expectation.meshed.euler_characteristic(),
                          counts.points - counts.edges + counts.triangles,
                          "of the shape; in the plane components minus holes"));
-  checks.push_back(check("edge_count", (3 * counts.triangles + segments) / 2, counts.edges,
-                         "inner edges have two triangles, boundary edges one"));
+  checks.push_back(check("edge_count", (3 * counts.triangles + chords) / 2, counts.edges,
+                         "inner edges have two triangles, facets one"));
   checks.push_back(check("not_delaunay", 0, counts.not_delaunay, "edges that are not locally Delaunay (exact test)"));
-  checks.push_back(check("boundary_segments", segments, counts.facets, "boundary segments that are edges of the mesh"));
+  checks.push_back(check("boundary_segments", chords, counts.facets, "chords that are edges of the mesh"));
   checks.push_back(
       check("corners", view.polygon.corners, counts.corners, "corners that are vertices, bit for bit on the lattice"));
   if (!view.fixed.empty())

@@ -102,7 +102,8 @@ struct CleanupRules {
   static constexpr double slide_share = 0.4;
   /// [sweeps] Over the sites of bad triangles and their neighbours, at most. Not measured.
   static constexpr int moving_sweeps = 8;
-  /// [1] Share by which a sum has to fall to count as better, in a sweep or by an operation.
+  /// [1] Share by which a sum has to fall to count as better, in a sweep or by an operation: less is not worth the
+  /// edits. Other values: not measured.
   static constexpr double least_gain = 0.02;
   /// [h] A site that has moved farther does not rest any more. Not measured.
   static constexpr double waking_move = 0.05;
@@ -110,7 +111,7 @@ struct CleanupRules {
   // --- chords that stand for curves ---------------------------------------------------------------------------------
   /// [1] Arc over chord up to which a chord follows a straight side: only rounding is allowed.
   static constexpr double straight_share = 1 + 1e-9;
-  /// [1] Largest arc over chord: a turn by 60 degrees.
+  /// [1] Largest arc over chord: an arc that turns by 60 degrees is 1.047 of its chord.
   static constexpr double largest_arc_share = 1.05;
   /// [h] A curve that strays less from its chord may have a chord of any length. Not measured.
   static constexpr double unseen_stray = 0.001;
@@ -124,9 +125,9 @@ struct CleanupRules {
   static constexpr double most_off_middle = 0.3;
   /// [sites] A loop with fewer loses none, so that it stays a loop. Not measured.
   static constexpr LocalIndex least_in_loop = 8;
-  /// [neighbours] From so many on a site is crowded: new sites are tried on its edges. Not measured.
+  /// [neighbours] A site with this many or more is crowded: new sites are tried on its edges. Six are regular.
   static constexpr std::size_t many_neighbours = 7;
-  /// [sites] One patch may add so many in order to have smaller triangles. Not measured.
+  /// [sites] That one patch may add in order to have smaller triangles. Not measured.
   static constexpr LocalIndex most_refined = 40;
   /// [sweeps] Of a trial with smaller triangles. Half of them decide whether it is given up. Not measured.
   static constexpr int refine_sweeps = 20;
@@ -191,7 +192,8 @@ struct CleanupRules {
   /// [1] Share of the sites kept until the last stage, for places where only smaller triangles help. Measured: North
   /// America, largest alpha 1.61 to 1.38 with 17000 points against a smaller share.
   static constexpr double reserved = 0.006;
-  /// [sites] A patch may add so many if there are so many, however many patches share the rest. Not measured.
+  /// [sites] A patch may add this many as long as the limits leave them, though its share of the rest may be less. Not
+  /// measured.
   static constexpr GlobalId least_budget = 10;
   /// [1] Share of the sites: with less room, or so many fewer than wanted, the handicaps apply. Not measured.
   static constexpr double scarcity = 0.001;

@@ -23,12 +23,12 @@ std::size_t at(LocalIndex i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Triangles and boundary edges of one tile, or where those of a tile begin.
+/// Triangles and facets of one tile, or where those of a tile begin.
 struct Offsets {
   std::size_t triangles = 0, facets = 0;
 };
 
-/// Lists triangles and boundary edges at that of their vertices which has the lowest global id.
+/// Lists triangles and facets at that of their vertices which has the lowest global id.
 class Extractor {
 public:
   Extractor(const StageView& view, const decomposition::Numbering& numbering)

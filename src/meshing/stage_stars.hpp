@@ -27,7 +27,7 @@ public:
   /// into discs of chords
   void certify(sites::Stage& stage, sweep::LemmaReach reach) const;
   /// @brief Stars of all sites. Where a fan is not complete the cap may have been too low (a void): it is doubled for
-  /// these sites, a few times; the certificate tells of what remains. @param reach as for certify
+  /// these sites, a few times. The certificate finds fans that are not complete even then. @param reach as for certify
   /// @throws GeometryError on all ranks if triangles of a periodic container reach around it
   void complete(sites::Stage& stage, sweep::LemmaReach reach);
 

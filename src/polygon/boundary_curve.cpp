@@ -46,7 +46,7 @@ std::size_t BoundaryCurve::Arcs::piece(double arc) const {
   return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above - begin - 1, 0, std::ssize(starts) - 2));
 }
 
-BoundaryCurve::Place BoundaryCurve::place(LocalIndex loop, double arc) const {
+BoundaryCurve::CurvePlace BoundaryCurve::place(LocalIndex loop, double arc) const {
   const Arcs& arcs = arcs_[at(loop)];
   const geometry::Loop& curve = boundary_.loops[at(loop)];
   const double length = arcs.starts.back(), turns = arc >= length ? 1 : arc < 0 ? -1 : 0;
@@ -63,7 +63,7 @@ BoundaryCurve::Strayed BoundaryCurve::strayed(LocalIndex loop, double from, doub
   const geometry::Loop& curve = boundary_.loops[at(loop)];
   if (to < from)
     to += starts.back();
-  const Place first = place(loop, from);
+  const CurvePlace first = place(loop, from);
   const Vec2 shift = chord.a - first.point;
   const double rounding = 1e-9 * geometry::squared_length(chord.b - chord.a);
   Strayed result;

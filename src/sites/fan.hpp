@@ -13,7 +13,7 @@ namespace trime::sites {
 
 /// @brief The inside fan of a site: the run of ring entries whose consecutive pairs are the triangles inside the shape.
 /// For an inner site the whole ring (`closed`); for a boundary site from its next to its previous boundary neighbour.
-/// `complete` is false if a triangle or a boundary segment is missing.
+/// `complete` is false if a triangle or a chord is missing.
 struct Fan {
   std::span<const LocalIndex> ring;
   std::size_t first = 0, triangles = 0;

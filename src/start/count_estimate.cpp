@@ -100,7 +100,7 @@ CountEstimate::CountEstimate(const LayoutContext& context, double points, double
     polygon = polygon_of(context.fixed.cornered_boundary(), context.lattice, spacing, lengths_);
   });
   corners_ = count_corners(context.fixed.cornered_boundary(), context.options.features.corner_angle);
-  if (!polygon.sites.empty() || context.boundary.covers_torus)
+  if (!polygon.sites.empty() || context.given_boundary.covers_torus)
     reference_ = lay_reference(context, std::move(polygon), points, coarsening);
 }
 

@@ -30,7 +30,7 @@ public:
         search_((1 - FitRules::goal_below * FitRules::close_enough) * points) {}
 
   DensityFit solve() {
-    const geometry::Boundary& boundary = context_.boundary;
+    const geometry::Boundary& boundary = context_.given_boundary;
     const double uniform = context_.options.points ? estimated_size(boundary.area, boundary.length(), points_)
                                                    : *context_.options.edge_length;
     double smallest = 0;
@@ -137,7 +137,7 @@ private:
     if (best.points < FitRules::enough_points * points_)
       best.fit.shortage = context_.options.min_size
                               ? fmt::format("min_size = {:g} leaves no room for more", *context_.options.min_size)
-                              : "the discs of the boundary segments leave no room for more";
+                              : "the discs of the chords leave no room for more";
     return std::move(best.fit);
   }
 

@@ -52,7 +52,7 @@ void fail_for_few_points(const LayoutContext& context, const Fewest& fewest) {
   const geometry::Vec2 place = 0.5 * (fewest.shortest.a + fewest.shortest.b);
   throw ConfigError(fmt::format(
       "points = {} are too few for this shape: its boundary alone needs {}{:.0f} (every corner, and every place where "
-      "the boundary comes near itself, takes its own; the shortest segment, {:.3g} long, is at ({:.6g}, {:.6g})); ask "
+      "the boundary comes near itself, takes its own; the shortest chord, {:.3g} long, is at ({:.6g}, {:.6g})); ask "
       "for more, or simplify the shape there",
       *context.options.points, fewest.counted ? "" : "more than ", fewest.points,
       geometry::length(fewest.shortest.b - fewest.shortest.a), place.x, place.y));

@@ -37,7 +37,7 @@ std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Bounda
   double h = spacing;
   geometry::Box box{{std::max(container.min.x, around.min.x - h), std::max(container.min.y, around.min.y - h)},
                     {std::min(container.max.x, around.max.x + h), std::min(container.max.y, around.max.y + h)}};
-  const geometry::Periods& periods = context.boundary.periods;
+  const geometry::Periods& periods = context.given_boundary.periods;
   if (periods.x > 0) {
     box.min.x = periods.min.x;
     box.max.x = periods.min.x + periods.x;
@@ -47,8 +47,9 @@ std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Bounda
     box.max.y = periods.min.y + periods.y;
   }
   // Of a shape that is nearly nothing but boundary, most cells hold no site.
-  if (context.boundary.area > 0)
-    h = std::max(h, h * std::sqrt(box.width() * box.height() / (StartRules::emptiest_grid * context.boundary.area)));
+  if (context.given_boundary.area > 0)
+    h = std::max(h,
+                 h * std::sqrt(box.width() * box.height() / (StartRules::emptiest_grid * context.given_boundary.area)));
   const auto cells = [](const std::optional<int>& given, double share) -> std::optional<int> {
     if (!given)
       return given;
@@ -72,7 +73,7 @@ void set_sizes(const LayoutContext& context, const FittedSize& fitted, Stage& st
     stage.lowered_size.reset();
   } else {
     stage.lowered_size = std::make_unique<sizing::LoweredSize>(*stage.asked_size, limits, BoundaryRules::gradation,
-                                                               context.boundary.periods);
+                                                               context.given_boundary.periods);
     within = stage.lowered_size.get();
   }
   stage.size = std::make_unique<sizing::ScaledSize>(*within, stage.coarsening);
@@ -101,7 +102,7 @@ void lay_sites(const LayoutContext& context, std::size_t affordable, FittedStage
 
 /// Edge length of so many equal triangles' vertices, the boundary not counted.
 double typical_size(const LayoutContext& context, double expected) {
-  return std::sqrt(context.boundary.area / (row_height * std::max(1.0, expected)));
+  return std::sqrt(context.given_boundary.area / (row_height * std::max(1.0, expected)));
 }
 
 /// Sites alone.
@@ -217,9 +218,9 @@ mesh::TileRange even_share(const Stage& stage, const comm::Communicator& comm) {
 
 void place_sites(const LayoutContext& context, Stage& stage, mesh::SiteList inner) {
   const mesh::TileRange tiles = even_share(stage, context.comm);
-  if (context.boundary.periods.any())
+  if (context.given_boundary.periods.any())
     for (mesh::Site& site : inner)
-      site.position = context.boundary.periods.wrap(site.position);
+      site.position = context.given_boundary.periods.wrap(site.position);
   for (std::size_t b = 0; b < stage.polygon.sites.size(); ++b) {
     const geometry::Vec2 p = stage.polygon.sites[b].position;
     const LocalIndex tile = tiles.grid.place(p).tile;

@@ -32,7 +32,7 @@ PointScheme::PointScheme(const LayoutContext& context) : context_(context), opti
 /// its pieces, and of the points at most.
 GlobalId PointScheme::reserve() const {
   double pieces = 0;
-  for (const geometry::Loop& loop : context_.boundary.loops)
+  for (const geometry::Loop& loop : context_.given_boundary.loops)
     pieces += static_cast<double>(loop.pieces.size());
   if (!options_.points || !options_.cleanup)
     return 0;
@@ -43,8 +43,8 @@ GlobalId PointScheme::reserve() const {
 double PointScheme::expected_points() const {
   if (options_.points)
     return static_cast<double>(*options_.points - reserve());
-  const double h = *options_.edge_length, area = context_.boundary.area;
-  return std::max(3.0, area / (row_height * h * h) + 0.5 * context_.boundary.length() / h);
+  const double h = *options_.edge_length, area = context_.given_boundary.area;
+  return std::max(3.0, area / (row_height * h * h) + 0.5 * context_.given_boundary.length() / h);
 }
 
 void PointScheme::choose() {
@@ -82,7 +82,7 @@ Stage PointScheme::first_of_lattice() {
   shortage_ = std::move(fit.shortage);
   const auto time = context_.timers.scope("start");
   place_sites(context_, fit.stage,
-              LatticeStart(context_.boundary, *fit.stage.guard, context_.lattice)
+              LatticeStart(context_.given_boundary, *fit.stage.guard, context_.lattice)
                   .sites(even_share(fit.stage, context_.comm), fit.spacing,
                          static_cast<std::size_t>(fit.stage.placed_first())));
   return std::move(fit.stage);

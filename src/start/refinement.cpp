@@ -121,7 +121,7 @@ mesh::SiteList split_edges(const StageView& view) {
     if (!fan.complete)
       return;
     const Vec2 p = points.position(i);
-    // The first and the last edge of an open fan are segments of the boundary.
+    // The first and the last edge of an open fan are chords.
     for (std::size_t k = fan.closed ? 0 : 1; k < fan.triangles; ++k) {
       const Vec2 q = points.position(fan.neighbour(k));
       if (periods.less(p, q))

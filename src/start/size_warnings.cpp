@@ -42,16 +42,16 @@ void warn_of_fine_features(const Stage& stage, Log& log) {
   const auto& sites = stage.polygon.sites;
   double least = 1, length = 0, size = 0; // chord over local size
   for (std::size_t k = 0; k < sites.size(); ++k) {
-    const geometry::Segment segment = stage.polygon.chord(static_cast<LocalIndex>(k));
-    const double chord = geometry::length(segment.b - segment.a), h = stage.size->size(segment.a);
-    if (chord < least * h) {
-      least = chord / h;
-      length = chord;
+    const geometry::Segment chord = stage.polygon.chord(static_cast<LocalIndex>(k));
+    const double its_length = geometry::length(chord.b - chord.a), h = stage.size->size(chord.a);
+    if (its_length < least * h) {
+      least = its_length / h;
+      length = its_length;
       size = h;
     }
   }
   if (least < StartRules::warned_chord)
-    log.warning("the boundary has segments of {:.3g} where edges of {:.3g} are asked for: expect small angles there",
+    log.warning("the boundary has chords of {:.3g} where edges of {:.3g} are asked for: expect small angles there",
                 length, size);
 }
 
