@@ -118,14 +118,15 @@ void read_shape(const Settings& settings, const fs::path& directory, RunOptions&
   read_region(settings, options, problems);
 }
 
-void read_domain(const Settings& settings, meshing::MeshOptions& mesh, Diagnostics& problems) {
+void read_domain(const Settings& settings, RunOptions& options, Diagnostics& problems) {
+  meshing::MeshOptions& mesh = options.mesh;
   check_interval(settings, "domain", "x", problems);
   check_interval(settings, "domain", "y", problems);
   check_side(settings, "x", problems);
   check_side(settings, "y", problems);
   mesh.container = box_of(settings, "domain");
-  mesh.periodic_x = settings.boolean("domain", "periodic_x");
-  mesh.periodic_y = settings.boolean("domain", "periodic_y");
+  options.periodic_x = settings.boolean("domain", "periodic_x");
+  options.periodic_y = settings.boolean("domain", "periodic_y");
   if (const auto cells = settings.optional_integer("domain", "cells_x"))
     mesh.cells_x = static_cast<int>(*cells);
   if (const auto cells = settings.optional_integer("domain", "cells_y"))
@@ -177,14 +178,14 @@ void read_meshing(const Settings& settings, meshing::MeshOptions& mesh, Diagnost
     if (settings.text("meshing", "method") == name)
       mesh.method = method;
   mesh.initial_fraction = settings.optional_number("meshing", "initial_fraction");
-  mesh.corner_angle = settings.number("meshing", "corner_angle");
-  mesh.keep_features = settings.boolean("meshing", "keep_features");
-  mesh.feature_tolerance = settings.number("meshing", "feature_tolerance");
+  mesh.features.corner_angle = settings.number("meshing", "corner_angle");
+  mesh.features.keep_all = settings.boolean("meshing", "keep_features");
+  mesh.features.tolerance = settings.number("meshing", "feature_tolerance");
   mesh.seed = static_cast<std::uint64_t>(settings.integer("meshing", "seed"));
   mesh.max_sweeps = static_cast<int>(settings.integer("meshing", "max_sweeps"));
   mesh.cleanup = settings.boolean("meshing", "cleanup");
-  mesh.verify_stars = std::getenv("TRIME_VERIFY_STARS") != nullptr; // no key: a tool for those who change the sweeps
-  mesh.stars_by_emptiness = std::getenv("TRIME_STARS_BY_EMPTINESS") != nullptr; // nor this
+  // No keys: tools for those who change the sweeps.
+  mesh.star_tests = {std::getenv("TRIME_VERIFY_STARS") != nullptr, std::getenv("TRIME_STARS_BY_EMPTINESS") != nullptr};
   mesh.stop_tolerance = settings.optional_number("meshing", "stop_tolerance");
 }
 
@@ -274,7 +275,7 @@ RunOptions parse_config(std::string_view text, const std::string& path, const st
   }
   const Settings settings(document, problems);
   RunOptions options;
-  read_domain(settings, options.mesh, problems);
+  read_domain(settings, options, problems);
   read_shape(settings, fs::path(path).parent_path(), options, problems);
   read_sizing(settings, options, problems);
   read_meshing(settings, options.mesh, problems);

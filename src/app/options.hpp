@@ -45,7 +45,8 @@ struct FixedPointsFile {
 struct RunOptions {
   std::vector<PartOptions> parts;
   std::string region;
-  meshing::MeshOptions mesh; ///< without the fixed points, which are read when the shape is
+  bool periodic_x = false, periodic_y = false; ///< sides of the container, for the frame in which the shape is made
+  meshing::MeshOptions mesh;                   ///< without the fixed points, which are read when the shape is
   FixedPointsFile fixed_points;
   SizingOptions sizing;
   int setup_threads = 0;    ///< per rank, while shape and size field are made; 0: chosen from the machine

@@ -52,7 +52,7 @@ std::string read_shared(const std::string& path, const comm::Communicator& comm)
 
 /// All ranks build the same shape from the same numbers, so they throw the same errors without asking each other.
 ShapeInput read_shape(const RunOptions& options, const comm::Communicator& comm, Log& log) {
-  const geometry::Frame frame(options.mesh.container, options.mesh.periodic_x, options.mesh.periodic_y);
+  const geometry::Frame frame(options.mesh.container, options.periodic_x, options.periodic_y);
   std::vector<shape::Part> parts;
   shape::Normalization fixed_points_place;
   for (const PartOptions& part : options.parts) {

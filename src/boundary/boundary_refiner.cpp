@@ -16,7 +16,7 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr std::ptrdiff_t segments_in_a_row = 64; // by one thread
+constexpr std::ptrdiff_t chords_in_a_row = 64; // by one thread
 
 double nearest_power_of_two(double v) {
   int exponent = 0;
@@ -39,26 +39,26 @@ BoundaryRefiner::BoundaryRefiner(const geometry::Boundary& boundary, const Bound
     metrics_.emplace_back(boundary, k, sizes);
     add_loop(lay_out_loop(metrics_.back(), lattice, corner_angle, tolerance_));
   }
-  most_sites_ = std::max(BoundaryRules::most_sites, BoundaryRules::halving_growth * sites_.size());
+  most_sites_ = std::max(BoundaryRules::always_halved, BoundaryRules::halving_growth * sites_.size());
 }
 
 void BoundaryRefiner::run() {
   std::vector<LocalIndex> fresh_sites(sites_.size());
   for (std::size_t k = 0; k < sites_.size(); ++k)
     fresh_sites[k] = static_cast<LocalIndex>(k);
-  std::vector<LocalIndex> fresh_segments = fresh_sites;
+  std::vector<LocalIndex> fresh_chords = fresh_sites;
   for (rounds_ = 0; !fresh_sites.empty(); ++rounds_) {
-    const std::vector<Cut> cuts = find_cuts(fresh_sites, fresh_segments);
+    const std::vector<Cut> cuts = find_cuts(fresh_sites, fresh_chords);
     fresh_sites.clear();
-    fresh_segments.clear();
+    fresh_chords.clear();
     for (const Cut& cut : cuts) {
       if (sites_.size() >= affordable_) {
         overfull_ = true;
         return;
       }
-      fresh_segments.push_back(cut.segment);
+      fresh_chords.push_back(cut.chord);
       fresh_sites.push_back(divide(cut));
-      fresh_segments.push_back(fresh_sites.back());
+      fresh_chords.push_back(fresh_sites.back());
       if (sites_.size() > most_sites_)
         fail(cut);
     }
@@ -77,9 +77,9 @@ void BoundaryRefiner::add_loop(const std::vector<LoopSite>& loop_sites) {
                       loop_sites[k].kind});
 }
 
-/// New segments against everything, old ones against the new sites only; ascending by segment.
+/// New chords against everything, old ones against the new sites only; ascending by chord.
 std::vector<BoundaryRefiner::Cut> BoundaryRefiner::find_cuts(const std::vector<LocalIndex>& fresh_sites,
-                                                             const std::vector<LocalIndex>& fresh_segments) {
+                                                             const std::vector<LocalIndex>& fresh_chords) {
   std::vector<SiteTree::Entry> items;
   for (const LocalIndex k : fresh_sites)
     items.push_back({boundary_.periods.wrap(sites_[k].position), k});
@@ -87,7 +87,7 @@ std::vector<BoundaryRefiner::Cut> BoundaryRefiner::find_cuts(const std::vector<L
   for (; !trees_.empty() && trees_.back().size() <= 2 * items.size(); trees_.pop_back())
     items.insert(items.end(), trees_.back().items().begin(), trees_.back().items().end());
   trees_.emplace_back(std::move(items));
-  std::vector<LocalIndex> fresh = fresh_segments;
+  std::vector<LocalIndex> fresh = fresh_chords;
   std::sort(fresh.begin(), fresh.end());
   const auto look = [&](LocalIndex k, std::vector<Cut>& cuts) {
     const bool is_fresh = std::binary_search(fresh.begin(), fresh.end(), k);
@@ -101,7 +101,7 @@ std::vector<BoundaryRefiner::Cut> BoundaryRefiner::find_cuts(const std::vector<L
       cuts.push_back({k, intruder, point});
   };
   if (rounds_ < BoundaryRules::full_rounds)
-    return gather_in_order<Cut>(std::ssize(sites_), segments_in_a_row, [&](std::ptrdiff_t k, std::vector<Cut>& cuts) {
+    return gather_in_order<Cut>(std::ssize(sites_), chords_in_a_row, [&](std::ptrdiff_t k, std::vector<Cut>& cuts) {
       look(static_cast<LocalIndex>(k), cuts);
     });
   std::vector<Cut> cuts;
@@ -110,21 +110,21 @@ std::vector<BoundaryRefiner::Cut> BoundaryRefiner::find_cuts(const std::vector<L
   return cuts;
 }
 
-/// The new segments, and the others that a new site may encroach upon; ascending.
+/// The new chords, and the others that a new site may encroach upon; ascending.
 std::vector<LocalIndex> BoundaryRefiner::candidates(const std::vector<LocalIndex>& fresh_sites,
-                                                    const std::vector<LocalIndex>& fresh_segments) {
+                                                    const std::vector<LocalIndex>& fresh_chords) {
   const auto watch = [&](LocalIndex k) {
     const Vec2 from = sites_[k].position;
     watch_->add(boundary_.periods.wrap(from), end_of(sites_[k]) - from, k);
   };
   if (watch_) {
-    std::for_each(fresh_segments.begin(), fresh_segments.end(), watch);
+    std::for_each(fresh_chords.begin(), fresh_chords.end(), watch);
   } else {
     watch_.emplace(boundary_.periods);
     for (LocalIndex k = 0; k < static_cast<LocalIndex>(sites_.size()); ++k)
       watch(k);
   }
-  std::vector<LocalIndex> found = fresh_segments;
+  std::vector<LocalIndex> found = fresh_chords;
   for (const LocalIndex k : fresh_sites)
     watch_->find(boundary_.periods.wrap(sites_[k].position), found);
   std::sort(found.begin(), found.end());
@@ -132,17 +132,17 @@ std::vector<LocalIndex> BoundaryRefiner::candidates(const std::vector<LocalIndex
   return found;
 }
 
-/// A site, or an image of one, in the disc of a segment; see SiteTree. The tree holds canonical positions.
+/// A site, or an image of one, in the disc of a chord; see SiteTree. The tree holds canonical positions.
 /// Numbers of foreign items are not those of sites.
-LocalIndex BoundaryRefiner::find_intruder(const SiteTree& tree, LocalIndex segment, bool foreign) const {
-  const Site& site = sites_[segment];
+LocalIndex BoundaryRefiner::find_intruder(const SiteTree& tree, LocalIndex chord, bool foreign) const {
+  const Site& site = sites_[chord];
   const geometry::Periods& periods = boundary_.periods;
   const Vec2 a = periods.wrap(site.position), b = end_of(site) + (a - site.position);
   const double reach = geometry::length(b - a);
   const auto images = [reach](double period) { // to each side that the disc may meet
     return period > 0 ? static_cast<int>(std::fmin(4.0, 1 + std::floor(reach / period))) : 0;
   };
-  const LocalIndex own = foreign ? -1 : segment, end = foreign ? -1 : site.next;
+  const LocalIndex own = foreign ? -1 : chord, end = foreign ? -1 : site.next;
   LocalIndex intruder = tree.find_in_disc(a, b, own, end);
   for (int i = -images(periods.x); i <= images(periods.x) && intruder < 0; ++i)
     for (int j = -images(periods.y); j <= images(periods.y) && intruder < 0; ++j)
@@ -158,8 +158,8 @@ SiteTree BoundaryRefiner::tree_of(std::span<const Vec2> points) const {
   return SiteTree(std::move(items));
 }
 
-bool BoundaryRefiner::curve_offends(LocalIndex segment) const {
-  const Site& a = sites_[segment];
+bool BoundaryRefiner::curve_offends(LocalIndex chord) const {
+  const Site& a = sites_[chord];
   const PartSummary part = summarize(a);
   if (part.leaves_disc || a.position == end_of(a))
     return true;
@@ -171,7 +171,7 @@ bool BoundaryRefiner::curve_offends(LocalIndex segment) const {
   return strays || (std::fabs(part.turn) > BoundaryRules::largest_turn && (is_smooth || part.deviation > tolerance));
 }
 
-/// Where to divide the segment from a to b, as t after a.
+/// Where to divide the chord from a to b, as t after a.
 BoundaryRefiner::CutPlace BoundaryRefiner::cut_place(const Site& a, const Site& b, double end) const {
   const LoopMetric& metric = metrics_[a.loop];
   const PartSummary part = summarize(a);
@@ -194,13 +194,13 @@ BoundaryRefiner::CutPlace BoundaryRefiner::cut_place(const Site& a, const Site& 
 }
 
 LocalIndex BoundaryRefiner::divide(const Cut& cut) {
-  const Site a = sites_[cut.segment];
+  const Site a = sites_[cut.chord];
   Site b = next(a);
   b.position = end_of(a);
   const LoopMetric& metric = metrics_[a.loop];
   const double end = end_t(a);
   if (metric.arc_length(a.t, end) < BoundaryRules::shortest_in_steps * lattice_.step() ||
-      (cut.intruder >= 0 && cut.intruder != cut.segment && cut.intruder != a.next &&
+      (cut.intruder >= 0 && cut.intruder != cut.chord && cut.intruder != a.next &&
        (boundary_.periods.same_point(sites_[cut.intruder].position, a.position) ||
         boundary_.periods.same_point(sites_[cut.intruder].position, b.position))))
     fail(cut);
@@ -214,15 +214,15 @@ LocalIndex BoundaryRefiner::divide(const Cut& cut) {
   const auto junction = static_cast<std::size_t>(place.junction);
   const double t = place.junction >= 0 ? metric.piece_t(junction) : round ? place.t - metric.total() : place.t;
   const auto index = static_cast<LocalIndex>(sites_.size());
-  sites_.push_back({t, position, cut.segment, a.next, a.loop,
+  sites_.push_back({t, position, cut.chord, a.next, a.loop,
                     place.junction >= 0 ? kind_of_junction(metric.loop(), junction, corner_angle_) : SiteKind::plain});
-  sites_[cut.segment].next = index;
+  sites_[cut.chord].next = index;
   sites_[a.next].previous = index;
   return index;
 }
 
 void BoundaryRefiner::fail(const Cut& cut) const {
-  const Site& a = sites_[cut.segment];
+  const Site& a = sites_[cut.chord];
   const Vec2 from = a.position, to = end_of(a);
   std::string cause = "the curve turns back on itself there";
   if (cut.intruder >= 0) {
@@ -237,7 +237,7 @@ void BoundaryRefiner::fail(const Cut& cut) const {
   }
   throw GeometryError(fmt::format(
       "the boundary is too narrow near ({:.17g}, {:.17g}): {}; expected parts that are at least {:.3g} apart (the "
-      "resolution of the container), divided in {} rounds down to a segment of {:.3g}. More points are not the cure: "
+      "resolution of the container), divided in {} rounds down to a chord of {:.3g}. More points are not the cure: "
       "simplify the contour there, or move its parts clearly apart or together, or make the container smaller",
       from.x, from.y, cause, BoundaryRules::shortest_in_steps * lattice_.step(), rounds_, geometry::length(to - from)));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rounds of halving: all segments that offend are divided at once, until none does.
+// Rounds of halving: all chords that offend are divided at once, until none does.
 #pragma once
 
 #include "boundary/boundary_layout.hpp"
@@ -15,7 +15,7 @@
 
 namespace trime::boundary {
 
-/// @brief The sites of a boundary laid out loop by loop, then divided in rounds: all segments that offend at once,
+/// @brief The sites of a boundary laid out loop by loop, then divided in rounds: all chords that offend at once,
 /// until none does. See make_boundary_sites.
 class BoundaryRefiner {
 public:
@@ -23,7 +23,7 @@ public:
                   double corner_angle, std::span<const geometry::Vec2> inside, const FeatureRule& rule,
                   std::size_t affordable);
 
-  /// Ends, since each round adds a site: a change in one place may run through the whole boundary, a segment a round.
+  /// Ends, since each round adds a site: a change in one place may run through the whole boundary, a chord a round.
   void run();
   polygon::BoundarySites result() const;
 
@@ -35,48 +35,48 @@ private:
     std::int32_t loop;
     SiteKind kind;
   };
-  /// Segment to divide and why.
+  /// A chord to divide and why.
   struct Cut {
-    LocalIndex segment;
+    LocalIndex chord;
     LocalIndex intruder;   // site in its disc, -1: because of the curve itself or of a point inside
     LocalIndex point = -1; // point inside the shape that lies in its disc
   };
 
   void add_loop(const std::vector<LoopSite>& loop_sites);
-  std::vector<Cut> find_cuts(const std::vector<LocalIndex>& fresh_sites, const std::vector<LocalIndex>& fresh_segments);
+  std::vector<Cut> find_cuts(const std::vector<LocalIndex>& fresh_sites, const std::vector<LocalIndex>& fresh_chords);
   std::vector<LocalIndex> candidates(const std::vector<LocalIndex>& fresh_sites,
-                                     const std::vector<LocalIndex>& fresh_segments);
-  LocalIndex find_intruder(const SiteTree& tree, LocalIndex segment, bool foreign = false) const;
+                                     const std::vector<LocalIndex>& fresh_chords);
+  LocalIndex find_intruder(const SiteTree& tree, LocalIndex chord, bool foreign = false) const;
   SiteTree tree_of(std::span<const geometry::Vec2> points) const;
-  bool curve_offends(LocalIndex segment) const;
+  bool curve_offends(LocalIndex chord) const;
   LocalIndex divide(const Cut& cut);
   struct CutPlace {
     double t;
     LocalIndex junction = -1; // the piece that starts there
   };
   CutPlace cut_place(const Site& a, const Site& b, double end) const;
-  /// A site of the result, without its neighbours, and what is told of its segment.
-  struct Segment {
+  /// A site of the result, without its neighbours, and what is told of its chord.
+  struct ChordRecord {
     polygon::BoundarySite site;
     double squared_length = 0;
     LocalIndex left_out = 0; ///< corners between the site and its next
     double deviation = 0;    ///< of them, over the local size
   };
-  Segment segment_of(LocalIndex k) const;
+  ChordRecord chord_from(LocalIndex k) const;
   [[noreturn]] void fail(const Cut& cut) const;
 
   const Site& next(const Site& site) const { return sites_[site.next]; }
-  /// t of the end of the segment that starts at `site`, unwrapped.
+  /// t of the end of the chord that starts at `site`, unwrapped.
   double end_t(const Site& site) const {
     const double t = next(site).t;
     return t > site.t ? t : t + metrics_[site.loop].total();
   }
-  /// End of the segment that starts at `site`, on the unrolled loop.
+  /// End of the chord that starts at `site`, on the unrolled loop.
   geometry::Vec2 end_of(const Site& site) const {
     const Site& b = next(site);
     return b.t > site.t ? b.position : b.position + metrics_[site.loop].loop().winding;
   }
-  /// How far the segment that starts at `site` may pass from corners.
+  /// How far the chord that starts at `site` may pass from corners.
   double tolerance(const Site& site) const { return tolerance_.at(metrics_[site.loop].sizes(site.t).asked); }
   PartSummary summarize(const Site& a) const {
     return metrics_[a.loop].summarize(a.t, end_t(a), a.position, end_of(a));
@@ -93,7 +93,7 @@ private:
   std::vector<Site> sites_;
   std::vector<LocalIndex> loop_first_; // some site of each loop that stays its first
   std::vector<SiteTree> trees_;        // of all sites, each tree more than twice as large as the next
-  std::optional<SegmentWatch> watch_;  // of all segments, after some rounds
+  std::optional<SegmentWatch> watch_;  // of all chords, after some rounds
   std::size_t most_sites_ = 0;         // more than that is not what anybody wants
   const std::size_t affordable_;       // the caller's limit
   bool overfull_ = false;

@@ -18,18 +18,18 @@ using polygon::name_parts;
 
 namespace {
 
-constexpr std::ptrdiff_t segments_in_a_row = 64; // by one thread
+constexpr std::ptrdiff_t chords_in_a_row = 64; // by one thread
 
 } // namespace
 
-/// The segment that starts at site k, as the result has it.
-BoundaryRefiner::Segment BoundaryRefiner::segment_of(LocalIndex k) const {
+/// The chord that starts at site k, as the result has it.
+BoundaryRefiner::ChordRecord BoundaryRefiner::chord_from(LocalIndex k) const {
   const Site& site = sites_[k];
   const LoopMetric& metric = metrics_[site.loop];
   const geometry::Periods& periods = boundary_.periods;
   const Vec2 canonical = periods.wrap(site.position), end = end_of(site) + (canonical - site.position);
   const auto [piece, along] = metric.place(site.t);
-  Segment out;
+  ChordRecord out;
   out.site = {canonical, 0, 0, metric.loop().tag, site.kind != SiteKind::plain, end - periods.wrap(end), piece, along};
   out.squared_length = geometry::squared_length(end - canonical);
   if (tolerance_.share == 0)
@@ -59,25 +59,25 @@ BoundarySites BoundaryRefiner::result() const {
     } while (k != first);
   }
   out.loop_start.push_back(static_cast<LocalIndex>(order.size()));
-  const std::vector<Segment> segments =
-      gather_in_order<Segment>(std::ssize(order), segments_in_a_row, [&](std::ptrdiff_t k, std::vector<Segment>& list) {
-        list.push_back(segment_of(order[static_cast<std::size_t>(k)]));
+  const std::vector<ChordRecord> chords = gather_in_order<ChordRecord>(
+      std::ssize(order), chords_in_a_row, [&](std::ptrdiff_t k, std::vector<ChordRecord>& list) {
+        list.push_back(chord_from(order[static_cast<std::size_t>(k)]));
       });
-  out.sites.reserve(segments.size());
+  out.sites.reserve(chords.size());
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t loop = 0; loop < loop_first_.size(); ++loop) {
     const LocalIndex first = out.loop_start[loop], end = out.loop_start[loop + 1];
     for (LocalIndex k = first; k < end; ++k) {
-      const Segment& segment = segments[k];
-      out.sites.push_back(segment.site);
+      const ChordRecord& chord = chords[k];
+      out.sites.push_back(chord.site);
       out.sites.back().previous = k == first ? end - 1 : k - 1;
       out.sites.back().next = k + 1 == end ? first : k + 1;
       const SiteKind kind = sites_[order[k]].kind;
       out.corners += kind != SiteKind::plain;
       out.sharp_corners += kind == SiteKind::sharp_corner;
-      out.left_out += segment.left_out;
-      out.deviation = std::fmax(out.deviation, segment.deviation);
-      shortest = std::fmin(shortest, segment.squared_length);
+      out.left_out += chord.left_out;
+      out.deviation = std::fmax(out.deviation, chord.deviation);
+      shortest = std::fmin(shortest, chord.squared_length);
     }
   }
   out.shortest = std::sqrt(shortest);

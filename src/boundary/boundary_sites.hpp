@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boundary first: the sites on the boundary of a shape, laid out before any site inside. Corners are kept, arcs are
-// divided by the size field, sharp corners by shells; then segments are halved until every chord between neighbouring
+// divided by the size field, sharp corners by shells; then chords are halved until every chord between neighbouring
 // sites is the diameter of a disc without other sites and the polygon of chords has the topology of the curve.
 #pragma once
 
@@ -21,7 +21,7 @@ namespace trime::boundary {
 /// loops are left out. Between corners that are kept for certain, or along a whole loop without any, the sites lie at
 /// equal quantiles of the integral of ds/h; where corners between them may be left out, a shortest path chooses those
 /// that stay and places between them (site_path.hpp). Where two arms meet at less than 60 degrees both get sites at
-/// equal distances from the corner until their gap reaches h (shells; Ruppert 1995). A segment is then divided while
+/// equal distances from the corner until their gap reaches h (shells; Ruppert 1995). A chord is then divided while
 /// another site lies in its diametral disc, or the curve between its ends leaves that disc, or turns by more than 60
 /// degrees and strays from it by more than the tolerance: in the middle, or next to a sharp corner on a power-of-two
 /// radius (concentric shells), so that the process ends for any angle. The discs are kept free of the points of

@@ -85,7 +85,7 @@ double SizeSamples::at(std::size_t loop, LocalIndex piece, double along, double 
   return low.relative + share * (high.relative - low.relative);
 }
 
-SizePair BoundarySizes::at(const CurvePoint& place, SizeSamples::Cursor& cursor) const {
+SizePair BoundarySizes::at(const PiecePlace& place, SizeSamples::Cursor& cursor) const {
   if (!sampled_) {
     const double size = sizing::checked_size(size_, place.canonical);
     return {size, &asked_ == &size_ ? size : sizing::checked_size(asked_, place.canonical)};

@@ -67,14 +67,14 @@ public:
   bool is_uniform() const { return size_.is_uniform() && asked_.is_uniform(); }
   const sizing::SizeField& asked() const { return asked_; }
 
-  struct CurvePoint {
+  struct PiecePlace {
     std::size_t loop;
     LocalIndex piece;
     double along, whole;      ///< arc length from the start of the piece, and of all of it
     geometry::Vec2 canonical; ///< the same place in the container
   };
   /// @throws GeometryError if a size is not positive and finite
-  SizePair at(const CurvePoint& place, SizeSamples::Cursor& cursor) const;
+  SizePair at(const PiecePlace& place, SizeSamples::Cursor& cursor) const;
 
 private:
   const sizing::SizeField &size_, &asked_;

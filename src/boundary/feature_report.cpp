@@ -60,11 +60,11 @@ std::vector<std::string> describe(const FeatureReport& report) {
                                 counted(report.dropped_lakes, "lake", "lakes"), BoundaryRules::least_perimeter,
                                 report.dropped_share));
   if (report.corners_left_out > 0)
-    lines.push_back(fmt::format("{} below the resolution left out, at most {:.2f} local sizes from the boundary edges",
+    lines.push_back(fmt::format("{} below the resolution left out, at most {:.2f} local sizes from the facets",
                                 counted(report.corners_left_out, "corner", "corners"), report.largest_deviation));
   if (report.segments_halved > 0)
     lines.push_back(fmt::format("{} halved: another part of the boundary is near, or the curve bends",
-                                counted(report.segments_halved, "segment was", "segments were")));
+                                counted(report.segments_halved, "chord was", "chords were")));
   if (report.size_limits > 0)
     lines.push_back(
         fmt::format("size lowered at {}, down to {:.2g} of what was asked for: channels and corners are narrower",

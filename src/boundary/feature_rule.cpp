@@ -15,7 +15,7 @@ using geometry::Piece;
 using geometry::Vec2;
 using polygon::DroppedLoops;
 
-/// Is the perimeter below `least` local sizes? Long loops are found out soon.
+/// Is the perimeter below `least` local sizes? Ends early for long loops.
 bool is_small(const geometry::Boundary& boundary, const Loop& loop, const sizing::SizeField& size, double least) {
   double perimeter = 0;
   for (const Piece& piece : loop.pieces) {

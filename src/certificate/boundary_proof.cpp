@@ -61,16 +61,16 @@ struct ChordExtremes {
 ChordExtremes extremes_of(const BoundaryTruth& truth, const std::vector<ChordCurve>& chords) {
   ChordExtremes extremes;
   for (LocalIndex k = 0; k < std::ssize(truth.sites.sites); ++k) {
-    const ChordCurve& chord = chords[at(k)];
-    const geometry::Segment segment = truth.sites.chord(k);
+    const ChordCurve& curve = chords[at(k)];
+    const geometry::Segment chord = truth.sites.chord(k);
     const BoundarySite& next = truth.sites.sites[at(truth.sites.sites[at(k)].next)];
-    const double h = 0.5 * (truth.size.size(segment.a) + truth.size.size(next.position));
-    const double sagitta = squared_length(segment.b - segment.a) * chord.curvature / 8;
-    extremes.deviation = std::max(extremes.deviation, chord.deviation / h);
-    if (chord.curvature > 0)
-      extremes.of_arcs = std::max(extremes.of_arcs, chord.deviation / (CertificateRules::arc_tolerance * sagitta +
+    const double h = 0.5 * (truth.size.size(chord.a) + truth.size.size(next.position));
+    const double sagitta = squared_length(chord.b - chord.a) * curve.curvature / 8;
+    extremes.deviation = std::max(extremes.deviation, curve.deviation / h);
+    if (curve.curvature > 0)
+      extremes.of_arcs = std::max(extremes.of_arcs, curve.deviation / (CertificateRules::arc_tolerance * sagitta +
                                                                        CertificateRules::arc_slack * h));
-    extremes.area += chord.area;
+    extremes.area += curve.area;
   }
   return extremes;
 }
@@ -87,12 +87,12 @@ double area_residual(const BoundaryTruth& truth, double chord_area, double shape
 
 /// Over all ranks. Collective.
 CycleCounts cycles_of(const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
-  std::vector<TaggedEdge> edges;
+  std::vector<TaggedFacet> facets;
   for (std::size_t k = 0; k < mesh.facets.size(); ++k)
-    edges.push_back({mesh.facets[k][0], mesh.facets[k][1], mesh.facet_tags[k]});
-  std::vector<TaggedEdge> all;
-  for (const comm::Message& message : comm.exchange_any({{0, comm::to_bytes<TaggedEdge>(edges)}})) {
-    const auto part = comm::from_bytes<TaggedEdge>(message.data);
+    facets.push_back({mesh.facets[k][0], mesh.facets[k][1], mesh.facet_tags[k]});
+  std::vector<TaggedFacet> all;
+  for (const comm::Message& message : comm.exchange_any({{0, comm::to_bytes<TaggedFacet>(facets)}})) {
+    const auto part = comm::from_bytes<TaggedFacet>(message.data);
     all.insert(all.end(), part.begin(), part.end());
   }
   const CycleCounts counts = count_cycles(std::move(all)); // nothing but on rank 0
@@ -110,13 +110,13 @@ mesh::Check limit_check(const char* name, double limit, double found, const char
 
 } // namespace
 
-CycleCounts count_cycles(std::vector<TaggedEdge> edges) {
+CycleCounts count_cycles(std::vector<TaggedFacet> facets) {
   CycleCounts counts;
-  std::sort(edges.begin(), edges.end(), [](const TaggedEdge& a, const TaggedEdge& b) { return a.first < b.first; });
+  std::sort(facets.begin(), facets.end(), [](const TaggedFacet& a, const TaggedFacet& b) { return a.first < b.first; });
   std::vector<GlobalId> starts, ends, irregular;
-  for (const TaggedEdge& edge : edges) {
-    starts.push_back(edge.first);
-    ends.push_back(edge.second);
+  for (const TaggedFacet& facet : facets) {
+    starts.push_back(facet.first);
+    ends.push_back(facet.second);
   }
   std::sort(ends.begin(), ends.end());
   for (const std::vector<GlobalId>* ids : {&starts, &ends}) // those that come more than once
@@ -128,25 +128,25 @@ CycleCounts count_cycles(std::vector<TaggedEdge> edges) {
   irregular.erase(std::unique(irregular.begin(), irregular.end()), irregular.end());
   counts.irregular = std::ssize(irregular);
 
-  std::vector<bool> seen(edges.size(), false);
+  std::vector<bool> seen(facets.size(), false);
   std::set<std::int64_t> tags;
-  for (std::size_t first = 0; first < edges.size(); ++first) {
+  for (std::size_t first = 0; first < facets.size(); ++first) {
     if (seen[first])
       continue;
     std::int64_t length = 0, foreign = 0;
     bool closed = false;
     for (std::size_t k = first; !seen[k] && !closed; ++length) {
       seen[k] = true;
-      foreign += edges[k].tag != edges[first].tag;
-      closed = edges[k].second == edges[first].first;
-      const auto next = std::lower_bound(starts.begin(), starts.end(), edges[k].second);
-      if (next == starts.end() || *next != edges[k].second)
+      foreign += facets[k].tag != facets[first].tag;
+      closed = facets[k].second == facets[first].first;
+      const auto next = std::lower_bound(starts.begin(), starts.end(), facets[k].second);
+      if (next == starts.end() || *next != facets[k].second)
         break;
       if (!closed)
         k = static_cast<std::size_t>(next - starts.begin());
     }
     counts.cycles += closed;
-    counts.foreign += tags.insert(edges[first].tag).second ? foreign : length;
+    counts.foreign += tags.insert(facets[first].tag).second ? foreign : length;
   }
   return counts;
 }
@@ -161,22 +161,23 @@ mesh::Checks prove_boundary(const BoundaryTruth& truth, const mesh::DistributedM
   // Vertices lie on the lattice: in a container far larger than the shape, or far from the origin, its step is what
   // limits them, and with them the area.
   const double step = truth.lattice.step();
-  return {count_check("irregular_boundary_points", 0, cycles.irregular,
-                      "boundary points without exactly one boundary edge in and one out"),
-          count_check("boundary_cycles", std::ssize(truth.meshed.loops), cycles.cycles,
-                      "loops of the shape; closed cycles of boundary edges"),
-          count_check("foreign_tags", 0, cycles.foreign, "boundary edges with another tag than their cycle"),
-          count_check("corner_places", truth.sites.corners, corners_in_place(truth),
-                      "corners that are vertices of the shape, bit for bit"),
-          limit_check("vertex_distance", std::max(CertificateRules::vertex_limit, step / truth.side), distance,
-                      "boundary vertices from the shape's boundary, over the longer side of the container (at most)"),
-          limit_check("chord_deviation", CertificateRules::chord_limit, extremes.deviation,
-                      "the shape's boundary from the boundary edges, over h (at most)"),
-          limit_check("arc_deviation", 1, extremes.of_arcs,
-                      "arcs of circles from their edges, over 1.08 l^2/8R + h/1000, edge l, radius R (at most)"),
-          limit_check("area_residual", CertificateRules::area_limit + step * truth.meshed.length() / shape_area,
-                      area_residual(truth, extremes.area, shape_area),
-                      "mesh, with what lies between edges and curve, from the shape, over the shape's area (at most)")};
+  return {
+      count_check("irregular_boundary_points", 0, cycles.irregular,
+                  "boundary points without exactly one facet in and one out"),
+      count_check("boundary_cycles", std::ssize(truth.meshed.loops), cycles.cycles,
+                  "loops of the shape; closed cycles of facets"),
+      count_check("foreign_tags", 0, cycles.foreign, "facets with another tag than their cycle"),
+      count_check("corner_places", truth.sites.corners, corners_in_place(truth),
+                  "corners that are vertices of the shape, bit for bit"),
+      limit_check("vertex_distance", std::max(CertificateRules::vertex_limit, step / truth.side), distance,
+                  "boundary vertices from the shape's boundary, over the longer side of the container (at most)"),
+      limit_check("chord_deviation", CertificateRules::chord_limit, extremes.deviation,
+                  "the shape's boundary from the facets, over h (at most)"),
+      limit_check("arc_deviation", 1, extremes.of_arcs,
+                  "arcs of circles from their facets, over 1.08 l^2/8R + h/1000, facet l, radius R (at most)"),
+      limit_check("area_residual", CertificateRules::area_limit + step * truth.meshed.length() / shape_area,
+                  area_residual(truth, extremes.area, shape_area),
+                  "mesh, with what lies between facets and curve, from the shape, over the shape's area (at most)")};
 }
 
 } // namespace trime::certificate

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of the certificate that compares the boundary of the mesh with that of the shape: vertices on the curve,
-// chords beside it, cycles of edges as its loops, and the area between them.
+// chords beside it, cycles of facets as its loops, and the area between them.
 #pragma once
 
 #include "polygon/polygon.hpp"
@@ -29,23 +29,24 @@ struct BoundaryTruth {
 };
 
 /// @brief Eight checks, all from the arrays of the mesh that will be written, the shape, and what it was laid out as.
-/// O((sites + pieces) log(pieces)) on each rank; rank 0 holds all boundary edges, 24 bytes each. @note Collective.
+/// O((sites + pieces) log(pieces)) on each rank; rank 0 holds all facets, 24 bytes each. @note Collective.
 mesh::Checks prove_boundary(const BoundaryTruth& truth, const mesh::DistributedMesh& mesh,
                             const comm::Communicator& comm);
 
-/// A boundary edge with its tag.
-struct TaggedEdge {
+/// A facet with its tag.
+struct TaggedFacet {
   GlobalId first, second;
   std::int64_t tag;
 };
 
-/// What boundary edges make when each is followed to the one that starts where it ends.
+/// What facets make when each is followed to the one that starts where it ends.
 struct CycleCounts {
-  std::int64_t irregular = 0; ///< ends of edges that are not the start of exactly one and the end of exactly one
+  std::int64_t irregular = 0; ///< ends of facets that are not the start of exactly one and the end of exactly one
   std::int64_t cycles = 0;    ///< closed ones
-  std::int64_t foreign = 0; ///< edges with another tag than the first edge of their cycle, or in a second one of a tag
+  std::int64_t foreign =
+      0; ///< facets with another tag than the first facet of their cycle, or in a second one of a tag
 };
-/// Serial, O(edges log edges).
-CycleCounts count_cycles(std::vector<TaggedEdge> edges);
+/// Serial, O(facets log facets).
+CycleCounts count_cycles(std::vector<TaggedFacet> facets);
 
 } // namespace trime::certificate

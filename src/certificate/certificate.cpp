@@ -183,15 +183,15 @@ private:
   /// Boundary sites and fixed points.
   void count_kept(LocalIndex site, std::int32_t b) {
     const Vec2 p = points_.position(site);
-    const bool is_corner = b >= 0 && view_.boundary.sites[at(b)].corner;
+    const bool is_corner = b >= 0 && view_.polygon.sites[at(b)].corner;
     if (b == mesh::fixed_site || is_corner)
       counts_.fixed += std::binary_search(view_.fixed.begin(), view_.fixed.end(), p, geometry::lexicographically_less);
-    if (b < 0 || p != view_.boundary.sites[at(b)].position)
+    if (b < 0 || p != view_.polygon.sites[at(b)].position)
       return;
     counts_.corners += is_corner;
     if (!fan_.complete)
       return;
-    const BoundarySite& to_next = view_.boundary.sites[at(b)]; // the segment to the next boundary site
+    const BoundarySite& to_next = view_.polygon.sites[at(b)]; // its chord leads to the next boundary site
     ++counts_.facets;
     counts_.hash_of_facets +=
         facet_hash(numbering_.global_id(numbering_.vertex(site)), ids_[0], to_next.tag, to_next.part);
@@ -295,8 +295,8 @@ mesh::Checks certify(const StageView& view, const decomposition::Numbering& numb
   view.state.comm().sum(packed);
   counts = Counts::unpack(packed);
 
-  const std::int64_t segments = static_cast<std::int64_t>(view.boundary.sites.size());
-  const ExactArea polygon = polygon_area(view.boundary, view.lattice);
+  const std::int64_t chords = static_cast<std::int64_t>(view.polygon.sites.size());
+  const ExactArea polygon = polygon_area(view.polygon, view.lattice);
   mesh::Checks checks;
   checks.push_back(
       check("incomplete_fans", 0, counts.incomplete, "manifold: each site has one unbroken fan of triangles"));
@@ -307,19 +307,19 @@ mesh::Checks certify(const StageView& view, const decomposition::Numbering& numb
   checks.push_back(check("written_triangles", counts.triangles,
                          counts.hash_of_written == counts.hash_of_triangles ? mesh.triangle_slab.total : -1,
                          "the triangles to be written are these"));
-  checks.push_back(check("written_facets", segments,
+  checks.push_back(check("written_facets", chords,
                          counts.hash_of_written_facets == counts.hash_of_facets ? mesh.facet_slab.total : -1,
-                         "the boundary edges to be written are these, with their tags"));
+                         "the facets to be written are these, with their tags"));
   checks.push_back(check("not_positive", 0, counts.not_positive, "triangles that are not counter-clockwise"));
   checks.push_back(check("euler_characteristic", expectation.meshed.euler_characteristic(),
                          counts.points - counts.edges + counts.triangles,
                          "of the shape; in the plane components minus holes"));
-  checks.push_back(check("edge_count", (3 * counts.triangles + segments) / 2, counts.edges,
-                         "inner edges have two triangles, boundary edges one"));
+  checks.push_back(check("edge_count", (3 * counts.triangles + chords) / 2, counts.edges,
+                         "inner edges have two triangles, facets one"));
   checks.push_back(check("not_delaunay", 0, counts.not_delaunay, "edges that are not locally Delaunay (exact test)"));
-  checks.push_back(check("boundary_segments", segments, counts.facets, "boundary segments that are edges of the mesh"));
+  checks.push_back(check("boundary_segments", chords, counts.facets, "chords that are edges of the mesh"));
   checks.push_back(
-      check("corners", view.boundary.corners, counts.corners, "corners that are vertices, bit for bit on the lattice"));
+      check("corners", view.polygon.corners, counts.corners, "corners that are vertices, bit for bit on the lattice"));
   if (!view.fixed.empty())
     checks.push_back(check("fixed_points", static_cast<std::int64_t>(view.fixed.size()), counts.fixed,
                            "fixed points that are vertices, bit for bit on the lattice"));
@@ -328,7 +328,7 @@ mesh::Checks certify(const StageView& view, const decomposition::Numbering& numb
                     polygon.twice == counts.area.twice, "triangles fill the boundary polygon (exact integers)"});
   const BoundaryTruth truth{expectation.shape,
                             expectation.meshed,
-                            view.boundary,
+                            view.polygon,
                             view.size,
                             view.lattice,
                             expectation.side,

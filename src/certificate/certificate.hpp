@@ -17,7 +17,7 @@ struct Expectation {
   double side;                      ///< longer side of the container
 };
 
-/// @brief The certificate: manifold, positive, Euler characteristic, area, Delaunay, boundary segments, corners, fixed
+/// @brief The certificate: manifold, positive, Euler characteristic, area, Delaunay, chords, corners, fixed
 /// points, agreement of all stars with each other and with `mesh`, the arrays that will be written: exact integers
 /// throughout. Then the boundary of the mesh against that of the shape, see prove_boundary. Collective.
 /// O(points + pieces log(pieces))

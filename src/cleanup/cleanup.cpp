@@ -16,6 +16,7 @@ using geometry::Vec2;
 using sites::Fan;
 using sites::inside_fan;
 using sites::SiteState;
+using sites::Stage;
 using sites::StageView;
 using sites::Wanted;
 
@@ -33,15 +34,16 @@ double worst_alpha(const mesh::BinnedPoints& points, LocalIndex site, const Fan&
 }
 
 /// Of the owned sites, by stars that are computed here. Collective.
-std::vector<Candidate> find_candidates(const CleanupTask& task) {
-  SiteState& state = task.state;
-  state.compute_stars(task.builder, task.size, Wanted::all_sites);
-  const StageView context{state, task.polygon, task.size, task.lattice};
+std::vector<Candidate> find_candidates(Stage& stage, const geometry::Lattice& lattice,
+                                       const delaunay::StarBuilder& builder) {
+  SiteState& state = *stage.state;
+  state.compute_stars(builder, *stage.size, Wanted::all_sites);
+  const StageView view = stage.view(lattice);
   const mesh::BinnedPoints& points = state.points();
   return gather_in_order<Candidate>(points.owned(), sites_in_a_row,
                                     [&](std::ptrdiff_t item, std::vector<Candidate>& list) {
                                       const auto i = static_cast<LocalIndex>(item);
-                                      const Fan fan = inside_fan(context, i);
+                                      const Fan fan = inside_fan(view, i);
                                       if (!state.stars().certain(i) || !fan.complete)
                                         return;
                                       if (const double alpha = worst_alpha(points, i, fan); alpha > 0)
@@ -51,13 +53,14 @@ std::vector<Candidate> find_candidates(const CleanupTask& task) {
 
 } // namespace
 
-CleanupCounts mend(const comm::Communicator& comm, const CleanupTask& task, const CleanupOptions& options) {
-  CleanupRounds rounds(comm, task, options, find_candidates(task));
+CleanupCounts mend(Stage& stage, const geometry::Boundary& meshed, const geometry::Lattice& lattice,
+                   const delaunay::StarBuilder& builder, const CleanupOptions& options) {
+  CleanupRounds rounds(stage, meshed, lattice, options, find_candidates(stage, lattice, builder));
   CleanupCounts all;
-  for (int stage = 1; stage <= CleanupRules::stages; ++stage)
-    all.add(rounds.run_stage(stage));
+  for (int k = 1; k <= CleanupRules::stages; ++k)
+    all.add(rounds.run_stage(k));
   if (all.better > 0)
-    rounds.finish(task);
+    rounds.finish(stage);
   return all;
 }
 

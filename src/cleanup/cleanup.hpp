@@ -2,34 +2,21 @@
 // The tail of the quality: what the sweeps leave of bad triangles is mended patch by patch, after all sweeps.
 #pragma once
 
-#include "polygon/boundary_guard.hpp"
-#include "polygon/polygon.hpp"
-#include "sites/site_state.hpp"
+#include "delaunay/star_builder.hpp"
+#include "sites/stage.hpp"
 #include "trime/cleanup/cleanup_counts.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 
 namespace trime::cleanup {
 
-/// What the clean-up works on. The first three change.
-struct CleanupTask {
-  sites::SiteState& state;
-  polygon::BoundarySites& polygon;
-  polygon::BoundaryGuard& guard;      ///< of the polygon
-  const geometry::Boundary& boundary; ///< the curves on which the sites of the polygon lie
-  const geometry::Lattice& lattice;
-  const delaunay::StarBuilder& builder;
-  const sizing::SizeField& size;       ///< h
-  const sizing::SizeField& asked_size; ///< h before it was lowered where the boundary needs it
-};
-
 struct CleanupOptions {
-  GlobalId most_sites = 0; ///< never exceeded; 0: half a percent above the number of the beginning
-  double tolerance = 0;    ///< in asked sizes: how far chords may pass from corners that they leave out; 0: none may be
+  GlobalId most_points = 0; ///< never exceeded; 0: half a percent above the number of the beginning
+  double tolerance = 0; ///< in asked sizes: how far chords may pass from corners that they leave out; 0: none may be
 };
 
-/// @brief Mends bad triangles in rounds of try and keep, until nothing is left to be tried. Stars are to be computed
-/// anew afterwards if any patch became better. Collective. About 0.5 ms a patch.
+/// @brief Mends bad triangles of a stage in rounds of try and keep, until nothing is left to be tried. Stars are to be
+/// computed anew afterwards if any patch became better. Collective. About 0.5 ms a patch.
 ///
 /// A site is a candidate if it has a bad triangle; the worst one of each cell of a few h is a contender for the middle
 /// of a patch (PatchOptimizer). Of the contenders those act that are the first of their surroundings in the order of a
@@ -39,7 +26,10 @@ struct CleanupOptions {
 /// until it has moved by some share of h. The number of sites keeps to CleanupLimits.
 ///
 /// Nothing in a round costs more than what it touches: stars are computed once at the beginning; then the patches tell
-/// what has become of their triangles, and the state learns of all edits at the end.
-CleanupCounts mend(const comm::Communicator& comm, const CleanupTask& task, const CleanupOptions& options);
+/// what has become of their triangles. At the end the stage learns of all edits: its state, its polygon and its guard
+/// are replaced if any patch became better.
+/// @param meshed the curves on which the sites of the polygon lie
+CleanupCounts mend(sites::Stage& stage, const geometry::Boundary& meshed, const geometry::Lattice& lattice,
+                   const delaunay::StarBuilder& builder, const CleanupOptions& options);
 
 } // namespace trime::cleanup

@@ -36,29 +36,29 @@ void limit(const comm::Communicator& comm, int sign, GlobalId most, std::span<co
 
 } // namespace
 
-CleanupLimits::CleanupLimits(GlobalId sites, GlobalId most_sites) : wanted_sites_(sites), sites_(sites) {
+CleanupLimits::CleanupLimits(GlobalId sites, GlobalId most_points) : wanted_sites_(sites), sites_(sites) {
   const GlobalId leeway = static_cast<GlobalId>(Rules::largest_loss * static_cast<double>(sites)) + 1;
-  most_sites_ = most_sites > 0 ? std::max(most_sites, sites) : sites + leeway;
+  most_points_ = most_points > 0 ? std::max(most_points, sites) : sites + leeway;
   least_sites_ = sites - leeway;
 }
 
 /// For more sites. Some are kept for places where nothing but smaller triangles helps.
 GlobalId CleanupLimits::room(int stage) const {
   const GlobalId reserve =
-      stage == Rules::stages ? 0 : 1 + static_cast<GlobalId>(Rules::reserved * static_cast<double>(most_sites_));
-  return most_sites_ - sites_ - reserve;
+      stage == Rules::stages ? 0 : 1 + static_cast<GlobalId>(Rules::reserved * static_cast<double>(most_points_));
+  return most_points_ - sites_ - reserve;
 }
 
 PatchBudget CleanupLimits::budget(GlobalId patches, int stage, double again_alpha) const {
   const auto share = [&](GlobalId of) {
     return std::min(std::max<GlobalId>(of, 0), std::max(Rules::least_budget, of / std::max<GlobalId>(1, patches)));
   };
-  const double most = static_cast<double>(most_sites_), wanted = static_cast<double>(wanted_sites_);
+  const double most = static_cast<double>(most_points_), wanted = static_cast<double>(wanted_sites_);
   const bool crowded = static_cast<double>(room(stage)) < Rules::scarcity * most;
   const bool scarce = static_cast<double>(sites_) < (1 - Rules::scarcity) * wanted;
   PatchBudget budget;
   budget.may_insert = share(room(stage));
-  budget.may_refine = std::min(GlobalId{Rules::most_refined}, most_sites_ - sites_);
+  budget.may_refine = std::min(GlobalId{Rules::most_refined}, most_points_ - sites_);
   budget.may_delete = share(sites_ - least_sites_);
   budget.is_again = stage > 1;
   budget.again_alpha = again_alpha;
@@ -74,7 +74,7 @@ void CleanupLimits::keep_within(const comm::Communicator& comm, std::span<const 
     gains[gain < 0] += std::abs(gain);
   }
   comm.sum(gains);
-  if (const GlobalId most = std::max<GlobalId>(0, most_sites_ - sites_); gains[0] - gains[1] > most)
+  if (const GlobalId most = std::max<GlobalId>(0, most_points_ - sites_); gains[0] - gains[1] > most)
     limit(comm, 1, most + gains[1], chosen, results);
   else if (gains[1] - gains[0] > sites_ - least_sites_)
     limit(comm, -1, sites_ - least_sites_ + gains[0], chosen, results);

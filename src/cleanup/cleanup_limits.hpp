@@ -15,8 +15,8 @@ namespace trime::cleanup {
 /// CleanupRules::largest_loss below that of the beginning. The same on every rank.
 class CleanupLimits {
 public:
-  /// @param sites over all ranks @param most_sites 0: CleanupRules::largest_loss above `sites`
-  CleanupLimits(GlobalId sites, GlobalId most_sites);
+  /// @param sites over all ranks @param most_points 0: CleanupRules::largest_loss above `sites`
+  CleanupLimits(GlobalId sites, GlobalId most_points);
 
   /// The number of sites has changed.
   void add(GlobalId gain) { sites_ += gain; }
@@ -34,7 +34,7 @@ public:
 private:
   GlobalId room(int stage) const;
 
-  GlobalId most_sites_, least_sites_, wanted_sites_, sites_;
+  GlobalId most_points_, least_sites_, wanted_sites_, sites_;
 };
 
 } // namespace trime::cleanup

@@ -22,14 +22,15 @@ constexpr double separation = 2 * Rules::reach - Rules::free_depth;
 
 } // namespace
 
-CleanupRounds::CleanupRounds(const comm::Communicator& comm, const CleanupTask& task, const CleanupOptions& options,
+CleanupRounds::CleanupRounds(const sites::Stage& stage, const geometry::Boundary& meshed,
+                             const geometry::Lattice& lattice, const CleanupOptions& options,
                              std::span<const Candidate> candidates)
-    : comm_(comm), periods_(task.state.grid().periods()),
-      limits_(comm.sum(std::int64_t{task.state.points().owned()}), options.most_sites),
-      boundary_(comm, task.boundary, task.polygon, task.asked_size, options.tolerance),
-      sites_(comm, task.state, task.size), candidates_(task.state.grid()) {
+    : comm_(stage.state->comm()), periods_(stage.state->grid().periods()), lattice_(lattice),
+      limits_(comm_.sum(std::int64_t{stage.state->points().owned()}), options.most_points),
+      boundary_(comm_, meshed, stage.polygon, *stage.asked_size, options.tolerance),
+      sites_(comm_, *stage.state, *stage.size), candidates_(stage.state->grid()) {
   for (std::unique_ptr<PatchOptimizer>& optimizer : optimizers_)
-    optimizer = std::make_unique<PatchOptimizer>(boundary_.chain(), task.lattice, PatchOptions{});
+    optimizer = std::make_unique<PatchOptimizer>(boundary_.chain(), lattice, PatchOptions{});
   for (const Candidate& candidate : candidates)
     candidates_.set(candidate);
 }
@@ -47,10 +48,10 @@ CleanupCounts CleanupRounds::run_stage(int stage) {
   return all;
 }
 
-void CleanupRounds::finish(const CleanupTask& task) {
-  sites_.finish(task.state, boundary_.renumber());
-  task.polygon = boundary_.chain().sites();
-  task.guard = BoundaryGuard(task.polygon, task.lattice);
+void CleanupRounds::finish(sites::Stage& stage) {
+  sites_.finish(*stage.state, boundary_.renumber());
+  stage.polygon = boundary_.chain().sites();
+  *stage.guard = BoundaryGuard(stage.polygon, lattice_);
 }
 
 /// What is bad enough to be tried again: in a good mesh also what is bad there only.
@@ -107,7 +108,7 @@ void CleanupRounds::prepare(std::vector<PatchSite>& sites) const {
 
 std::vector<PatchResult> CleanupRounds::try_patches(std::span<const Contender> chosen) {
   const std::vector<Disc> discs = discs_of(chosen);
-  std::vector<Surroundings> around = sites_.around(discs, Rules::most_sites);
+  std::vector<Surroundings> around = sites_.around(discs, Rules::most_in_patch);
   std::vector<PatchResult> results(chosen.size());
   std::array<std::int64_t, 2> sums{std::ssize(chosen), std::ranges::count_if(around, &Surroundings::is_crowded)};
   comm_.sum(sums);

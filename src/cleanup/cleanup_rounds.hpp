@@ -22,13 +22,13 @@ class CleanupRounds {
 public:
   /// @brief References must outlive the object.
   /// @param candidates the own sites with bad triangles @pre sizes of the owned sites are known
-  CleanupRounds(const comm::Communicator& comm, const CleanupTask& task, const CleanupOptions& options,
-                std::span<const Candidate> candidates);
+  CleanupRounds(const sites::Stage& stage, const geometry::Boundary& meshed, const geometry::Lattice& lattice,
+                const CleanupOptions& options, std::span<const Candidate> candidates);
 
   /// Rounds until no candidate is left for this stage (1, 2, ...), at most CleanupRules::most_rounds.
   CleanupCounts run_stage(int stage);
-  /// Carries all edits over to state, polygon and guard.
-  void finish(const CleanupTask& task);
+  /// Carries all edits over to the state, the polygon and the guard of the stage.
+  void finish(sites::Stage& stage);
 
 private:
   double find_again_alpha() const;
@@ -46,6 +46,7 @@ private:
 
   const comm::Communicator& comm_;
   const geometry::Periods& periods_;
+  const geometry::Lattice& lattice_;
   CleanupLimits limits_;
   CleanupBoundary boundary_;
   CleanupSites sites_;

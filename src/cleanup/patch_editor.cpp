@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cleanup/patch_editor.hpp"
 
+#include "polygon/rules.hpp"
+
 #include <cmath>
 
 namespace trime::cleanup {
@@ -26,7 +28,7 @@ bool PatchEditor::insert(Patch& trial, Vec2 place, double size) const {
   Vec2 p = lattice.snap(place);
   if (const auto chord = trial.entered_disc(p)) {
     p = lattice.snap(0.5 * (chord->a + chord->b) +
-                     CleanupRules::push_off_chord * geometry::left_normal(chord->b - chord->a));
+                     polygon::PolygonRules::push_way * geometry::left_normal(chord->b - chord->a));
     if (trial.entered_disc(p))
       return false;
   }

@@ -58,9 +58,9 @@ bool PatchMover::relax_inside(Patch& patch, LocalIndex v) {
   if (model.value < Rules::rest_energy)
     return false;
   const bool is_flat = !(model.value < Rules::flat_energy);
-  Vec2 step = newton_step(model, Rules::longest_step * h);
+  Vec2 step = newton_step(model, Rules::longest_move * h);
   for (int halving = 0; halving <= Rules::halvings; ++halving, step = 0.5 * step) {
-    if (geometry::squared_length(step) < Rules::shortest_step * Rules::shortest_step * h * h)
+    if (geometry::squared_length(step) < Rules::shortest_move * Rules::shortest_move * h * h)
       return false;
     const Vec2 to = start_.lattice().snap(from + step);
     if (!(star_energy(to, around_, true, model.value) < model.value) || !keeps_clear(patch, to))
@@ -124,7 +124,7 @@ void PatchMover::slide(Patch& patch, LocalIndex v) {
   const double length = curve.length(own.loop);
   const int halvings = is_thorough_ ? Rules::halvings : Rules::slide_halvings;
   for (int halving = 0; halving <= halvings; ++halving, step *= 0.5) {
-    if (std::fabs(step) < Rules::shortest_step * h)
+    if (std::fabs(step) < Rules::shortest_move * h)
       return;
     const double arc = own.arc + step;
     const Vec2 to =

@@ -11,7 +11,7 @@ using geometry::Vec2;
 bool PatchStart::build(Vec2 center, double size, std::span<const PatchSite> sites) {
   center_ = center;
   size_ = size;
-  if (sites.size() > CleanupRules::most_sites)
+  if (sites.size() > CleanupRules::most_in_patch)
     return false;
   const double reach = CleanupRules::reach * size;
   patch_.start(center,

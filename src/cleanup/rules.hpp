@@ -64,8 +64,8 @@ struct CleanupRules {
   static constexpr double widest_frame = 0x1.8p44;
   /// [sites] With more around a place nothing is tried. A hexagonal lattice has 360; spikes far below h crowd many
   /// more. Measured: a star of 1000 spikes took 176 s without this limit and other savings, 0.7 s with them.
-  static constexpr std::size_t most_sites = 600;
-  /// [1] Factor on the radius if a disc holds more than most_sites. Not measured.
+  static constexpr std::size_t most_in_patch = 600;
+  /// [1] Factor on the radius if a disc holds more than most_in_patch. Not measured.
   static constexpr double narrowing_factor = 0.75;
   /// [narrowings] At most: to 0.24 of the radius. Not measured.
   static constexpr int most_narrowings = 5;
@@ -84,10 +84,10 @@ struct CleanupRules {
   /// [1] Least determinant of the second derivatives over their squares for a Newton step. Only rounding is kept out.
   static constexpr double least_convexity = 1e-6;
   /// [h] Longest Newton step: the energy is far from a parabola beyond it. Not measured.
-  static constexpr double longest_step = 0.25;
+  static constexpr double longest_move = 0.25;
   /// [h] Shorter steps are no moves. Measured: 0.006 saved instructions, but left single triangles of the square with
   /// 1e5 points at alpha 1.11; with 0.003 they come to 1.07.
-  static constexpr double shortest_step = 3e-3;
+  static constexpr double shortest_move = 3e-3;
   /// [1] Energy of a star below which its site stays: six triangles with eta below 1.006. Not measured.
   static constexpr double rest_energy = 2e-4;
   /// [1] Energy of a star from which rounding may change the signs of its areas.
@@ -102,7 +102,8 @@ struct CleanupRules {
   static constexpr double slide_share = 0.4;
   /// [sweeps] Over the sites of bad triangles and their neighbours, at most. Not measured.
   static constexpr int moving_sweeps = 8;
-  /// [1] Share by which a sum has to fall to count as better, in a sweep or by an operation.
+  /// [1] Share by which a sum has to fall to count as better, in a sweep or by an operation: less is not worth the
+  /// edits. Other values: not measured.
   static constexpr double least_gain = 0.02;
   /// [h] A site that has moved farther does not rest any more. Not measured.
   static constexpr double waking_move = 0.05;
@@ -110,7 +111,7 @@ struct CleanupRules {
   // --- chords that stand for curves ---------------------------------------------------------------------------------
   /// [1] Arc over chord up to which a chord follows a straight side: only rounding is allowed.
   static constexpr double straight_share = 1 + 1e-9;
-  /// [1] Largest arc over chord: a turn by 60 degrees.
+  /// [1] Largest arc over chord: an arc that turns by 60 degrees is 1.047 of its chord.
   static constexpr double largest_arc_share = 1.05;
   /// [h] A curve that strays less from its chord may have a chord of any length. Not measured.
   static constexpr double unseen_stray = 0.001;
@@ -122,13 +123,11 @@ struct CleanupRules {
   // --- operations ---------------------------------------------------------------------------------------------------
   /// [1] Share of a chord: within it of the middle a left-out corner is where the chord is divided. Not measured.
   static constexpr double most_off_middle = 0.3;
-  /// [chords] How far from the middle of a chord a new site comes that would lie in its disc: 0.5 is the disc.
-  static constexpr double push_off_chord = 0.6;
   /// [sites] A loop with fewer loses none, so that it stays a loop. Not measured.
   static constexpr LocalIndex least_in_loop = 8;
-  /// [neighbours] From so many on a site is crowded: new sites are tried on its edges. Not measured.
+  /// [neighbours] A site with this many or more is crowded: new sites are tried on its edges. Six are regular.
   static constexpr std::size_t many_neighbours = 7;
-  /// [sites] One patch may add so many in order to have smaller triangles. Not measured.
+  /// [sites] That one patch may add in order to have smaller triangles. Not measured.
   static constexpr LocalIndex most_refined = 40;
   /// [sweeps] Of a trial with smaller triangles. Half of them decide whether it is given up. Not measured.
   static constexpr int refine_sweeps = 20;
@@ -193,7 +192,8 @@ struct CleanupRules {
   /// [1] Share of the sites kept until the last stage, for places where only smaller triangles help. Measured: North
   /// America, largest alpha 1.61 to 1.38 with 17000 points against a smaller share.
   static constexpr double reserved = 0.006;
-  /// [sites] A patch may add so many if there are so many, however many patches share the rest. Not measured.
+  /// [sites] A patch may add this many as long as the limits leave them, though its share of the rest may be less. Not
+  /// measured.
   static constexpr GlobalId least_budget = 10;
   /// [1] Share of the sites: with less room, or so many fewer than wanted, the handicaps apply. Not measured.
   static constexpr double scarcity = 0.001;

@@ -2,6 +2,7 @@
 #include "delaunay/star_kernel.hpp"
 
 #include "delaunay/circumcenter.hpp"
+#include "delaunay/convexity_rules.hpp"
 #include "delaunay/double2.hpp"
 
 #include <algorithm>
@@ -116,7 +117,7 @@ bool StarKernel::start_ring(std::span<const LocalIndex> ids, const Vec2* positio
 /// For consecutive neighbours a, b, q the determinant (positive: q is outside) is |a|^2 b x q + |b|^2 q x a + |q|^2 a x
 /// b; the sum of the magnitudes in it is at most |a|^2 |b|^2 + |b|^2 |q|^2 + |q|^2 |a|^2, since |ux vy| + |uy vx| <=
 /// (u^2 + v^2) / 2. The squared circumradius |a|^2 |b|^2 |a - b|^2 / (4 (a x b)^2) is known to 1e-8 of itself where a x
-/// b is at least 1e-7 of |a|^2 + |b|^2; flatter stars are left to the other path.
+/// b is at least ConvexityRules::least_turn of |a|^2 + |b|^2; flatter stars are left to the other path.
 bool StarKernel::is_locally_convex() {
   const std::size_t n = degree_;
   Mask2 bad{0, 0}, undecided{0, 0};
@@ -128,8 +129,8 @@ bool StarKernel::is_locally_convex() {
     const Double2 ab = ax * by - ay * bx, bq = bx * qy - by * qx, qa = qx * ay - qy * ax;
     const Double2 determinant = a2 * bq + b2 * qa + q2 * ab;
     const Double2 magnitude = a2 * b2 + b2 * q2 + q2 * a2;
-    undecided |= ~(determinant > both(20 * epsilon) * magnitude);
-    bad |= ~(ab > both(1e-7) * (a2 + b2));
+    undecided |= ~(determinant > both(ConvexityRules::error) * magnitude);
+    bad |= ~(ab > both(ConvexityRules::least_turn) * (a2 + b2));
     const Double2 ex = ax - bx, ey = ay - by;
     largest = max2(largest, a2 * b2 * (ex * ex + ey * ey) / (both(4) * ab * ab));
   }

@@ -19,12 +19,12 @@ using sites::FlatFan;
 using sites::inside_fan;
 using sites::StageView;
 
-/// Triangles and boundary edges of one tile, or where those of a tile begin.
+/// Triangles and facets of one tile, or where those of a tile begin.
 struct Offsets {
   std::size_t triangles = 0, facets = 0;
 };
 
-/// Lists triangles and boundary edges at that of their vertices which has the lowest global id.
+/// Lists triangles and facets at that of their vertices which has the lowest global id.
 class Extractor {
 public:
   Extractor(const StageView& view, const decomposition::Numbering& numbering)
@@ -66,9 +66,9 @@ private:
       const LocalIndex i = numbering_.order[k];
       const std::int32_t b = points_.boundary(i);
       mesh.points[k] = points_.position(i);
-      mesh.boundary[k] = b < 0 ? 0 : view_.boundary.sites[at(b)].tag;
+      mesh.boundary[k] = b < 0 ? 0 : view_.polygon.sites[at(b)].tag;
       mesh.size[k] = static_cast<float>(view_.size.size(points_.position(i))); // that of the state may be older
-      mesh.fixed[k] = b >= 0 ? view_.boundary.sites[at(b)].corner : b == mesh::fixed_site;
+      mesh.fixed[k] = b >= 0 ? view_.polygon.sites[at(b)].corner : b == mesh::fixed_site;
     });
     mesh.point_slab = {numbering_.first, numbering_.total};
     mesh.foreign = numbering_.foreign;
@@ -145,7 +145,7 @@ private:
   /// vertex and then the second.
   void list_facets(LocalIndex vertex, std::int32_t boundary_site, const FlatFan& fan, Offsets& next,
                    DistributedMesh& mesh) const {
-    const std::vector<BoundarySite>& sites = view_.boundary.sites;
+    const std::vector<BoundarySite>& sites = view_.polygon.sites;
     const std::size_t last = fan.triangles;
     const auto add = [&](LocalIndex from, LocalIndex to, const BoundarySite& site) {
       mesh.facets[next.facets] = {numbering_.global_id(from), numbering_.global_id(to)};

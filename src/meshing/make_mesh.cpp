@@ -15,9 +15,7 @@ MeshResult make_mesh(const comm::Communicator& comm, const shape::RegionShape& s
 
 MeshResult make_mesh(const comm::Communicator& comm, const shape::Shape& shape, const sizing::SizeField& size,
                      const MeshOptions& options, Log& log) {
-  return make_mesh(comm,
-                   shape::traced(shape, geometry::Frame(options.container, options.periodic_x, options.periodic_y)),
-                   size, options, log);
+  return make_mesh(comm, shape::traced(shape, geometry::Frame(options.container)), size, options, log);
 }
 
 bool is_complete(const MeshResult& result) {

@@ -2,13 +2,30 @@
 #include "meshing/plan.hpp"
 
 namespace trime::meshing {
-using sweep::SweepOptions;
 
-SweepOptions sweep_options(const MeshOptions& options) {
-  SweepOptions sweeps{options.method, options.max_sweeps, options.stop_tolerance, options.density_exponent};
-  sweeps.verify_stars = options.verify_stars;
-  sweeps.stars_by_emptiness = options.stars_by_emptiness;
-  return sweeps;
+start::StartOptions start_options(const MeshOptions& options) {
+  start::StartOptions start;
+  start.container = options.container;
+  start.cells_x = options.cells_x;
+  start.cells_y = options.cells_y;
+  start.points = options.points;
+  start.edge_length = options.edge_length;
+  start.features = options.features;
+  start.seed = options.seed;
+  start.start = options.start;
+  start.initial_fraction = options.initial_fraction;
+  start.min_size = options.min_size;
+  start.max_size = options.max_size;
+  start.cleanup = options.cleanup;
+  return start;
+}
+
+sweep::SweepOptions sweep_options(const MeshOptions& options) {
+  return {options.method, options.max_sweeps, options.stop_tolerance, options.density_exponent, options.star_tests};
+}
+
+cleanup::CleanupOptions cleanup_options(const MeshOptions& options) {
+  return {options.points.value_or(0), options.features.keep_all ? 0 : options.features.tolerance};
 }
 
 } // namespace trime::meshing

@@ -2,11 +2,15 @@
 // From what a user asks of the mesher to what each of its parts is told.
 #pragma once
 
+#include "cleanup/cleanup.hpp"
+#include "start/start_options.hpp"
 #include "sweep/sweep_options.hpp"
 #include "trime/meshing/options.hpp"
 
 namespace trime::meshing {
 
+start::StartOptions start_options(const MeshOptions& options);
 sweep::SweepOptions sweep_options(const MeshOptions& options);
+cleanup::CleanupOptions cleanup_options(const MeshOptions& options);
 
 } // namespace trime::meshing

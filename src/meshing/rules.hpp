@@ -8,8 +8,10 @@ namespace trime::meshing {
 
 /// The numbers of the run.
 struct MeshingRules {
-  /// [h] Larger circumradii are not searched first: a relaxed mesh has 0.6, a start up to 1.5.
+  /// [h] Larger circumradii are not searched first: a relaxed mesh has 0.6, a start up to largest_circumradius.
   static constexpr double cap = 2.5;
+  /// [h] No circumradius of a start is larger, but for voids. Observed, not proven.
+  static constexpr double largest_circumradius = 1.5;
   /// [points] With fewer the whole container is searched: it costs little, and h may be as large.
   static constexpr GlobalId few_points = 2000;
   /// [1] To 2500 h: a void that no start can leave.

@@ -16,7 +16,7 @@ BoundaryChain::BoundaryChain(const BoundarySites& boundary, const BoundaryCurve&
 }
 
 void BoundaryChain::place(LocalIndex site, double arc, geometry::Vec2 position) {
-  const BoundaryCurve::Place on = curve_.place(loop(site), arc);
+  const BoundaryCurve::CurvePlace on = curve_.place(loop(site), arc);
   BoundarySite& its = sites_.sites[at(site)];
   its.position = position;
   its.piece = on.piece;

@@ -28,7 +28,7 @@ public:
   /// The curve must outlive the object.
   BoundaryChain(const BoundarySites& boundary, const BoundaryCurve& curve);
 
-  /// `loop_start` and all that is said of the whole boundary is that of the beginning, or of the last renumber.
+  /// `loop_start`, counts and sums are those of the last renumber, or of the beginning if there was none.
   const BoundarySites& sites() const { return sites_; }
   LocalIndex loop(LocalIndex site) const { return loops_[static_cast<std::size_t>(site)]; }
   const BoundaryCurve& curve() const { return curve_; }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "polygon/boundary_curve.hpp"
 
+#include "polygon/rules.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +12,6 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr double cosine_of_bent = 0.99996, cosine_of_sharp = 0.8660254037844386; // half a degree, 30 degrees
 
 } // namespace
 
@@ -42,7 +43,7 @@ std::size_t BoundaryCurve::Arcs::piece(double arc) const {
   return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above - begin - 1, 0, std::ssize(starts) - 2));
 }
 
-BoundaryCurve::Place BoundaryCurve::place(LocalIndex loop, double arc) const {
+BoundaryCurve::CurvePlace BoundaryCurve::place(LocalIndex loop, double arc) const {
   const Arcs& arcs = arcs_[at(loop)];
   const geometry::Loop& curve = boundary_.loops[at(loop)];
   const double length = arcs.starts.back(), turns = arc >= length ? 1 : arc < 0 ? -1 : 0;
@@ -59,7 +60,7 @@ BoundaryCurve::Strayed BoundaryCurve::strayed(LocalIndex loop, double from, doub
   const geometry::Loop& curve = boundary_.loops[at(loop)];
   if (to < from)
     to += starts.back();
-  const Place first = place(loop, from);
+  const CurvePlace first = place(loop, from);
   const Vec2 shift = chord.a - first.point;
   const double rounding = 1e-9 * geometry::squared_length(chord.b - chord.a);
   Strayed result;
@@ -82,8 +83,8 @@ BoundaryCurve::Strayed BoundaryCurve::strayed(LocalIndex loop, double from, doub
       look(piece.start + moved, starts[k] + turns * starts.back()); // bit for bit that of the junction
       const geometry::Piece& before = curve.pieces[k == 0 ? curve.pieces.size() - 1 : k - 1];
       const double cosine = geometry::dot(before.tangent(before.length()), piece.tangent(0));
-      result.bent |= cosine < cosine_of_bent;
-      result.sharp |= cosine < cosine_of_sharp;
+      result.bent |= cosine < PolygonRules::cosine_of_bent;
+      result.sharp |= cosine < PolygonRules::cosine_of_sharp;
     }
     for (int quarter = 1; piece.circular && quarter < 4; ++quarter) {
       const double low = std::fmax(from - passed, 0), high = std::fmin(to - passed, length);

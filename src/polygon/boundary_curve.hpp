@@ -26,13 +26,13 @@ public:
   }
   /// A place within one length of the loop before its start or behind its end. O(1) where pieces are about equally
   /// long, O(log pieces) at worst
-  struct Place {
+  struct CurvePlace {
     LocalIndex piece;
     double along;
     geometry::Vec2 point;   ///< on the unrolled loop
     geometry::Vec2 tangent; ///< unit
   };
-  Place place(LocalIndex loop, double arc) const;
+  CurvePlace place(LocalIndex loop, double arc) const;
 
   /// How the curve from one place on to another, less than a length of the loop ahead, differs from the chord a-b
   /// between them (or images of them). O(pieces between)

@@ -18,8 +18,6 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr int strip_rows = 64; // of cells, for one thread
-
 std::vector<Segment> chords_of(const BoundarySites& sites) {
   std::vector<Segment> chords;
   chords.reserve(sites.sites.size());
@@ -40,11 +38,6 @@ void for_each_shift(const geometry::Periods& periods, double reach, const Visit&
       visit(Vec2{i * periods.x, j * periods.y});
 }
 
-/// Radius around the middle of the chord that covers its disc and everything nearer than `PolygonRules::near_chord`.
-double reach_of(const Segment& chord) {
-  return (0.5 + PolygonRules::near_chord) * geometry::length(chord.b - chord.a) * (1 + 1e-9);
-}
-
 } // namespace
 
 BoundaryGuard::BoundaryGuard(const BoundarySites& sites, const geometry::Lattice& lattice)
@@ -57,7 +50,7 @@ BoundaryGuard::BoundaryGuard(const BoundarySites& sites, const geometry::Lattice
     add_images(window);
     close_chords(window, lattice);
   }
-  list_discs();
+  cells_.list_discs(chords_.segments(), images_);
   classify_cells(lattice);
 }
 
@@ -82,16 +75,14 @@ geometry::Box BoundaryGuard::choose_cells() {
     box.max.y = periods_.min.y + periods_.y;
   }
   const double n = static_cast<double>(chords_.segments().size()), area = box.width() * box.height();
-  const double cells = std::clamp(PolygonRules::cells_per_chord * n, 4096.0, PolygonRules::most_cells);
+  const double cells =
+      std::clamp(PolygonRules::cells_per_chord * n, PolygonRules::least_guard_cells, PolygonRules::most_guard_cells);
   const double affordable =
       std::clamp(PolygonRules::entries_per_chord * n, PolygonRules::entries, PolygonRules::most_entries);
-  side_ = std::sqrt(std::fmax(area / cells, area_of_discs / affordable));
-  side_ = std::fmax(side_, std::fmax(box.width(), box.height()) * 0x1p-14);
-  inverse_side_ = 1 / side_;
-  corner_ = box.min - Vec2{side_, side_};
-  columns_ = static_cast<int>(box.width() * inverse_side_) + 3;
-  rows_ = static_cast<int>(box.height() * inverse_side_) + 3;
-  const double margin = 4 * side_, far = std::numeric_limits<double>::infinity();
+  double side = std::sqrt(std::fmax(area / cells, area_of_discs / affordable));
+  side = std::fmax(side, std::fmax(box.width(), box.height()) * PolygonRules::least_cell_side);
+  cells_ = DiscCells(box, side);
+  const double margin = 4 * side, far = std::numeric_limits<double>::infinity();
   return {{periods_.x > 0 ? box.min.x - margin : -far, periods_.y > 0 ? box.min.y - margin : -far},
           {periods_.x > 0 ? box.max.x + margin : far, periods_.y > 0 ? box.max.y + margin : far}};
 }
@@ -101,7 +92,7 @@ void BoundaryGuard::add_images(const geometry::Box& window) {
   for (const Segment& chord : chords_.segments()) {
     const Vec2 middle = 0.5 * (chord.a + chord.b);
     const double reach = reach_of(chord);
-    for_each_shift(periods_, reach + 4 * side_, [&](Vec2 shift) {
+    for_each_shift(periods_, reach + 4 * cells_.side(), [&](Vec2 shift) {
       const Vec2 low = middle + shift - Vec2{reach, reach}, high = middle + shift + Vec2{reach, reach};
       if (shift != Vec2{} && low.x <= window.max.x && high.x >= window.min.x && low.y <= window.max.y &&
           high.y >= window.min.y)
@@ -120,94 +111,28 @@ void BoundaryGuard::close_chords(const geometry::Box& window, const geometry::La
   inverted_ = !closed_.inside(periods_.wrap(lattice.snap(middle + 0.25 * geometry::left_normal(first.b - first.a))));
 }
 
-/// Lists the discs of each cell by counting, summing and filling, strips of rows at the same time.
-void BoundaryGuard::list_discs() {
-  const auto strips = static_cast<std::size_t>((rows_ - 1) / strip_rows + 1);
-  std::vector<std::vector<LocalIndex>> discs_of(strips);
-  for (LocalIndex k = 0; k < disc_count(); ++k) {
-    const Segment& s = disc(k);
-    const auto [first, last] = rows_of(0.5 * (s.a.y + s.b.y), reach_of(s));
-    for (int strip = first / strip_rows; strip <= last / strip_rows; ++strip)
-      discs_of[static_cast<std::size_t>(strip)].push_back(k);
-  }
-  const auto for_each_strip = [&](const auto& body) {
-    thread_loop(static_cast<std::ptrdiff_t>(strips), 1, [&](std::ptrdiff_t k, int) {
-      const int first = static_cast<int>(k) * strip_rows, last = std::min(rows_, first + strip_rows);
-      body(static_cast<std::size_t>(k), first, last);
-    });
-  };
-  const auto cells_before = [this](int row) { return static_cast<std::size_t>(row) * columns_; };
-  cell_start_.assign(cells_before(rows_) + 1, 0);
-  std::vector<LocalIndex> entries_of(strips + 1, 0);
-  for_each_strip([&](std::size_t strip, int first, int last) {
-    for (const LocalIndex k : discs_of[strip])
-      for_each_cell_of(disc(k), first, last, [&](std::size_t cell) { ++cell_start_[cell]; });
-    for (std::size_t cell = cells_before(first); cell < cells_before(last); ++cell)
-      entries_of[strip + 1] += cell_start_[cell];
-  });
-  for (std::size_t strip = 0; strip < strips; ++strip)
-    entries_of[strip + 1] += entries_of[strip];
-  cell_chord_.resize(static_cast<std::size_t>(entries_of.back()));
-  cell_start_.back() = entries_of.back();
-  // Each list is filled from its end; then its start is known.
-  for_each_strip([&](std::size_t strip, int first, int last) {
-    LocalIndex end = entries_of[strip];
-    for (std::size_t cell = cells_before(first); cell < cells_before(last); ++cell)
-      cell_start_[cell] = end += cell_start_[cell];
-    for (auto k = discs_of[strip].rbegin(); k != discs_of[strip].rend(); ++k)
-      for_each_cell_of(disc(*k), first, last,
-                       [&](std::size_t cell) { cell_chord_[static_cast<std::size_t>(--cell_start_[cell])] = *k; });
-  });
-}
-
-/// First and last row that a disc, a little enlarged, may meet.
-std::pair<int, int> BoundaryGuard::rows_of(double middle, double reach) const {
-  const auto row = [this](double y) {
-    return static_cast<int>(std::clamp((y - corner_.y) * inverse_side_, 0.0, rows_ - 1.0));
-  };
-  const double enlarged = reach + 1e-9 * side_;
-  return {row(middle - enlarged), row(middle + enlarged)};
-}
-
-/// Calls visit(cell) for the cells of rows [first, last) that the disc of a chord, a little enlarged, may meet.
-template <class Visit>
-void BoundaryGuard::for_each_cell_of(const Segment& s, int first, int last, const Visit& visit) const {
-  const Vec2 middle = 0.5 * (s.a + s.b) - corner_;
-  const double reach = reach_of(s) + 1e-9 * side_;
-  const auto column = [this](double x) { return static_cast<int>(std::clamp(x * inverse_side_, 0.0, columns_ - 1.0)); };
-  const auto [low, high] = rows_of(0.5 * (s.a.y + s.b.y), reach_of(s));
-  const int i0 = column(middle.x - reach), i1 = column(middle.x + reach);
-  for (int j = std::max(low, first); j <= std::min(high, last - 1); ++j) {
-    const double dy = std::max(0.0, std::max(j * side_ - middle.y, middle.y - (j + 1) * side_));
-    for (int i = i0; i <= i1; ++i) {
-      const double dx = std::max(0.0, std::max(i * side_ - middle.x, middle.x - (i + 1) * side_));
-      if (dx * dx + dy * dy <= reach * reach)
-        visit(static_cast<std::size_t>(j) * columns_ + i);
-    }
-  }
-}
-
 /// Strips of rows at the same time, each with as many rows around it as the clearance can reach.
 void BoundaryGuard::classify_cells(const geometry::Lattice& lattice) {
-  state_.assign(static_cast<std::size_t>(columns_) * rows_, near_disc);
-  thread_loop((rows_ - 1) / strip_rows + 1, 1, [&](std::ptrdiff_t strip, int) {
-    const int first = static_cast<int>(strip) * strip_rows, last = std::min(rows_, first + strip_rows);
+  state_.assign(cells_.count(), near_disc);
+  const int rows = cells_.rows(), columns = cells_.columns();
+  thread_loop((rows - 1) / strip_rows + 1, 1, [&](std::ptrdiff_t strip, int) {
+    const int first = static_cast<int>(strip) * strip_rows, last = std::min(rows, first + strip_rows);
     const int low = std::max(0, first - PolygonRules::farthest_cell),
-              high = std::min(rows_, last + PolygonRules::farthest_cell);
+              high = std::min(rows, last + PolygonRules::farthest_cell);
     std::vector<std::int8_t> clearance = clearance_of(low, high);
     for (int j = first; j < last; ++j)
-      classify_row(j, &clearance[static_cast<std::size_t>(j - low) * columns_], lattice);
+      classify_row(j, &clearance[static_cast<std::size_t>(j - low) * columns], lattice);
   });
 }
 
 /// @brief Chessboard distance of each cell of rows [low, high) to the nearest of them with a disc (Rosenfeld and Pfaltz
 /// 1966). What lies beyond the border of a periodic axis is not known, and may be a disc.
 std::vector<std::int8_t> BoundaryGuard::clearance_of(int low, int high) const {
-  const std::size_t width = static_cast<std::size_t>(columns_), rows = static_cast<std::size_t>(high - low);
+  const std::size_t width = static_cast<std::size_t>(cells_.columns()), rows = static_cast<std::size_t>(high - low);
   std::vector<std::int8_t> clearance(width * rows);
   const std::size_t offset = static_cast<std::size_t>(low) * width;
   for (std::size_t cell = 0; cell < clearance.size(); ++cell)
-    clearance[cell] = cell_start_[offset + cell + 1] > cell_start_[offset + cell] ? 0 : PolygonRules::farthest_cell;
+    clearance[cell] = cells_.has_disc(offset + cell) ? 0 : PolygonRules::farthest_cell;
   constexpr auto next = [](std::int8_t v) { return static_cast<std::int8_t>(v + 1); };
   const std::int8_t beyond = periods_.x > 0 ? 0 : PolygonRules::farthest_cell;
   const auto look_aside = [&](std::int8_t* row, const std::int8_t* other, bool border) {
@@ -231,7 +156,7 @@ std::vector<std::int8_t> BoundaryGuard::clearance_of(int low, int high) const {
   }
   for (std::size_t j = rows; j-- > 0;) {
     std::int8_t* row = &clearance[j * width];
-    look_aside(row, j + 1 < rows ? row + width : nullptr, high == rows_);
+    look_aside(row, j + 1 < rows ? row + width : nullptr, high == cells_.rows());
     std::int8_t behind = beyond;
     for (std::size_t i = width; i-- > 0;)
       behind = row[i] = std::min(row[i], next(behind));
@@ -241,36 +166,24 @@ std::vector<std::int8_t> BoundaryGuard::clearance_of(int low, int high) const {
 
 /// A cell without disc meets no chord, so one point decides for all of it, and for its clear right neighbours.
 void BoundaryGuard::classify_row(int j, const std::int8_t* clearance, const geometry::Lattice& lattice) {
-  const std::size_t first = static_cast<std::size_t>(j) * columns_;
+  const int columns = cells_.columns();
+  const std::size_t first = static_cast<std::size_t>(j) * columns;
   bool inside = false, known = false;
-  for (int i = 0; i < columns_; ++i) {
+  for (int i = 0; i < columns; ++i) {
     if (clearance[i] == 0) {
       known = false;
       continue;
     }
     if (!known)
-      inside = inside_polygon(lattice.snap(corner_ + Vec2{(i + 0.5) * side_, (j + 0.5) * side_}));
+      inside = inside_polygon(lattice.snap(cells_.middle(i, j)));
     known = true;
     state_[first + static_cast<std::size_t>(i)] = inside ? clearance[i] : static_cast<std::int8_t>(-clearance[i]);
   }
 }
 
-std::int64_t BoundaryGuard::cell_at(Vec2 p) const {
-  const double x = (p.x - corner_.x) * inverse_side_, y = (p.y - corner_.y) * inverse_side_;
-  if (!(x >= 0 && y >= 0 && x < columns_ && y < rows_))
-    return -1;
-  return static_cast<std::int64_t>(y) * columns_ + static_cast<std::int64_t>(x);
-}
-
 int BoundaryGuard::state_at(Vec2 p) const {
-  const std::int64_t cell = cell_at(p);
+  const std::int64_t cell = cells_.cell_at(p);
   return cell >= 0 ? state_[static_cast<std::size_t>(cell)] : is_empty() ? 1 : -1;
-}
-
-std::span<const LocalIndex> BoundaryGuard::chords_at(std::int64_t cell) const {
-  if (cell < 0)
-    return {};
-  return std::span(cell_chord_).subspan(cell_start_[cell], cell_start_[cell + 1] - cell_start_[cell]);
 }
 
 bool BoundaryGuard::inside_polygon(Vec2 p) const {
@@ -310,14 +223,15 @@ double BoundaryGuard::distance(Vec2 p, double reach) const {
   return found ? std::sqrt(found->squared_distance) : reach;
 }
 
-BoundaryGuard::CellView BoundaryGuard::cells() const {
-  return {is_empty() ? nullptr : state_.data(), corner_, inverse_side_, columns_, rows_};
+GuardCells BoundaryGuard::cells() const {
+  return {is_empty() ? nullptr : state_.data(), cells_.corner(), cells_.inverse_side(), cells_.columns(),
+          cells_.rows()};
 }
 
 /// From a cell n cells away from all discs it is at least n - 1 of their sides to any chord.
 double BoundaryGuard::clear_way(Vec2 p) const {
-  constexpr double rounding = 1 - 1e-6;
-  return (std::abs(state_at(p)) - 1) * (side_ * rounding);
+  constexpr double rounding = 1 - 1e-6; // far above the error of the place in the grid
+  return (std::abs(state_at(p)) - 1) * (cells_.side() * rounding);
 }
 
 std::optional<Vec2> BoundaryGuard::correct(Vec2 image, double h, const geometry::Lattice& lattice) const {
@@ -355,7 +269,7 @@ bool BoundaryGuard::pushes(Vec2 p) const {
 LocalIndex BoundaryGuard::deepest_disc(Vec2 p) const {
   LocalIndex deepest = -1;
   double smallest = 0; // (distance from the middle / radius)^2
-  for (const LocalIndex k : chords_at(cell_at(p))) {
+  for (const LocalIndex k : cells_.discs_at(cells_.cell_at(p))) {
     const Segment& chord = disc(k);
     if (geometry::diametral_side(chord.a, chord.b, p) > 0)
       continue;
@@ -371,11 +285,11 @@ LocalIndex BoundaryGuard::deepest_disc(Vec2 p) const {
 
 bool BoundaryGuard::encroaches(Vec2 p) const {
   p = periods_.wrap(p);
-  const std::int64_t cell = cell_at(p);
+  const std::int64_t cell = cells_.cell_at(p);
   const int state = state_at(p);
   if (state != near_disc)
     return state < 0;
-  for (const LocalIndex k : chords_at(cell)) {
+  for (const LocalIndex k : cells_.discs_at(cell)) {
     const Segment& chord = disc(k);
     if (geometry::diametral_side(chord.a, chord.b, p) < 0)
       return true;
@@ -389,7 +303,7 @@ bool BoundaryGuard::encroaches(Vec2 p) const {
 
 std::size_t BoundaryGuard::memory_bytes() const {
   return chords_.memory_bytes() + closed_.memory_bytes() + images_.capacity() * sizeof(Segment) + state_.capacity() +
-         (cell_start_.capacity() + cell_chord_.capacity()) * sizeof(LocalIndex);
+         cells_.memory_bytes();
 }
 
 } // namespace trime::polygon

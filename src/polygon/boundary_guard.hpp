@@ -3,6 +3,8 @@
 // disc of a chord, and where to push it. Does not move, delete or count anything itself.
 #pragma once
 
+#include "polygon/disc_cells.hpp"
+#include "polygon/guard_cells.hpp"
 #include "polygon/polygon.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/geometry/periods.hpp"
@@ -11,8 +13,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
-#include <span>
-#include <utility>
 #include <vector>
 
 namespace trime::polygon {
@@ -42,26 +42,19 @@ public:
   /// disc.
   ///
   /// The chord is the one in whose disc p lies deepest (relative to its radius), or the nearest one if p is outside.
-  /// The new place is 0.6 of the chord length from the chord's middle: towards p if that makes at least 30 degrees with
-  /// the chord on its inner side and leads to a good place, else along the inner normal. It may be bad itself near
-  /// sharp notches. h only says where the search for the nearest chord begins. A pure function of p and the sites;
-  /// of a periodic container it is the image next to p, canonical or not.
+  /// The new place is PolygonRules::push_way of the chord length from the chord's middle: towards p if that makes at
+  /// least 30 degrees with the chord on its inner side and leads to a good place, else along the inner normal. It may
+  /// be bad itself near sharp notches. h only says where the search for the nearest chord begins. A pure function of p
+  /// and the sites; of a periodic container it is the image next to p, canonical or not.
   std::optional<geometry::Vec2> correct(geometry::Vec2 p, double h, const geometry::Lattice& lattice) const;
   /// Does `correct` have something to say about p?
   bool pushes(geometry::Vec2 p) const;
   /// True where it surely has not: one look-up. Most places are clear.
   bool is_clear(geometry::Vec2 p) const { return state_at(periods_.wrap(p)) > 0; }
-  /// p lies outside, strictly inside some diametral disc, or nearer to a chord than 0.05 of the chord's length.
+  /// p lies outside, strictly inside some diametral disc, or nearer to a chord than PolygonRules::near_chord.
   bool encroaches(geometry::Vec2 p) const;
 
-  /// The cells as plain numbers, for loops that look for the clear ones themselves; rows of `columns` from `corner` on.
-  struct CellView {
-    const std::int8_t* states; ///< a point in a cell above 0 needs no correction; null without sites: nor does any
-    geometry::Vec2 corner;
-    double inverse_side;
-    int columns, rows;
-  };
-  CellView cells() const;
+  GuardCells cells() const;
 
   /// Chord i of each site, in a periodic container that image whose middle is canonical.
   const geometry::SegmentGrid& chords() const { return chords_; }
@@ -79,7 +72,6 @@ private:
   geometry::Box choose_cells();
   void add_images(const geometry::Box& window);
   void close_chords(const geometry::Box& window, const geometry::Lattice& lattice);
-  void list_discs();
   // The queries work on canonical points.
   bool inside_polygon(geometry::Vec2 p) const;
   std::optional<NearChord> nearest(geometry::Vec2 p, double reach) const;
@@ -88,20 +80,12 @@ private:
   }
   LocalIndex chord_count() const { return static_cast<LocalIndex>(chords_.segments().size()); }
   bool is_empty() const { return chords_.segments().empty(); }
-  LocalIndex disc_count() const { return chord_count() + static_cast<LocalIndex>(images_.size()); }
   void classify_cells(const geometry::Lattice& lattice);
   std::vector<std::int8_t> clearance_of(int low, int high) const;
   void classify_row(int j, const std::int8_t* clearance, const geometry::Lattice& lattice);
-  std::pair<int, int> rows_of(double middle, double reach) const;
-  template <class Visit>
-  void for_each_cell_of(const geometry::Segment& chord, int first, int last, const Visit& visit) const;
-  /// Index of the cell of p; -1 outside of the grid, where nothing is near.
-  std::int64_t cell_at(geometry::Vec2 p) const;
   int state_at(geometry::Vec2 p) const;
   /// A distance that no chord is nearer to p.
   double clear_way(geometry::Vec2 p) const;
-  /// Numbers for disc() of the chords whose discs may hold p.
-  std::span<const LocalIndex> chords_at(std::int64_t cell) const;
   /// The number for disc() of the closed diametral disc in which p lies deepest, lowest on ties; -1 if in none.
   LocalIndex deepest_disc(geometry::Vec2 p) const;
 
@@ -110,11 +94,8 @@ private:
   std::vector<geometry::Segment> images_; // of chords, whose discs reach into the container
   geometry::SegmentGrid closed_;          // chords and images, closed outside; periodic containers only
   bool inverted_ = false;                 // the inside is where closed_ has its outside
-  geometry::Vec2 corner_;
-  double side_ = 1, inverse_side_ = 1; // of a cell
-  int columns_ = 0, rows_ = 0;
+  DiscCells cells_;
   std::vector<std::int8_t> state_; // inside > 0, outside < 0; its amount: so many cells to the next one near a disc
-  std::vector<LocalIndex> cell_start_, cell_chord_; // the chords near each cell, ascending
 };
 
 } // namespace trime::polygon

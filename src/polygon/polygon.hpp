@@ -41,12 +41,12 @@ struct BoundarySite {
 /// a periodic container included. The whole torus has no sites at all.
 struct BoundarySites {
   std::vector<BoundarySite> sites;
-  geometry::Periods periods{}; ///< of the container
+  geometry::Periods periods{}; ///< those of the boundary
   std::vector<LocalIndex>
       loop_start; ///< loops + 1: sites of loop i of those that stay are loop_start[i] .. loop_start[i+1]-1
   LocalIndex corners = 0;
   LocalIndex sharp_corners = 0; ///< corners with an angle below 60 degrees on either side
-  LocalIndex halvings = 0;      ///< segments divided after the layout
+  LocalIndex halvings = 0;      ///< chords divided after the layout
   int rounds = 0;               ///< of halving
   double shortest = 0;          ///< length of the shortest chord
   bool overfull = false;        ///< ended at more sites than are affordable: the discs may not be empty

@@ -22,12 +22,11 @@ Fan inside_fan(const StageView& view, LocalIndex i) {
     fan.triangles = fan.complete ? n : 0;
     return fan;
   }
-  const BoundarySite& site = view.boundary.sites[at(b)];
+  const BoundarySite& site = view.polygon.sites[at(b)];
   // Positions tell the images of a boundary site from each other.
-  const geometry::Vec2 before =
-      view.boundary.chord(site.previous).a - view.boundary.sites[at(site.previous)].next_shift;
+  const geometry::Vec2 before = view.polygon.chord(site.previous).a - view.polygon.sites[at(site.previous)].next_shift;
   const auto is_next = [&](LocalIndex j) {
-    return points.boundary(j) == site.next && points.position(j) == view.boundary.chord(b).b;
+    return points.boundary(j) == site.next && points.position(j) == view.polygon.chord(b).b;
   };
   const auto is_previous = [&](LocalIndex j) {
     return points.boundary(j) == site.previous && points.position(j) == before;

@@ -3,30 +3,17 @@
 #pragma once
 
 #include "decomposition/numbering.hpp"
-#include "polygon/polygon.hpp"
-#include "sites/site_state.hpp"
+#include "sites/stage_view.hpp"
 #include "trime/core/unset_vector.hpp"
-#include "trime/geometry/lattice.hpp"
-#include "trime/sizing/size_field.hpp"
 
 #include <cstdint>
 #include <span>
 
 namespace trime::sites {
 
-/// @brief A state of a stage with what it is a mesh of: the sites on the boundary, the size, the points that are kept.
-/// Replicated but for the state. Keeps references.
-struct StageView {
-  const SiteState& state;
-  const polygon::BoundarySites& boundary;
-  const sizing::SizeField& size;
-  const geometry::Lattice& lattice;
-  std::span<const geometry::Vec2> fixed = {}; ///< points that must be vertices, in lexicographic order
-};
-
 /// @brief The inside fan of a site: the run of ring entries whose consecutive pairs are the triangles inside the shape.
 /// For an inner site the whole ring (`closed`); for a boundary site from its next to its previous boundary neighbour.
-/// `complete` is false if a triangle or a boundary segment is missing.
+/// `complete` is false if a triangle or a chord is missing.
 struct Fan {
   std::span<const LocalIndex> ring;
   std::size_t first = 0, triangles = 0;

@@ -4,6 +4,7 @@
 #include "comm/agree.hpp"
 #include "core/free_memory.hpp"
 #include "core/thread_loop.hpp"
+#include "sites/rules.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -13,10 +14,6 @@
 namespace trime::sites {
 namespace {
 
-/// Bins around the owned tiles that are fetched unasked: wide enough for the discs of a relaxed mesh.
-constexpr int halo_margin = 2;
-/// Rounds of asking for more bins; every round reaches at least one bin farther, two suffice in practice.
-constexpr int max_halo_rounds = 100;
 constexpr double unknown_size = 0;
 constexpr int size_chunk = 1024; // sites whose size one thread evaluates in a row
 
@@ -68,7 +65,7 @@ void SiteState::distribute(mesh::SiteList sites) {
   sizes_.forget();
   carried_.clear();
   stars_.reset(points_.owned());
-  halo_.reset(partition_, halo_margin);
+  halo_.reset(partition_, SiteRules::halo_margin);
 }
 
 /// Each owner finds what suits its tiles; then all know.
@@ -236,7 +233,7 @@ delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder
   refresh(size);
   delaunay::StarPass all;
   std::vector<mesh::BinRef> missing;
-  for (int round = 0; round < max_halo_rounds; ++round) {
+  for (int round = 0; round < SiteRules::most_halo_rounds; ++round) {
     missing.clear();
     const delaunay::StarPass pass = builder.update(points_, stars_, sizes_, wanted, missing);
     all.rebuilt += pass.rebuilt;
@@ -244,7 +241,7 @@ delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder
       return all;
     fetch(missing, size);
   }
-  throw InternalError(fmt::format("the halo still grows after {} rounds", max_halo_rounds));
+  throw InternalError(fmt::format("the halo still grows after {} rounds", SiteRules::most_halo_rounds));
 }
 
 void SiteState::fetch(std::span<const mesh::BinRef> missing, const sizing::SizeField& size) {

@@ -5,6 +5,7 @@
 #include "polygon/boundary_guard.hpp"
 #include "polygon/polygon.hpp"
 #include "sites/site_state.hpp"
+#include "sites/stage_view.hpp"
 #include "sizing/lowered_size.hpp"
 #include "trime/core/types.hpp"
 #include "trime/sizing/size_field.hpp"
@@ -24,14 +25,19 @@ struct Stage {
   std::unique_ptr<sizing::ScaledSize> asked_size;    ///< of the last stage
   std::unique_ptr<sizing::LoweredSize> lowered_size; ///< of the last stage; null if nothing lowers the size
   std::unique_ptr<sizing::SizeField> size;           ///< of this stage
-  polygon::BoundarySites boundary;
-  std::unique_ptr<polygon::BoundaryGuard> guard;
+  polygon::BoundarySites polygon;                    ///< the sites on the boundary; only the clean-up edits them
+  std::unique_ptr<polygon::BoundaryGuard> guard;     ///< of their chords, of which it holds a copy
   std::unique_ptr<SiteState> state;
 
   GlobalId fixed_inside = 0; ///< fixed points that are not on the boundary
 
   /// Sites that have their place before all others: those on the boundary, and the fixed ones inside.
-  GlobalId placed_first() const { return static_cast<GlobalId>(boundary.sites.size()) + fixed_inside; }
+  GlobalId placed_first() const { return static_cast<GlobalId>(polygon.sites.size()) + fixed_inside; }
+
+  /// @param fixed points that must be vertices, in lexicographic order
+  StageView view(const geometry::Lattice& lattice, std::span<const geometry::Vec2> fixed = {}) const {
+    return {*state, polygon, *size, lattice, fixed};
+  }
 };
 
 } // namespace trime::sites

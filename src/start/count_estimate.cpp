@@ -99,8 +99,8 @@ CountEstimate::CountEstimate(const LayoutContext& context, double points, double
   comm::run_agreed(context.comm, [&] {
     polygon = polygon_of(context.fixed.cornered_boundary(), context.lattice, spacing, lengths_);
   });
-  corners_ = count_corners(context.fixed.cornered_boundary(), context.options.corner_angle);
-  if (!polygon.sites.empty() || context.boundary.covers_torus)
+  corners_ = count_corners(context.fixed.cornered_boundary(), context.options.features.corner_angle);
+  if (!polygon.sites.empty() || context.given_boundary.covers_torus)
     reference_ = lay_reference(context, std::move(polygon), points, coarsening);
 }
 
@@ -138,7 +138,7 @@ double CountEstimate::crowding(double factor) const {
 
 /// Simpson's rule, in steps of about the local size.
 std::optional<double> CountEstimate::boundary_points(const sizing::SizeField& size) const {
-  const BoundarySites& polygon = reference_.boundary;
+  const BoundarySites& polygon = reference_.polygon;
   std::vector<double> counts(polygon.sites.size());
   const double most = FitRules::far_too_many * points_;
   thread_loop(std::ssize(counts), 64, [&](std::ptrdiff_t k, int) {
@@ -150,7 +150,7 @@ std::optional<double> CountEstimate::boundary_points(const sizing::SizeField& si
     double& count = counts[static_cast<std::size_t>(k)];
     double share = 0, first = inverse(0);
     while (share < 1 && count < most && std::isfinite(first)) {
-      double step = std::max(FitRules::longest_step / (first * length), 1e-9);
+      double step = std::max(FitRules::integral_step / (first * length), 1e-9);
       step = share + 1.25 * step < 1 ? step : 1 - share;
       const double last = inverse(share + step);
       count += step * length * (first + 4 * inverse(share + 0.5 * step) + last) / 6;
@@ -167,7 +167,7 @@ std::optional<double> CountEstimate::boundary_points(const sizing::SizeField& si
       sites += counts[static_cast<std::size_t>(k)];
     if (!std::isfinite(sites))
       return std::nullopt;
-    if (sites >= FitRules::least_sites || context_.options.keep_features)
+    if (sites >= FitRules::least_sites || context_.options.features.keep_all)
       all += std::max(FitRules::least_sites, sites);
   }
   return all;

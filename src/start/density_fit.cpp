@@ -30,7 +30,7 @@ public:
         search_((1 - FitRules::goal_below * FitRules::close_enough) * points) {}
 
   DensityFit solve() {
-    const geometry::Boundary& boundary = context_.boundary;
+    const geometry::Boundary& boundary = context_.given_boundary;
     const double uniform = context_.options.points ? estimated_size(boundary.area, boundary.length(), points_)
                                                    : *context_.options.edge_length;
     double smallest = 0;
@@ -65,7 +65,7 @@ private:
   /// @brief The trial as it is if its sites are nearly as many as wanted, or with a size so little larger or smaller
   /// that the sites inside make up the difference: those on the boundary may stay.
   std::optional<DensityFit> accepted(SizeTrial& trial) const {
-    if (trial.fit.laid.stage.boundary.overfull)
+    if (trial.fit.laid.stage.polygon.overfull)
       return std::nullopt;
     if (trial.points <= points_ &&
         (trial.points >= (1 - FitRules::close_enough) * points_ || trial.points > points_ - 2))
@@ -99,7 +99,7 @@ private:
         return {factor, trials_.count(std::move(laid), trials_.coarsening())};
       if (first) {
         crowded = static_cast<double>(trials_.limits()) >
-                  FitRules::crowded_share * static_cast<double>(laid.stage.boundary.sites.size());
+                  FitRules::crowded_share * static_cast<double>(laid.stage.polygon.sites.size());
         continue;
       }
       const double growth =
@@ -120,7 +120,7 @@ private:
     for (int round = 0; round < FitRules::most_trials && !bracket.is_closed(); ++round) {
       SizeTrial trial = approach.trial ? *std::exchange(approach.trial, std::nullopt) : trials_.run(factor);
       const double points = trial.points;
-      const bool overfull = trial.fit.laid.stage.boundary.overfull;
+      const bool overfull = trial.fit.laid.stage.polygon.overfull;
       if (std::optional<DensityFit> fit = accepted(trial))
         return std::move(*fit);
       if (points > points_)
@@ -137,7 +137,7 @@ private:
     if (best.points < FitRules::enough_points * points_)
       best.fit.shortage = context_.options.min_size
                               ? fmt::format("min_size = {:g} leaves no room for more", *context_.options.min_size)
-                              : "the discs of the boundary segments leave no room for more";
+                              : "the discs of the chords leave no room for more";
     return std::move(best.fit);
   }
 

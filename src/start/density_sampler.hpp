@@ -82,7 +82,6 @@ private:
     std::int64_t cells = 0;
     std::vector<LocalIndex> chords; ///< a stack: those of a part lie on those of the larger ones around it
   };
-  static constexpr std::size_t most_chords = 48; ///< more are left to the tree of all chords
 
   static double half_diagonal(const geometry::Box& box) {
     return 0.5 * std::sqrt(box.width() * box.width() + box.height() * box.height());
@@ -122,13 +121,13 @@ private:
     const std::size_t first = work.chords.size();
     guard_.chords().for_each_near({box.min - margin, box.max + margin}, [&](LocalIndex chord) {
       work.chords.push_back(chord);
-      return work.chords.size() < first + 2 * most_chords;
+      return work.chords.size() < first + 2 * StartRules::most_near_chords;
     });
     const auto begin = work.chords.begin() + static_cast<std::ptrdiff_t>(first);
-    const bool all = work.chords.size() < first + 2 * most_chords;
+    const bool all = work.chords.size() < first + 2 * StartRules::most_near_chords;
     std::sort(begin, work.chords.end());
     work.chords.erase(std::unique(begin, work.chords.end()), work.chords.end());
-    if (all && work.chords.size() <= first + most_chords)
+    if (all && work.chords.size() <= first + StartRules::most_near_chords)
       return {first, work.chords.size(), reach};
     work.chords.resize(first);
     return {};
@@ -154,7 +153,7 @@ private:
         return work.chords.resize(chords_before);
     }
     const double sites = valid ? box.width() * box.height() / (row_height * h * h) : 0;
-    if (++work.cells > StartRules::most_cells ||
+    if (++work.cells > StartRules::most_density_cells ||
         (part.level == StartRules::deepest_cell && sites > StartRules::most_in_deepest))
       fail_for_small_size(p, h);
     if (part.level < StartRules::deepest_cell &&

@@ -17,10 +17,10 @@ void Fewest::consider(const Stage& stage, double trial_points) {
   if (trial_points >= points)
     return;
   points = trial_points;
-  counted = !stage.boundary.overfull;
+  counted = !stage.polygon.overfull;
   double least = INFINITY;
-  for (LocalIndex k = 0; k < std::ssize(stage.boundary.sites); ++k) {
-    const geometry::Segment chord = stage.boundary.chord(k);
+  for (LocalIndex k = 0; k < std::ssize(stage.polygon.sites); ++k) {
+    const geometry::Segment chord = stage.polygon.chord(k);
     if (const double length = geometry::length(chord.b - chord.a); length < least) {
       least = length;
       shortest = chord;
@@ -52,7 +52,7 @@ void fail_for_few_points(const LayoutContext& context, const Fewest& fewest) {
   const geometry::Vec2 place = 0.5 * (fewest.shortest.a + fewest.shortest.b);
   throw ConfigError(fmt::format(
       "points = {} are too few for this shape: its boundary alone needs {}{:.0f} (every corner, and every place where "
-      "the boundary comes near itself, takes its own; the shortest segment, {:.3g} long, is at ({:.6g}, {:.6g})); ask "
+      "the boundary comes near itself, takes its own; the shortest chord, {:.3g} long, is at ({:.6g}, {:.6g})); ask "
       "for more, or simplify the shape there",
       *context.options.points, fewest.counted ? "" : "more than ", fewest.points,
       geometry::length(fewest.shortest.b - fewest.shortest.a), place.x, place.y));

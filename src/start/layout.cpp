@@ -37,7 +37,7 @@ std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Bounda
   double h = spacing;
   geometry::Box box{{std::max(container.min.x, around.min.x - h), std::max(container.min.y, around.min.y - h)},
                     {std::min(container.max.x, around.max.x + h), std::min(container.max.y, around.max.y + h)}};
-  const geometry::Periods& periods = context.boundary.periods;
+  const geometry::Periods& periods = context.given_boundary.periods;
   if (periods.x > 0) {
     box.min.x = periods.min.x;
     box.max.x = periods.min.x + periods.x;
@@ -47,8 +47,9 @@ std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Bounda
     box.max.y = periods.min.y + periods.y;
   }
   // Of a shape that is nearly nothing but boundary, most cells hold no site.
-  if (context.boundary.area > 0)
-    h = std::max(h, h * std::sqrt(box.width() * box.height() / (StartRules::emptiest_grid * context.boundary.area)));
+  if (context.given_boundary.area > 0)
+    h = std::max(h,
+                 h * std::sqrt(box.width() * box.height() / (StartRules::emptiest_grid * context.given_boundary.area)));
   const auto cells = [](const std::optional<int>& given, double share) -> std::optional<int> {
     if (!given)
       return given;
@@ -72,7 +73,7 @@ void set_sizes(const LayoutContext& context, const FittedSize& fitted, Stage& st
     stage.lowered_size.reset();
   } else {
     stage.lowered_size = std::make_unique<sizing::LoweredSize>(*stage.asked_size, limits, BoundaryRules::gradation,
-                                                               context.boundary.periods);
+                                                               context.given_boundary.periods);
     within = stage.lowered_size.get();
   }
   stage.size = std::make_unique<sizing::ScaledSize>(*within, stage.coarsening);
@@ -81,28 +82,27 @@ void set_sizes(const LayoutContext& context, const FittedSize& fitted, Stage& st
 void lay_sites(const LayoutContext& context, std::size_t affordable, FittedStage& laid) {
   Stage& stage = laid.stage;
   const sizing::ScaledSize asked(*stage.asked_size, stage.coarsening);
-  const bool keeps_all = context.options.keep_features;
-  const FeatureRule rule{keeps_all ? 0 : context.options.feature_tolerance,
+  const bool keeps_all = context.options.features.keep_all;
+  const FeatureRule rule{keeps_all ? 0 : context.options.features.tolerance,
                          keeps_all ? 0 : BoundaryRules::least_perimeter, nullptr};
   const auto make = [&](const BoundarySizes& sizes) {
-    return make_boundary_sites(context.fixed.cornered_boundary(), sizes, context.lattice, context.options.corner_angle,
-                               context.fixed.inside(), rule, affordable);
+    return make_boundary_sites(context.fixed.cornered_boundary(), sizes, context.lattice,
+                               context.options.features.corner_angle, context.fixed.inside(), rule, affordable);
   };
   if (stage.size->is_uniform()) {
-    stage.boundary = make({*stage.size, asked});
+    stage.polygon = make({*stage.size, asked});
     return;
   }
   std::shared_ptr<const SizeSamples>& samples = laid.fitted.samples;
   if (!samples || !samples->serve(laid.fitted.factor))
     samples =
         std::make_shared<SizeSamples>(context.fixed.cornered_boundary(), context.relative_size, *stage.asked_size);
-  stage.boundary =
-      make({*stage.size, asked, {*samples, *stage.asked_size, stage.lowered_size.get(), stage.coarsening}});
+  stage.polygon = make({*stage.size, asked, {*samples, *stage.asked_size, stage.lowered_size.get(), stage.coarsening}});
 }
 
 /// Edge length of so many equal triangles' vertices, the boundary not counted.
 double typical_size(const LayoutContext& context, double expected) {
-  return std::sqrt(context.boundary.area / (row_height * std::max(1.0, expected)));
+  return std::sqrt(context.given_boundary.area / (row_height * std::max(1.0, expected)));
 }
 
 /// Sites alone.
@@ -158,17 +158,17 @@ Stage lay_again(const LayoutContext& context, Stage stage, double expected) {
   const auto time = context.timers.scope("boundary");
   if (!stage.asked_size->is_uniform())
     stage.typical_size = typical_size(context, expected);
-  stage.state = make_state(context, stage.boundary, stage.typical_size);
+  stage.state = make_state(context, stage.polygon, stage.typical_size);
   return stage;
 }
 
 Stage lay_reference(const LayoutContext& context, BoundarySites polygon, double expected, double grid_coarsening) {
   Stage stage;
-  stage.boundary = std::move(polygon);
+  stage.polygon = std::move(polygon);
   stage.typical_size = typical_size(context, expected);
   comm::run_agreed(context.comm,
-                   [&] { stage.guard = std::make_unique<BoundaryGuard>(stage.boundary, context.lattice); });
-  stage.state = make_state(context, stage.boundary, grid_coarsening * stage.typical_size);
+                   [&] { stage.guard = std::make_unique<BoundaryGuard>(stage.polygon, context.lattice); });
+  stage.state = make_state(context, stage.polygon, grid_coarsening * stage.typical_size);
   return stage;
 }
 
@@ -184,22 +184,22 @@ FittedStage try_boundary(const LayoutContext& context, const FittedSize& fitted,
 std::vector<sizing::SizeLimit> further_limits(const LayoutContext& context, const Stage& trial) {
   const auto time = context.timers.scope("boundary");
   std::vector<sizing::SizeLimit> more;
-  if (!trial.asked_size->is_uniform() && !trial.boundary.overfull)
+  if (!trial.asked_size->is_uniform() && !trial.polygon.overfull)
     comm::run_agreed(context.comm, [&] {
-      more = size_limits(trial.boundary, *trial.size, *trial.asked_size, BoundaryRules::gradation);
+      more = size_limits(trial.polygon, *trial.size, *trial.asked_size, BoundaryRules::gradation);
     });
   return more;
 }
 
 void complete(const LayoutContext& context, Stage& trial, double grid_coarsening) {
   const auto time = context.timers.scope("boundary");
-  if (trial.boundary.overfull)
+  if (trial.polygon.overfull)
     return;
   comm::run_agreed(context.comm, [&] {
-    trial.guard = std::make_unique<BoundaryGuard>(trial.boundary, context.lattice);
+    trial.guard = std::make_unique<BoundaryGuard>(trial.polygon, context.lattice);
     context.fixed.check_inside(*trial.guard);
   });
-  trial.state = make_state(context, trial.boundary, grid_coarsening * trial.typical_size);
+  trial.state = make_state(context, trial.polygon, grid_coarsening * trial.typical_size);
 }
 
 void rescale(const LayoutContext& context, FittedStage& laid, double scale) {
@@ -218,11 +218,11 @@ mesh::TileRange even_share(const Stage& stage, const comm::Communicator& comm) {
 
 void place_sites(const LayoutContext& context, Stage& stage, mesh::SiteList inner) {
   const mesh::TileRange tiles = even_share(stage, context.comm);
-  if (context.boundary.periods.any())
+  if (context.given_boundary.periods.any())
     for (mesh::Site& site : inner)
-      site.position = context.boundary.periods.wrap(site.position);
-  for (std::size_t b = 0; b < stage.boundary.sites.size(); ++b) {
-    const geometry::Vec2 p = stage.boundary.sites[b].position;
+      site.position = context.given_boundary.periods.wrap(site.position);
+  for (std::size_t b = 0; b < stage.polygon.sites.size(); ++b) {
+    const geometry::Vec2 p = stage.polygon.sites[b].position;
     const LocalIndex tile = tiles.grid.place(p).tile;
     if (tile >= tiles.first && tile < tiles.last)
       inner.push_back({p, static_cast<std::int32_t>(b)});

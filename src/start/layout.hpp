@@ -22,13 +22,13 @@ namespace trime::start {
 /// What the set-up works from. Keeps references; see Mesher.
 struct LayoutContext {
   const comm::Communicator& comm;
-  const geometry::Boundary& boundary;
+  const geometry::Boundary& given_boundary; ///< without the corners that fixed points make
   const sizing::SizeField& relative_size;
   const StartOptions& options;
   const geometry::Lattice& lattice;
   Log& log;
   TimerTable& timers;
-  const boundary::FixedPoints& fixed;
+  const boundary::FixedPoints& fixed; ///< with the boundary on which sites are laid
 };
 
 /// What the size field of the last stage follows from.

@@ -32,7 +32,7 @@ PointScheme::PointScheme(const LayoutContext& context) : context_(context), opti
 /// its pieces, and of the points at most.
 GlobalId PointScheme::reserve() const {
   double pieces = 0;
-  for (const geometry::Loop& loop : context_.boundary.loops)
+  for (const geometry::Loop& loop : context_.given_boundary.loops)
     pieces += static_cast<double>(loop.pieces.size());
   if (!options_.points || !options_.cleanup)
     return 0;
@@ -43,7 +43,7 @@ GlobalId PointScheme::reserve() const {
 double PointScheme::expected_points() const {
   if (options_.points)
     return static_cast<double>(*options_.points - reserve());
-  return points_of_length(context_.boundary, *options_.edge_length);
+  return points_of_length(context_.given_boundary, *options_.edge_length);
 }
 
 void PointScheme::choose() {
@@ -81,7 +81,7 @@ Stage PointScheme::first_of_lattice() {
   shortage_ = std::move(fit.shortage);
   const auto time = context_.timers.scope("start");
   place_sites(context_, fit.stage,
-              LatticeStart(context_.boundary, *fit.stage.guard, context_.lattice)
+              LatticeStart(context_.given_boundary, *fit.stage.guard, context_.lattice)
                   .sites(even_share(fit.stage, context_.comm), fit.spacing,
                          static_cast<std::size_t>(fit.stage.placed_first())));
   return std::move(fit.stage);
@@ -116,7 +116,7 @@ Stage PointScheme::first_of_divisions() {
   Stage stage;
   std::unique_ptr<const HilbertStart> start;
   double inner = 0;
-  const double on_boundary = static_cast<double>(fit.laid.stage.boundary.sites.size());
+  const double on_boundary = static_cast<double>(fit.laid.stage.polygon.sites.size());
   while (last_stage_ > 0 && std::ldexp(fit.inner, -2 * last_stage_) < std::ldexp(on_boundary, -last_stage_))
     --last_stage_; // the share of the strip and of corners only grows
   for (;; --last_stage_) {
@@ -191,7 +191,7 @@ Stage PointScheme::next(const Stage& previous) {
 
 Stage PointScheme::divide(const Stage& previous) {
   const comm::Communicator& comm = context_.comm;
-  const StageView old{*previous.state, previous.boundary, *previous.size, context_.lattice};
+  const StageView old = previous.view(context_.lattice);
   const GlobalId before = comm.sum(std::int64_t{previous.state->points().owned()});
   Stage stage = lay_division(laid_last_, 4 * static_cast<double>(before));
   const auto time = context_.timers.scope("start");
@@ -211,7 +211,7 @@ Stage PointScheme::divide(const Stage& previous) {
 
 Stage PointScheme::insert(const Stage& previous) {
   const comm::Communicator& comm = context_.comm;
-  const StageView old{*previous.state, previous.boundary, *previous.size, context_.lattice};
+  const StageView old = previous.view(context_.lattice);
   const GlobalId before = comm.sum(std::int64_t{previous.state->points().owned()});
   const double grown = std::floor(StartRules::growth * static_cast<double>(before)), all = expected_points();
   if (is_last() && 2 * grown < all && stage_ < StartRules::most_insertions)

@@ -113,7 +113,7 @@ mesh::SiteList inner_sites(const SiteState& state) {
 
 mesh::SiteList split_edges(const StageView& view) {
   const mesh::BinnedPoints& points = view.state.points();
-  const geometry::Periods& periods = view.boundary.periods;
+  const geometry::Periods& periods = view.polygon.periods;
   return place_by_tile(points, [&](LocalIndex i, const auto& put) {
     if (points.boundary(i) == mesh::free_site)
       put(points.position(i));
@@ -121,7 +121,7 @@ mesh::SiteList split_edges(const StageView& view) {
     if (!fan.complete)
       return;
     const Vec2 p = points.position(i);
-    // The first and the last edge of an open fan are segments of the boundary.
+    // The first and the last edge of an open fan are chords.
     for (std::size_t k = fan.closed ? 0 : 1; k < fan.triangles; ++k) {
       const Vec2 q = points.position(fan.neighbour(k));
       if (periods.less(p, q))
@@ -132,7 +132,7 @@ mesh::SiteList split_edges(const StageView& view) {
 
 void insert_in_triangles(const StageView& view, const Stage& next, std::int64_t count, mesh::SiteList& sites) {
   const mesh::BinnedPoints& points = view.state.points();
-  const geometry::Periods& periods = view.boundary.periods;
+  const geometry::Periods& periods = view.polygon.periods;
   const auto add_candidates = [&](LocalIndex i, std::vector<NewSite>& list) {
     const Fan fan = inside_fan(view, i);
     const Vec2 p = points.position(i);

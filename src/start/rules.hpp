@@ -9,149 +9,194 @@ namespace trime::start {
 
 /// The numbers by which points are placed.
 struct StartRules {
-  /// [area of the shape] The grid covers so much with cells as small as the triangles; beyond, cells are larger.
+  /// [area of the shape] The grid covers so much of the container with cells as small as the triangles. In an emptier
+  /// container cells are larger, since each costs memory. Not measured.
   static constexpr double emptiest_grid = 64;
-  /// [points asked for] A boundary that takes more sites in a trial is not laid to its end. Not measured.
+  /// [points asked for] A trial whose boundary takes more sites than this is given up before it is laid to its end. Not
+  /// measured.
   static constexpr double affordable_growth = 1.5;
-  /// [sites] So many are always laid: they cost nothing.
+  /// [sites] A boundary with so few sites is always laid to its end: that takes no time. Not measured.
   static constexpr double always_affordable = 1000;
-  /// [points asked for] So many at most are kept for the clean-up. Not measured.
+  /// [points asked for] The start keeps back so many at most, for what the clean-up inserts. The clean-up may change
+  /// the number by 0.005 of it (CleanupRules::largest_loss). Not measured.
   static constexpr double reserved_share = 0.004;
-  /// [points] Kept for the clean-up for each piece of the boundary, where it mends ragged parts. Not measured.
+  /// [points] The start keeps back so many for each piece of the boundary: ragged boundaries are where the clean-up
+  /// inserts. Not measured.
   static constexpr double reserved_per_piece = 0.1;
-  /// [1] Of the number of points by one insertion, as TriMe++ has it. Not measured.
+  /// [1] One insertion multiplies the number of points by this, as TriMe++ does. Not measured.
   static constexpr double growth = 1.6;
-  /// [stages] At most: bounds the run where triangles are too few for the points.
+  /// [stages] A bound on the run where a mesh has too few triangles for the points to be inserted.
   static constexpr int most_insertions = 64;
-  /// [points] With fewer the start is not coarse: it would starve narrow parts. Not measured.
+  /// [points] From here on the start has a quarter of the points and all edges are divided once. A coarser start would
+  /// starve narrow parts. One division at 1e4 points: mean alpha 1.017, in place of 1.025 without.
   static constexpr double one_division = 3000;
-  /// [points] From here on the start has 1/16 of the points. Not measured.
+  /// [points] From here on the start has 1/16 of the points. Measured with 2e4: two divisions 1.0153, one 1.0165; this
+  /// limit itself was not varied.
   static constexpr double two_divisions = 20000;
-  /// [points] From here on the start has 1/64 of the points. Not measured.
+  /// [points] From here on the start has 1/64 of the points: with less than about 5e4 three divisions starve narrow
+  /// parts. This limit itself was not varied.
   static constexpr double three_divisions = 400000;
-  /// [1] Coarsening of the integral, at most, that fits the size of an insertion run. Not measured.
+  /// [1] The integral that fits the size of an insertion run is taken over cells so many times wider, at most. Not
+  /// measured.
   static constexpr double coarsest_integral = 8;
-  /// [1] Coarsening of the integral that fits the size of the last division: errs by a few thousandths.
+  /// [1] The integral that fits the size of the last division is taken over cells so many times wider: it errs by a few
+  /// thousandths.
   static constexpr double coarse_integral = 4;
-  /// [1] Coarsening of the cells of a start that is relaxed and divided: no worse than 1.
+  /// [1] The density of a start that is relaxed and divided is taken over cells so many times wider: the mesh came out
+  /// no worse than with 1.
   static constexpr double coarse_start = 2;
-  /// [points asked for] So many missing ones are not filled up: new sites disturb the order. Not measured.
+  /// [points asked for] If no more than so many are missing after a division, none are inserted: new sites disturb the
+  /// order. Not measured.
   static constexpr double small_shortage = 0.01;
-  /// [1] So many times the wanted sites are placed at most, where fixed points take some away.
+  /// [1] Where fixed points take sites away, more are placed, up to so many times those wanted: a bound for shapes that
+  /// are full of fixed points. Not measured.
   static constexpr double most_replaced = 4;
-  /// [spacings] Along the boundary, free of lattice sites: 0.4 to 0.55 were found best.
+  /// [spacings] Width of the strip along the boundary that lattice sites leave free. 0.4 to 0.55 were best: on a disc
+  /// mean alpha was 1.0029 with 0.45, 1.0034 with 0.7.
   static constexpr double lattice_strip = 0.45;
-  /// [h] Along the boundary, free of quantiles of the density: they are less regular than a lattice. Not measured.
+  /// [h] The same for quantiles of the density. With it, 25 of the sites of a poker with 1e4 points lay in discs,
+  /// without it 288; it also makes the count right.
   static constexpr double density_strip = 0.43;
-  /// [sites] A cell of the density is divided while it wants more: a site then has its place to half an edge.
+  /// [sites] A cell of the density is divided while it wants more than this. Then the place of a site is known to half
+  /// an edge. Not measured.
   static constexpr double sites_in_cell = 0.25;
-  /// [sites] The same near the boundary, where cells lie half in the strip.
+  /// [sites] The same near the boundary, where a cell may lie half in the strip. Not measured.
   static constexpr double sites_in_cell_near = 0.0625;
-  /// [levels] Of the cells of the density in a tile.
+  /// [levels] Cells of the density are divided so often within a tile at most: a bound for sizes that are far too
+  /// small.
   static constexpr int deepest_cell = 24;
-  /// [sites] A deepest cell that wants more shows a size that is far too small.
+  /// [sites] If a cell of the deepest level wants more, the size is far too small, and an error says so.
   static constexpr double most_in_deepest = 64;
-  /// [cells] Of a part of a tile; more shows a size that is far too small.
-  static constexpr std::int64_t most_cells = 1 << 27;
-  /// [1] Of a lattice that must fit two periods: counts like tolerated_shortage. Not measured.
+  /// [cells] If a part of a tile takes more cells of the density, the size is far too small, and an error says so.
+  static constexpr std::int64_t most_density_cells = 1 << 27;
+  /// [1] A lattice between two periods is stretched to fit them. A stretch of this much counts as bad as a shortage of
+  /// tolerated_shortage when rows and columns are chosen. Not measured.
   static constexpr double tolerated_stretch = 0.02;
-  /// [points] Over those asked for: counts like tolerated_stretch. Not measured.
+  /// [points asked for] See tolerated_stretch. Not measured.
   static constexpr double tolerated_shortage = 0.002;
-  /// [h] Sites that are too many go nearest to the boundary first; farther off a hash decides. Not measured.
+  /// [h] Sites that are too many are taken out where they lie nearest to the boundary; farther than this a hash
+  /// decides, so that none need be searched. Not measured.
   static constexpr double farthest_from_boundary = 4;
+  /// [chords] Kept for a cell of the density and its parts; where more are near, all chords are searched. Not measured.
+  static constexpr std::size_t most_near_chords = 48;
+  /// [samples] Along a side of the box around the shape: between two the slope of the size is looked at. Not measured.
+  static constexpr int slope_samples = 64;
+  /// [1] A steeper size brings a warning. Triangles can follow about 0.5, see the warning. Not measured.
+  static constexpr double warned_slope = 1;
+  /// [h] A shorter chord brings a warning: triangles beside it have small angles. Not measured.
+  static constexpr double warned_chord = 0.1;
 };
 
 /// The numbers of the search for the size that yields the points asked for.
 struct FitRules {
-  /// [trials] Of the factor of a graded size, each a layout: 3 to 6 are usual.
+  /// [trials] Of the factor of a graded size, each with a layout of the boundary: a bound; 3 to 6 are usual.
   static constexpr int most_trials = 40;
-  /// [trials] In a row that change nothing: a finer size does not help. The first may be too coarse for a site inside.
+  /// [trials] After so many in a row that change nothing a finer size does not help. It takes several, since the first
+  /// may be too coarse for any site inside. Not measured.
   static constexpr int saturated_trials = 8;
-  /// [points] Two trials whose numbers differ by less, relatively, have changed nothing. Not measured.
+  /// [1] Two trials whose numbers of points differ by a smaller share have changed nothing. Not measured.
   static constexpr double same_points = 1e-3;
-  /// [1] A bracket of the factor that is narrower, relatively, is not divided. Not measured.
+  /// [1] If the factors on both sides of the goal differ by a smaller share, no trial is made between them: the count
+  /// jumps there. Not measured.
   static constexpr double closest_factors = 1e-4;
-  /// [1] Least growth of the factor after a trial with far too many sites. Not measured.
+  /// [1] After a trial that was given up, with far too many sites, the factor grows at least by this. Not measured.
   static constexpr double overfull_step = 1.5;
-  /// [1] Least relative change of a factor or a spacing while no bracket is known. Not measured.
+  /// [1] While the goal is known from one side only, a factor or a spacing changes at least by this share. Not
+  /// measured.
   static constexpr double least_step = 0.002;
-  /// [width of a bracket] No trial is nearer to its ends: counts jump, and a secant alone would creep.
+  /// [width of the bracket] No trial is nearer than this to the ends of a bracket: counts jump, and a secant alone
+  /// would creep. Not measured.
   static constexpr double bracket_margin = 0.1;
-  /// [width + height of the container] Larger sizes change nothing.
+  /// [width + height of the container] Larger sizes change nothing: a bound for the search.
   static constexpr double largest_size = 64;
-  /// [points asked for] So many missing ones are made up by the size inside, or accepted. Not measured.
+  /// [points asked for] If no more than so many are missing, the trial is accepted, or the size inside makes them up.
+  /// Not measured.
   static constexpr double close_enough = 0.004;
-  /// [close_enough] So far below the points asked for the search aims: more are not accepted. Not measured.
+  /// [close_enough] The search aims so far below the points asked for, since more of them are not accepted. Not
+  /// measured.
   static constexpr double goal_below = 0.4;
-  /// [points asked for] With fewer the user is told why. Not measured.
+  /// [points asked for] With fewer the result says why. Not measured.
   static constexpr double enough_points = 0.98;
-  /// [1] The size inside may be scaled so far down with the boundary left as it is. Not measured.
+  /// [1] The size may be scaled down so far with the boundary sites left as they are: their chords stay within 2 % of
+  /// h. Not measured.
   static constexpr double least_scale = 0.98;
-  /// [1] And so far up. Not measured.
+  /// [1] The same for scaling up. Not measured.
   static constexpr double most_scale = 1.02;
-  /// [uniform h] Of the vertices of the polygon by which points are estimated. Not measured.
+  /// [uniform h] Estimates go by a polygon with vertices so far apart. Not measured.
   static constexpr double reference_spacing = 0.25;
-  /// [1] Of the integral in estimates, at least. Not measured.
+  /// [1] Estimates take the integral over cells at least so many times wider: a layout corrects them anyway. Not
+  /// measured.
   static constexpr double reference_coarsening = 8;
-  /// [rounds] Of estimates of the factor, without layouts. Not measured.
+  /// [rounds] Of estimates of the factor without layouts: a bound. Not measured.
   static constexpr int estimate_rounds = 6;
-  /// [1] A factor that changes by less, relatively, ends the estimates. Not measured.
+  /// [1] A factor that changes by a smaller share ends the estimates. Not measured.
   static constexpr double estimate_precision = 0.02;
   /// [1] The same where corners crowd: the estimate is rough there anyway. Not measured.
   static constexpr double crowded_precision = 0.2;
-  /// [rounds] In which factor and limits of the size are found together. Not measured.
+  /// [rounds] In so many, at most, the factor and the limits of the size are found together, with a layout each. Not
+  /// measured.
   static constexpr int approach_rounds = 8;
-  /// [boundary sites] From so many limits of the size on they hold many points. Not measured.
+  /// [boundary sites] If there are more limits of the size than this share, they hold so many points that crowded_power
+  /// applies. Not measured.
   static constexpr double crowded_share = 0.05;
-  /// [1] Of the factor, that the points follow where limits hold many: less than -2, as limits stay. Not measured.
+  /// [1] The points grow by this power of the factor where limits hold many of them: less than by -2, since limits
+  /// stay. First guess of the secant only. Not measured.
   static constexpr double crowded_power = -1.6;
-  /// [1] Of the factor, that the points follow else: area over h squared.
+  /// [1] The same elsewhere: the points are area over h squared.
   static constexpr double uncrowded_power = -2;
-  /// [1] Growth of the points by limits that a last trial on the way does without. Not measured.
+  /// [1] The last trial on the way leaves out one round of limits; its count is raised by this for them. Not measured.
   static constexpr double limits_to_come = 1.08;
-  /// [1] Relative change of the factor within which the limits of the size stand, scaled. Not measured.
+  /// [1] While the factor changes by a smaller share, limits of the size are scaled with it and not looked for again.
+  /// Not measured.
   static constexpr double limits_reach = 0.15;
-  /// [samples] Of the size over the shape, for the smallest one. Not measured.
+  /// [samples] The smallest size over the shape is looked for on a grid of so many a side. Not measured.
   static constexpr int samples_per_side = 33;
-  /// [pieces] Of the boundary at which the size is sampled, about. Not measured.
+  /// [pieces] The size is sampled at about so many pieces of the boundary in that search. Not measured.
   static constexpr std::size_t most_sampled_pieces = 4096;
-  /// [rounds] In which the factor for an edge length is found. Not measured.
+  /// [rounds] In so many, at most, the factor for an edge length is found. Not measured.
   static constexpr int edge_length_rounds = 12;
   /// [1] A secant step changes the factor by this ratio at most. Not measured.
   static constexpr double farthest_step = 4;
-  /// [1] Of the inverse root of the points over the factor: a power of -0.15. Not measured.
+  /// [1] Least slope that a secant is trusted with, of the inverse root of the points over the factor: 0.075 is that of
+  /// a power of -0.15. Not measured.
   static constexpr double flattest_slope = 0.075;
-  /// [1] The same for a power of -3. Not measured.
+  /// [1] The largest one: that of a power of -3. Not measured.
   static constexpr double steepest_slope = 1.5;
-  /// [1] Two factors nearer to each other, relatively, tell nothing of the slope. Not measured.
+  /// [1] Two factors that differ by a smaller share tell nothing of the slope. Not measured.
   static constexpr double apart = 0.01;
-  /// [rounds] The boundary of a lattice start is laid, each time at the spacing found before. Not measured.
+  /// [rounds] The boundary of a lattice start is laid so often, each time with the spacing found for the one before.
+  /// Not measured.
   static constexpr int boundary_rounds = 3;
-  /// [rounds] In which the spacing of a lattice is found for one boundary. Not measured.
+  /// [rounds] In so many, at most, the spacing of a lattice is found for one boundary. Not measured.
   static constexpr int spacing_rounds = 12;
-  /// [1] A spacing that differs by less from the boundary's, relatively, needs no new boundary. Not measured.
+  /// [1] If the spacing differs from that of the boundary by a smaller share, the boundary is not laid again. Not
+  /// measured.
   static constexpr double same_spacing = 0.02;
-  /// [points] One missing lattice site in so many ends the search for the spacing. Not measured.
+  /// [points] The search for the spacing ends when fewer than one site in so many is missing. Not measured.
   static constexpr std::int64_t spacing_precision = 5000;
-  /// [rounds] In which a uniform size grows until the boundary takes no more sites than asked for. Not measured.
+  /// [rounds] In so many, at most, a uniform size grows until the boundary takes no more sites than asked for. Not
+  /// measured.
   static constexpr int growth_rounds = 24;
-  /// [1] Of that size in one round. Not measured.
+  /// [1] By this factor that size grows in a round. Not measured.
   static constexpr double size_growth = 1.3;
-  /// [h] A lattice of a larger spacing has so few sites that the spacing means nothing. Not measured.
+  /// [h] A lattice with a larger spacing has so few sites that its spacing says nothing about h. Not measured.
   static constexpr double comparable_spacing = 2;
-  /// [points] With more, a jump of the count is an error and not the best that can be. Not measured.
+  /// [points] If more are asked for and the count jumps past them, that is an error; with fewer the nearest count is
+  /// taken. Not measured.
   static constexpr double many_points = 64;
-  /// [points asked for] With fewer after a jump there is no mesh of so many points. Not measured.
+  /// [points asked for] If the count jumps and fewer than this share come out, there is no mesh of so many points, and
+  /// an error says so. Not measured.
   static constexpr double least_of_jump = 0.5;
   /// [sites] Of a loop in an estimate: no polygon has fewer.
   static constexpr double least_sites = 3;
-  /// [points asked for] An estimate does not count beyond. Not measured.
+  /// [points asked for] An estimate stops counting there. Not measured.
   static constexpr double far_too_many = 4;
-  /// [h] Of the integral along the boundary in an estimate. Not measured.
-  static constexpr double longest_step = 1;
-  /// [boundary sites] From this share of corners on the size is lowered around many of them. Not measured.
+  /// [h] Step of the integral along the boundary in an estimate. Not measured.
+  static constexpr double integral_step = 1;
+  /// [boundary sites] If corners are more than this share of the boundary sites, they crowd: the size is lowered around
+  /// many of them. Not measured.
   static constexpr double sparse_corners = 0.38;
-  /// [1] By so much the estimated factor grows at most where corners crowd. Not measured.
+  /// [1] Where corners crowd the estimated factor grows by this at most. Not measured.
   static constexpr double most_crowding = 16;
 };
 

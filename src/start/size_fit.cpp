@@ -25,7 +25,7 @@ std::optional<Stage> lay_affordable_boundary(const LayoutContext& context, doubl
     Stage stage = try_boundary(context, {h, {}}, expected).stage;
     const double held = static_cast<double>(stage.placed_first());
     if (!context.options.points || stage.placed_first() <= *context.options.points) {
-      const double size = stage.size->size({}), area = context.boundary.area + stage.boundary.dropped.change;
+      const double size = stage.size->size({}), area = context.given_boundary.area + stage.polygon.dropped.change;
       if (round > 0 && is_jump(held + area / (row_height * size * size), expected))
         break;
       complete(context, stage);
@@ -43,13 +43,13 @@ std::optional<Stage> lay_affordable_boundary(const LayoutContext& context, doubl
 double fitting_spacing(const LayoutContext& context, const Stage& stage) {
   const auto time = context.timers.scope("start");
   const double h = stage.size->size({});
-  const LatticeStart start(context.boundary, *stage.guard, context.lattice);
+  const LatticeStart start(context.given_boundary, *stage.guard, context.lattice);
   const mesh::TileRange tiles = even_share(stage, context.comm);
   const GlobalId wanted = *context.options.points - stage.placed_first();
   const geometry::Box& container = context.options.container;
   const double none = 4 * (container.width() + container.height()); // no site fits at all
   // The discs of the boundary may leave no room at all, however fine the lattice (thin shapes, few points): nothing
-  // below half the size of the boundary's segments is tried.
+  // below half the size of the chords is tried.
   double low = 0.5 * h, high = none, spacing = h;
   GlobalId best = 0;
   double stride =
@@ -87,16 +87,16 @@ LatticeFit fit_lattice(const LayoutContext& context) {
   double relative = 0;
   comm::run_agreed(context.comm, [&] { relative = sizing::checked_size(context.relative_size, {}); });
   const double expected = by_points ? static_cast<double>(std::max<GlobalId>(3, *options.points)) : 0;
-  double h =
-      by_points ? estimated_size(context.boundary.area, context.boundary.length(), expected) : *options.edge_length;
+  double h = by_points ? estimated_size(context.given_boundary.area, context.given_boundary.length(), expected)
+                       : *options.edge_length;
   LatticeFit fit;
   for (int round = 0;; ++round) {
     if (by_points && options.max_size && h > *options.max_size) {
       const double most = *options.max_size;
-      fail_for_few_points(context,
-                          context.boundary.area / (row_height * most * most) + 0.5 * context.boundary.length() / most);
+      fail_for_few_points(context, context.given_boundary.area / (row_height * most * most) +
+                                       0.5 * context.given_boundary.length() / most);
     }
-    const double points = by_points ? expected : context.boundary.area / (row_height * h * h);
+    const double points = by_points ? expected : context.given_boundary.area / (row_height * h * h);
     Fewest fewest;
     std::optional<Stage> stage = lay_affordable_boundary(context, h / relative, points, fewest);
     if (!stage && round == 0)

@@ -27,7 +27,7 @@ FittedStage SizeTrials::lay(double factor) {
 }
 
 bool SizeTrials::find_limits(const FittedStage& laid) {
-  if (limit_rounds_ == BoundaryRules::lowering_rounds || laid.stage.boundary.overfull)
+  if (limit_rounds_ == BoundaryRules::lowering_rounds || laid.stage.polygon.overfull)
     return false;
   const std::vector<sizing::SizeLimit> more = further_limits(context_, laid.stage);
   for (const sizing::SizeLimit& limit : more)
@@ -41,7 +41,7 @@ SizeTrial SizeTrials::count(FittedStage laid, double coarsening) const {
   trial.fit.laid = std::move(laid);
   Stage& stage = trial.fit.laid.stage;
   complete(context_, stage, coarsening);
-  if (!stage.boundary.overfull) {
+  if (!stage.polygon.overfull) {
     trial.totals = wanted_inside(context_, stage, coarsening);
     trial.fit.inner = std::floor(trial.totals.sites);
   }
@@ -59,21 +59,21 @@ SizeTrial SizeTrials::run(double factor) {
 double smallest_sampled_size(const LayoutContext& context) {
   double smallest = INFINITY;
   const auto sample = [&](geometry::Vec2 p) {
-    const double s = context.relative_size.size(context.boundary.periods.wrap(p));
+    const double s = context.relative_size.size(context.given_boundary.periods.wrap(p));
     if (sizing::is_valid_size(s) && s < smallest)
       smallest = s;
   };
   std::size_t pieces = 0;
-  for (const geometry::Loop& loop : context.boundary.loops)
+  for (const geometry::Loop& loop : context.given_boundary.loops)
     pieces += loop.pieces.size();
   const std::size_t stride = pieces / FitRules::most_sampled_pieces + 1;
-  for (const geometry::Loop& loop : context.boundary.loops)
+  for (const geometry::Loop& loop : context.given_boundary.loops)
     for (std::size_t k = 0; k < loop.pieces.size(); k += stride) {
       sample(loop.pieces[k].start);
       sample(loop.pieces[k].point(0.5 * loop.pieces[k].length()));
     }
   const geometry::Box box =
-      context.boundary.periods.any() ? context.options.container : context.boundary.bounding_box();
+      context.given_boundary.periods.any() ? context.options.container : context.given_boundary.bounding_box();
   for (int j = 0; j < FitRules::samples_per_side; ++j)
     for (int i = 0; i < FitRules::samples_per_side; ++i)
       sample({box.min.x + (i + 0.5) / FitRules::samples_per_side * box.width(),

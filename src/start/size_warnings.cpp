@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "start/size_warnings.hpp"
 
+#include "start/rules.hpp"
+
 #include <cmath>
 
 namespace trime::start {
@@ -8,8 +10,7 @@ using sites::Stage;
 
 void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary, const geometry::Lattice& lattice,
                          Log& log) {
-  constexpr int per_side = 64;
-  constexpr double steep = 1;
+  constexpr int per_side = StartRules::slope_samples;
   if (stage.size->is_uniform() || boundary.loops.empty())
     return;
   const geometry::Box box = boundary.bounding_box();
@@ -31,26 +32,26 @@ void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary,
       look(p, {stride.x, 0});
       look(p, {0, stride.y});
     }
-  if (steepest > steep)
+  if (steepest > StartRules::warned_slope)
     log.warning("the edge length that is asked for changes by {:.3g} times the way near ({:.4g}, {:.4g}); triangles "
                 "can follow about 0.5: expect fewer points and small angles, or take more points or a gentler size",
                 steepest, place.x, place.y);
 }
 
 void warn_of_fine_features(const Stage& stage, Log& log) {
-  const auto& sites = stage.boundary.sites;
+  const auto& sites = stage.polygon.sites;
   double least = 1, length = 0, size = 0; // chord over local size
   for (std::size_t k = 0; k < sites.size(); ++k) {
-    const geometry::Segment segment = stage.boundary.chord(static_cast<LocalIndex>(k));
-    const double chord = geometry::length(segment.b - segment.a), h = stage.size->size(segment.a);
-    if (chord < least * h) {
-      least = chord / h;
-      length = chord;
+    const geometry::Segment chord = stage.polygon.chord(static_cast<LocalIndex>(k));
+    const double its_length = geometry::length(chord.b - chord.a), h = stage.size->size(chord.a);
+    if (its_length < least * h) {
+      least = its_length / h;
+      length = its_length;
       size = h;
     }
   }
-  if (least < 0.1)
-    log.warning("the boundary has segments of {:.3g} where edges of {:.3g} are asked for: expect small angles there",
+  if (least < StartRules::warned_chord)
+    log.warning("the boundary has chords of {:.3g} where edges of {:.3g} are asked for: expect small angles there",
                 length, size);
 }
 

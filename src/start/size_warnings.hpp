@@ -14,7 +14,7 @@ namespace trime::start {
 void warn_of_steep_sizes(const sites::Stage& stage, const geometry::Boundary& boundary,
                          const geometry::Lattice& lattice, Log& log);
 
-/// Warns of boundary segments far shorter than the size. O(sites of the boundary). @throws whatever the size field
+/// Warns of chords far shorter than the size. O(sites of the boundary). @throws whatever the size field
 /// throws
 void warn_of_fine_features(const sites::Stage& stage, Log& log);
 

@@ -2,6 +2,7 @@
 // What the start of a run goes by: where points come from, how many, and what may be left out of the boundary.
 #pragma once
 
+#include "trime/boundary/feature_options.hpp"
 #include "trime/core/types.hpp"
 #include "trime/geometry/vec2.hpp"
 #include "trime/start/start_choice.hpp"
@@ -17,9 +18,7 @@ struct StartOptions {
   std::optional<int> cells_x, cells_y;
   std::optional<GlobalId> points; ///< exactly one of points and edge_length is set
   std::optional<double> edge_length;
-  double corner_angle = 0;      ///< degrees
-  bool keep_features = false;   ///< keeps every corner, island and lake, however small
-  double feature_tolerance = 0; ///< in local sizes
+  boundary::FeatureOptions features;
   std::uint64_t seed = 0;
   Start start = Start::automatic;
   std::optional<double> initial_fraction;

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "polygon/boundary_guard.hpp"
-#include "sites/site_state.hpp"
+#include "sites/stage.hpp"
 #include "sweep/update_rule.hpp"
 #include "trime/geometry/lattice.hpp"
 
@@ -16,6 +16,10 @@ struct MoveContext {
   const sizing::SizeField& size;
   const geometry::Lattice& lattice;
 };
+
+inline MoveContext move_context(const sites::Stage& stage, const geometry::Lattice& lattice) {
+  return {*stage.guard, *stage.size, lattice};
+}
 
 /// What becomes of a site: where it goes, and whether it was pushed or is to be deleted.
 struct Treated {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/lanes.hpp"
+#include "delaunay/convexity_rules.hpp"
 #include "sweep/sweep_kernel.hpp"
 
 namespace trime::sweep {
@@ -90,8 +91,8 @@ public:
     const V product = a.squared * b.squared;
     const V magnitude = product + b.squared * q.squared + q.squared * a.squared;
     const V ex = a.x - b.x, ey = a.y - b.y;
-    const M convex = determinant > SweepRules::convexity_error * magnitude,
-            turned = ab > SweepRules::least_turn * (a.squared + b.squared);
+    const M convex = determinant > delaunay::ConvexityRules::error * magnitude,
+            turned = ab > delaunay::ConvexityRules::least_turn * (a.squared + b.squared);
     const M small = product * (ex * ex + ey * ey) < four_squared_caps_ * (ab * ab);
     const M smaller = (a.x < first.x) | ((a.x == first.x) & (a.y < first.y));
     bad_ |= active & (~(convex & turned & small) | smaller);

@@ -2,6 +2,7 @@
 #include "sweep/star_certifier.hpp"
 
 #include "core/thread_loop.hpp"
+#include "sites/rules.hpp"
 #include "sweep/sweep_task.hpp"
 #include "trime/core/error.hpp"
 
@@ -60,7 +61,7 @@ std::vector<LocalIndex> StarCertifier::certify_suspects() {
 }
 
 void StarCertifier::fetch_missing(int round) {
-  if (round == SweepRules::most_halo_rounds)
+  if (round == sites::SiteRules::most_halo_rounds)
     throw InternalError(fmt::format("the halo still grows after {} rounds", round));
   state_.fetch(missing_, context_.size);
 }

@@ -51,7 +51,7 @@ public:
   /// Number of stars that still miss a bin.
   std::int64_t uncertain() const { return static_cast<std::int64_t>(suspects_.size()); }
   /// Fetches the bins that are missing on any rank; `round` counts these calls in a sweep. Collective.
-  /// @throws InternalError on all ranks after SweepRules::most_halo_rounds
+  /// @throws InternalError on all ranks after SiteRules::most_halo_rounds
   void fetch_missing(int round);
   /// Was the star of site i looked at in this sweep?
   bool was_checked(LocalIndex i) const { return marked_[static_cast<std::size_t>(i)]; }

@@ -2,6 +2,7 @@
 #include "sweep/star_measures.hpp"
 
 #include "core/thread_loop.hpp"
+#include "sweep/rules.hpp"
 
 #include <algorithm>
 
@@ -9,8 +10,6 @@ namespace trime::sweep {
 namespace {
 
 using sites::StarView;
-
-constexpr std::size_t bytes_for_measures = 4; // a site: for what is kept of tiles
 
 /// What a thread adds up, and its room for the excesses of the kernel.
 struct ThreadSums {
@@ -52,7 +51,8 @@ SweepSums StarMeasures::measure(const SweepTask& task, const StarView& view, dou
   all.least_class = SiteClass::bordered;
   const LocalIndex first_tile = view.points.first_tile();
   const std::size_t tiles = static_cast<std::size_t>(view.points.last_tile() - first_tile);
-  const bool keeps = tiles * sizeof(SweepSums) < bytes_for_measures * static_cast<std::size_t>(view.points.owned());
+  const bool keeps =
+      tiles * sizeof(SweepSums) < SweepRules::bytes_for_measures * static_cast<std::size_t>(view.points.owned());
   if (keeps && of_tile_.size() != tiles) {
     of_tile_.resize(tiles);
     is_measured_.assign(tiles, 0);

@@ -3,6 +3,7 @@
 // side by side, the same bits for any number of them.
 #pragma once
 
+#include "polygon/guard_cells.hpp"
 #include "sweep/rule_formulas.hpp"
 #include "trime/core/types.hpp"
 #include "trime/geometry/vec2.hpp"
@@ -39,11 +40,7 @@ struct SweepTask {
   geometry::Box box;                      ///< no site leaves it; infinite along periodic axes
   double cap_factor = 1, largest_cap = 1; ///< as in StarBuilder::cap
 
-  /// BoundaryGuard::CellView.
-  const std::int8_t* guard_cells = nullptr;
-  geometry::Vec2 guard_corner;
-  double guard_inverse_side = 1;
-  int guard_columns = 0, guard_rows = 0;
+  polygon::GuardCells guard;
 };
 
 /// What the moves of some sites add up to, in integers: in any order.

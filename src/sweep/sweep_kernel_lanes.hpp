@@ -48,16 +48,16 @@ TRIME_INLINE GroupMove next_places(const SweepTask& task, const Group& group, co
 /// Those of the lanes `moved` whose new place is not known to be clear of the boundary's discs, a bit for each.
 TRIME_INLINE unsigned guarded_lanes(const SweepTask& task, unsigned moved, V x, V y) {
   unsigned guarded = 0;
-  if (!task.guard_cells)
+  if (!task.guard.states)
     return guarded;
-  const V column = (x - task.guard_corner.x) * task.guard_inverse_side;
-  const V row = (y - task.guard_corner.y) * task.guard_inverse_side;
+  const V column = (x - task.guard.corner.x) * task.guard.inverse_side;
+  const V row = (y - task.guard.corner.y) * task.guard.inverse_side;
   for (int l = 0; l < width; ++l) {
     if (!(moved >> l & 1))
       continue;
-    const bool known = column[l] >= 0 && row[l] >= 0 && column[l] < task.guard_columns && row[l] < task.guard_rows;
-    if (!known || task.guard_cells[static_cast<std::int64_t>(row[l]) * task.guard_columns +
-                                   static_cast<std::int64_t>(column[l])] <= 0)
+    const bool known = column[l] >= 0 && row[l] >= 0 && column[l] < task.guard.columns && row[l] < task.guard.rows;
+    if (!known || task.guard.states[static_cast<std::int64_t>(row[l]) * task.guard.columns +
+                                    static_cast<std::int64_t>(column[l])] <= 0)
       guarded |= 1U << l;
   }
   return guarded;

@@ -2,6 +2,7 @@
 // What a user asks of the sweeps.
 #pragma once
 
+#include "trime/sweep/star_tests.hpp"
 #include "trime/sweep/sweep_history.hpp"
 
 #include <optional>
@@ -13,8 +14,7 @@ struct SweepOptions {
   int max_sweeps;                       ///< moves of the whole run, all stages together
   std::optional<double> stop_tolerance; ///< least gain in six sweeps; empty: StopRules decide by rule and stage
   int density_exponent;                 ///< see CvdRule
-  bool verify_stars = false;            ///< for tests: compares every star after every sweep with one computed anew
-  bool stars_by_emptiness = false;      ///< for tests: certifies no star by those around it
+  StarTests star_tests = {};
 };
 
 } // namespace trime::sweep

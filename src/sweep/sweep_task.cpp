@@ -7,7 +7,6 @@
 namespace trime::sweep {
 namespace {
 
-using polygon::BoundaryGuard;
 using sites::SiteState;
 
 /// The container; without borders along periodic axes.
@@ -32,15 +31,6 @@ void set_sizes(SweepTask& task, const SiteState& state) {
   task.uniform_size = state.sizes().is_uniform() ? state.sizes()[0] : 1;
 }
 
-void set_guard(SweepTask& task, const BoundaryGuard& guard) {
-  const BoundaryGuard::CellView cells = guard.cells();
-  task.guard_cells = cells.states;
-  task.guard_corner = cells.corner;
-  task.guard_inverse_side = cells.inverse_side;
-  task.guard_columns = cells.columns;
-  task.guard_rows = cells.rows;
-}
-
 } // namespace
 
 SweepTask make_sweep_task(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context,
@@ -60,7 +50,7 @@ SweepTask make_sweep_task(SiteState& state, const delaunay::StarBuilder& builder
   task.box = borders_of(state.grid());
   task.cap_factor = builder.cap_factor();
   task.largest_cap = std::min(builder.cap(), delaunay::StarBuilder::largest_cap(state.grid().periods()));
-  set_guard(task, context.guard);
+  task.guard = context.guard.cells();
   return task;
 }
 

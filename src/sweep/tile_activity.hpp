@@ -13,8 +13,8 @@
 namespace trime::sweep {
 
 /// @brief A tile sleeps while no site of it and of the tiles around it has moved in the last sweep, and the rule stays
-/// as it is. Tiles are the same on any ranks, so that no result depends on who sleeps. Owned tiles are counted from 0
-/// here (`t`), tiles of the container as the grid does.
+/// as it is. Tiles are the same on any ranks, so that no result depends on which of them sleep. Owned tiles are counted
+/// from 0 here (`t`), tiles of the container as the grid does.
 class TileActivity {
 public:
   /// Both arguments outlive this object.

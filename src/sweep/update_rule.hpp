@@ -42,8 +42,8 @@ private:
 };
 
 /// @brief Acceleration of a descent (Nesterov 1983): from the iterate x' = y + move(y) the next move is taken at
-/// y' = x' + b (x' - x), b = min(0.95, k/(k+3)), and k starts again from 0 when the last moves went uphill
-/// (sum of (y - x').(x' - x) / h^2 > 0; O'Donoghue and Candes 2015), which one sweep later is early enough.
+/// y' = x' + b (x' - x), b = min(SweepRules::largest_momentum, k/(k+3)), and k starts again from 0 when the last moves
+/// went uphill (sum of (y - x').(x' - x) / h^2 > 0; O'Donoghue and Candes 2015), which one sweep later is early enough.
 class Momentum {
 public:
   void begin_sweep(const SweepSums& sums);
@@ -59,7 +59,7 @@ private:
 /// @brief Centroidal Voronoi tessellation by accelerated Lloyd steps (see Momentum).
 ///
 /// Each site goes to the centroid of its Voronoi cell (exact: the polygon of circumcentres of its star; the discs of
-/// the boundary segments are empty, so no cell of an inner site leaves the shape) under the weight h^-4. Why 4: a
+/// the chords are empty, so no cell of an inner site leaves the shape) under the weight h^-4. Why 4: a
 /// centroidal tessellation minimises the sum over cells of the integral of w |x - site|^2; a cell of spacing d has
 /// about w d^4, and in the limit of many sites all cells have the same share (Gersho 1979; Du, Faber and Gunzburger
 /// 1999), so d grows like w^(-1/4) and w = h^-4 makes it proportional to h. The weight h^-2 of TriMe++ drifts towards d

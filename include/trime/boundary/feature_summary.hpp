@@ -23,7 +23,7 @@ struct FeatureReport {
   double dropped_area = 0;                ///< of both
   double dropped_share = 0;               ///< that area over the shape's, as the shape was given
   GlobalId corners_left_out = 0;          ///< on the loops that stay
-  double largest_deviation = 0;           ///< of one of them from its boundary edge, over the local size
+  double largest_deviation = 0;           ///< of one of them from its facet, over the local size
   GlobalId segments_halved = 0;           ///< after the layout, to keep their discs empty
   GlobalId size_limits = 0;               ///< places where the size was lowered
   double lowest_size_share = 1;           ///< there, of what was asked for

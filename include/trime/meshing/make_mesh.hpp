@@ -16,7 +16,8 @@ namespace trime::meshing {
 MeshResult make_mesh(const comm::Communicator& comm, const shape::RegionShape& shape, const sizing::SizeField& size,
                      const MeshOptions& options, Log& log);
 
-/// @brief Meshes a shape that is given by a function: traces it in options.container first, see shape::traced.
+/// @brief Meshes a shape that is given by a function: traces it in options.container first. For periodic sides, trace
+/// it yourself in a Frame that has them (shape::traced), and hand in what comes out.
 /// @note Collective.
 MeshResult make_mesh(const comm::Communicator& comm, const shape::Shape& shape, const sizing::SizeField& size,
                      const MeshOptions& options, Log& log);

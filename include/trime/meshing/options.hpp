@@ -2,6 +2,7 @@
 // What a user asks of the mesher, and what comes back beside the mesh. Plain data.
 #pragma once
 
+#include "trime/boundary/feature_options.hpp"
 #include "trime/boundary/feature_summary.hpp"
 #include "trime/boundary/fixed_point.hpp"
 #include "trime/cleanup/cleanup_counts.hpp"
@@ -12,6 +13,7 @@
 #include "trime/mesh/validity.hpp"
 #include "trime/polygon/loop_summary.hpp"
 #include "trime/start/start_choice.hpp"
+#include "trime/sweep/star_tests.hpp"
 #include "trime/sweep/sweep_history.hpp"
 
 #include <cstdint>
@@ -22,35 +24,30 @@
 namespace trime::meshing {
 
 struct MeshOptions {
-  geometry::Box container{{0, 0}, {1, 1}};
-  /// For the frame in which a shape is made. From there on the periods of its boundary are the only ones that count.
-  bool periodic_x = false, periodic_y = false;
-  std::optional<int> cells_x, cells_y; ///< container grid; empty: about 3.3 points a cell
-  sweep::Method method = sweep::Method::hybrid;
   std::optional<GlobalId> points;    ///< exactly one of points and edge_length is set
   std::optional<double> edge_length; ///< target edge length (uniform size)
-  double corner_angle = 30;          ///< degrees
-  bool keep_features = false;        ///< keeps every corner, island and lake, however small
-  double feature_tolerance = 0.1;    ///< in local sizes: how far chords may pass from corners that they leave out
+  sweep::Method method = sweep::Method::hybrid;
   std::uint64_t seed = 1;
   int max_sweeps = 500;
-  std::optional<double> stop_tolerance;         ///< empty: the default of the method
+
+  geometry::Box container{{0, 0}, {1, 1}};  ///< which of its sides are periodic, Boundary::periods says
+  std::optional<int> cells_x, cells_y;      ///< container grid; empty: about 3.3 points a cell
+  std::optional<double> min_size, max_size; ///< absolute bounds on h
+  boundary::FeatureOptions features;        ///< which corners, islands and lakes the mesh keeps
+  /// @brief Kept bit for bit (on the lattice) and never moved. On the boundary (to within 1e-10 of the container) they
+  /// become corners; outside of the shape they are a GeometryError.
+  std::vector<boundary::FixedPoint> fixed_points;
+
   start::Start start = start::Start::automatic; ///< lattice for a uniform size field, else coarse to fine
   /// Share of the points placed before the first sweep; the others are inserted in stages where the triangles are
   /// largest for their place. Empty: all at once, in the way that `start` names.
   std::optional<double> initial_fraction;
-  std::optional<double> min_size, max_size; ///< absolute bounds on h
+  std::optional<double> stop_tolerance; ///< empty: the default of the method
   /// Exponent of 1/h in the weight of the Voronoi cells: 4 keeps the spacing proportional to h; others are for
   /// comparisons.
   int density_exponent = 4;
-  bool cleanup = true; ///< mend the worst triangles after the sweeps
-  /// Compare every star after every sweep with one that is computed anew: slow, for tests. @throws InternalError
-  bool verify_stars = false;
-  /// Certify every star of every sweep by emptiness, and none by those around it: slow, for tests; the same mesh.
-  bool stars_by_emptiness = false;
-  /// @brief Kept bit for bit (on the lattice) and never moved. On the boundary (to within 1e-10 of the container) they
-  /// become corners; outside of the shape they are a GeometryError.
-  std::vector<boundary::FixedPoint> fixed_points;
+  sweep::StarTests star_tests; ///< slow
+  bool cleanup = true;         ///< mend the worst triangles after the sweeps
   /// 0: none; -2: a snapshot of the first triangulation; n > 0: of the first and of every n-th.
   int snapshot_interval = 0;
 };

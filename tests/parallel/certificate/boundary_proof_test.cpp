@@ -24,8 +24,8 @@ using shape::Part;
 using shape::RegionShape;
 
 TEST(CountCycles, FollowsEdgesRound) {
-  const std::vector<TaggedEdge> two{{1, 7, 1}, {7, 4, 1}, {4, 1, 1}, {9, 2, 2}, {2, 3, 2}, {3, 9, 2}};
-  const auto expect = [](std::vector<TaggedEdge> edges, CycleCounts expected, const char* what) {
+  const std::vector<TaggedFacet> two{{1, 7, 1}, {7, 4, 1}, {4, 1, 1}, {9, 2, 2}, {2, 3, 2}, {3, 9, 2}};
+  const auto expect = [](std::vector<TaggedFacet> edges, CycleCounts expected, const char* what) {
     const CycleCounts found = count_cycles(std::move(edges));
     EXPECT_EQ(found.irregular, expected.irregular) << what;
     EXPECT_EQ(found.cycles, expected.cycles) << what;

@@ -146,7 +146,7 @@ TEST(Cleanup, ASmallCircleIsNoFeatureThatMayBeLeftOut) {
     for (const double tolerance : {0.1, 0.3}) {
       MeshOptions options;
       options.edge_length = size;
-      options.feature_tolerance = tolerance;
+      options.features.tolerance = tolerance;
       const sizing::UniformSize uniform;
       expect_certified(mesh_silently(world, shape.boundary(), uniform, options));
     }

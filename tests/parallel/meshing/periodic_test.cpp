@@ -2,7 +2,7 @@
 // The whole mesher in periodic containers: certified, the same bits on any ranks, and lattices that stay.
 #include "boundary/fixed_points.hpp"
 #include "core/random.hpp"
-#include "meshing/plan_start.hpp"
+#include "meshing/plan.hpp"
 #include "start/layout.hpp"
 #include "support/distributed.hpp"
 #include "support/periodic_shapes.hpp"
@@ -207,7 +207,7 @@ TEST(PeriodicMesher, APerturbedHexagonalTorusReturns) {
   const RegionShape shape({}, "domain", frame);
   const sizing::UniformSize size;
   const MeshOptions options = options_for(frame, columns * rows, Method::hybrid);
-  const StartOptions start = plan_start(options);
+  const StartOptions start = start_options(options);
   Log log(LogLevel::silent, false);
   TimerTable timers;
   const FixedPoints none(shape.boundary(), options.container, {}, frame.lattice(), log);

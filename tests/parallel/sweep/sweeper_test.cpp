@@ -49,8 +49,8 @@ MeshResult run(const comm::Communicator& comm, const Case& c, GlobalId points, S
   options.start = c.start;
   options.max_sweeps = 40;
   options.cleanup = c.cleanup;
-  options.verify_stars = stars == Stars::verified;
-  options.stars_by_emptiness = stars == Stars::by_emptiness;
+  options.star_tests.verify = stars == Stars::verified;
+  options.star_tests.by_emptiness = stars == Stars::by_emptiness;
   const sizing::UniformSize uniform;
   const GradedSize graded;
   const sizing::SizeField& size = c.graded ? static_cast<const sizing::SizeField&>(graded) : uniform;

@@ -106,7 +106,7 @@ TEST(Config, UnderstandsAGoodFile) {
   EXPECT_EQ(options.region, "difference(box, hole)");
   EXPECT_EQ(options.mesh.points, 5000);
   EXPECT_FALSE(options.mesh.edge_length.has_value());
-  EXPECT_EQ(options.mesh.corner_angle, 45);
+  EXPECT_EQ(options.mesh.features.corner_angle, 45);
   EXPECT_EQ(options.mesh_threads, 3);
   EXPECT_EQ(options.setup_threads, 0);
   EXPECT_EQ(options.output.file.name, "c");

@@ -35,7 +35,7 @@ TEST(SizeSamples, FollowTheFieldBetweenThem) {
     const geometry::Piece& on = boundary.loops[0].pieces[piece];
     for (int k = 0; k <= 100; ++k) {
       const double along = on.length() * k / 100;
-      const BoundarySizes::CurvePoint place{0, static_cast<LocalIndex>(piece), along, on.length(), on.point(along)};
+      const BoundarySizes::PiecePlace place{0, static_cast<LocalIndex>(piece), along, on.length(), on.point(along)};
       const SizePair found = sampled.at(place, cursor);
       EXPECT_NEAR(found.size, exact.at(place, unused).size, 2e-3 * found.size);
       EXPECT_EQ(found.size, found.asked);

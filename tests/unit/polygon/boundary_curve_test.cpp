@@ -38,7 +38,7 @@ TEST(BoundaryCurve, FindsThePlaceOfAnArcAndBack) {
     const double length = curve.length(loop);
     for (int k = -40; k < 80; ++k) {
       const double arc = length * (k + 0.3) / 40;
-      const BoundaryCurve::Place place = curve.place(loop, arc);
+      const BoundaryCurve::CurvePlace place = curve.place(loop, arc);
       BoundarySite site{};
       site.piece = place.piece;
       site.along = place.along;

@@ -246,9 +246,9 @@ TEST(SweepKernel, NamesTheSitesThatItMovesNearTheBoundary) {
   std::vector<std::int8_t> states;
   for (int k = 0; k < cells * cells; ++k)
     states.push_back(k % 3 == 0 ? 0 : 1);
-  task.guard_cells = states.data();
-  task.guard_inverse_side = cells;
-  task.guard_columns = task.guard_rows = cells;
+  task.guard.states = states.data();
+  task.guard.inverse_side = cells;
+  task.guard.columns = task.guard.rows = cells;
   for (const SweepKernels* kernel : kernels()) {
     Pass pass(cloud.points.owned());
     pass.run(*kernel, task, cloud.points.owned());

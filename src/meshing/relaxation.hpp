@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sweeps of a stage, one after the other, with what is measured and said about them.
+#pragma once
+
+#include "meshing/snapshots.hpp"
+#include "sweep/stopping.hpp"
+#include "sweep/sweeper.hpp"
+#include "trime/sweep/sweep_history.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace trime::meshing {
+
+/// Which stage is relaxed, as far as the stop rule and the records want to know.
+struct StageNumber {
+  int stage;    ///< from 0
+  bool inserts; ///< the stages to come insert points into the mesh of this one
+  bool is_last;
+};
+
+/// Sweeps until the stop rule ends a stage; keeps the history of the run.
+class Relaxation {
+public:
+  /// Keeps the references.
+  Relaxation(const RunContext& run, const StageStars& stars, Snapshots& snapshots)
+      : run_(run), stars_(stars), snapshots_(snapshots), control_(run.sweeps, history_) {}
+
+  /// Sweeps until the stop rule ends the stage, at the sweep cap at the latest; then sorts. Collective.
+  void relax(sites::Stage& stage, const StageNumber& number);
+
+  /// Why the last stage ended.
+  sweep::StopReason stop_reason() const { return stop_reason_; }
+  /// All records of the run. @pre nothing is relaxed any more
+  std::vector<sweep::SweepRecord> take_history() { return std::move(history_); }
+
+private:
+  bool is_record_due() const;
+  sweep::Sweeper::Counts sweep_once(sweep::Sweeper& sweeper, sweep::SweepSums& sums);
+  sweep::SweepSums record(const sites::Stage& stage, int stage_number, sweep::Sweeper& sweeper,
+                          const sweep::Sweeper::Counts& counts);
+  std::optional<sweep::StopReason> go_on(bool is_last_stage);
+
+  const RunContext& run_;
+  const StageStars& stars_;
+  Snapshots& snapshots_;
+  std::vector<sweep::SweepRecord> history_;
+  sweep::SweepControl control_;
+  int sweeps_ = 0;                    // moves made
+  std::optional<sweep::Mover> begun_; // the rule that knows the sums for the next move
+  sweep::StopReason stop_reason_ = sweep::StopReason::sweep_cap;
+};
+
+} // namespace trime::meshing

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What stays the same throughout a run.
+#pragma once
+
+#include "meshing/plan.hpp"
+#include "trime/comm/communicator.hpp"
+#include "trime/core/log.hpp"
+#include "trime/core/timer.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/meshing/options.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <algorithm>
+
+namespace trime::meshing {
+
+/// What a run is given, and what its parts are told of the options. Keeps references.
+struct RunContext {
+  RunContext(const comm::Communicator& communicator, const geometry::Boundary& boundary, const sizing::SizeField& size,
+             const MeshOptions& mesh_options, Log& its_log, TimerTable& its_timers)
+      : comm(communicator), given_boundary(boundary), relative_size(size), options(mesh_options),
+        start(start_options(mesh_options)), sweeps(sweep_options(mesh_options)), lattice(mesh_options.container),
+        log(its_log), timers(its_timers) {}
+
+  const comm::Communicator& comm;
+  const geometry::Boundary& given_boundary; ///< as the caller owns it; its periods are those of the run
+  const sizing::SizeField& relative_size;
+  const MeshOptions options;
+  const start::StartOptions start;
+  const sweep::SweepOptions sweeps;
+  const geometry::Lattice lattice; ///< of the container
+  Log& log;
+  TimerTable& timers;
+
+  /// Longer side of the container.
+  double side() const { return std::max(options.container.width(), options.container.height()); }
+};
+
+} // namespace trime::meshing

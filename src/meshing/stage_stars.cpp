@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "meshing/stage_stars.hpp"
+
+#include "core/angle.hpp"
+#include "core/thread_loop.hpp"
+#include "meshing/rules.hpp"
+#include "sites/fan.hpp"
+#include "sweep/star_certifier.hpp"
+#include "trime/core/error.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace trime::meshing {
+namespace {
+
+using delaunay::StarBuilder;
+using sites::count_incomplete_fans;
+using sites::inside_fan;
+using sites::SiteState;
+using sites::Stage;
+using sites::StageView;
+using sites::Wanted;
+using sweep::LemmaReach;
+
+constexpr std::ptrdiff_t sites_in_a_row = 4096; // by one thread
+
+/// Owned sites inside, on any rank, whose stars are not certain.
+bool any_uncertain(const SiteState& state) {
+  const std::uint64_t uncertain = thread_sum(static_cast<std::size_t>(state.points().owned()), [&](std::size_t i) {
+    const auto site = static_cast<LocalIndex>(i);
+    return std::uint64_t{state.points().boundary(site) < 0 && !state.stars().certain(site)};
+  });
+  return state.comm().sum(static_cast<std::int64_t>(uncertain)) > 0;
+}
+
+/// Only the stars with complete fans stay certain.
+void doubt_incomplete(const StageView& view, SiteState& state) {
+  thread_loop(state.points().owned(), sites_in_a_row, [&](std::ptrdiff_t item, int) {
+    const auto i = static_cast<LocalIndex>(item);
+    state.stars().set_certain(i, inside_fan(view, i).complete);
+  });
+}
+
+} // namespace
+
+void StageStars::begin_stage(GlobalId points) {
+  set_cap(points < MeshingRules::few_points ? std::numeric_limits<double>::infinity() : MeshingRules::cap);
+}
+
+void StageStars::set_cap(double factor) {
+  cap_factor_ = factor;
+  builder_ = std::make_unique<StarBuilder>(run_.lattice, factor, run_.side());
+}
+
+delaunay::StarPass StageStars::compute(Stage& stage, Wanted wanted) const {
+  const auto time = run_.timers.scope("stars");
+  return stage.state->compute_stars(*builder_, *stage.size, wanted);
+}
+
+LemmaReach StageStars::allowed(LemmaReach reach) const {
+  return run_.sweeps.star_tests.by_emptiness ? LemmaReach::nowhere : reach;
+}
+
+void StageStars::certify(Stage& stage, LemmaReach reach) const {
+  const auto time = run_.timers.scope("stars");
+  if (!any_uncertain(*stage.state))
+    return;
+  stage.state->refresh(*stage.size);
+  sweep::StarCertifier(*stage.state, *builder_, sweep::move_context(stage, run_.lattice), allowed(reach)).certify_all();
+}
+
+void StageStars::complete(Stage& stage, LemmaReach reach) {
+  certify(stage, reach);
+  compute(stage, Wanted::all_sites);
+  const StageView view = stage.view(run_.lattice);
+  for (int doubling = 0; doubling < MeshingRules::cap_doublings && std::isfinite(cap_factor_); ++doubling) {
+    if (run_.comm.sum(count_incomplete_fans(view)) == 0)
+      return;
+    set_cap(2 * cap_factor_);
+    doubt_incomplete(view, *stage.state);
+    compute(stage, Wanted::all_sites);
+  }
+  if (run_.given_boundary.periods.any())
+    check_periods(stage);
+}
+
+/// Triangles that reach around a periodic container are not told apart by their ids.
+void StageStars::check_periods(const Stage& stage) const {
+  const double limit = StarBuilder::largest_cap(run_.given_boundary.periods);
+  if (builder_->cap(stage.typical_size) < limit || run_.comm.sum(count_incomplete_fans(stage.view(run_.lattice))) == 0)
+    return;
+  const double size = limit / MeshingRules::largest_circumradius;
+  throw GeometryError(fmt::format(
+      "the periodic container needs triangles with circumradii below a quarter of its period, which takes a period "
+      "of about three edges; found an element size of {:.3g} in a period of {:.3g}; about {} points are enough",
+      stage.typical_size, 4 * limit,
+      static_cast<GlobalId>(std::ceil(run_.given_boundary.area / (row_height * size * size)))));
+}
+
+} // namespace trime::meshing

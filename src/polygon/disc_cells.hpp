@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A grid of square cells that lists the discs of chords that reach into each of them.
+#pragma once
+
+#include "trime/core/types.hpp"
+#include "trime/geometry/segment.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace trime::polygon {
+
+/// Radius around the middle of a chord that covers its disc and everything nearer to it than PolygonRules::near_chord.
+double reach_of(const geometry::Segment& chord);
+
+/// Rows of cells for one thread.
+constexpr int strip_rows = 64;
+
+/// Immutable once the discs are listed; thread-safe.
+class DiscCells {
+public:
+  DiscCells() = default;
+  /// Cells of this side over a box, and a margin around it.
+  DiscCells(const geometry::Box& box, double side);
+
+  /// @brief Lists the discs of `chords` and `more`, which are numbered on, by counting, summing and filling. O(cells +
+  /// entries), by all threads.
+  void list_discs(std::span<const geometry::Segment> chords, std::span<const geometry::Segment> more);
+
+  double side() const { return side_; }
+  double inverse_side() const { return inverse_side_; }
+  geometry::Vec2 corner() const { return corner_; }
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  std::size_t count() const { return static_cast<std::size_t>(columns_) * rows_; }
+  geometry::Vec2 middle(int column, int row) const {
+    return corner_ + geometry::Vec2{(column + 0.5) * side_, (row + 0.5) * side_};
+  }
+
+  /// Index of the cell of p, row by row; -1 outside of the grid, where nothing is near.
+  std::int64_t cell_at(geometry::Vec2 p) const {
+    const double x = (p.x - corner_.x) * inverse_side_, y = (p.y - corner_.y) * inverse_side_;
+    if (!(x >= 0 && y >= 0 && x < columns_ && y < rows_))
+      return -1;
+    return static_cast<std::int64_t>(y) * columns_ + static_cast<std::int64_t>(x);
+  }
+  /// The discs that reach into a cell, ascending; none into cell -1.
+  std::span<const LocalIndex> discs_at(std::int64_t cell) const {
+    if (cell < 0)
+      return {};
+    return std::span(discs_).subspan(static_cast<std::size_t>(starts_[cell]), starts_[cell + 1] - starts_[cell]);
+  }
+  bool has_disc(std::size_t cell) const { return starts_[cell + 1] > starts_[cell]; }
+
+  std::size_t memory_bytes() const { return (starts_.capacity() + discs_.capacity()) * sizeof(LocalIndex); }
+
+private:
+  /// A disc with what is near its chord.
+  struct Reach {
+    geometry::Vec2 middle;
+    double radius;
+  };
+  std::pair<int, int> rows_of(const Reach& disc) const;
+  template <class Visit>
+  void for_each_cell_of(const Reach& disc, int first_row, int last_row, const Visit& visit) const;
+
+  geometry::Vec2 corner_;
+  double side_ = 1, inverse_side_ = 1; // of a cell
+  int columns_ = 0, rows_ = 0;
+  std::vector<LocalIndex> starts_, discs_; // by cell, the first of its discs; and these
+};
+
+} // namespace trime::polygon

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The numbers by which a rank keeps its sites.
+#pragma once
+
+namespace trime::sites {
+
+/// The numbers of the sites module.
+struct SiteRules {
+  /// [bins] Fetched unasked around the owned tiles. A bin has 3 to 4 sites, so two are wide enough for the discs of a
+  /// relaxed mesh; stars that need more ask for it. Other widths: not measured.
+  static constexpr int halo_margin = 2;
+  /// [rounds] Of asking for more bins: every round reaches at least one bin farther, and two suffice in practice. More
+  /// means a fault of the program.
+  static constexpr int most_halo_rounds = 100;
+};
+
+} // namespace trime::sites

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A state of a stage, to be read only.
+#pragma once
+
+#include "polygon/polygon.hpp"
+#include "sites/site_state.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <span>
+
+namespace trime::sites {
+
+/// @brief The sites of a stage, or of a copy of its state, with what they make a mesh of. Replicated but for the state.
+/// Keeps references.
+struct StageView {
+  const SiteState& state;
+  const polygon::BoundarySites& polygon;
+  const sizing::SizeField& size;
+  const geometry::Lattice& lattice;
+  std::span<const geometry::Vec2> fixed = {}; ///< points that must be vertices, in lexicographic order
+};
+
+} // namespace trime::sites
