@@ -3,8 +3,8 @@
 
 #include "comm/agree.hpp"
 #include "core/read_file.hpp"
-#include "trime/shape/trace.hpp"
 #include "trime/shape/expression_shape.hpp"
+#include "trime/shape/trace.hpp"
 
 namespace trime::app {
 namespace {

@@ -10,10 +10,7 @@ namespace trime::polygon {
 
 using geometry::Vec2;
 
-namespace {
-
-
-} // namespace
+namespace {} // namespace
 
 BoundaryCurve::BoundaryCurve(const geometry::Boundary& boundary) : boundary_(boundary) {
   for (const geometry::Loop& loop : boundary.loops) {
