@@ -12,7 +12,7 @@ inline constexpr double bytes_per_point = 150;
 /// The program with its libraries.
 inline constexpr double bytes_per_process = 32 * 0x1p20;
 
-/// What a user can do who has no memory left.
+/// Advice for a user whose run has no memory left.
 std::string out_of_memory_text();
 
 /// @brief Returns freed memory, for the end of a stage whose arrays the next does not need. A few ms; does nothing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A list that many threads make, in the order in which one would make it.
+// A list that several threads make together; its order is that of a single thread.
 #pragma once
 
 #include "core/thread_loop.hpp"
@@ -10,8 +10,8 @@
 
 namespace trime {
 
-/// @brief Calls make(k, list) for k = 0 .. n-1, which may append to the list; all lists joined in the order of k.
-/// @param chunk so many k in a row by one thread
+/// @brief Calls make(k, list) for k = 0 .. n-1, which may append to its list. Returns all lists joined, by rising k.
+/// @param chunk one thread takes so many k in a row
 template <class Item, class Make>
 std::vector<Item> gather_in_order(std::ptrdiff_t n, std::ptrdiff_t chunk, const Make& make) {
   std::vector<std::vector<Item>> lists(static_cast<std::size_t>((n + chunk - 1) / chunk));

@@ -105,7 +105,7 @@ public:
   }
 
 private:
-  /// The calling thread has the first, who begins first.
+  /// First chunk of a thread's range. The calling thread, which begins first, has the first range.
   static std::ptrdiff_t first_of(int thread, int threads, std::ptrdiff_t chunks) {
     return (chunks * thread + threads - 1) / threads;
   }

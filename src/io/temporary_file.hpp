@@ -33,7 +33,7 @@ private:
   bool published_ = false;
 };
 
-/// Files that are good only together: unless all are there in the end, those that are go again.
+/// Files that are of use only together. Unless complete() was called, the destructor removes all of them.
 class FileSet {
 public:
   FileSet() = default;
@@ -41,7 +41,7 @@ public:
   FileSet(const FileSet&) = delete;
   FileSet& operator=(const FileSet&) = delete;
 
-  /// To be called before the file gets its final name.
+  /// Call it before the file gets its final name.
   void add(const std::string& path) { paths_.push_back(path); }
   void complete() { paths_.clear(); }
 
