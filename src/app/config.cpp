@@ -3,10 +3,10 @@
 
 #include "app/config_sizing.hpp"
 #include "app/settings.hpp"
+#include "core/angle.hpp"
 #include "core/nearest_name.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/formula.hpp"
-#include "trime/geometry/frame.hpp"
 #include "trime/shape/region.hpp"
 
 #include <algorithm>
@@ -145,7 +145,7 @@ void read_resolution(const Settings& settings, meshing::MeshOptions& mesh, Diagn
   if (!points && !length)
     problems.add(whole_file, "set 'points' or 'edge_length' in [meshing], for example 'points = 5000'");
   const double area = mesh.container.width() * mesh.container.height();
-  const double expected = mesh.edge_length ? area / (std::sqrt(0.75) * *mesh.edge_length * *mesh.edge_length) : 0;
+  const double expected = mesh.edge_length ? area / (row_height * *mesh.edge_length * *mesh.edge_length) : 0;
   if (expected > most_points)
     problems.add(
         settings.line("meshing", "edge_length"),
@@ -232,11 +232,6 @@ void read_output(const Settings& settings, RunOptions& options, Diagnostics& pro
   file.vtkhdf = is_wanted("vtkhdf");
   file.xdmf = is_wanted("xdmf");
   options.output.text = is_wanted("text");
-  const geometry::Box& container = options.mesh.container;
-  if (container.width() > 0 && container.height() > 0) {                            // else a problem was noted already
-    const geometry::Frame frame(container, options.periodic_x, options.periodic_y); // its periods are exact
-    options.output.period = {frame.periods().x, frame.periods().y};
-  }
   const std::int64_t interval = settings.integer("output", "interval");
   options.write = interval != 0;
   options.mesh.snapshot_interval = interval == -1 ? 0 : static_cast<int>(interval);

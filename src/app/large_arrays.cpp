@@ -22,15 +22,15 @@ namespace {
 constexpr std::size_t large = std::size_t{4} << 20;
 
 #ifdef MADV_HUGEPAGE
-/// A wish only: systems may not have huge pages, or none to spare.
-void ask_for_huge_pages(void* memory, std::size_t bytes) {
+/// A wish only: systems may not have huge pages, or none to spare. Sanitizers have no use for it, see below.
+[[maybe_unused]] void ask_for_huge_pages(void* memory, std::size_t bytes) {
   constexpr std::uintptr_t page = 4096;
   const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(memory) + page - 1) / page * page;
   const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / page * page;
   madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 }
 #else
-void ask_for_huge_pages(void*, std::size_t) {}
+[[maybe_unused]] void ask_for_huge_pages(void*, std::size_t) {}
 #endif
 
 } // namespace

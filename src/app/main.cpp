@@ -3,7 +3,7 @@
 #include "app/large_arrays.hpp"
 #include "app/program.hpp"
 #include "core/free_memory.hpp"
-#include "trime/io/mesh_file.hpp"
+#include "trime/io/run_files.hpp"
 
 #include <unistd.h>
 
@@ -18,12 +18,13 @@ namespace {
 
 using trime::ExitCode;
 
-volatile std::sig_atomic_t tells = 0; ///< 1 on the rank whose handler says a word: rank 0, until its last one
+trime::io::RunFiles* run_files = nullptr; ///< of main, set before the first handler: a handler has no arguments
+volatile std::sig_atomic_t tells = 0;     ///< 1 on the rank whose handler says a word: rank 0, until its last one
 
 /// Leaves no temporary file, then ends as the signal would have ended the program. Only calls that a handler may make.
 void end_by_signal(int number) {
-  const bool stands = trime::io::final_mesh_stands();
-  trime::io::remove_temporary_file();
+  const bool stands = run_files->final_mesh_written();
+  run_files->remove_temporary();
   constexpr char without[] = "trime_mpi: interrupted; the final mesh was not written\n";
   constexpr char with[] =
       "trime_mpi: interrupted; the final mesh is written, but the report or other files are missing\n";
@@ -57,14 +58,14 @@ void print_error(const std::string& message) {
 /// An error that this rank has alone: others may wait for it for ever. The whole job ends.
 [[noreturn]] void leave_alone(const std::string& message, ExitCode code) {
   print_error(message);
-  trime::io::remove_temporary_file();
+  run_files->remove_temporary();
   trime::comm::abort_job(static_cast<int>(code));
 }
 
 /// Errors of the program are the same on all ranks; rank 0 tells them.
 ExitCode run(int argc, char** argv, const trime::comm::Communicator& comm) {
   try {
-    return trime::app::run_program(argc, argv, comm);
+    return trime::app::run_program(argc, argv, comm, run_files);
   } catch (const trime::Error& error) {
     if (comm.is_root())
       print_error(error.what());
@@ -81,6 +82,8 @@ ExitCode run(int argc, char** argv, const trime::comm::Communicator& comm) {
 
 int main(int argc, char** argv) {
   trime::app::prepare_large_arrays();
+  trime::io::RunFiles files;
+  run_files = &files;
   const trime::comm::Environment environment(argc, argv);
   const trime::comm::Communicator comm = trime::comm::Communicator::world();
   handle_signals(comm.is_root());

@@ -11,7 +11,7 @@
 
 namespace trime::app {
 
-enum class Kind { number, integer, boolean, word, words, text, path, pair };
+enum class OptionKind { number, integer, boolean, word, words, text, path, pair };
 
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
@@ -24,7 +24,7 @@ struct Option {
   const char* section; ///< parts of the shape: "shape.NAME"
   const char* key;
   const char* part_type = ""; ///< parts only: the type that the key belongs to; empty: all
-  Kind kind = Kind::number;
+  OptionKind kind = OptionKind::number;
   const char* fallback = "";  ///< default; empty: the key must be given, or the meaning says what holds without it
   const char* choices = "";   ///< words that may stand here (for numbers: besides a number)
   Range range{};              ///< number, integer

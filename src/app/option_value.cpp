@@ -34,27 +34,27 @@ bool is_one_of(std::string_view value, const char* words) {
 
 bool is_well_formed(const Option& option, const std::string& value) {
   switch (option.kind) {
-  case Kind::number: {
+  case OptionKind::number: {
     const std::optional<double> number = parse_number(value);
     return is_one_of(value, option.choices) || (number && in_range(option.range, *number));
   }
-  case Kind::integer: {
+  case OptionKind::integer: {
     const std::optional<std::int64_t> number = parse_integer(value);
     return is_one_of(value, option.choices) || (number && in_range(option.range, static_cast<double>(*number)));
   }
-  case Kind::boolean:
+  case OptionKind::boolean:
     return parse_boolean(value).has_value();
-  case Kind::word:
+  case OptionKind::word:
     return is_one_of(value, option.choices);
-  case Kind::words: {
+  case OptionKind::words: {
     const std::vector<std::string> words = split_words(value);
     return std::all_of(words.begin(), words.end(),
                        [&](const std::string& word) { return is_one_of(word, option.choices); });
   }
-  case Kind::pair:
+  case OptionKind::pair:
     return parse_pair(value).has_value();
-  case Kind::text:
-  case Kind::path:
+  case OptionKind::text:
+  case OptionKind::path:
     return true;
   }
   return false;
@@ -71,7 +71,7 @@ bool is_supported(const Option& option, const std::string& value) {
   if (supported.empty())
     return true;
   const std::vector<std::string> words =
-      option.kind == Kind::words ? split_words(value) : std::vector<std::string>{value};
+      option.kind == OptionKind::words ? split_words(value) : std::vector<std::string>{value};
   return std::all_of(words.begin(), words.end(), [&](const std::string& word) {
     return std::any_of(supported.begin(), supported.end(), [&](const std::string& s) { return same_value(word, s); });
   });
@@ -123,22 +123,22 @@ std::optional<geometry::Vec2> parse_pair(std::string_view text) {
 std::string expectation(const Option& option) {
   const std::vector<std::string> choices = split_words(option.choices);
   switch (option.kind) {
-  case Kind::number:
-  case Kind::integer: {
-    const std::string number = (option.kind == Kind::number ? "a number" : "an integer") + bounds(option.range);
+  case OptionKind::number:
+  case OptionKind::integer: {
+    const std::string number = (option.kind == OptionKind::number ? "a number" : "an integer") + bounds(option.range);
     return choices.empty() ? number : fmt::format("{} or {}", fmt::join(choices, " or "), number);
   }
-  case Kind::boolean:
+  case OptionKind::boolean:
     return "true or false";
-  case Kind::word:
+  case OptionKind::word:
     return fmt::format("one of {}", fmt::join(choices, ", "));
-  case Kind::words:
+  case OptionKind::words:
     return fmt::format("a list of {}, separated by blanks", fmt::join(choices, ", "));
-  case Kind::pair:
+  case OptionKind::pair:
     return "two numbers X Y separated by a blank";
-  case Kind::text:
+  case OptionKind::text:
     return "a text";
-  case Kind::path:
+  case OptionKind::path:
     return "a path";
   }
   return "";
@@ -153,8 +153,8 @@ std::string value_problem(const Option& option, std::string_view section, const 
   const std::vector<std::string> supported = split_words(option.supported);
   const std::string remedy = supported.size() == 1 && supported[0] == option.fallback
                                  ? fmt::format("leave it {}", supported[0])
-                             : option.kind == Kind::words ? fmt::format("use {}", fmt::join(supported, ", "))
-                                                          : fmt::format("use {}", fmt::join(supported, " or "));
+                             : option.kind == OptionKind::words ? fmt::format("use {}", fmt::join(supported, ", "))
+                                                                : fmt::format("use {}", fmt::join(supported, " or "));
   return fmt::format("{} is not supported yet; {}", what, remedy);
 }
 

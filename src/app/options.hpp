@@ -49,10 +49,10 @@ struct RunOptions {
   meshing::MeshOptions mesh;                   ///< without the fixed points, which are read when the shape is
   FixedPointsFile fixed_points;
   SizingOptions sizing;
-  int setup_threads = 0; ///< per rank, while shape and size field are made; 0: chosen from the machine
-  int mesh_threads = 0;  ///< per rank, from then on; 0: chosen from the machine
-  io::SeriesOptions output;
-  bool write = true; ///< false: nothing is written
+  int setup_threads = 0;    ///< per rank, while shape and size field are made; 0: chosen from the machine
+  int mesh_threads = 0;     ///< per rank, from then on; 0: chosen from the machine
+  io::SeriesOptions output; ///< without the period, which the boundary of the shape knows
+  bool write = true;        ///< false: nothing is written
   LogLevel log_level = LogLevel::info;
   int log_interval = 0;
   std::string resolved;              ///< the whole config with all defaults, as a complete ini

@@ -10,10 +10,10 @@
 #include "app/size_builder.hpp"
 #include "core/free_memory.hpp"
 #include "core/thread_loop.hpp"
+#include "start/points_of_length.hpp"
 #include "trime/io/mesh_series.hpp"
 #include "trime/meshing/mesher.hpp"
 
-#include <cmath>
 #include <cstdio>
 
 namespace trime::app {
@@ -33,10 +33,8 @@ std::string version_text() {
 
 /// Points that the options ask for.
 double expected_points(const RunOptions& options, const geometry::Boundary& boundary) {
-  if (options.mesh.points)
-    return static_cast<double>(*options.mesh.points);
-  const double length = options.mesh.edge_length.value_or(1);
-  return boundary.area / (std::sqrt(0.75) * length * length) + boundary.length() / (2 * length);
+  return options.mesh.points ? static_cast<double>(*options.mesh.points)
+                             : start::points_of_length(boundary, options.mesh.edge_length.value_or(1));
 }
 
 /// What --validate and --dry-run say in place of a mesh.
@@ -61,6 +59,7 @@ struct Job {
   const CommandLine& line;
   const std::string& config_text;
   const RunOptions& options;
+  io::RunFiles* files;
   Log& log;
   TimerTable& timers;
 };
@@ -75,6 +74,13 @@ meshing::MeshResult run_mesher(const Job& job, const Provenance& provenance, con
   return mesher.run();
 }
 
+io::SeriesOptions series_options(const Job& job, const geometry::Boundary& boundary) {
+  io::SeriesOptions options = job.options.output;
+  options.file.run_files = job.files;
+  options.period = {boundary.periods.x, boundary.periods.y};
+  return options;
+}
+
 ExitCode make_mesh(const Job& job) {
   const comm::Communicator& comm = job.comm;
   const RunOptions& options = job.options;
@@ -87,28 +93,29 @@ ExitCode make_mesh(const Job& job) {
   for (const std::string& warning : options.warnings)
     log.warning("{}", warning);
 
-  const shape::RegionShape shape = [&] {
+  const ShapeInput input = [&] {
     const auto timing = timers.scope("shape");
-    return build_shape(options, comm, log);
+    return read_shape(options, comm, log);
   }();
+  const geometry::Boundary& boundary = input.shape.boundary();
   meshing::MeshOptions mesh_options = options.mesh;
-  mesh_options.fixed_points = read_fixed_points(options, comm);
-  io::MeshSeries series(options.output, comm);
+  mesh_options.fixed_points = read_fixed_points(options, input.fixed_points_place, comm);
+  io::MeshSeries series(series_options(job, boundary), comm);
   if (is_run && options.write)
-    for (const std::string& warning : series.check(expected_points(options, shape.boundary())))
+    for (const std::string& warning : series.check(expected_points(options, boundary)))
       log.warning("{}", warning);
   const BuiltSize size = [&] {
     const auto timing = timers.scope("size field");
-    return build_size(options, shape.boundary(), comm);
+    return build_size(options, boundary, comm);
   }();
   if (placement.threads != placement.setup_threads)
     use_threads(placement, placement.threads);
   if (!is_run) {
-    print(comm, estimate(options, shape.boundary(), placement, job.line.action == Action::dry_run));
+    print(comm, estimate(options, boundary, placement, job.line.action == Action::dry_run));
     return ExitCode::done;
   }
 
-  const Provenance provenance{job.line, options, job.config_text, placement, shape.boundary()};
+  const Provenance provenance{job.line, options, job.config_text, placement, boundary};
   const meshing::MeshResult result = run_mesher(job, provenance, *size.field, mesh_options, series);
   const SizeSummary sizes = summarize_size(size.description, result.mesh, comm);
   io::WrittenFiles files;
@@ -125,7 +132,7 @@ ExitCode make_mesh(const Job& job) {
 
 } // namespace
 
-ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm) {
+ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm, io::RunFiles* files) {
   TimerTable timers;
   const CommandLine line = parse_command_line(argc, argv);
   if (line.action == Action::help || line.action == Action::help_config || line.action == Action::version) {
@@ -142,7 +149,7 @@ ExitCode run_program(int argc, const char* const* argv, const comm::Communicator
   }
   Log log(options.log_level, comm.is_root());
   log.set_progress_interval(options.log_interval);
-  return make_mesh({comm, line, config_text, options, log, timers});
+  return make_mesh({comm, line, config_text, options, files, log, timers});
 }
 
 } // namespace trime::app

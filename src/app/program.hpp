@@ -5,10 +5,15 @@
 #include "trime/comm/communicator.hpp"
 #include "trime/core/error.hpp"
 
+namespace trime::io {
+class RunFiles;
+}
+
 namespace trime::app {
 
 /// @brief Runs the program. @note Collective.
+/// @param files is told which files exist, for a signal handler; may be null
 /// @throws Error on all ranks together
-ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm);
+ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm, io::RunFiles* files);
 
 } // namespace trime::app

@@ -41,8 +41,8 @@ Attributes run_attributes(const Provenance& p) {
           {"job_id", std::string(job ? job : "")},
           {"seed", p.options.mesh.seed},
           {"method", method_name(p.options.mesh.method)},
-          {"period_x", p.options.output.period.x}, // 0: not periodic; else images of a triangle's corners count
-          {"period_y", p.options.output.period.y},
+          {"period_x", p.boundary.periods.x}, // 0: not periodic; else images of a triangle's corners count
+          {"period_y", p.boundary.periods.y},
           {"mpi_ranks", std::int64_t{p.placement.ranks}},
           {"omp_threads", std::int64_t{p.placement.threads}},
           {"setup_threads", std::int64_t{p.placement.setup_threads}},

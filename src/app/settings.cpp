@@ -88,7 +88,7 @@ void Settings::check_entry(const IniEntry& entry, Diagnostics& problems) {
     return;
   }
   IniEntry meant = entry;
-  if (option->kind == Kind::path)
+  if (option->kind == OptionKind::path)
     meant.value = without_quotes(entry.value);
   const std::string problem = value_problem(*option, entry.section, meant.value);
   if (problem.empty())
@@ -208,7 +208,7 @@ std::string Settings::resolved(const std::string& directory) const {
         continue;
       std::string value = text(section, option.key);
       const bool from_config = table_section(section) == part_section || option.section == std::string_view("meshing");
-      if (option.kind == Kind::path && from_config && value != option.fallback)
+      if (option.kind == OptionKind::path && from_config && value != option.fallback)
         value = fs::absolute(fs::path(directory) / value).lexically_normal().string();
       result +=
           value.empty() ? fmt::format("; {} is not set\n", option.key) : fmt::format("{} = {}\n", option.key, value);

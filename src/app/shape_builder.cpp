@@ -3,8 +3,8 @@
 
 #include "comm/agree.hpp"
 #include "core/read_file.hpp"
-#include "shape/trace.hpp"
 #include "trime/shape/expression_shape.hpp"
+#include "trime/shape/trace.hpp"
 
 namespace trime::app {
 namespace {
@@ -20,11 +20,9 @@ std::string read_text(const std::string& file, bool is_relative, const comm::Com
   return comm.broadcast(std::move(text));
 }
 
-shape::Contour read_contour(const PartOptions& part, const comm::Communicator& comm) {
-  return shape::parse_xy(read_text(part.file, part.file_is_relative, comm), part.file);
-}
-
-shape::Part build_part(const PartOptions& part, const geometry::Frame& frame, const comm::Communicator& comm) {
+/// @param place becomes what the vertices of a contour undergo
+shape::Part build_part(const PartOptions& part, const geometry::Frame& frame, const comm::Communicator& comm,
+                       shape::Normalization& place) {
   if (part.type == "rectangle")
     return shape::Part::rectangle(part.name, part.box, frame);
   if (part.type == "circle")
@@ -35,9 +33,9 @@ shape::Part build_part(const PartOptions& part, const geometry::Frame& frame, co
     const Formula sdf(part.sdf, fmt::format("'sdf' in [shape.{}]", part.name));
     return shape::traced_part(part.name, shape::ExpressionShape(sdf), frame);
   }
-  const shape::Contour contour = read_contour(part, comm);
-  const shape::Normalization place =
-      part.normalize ? shape::fit_to_container(contour, frame.container()) : shape::Normalization{};
+  const shape::Contour contour = shape::parse_xy(read_text(part.file, part.file_is_relative, comm), part.file);
+  if (part.normalize)
+    place = shape::fit_to_container(contour, frame.container());
   return shape::Part::contour(part.name, contour, place, frame);
 }
 
@@ -53,25 +51,26 @@ std::string read_shared(const std::string& path, const comm::Communicator& comm)
 }
 
 /// All ranks build the same shape from the same numbers, so they throw the same errors without asking each other.
-shape::RegionShape build_shape(const RunOptions& options, const comm::Communicator& comm, Log& log) {
+ShapeInput read_shape(const RunOptions& options, const comm::Communicator& comm, Log& log) {
   const geometry::Frame frame(options.mesh.container, options.periodic_x, options.periodic_y);
   std::vector<shape::Part> parts;
+  shape::Normalization fixed_points_place;
   for (const PartOptions& part : options.parts) {
-    parts.push_back(build_part(part, frame, comm));
+    shape::Normalization place;
+    parts.push_back(build_part(part, frame, comm, place));
+    if (part.name == options.fixed_points.normalize_with)
+      fixed_points_place = place;
     for (const std::string& warning : parts.back().warnings())
       log.warning("{}", warning);
   }
-  return shape::RegionShape(std::move(parts), options.region, frame);
+  return {shape::RegionShape(std::move(parts), options.region, frame), fixed_points_place};
 }
 
-std::vector<boundary::FixedPoint> read_fixed_points(const RunOptions& options, const comm::Communicator& comm) {
+std::vector<boundary::FixedPoint> read_fixed_points(const RunOptions& options, const shape::Normalization& place,
+                                                    const comm::Communicator& comm) {
   const FixedPointsFile& source = options.fixed_points;
   if (source.file.empty())
     return {};
-  shape::Normalization place;
-  for (const PartOptions& part : options.parts)
-    if (part.name == source.normalize_with)
-      place = shape::fit_to_container(read_contour(part, comm), options.mesh.container);
   std::vector<boundary::FixedPoint> points;
   const std::string text = read_text(source.file, source.file_is_relative, comm);
   for (const shape::FilePoint& point : shape::parse_points(text, source.file))

@@ -4,6 +4,7 @@
 
 #include "app/options.hpp"
 #include "trime/comm/communicator.hpp"
+#include "trime/shape/contour.hpp"
 #include "trime/shape/region_shape.hpp"
 
 #include <vector>
@@ -13,13 +14,22 @@ namespace trime::app {
 /// Bytes of a file on every rank; rank 0 reads. @throws FileError on all ranks. @note Collective.
 std::string read_shared(const std::string& path, const comm::Communicator& comm);
 
+/// What the shape sections of a config and their files say.
+struct ShapeInput {
+  shape::RegionShape shape;
+  shape::Normalization fixed_points_place; ///< what fixed points undergo: that of the contour they are normalised with
+};
+
+/// @brief Reads each file once, and tells warnings to the log.
 /// @throws GeometryError, ConfigError, FileError on all ranks together
 /// @note Collective.
-shape::RegionShape build_shape(const RunOptions& options, const comm::Communicator& comm, Log& log);
+ShapeInput read_shape(const RunOptions& options, const comm::Communicator& comm, Log& log);
 
 /// @brief The fixed points with labels `file:line`, normalised; none if the options name no file.
+/// @param place ShapeInput::fixed_points_place
 /// @throws GeometryError, ConfigError, FileError on all ranks together
 /// @note Collective.
-std::vector<boundary::FixedPoint> read_fixed_points(const RunOptions& options, const comm::Communicator& comm);
+std::vector<boundary::FixedPoint> read_fixed_points(const RunOptions& options, const shape::Normalization& place,
+                                                    const comm::Communicator& comm);
 
 } // namespace trime::app

@@ -41,8 +41,8 @@ struct Stage {
     task.degrees = stars.degrees();
     task.classes = classes.data();
     task.uniform_size = sizes[0];
-    task.next_positions = points.next_positions().data();
-    task.next_leads = points.next_leads().data();
+    task.next_positions = points.next().positions().data();
+    task.next_leads = points.next().leads().data();
     task.rule.mover = static_cast<sweep::Mover>(state.range(1));
     task.rule.length_scale = sweep::SweepRules::bar_pressure;
     task.rule.momentum = 0.5;

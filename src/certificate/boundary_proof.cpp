@@ -19,10 +19,6 @@ using polygon::BoundarySite;
 using polygon::ChordCurve;
 using polygon::compare_chords;
 
-std::size_t at(LocalIndex i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Largest distance of a boundary vertex from the curve: of those written, from the nearest piece of the shape; of
 /// those laid out, from their places on it. Collective.
 double vertex_distance(const BoundaryTruth& truth, const std::vector<ChordCurve>& chords,

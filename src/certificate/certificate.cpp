@@ -21,10 +21,6 @@ using sites::FlatFan;
 using sites::StageView;
 __extension__ using Int128 = __int128;
 
-std::size_t at(LocalIndex i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Twice an area in squared lattice steps: exact, also over ranks (in three parts of 40 bits and the rest).
 struct ExactArea {
   Int128 twice = 0;

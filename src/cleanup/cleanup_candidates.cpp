@@ -60,6 +60,14 @@ void CleanupCandidates::settle(Vec2 place, int stage) {
     entries_[known->second].settled = stage;
 }
 
+void CleanupCandidates::give_up(Vec2 place, int stage) {
+  if (const auto known = entry_at_.find(hash_of(place, 0));
+      known != entry_at_.end() && entries_[known->second].candidate.alpha > 0) {
+    entries_[known->second].candidate.alpha = CleanupRules::bad_alpha;
+    entries_[known->second].settled = stage;
+  }
+}
+
 double CleanupCandidates::worst() const {
   double worst = 1;
   for (const Entry& entry : entries_)

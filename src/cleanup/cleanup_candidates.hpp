@@ -35,6 +35,10 @@ public:
   /// Nothing helps at a place, if it is one of the list, in this stage.
   void settle(geometry::Vec2 place, int stage);
 
+  /// @brief Too many sites crowd around a place for a patch to hold them. If it is one of the list, it counts as just
+  /// bad enough to be listed, and nothing helps in this stage.
+  void give_up(geometry::Vec2 place, int stage);
+
   /// The largest alpha, or 1.
   double worst() const;
 

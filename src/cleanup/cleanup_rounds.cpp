@@ -110,12 +110,15 @@ std::vector<PatchResult> CleanupRounds::try_patches(std::span<const Contender> c
   const std::vector<Disc> discs = discs_of(chosen);
   std::vector<Surroundings> around = sites_.around(discs, Rules::most_in_patch);
   std::vector<PatchResult> results(chosen.size());
-  const GlobalId patches = comm_.sum(static_cast<std::int64_t>(chosen.size()));
-  const PatchBudget budget = limits_.budget(patches, stage_, again_alpha_);
+  std::array<std::int64_t, 2> sums{std::ssize(chosen), std::ranges::count_if(around, &Surroundings::is_crowded)};
+  comm_.sum(sums);
+  if (sums[1] > 0)
+    give_up_crowds(discs, around);
+  const PatchBudget budget = limits_.budget(sums[0], stage_, again_alpha_);
   comm::run_agreed(comm_, [&] {
     thread_loop(std::ssize(chosen), 1, [&](std::ptrdiff_t item, int thread) {
       const auto k = static_cast<std::size_t>(item);
-      if (!around[k].found()) // where sites crowd so much, nothing is tried
+      if (around[k].is_crowded())
         return;
       prepare(around[k].sites);
       const double size = Surroundings::radius(discs[k].radius, around[k].narrowings) / Rules::reach;
@@ -123,6 +126,23 @@ std::vector<PatchResult> CleanupRounds::try_patches(std::span<const Contender> c
     });
   });
   return results;
+}
+
+/// Where sites crowd so much that no patch can hold them, nothing is tried. The sites around are not to ask for it one
+/// after the other: their owners let all of them rest.
+void CleanupRounds::give_up_crowds(std::span<const Disc> discs, std::span<const Surroundings> around) {
+  std::map<int, std::vector<Disc>> by_rank;
+  for (std::size_t k = 0; k < discs.size(); ++k)
+    if (around[k].is_crowded()) {
+      const double radius = Surroundings::radius(discs[k].radius, Rules::most_narrowings);
+      const Disc crowd{discs[k].center, Rules::given_up_share * radius};
+      by_rank[comm_.rank()].push_back(crowd);
+      for (const int rank : sites_.ranks_near(crowd))
+        by_rank[rank].push_back(crowd);
+    }
+  for (const Disc& crowd : send(comm_, by_rank))
+    for (const geometry::Vec2 place : sites_.let_rest(crowd))
+      candidates_.give_up(place, stage_);
 }
 
 /// All edits of this rank, with canonical places, counted.

@@ -36,6 +36,7 @@ private:
   CleanupCounts round(std::span<const Contender> contenders);
   std::vector<sites::Disc> discs_of(std::span<const Contender> chosen) const;
   void prepare(std::vector<PatchSite>& sites) const;
+  void give_up_crowds(std::span<const sites::Disc> discs, std::span<const Surroundings> around);
   std::vector<PatchResult> try_patches(std::span<const Contender> chosen);
   std::vector<SiteEdit> collect(std::span<const Contender> chosen, std::span<const PatchResult> results,
                                 CleanupCounts& counts) const;

@@ -6,6 +6,7 @@
 #include "trime/core/error.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace trime::cleanup {
 namespace {
@@ -17,10 +18,6 @@ using sites::SiteState;
 
 // What one thread takes at a time.
 constexpr int discs_in_a_row = 16, edits_in_a_row = 64, sites_in_a_row = 4096;
-
-std::size_t at(LocalIndex i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Asks another rank which sites it has in a disc. The rank that asks may have narrowed the disc already.
 struct DiscRequest {
@@ -53,9 +50,9 @@ template <class Visit>
 void CleanupSites::for_each_tile(const Disc& disc, const Visit& visit) const {
   const mesh::TileGrid& grid = state_.grid();
   const Vec2 reach{disc.radius, disc.radius}, low = disc.center - reach, high = disc.center + reach;
-  const int x1 = grid.tile_of(grid.unrolled_x(high.x)), y1 = grid.tile_of(grid.unrolled_y(high.y));
-  for (int y = grid.tile_of(grid.unrolled_y(low.y)); y <= y1; ++y)
-    for (int x = grid.tile_of(grid.unrolled_x(low.x)); x <= x1; ++x)
+  const int x1 = grid.tile_of(grid.x_axis().unrolled(high.x)), y1 = grid.tile_of(grid.y_axis().unrolled(high.y));
+  for (int y = grid.tile_of(grid.y_axis().unrolled(low.y)); y <= y1; ++y)
+    for (int x = grid.tile_of(grid.x_axis().unrolled(low.x)); x <= x1; ++x)
       visit(grid.tile_image_at(x, y).tile);
 }
 
@@ -106,7 +103,7 @@ void CleanupSites::list_sites(const Disc& disc, std::size_t most, std::vector<Pa
 
 /// Lists the sites of this rank, after as few narrowings as do, but no fewer than there are already.
 void CleanupSites::narrow_down(const Disc& widest, std::size_t most, Surroundings& own) const {
-  for (; own.found(); ++own.narrowings) {
+  for (; !own.is_crowded(); ++own.narrowings) {
     list_sites(narrowed(widest, own.narrowings), most, own.sites);
     if (own.sites.size() <= most)
       return;
@@ -119,7 +116,7 @@ void CleanupSites::merge(Surroundings& all, const Disc& widest, std::size_t most
                          int narrowings) {
   all.sites.insert(all.sites.end(), more.begin(), more.end());
   all.narrowings = std::max(all.narrowings, narrowings);
-  for (; all.found(); ++all.narrowings) {
+  for (; !all.is_crowded(); ++all.narrowings) {
     const Disc disc = narrowed(widest, all.narrowings);
     std::erase_if(all.sites, [&](const PatchSite& site) { return !lies_in(disc, site.position); });
     if (all.sites.size() <= most)
@@ -205,6 +202,17 @@ void CleanupSites::set_rest(Vec2 p, bool rests) {
     find_added(p).rests = rests;
 }
 
+std::vector<Vec2> CleanupSites::let_rest(const Disc& disc) {
+  std::vector<PatchSite> sites;
+  list_sites(disc, std::numeric_limits<std::size_t>::max(), sites);
+  std::vector<Vec2> places;
+  for (const PatchSite& site : sites) {
+    places.push_back(state_.grid().periods().wrap(site.position));
+    set_rest(places.back(), true);
+  }
+  return places;
+}
+
 void CleanupSites::apply(std::span<const SiteEdit> edits) {
   std::vector<LocalIndex> origins(edits.size(), -1);
   for (std::size_t k = 0; k < edits.size(); ++k) // first all that go: one may come where another was
@@ -228,7 +236,7 @@ void CleanupSites::finish(SiteState& state, std::span<const LocalIndex> new_inde
   const auto renumbered = [&](std::int32_t boundary) {
     return boundary >= 0 ? new_index[static_cast<std::size_t>(boundary)] : boundary;
   };
-  points.prepare_to_stay();
+  prepare_to_stay(points);
   std::vector<std::uint8_t> deleted(at(points.owned()), 0);
   thread_loop(points.owned(), sites_in_a_row, [&](std::ptrdiff_t item, int) {
     const auto i = static_cast<LocalIndex>(item);
@@ -239,7 +247,7 @@ void CleanupSites::finish(SiteState& state, std::span<const LocalIndex> new_inde
   for (const std::vector<Added>& list : added_)
     for (const Added& added : list)
       if (added.origin >= 0) {
-        points.next_positions()[at(added.origin)] = added.position;
+        points.next().positions()[at(added.origin)] = added.position;
         points.set_boundary(added.origin, renumbered(added.boundary));
         deleted[at(added.origin)] = 0;
       } else {

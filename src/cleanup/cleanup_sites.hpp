@@ -42,7 +42,7 @@ struct Surroundings {
 
   int narrowings = 0; ///< above the limit: even the narrowest disc holds too many, and none of them are listed
   std::vector<PatchSite> sites; ///< at the images that lie there, in no particular order
-  bool found() const { return narrowings <= CleanupRules::most_narrowings; }
+  bool is_crowded() const { return narrowings > CleanupRules::most_narrowings; }
 };
 
 /// @brief Owned sites of a state that stays as it is: which are still in place, and those that have come since. Edits
@@ -66,6 +66,10 @@ public:
 
   /// Whether nothing helps at an owned site.
   void set_rest(geometry::Vec2 p, bool rests);
+
+  /// @brief Nothing helps at the owned sites of a disc. O(those sites).
+  /// @return their canonical places
+  std::vector<geometry::Vec2> let_rest(const sites::Disc& disc);
 
   /// Carries all edits over to the state. @param new_index of the boundary's sites. Collective.
   void finish(sites::SiteState& state, std::span<const LocalIndex> new_index) const;

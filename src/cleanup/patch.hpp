@@ -55,8 +55,6 @@ struct BadPlace {
 struct Patch {
   Patch(const geometry::Lattice& lattice, const geometry::Periods& periods) : mesh(lattice, periods) {}
 
-  static std::size_t at(LocalIndex v) { return static_cast<std::size_t>(v); }
-
   /// Empties it: only the frame is left. @param size h that the vertices of the frame are given
   void start(geometry::Vec2 center, double half_width, double size);
   /// @brief Adds a vertex to the triangulation. @return its index, or -1 if one lies there already

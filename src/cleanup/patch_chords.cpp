@@ -20,7 +20,7 @@ bool PatchChords::stands_for_bent_curve(const BoundaryVertex& from, const Bounda
 
 /// If a vertex lies in the disc of an edge of a Delaunay triangulation, the third vertex of one of its triangles does.
 bool PatchChords::holds(const Patch& patch, LocalIndex v, const PatchMesh::Apexes& apexes) const {
-  const BoundaryVertex& own = patch.boundary[Patch::at(v)];
+  const BoundaryVertex& own = patch.boundary[at(v)];
   if (own.changed && !stands_for_curve(patch, v))
     return false;
   const auto [a, b] = patch.chord(v);
@@ -37,7 +37,7 @@ bool PatchChords::holds(const Patch& patch, LocalIndex v, const PatchMesh::Apexe
 bool PatchChords::hold(const Patch& patch) const {
   LocalIndex missing = 0;
   for (const LocalIndex v : patch.rim) {
-    const LocalIndex next = patch.boundary[Patch::at(v)].next;
+    const LocalIndex next = patch.boundary[at(v)].next;
     if (next < 0 || patch.is_gone(v))
       continue;
     const auto apexes = patch.mesh.apexes(v, next);

@@ -28,8 +28,8 @@ public:
   }
   /// The same for the chord from vertex v to the next.
   bool stands_for_curve(const Patch& patch, LocalIndex v) const {
-    const BoundaryVertex& own = patch.boundary[Patch::at(v)];
-    return stands_for_curve(own, patch.boundary[Patch::at(own.next)], patch.chord(v), patch.size[Patch::at(v)]);
+    const BoundaryVertex& own = patch.boundary[at(v)];
+    return stands_for_curve(own, patch.boundary[at(own.next)], patch.chord(v), patch.size[at(v)]);
   }
 
   /// @brief Whether each chord that has changed is an edge that stands for its curve and has an empty closed disc, no

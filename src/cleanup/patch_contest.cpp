@@ -10,10 +10,6 @@ namespace {
 
 using Rules = CleanupRules;
 
-std::size_t at(LocalIndex v) {
-  return static_cast<std::size_t>(v);
-}
-
 /// How far the degree of a vertex inside is from 6, squared.
 int strain(const Patch& patch, LocalIndex v) {
   if (v >= patch.mesh.vertices() || patch.on_boundary(v) || patch.is_gone(v))

@@ -27,7 +27,7 @@ struct SiteEdit {
   polygon::EditKind kind = polygon::EditKind::move;
   std::int32_t boundary = mesh::free_site; ///< index of the boundary site; for a new one, of the site before it
   double arc = 0;                          ///< of the new place on the boundary
-  std::uint64_t patch = 0;                 ///< which patch wants it; Cleanup sets it
+  std::uint64_t patch = 0;                 ///< which patch wants it; CleanupRounds sets it
 };
 
 /// What is known of a site after a patch has been tried.

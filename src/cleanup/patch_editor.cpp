@@ -11,10 +11,6 @@ namespace {
 using geometry::Vec2;
 using polygon::BoundaryCurve;
 
-std::size_t at(LocalIndex v) {
-  return static_cast<std::size_t>(v);
-}
-
 } // namespace
 
 bool PatchEditor::apply(Patch& trial, const PatchOperation& operation, double size) const {

@@ -13,10 +13,6 @@ using geometry::Vec2;
 using polygon::BoundaryCurve;
 using Rules = CleanupRules;
 
-std::size_t at(LocalIndex v) {
-  return static_cast<std::size_t>(v);
-}
-
 /// The step along a tangent that Newton's method asks for, or the longest one downwards.
 double step_along(const EnergyModel& model, Vec2 along, double limit) {
   const double slope = geometry::dot(model.gradient, along);

@@ -11,7 +11,7 @@ using geometry::Vec2;
 constexpr LocalIndex regular_degree = 6; // of a vertex among equilateral triangles
 
 bool is_free(const Patch& patch, LocalIndex v) {
-  return patch.role[Patch::at(v)] == VertexRole::free;
+  return patch.role[at(v)] == VertexRole::free;
 }
 
 Vec2 middle_of_longest_edge(const Patch& now, const Corners& corners) {

@@ -11,10 +11,6 @@ using Rules = CleanupRules;
 
 constexpr std::uint8_t of_bad_triangle = 2, beside_one = 1; // marks of vertices
 
-std::size_t at(LocalIndex v) {
-  return static_cast<std::size_t>(v);
-}
-
 } // namespace
 
 PatchResult PatchOptimizer::improve(Vec2 center, double size, std::span<const PatchSite> sites,

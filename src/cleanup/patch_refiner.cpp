@@ -10,10 +10,6 @@ namespace {
 
 using geometry::Vec2;
 
-std::size_t at(LocalIndex v) {
-  return static_cast<std::size_t>(v);
-}
-
 /// The chord from vertex v to the next has another vertex of the boundary in its closed disc.
 bool is_encroached(const Patch& trial, LocalIndex v) {
   const LocalIndex next = trial.boundary[at(v)].next;

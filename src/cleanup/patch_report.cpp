@@ -9,10 +9,6 @@ namespace {
 using geometry::Vec2;
 using polygon::EditKind;
 
-std::size_t at(LocalIndex v) {
-  return static_cast<std::size_t>(v);
-}
-
 } // namespace
 
 /// The boundary site of a vertex; of a new one on the boundary, that of the last old one before it.

@@ -21,26 +21,26 @@ public:
       rests_.push_back(site.rests != 0);
     at_start_ = rests_;
   }
-  bool rests(LocalIndex v) const { return rests_[Patch::at(v)] != 0; }
+  bool rests(LocalIndex v) const { return rests_[at(v)] != 0; }
   bool all_rest(const Corners& corners) const { return rests(corners[0]) && rests(corners[1]) && rests(corners[2]); }
   /// @pre the site was there at the start
-  bool has_changed(LocalIndex v) const { return rests_[Patch::at(v)] != at_start_[Patch::at(v)]; }
+  bool has_changed(LocalIndex v) const { return rests_[at(v)] != at_start_[at(v)]; }
 
   void let_rest(const Corners& corners) {
     for (const LocalIndex v : corners)
-      rests_[Patch::at(v)] = 1;
+      rests_[at(v)] = 1;
   }
   void wake(std::span<const LocalIndex> vertices) {
     for (const LocalIndex v : vertices)
-      rests_[Patch::at(v)] = 0;
+      rests_[at(v)] = 0;
   }
   /// Sites that have moved far do not rest any more, nor do new ones.
   void wake_moved(const Patch& before, const Patch& now) {
-    rests_.resize(Patch::at(now.mesh.vertices()), 0);
+    rests_.resize(at(now.mesh.vertices()), 0);
     for (LocalIndex v = PatchMesh::frame; v < before.mesh.vertices(); ++v) {
-      const double limit = CleanupRules::waking_move * now.size[Patch::at(v)];
+      const double limit = CleanupRules::waking_move * now.size[at(v)];
       if (rests(v) && geometry::squared_length(now.mesh.position(v) - before.mesh.position(v)) > limit * limit)
-        rests_[Patch::at(v)] = 0;
+        rests_[at(v)] = 0;
     }
   }
 

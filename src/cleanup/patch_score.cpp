@@ -4,14 +4,6 @@
 #include <algorithm>
 
 namespace trime::cleanup {
-namespace {
-
-std::size_t at(LocalIndex i) {
-  return static_cast<std::size_t>(i);
-}
-
-} // namespace
-
 void PatchScore::list_near(const Patch& now, const BadPlace& place) {
   nearest_.clear();
   near_.clear();

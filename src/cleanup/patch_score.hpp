@@ -36,7 +36,7 @@ private:
   };
   void list_near(const Patch& now, const BadPlace& place);
   bool is_near(const Corners& corners) const {
-    const auto counts = [&](LocalIndex v) { return Patch::at(v) >= in_score_.size() || in_score_[Patch::at(v)]; };
+    const auto counts = [&](LocalIndex v) { return at(v) >= in_score_.size() || in_score_[at(v)]; };
     return counts(corners[0]) || counts(corners[1]) || counts(corners[2]);
   }
   void mark_moved(const Patch& now, const Patch& trial);

@@ -6,10 +6,6 @@ namespace {
 
 using geometry::Vec2;
 
-std::size_t at(LocalIndex i) {
-  return static_cast<std::size_t>(i);
-}
-
 } // namespace
 
 bool PatchStart::build(Vec2 center, double size, std::span<const PatchSite> sites) {

@@ -2,6 +2,7 @@
 #include "cones/cone_cells.hpp"
 
 #include "cones/rules.hpp"
+#include "core/angle.hpp"
 #include "core/thread_loop.hpp"
 
 #include <algorithm>
@@ -17,8 +18,7 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr double rounding = 1e-12;                    // of the extent and of values
-constexpr double half_diagonal = 0.70710678118654757; // of a unit square
+constexpr double rounding = 1e-12; // of the extent and of values
 
 /// The last one stands twice if their number is odd.
 void append_pairs(std::span<const Cone> cones, std::vector<double>& numbers) {
@@ -93,7 +93,7 @@ private:
   /// A cone that is higher than this in the middle of a cell is never the lowest in it, if that is `lowest` there.
   double limit(double lowest, const CellPlace& place) const {
     const double reach =
-        half_diagonal * grid_.side_at(place.level) + rounding * grid_.side * ConeRules::most_blocks_along;
+        half_sqrt_2 * grid_.side_at(place.level) + rounding * grid_.side * ConeRules::most_blocks_along;
     return (lowest + 2 * slope_ * reach) * (1 + rounding);
   }
 

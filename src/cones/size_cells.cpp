@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cones/size_cells.hpp"
 
+#include "core/angle.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -11,8 +12,7 @@ using geometry::Vec2;
 
 namespace {
 
-constexpr double half_diagonal = 0.70710678118654757; // of a unit square
-constexpr double rounding = 1 + 1e-12;                // of distances
+constexpr double rounding = 1 + 1e-12; // of distances
 
 /// Cones that are the lowest at some points of a cell: those that they cover need not be looked at.
 class Winners {
@@ -174,7 +174,7 @@ CellNode CellBuilder::build_cell(const CellPlace& place) {
   ConeList& cones = cones_of(place);
   const CornerValues at = values(cones);
   const double side = grid_.side_at(place.level), least = *std::min_element(at.begin(), at.end());
-  const double change = source_.slope * half_diagonal * side; // to the nearest corner, at most
+  const double change = source_.slope * half_sqrt_2 * side; // to the nearest corner, at most
   if (change <= limits_.tolerance * least || cones.count == 0)
     return bilinear_leaf(cones);
   if (const int count = choose_cones(cones, place, limits_.tolerance * (least - change)); count > 0)

@@ -9,6 +9,7 @@ inline constexpr double pi = 0x1.921fb54442d18p+1;
 inline constexpr double degrees = pi / 180;            ///< 60 * degrees is in radians
 inline constexpr double degrees_per_radian = 180 / pi; ///< radians * degrees_per_radian is in degrees
 inline constexpr double sqrt_3 = 1.7320508075688772;
+inline constexpr double half_sqrt_2 = 0.70710678118654757; ///< half the diagonal of a square of side 1
 inline constexpr double row_height = 0.5 * sqrt_3; ///< of an equilateral triangle of side 1, also sin(60 degrees)
 
 struct SinCos {

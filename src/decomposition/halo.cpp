@@ -205,6 +205,7 @@ bool Halo::begins_tile(const Peer& peer, std::size_t k) {
 }
 
 void Halo::refresh_drifts(mesh::BinnedPoints& points) const {
+  TRIME_ASSERT(!grid_->periods().any());
   std::vector<Message> outgoing, incoming;
   for (const Peer& peer : exports_) {
     outgoing.push_back({peer.rank, {}});

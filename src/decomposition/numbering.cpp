@@ -9,10 +9,6 @@
 namespace trime::decomposition {
 namespace {
 
-std::size_t at(LocalIndex i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Puts the sites of tiles into canonical order, bin after bin along the curve.
 class TileOrder {
 public:

@@ -3,6 +3,7 @@
 
 #include "core/thread_loop.hpp"
 #include "delaunay/double2.hpp"
+#include "delaunay/rules.hpp"
 #include "delaunay/star_kernel.hpp"
 #include "delaunay/tile_wrapper.hpp"
 #include "geometry/predicates.hpp"
@@ -77,7 +78,9 @@ private:
 
   /// A star that kept its ring needs no new entry if all its triangles count and its first neighbour still is the
   /// smallest.
-  bool is_stored_right() { return kernel_.squared_radius() < 0.99 * cap_ * cap_ && kernel_.smallest() == 0; }
+  bool is_stored_right() {
+    return kernel_.squared_radius() < StarRules::surely_below_cap * cap_ * cap_ && kernel_.smallest() == 0;
+  }
 
   /// From the virtual square: the last ring first, then the sites nearby (about the first ring of neighbours, in any
   /// order), then all others, most of which lie beyond the security radius by then.
@@ -86,12 +89,15 @@ private:
     for (const LocalIndex neighbour : ring_)
       if (neighbour != gap)
         kernel_.insert(neighbour, offset(neighbour));
-    const double window = 0.6 * cap_;
+    const double window = StarRules::first_window * cap_;
     near_.clear();
     far_.clear();
     const std::size_t missing_before = missing_.size();
     points_.for_each_near(
-        center_, window, [&](LocalIndex begin, LocalIndex end) { collect(begin, end, 0.25 * cap_ * cap_); },
+        center_, window,
+        [&](LocalIndex begin, LocalIndex end) {
+          collect(begin, end, StarRules::nearer_sites * StarRules::nearer_sites * cap_ * cap_);
+        },
         [&](mesh::BinRef bin) { missing_.push_back(bin); });
     for (const Candidate& c : near_)
       try_insert(c);
@@ -126,13 +132,13 @@ private:
   /// Radius that must be searched: no site farther than 2 R_max, or than 2 cap, can change what counts.
   double needed() { return std::min(2 * std::sqrt(kernel_.squared_radius()), 2 * cap_) * inflation + slack_; }
 
-  /// @brief Inserts what lies within the security radius, in windows that grow at most by 1.6 at a time (each window
-  /// can shrink the radius); sites nearer than sqrt(done) have been inserted before.
+  /// @brief Inserts what lies within the security radius, in windows that grow by StarRules::window_growth at most
+  /// (each window can shrink the radius); sites nearer than sqrt(done) have been inserted before.
   /// @return false if a bin within the radius is unknown
   bool finish(double searched, double done) {
     bool complete = true;
     while (searched < needed()) {
-      const double reach = searched == 0 ? needed() : std::min(needed(), 1.6 * searched);
+      const double reach = searched == 0 ? needed() : std::min(needed(), StarRules::window_growth * searched);
       const std::size_t missing_before = missing_.size();
       if (searched == 0)
         check_members(reach);
@@ -183,7 +189,7 @@ private:
     if (kernel_.id(k) < 0 || kernel_.id(next) < 0)
       return false;
     const double r2 = kernel_.squared_radius(k);
-    if (r2 < 0.99 * cap_ * cap_)
+    if (r2 < StarRules::surely_below_cap * cap_ * cap_)
       return true; // r2 is an upper bound
     return canonical_squared_radius(center_, points_.position(kernel_.id(k)), points_.position(kernel_.id(next)),
                                     periods_) < cap_ * cap_;
@@ -321,7 +327,8 @@ bool StarBuilder::counts(Vec2 a, Vec2 b, Vec2 c, double cap, const geometry::Per
 
 double StarBuilder::largest_cap(const geometry::Periods& periods) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  return 0.2499 * std::min(periods.x > 0 ? periods.x : infinity, periods.y > 0 ? periods.y : infinity);
+  return StarRules::cap_in_period *
+         std::min(periods.x > 0 ? periods.x : infinity, periods.y > 0 ? periods.y : infinity);
 }
 
 StarPass StarBuilder::update(const mesh::BinnedPoints& points, StarTable& stars, const mesh::LocalSizes& sizes,

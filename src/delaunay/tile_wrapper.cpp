@@ -3,6 +3,7 @@
 
 #include "delaunay/circumcenter.hpp"
 #include "delaunay/double2.hpp"
+#include "delaunay/rules.hpp"
 #include "delaunay/star_builder.hpp"
 
 #include <algorithm>
@@ -16,14 +17,16 @@ namespace {
 
 using geometry::Vec2;
 
-/// How far candidates are looked for beyond the box of the sites, in spacings: a relaxed mesh, a random one, the rest.
-constexpr std::array<double, 3> reaches{1.5, 2.7, 4};
+/// How far candidates are looked for beyond the box of the sites, in spacings.
+constexpr std::array<double, 3> reaches{WrapRules::reach_relaxed, WrapRules::reach_random, WrapRules::reach_longest};
 constexpr double rounder = 0x3p32;    // adding and subtracting it leaves multiples of 2^-19
-constexpr double largest_half = 15.9; // side of a group's box
-constexpr double cost_of_search = 5;  // of a star found alone, where one in a relaxed mesh with its last ring costs 1
-constexpr std::size_t fewest = 3;     // sites
-constexpr std::ptrdiff_t few = 32;    // sites for a simple sort
-constexpr int longest_pause = 64;     // groups
+constexpr double largest_half = 15.9; // of the longer side of a group's box: WrapGroup holds coordinates below 16
+constexpr double half_window = 1.9;   // times the largest cap, a quarter of a period: the window holds no image twice
+constexpr double cap_slack = 0.99;    // caps in float32 stay below those in double precision
+// Times a squared circumradius R^2, both with room for rounding: what lies in a disc through the site is no farther
+// than 2 R, and |x| + |y| is at most the root of 2 times the length.
+constexpr double reach_squared = 4.0001, taxicab_squared = 2.001;
+constexpr std::ptrdiff_t few_to_sort = 32; // sites for a simple sort
 
 /// Where a site lies as WrapGroup wants it, and its distances from the centre along the axes.
 inline Double2 write_candidate(Vec2 at, Double2 center, Double2 scale, WrapGroup::Candidate& to) {
@@ -37,6 +40,30 @@ inline Double2 write_candidate(Vec2 at, Double2 center, Double2 scale, WrapGroup
 
 } // namespace
 
+void ReachChoice::learn(std::size_t stars, std::size_t larger) {
+  stars_ += static_cast<double>(stars);
+  larger_ += static_cast<double>(larger);
+  if (stars_ < WrapRules::stars_to_learn)
+    return;
+  if (larger_ > WrapRules::many_larger * stars_ && level_ + 1 < reaches.size())
+    ++level_;
+  else if (larger_ < WrapRules::few_larger * stars_ && level_ > 0)
+    --level_;
+  stars_ = larger_ = 0;
+}
+
+bool TiePause::skips_group() {
+  if (left_ == 0)
+    return false;
+  --left_;
+  return true;
+}
+
+void TiePause::learn(std::size_t stars, std::size_t undecided) {
+  last_ = 2 * undecided <= stars ? 0 : std::min(WrapRules::longest_pause, 2 * last_ + 1);
+  left_ = last_;
+}
+
 TileWrapper::TileWrapper(const mesh::BinnedPoints& points, StarTable& stars, const geometry::Lattice& lattice,
                          SimdLevel level)
     : points_(points), positions_(points.positions().data()), stars_(stars), lattice_(lattice),
@@ -47,18 +74,18 @@ TileWrapper::TileWrapper(const mesh::BinnedPoints& points, StarTable& stars, con
 std::int64_t TileWrapper::compute(LocalIndex tile, std::span<double> caps) {
   const auto [begin, end] = points_.tile_range(tile);
   const geometry::Box box = points_.grid().tile_box(tile);
-  caps_ = caps;
-  first_site_ = begin;
+  wanted_ = {caps, begin};
   changed_ = 0;
-  if (std::count_if(caps.begin(), caps.end(), [](double cap) { return cap > 0; }) < static_cast<std::ptrdiff_t>(fewest))
+  if (std::count_if(caps.begin(), caps.end(), [](double cap) { return cap > 0; }) <
+      static_cast<std::ptrdiff_t>(WrapRules::fewest_in_group))
     return 0;
   spacing_ = std::sqrt(box.width() * box.height() / (end - begin));
   scale_ = std::ldexp(1.0, -std::ilogb(spacing_));
   order_sites(tile);
-  wrap_groups(reaches[level_]);
-  if (level_ + 1 < reaches.size()) {
+  wrap_groups(reaches[reach_.level()]);
+  if (reach_.level() + 1 < reaches.size()) {
     std::swap(order_, again_);
-    wrap_groups(reaches[level_ + 1]);
+    wrap_groups(reaches[reach_.level() + 1]);
   }
   return changed_;
 }
@@ -69,9 +96,7 @@ void TileWrapper::wrap_groups(double reach) {
   for (std::size_t k = 0; k < order_.size();) {
     const Group group = next_group(k);
     k = group.end;
-    if (skipped_ > 0)
-      --skipped_;
-    else if (pays(group) && prepare(group, reach * spacing_)) {
+    if (!ties_.skips_group() && pays(group) && prepare(group, reach * spacing_)) {
       kernel_.wrap(*group_);
       take(group);
     }
@@ -84,28 +109,16 @@ bool TileWrapper::pays(const Group& group) const {
   double alone = 0;
   for (std::size_t k = group.begin; k < group.end; ++k) {
     const std::size_t degree = stars_.degree(order_[k]);
-    alone += degree >= 5 && degree <= 7 ? 1 : cost_of_search;
+    alone += degree >= 5 && degree <= 7 ? 1 : WrapRules::cost_of_search;
   }
-  return group.end - group.begin >= fewest && alone > 3 + 0.77 * kernel_.lanes;
-}
-
-/// What most stars need is tried first.
-void TileWrapper::learn_reach(std::size_t stars, std::size_t larger) {
-  stars_seen_ += static_cast<double>(stars);
-  larger_ += static_cast<double>(larger);
-  if (stars_seen_ < 500)
-    return;
-  if (larger_ > 0.2 * stars_seen_ && level_ + 1 < reaches.size())
-    ++level_;
-  else if (larger_ < 1e-4 * stars_seen_ && level_ > 0)
-    --level_;
-  stars_seen_ = larger_ = 0;
+  return group.end - group.begin >= WrapRules::fewest_in_group &&
+         alone > WrapRules::cost_of_group + WrapRules::cost_of_lane * kernel_.lanes;
 }
 
 /// Snakes through strips of bins, so that a run of sites fills a compact box.
 void TileWrapper::order_sites(LocalIndex tile) {
   const int side = points_.grid().bins_per_side(tile);
-  const double bin = std::sqrt(static_cast<double>(caps_.size())) / side; // in spacings
+  const double bin = std::sqrt(static_cast<double>(wanted_.caps.size())) / side; // in spacings
   const int height = std::clamp(static_cast<int>(std::lround(std::sqrt(kernel_.lanes) / bin)), 1, side);
   order_.clear();
   bool backwards = false;
@@ -120,13 +133,13 @@ void TileWrapper::append_column(LocalIndex tile, int column, int first_row, int 
   for (int row = first_row; row < last_row; ++row) {
     const auto [first, last] = points_.bin_range({tile, row * side + column});
     for (LocalIndex i = first; i < last; ++i)
-      if (cap(i) > 0)
+      if (wanted_.cap(i) > 0)
         order_.push_back(i);
   }
   const double sign = backwards ? -1 : 1;
   const auto before = [&](LocalIndex i, LocalIndex j) { return sign * positions_[i].x < sign * positions_[j].x; };
   const auto first = order_.begin() + static_cast<std::ptrdiff_t>(begin);
-  if (order_.end() - first > few) {
+  if (order_.end() - first > few_to_sort) {
     std::sort(first, order_.end(), before);
     return;
   }
@@ -159,7 +172,7 @@ bool TileWrapper::prepare(const Group& group, double reach) {
   center_ = lattice_.snap(Vec2{0.5 * (group.box.min.x + group.box.max.x), 0.5 * (group.box.min.y + group.box.max.y)});
   const Vec2 half{0.5 * group.box.width() + reach, 0.5 * group.box.height() + reach};
   const double longer = std::max(half.x, half.y);
-  if (longer * scale_ > largest_half || longer > 1.9 * StarBuilder::largest_cap(points_.grid().periods()))
+  if (longer * scale_ > largest_half || longer > half_window * StarBuilder::largest_cap(points_.grid().periods()))
     return false;
   collect(half);
   if (group_->candidates > WrapGroup::most_candidates)
@@ -173,7 +186,7 @@ bool TileWrapper::prepare(const Group& group, double reach) {
     group_->site_y[lane] = site.y;
     group_->site_rest_x[lane] = site.rest_x;
     group_->site_rest_y[lane] = site.rest_y;
-    group_->cap[lane] = static_cast<float>(0.99 * cap(i) * scale_);
+    group_->cap[lane] = static_cast<float>(cap_slack * wanted_.cap(i) * scale_);
     stars_.expect_store(i);
   }
   return true;
@@ -251,13 +264,8 @@ void TileWrapper::take(const Group& group) {
     }
   }
   const std::size_t n = group.end - group.begin;
-  learn_reach(n, again_.size() - again_before);
-  if (2 * undecided <= n) {
-    patience_ = 0;
-  } else { // ties everywhere
-    patience_ = std::min(longest_pause, 2 * patience_ + 1);
-    skipped_ = patience_;
-  }
+  reach_.learn(n, again_.size() - again_before);
+  ties_.learn(n, undecided);
 }
 
 /// @brief The proof in double precision: no candidate lies in the discs of the ring, save the two of each on its rim.
@@ -283,18 +291,18 @@ bool TileWrapper::prove(LocalIndex site, int lane, int degree) {
   for (int c = 0; c < group_->candidates; ++c) {
     const Vec2 q = positions_[candidate_[static_cast<std::size_t>(c)]] - center;
     const double q2 = geometry::squared_length(q);
-    near_x_[near] = q.x;
-    near_y_[near] = q.y;
-    near += (q2 > 0) & (q2 <= 4.0001 * r2);
+    near_.x[near] = q.x;
+    near_.y[near] = q.y;
+    near += (q2 > 0) & (q2 <= reach_squared * r2);
   }
-  near_x_[near] = near_y_[near] = NAN;
-  const double size = 2 * std::sqrt(2.001 * r2); // of |q|_1
+  near_.x[near] = near_.y[near] = NAN;
+  const double size = 2 * std::sqrt(taxicab_squared * r2); // of |q|_1
   for (int k = 0; k < degree; ++k) {
     const Vertex& v = vertices[static_cast<std::size_t>(k)];
     const Double2 tolerance = both(-(v.error * size + 8 * epsilon * size * size));
     Mask2 inside{0, 0};
     for (std::size_t c = 0; c < near; c += 2) {
-      const Double2 x = load2(&near_x_[c]), y = load2(&near_y_[c]);
+      const Double2 x = load2(&near_.x[c]), y = load2(&near_.y[c]);
       inside += both(2) * (both(v.x) * x + both(v.y) * y) - (x * x + y * y) >= tolerance;
     }
     if (inside[0] + inside[1] != -2)
@@ -328,16 +336,16 @@ void TileWrapper::store(LocalIndex site, int lane, int degree) {
     for (std::size_t k = n; k < StarTable::slots; ++k)
       slots[k] = slots[k - n];
   } else {
-    long_ring_.clear();
+    rings_.now.clear();
     for (int k = 0; k < degree; ++k)
-      long_ring_.push_back(turned(k));
-    const std::span<const LocalIndex> last = stars_.load(site, old_ring_);
-    changed = !std::equal(last.begin(), last.end(), long_ring_.begin(), long_ring_.end());
-    stars_.store(site, long_ring_);
+      rings_.now.push_back(turned(k));
+    const std::span<const LocalIndex> last = stars_.load(site, rings_.before);
+    changed = !std::equal(last.begin(), last.end(), rings_.now.begin(), rings_.now.end());
+    stars_.store(site, rings_.now);
   }
   changed_ += changed;
   stars_.set_certain(site, true);
-  cap(site) = 0;
+  wanted_.cap(site) = 0;
 }
 
 } // namespace trime::delaunay

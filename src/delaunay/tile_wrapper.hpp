@@ -14,6 +14,40 @@
 
 namespace trime::delaunay {
 
+/// Chooses the first of three reaches: the one that most stars need, from what the last ones needed.
+class ReachChoice {
+public:
+  /// 0, 1 or 2, longer ones last.
+  std::size_t level() const { return level_; }
+  /// @param stars that were computed @param larger those of them that needed a longer reach
+  void learn(std::size_t stars, std::size_t larger);
+
+private:
+  std::size_t level_ = 0;
+  double stars_ = 0, larger_ = 0; // since the last change
+};
+
+/// Where ties are everywhere, as in a lattice, groups are left alone for a while: longer each time.
+class TiePause {
+public:
+  /// Is the next group left alone? It is counted.
+  bool skips_group();
+  /// @param stars that were computed @param undecided those of them that float32 did not decide
+  void learn(std::size_t stars, std::size_t undecided);
+
+private:
+  int left_ = 0; // groups that are still left alone
+  int last_ = 0; // how many were, last time
+};
+
+/// The caps of the stars of a tile that are to be computed; 0: not wanted, or done.
+struct WantedStars {
+  std::span<double> caps; ///< of the sites of the tile
+  LocalIndex first = 0;   ///< site of the tile
+
+  double& cap(LocalIndex i) const { return caps[static_cast<std::size_t>(i - first)]; }
+};
+
 /// Work space of one thread.
 class TileWrapper {
 public:
@@ -36,7 +70,6 @@ private:
   Group next_group(std::size_t begin) const;
   void wrap_groups(double reach);
   bool pays(const Group& group) const;
-  void learn_reach(std::size_t stars, std::size_t larger);
   bool prepare(const Group& group, double reach);
   void collect(geometry::Vec2 half);
   geometry::Box box_of(mesh::BinRef bin) const;
@@ -44,7 +77,6 @@ private:
   void take(const Group& group);
   bool prove(LocalIndex site, int lane, int degree);
   void store(LocalIndex site, int lane, int degree);
-  double& cap(LocalIndex i) { return caps_[static_cast<std::size_t>(i - first_site_)]; }
 
   const mesh::BinnedPoints& points_;
   const geometry::Vec2* positions_;
@@ -54,8 +86,7 @@ private:
   std::unique_ptr<WrapGroup> group_;
 
   // Of the tile.
-  std::span<double> caps_;
-  LocalIndex first_site_ = 0;
+  WantedStars wanted_;
   double spacing_ = 0; // the root of the area of a site
   std::vector<LocalIndex> order_, again_;
   std::int64_t changed_ = 0;
@@ -65,14 +96,16 @@ private:
   double scale_ = 1; // a power of two
   std::vector<LocalIndex> candidate_;
   std::vector<mesh::BinRef> missing_;
-  std::vector<LocalIndex> old_ring_, long_ring_;
-  std::array<double, WrapGroup::most_candidates + 2> near_x_, near_y_;
+  struct {
+    std::vector<LocalIndex> before, now;
+  } rings_; // of a star with more neighbours than StarTable has slots
+  struct {
+    std::array<double, WrapGroup::most_candidates + 2> x, y;
+  } near_; // candidates that may lie in a disc of a star, from its site
 
   // Learnt on the way; none of it can change a star.
-  std::size_t level_ = 0;              // of the reach
-  double stars_seen_ = 0, larger_ = 0; // stars, and those that needed a longer reach
-  int skipped_ = 0;                    // groups that are still left alone since ties were everywhere
-  int patience_ = 0;                   // how many were, last time
+  ReachChoice reach_;
+  TiePause ties_;
 };
 
 } // namespace trime::delaunay

@@ -19,10 +19,6 @@ using sites::FlatFan;
 using sites::inside_fan;
 using sites::StageView;
 
-std::size_t at(LocalIndex i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Triangles and facets of one tile, or where those of a tile begin.
 struct Offsets {
   std::size_t triangles = 0, facets = 0;

@@ -5,21 +5,18 @@
 #include "io/slab_file.hpp"
 #include "io/temporary_file.hpp"
 #include "io/xdmf.hpp"
+#include "trime/io/run_files.hpp"
 
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstring>
 #include <memory>
 #include <optional>
 
 namespace trime::io {
 namespace {
-
-std::atomic<bool> final_mesh_has_its_name = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
 
 template <class T>
 hid_t value_type();
@@ -246,8 +243,8 @@ void check_shapes(const mesh::DistributedMesh& mesh) {
 WrittenFiles publish(TemporaryFile& temporary, const MeshFileOptions& options, const mesh::DistributedMesh& mesh) {
   const std::string h5 = options.path(".h5"), xdmf = options.path(".xdmf"), vtkhdf = options.path(".vtkhdf");
   temporary.rename_to(h5);
-  if (options.is_final)
-    final_mesh_has_its_name = true;
+  if (options.is_final && options.run_files)
+    options.run_files->set_final_mesh_written();
   WrittenFiles written{{h5}, 0};
   struct stat status {};
   if (stat(h5.c_str(), &status) == 0)
@@ -257,8 +254,10 @@ WrittenFiles publish(TemporaryFile& temporary, const MeshFileOptions& options, c
   unlink(vtkhdf.c_str());
   if (options.xdmf) {
     write_one_text_file(
-        xdmf, xdmf_text({options.name + ".h5", field_group(options, "CellData"), field_group(options, "PointData"),
-                         mesh.point_slab.total, mesh.triangle_slab.total, 0}));
+        xdmf,
+        xdmf_text({options.name + ".h5", field_group(options, "CellData"), field_group(options, "PointData"),
+                   mesh.point_slab.total, mesh.triangle_slab.total, 0}),
+        options.run_files);
     written.paths.push_back(xdmf);
   }
   if (options.vtkhdf) {
@@ -283,7 +282,7 @@ WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedM
   std::optional<TemporaryFile> temporary; // rank 0 removes it if anything fails
   comm::run_agreed(comm, [&] {
     if (comm.is_root())
-      temporary.emplace(path);
+      temporary.emplace(path, options.run_files);
   });
   write_hdf5(path, options, mesh, of_root, comm);
   WrittenFiles written;
@@ -292,10 +291,6 @@ WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedM
       written = publish(*temporary, options, mesh);
   });
   return written;
-}
-
-bool final_mesh_stands() noexcept {
-  return final_mesh_has_its_name;
 }
 
 std::string hdf5_version() {

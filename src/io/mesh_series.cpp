@@ -2,6 +2,7 @@
 #include "trime/io/mesh_series.hpp"
 
 #include "comm/agree.hpp"
+#include "io/file_series.hpp"
 #include "io/output_files.hpp"
 #include "io/temporary_file.hpp"
 #include "io/xdmf.hpp"
@@ -14,17 +15,6 @@ namespace trime::io {
 namespace {
 
 const std::string final_label = "final"; // of the last mesh of a run, in the names of files
-
-/// A text in quotes as JSON has it.
-std::string json_text(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\')
-      result += '\\';
-    result += c;
-  }
-  return result + "\"";
-}
 
 } // namespace
 
@@ -69,7 +59,8 @@ WrittenFiles MeshSeries::write(const SeriesMesh& mesh, const std::string& name, 
       remove_stale(written.paths);
   });
   if (options_.text)
-    write_text_mesh({options_.file.path(""), options_.file.name, label, options_.period}, mesh.mesh, comm_);
+    write_text_mesh({options_.file.path(""), options_.file.name, label, options_.period, file.run_files}, mesh.mesh,
+                    comm_);
   comm::run_agreed(comm_, [&] {
     if (comm_.is_root())
       collections_ = write_collections();
@@ -92,7 +83,8 @@ std::vector<std::string> MeshSeries::write_collections() const {
     std::vector<TextQuality> lines;
     for (const Member& member : members_)
       lines.push_back(member.quality);
-    write_text_file(file.path("") + "/" + file.name + "_tria_quality_stat_overall.txt", overall_quality_text(lines));
+    write_text_file(file.path("") + "/" + file.name + "_tria_quality_stat_overall.txt", overall_quality_text(lines),
+                    file.run_files);
     paths.push_back(file.path("") + "/" + file.name + "_*.txt");
   }
   if (options_.steps && file.xdmf) {
@@ -100,16 +92,14 @@ std::vector<std::string> MeshSeries::write_collections() const {
     for (const Member& m : members_)
       grids.push_back({m.name + ".h5", field_group(file, "CellData"), field_group(file, "PointData"), m.quality.points,
                        m.quality.triangles, m.quality.retriangulation});
-    write_text_file(xdmf_collection(file), xdmf_series_text(grids));
+    write_text_file(xdmf_collection(file), xdmf_series_text(grids), file.run_files);
     paths.push_back(xdmf_collection(file));
   }
   if (options_.steps && file.vtkhdf) {
-    std::string list;
+    std::vector<NamedTime> views;
     for (const Member& m : members_)
-      list += fmt::format("{}    {{ \"name\": {}, \"time\": {} }}", list.empty() ? "" : ",\n",
-                          json_text(m.name + ".vtkhdf"), m.quality.retriangulation);
-    write_text_file(vtkhdf_collection(file),
-                    fmt::format("{{\n  \"file-series-version\": \"1.0\",\n  \"files\": [\n{}\n  ]\n}}\n", list));
+      views.push_back({m.name + ".vtkhdf", m.quality.retriangulation});
+    write_text_file(vtkhdf_collection(file), file_series_text(views), file.run_files);
     paths.push_back(vtkhdf_collection(file));
   }
   return paths;

@@ -2,27 +2,20 @@
 #include "io/temporary_file.hpp"
 
 #include "trime/core/error.hpp"
-#include "trime/io/mesh_file.hpp"
+#include "trime/io/run_files.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
-#include <climits>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
 namespace trime::io {
 namespace {
-
-// For the signal handler: a plain buffer, valid while the flag is set.
-char active_path[PATH_MAX];
-std::atomic<bool> active{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
 
 /// Brings a file or directory to the disk. File systems that cannot synchronise a directory are forgiven.
 void synchronise(const std::string& path, int flags) {
@@ -48,15 +41,14 @@ std::string system_error() {
   return std::strerror(errno);
 }
 
-TemporaryFile::TemporaryFile(std::string path) : path_(std::move(path)) {
-  if (path_.size() < sizeof active_path) {
-    std::memcpy(active_path, path_.c_str(), path_.size() + 1);
-    active = true;
-  }
+TemporaryFile::TemporaryFile(std::string path, RunFiles* files) : path_(std::move(path)), files_(files) {
+  if (files_)
+    files_->start_writing(path_);
 }
 
 TemporaryFile::~TemporaryFile() {
-  active = false;
+  if (files_)
+    files_->stop_writing();
   if (!published_)
     unlink(path_.c_str());
 }
@@ -74,7 +66,8 @@ void TemporaryFile::rename_to(const std::string& final_path) {
   if (std::rename(path_.c_str(), final_path.c_str()) != 0)
     throw FileError(fmt::format("cannot rename {} to {}: {}", path_, final_path, system_error()));
   published_ = true;
-  active = false;
+  if (files_)
+    files_->stop_writing();
 }
 
 FileSet::~FileSet() {
@@ -84,11 +77,6 @@ FileSet::~FileSet() {
 
 void synchronise_directory(const std::string& path) {
   synchronise(directory_of(path), O_RDONLY | O_DIRECTORY);
-}
-
-void remove_temporary_file() noexcept {
-  if (active)
-    unlink(active_path);
 }
 
 std::string temporary_name(const std::string& final_path) {
@@ -118,13 +106,13 @@ void reserve_space(const std::string& path, std::int64_t bytes) {
     throw too_small(fmt::format("only {:.1f} MiB are free", available / 0x1p20));
 }
 
-void write_text_file(const std::string& final_path, const std::string& text) {
-  write_one_text_file(final_path, text);
+void write_text_file(const std::string& final_path, const std::string& text, RunFiles* files) {
+  write_one_text_file(final_path, text, files);
   synchronise_directory(final_path);
 }
 
-void write_one_text_file(const std::string& final_path, const std::string& text) {
-  TemporaryFile temporary(temporary_name(final_path));
+void write_one_text_file(const std::string& final_path, const std::string& text, RunFiles* files) {
+  TemporaryFile temporary(temporary_name(final_path), files);
   std::FILE* file = std::fopen(temporary.path().c_str(), "wb");
   if (!file)
     throw FileError(fmt::format("cannot create {}: {}", temporary.path(), system_error()));

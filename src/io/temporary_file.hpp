@@ -8,11 +8,14 @@
 
 namespace trime::io {
 
-/// @brief Keeps one temporary name; removes the file at the end of its life unless it was renamed, and lets
-/// remove_temporary_file() find it in a signal handler. One object at a time.
+class RunFiles;
+
+/// @brief Keeps one temporary name; removes the file at the end of its life unless it was renamed. One object at a
+/// time.
 class TemporaryFile {
 public:
-  explicit TemporaryFile(std::string path);
+  /// @param files is told of the file, so that a signal handler can remove it; may be null, else outlives this object
+  TemporaryFile(std::string path, RunFiles* files);
   ~TemporaryFile();
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -26,6 +29,7 @@ public:
 
 private:
   std::string path_;
+  RunFiles* files_;
   bool published_ = false;
 };
 
@@ -55,10 +59,10 @@ void reserve_space(const std::string& path, std::int64_t bytes);
 /// Brings the names of files beside this one to the disk. @throws FileError
 void synchronise_directory(const std::string& path);
 
-/// Writes a text to `final_path`, whole or not at all. @throws FileError
-void write_text_file(const std::string& final_path, const std::string& text);
+/// Writes a text to `final_path`, whole or not at all. @param files may be null @throws FileError
+void write_text_file(const std::string& final_path, const std::string& text, RunFiles* files);
 /// The same as one of several files. @post synchronise_directory will do the rest
-void write_one_text_file(const std::string& final_path, const std::string& text);
+void write_one_text_file(const std::string& final_path, const std::string& text, RunFiles* files);
 
 /// Makes or replaces the symbolic link `path` to `target` (relative to the directory of `path`). @throws FileError
 void replace_link(const std::string& target, const std::string& path);

@@ -107,7 +107,7 @@ private:
   template <class Append>
   void write_shared_rows(const std::string& name, std::size_t count, const Append& append_row) const {
     const TextRows rows = rows_of(count, append_row);
-    write_text_rows(place_.folder + "/" + name + ".txt", {&rows, 1}, comm_);
+    write_text_rows(place_.folder + "/" + name + ".txt", {&rows, 1}, place_.run_files, comm_);
   }
 
   void write_file(const std::string& file, std::span<const TextRows> arrays) {
@@ -115,7 +115,7 @@ private:
       if (comm_.is_root())
         files_.add(file);
     });
-    write_text_rows(file, arrays, comm_);
+    write_text_rows(file, arrays, place_.run_files, comm_);
   }
 
   void write_points() {
@@ -238,7 +238,7 @@ private:
 
   void write_loop_file(const std::string& ending, const std::string& text) {
     files_.add(path(ending));
-    write_text_file(path(ending), text);
+    write_text_file(path(ending), text, place_.run_files);
   }
 
   const TextPlace& place_;

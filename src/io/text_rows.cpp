@@ -25,8 +25,8 @@ constexpr std::int64_t rows_of_thread = 1 << 11;
 /// Rank 0's end of the file.
 class Output {
 public:
-  explicit Output(const std::string& final_path)
-      : final_path_(final_path), temporary_(temporary_name(final_path)),
+  Output(const std::string& final_path, RunFiles* files)
+      : final_path_(final_path), temporary_(temporary_name(final_path), files),
         descriptor_(open(temporary_.path().c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0666)) {
     if (descriptor_ < 0)
       throw FileError(fmt::format("cannot create {}: {}", temporary_.path(), system_error()));
@@ -147,11 +147,12 @@ void append_number(std::string& text, std::int64_t number) {
   text.append(digits, end);
 }
 
-void write_text_rows(const std::string& final_path, std::span<const TextRows> arrays, const comm::Communicator& comm) {
+void write_text_rows(const std::string& final_path, std::span<const TextRows> arrays, RunFiles* files,
+                     const comm::Communicator& comm) {
   std::optional<Output> output;
   comm::run_agreed(comm, [&] {
     if (comm.is_root())
-      output.emplace(final_path);
+      output.emplace(final_path, files);
   });
   std::int64_t end = 0;
   for (const TextRows& array : arrays)

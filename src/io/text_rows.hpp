@@ -12,6 +12,8 @@
 
 namespace trime::io {
 
+class RunFiles;
+
 /// Rows of one array over all ranks.
 struct TextRows {
   std::int64_t rows = 0; ///< of this rank
@@ -26,8 +28,10 @@ void append_number(std::string& text, std::int64_t number);
 /// @brief Writes all rows of the first array, then those of the second, ..., under a temporary name; then gives the
 /// file its name. Each rank makes its lines twice on several ranks: first to count bytes. Memory: some 30 MB on rank 0,
 /// its share of it elsewhere.
+/// @param files as MeshFileOptions::run_files
 /// @throws FileError on all ranks together
 /// @note Collective.
-void write_text_rows(const std::string& final_path, std::span<const TextRows> arrays, const comm::Communicator& comm);
+void write_text_rows(const std::string& final_path, std::span<const TextRows> arrays, RunFiles* files,
+                     const comm::Communicator& comm);
 
 } // namespace trime::io

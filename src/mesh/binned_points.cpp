@@ -16,12 +16,39 @@ namespace {
 
 constexpr std::ptrdiff_t stay_chunk = 4096; // sites that one thread copies in a row
 
-std::size_t at(LocalIndex i) {
-  return static_cast<std::size_t>(i);
-}
-
 std::uint8_t stored_pushes(std::int32_t pushes) {
   return static_cast<std::uint8_t>(std::min(pushes, 255));
+}
+
+/// Positions in the new order, and the leads if they are wanted.
+template <class Sites>
+void take_places(const SiteOrder& order, const Sites& sites, UnsetVector<geometry::Vec2>& positions,
+                 UnsetVector<geometry::Vec2>* leads) {
+  positions.resize(at(order.size()));
+  if (leads)
+    leads->resize(positions.size());
+  order.for_each([&](std::size_t k, LocalIndex from) {
+    positions[k] = sites.position(from);
+    if (leads)
+      (*leads)[k] = sites.lead(from);
+  });
+}
+
+/// Boundary indices and push counts in the new order. They may be read from the old vectors.
+template <class Sites>
+void take_labels(const SiteOrder& order, const Sites& sites, UnsetVector<std::int32_t>& boundary,
+                 UnsetVector<std::uint8_t>& pushes) {
+  UnsetVector<std::int32_t> new_boundary;
+  UnsetVector<std::uint8_t> new_pushes;
+  new_boundary.reserve(boundary.capacity()); // ghosts will follow
+  new_boundary.resize(at(order.size()));
+  new_pushes.resize(at(order.size()));
+  order.for_each([&](std::size_t k, LocalIndex from) {
+    new_boundary[k] = sites.boundary(from);
+    new_pushes[k] = stored_pushes(sites.pushes(from));
+  });
+  boundary = std::move(new_boundary);
+  pushes = std::move(new_pushes);
 }
 
 } // namespace
@@ -45,8 +72,8 @@ LocalIndex BinnedPoints::assign_owned(std::span<const Site> sites, LocalIndex fi
                "{} sites of tiles {}..{} were grouped, found {} of {}..{}", order_.grouped(), this->first_tile(),
                this->last_tile(), list.size(), first_tile, last_tile);
   const LocalIndex dropped = sort(list);
-  take_places(list);
-  take_labels(list);
+  take_places(order_, list, positions_, has_leads_ ? &leads_ : nullptr);
+  take_labels(order_, list, boundary_, pushes_);
   if (new_index)
     order_.list_new_indices(list.size(), *new_index);
   order_.forget();
@@ -60,10 +87,10 @@ void BinnedPoints::sort_moved(std::span<const std::uint8_t> gone, std::span<cons
   const LocalIndex before = moved.size();
   order_.group(grid(), moved, first_tile(), last_tile());
   sort(moved);
-  take_labels(moved);
-  take_places(moved); // over the old ones
-  release(next_positions_);
-  release(next_leads_);
+  take_labels(order_, moved, boundary_, pushes_);
+  take_places(order_, moved, positions_, has_leads_ ? &leads_ : nullptr); // over the old ones
+  release(next_.positions_);
+  release(next_.leads_);
   order_.list_new_indices(before, new_index);
   order_.forget();
 }
@@ -74,34 +101,9 @@ LocalIndex BinnedPoints::sort(const Sites& sites) {
   bins_.own(first_tile(), last_tile());
   drifts_.forget(grid().tile_count());
   state_ = State::sorted;
-  return order_.sort(sites, bins_);
-}
-
-template <class Sites>
-void BinnedPoints::take_places(const Sites& sites) {
+  const LocalIndex dropped = order_.sort(sites, bins_);
   owned_ = order_.size();
-  positions_.resize(at(owned_));
-  leads_.resize(has_leads_ ? at(owned_) : 0);
-  order_.for_each([&](std::size_t k, LocalIndex from) {
-    positions_[k] = sites.position(from);
-    if (has_leads_)
-      leads_[k] = sites.lead(from);
-  });
-}
-
-template <class Sites>
-void BinnedPoints::take_labels(const Sites& sites) {
-  UnsetVector<std::int32_t> boundary;
-  UnsetVector<std::uint8_t> pushes;
-  boundary.reserve(boundary_.capacity()); // ghosts will follow
-  boundary.resize(at(order_.size()));
-  pushes.resize(at(order_.size()));
-  order_.for_each([&](std::size_t k, LocalIndex from) {
-    boundary[k] = sites.boundary(from);
-    pushes[k] = stored_pushes(sites.pushes(from));
-  });
-  boundary_ = std::move(boundary);
-  pushes_ = std::move(pushes);
+  return dropped;
 }
 
 void BinnedPoints::assign_ghosts(std::span<const BinRef> bins, std::span<const std::int32_t> counts,
@@ -129,27 +131,30 @@ void BinnedPoints::assign_ghosts(std::span<const BinRef> bins, std::span<const s
 
 void BinnedPoints::prepare_advance() {
   TRIME_ASSERT(state_ == State::sorted || state_ == State::prepared, "no sites that could move");
-  next_positions_.resize(positions_.size());
-  next_leads_.resize(leads_.size());
+  next_.positions_.resize(positions_.size());
+  next_.leads_.resize(leads_.size());
   state_ = State::prepared;
 }
 
-void BinnedPoints::prepare_to_stay() {
-  prepare_advance();
-  thread_loop((owned_ + 4095) / stay_chunk, 1, [&](std::ptrdiff_t part, int) {
-    const std::ptrdiff_t begin = part * stay_chunk, end = std::min<std::ptrdiff_t>(owned_, begin + stay_chunk);
-    std::copy(positions_.begin() + begin, positions_.begin() + end, next_positions_.begin() + begin);
-    if (has_leads_)
-      std::copy(leads_.begin() + begin, leads_.begin() + end, next_leads_.begin() + begin);
+void prepare_to_stay(BinnedPoints& points) {
+  points.prepare_advance();
+  const std::span<const geometry::Vec2> positions = points.positions().first(at(points.owned())),
+                                        leads = points.leads();
+  const std::ptrdiff_t chunks = (points.owned() + stay_chunk - 1) / stay_chunk;
+  thread_loop(chunks, 1, [&](std::ptrdiff_t chunk, int) {
+    const std::ptrdiff_t begin = chunk * stay_chunk, end = std::min<std::ptrdiff_t>(points.owned(), begin + stay_chunk);
+    std::copy(positions.begin() + begin, positions.begin() + end, points.next().positions().begin() + begin);
+    if (points.has_leads())
+      std::copy(leads.begin() + begin, leads.begin() + end, points.next().leads().begin() + begin);
   });
 }
 
 void BinnedPoints::advance() {
-  TRIME_ASSERT(state_ == State::prepared && next_positions_.size() == positions_.size(), "{} sites have {} next places",
-               positions_.size(), next_positions_.size());
-  std::copy(positions_.begin() + owned_, positions_.end(), next_positions_.begin() + owned_);
-  positions_.swap(next_positions_);
-  leads_.swap(next_leads_);
+  TRIME_ASSERT(state_ == State::prepared && next_.positions_.size() == positions_.size(),
+               "{} sites have {} next places", positions_.size(), next_.positions_.size());
+  std::copy(positions_.begin() + owned_, positions_.end(), next_.positions_.begin() + owned_);
+  positions_.swap(next_.positions_);
+  leads_.swap(next_.leads_);
   state_ = State::sorted;
 }
 
@@ -157,8 +162,8 @@ void BinnedPoints::release_leads() {
   TRIME_ASSERT(state_ == State::sorted || state_ == State::prepared, "no sites whose leads could be released");
   has_leads_ = false;
   release(leads_);
-  release(next_leads_);
-  release(next_positions_);
+  release(next_.leads_);
+  release(next_.positions_);
   state_ = State::sorted;
 }
 

@@ -5,6 +5,7 @@
 
 #include "mesh/drifts.hpp"
 #include "mesh/known_bins.hpp"
+#include "mesh/next_places.hpp"
 #include "mesh/site.hpp"
 #include "mesh/site_order.hpp"
 #include "mesh/tile_grid.hpp"
@@ -23,7 +24,7 @@ namespace trime::mesh {
 /// - empty: at first. Only suitable_bin_bits and assign_owned.
 /// - grouped: after suitable_bin_bits. Only assign_owned with the same sites and tiles.
 /// - sorted: after assign_owned and sort_moved. All but advance, sort_moved and what asks for next places.
-/// - prepared: after prepare_advance and prepare_to_stay. All. `advance` leads back to sorted: the bins are older than
+/// - prepared: after prepare_advance. All. `advance` leads back to sorted: the bins are older than
 ///   the places then, and the drifts must be set; so do release_leads, and sort_moved with fresh bins. Once other
 ///   ghosts are assigned, places must be prepared anew before `advance`.
 /// - released: after release_moves. Only positions, boundary, tile_range, and assign_owned.
@@ -51,9 +52,9 @@ public:
   LocalIndex owned() const { return owned_; }
   LocalIndex size() const { return static_cast<LocalIndex>(positions_.size()); }
   std::span<const geometry::Vec2> positions() const { return positions_; }
-  geometry::Vec2 position(LocalIndex i) const { return positions_[static_cast<std::size_t>(i)]; }
+  geometry::Vec2 position(LocalIndex i) const { return positions_[at(i)]; }
   /// Index of the boundary site that site i is, or -1.
-  std::int32_t boundary(LocalIndex i) const { return boundary_[static_cast<std::size_t>(i)]; }
+  std::int32_t boundary(LocalIndex i) const { return boundary_[at(i)]; }
   /// @pre site i is owned
   Site site(LocalIndex i) const {
     const std::size_t at = static_cast<std::size_t>(i);
@@ -83,25 +84,15 @@ public:
   /// @post assign_owned with the same sites and tiles must come next; another number of them is an InternalError
   std::vector<std::uint8_t> suitable_bin_bits(std::span<const Site> sites, LocalIndex first_tile, LocalIndex last_tile);
 
-  /// @brief Moves without sorting: the places (and leads) that the owned sites will take at the next `advance`, to be
-  /// filled by the caller. The bins stay those of the last assign_owned; for_each_near then searches as much farther as
-  /// sites may have come since (the drift of their tile).
-  std::span<geometry::Vec2> next_positions() { return next_positions_; }
-  std::span<geometry::Vec2> next_leads() { return next_leads_; }
-  std::span<const geometry::Vec2> next_positions() const { return next_positions_; }
-  std::span<const geometry::Vec2> next_leads() const { return next_leads_; }
+  /// @brief Moves without sorting: where the owned sites go at the next `advance`. The bins stay those of the last
+  /// assign_owned; for_each_near then searches as much farther as sites may have come since (the drift of their tile).
+  NextPlaces& next() { return next_; }
+  const NextPlaces& next() const { return next_; }
   std::span<const geometry::Vec2> leads() const { return leads_; }
-  /// Makes room for the above; what it holds is not set.
+  /// Makes room for the next places; what they hold is not set.
   void prepare_advance();
-  /// The next places are the present ones, until the caller changes some.
-  void prepare_to_stay();
   /// Moves the owned sites to their next places; the ghosts stay.
   void advance();
-  /// What would travel with an owned site to its next place. @pre it has one
-  Site next_site(LocalIndex i) const {
-    const std::size_t at = static_cast<std::size_t>(i);
-    return {next_positions_[at], boundary_[at], pushes_[at], next_leads_.empty() ? geometry::Vec2{} : next_leads_[at]};
-  }
   /// @brief Sorts the owned sites at their next places, but for those that are gone (by local index; empty: none), and
   /// more of them besides; as assign_owned does, with the same tiles. The next places are used up. Needs 9 bytes a site
   /// more than the sites and their next places.
@@ -112,17 +103,17 @@ public:
   const Drifts& drifts() const { return drifts_; }
   Drifts& drifts() { return drifts_; }
   void set_pushes(LocalIndex i, std::int32_t pushes) {
-    pushes_[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::min(pushes, 255));
+    pushes_[at(i)] = static_cast<std::uint8_t>(std::min(pushes, 255));
   }
-  void set_boundary(LocalIndex i, std::int32_t boundary) { boundary_[static_cast<std::size_t>(i)] = boundary; }
-  std::int32_t pushes(LocalIndex i) const { return pushes_[static_cast<std::size_t>(i)]; }
+  void set_boundary(LocalIndex i, std::int32_t boundary) { boundary_[at(i)] = boundary; }
+  std::int32_t pushes(LocalIndex i) const { return pushes_[at(i)]; }
   /// The ghosts, to be moved by their owners.
   std::span<geometry::Vec2> ghost_positions() {
     return std::span(positions_).subspan(static_cast<std::size_t>(owned_));
   }
 
   /// Frees the leads, and those of arriving sites are forgotten: no rule moves the sites any more. @post site() says 0;
-  /// leads() and next_leads() are empty, until assign_owned
+  /// leads() and next().leads() are empty, until assign_owned
   void release_leads();
   bool has_leads() const { return has_leads_; }
   /// Frees what only sites that move have, and the bins. @post nothing but positions, boundary and tile_range may be
@@ -133,10 +124,6 @@ private:
   enum class State { empty, grouped, sorted, prepared, released };
   template <class Sites>
   LocalIndex sort(const Sites& sites);
-  template <class Sites>
-  void take_places(const Sites& sites);
-  template <class Sites>
-  void take_labels(const Sites& sites);
 
   State state_ = State::empty;
   KnownBins bins_;
@@ -145,10 +132,20 @@ private:
   LocalIndex owned_ = 0;
   UnsetVector<geometry::Vec2> positions_;
   UnsetVector<std::int32_t> boundary_;
-  UnsetVector<std::uint8_t> pushes_;                        // owned only
-  UnsetVector<geometry::Vec2> leads_;                       // owned only
-  UnsetVector<geometry::Vec2> next_positions_, next_leads_; // by local index; of use only while sites move
+  UnsetVector<std::uint8_t> pushes_;  // owned only
+  UnsetVector<geometry::Vec2> leads_; // owned only
+  NextPlaces next_;                   // of use only while sites move
   bool has_leads_ = true;
 };
+
+/// Prepares an advance in which every owned site stays, until the caller changes its next place. Threads.
+void prepare_to_stay(BinnedPoints& points);
+
+/// What would travel with an owned site to its next place. @pre it has one
+inline Site next_site(const BinnedPoints& points, LocalIndex i) {
+  const NextPlaces& next = points.next();
+  return {next.positions()[at(i)], points.boundary(i), points.pushes(i),
+          next.leads().empty() ? geometry::Vec2{} : next.leads()[at(i)]};
+}
 
 } // namespace trime::mesh

@@ -19,7 +19,7 @@ double Drifts::margin(geometry::Vec2 center, double reach, const KnownBins& bins
   const geometry::Box box = grid.tile_box(0);
   if (reach + largest_ > std::min(box.width(), box.height()))
     return largest_;
-  const int column = grid.tile_of(grid.fixed_x(center.x)), row = grid.tile_of(grid.fixed_y(center.y));
+  const int column = grid.tile_of(grid.x_axis().fixed(center.x)), row = grid.tile_of(grid.y_axis().fixed(center.y));
   double most = 0;
   for (int y = std::max(0, row - 1); y <= std::min(grid.tiles_y() - 1, row + 1); ++y)
     for (int x = std::max(0, column - 1); x <= std::min(grid.tiles_x() - 1, column + 1); ++x) {

@@ -84,8 +84,8 @@ private:
 template <class Visit, class Missing>
 void KnownBins::for_each_near(geometry::Vec2 center, double reach, const Visit& visit, const Missing& missing) const {
   const TileGrid& grid = *grid_;
-  const std::int64_t x0 = grid.unrolled_x(center.x - reach), x1 = grid.unrolled_x(center.x + reach);
-  const std::int64_t y0 = grid.unrolled_y(center.y - reach), y1 = grid.unrolled_y(center.y + reach);
+  const std::int64_t x0 = grid.x_axis().unrolled(center.x - reach), x1 = grid.x_axis().unrolled(center.x + reach);
+  const std::int64_t y0 = grid.y_axis().unrolled(center.y - reach), y1 = grid.y_axis().unrolled(center.y + reach);
   const int tx0 = grid.tile_of(x0), tx1 = grid.tile_of(x1), ty0 = grid.tile_of(y0), ty1 = grid.tile_of(y1);
   if (tx0 == tx1 && ty0 == ty1) { // most squares lie in one tile
     const TileGrid::TileImage at = grid.tile_image_at(tx0, ty0);

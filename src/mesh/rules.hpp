@@ -25,6 +25,9 @@ struct MeshRules {
   /// [bins] A tile has so many bins for each site at most, however its sites are clustered: it bounds the memory. Not
   /// measured.
   static constexpr int bins_per_site = 4;
+  /// [1] A tile has 2^k x 2^k bins with k at most this: 2^24 bins, whose numbers and counts fit into 32 bits. Not
+  /// measured.
+  static constexpr int finest_bin_bits = 12;
 };
 
 } // namespace trime::mesh

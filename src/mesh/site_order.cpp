@@ -13,10 +13,6 @@ namespace {
 
 using geometry::Vec2;
 
-std::size_t at(LocalIndex i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// The order in a bin. Of sites at one place the first is kept: the boundary site or the fixed one, else the one pushed
 /// most often.
 template <class Sites>

@@ -14,10 +14,10 @@ public:
   explicit ListedSites(std::span<const Site> sites) : sites_(sites) {}
   LocalIndex size() const { return static_cast<LocalIndex>(sites_.size()); }
   bool stays(LocalIndex) const { return true; }
-  geometry::Vec2 position(LocalIndex i) const { return sites_[static_cast<std::size_t>(i)].position; }
-  std::int32_t boundary(LocalIndex i) const { return sites_[static_cast<std::size_t>(i)].boundary; }
-  std::int32_t pushes(LocalIndex i) const { return sites_[static_cast<std::size_t>(i)].pushes; }
-  geometry::Vec2 lead(LocalIndex i) const { return sites_[static_cast<std::size_t>(i)].lead; }
+  geometry::Vec2 position(LocalIndex i) const { return sites_[at(i)].position; }
+  std::int32_t boundary(LocalIndex i) const { return sites_[at(i)].boundary; }
+  std::int32_t pushes(LocalIndex i) const { return sites_[at(i)].pushes; }
+  geometry::Vec2 lead(LocalIndex i) const { return sites_[at(i)].lead; }
 
 private:
   std::span<const Site> sites_;
@@ -28,19 +28,19 @@ class MovedSites {
 public:
   /// @param gone by local index; empty: none
   MovedSites(const BinnedPoints& points, std::span<const std::uint8_t> gone, std::span<const Site> more)
-      : points_(points), next_positions_(points.next_positions()), next_leads_(points.next_leads()), gone_(gone),
+      : points_(points), next_positions_(points.next().positions()), next_leads_(points.next().leads()), gone_(gone),
         more_(more), owned_(points.owned()), has_leads_(points.has_leads()) {}
   LocalIndex size() const { return owned_ + more_.size(); }
-  bool stays(LocalIndex i) const { return i >= owned_ || gone_.empty() || !gone_[static_cast<std::size_t>(i)]; }
+  bool stays(LocalIndex i) const { return i >= owned_ || gone_.empty() || !gone_[at(i)]; }
   geometry::Vec2 position(LocalIndex i) const {
-    return i < owned_ ? next_positions_[static_cast<std::size_t>(i)] : more_.position(i - owned_);
+    return i < owned_ ? next_positions_[at(i)] : more_.position(i - owned_);
   }
   std::int32_t boundary(LocalIndex i) const { return i < owned_ ? points_.boundary(i) : more_.boundary(i - owned_); }
   std::int32_t pushes(LocalIndex i) const { return i < owned_ ? points_.pushes(i) : more_.pushes(i - owned_); }
   geometry::Vec2 lead(LocalIndex i) const {
     if (!has_leads_)
       return {};
-    return i < owned_ ? next_leads_[static_cast<std::size_t>(i)] : more_.lead(i - owned_);
+    return i < owned_ ? next_leads_[at(i)] : more_.lead(i - owned_);
   }
 
 private:

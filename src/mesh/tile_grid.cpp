@@ -24,6 +24,23 @@ int auto_cells(double extent, double spacing) {
   return static_cast<int>(std::clamp(std::floor(extent / cell), 1.0, static_cast<double>(max_cells)));
 }
 
+/// Columns and rows of the tiles in the order of the curve. @param offset of the first tile in its square
+std::vector<GridPosition> tiles_along_curve(int tiles_x, int tiles_y, GridPosition offset, int level) {
+  std::vector<std::pair<std::uint64_t, GridPosition>> order;
+  order.reserve(static_cast<std::size_t>(tiles_x) * static_cast<std::size_t>(tiles_y));
+  for (int y = 0; y < tiles_y; ++y)
+    for (int x = 0; x < tiles_x; ++x) {
+      const GridPosition tile{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
+      order.emplace_back(hilbert_key(tile.x + offset.x, tile.y + offset.y, level), tile);
+    }
+  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<GridPosition> tiles;
+  tiles.reserve(order.size());
+  for (const auto& [key, tile] : order)
+    tiles.push_back(tile);
+  return tiles;
+}
+
 } // namespace
 
 TileGrid::TileGrid(const geometry::Box& container, const GridOptions& options)
@@ -33,7 +50,12 @@ TileGrid::TileGrid(const geometry::Box& container, const GridOptions& options)
   cells_y_ = options.cells_y.value_or(auto_cells(container.height(), options.point_spacing));
   choose_tiles(options);
   set_fixed_point();
-  number_tiles();
+  tile_position_ = tiles_along_curve(tiles_x_, tiles_y_, curve_offset_, curve_level_);
+  tile_number_.resize(tile_position_.size());
+  for (LocalIndex tile = 0; tile < tile_count(); ++tile) {
+    const GridPosition place = tile_position(tile);
+    tile_number_[static_cast<std::size_t>(place.y) * tiles_x_ + place.x] = tile;
+  }
   bin_bits_.assign(tile_position_.size(), static_cast<std::uint8_t>(typical_bin_bits_));
 }
 
@@ -55,8 +77,8 @@ void TileGrid::choose_tiles(const GridOptions& options) {
   tile_height_ = (periods_.y > 0 ? periods_.y : container_.height()) / tiles_y_;
   const double in_tile = density * tile_width_ * tile_height_;
   // The nearest power of 4, from the exponent alone: a logarithm may round otherwise on other machines.
-  typical_bin_bits_ =
-      std::clamp((std::ilogb(std::max(1.0, in_tile / MeshRules::points_per_cell)) + 1) / 2, 0, finest_bin_bits);
+  typical_bin_bits_ = std::clamp((std::ilogb(std::max(1.0, in_tile / MeshRules::points_per_cell)) + 1) / 2, 0,
+                                 MeshRules::finest_bin_bits);
 }
 
 /// From coordinates to fixed-point positions, and where the tiles lie in the square of the curve.
@@ -65,33 +87,11 @@ void TileGrid::set_fixed_point() {
   curve_level_ = std::max(1, level); // one tile: the shift stays below 32, three quarters of the square stay empty
   tile_shift_ = 32 - curve_level_;
   typical_bin_bits_ = std::min(typical_bin_bits_, most_bin_bits());
-  scale_x_ = std::ldexp(1.0, tile_shift_) / tile_width_;
-  scale_y_ = std::ldexp(1.0, tile_shift_) / tile_height_;
-  const auto limit = [&](int tiles) {
-    return static_cast<std::uint32_t>((static_cast<std::uint64_t>(tiles) << tile_shift_) - 1);
-  };
-  limit_x_ = limit(tiles_x_);
-  limit_y_ = limit(tiles_y_);
+  x_axis_ = {container_.min.x, tile_width_, tiles_x_, tile_shift_, periods_.x > 0};
+  y_axis_ = {container_.min.y, tile_height_, tiles_y_, tile_shift_, periods_.y > 0};
   // Parts of equally many tiles are compact then, and have equally much of the boundary.
   const auto offset = [](int tiles) { return static_cast<std::uint32_t>((1 << curve_level(tiles)) - tiles) / 2; };
   curve_offset_ = {offset(tiles_x_), offset(tiles_y_)};
-}
-
-void TileGrid::number_tiles() {
-  std::vector<std::pair<std::uint64_t, GridPosition>> order;
-  order.reserve(static_cast<std::size_t>(tiles_x_) * tiles_y_);
-  for (int y = 0; y < tiles_y_; ++y)
-    for (int x = 0; x < tiles_x_; ++x) {
-      const GridPosition at{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
-      order.emplace_back(hilbert_key(at.x + curve_offset_.x, at.y + curve_offset_.y, curve_level_), at);
-    }
-  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  tile_number_.resize(order.size());
-  tile_position_.reserve(order.size());
-  for (const auto& [key, at] : order) {
-    tile_number_[static_cast<std::size_t>(at.y) * tiles_x_ + at.x] = static_cast<LocalIndex>(tile_position_.size());
-    tile_position_.push_back(at);
-  }
 }
 
 void TileGrid::set_bin_bits(std::vector<std::uint8_t> bits) {

@@ -4,6 +4,8 @@
 #pragma once
 
 #include "core/hilbert.hpp"
+#include "mesh/fixed_axis.hpp"
+#include "mesh/rules.hpp"
 #include "trime/core/types.hpp"
 #include "trime/geometry/periods.hpp"
 #include "trime/geometry/vec2.hpp"
@@ -15,6 +17,11 @@
 #include <vector>
 
 namespace trime::mesh {
+
+/// The step along one axis, in periods, to an image with the number 0, 1 or 2 along it: 0, 1 or -1.
+constexpr int image_step(int number) {
+  return number == 2 ? -1 : number;
+}
 
 /// What the grid is made of.
 struct GridOptions {
@@ -42,11 +49,10 @@ public:
   int tiles_x() const { return tiles_x_; }
   int tiles_y() const { return tiles_y_; }
   /// Cells of the container grid along each axis.
-  int cells_x() const { return cells_x_; }
-  int cells_y() const { return cells_y_; }
+  GridPosition cells() const { return {static_cast<std::uint32_t>(cells_x_), static_cast<std::uint32_t>(cells_y_)}; }
   /// Tile number at column x, row y of the tile grid.
   LocalIndex tile_at(int x, int y) const { return tile_number_[static_cast<std::size_t>(y) * tiles_x_ + x]; }
-  GridPosition tile_position(LocalIndex tile) const { return tile_position_[static_cast<std::size_t>(tile)]; }
+  GridPosition tile_position(LocalIndex tile) const { return tile_position_[at(tile)]; }
   /// @brief The tile in the square of the Hilbert curve. Along each axis the grid lies in the middle of its own power
   /// of two. So halves and quarters of a square's curve are halves and quarters of the container. A slender container
   /// is not cut along its length.
@@ -59,18 +65,18 @@ public:
   /// The b of a tile of the typical density: 2^b x 2^b bins with about 3.3 sites each.
   int typical_bin_bits() const { return typical_bin_bits_; }
   /// The b of a tile, its bins along one side, and all of them.
-  int bin_bits(LocalIndex tile) const { return bin_bits_[static_cast<std::size_t>(tile)]; }
+  int bin_bits(LocalIndex tile) const { return bin_bits_[at(tile)]; }
   int bins_per_side(LocalIndex tile) const { return 1 << bin_bits(tile); }
   int bins_per_tile(LocalIndex tile) const { return 1 << (2 * bin_bits(tile)); }
   /// Largest b possible.
-  int most_bin_bits() const { return std::min(finest_bin_bits, tile_shift_); }
+  int most_bin_bits() const { return std::min(MeshRules::finest_bin_bits, tile_shift_); }
   /// @brief Sets the b of every tile. Whatever counts in bins (points, subscriptions) must be built anew.
   /// @pre the same on all ranks; each at most most_bin_bits()
   void set_bin_bits(std::vector<std::uint8_t> bits);
 
-  /// 32-bit fixed-point position; monotone in the coordinate, clamped to the tiles.
-  std::uint32_t fixed_x(double x) const { return fixed((x - container_.min.x) * scale_x_, limit_x_); }
-  std::uint32_t fixed_y(double y) const { return fixed((y - container_.min.y) * scale_y_, limit_y_); }
+  /// From coordinates to fixed-point positions.
+  const FixedAxis& x_axis() const { return x_axis_; }
+  const FixedAxis& y_axis() const { return y_axis_; }
   /// Column (or row) in the tile grid of a fixed-point position.
   int tile_of(std::int64_t position) const { return static_cast<int>(position >> tile_shift_); }
   /// Column (or row) of the bin inside its tile, for a tile of 2^bits x 2^bits bins.
@@ -80,19 +86,13 @@ public:
   /// The side of a tile is 2^tile_shift() in fixed-point positions.
   int tile_shift() const { return tile_shift_; }
 
-  /// The same without clamping along periodic axes: images of the container follow each other.
-  std::int64_t unrolled_x(double x) const {
-    return periods_.x > 0 ? static_cast<std::int64_t>(std::floor((x - container_.min.x) * scale_x_)) : fixed_x(x);
-  }
-  std::int64_t unrolled_y(double y) const {
-    return periods_.y > 0 ? static_cast<std::int64_t>(std::floor((y - container_.min.y) * scale_y_)) : fixed_y(y);
-  }
-
   const geometry::Periods& periods() const { return periods_; }
   /// Images of a tile that may be told apart: 9, or 1 in a container without periods.
   int images() const { return periods_.any() ? 9 : 1; }
   /// By how much an image is moved; exact for lattice points.
-  geometry::Vec2 shift(int image) const { return {step_of(image % 3) * periods_.x, step_of(image / 3) * periods_.y}; }
+  geometry::Vec2 shift(int image) const {
+    return {image_step(image % 3) * periods_.x, image_step(image / 3) * periods_.y};
+  }
   /// Tile at an unrolled column and row, at most one period out of the container, and the image of it that lies there.
   struct TileImage {
     LocalIndex tile;
@@ -100,45 +100,40 @@ public:
   };
   TileImage tile_image_at(int x, int y) const {
     const int ix = x < 0 ? 2 : x >= tiles_x_ ? 1 : 0, iy = y < 0 ? 2 : y >= tiles_y_ ? 1 : 0;
-    return {tile_at(x - step_of(ix) * tiles_x_, y - step_of(iy) * tiles_y_), ix + 3 * iy};
+    return {tile_at(x - image_step(ix) * tiles_x_, y - image_step(iy) * tiles_y_), ix + 3 * iy};
   }
 
   /// Tile and bin of a point.
-  struct Place {
+  struct TileBin {
     LocalIndex tile;
     int bin;
   };
-  Place place(geometry::Vec2 p) const {
+  TileBin place(geometry::Vec2 p) const {
     const LocalIndex tile = tile_at(p);
     return {tile, bin_at(p, bin_bits(tile))};
   }
-  LocalIndex tile_at(geometry::Vec2 p) const { return tile_at(tile_of(fixed_x(p.x)), tile_of(fixed_y(p.y))); }
+  LocalIndex tile_at(geometry::Vec2 p) const {
+    return tile_at(tile_of(x_axis_.fixed(p.x)), tile_of(y_axis_.fixed(p.y)));
+  }
   /// The bin of a point in its tile, for a tile of 2^bits x 2^bits bins.
   int bin_at(geometry::Vec2 p, int bits) const {
-    return (bin_of(fixed_y(p.y), bits) << bits) | bin_of(fixed_x(p.x), bits);
+    return (bin_of(y_axis_.fixed(p.y), bits) << bits) | bin_of(x_axis_.fixed(p.x), bits);
   }
   /// Hilbert key of a point to 32 bits per axis: the canonical order of the mesh, ties lexicographic.
   std::uint64_t point_key(geometry::Vec2 p) const {
-    return hilbert_key(fixed_x(p.x) + (curve_offset_.x << tile_shift_), fixed_y(p.y) + (curve_offset_.y << tile_shift_),
-                       32);
+    return hilbert_key(x_axis_.fixed(p.x) + (curve_offset_.x << tile_shift_),
+                       y_axis_.fixed(p.y) + (curve_offset_.y << tile_shift_), 32);
   }
 
 private:
-  static constexpr int finest_bin_bits = 12; // 2^24 bins a tile
   void choose_tiles(const GridOptions& options);
   void set_fixed_point();
-  void number_tiles();
-  static constexpr int step_of(int third) { return third == 2 ? -1 : third; }
-  static std::uint32_t fixed(double v, std::uint32_t limit) {
-    return v <= 0 ? 0 : v >= static_cast<double>(limit) ? limit : static_cast<std::uint32_t>(v);
-  }
 
   geometry::Box container_;
   geometry::Periods periods_;
   int cells_x_ = 1, cells_y_ = 1, tiles_x_ = 1, tiles_y_ = 1;
   int typical_bin_bits_ = 4, curve_level_ = 1, tile_shift_ = 32;
-  double scale_x_ = 1, scale_y_ = 1;
-  std::uint32_t limit_x_ = 0, limit_y_ = 0;
+  FixedAxis x_axis_, y_axis_;
   double tile_width_ = 1, tile_height_ = 1;
   GridPosition curve_offset_{};             // of the first tile in the square of the curve
   std::vector<LocalIndex> tile_number_;     // by row and column

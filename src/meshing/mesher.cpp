@@ -90,7 +90,7 @@ void Run::begin(Stage stage) {
                 holes, holes == 1 ? "" : "s", stage_.polygon.sites.size(), stage_.polygon.corners);
   const mesh::TileGrid& grid = stage_.state->grid();
   run_.log.info("start: {} points in {} tiles ({} x {} cells), mean edge about {:.6g}", placed_, grid.tile_count(),
-                grid.cells_x(), grid.cells_y(), stage_.typical_size);
+                grid.cells().x, grid.cells().y, stage_.typical_size);
   if (scheme_.is_last())
     report_boundary();
 }

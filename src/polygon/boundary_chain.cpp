@@ -9,14 +9,6 @@
 #include <limits>
 
 namespace trime::polygon {
-namespace {
-
-std::size_t at(LocalIndex i) {
-  return static_cast<std::size_t>(i);
-}
-
-} // namespace
-
 BoundaryChain::BoundaryChain(const BoundarySites& boundary, const BoundaryCurve& curve)
     : curve_(curve), sites_(boundary), is_gone_(boundary.sites.size(), 0) {
   for (std::size_t loop = 0; loop + 1 < boundary.loop_start.size(); ++loop)

@@ -10,14 +10,6 @@ namespace trime::polygon {
 
 using geometry::Vec2;
 
-namespace {
-
-std::size_t at(LocalIndex i) {
-  return static_cast<std::size_t>(i);
-}
-
-} // namespace
-
 BoundaryCurve::BoundaryCurve(const geometry::Boundary& boundary) : boundary_(boundary) {
   for (const geometry::Loop& loop : boundary.loops) {
     Arcs arcs{{0}, {}, 0};

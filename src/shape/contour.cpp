@@ -2,6 +2,7 @@
 #include "trime/shape/contour.hpp"
 
 #include "core/read_file.hpp"
+#include "shape/rules.hpp"
 #include "trime/core/error.hpp"
 
 #include <charconv>
@@ -222,7 +223,8 @@ Normalization fit_to_container(const Contour& contour, const Box& container) {
   Normalization fit;
   fit.from = 0.5 * (box.min + box.max);
   fit.to = 0.5 * (container.min + container.max);
-  fit.scale = 0.8 * std::fmin(container.width(), container.height()) / std::fmax(box.width(), box.height());
+  fit.scale = ShapeRules::normalized_share * std::fmin(container.width(), container.height()) /
+              std::fmax(box.width(), box.height());
   return fit;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "curve_refiner.hpp"
+#include "shape/rules.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,25 +17,20 @@ using geometry::length;
 using geometry::squared_length;
 using geometry::Vec2;
 
-constexpr double smallest_turn = 0.07; // radians, about 4 degrees: corners that are looked for
-constexpr int deepest = 48;            // halvings of a chord
-constexpr std::size_t most_in_chord = 4096, most_vertices = std::size_t{1} << 23; // vertices, before thinning
-constexpr double share = 0.02; // stray of a chord over its length: turns of 9 degrees
-
 Vec2 unit(Vec2 v) {
   return (1 / length(v)) * v;
 }
 
-/// Does the direction turn by more than smallest_turn from u to v?
+/// Does the direction turn by more than ShapeRules::smallest_turn from u to v?
 bool turns(Vec2 u, Vec2 v) {
   const double lengths = std::sqrt(squared_length(u) * squared_length(v));
-  return dot(u, v) < (1 - 0.5 * smallest_turn * smallest_turn) * lengths;
+  return dot(u, v) < (1 - 0.5 * ShapeRules::smallest_turn * ShapeRules::smallest_turn) * lengths;
 }
 
 /// The point with p + s u = q + t v; nothing if the directions nearly agree.
 std::optional<Vec2> meeting(Vec2 p, Vec2 u, Vec2 q, Vec2 v) {
   const double determinant = cross(u, v);
-  if (std::fabs(determinant) < 1e-3 * std::sqrt(squared_length(u) * squared_length(v)))
+  if (std::fabs(determinant) < ShapeRules::nearly_parallel * std::sqrt(squared_length(u) * squared_length(v)))
     return std::nullopt;
   return p + (cross(q - p, v) / determinant) * u;
 }
@@ -60,20 +56,20 @@ std::vector<Vec2> CurveRefiner::halve_chords(const std::vector<Vec2>& chain) {
     });
     for (std::size_t k = 0; k < parts.size(); ++k) {
       vertices_ += parts[k].size();
-      if (!followed[k] || vertices_ > most_vertices)
-        fail_for_oscillation(chain[first + k], !followed[k] ? most_in_chord : most_vertices);
+      if (!followed[k] || vertices_ > ShapeRules::most_vertices)
+        fail_for_oscillation(chain[first + k], !followed[k] ? ShapeRules::most_in_chord : ShapeRules::most_vertices);
       all.insert(all.end(), parts[k].begin(), parts[k].end());
     }
   }
   return all;
 }
 
-/// Appends the vertices strictly between a and b. False if they would be too many; stops where they come no nearer, as
-/// in the tip of a wedge, whose curve may lie many chords away.
+/// Appends the vertices strictly between a and b. False if they would be too many; stops where they come no
+/// nearer, as in the tip of a wedge, whose curve may lie many chords away.
 bool CurveRefiner::halve(Vec2 a, Vec2 b, int depth, std::vector<Vec2>& to) const {
-  if (depth == deepest || length(b - a) < tolerances_.shortest || is_near(a, b))
+  if (depth == ShapeRules::deepest_chord || length(b - a) < tolerances_.shortest || is_near(a, b))
     return true;
-  if (to.size() >= most_in_chord)
+  if (to.size() >= ShapeRules::most_in_chord)
     return false;
   const std::optional<Vec2> middle = curve_beside(a, b);
   if (!middle)
@@ -93,7 +89,7 @@ void CurveRefiner::fail_for_oscillation(Vec2 place, std::size_t vertices) const 
 
 /// Does the curve pass the chord within the tolerance, at three places?
 bool CurveRefiner::is_near(Vec2 a, Vec2 b) const {
-  const double whole = length(b - a), allowed = std::fmin(tolerances_.chord, share * whole);
+  const double whole = length(b - a), allowed = std::fmin(tolerances_.chord, ShapeRules::stray_share * whole);
   const Vec2 outward = (-allowed / whole) * left_normal(b - a);
   for (const double t : {0.5, 0.25, 0.75}) {
     const Vec2 p = a + t * (b - a);
@@ -105,12 +101,12 @@ bool CurveRefiner::is_near(Vec2 a, Vec2 b) const {
 
 /// The nearest zero on the bisector of the chord, on the side where it must lie; it may be far in a sharp tip.
 std::optional<Vec2> CurveRefiner::curve_beside(Vec2 a, Vec2 b) const {
-  constexpr double farthest = 16; // chord lengths
   const Vec2 p = a + 0.5 * (b - a);
   const double value = function_(p), whole = length(b - a);
   const Vec2 direction = (value < 0 ? -1 : 1) * left_normal((1 / whole) * (b - a));
   double from = 0, from_value = value;
-  for (double to = 0.125 * tolerances_.chord; to < farthest * whole; to = std::fmin(2 * to, to + 0.25 * whole)) {
+  for (double to = 0.125 * tolerances_.chord; to < ShapeRules::farthest_beside * whole;
+       to = std::fmin(2 * to, to + 0.25 * whole)) {
     const double to_value = function_(p + to * direction);
     if ((to_value < 0) != (value < 0))
       return function_.crossing(p + from * direction, from_value, p + to * direction, to_value, tolerances_.zero);
@@ -136,7 +132,7 @@ std::vector<CurveVertex> CurveRefiner::insert_corners(const std::vector<Vec2>& p
       found[k].after = corner_in_chord(before, a, b, after);
   });
   std::vector<CurveVertex> result;
-  const double same = 1e-9 * tolerances_.side;
+  const double same = ShapeRules::same_place * tolerances_.side;
   const auto add = [&](Vec2 p, bool corner) {
     if (!result.empty() && length(p - result.back().place) < same) {
       if (corner && !result.back().keep)
@@ -164,21 +160,20 @@ std::optional<Vec2> CurveRefiner::corner_in_chord(Vec2 before, Vec2 a, Vec2 b, V
   if (!guess)
     return std::nullopt;
   const double reach = std::fmax(length(*guess - a), length(*guess - b)), whole = length(b - a);
-  if (reach > 64 * whole)
+  if (reach > ShapeRules::farthest_corner * whole)
     return std::nullopt;
   const std::optional<Vec2> corner = corner_at(*guess, unit(before - a), unit(after - b), reach);
-  const double same = 1e-9 * tolerances_.side;
+  const double same = ShapeRules::same_place * tolerances_.side;
   const bool between =
       corner && dot(*corner - a, unit(a - before)) > -same && dot(b - *corner, unit(after - b)) > -same;
   return between ? corner : std::nullopt;
 }
 
-/// @brief Looks at both arms of a supposed corner, nearer and nearer: at a corner the lines through the arms keep
-/// meeting at an angle; where the curve is smooth they run past it.
+/// @brief Looks at both arms of a supposed corner, nearer and nearer: at a corner the lines
+/// through the arms keep meeting at an angle; where the curve is smooth they run past it.
 /// @param back,ahead unit directions from the corner along the arm before it and the one after it
 std::optional<Vec2> CurveRefiner::corner_at(Vec2 guess, Vec2 back, Vec2 ahead, double distance) const {
-  constexpr double nearer = 0.125;
-  for (double d = std::fmax(distance, tolerances_.corner);; d = std::fmax(nearer * d, tolerances_.corner)) {
+  for (double d = std::fmax(distance, tolerances_.corner);; d = std::fmax(ShapeRules::nearer * d, tolerances_.corner)) {
     const auto back_near = on_arm(guess + d * back, -1 * back, d),
                back_far = on_arm(guess + 2 * d * back, -1 * back, d);
     const auto ahead_near = on_arm(guess + d * ahead, ahead, d), ahead_far = on_arm(guess + 2 * d * ahead, ahead, d);

@@ -3,6 +3,7 @@
 
 #include "contour_polygon.hpp"
 #include "geometry/predicates.hpp"
+#include "shape/rules.hpp"
 #include "trime/core/error.hpp"
 
 #include <cmath>
@@ -20,8 +21,6 @@ using geometry::orient2d;
 using geometry::Piece;
 using geometry::Segment;
 using geometry::Vec2;
-
-constexpr int smallest_radius = 64; // lattice steps
 
 void check_reach(const std::string& name, Vec2 p, const Frame& frame) {
   if (!std::isfinite(p.x) || !std::isfinite(p.y))
@@ -60,10 +59,10 @@ Part Part::rectangle(const std::string& name, const Box& box, const Frame& frame
 }
 
 Part Part::circle(const std::string& name, Vec2 center, double radius, const Frame& frame) {
-  if (!(radius > smallest_radius * frame.step()) || !std::isfinite(radius))
+  if (!(radius > ShapeRules::smallest_radius * frame.step()) || !std::isfinite(radius))
     throw GeometryError(fmt::format("part '{}': expected a positive radius, at least {:.3g} in this container, found "
                                     "{}",
-                                    name, smallest_radius * frame.step(), radius));
+                                    name, ShapeRules::smallest_radius * frame.step(), radius));
   check_reach(name, center - Vec2{radius, radius}, frame);
   check_reach(name, center + Vec2{radius, radius}, frame);
   Circle circle{frame.lattice().snap(center), frame.lattice().snap(radius)};

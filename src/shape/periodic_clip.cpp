@@ -2,6 +2,7 @@
 #include "periodic_clip.hpp"
 
 #include "make_boundary.hpp"
+#include "shape/rules.hpp"
 #include "trime/core/error.hpp"
 #include "trime/shape/region.hpp"
 #include "vertex_table.hpp"
@@ -20,8 +21,6 @@ using geometry::Frame;
 using geometry::Loop;
 using geometry::Piece;
 using geometry::Vec2;
-
-constexpr double partner_reach = 1e-5; // of the container's longer side
 
 /// One periodic axis: coordinates along and across it.
 struct Axis {
@@ -97,7 +96,7 @@ Contour clip_to_periods(const Part& traced, const Frame& frame) {
       rings.back().push_back(piece.start);
   }
   const Box& box = frame.inner();
-  const double reach = partner_reach * std::fmax(box.width(), box.height());
+  const double reach = ShapeRules::partner_reach * std::fmax(box.width(), box.height());
   std::vector<Axis> axes;
   if (frame.periods().x > 0)
     axes.push_back({&Vec2::x, &Vec2::y, box.min.x, box.max.x, 'x'});

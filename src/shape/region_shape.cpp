@@ -3,8 +3,8 @@
 
 #include "make_boundary.hpp"
 #include "part_images.hpp"
-#include "shape/trace.hpp"
 #include "trime/core/error.hpp"
+#include "trime/shape/trace.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "curve_refiner.hpp"
+#include "shape/rules.hpp"
 #include "trime/geometry/segment.hpp"
 
 #include <algorithm>
@@ -63,7 +64,6 @@ Vertices join_runs(const Vertices& v, double stray) {
 
 /// Chords between first and last that leave no vertex farther than `stray` (Douglas and Peucker); marks who stays.
 void keep_outlines(Vertices& v, std::size_t first, std::size_t last, double stray) {
-  constexpr double share = 0.02; // of the length of the chord: turns stay small
   std::vector<std::array<std::size_t, 2>> stretches{{first, last}};
   while (!stretches.empty()) {
     const auto [a, b] = stretches.back();
@@ -76,7 +76,7 @@ void keep_outlines(Vertices& v, std::size_t first, std::size_t last, double stra
         farthest = d;
         where = k;
       }
-    const double allowed = std::fmin(stray, share * length(chord.b - chord.a));
+    const double allowed = std::fmin(stray, ShapeRules::stray_share * length(chord.b - chord.a));
     if (where == a || farthest <= allowed * allowed)
       continue;
     v[where].keep = true;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shape/trace.hpp"
+#include "trime/shape/trace.hpp"
 
 #include "contour_polygon.hpp"
 #include "curve_refiner.hpp"
 #include "periodic_clip.hpp"
+#include "shape/rules.hpp"
 #include "trime/core/error.hpp"
 #include "trime/geometry/segment_grid.hpp"
 #include "zero_chains.hpp"
@@ -21,9 +22,6 @@ using geometry::length;
 using geometry::Segment;
 using geometry::SegmentGrid;
 using geometry::Vec2;
-
-constexpr double default_resolution = 1.0 / 512; // of the longer side
-constexpr double nearly_equal = 1e-3;            // in cells: vertices that rounding or a node on the curve made
 
 /// Without the vertices that follow another one too closely.
 std::vector<Vec2> without_repeats(const std::vector<Vec2>& chain, double distance) {
@@ -71,23 +69,21 @@ private:
 };
 
 /// With fewer vertices a chain is what rounding makes around a node, smaller than the resolution by far.
-constexpr std::size_t fewest_vertices = 3;
-constexpr std::size_t most_chains = 1 << 14;
 
 /// Chains worth refining, the longest first.
 std::vector<std::vector<Vec2>> without_specks(const ZeroChains& coarse, const std::string& name) {
   std::vector<std::vector<Vec2>> chains;
   for (const std::vector<Vec2>& chain : coarse.chains) {
-    std::vector<Vec2> clean = without_repeats(chain, nearly_equal * coarse.cell);
-    if (clean.size() >= fewest_vertices)
+    std::vector<Vec2> clean = without_repeats(chain, ShapeRules::nearly_equal * coarse.cell);
+    if (clean.size() >= ShapeRules::fewest_vertices)
       chains.push_back(std::move(clean));
   }
-  if (chains.size() > most_chains)
+  if (chains.size() > ShapeRules::most_chains)
     throw GeometryError(fmt::format("part '{}': the function oscillates below the resolution of {:.3g} near ({:.9g}, "
                                     "{:.9g}), or has too many pieces: found {} closed curves, expected at most {}; "
                                     "leave out the smallest ones",
-                                    name, 2 * coarse.cell, chains[most_chains][0].x, chains[most_chains][0].y,
-                                    chains.size(), most_chains));
+                                    name, 2 * coarse.cell, chains[ShapeRules::most_chains][0].x,
+                                    chains[ShapeRules::most_chains][0].y, chains.size(), ShapeRules::most_chains));
   std::stable_sort(chains.begin(), chains.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
   return chains;
 }
@@ -96,7 +92,7 @@ double resolution_of(const std::string& name, double given, double side) {
   if (!std::isfinite(given) || given < 0)
     throw GeometryError(
         fmt::format("part '{}': expected a resolution > 0, or 0 for the default, found {}", name, given));
-  return given > 0 ? given : default_resolution * side;
+  return given > 0 ? given : ShapeRules::default_resolution * side;
 }
 
 /// Closed rings, interior on the left; the same bits for any number of threads.

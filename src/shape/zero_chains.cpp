@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "zero_chains.hpp"
+#include "shape/rules.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,10 +16,7 @@ using geometry::Box;
 using geometry::length;
 using geometry::Vec2;
 
-constexpr int levels = 2; // halvings from the coarse to the fine grid
-constexpr int refinement = 1 << levels;
-constexpr int fewest_cells = 16, most_cells = 4096;          // coarse, along a side
-constexpr std::size_t most_near_zero = std::size_t{1} << 25; // fine cells that the zero set may meet
+constexpr int refinement = 1 << ShapeRules::grid_levels;
 
 using Key = std::int64_t;
 
@@ -42,7 +40,7 @@ public:
     std::vector<Index> cells = all_cells();
     sample(cells, 0);
     measure_slopes();
-    for (int level = 1; level <= levels; ++level) {
+    for (int level = 1; level <= ShapeRules::grid_levels; ++level) {
       cells = candidates(cells, level - 1);
       check_number(cells, level - 1);
       cells = children(cells);
@@ -57,7 +55,8 @@ public:
 
 private:
   static int count(double side, double cell) {
-    return static_cast<int>(std::clamp(std::ceil(side / cell), double{fewest_cells}, double{most_cells}));
+    return static_cast<int>(std::clamp(std::ceil(side / cell), double{ShapeRules::fewest_coarse_cells},
+                                       double{ShapeRules::most_coarse_cells}));
   }
 
   // Nodes are those of the fine grid on every level; the ring around the container has index -1 and n + 1.
@@ -189,13 +188,12 @@ void Marcher::measure_slopes() {
 /// Cells that the zero set may meet: no zero is farther from the nearest corner than half a diagonal, nor from any
 /// corner than a whole one.
 std::vector<Index> Marcher::candidates(const std::vector<Index>& cells, int level) const {
-  constexpr double margin = 1.25; // slopes are only sampled
   std::vector<Index> result;
   const double diagonal = length({width_ * (refinement >> level), height_ * (refinement >> level)});
   for (const Index cell : cells) {
     const std::array<double, 4> v = corner_values(cell, level);
     const double slope =
-        margin *
+        ShapeRules::slope_margin *
         slopes_[static_cast<std::size_t>(cell.j >> level) * coarse_x_ + static_cast<std::size_t>(cell.i >> level)];
     double least = std::fabs(v[0]), most = least;
     bool some_inside = false, some_outside = false;
@@ -211,7 +209,7 @@ std::vector<Index> Marcher::candidates(const std::vector<Index>& cells, int leve
 }
 
 void Marcher::check_number(const std::vector<Index>& cells, int level) const {
-  const std::size_t most = most_near_zero >> (2 * (levels - level));
+  const std::size_t most = ShapeRules::most_near_zero >> (2 * (ShapeRules::grid_levels - level));
   if (cells.size() <= most)
     return;
   const Vec2 p = place(corners(cells[most], level)[0]);
@@ -219,7 +217,7 @@ void Marcher::check_number(const std::vector<Index>& cells, int level) const {
                                   "{:.9g}): {} cells of that size may hold zeros, expected at most {}; leave out the "
                                   "details that are smaller, or use a coarser resolution",
                                   function_.name(), 2 * std::fmax(width_, height_), p.x, p.y,
-                                  cells.size() << (2 * (levels - level)), most_near_zero));
+                                  cells.size() << (2 * (ShapeRules::grid_levels - level)), ShapeRules::most_near_zero));
 }
 
 std::vector<Index> Marcher::children(const std::vector<Index>& cells) {
@@ -239,7 +237,7 @@ void Marcher::add_rim(std::vector<Index>& cells) {
   for (int j = 0; j < ny; ++j)
     for (const int i : {-1, nx})
       cells.push_back({i, j});
-  sample(cells, levels);
+  sample(cells, ShapeRules::grid_levels);
 }
 
 /// Follows the curves into cells that were not looked at, until every crossed edge has both its cells. Sorts the cells.
@@ -250,7 +248,7 @@ void Marcher::add_missing(std::vector<Index>& cells) {
   while (!fresh.empty()) {
     std::vector<Index> missing;
     for (const Index cell : fresh) {
-      const std::array<double, 4> v = corner_values(cell, levels);
+      const std::array<double, 4> v = corner_values(cell, ShapeRules::grid_levels);
       const std::array<Index, 4> neighbours{
           {{cell.i, cell.j - 1}, {cell.i + 1, cell.j}, {cell.i, cell.j + 1}, {cell.i - 1, cell.j}}};
       for (int k = 0; k < 4; ++k)
@@ -262,7 +260,7 @@ void Marcher::add_missing(std::vector<Index>& cells) {
     missing.erase(
         std::unique(missing.begin(), missing.end(), [](Index a, Index b) { return a.i == b.i && a.j == b.j; }),
         missing.end());
-    sample(missing, levels);
+    sample(missing, ShapeRules::grid_levels);
     std::vector<Index> all;
     std::merge(cells.begin(), cells.end(), missing.begin(), missing.end(), std::back_inserter(all), by_key);
     cells = std::move(all);
@@ -286,7 +284,7 @@ void Marcher::check_signs() const {
 /// Around a cell, the curve enters where the sign goes from inside to outside and leaves where it comes back. Where
 /// that happens twice, the middle tells whether the two corners inside are joined.
 void Marcher::link(Index cell, std::vector<Link>& links) const {
-  const std::array<Index, 4> nodes = corners(cell, levels);
+  const std::array<Index, 4> nodes = corners(cell, ShapeRules::grid_levels);
   std::array<bool, 4> in;
   int entries = 0;
   for (int k = 0; k < 4; ++k)
@@ -342,7 +340,7 @@ std::vector<std::vector<Vec2>> Marcher::chains(const std::vector<Index>& cells) 
 } // namespace
 
 double finest_resolution(double side) {
-  return 2 * side / (most_cells * refinement);
+  return 2 * side / (ShapeRules::most_coarse_cells * refinement);
 }
 
 ZeroChains march(LevelFunction& function, const Box& container, double resolution) {

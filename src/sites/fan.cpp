@@ -10,14 +10,6 @@ namespace trime::sites {
 using geometry::Vec2;
 using polygon::BoundarySite;
 
-namespace {
-
-std::size_t at(LocalIndex i) {
-  return static_cast<std::size_t>(i);
-}
-
-} // namespace
-
 Fan inside_fan(const StageView& view, LocalIndex i) {
   const mesh::BinnedPoints& points = view.state.points();
   Fan fan;

@@ -97,7 +97,7 @@ void SiteState::move_sites(std::vector<std::uint8_t> gone, mesh::SiteList more) 
 void SiteState::wrap_next() {
   const geometry::Periods& periods = grid_.periods();
   if (periods.any())
-    for (geometry::Vec2& place : points_.next_positions().first(static_cast<std::size_t>(points_.owned())))
+    for (geometry::Vec2& place : points_.next().positions().first(static_cast<std::size_t>(points_.owned())))
       place = periods.wrap(place);
 }
 
@@ -114,10 +114,10 @@ void SiteState::list_leaving(std::vector<std::uint8_t>& gone, mesh::SiteList& le
       std::uint8_t& is_gone = gone[static_cast<std::size_t>(i)];
       if (is_gone)
         continue;
-      const LocalIndex tile = grid_.tile_at(points_.next_positions()[static_cast<std::size_t>(i)]);
+      const LocalIndex tile = grid_.tile_at(points_.next().positions()[static_cast<std::size_t>(i)]);
       if (tile < first_tile || tile >= last_tile) {
         is_gone = 1;
-        of_tile[static_cast<std::size_t>(t)].push_back(points_.next_site(i));
+        of_tile[static_cast<std::size_t>(t)].push_back(next_site(points_, i));
       }
     }
   });
@@ -131,7 +131,7 @@ void SiteState::remember_sizes() {
   if (points_.owned() == 0 || !sizes_.known(0) || sizes_.is_uniform())
     return;
   const auto stays = [&](LocalIndex i) {
-    return points_.next_positions()[static_cast<std::size_t>(i)] == points_.position(i);
+    return points_.next().positions()[static_cast<std::size_t>(i)] == points_.position(i);
   };
   LocalIndex staying = 0;
   for (LocalIndex i = 0; i < points_.owned(); ++i)

@@ -24,7 +24,7 @@ struct Disc {
   double radius;
 };
 
-/// @brief Owned and ghost sites with their stars. After each change of sites: set_sites, then compute_stars.
+/// @brief Owned and ghost sites with their stars. After each change of sites (distribute, move_sites): compute_stars.
 class SiteState {
 public:
   /// @param box that holds all sites, now and later
@@ -36,7 +36,7 @@ public:
   /// First sites, from any ranks: partitions the tiles by their counts. Collective.
   /// @throws ConfigError on all ranks if one would own more sites than a local index can count
   void distribute(mesh::SiteList sites);
-  /// @brief The owned sites go to BinnedPoints::next_positions, but for those that are gone (by local index; empty:
+  /// @brief The owned sites go to BinnedPoints::next, but for those that are gone (by local index; empty:
   /// none); more sites come, whoever owns their places. Migrates, sorts, keeps the rings. Collective.
   void move_sites(std::vector<std::uint8_t> gone = {}, mesh::SiteList more = {});
 
@@ -53,7 +53,7 @@ public:
   void refresh(const sizing::SizeField& size);
   /// h is evaluated anew at the next move, also of sites that stay: theirs may be older than their place.
   void forget_sizes() { sizes_.forget(); }
-  /// @brief Moves the owned sites to BinnedPoints::next_positions, without sorting. The ghosts follow on their way:
+  /// @brief Moves the owned sites to BinnedPoints::next, without sorting. The ghosts follow on their way:
   /// nothing about them may be asked until finish_advance. Collective. @pre no periods
   /// @param drift bound on how far any site of any rank has come since sites were sorted
   /// @param new_sizes evaluates h at the new places; else sites keep theirs

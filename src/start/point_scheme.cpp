@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "start/point_scheme.hpp"
 
-#include "core/angle.hpp"
+#include "start/points_of_length.hpp"
 #include "start/refinement.hpp"
 #include "start/rules.hpp"
 #include "start/size_fit.hpp"
@@ -43,8 +43,7 @@ GlobalId PointScheme::reserve() const {
 double PointScheme::expected_points() const {
   if (options_.points)
     return static_cast<double>(*options_.points - reserve());
-  const double h = *options_.edge_length, area = context_.given_boundary.area;
-  return std::max(3.0, area / (row_height * h * h) + 0.5 * context_.given_boundary.length() / h);
+  return points_of_length(context_.given_boundary, *options_.edge_length);
 }
 
 void PointScheme::choose() {

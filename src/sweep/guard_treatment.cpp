@@ -111,14 +111,14 @@ bool settle_sites(SiteState& state, const MoveContext& context, double typical_s
     offenders += static_cast<std::int64_t>(list.size());
   if (state.comm().sum(offenders) == 0)
     return false;
-  state.points().prepare_to_stay();
+  prepare_to_stay(state.points());
   std::vector<std::uint8_t> deleted(static_cast<std::size_t>(points.owned()), 0);
   for (const std::vector<Offender>& list : of_thread)
     for (const auto& [i, treated] : list) {
       const std::size_t at = static_cast<std::size_t>(i);
-      state.points().next_positions()[at] = treated.position;
-      if (!state.points().next_leads().empty())
-        state.points().next_leads()[at] = treated.lead;
+      state.points().next().positions()[at] = treated.position;
+      if (!state.points().next().leads().empty())
+        state.points().next().leads()[at] = treated.lead;
       state.points().set_pushes(i, treated.pushes);
       deleted[at] = treated.deleted;
     }

@@ -12,10 +12,6 @@ namespace {
 using geometry::Vec2;
 using polygon::BoundaryGuard;
 
-std::size_t at(LocalIndex i) {
-  return static_cast<std::size_t>(i);
-}
-
 } // namespace
 
 void MoveOutcomes::reset() {
@@ -31,9 +27,9 @@ void MoveOutcomes::forget() {
 }
 
 void MoveOutcomes::record(LocalIndex i, const Treated& treated) {
-  state_.points().next_positions()[at(i)] = treated.position;
-  if (!state_.points().next_leads().empty())
-    state_.points().next_leads()[at(i)] = treated.lead;
+  state_.points().next().positions()[at(i)] = treated.position;
+  if (!state_.points().next().leads().empty())
+    state_.points().next().leads()[at(i)] = treated.lead;
   outcomes_[at(i)] = treated.deleted ? SiteOutcome::deleted : treated.pushed ? SiteOutcome::pushed : SiteOutcome::moved;
 }
 
@@ -52,8 +48,8 @@ SweepTally MoveOutcomes::tally_tile(LocalIndex tile) const {
       continue;
     sum.deleted += outcomes_[at(i)] == SiteOutcome::deleted;
     sum.pushed += outcomes_[at(i)] == SiteOutcome::pushed;
-    const Vec2 way = points.next_positions()[at(i)] - points.position(i), lead = points.site(i).lead,
-               next = points.next_site(i).lead;
+    const Vec2 way = points.next().positions()[at(i)] - points.position(i), lead = points.site(i).lead,
+               next = next_site(points, i).lead;
     const SiteTally<double> one(way.x, way.y, lead.x, lead.y, next.x, next.y, sizes[i]);
     sum.moving += one.squared_ratio > SweepRules::still * SweepRules::still;
     sum.power += static_cast<std::int64_t>(round_to_integer(one.power * 0x1p32));
@@ -94,7 +90,7 @@ std::vector<std::uint8_t> MoveOutcomes::count_pushes(const BoundaryGuard& guard)
     for (LocalIndex i = begin; i < end; ++i) {
       if (outcomes_[at(i)] != SiteOutcome::moved) {
         points.set_pushes(i, points.pushes(i) + 1);
-        if (guard.pushes(points.next_positions()[at(i)]))
+        if (guard.pushes(points.next().positions()[at(i)]))
           encroached[t] = 1;
       }
       outcomes_[at(i)] = SiteOutcome::moved;

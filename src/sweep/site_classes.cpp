@@ -10,10 +10,6 @@ namespace {
 
 using geometry::Vec2;
 
-std::size_t at(LocalIndex i) {
-  return static_cast<std::size_t>(i);
-}
-
 } // namespace
 
 void SiteClasses::reset() {

@@ -13,10 +13,6 @@ namespace {
 
 using sites::SiteState;
 
-std::size_t at(LocalIndex i) {
-  return static_cast<std::size_t>(i);
-}
-
 } // namespace
 
 StarCertifier::StarCertifier(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context,

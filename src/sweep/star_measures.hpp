@@ -20,7 +20,7 @@ public:
     if (!is_measured_.empty())
       std::atomic_ref(is_measured_[t]).store(0, std::memory_order_relaxed);
   }
-  /// Sums over the stars of the inner owned sites: the same as meshing::measure, in less time. Threads over tiles.
+  /// Sums over the stars of the inner owned sites: the same as sweep::measure, in less time. Threads over tiles.
   /// @param task without a rule, of these sites
   SweepSums measure(const SweepTask& task, const sites::StarView& view, double reference_size);
 

@@ -43,8 +43,8 @@ SweepTask make_sweep_task(SiteState& state, const delaunay::StarBuilder& builder
   task.degrees = state.stars().degrees();
   task.classes = classes.data();
   set_sizes(task, state);
-  task.next_positions = points.next_positions().data();
-  task.next_leads = points.next_leads().data();
+  task.next_positions = points.next().positions().data();
+  task.next_leads = points.next().leads().data();
   task.lattice_step = context.lattice.step();
   task.inverse_lattice_step = context.lattice.inverse_step();
   task.box = borders_of(state.grid());

@@ -19,10 +19,6 @@ using sites::view_of;
 
 constexpr int chunk = 64; // sites that one thread treats in a row
 
-std::size_t at(LocalIndex i) {
-  return static_cast<std::size_t>(i);
-}
-
 } // namespace
 
 /// What the kernel leaves of the tiles of a thread.
@@ -121,8 +117,8 @@ bool Sweeper::treat_guarded(std::span<const LocalIndex> sites) {
   bool any = false;
   for (const LocalIndex i : sites) {
     const Treated treated =
-        treat_place(context_, state_.grid(), points.site(i), state_.sizes()[i], points.next_positions()[at(i)],
-                    points.next_site(i).lead, SweepRules::pushes_allowed);
+        treat_place(context_, state_.grid(), points.site(i), state_.sizes()[i], points.next().positions()[at(i)],
+                    next_site(points, i).lead, SweepRules::pushes_allowed);
     if (treated.pushed || treated.deleted) {
       outcomes_.record(i, treated);
       any = true;
@@ -266,7 +262,7 @@ void Sweeper::sort() {
   discard();
   if (sorted_)
     return;
-  state_.points().prepare_to_stay();
+  prepare_to_stay(state_.points());
   move_and_sort({});
 }
 

@@ -22,6 +22,7 @@ namespace trime::sweep {
 /// so that they are in it; else when it is due (SortSchedule).
 class Sweeper {
 public:
+  Sweeper(const Sweeper&) = delete; // its parts refer to each other
   /// As StarCertifier. @pre each star of an inner site was certain before the last moves, or its ring is empty; h is
   /// known at all sites; all arguments outlive this object
   Sweeper(sites::SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context,

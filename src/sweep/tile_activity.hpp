@@ -31,7 +31,6 @@ public:
   /// All tiles have been asked: from now on they may fall asleep.
   void end_waking() { all_awake_ = false; }
   bool is_awake(std::size_t t) const { return awake_[t]; }
-  std::size_t tiles() const { return awake_.size(); }
 
   /// Do the next places of a sleeping tile hold those of the last sweep, not yet the present ones? Asked once a sweep.
   bool needs_copy(std::size_t t) {

@@ -15,9 +15,9 @@ namespace trime::testing {
 inline void move_sites(sites::SiteState& state, std::span<const mesh::Site> sites,
                        std::span<const std::uint8_t> deleted) {
   const std::size_t owned = static_cast<std::size_t>(state.points().owned());
-  state.points().prepare_to_stay();
+  prepare_to_stay(state.points());
   for (std::size_t i = 0; i < owned; ++i)
-    state.points().next_positions()[i] = sites[i].position;
+    state.points().next().positions()[i] = sites[i].position;
   mesh::SiteList more;
   for (std::size_t i = owned; i < sites.size(); ++i)
     if (!deleted[i])

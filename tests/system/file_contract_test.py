@@ -11,7 +11,10 @@ import tempfile
 import unittest
 
 import h5py
+import meshio
 import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOHDF import vtkHDFReader
 
 from trime_run import run
 

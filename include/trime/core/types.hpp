@@ -2,11 +2,17 @@
 // Integer types by role. `int` is kept for ranks, threads and MPI counts.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace trime {
 
 using LocalIndex = std::int32_t; ///< index into an array of this rank
 using GlobalId = std::int64_t;   ///< index into the whole mesh, all ranks together
+
+/// A local index as the containers of the standard library want it. @pre not negative
+constexpr std::size_t at(LocalIndex i) {
+  return static_cast<std::size_t>(i);
+}
 
 } // namespace trime

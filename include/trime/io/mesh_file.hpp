@@ -12,14 +12,17 @@
 
 namespace trime::io {
 
+class RunFiles;
+
 /// Which files, and where.
 struct MeshFileOptions {
   std::string directory = "out"; ///< made if it is missing
   std::string name = "mesh";     ///< stem of the file names
   bool overwrite = false;
-  bool vtkhdf = true;    ///< group /VTKHDF and the link NAME.vtkhdf
-  bool xdmf = true;      ///< group /Mesh/mesh (there in any case without vtkhdf) and the file NAME.xdmf
-  bool is_final = false; ///< the mesh that the run is for: final_mesh_stands() will tell
+  bool vtkhdf = true;            ///< group /VTKHDF and the link NAME.vtkhdf
+  bool xdmf = true;              ///< group /Mesh/mesh (there in any case without vtkhdf) and the file NAME.xdmf
+  bool is_final = false;         ///< the mesh that the run is for: RunFiles will be told
+  RunFiles* run_files = nullptr; ///< told which files exist, for a signal handler; null: nobody asks
 
   /// `directory/name` + ending.
   std::string path(const std::string& ending) const { return directory + "/" + name + ending; }
@@ -50,13 +53,6 @@ struct WrittenFiles {
 /// @note Collective. Ranks may hold nothing.
 WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedMesh& mesh, const Metadata& metadata,
                         const comm::Communicator& comm);
-
-/// @brief Removes the temporary file that is being written by this process, if any. Safe in a signal handler.
-void remove_temporary_file() noexcept;
-
-/// @brief Has the process written a file of `is_final`? From when it has its name on; other files of the run may
-/// follow. On rank 0. Safe in a signal handler.
-bool final_mesh_stands() noexcept;
 
 /// Version of the HDF5 library, e.g. "1.10.8".
 std::string hdf5_version();

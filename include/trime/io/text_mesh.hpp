@@ -13,13 +13,16 @@
 
 namespace trime::io {
 
+class RunFiles;
+
 /// Where the files of one mesh go: FOLDER/NAME_LABEL_xy_id.txt and so on.
 struct TextPlace {
   std::string folder; ///< exists
   std::string name;   ///< TriMe++'s prefix
   std::string label;  ///< "final", or the number of the retriangulation
-  geometry::Vec2 period{0,
-                        0}; ///< sides of a periodic container, 0 where it is not: triangles across it are written whole
+  /// Sides of a periodic container, 0 where it is not: triangles across it are written whole.
+  geometry::Vec2 period{0, 0};
+  RunFiles* run_files = nullptr; ///< as MeshFileOptions::run_files
 };
 
 /// One line of NAME_tria_quality_stat_overall.txt.

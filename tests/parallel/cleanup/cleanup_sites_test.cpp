@@ -62,7 +62,7 @@ std::map<std::uint64_t, Surroundings> surroundings(const comm::Communicator& com
                  radius * radius;
       return count;
     };
-    EXPECT_EQ(found[k].sites.size(), found[k].found() ? count_in(found[k].narrowings) : 0);
+    EXPECT_EQ(found[k].sites.size(), !found[k].is_crowded() ? count_in(found[k].narrowings) : 0);
     EXPECT_LE(found[k].sites.size(), most);
     if (found[k].narrowings > 0) {
       EXPECT_GT(count_in(found[k].narrowings - 1), most);
@@ -77,8 +77,8 @@ void expect_whole(const geometry::Periods& periods) {
   const std::map<std::uint64_t, Surroundings> truth = surroundings(comm::Communicator::self(), periods);
   int narrowed = 0, crowded = 0;
   for (const auto& [key, one] : truth) {
-    narrowed += one.found() && one.narrowings > 0;
-    crowded += !one.found();
+    narrowed += !one.is_crowded() && one.narrowings > 0;
+    crowded += one.is_crowded();
   }
   EXPECT_GT(narrowed, 10);
   EXPECT_GT(crowded, 2);
@@ -92,6 +92,29 @@ void expect_whole(const geometry::Periods& periods) {
     ++checked;
   }
   EXPECT_EQ(world.sum(checked), 80);
+}
+
+/// A crowd is given up as a whole: all its sites rest, whoever owns them.
+TEST(CleanupSites, AllSitesOfACrowdRest) {
+  const comm::Communicator world = comm::Communicator::world();
+  SiteState state(world, {{0, 0}, {1, 1}}, {{}, {}, 0.02});
+  state.distribute(testing::dealt(world, crowded_sites()));
+  const sizing::UniformSize size(0.02);
+  state.refresh(size);
+  CleanupSites sites(world, state, size);
+  const Disc crowd{{0.05, 0.5}, 0.1};
+  const auto is_in_crowd = [&](Vec2 p) {
+    return geometry::squared_length(p - crowd.center) < crowd.radius * crowd.radius;
+  };
+  const std::vector<Vec2> own = sites.let_rest(crowd);
+  std::int64_t expected = 0;
+  for (const mesh::Site& site : crowded_sites())
+    expected += is_in_crowd(site.position);
+  EXPECT_EQ(world.sum(std::ssize(own)), expected);
+  EXPECT_GT(expected, 500);
+  const std::vector<Surroundings> around = sites.around(std::vector<Disc>{{{0.1, 0.5}, 0.12}}, 10000);
+  for (const PatchSite& site : around[0].sites)
+    EXPECT_EQ(site.rests != 0, is_in_crowd(site.position));
 }
 
 TEST(CleanupSites, SurroundingsAreWholeOnAnyRanks) {

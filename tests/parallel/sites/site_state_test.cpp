@@ -104,7 +104,7 @@ TEST(SiteState, AFetchKeepsTheDriftThatTheOwnersKnow) {
   state.refresh(size);
   mesh::BinnedPoints& points = state.points();
   const auto drift_of = [](LocalIndex tile) { return tile % 3 == 0 ? 0 : 1e-4 * (1 + tile % 5); };
-  points.prepare_to_stay();
+  prepare_to_stay(points);
   for (LocalIndex tile = points.first_tile(); tile < points.last_tile(); ++tile)
     points.drifts().set(tile, drift_of(tile));
   state.begin_advance(size, 1e-3, false);

@@ -216,17 +216,17 @@ TEST(BinnedPoints, MovedSitesAreSortedAsAListIs) {
   const SiteList sites = testing::random_sites(3000, 3), more = testing::random_sites(200, 4);
   BinnedPoints points(grid), expected(grid);
   points.assign_owned(sites, 0, grid.tile_count());
-  points.prepare_to_stay();
+  prepare_to_stay(points);
   SiteList list;
   std::vector<std::uint8_t> gone;
   for (LocalIndex i = 0; i < points.owned(); ++i) {
     const std::size_t at = static_cast<std::size_t>(i);
-    points.next_positions()[at] = testing::random_vec2(5, at);
-    points.next_leads()[at] = testing::random_vec2(6, at);
+    points.next().positions()[at] = testing::random_vec2(5, at);
+    points.next().leads()[at] = testing::random_vec2(6, at);
     points.set_pushes(i, i % 3);
     gone.push_back(i % 7 == 0);
     if (!gone.back())
-      list.push_back(points.next_site(i));
+      list.push_back(next_site(points, i));
   }
   list.insert(list.end(), more.begin(), more.end());
   expected.assign_owned(list, 0, grid.tile_count());

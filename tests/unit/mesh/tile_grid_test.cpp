@@ -57,7 +57,7 @@ TEST(TileGrid, EveryPointHasAPlaceInItsTileBox) {
     const double slack = 1e-6 * std::max(grid.container().width(), grid.container().height());
     for (std::uint64_t k = 0; k < 500; ++k) {
       const Vec2 p = random_point(grid.container(), k);
-      const TileGrid::Place place = grid.place(p);
+      const TileGrid::TileBin place = grid.place(p);
       ASSERT_TRUE(place.tile >= 0 && place.tile < grid.tile_count());
       ASSERT_TRUE(place.bin >= 0 && place.bin < grid.bins_per_tile(place.tile));
       const Box box = grid.tile_box(place.tile);
@@ -148,7 +148,7 @@ TEST(TileGrid, FixedPositionsAreMonotone) {
   for (const TileGrid& grid : grids()) {
     std::uint32_t last = 0;
     for (int k = -10; k <= 1010; ++k) {
-      const std::uint32_t at = grid.fixed_x(grid.container().min.x + grid.container().width() * k / 1000);
+      const std::uint32_t at = grid.x_axis().fixed(grid.container().min.x + grid.container().width() * k / 1000);
       EXPECT_GE(at, last);
       last = at;
     }
@@ -157,8 +157,8 @@ TEST(TileGrid, FixedPositionsAreMonotone) {
 
 TEST(TileGrid, KeepsTheGivenCells) {
   const TileGrid grid(Box{{0, 0}, {1, 1}}, GridOptions{7, 13, 0.05});
-  EXPECT_EQ(grid.cells_x(), 7);
-  EXPECT_EQ(grid.cells_y(), 13);
+  EXPECT_EQ(grid.cells().x, 7u);
+  EXPECT_EQ(grid.cells().y, 13u);
 }
 
 TEST(TileGrid, ABinHoldsAFewPointsOfTheGivenSpacing) {

@@ -2,8 +2,8 @@
 // Shapes given by a function: corners, straight sides, accuracy of smooth curves, hard places, and what is refused.
 #include "core/angle.hpp"
 #include "core/thread_loop.hpp"
-#include "shape/trace.hpp"
 #include "trime/core/error.hpp"
+#include "trime/shape/trace.hpp"
 #include "unit/shape/boundary_checks.hpp"
 
 #include <functional>

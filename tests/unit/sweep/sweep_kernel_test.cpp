@@ -91,8 +91,8 @@ struct Cloud {
     task.classes = classes.data();
     task.sizes = sizes.is_uniform() ? nullptr : sizes.values().data();
     task.uniform_size = spacing;
-    task.next_positions = points.next_positions().data();
-    task.next_leads = points.next_leads().data();
+    task.next_positions = points.next().positions().data();
+    task.next_leads = points.next().leads().data();
     task.lattice_step = testing::unit_lattice().step();
     task.inverse_lattice_step = testing::unit_lattice().inverse_step();
     task.box = {{0, 0}, {1, 1}};
@@ -299,7 +299,7 @@ TEST(SweepKernel, FindsTheStarsThatAreNotRightAnyMore) {
     before.emplace_back(cloud.stars.ring(i).begin(), cloud.stars.ring(i).end());
   cloud.points.prepare_advance();
   for (LocalIndex i = 0; i < cloud.points.owned(); ++i)
-    cloud.points.next_positions()[static_cast<std::size_t>(i)] = sites[static_cast<std::size_t>(i)].position;
+    cloud.points.next().positions()[static_cast<std::size_t>(i)] = sites[static_cast<std::size_t>(i)].position;
   cloud.points.advance();
   for (LocalIndex tile = 0; tile < cloud.grid.tile_count(); ++tile)
     cloud.points.drifts().set(tile, 0.3 * spacing);
