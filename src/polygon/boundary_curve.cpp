@@ -10,8 +10,6 @@ namespace trime::polygon {
 
 using geometry::Vec2;
 
-namespace {} // namespace
-
 BoundaryCurve::BoundaryCurve(const geometry::Boundary& boundary) : boundary_(boundary) {
   for (const geometry::Loop& loop : boundary.loops) {
     Arcs arcs{{0}, {}, 0};
