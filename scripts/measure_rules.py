@@ -4,8 +4,8 @@
 
 A copy of the sources is built in which the numbers are read from the environment when the program starts. Numbers that
 the compiler must know (sizes of arrays) stay as they are and get no line. Then each number is changed alone, on some
-cases that use all modules, with one thread. What is written is one line for each number and direction, with the
-largest differences over the cases, for the column "effect" of the tables in src/README.md (scripts/rules_table.py).
+cases that use all modules, with one thread. What is written (CSV) is one line for each number and direction, with the
+largest differences over the cases.
 
 Usage: measure_rules.py [--work DIR] [--only WORD] [-o src/rules_effects.csv]
   --work DIR    where the copy is built (default build/rules)
@@ -18,7 +18,6 @@ import csv
 import os
 import pathlib
 import re
-import resource
 import shutil
 import subprocess
 import sys

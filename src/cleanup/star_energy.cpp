@@ -2,6 +2,7 @@
 #include "cleanup/star_energy.hpp"
 
 #include "cleanup/rules.hpp"
+#include "core/angle.hpp"
 
 #include <cmath>
 
@@ -12,10 +13,10 @@ using geometry::Vec2;
 namespace {
 
 constexpr double c = 0.28867513459481287; // 1 / (2 sqrt(3)): eta = c (sum of squared edges) / (2 area)
-constexpr double sin_60 = 0.8660254037844386;
 
+/// row_height is the sine of 60 degrees.
 Vec2 turned_by_60(Vec2 v) {
-  return {0.5 * v.x - sin_60 * v.y, sin_60 * v.x + 0.5 * v.y};
+  return {0.5 * v.x - row_height * v.y, row_height * v.x + 0.5 * v.y};
 }
 
 double energy_of(double excess) {
