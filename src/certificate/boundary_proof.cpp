@@ -19,11 +19,10 @@ using polygon::BoundarySite;
 using polygon::ChordCurve;
 using polygon::compare_chords;
 
-/// Largest distance of a boundary vertex from the curve: of those written, from the nearest piece of the shape; of
-/// those laid out, from their places on it. Collective.
+/// Largest distance of a boundary vertex from the curve: of those written, from the nearest piece of it; of those laid out, from their places on it. Collective.
 double vertex_distance(const BoundaryTruth& truth, const std::vector<ChordCurve>& chords,
                        const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
-  const geometry::PieceTree pieces(truth.shape);
+  const geometry::PieceTree pieces(truth.meshed);
   PerThread<double> of_thread(0);
   thread_loop(static_cast<std::ptrdiff_t>(mesh.points.size()), 4096, [&](std::ptrdiff_t item, int thread) {
     const auto k = static_cast<std::size_t>(item);
@@ -37,6 +36,23 @@ double vertex_distance(const BoundaryTruth& truth, const std::vector<ChordCurve>
   for (const ChordCurve& chord : chords)
     largest = std::max(largest, chord.offset);
   return comm.max(largest);
+}
+
+/// Largest distance, over h, of the curves that were meshed from the shape.
+double generalisation(const BoundaryTruth& truth) {
+  const geometry::PieceTree given(truth.shape);
+  PerThread<double> of_thread(0);
+  for (const geometry::Loop& loop : truth.meshed.loops)
+    thread_loop(std::ssize(loop.pieces), 256, [&](std::ptrdiff_t k, int thread) {
+      const geometry::Piece& piece = loop.pieces[static_cast<std::size_t>(k)];
+      for (const Vec2 p : {piece.start, piece.point(0.5 * piece.length())})
+        of_thread[thread] =
+            std::max(of_thread[thread], given.distance(p) / truth.asked.size(truth.meshed.periods.wrap(p)));
+    });
+  double largest = 0;
+  for (const double one : of_thread)
+    largest = std::max(largest, one);
+  return largest;
 }
 
 /// Corner sites that are a vertex of the shape, bit for bit.
@@ -170,7 +186,9 @@ mesh::Checks prove_boundary(const BoundaryTruth& truth, const mesh::DistributedM
       count_check("corner_places", truth.sites.corners, corners_in_place(truth),
                   "corners that are vertices of the shape, bit for bit"),
       limit_check("vertex_distance", std::max(CertificateRules::vertex_limit, step / truth.side), distance,
-                  "boundary vertices from the shape's boundary, over the longer side of the container (at most)"),
+                  "boundary vertices from the curves that were meshed, over the longer side of the container (at most)"),
+      limit_check("generalisation", CertificateRules::generalisation_limit, generalisation(truth),
+                  "the curves that were meshed from the shape's boundary, over h (at most)"),
       limit_check("chord_deviation", CertificateRules::chord_limit, extremes.deviation,
                   "the shape's boundary from the facets, over h (at most)"),
       limit_check("arc_deviation", 1, extremes.of_arcs,

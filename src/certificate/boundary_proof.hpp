@@ -26,9 +26,10 @@ struct BoundaryTruth {
   const geometry::Lattice& lattice;
   double side;      ///< longer side of the container
   double mesh_area; ///< of all triangles
+  const sizing::SizeField& asked; ///< h, before anything lowers it
 };
 
-/// @brief Eight checks, all from the arrays of the mesh that will be written, the shape, and what it was laid out as.
+/// @brief Nine checks, all from the arrays of the mesh that will be written, the shape, and what it was laid out as.
 /// O((sites + pieces) log(pieces)) on each rank; rank 0 holds all facets, 24 bytes each. @note Collective.
 mesh::Checks prove_boundary(const BoundaryTruth& truth, const mesh::DistributedMesh& mesh,
                             const comm::Communicator& comm);

@@ -332,7 +332,8 @@ mesh::Checks certify(const StageView& view, const decomposition::Numbering& numb
                             view.size,
                             view.lattice,
                             expectation.side,
-                            counts.area.value(view.lattice)};
+                            counts.area.value(view.lattice),
+                            expectation.asked};
   for (mesh::Check& proof : prove_boundary(truth, mesh, view.state.comm()))
     checks.push_back(std::move(proof));
   return checks;

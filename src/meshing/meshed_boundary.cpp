@@ -9,10 +9,11 @@ namespace trime::meshing {
 MeshedBoundary::MeshedBoundary(const RunContext& run)
     : fixed_(run.given_boundary, run.options.container, run.options.fixed_points, run.lattice, run.log) {}
 
-void MeshedBoundary::drop(const polygon::DroppedLoops& loops) {
-  drops_loops_ = loops.any();
+void MeshedBoundary::follow(std::shared_ptr<const geometry::Boundary> curves, const polygon::DroppedLoops& dropped) {
+  laid_ = std::move(curves);
+  drops_loops_ = dropped.any();
   if (drops_loops_)
-    remaining_ = boundary::boundary_without(fixed_.cornered_boundary(), loops);
+    remaining_ = boundary::boundary_without(laid(), dropped);
 }
 
 std::vector<polygon::LoopSummary> MeshedBoundary::loops(const polygon::BoundarySites& polygon) const {

@@ -7,6 +7,7 @@
 #include "polygon/polygon.hpp"
 #include "trime/polygon/loop_summary.hpp"
 
+#include <memory>
 #include <vector>
 
 namespace trime::meshing {
@@ -17,18 +18,21 @@ public:
   /// @throws GeometryError as FixedPoints
   explicit MeshedBoundary(const RunContext& run);
 
-  /// A stage was laid out, and these loops were dropped for it.
-  void drop(const polygon::DroppedLoops& loops);
+  /// A stage was laid out on these curves, null for those of the shape, and these loops of them were dropped for it.
+  void follow(std::shared_ptr<const geometry::Boundary> curves, const polygon::DroppedLoops& dropped);
 
   /// The curves on which the boundary sites of the stage lie.
-  const geometry::Boundary& curves() const { return drops_loops_ ? remaining_ : fixed_.cornered_boundary(); }
+  const geometry::Boundary& curves() const { return drops_loops_ ? remaining_ : laid(); }
   const boundary::FixedPoints& fixed() const { return fixed_; }
   /// The loops of a mesh whose boundary is this polygon.
   std::vector<polygon::LoopSummary> loops(const polygon::BoundarySites& polygon) const;
 
 private:
+  const geometry::Boundary& laid() const { return laid_ ? *laid_ : fixed_.cornered_boundary(); }
+
   boundary::FixedPoints fixed_;
-  geometry::Boundary remaining_; // the cornered boundary without the dropped loops; unused if none was dropped
+  std::shared_ptr<const geometry::Boundary> laid_; // null: the cornered boundary
+  geometry::Boundary remaining_; // that without the dropped loops; unused if none was dropped
   bool drops_loops_ = false;
 };
 

@@ -82,7 +82,7 @@ void Run::start_next_stage() {
 void Run::begin(Stage stage) {
   stage_ = std::move(stage);
   return_free_memory();
-  boundary_.drop(stage_.polygon.dropped);
+  boundary_.follow(stage_.curves, stage_.polygon.dropped);
   placed_ = run_.comm.sum(std::int64_t{stage_.state->points().owned()});
   stars_.begin_stage(placed_);
   const int components = boundary_.curves().components(), holes = boundary_.curves().holes();
@@ -142,7 +142,7 @@ MeshResult Run::extract() {
   result.quality = std::move(made.quality);
   result.mesh = std::move(made.mesh);
   result.checks =
-      certificate::certify(view, numbering, {run_.given_boundary, boundary_.curves(), run_.side()}, result.mesh);
+      certificate::certify(view, numbering, {run_.given_boundary, boundary_.curves(), *stage_.asked_size, run_.side()}, result.mesh);
   result.history = relaxation_.take_history();
   result.triangulations = snapshots_.triangulations();
   result.stop_reason = relaxation_.stop_reason();
@@ -157,7 +157,7 @@ MeshResult Run::extract() {
 /// What was asked for and how the start met it. @pre the mesh is in the result
 void Run::tell_of_start(MeshResult& result) const {
   result.requested_points = run_.options.points.value_or(0);
-  result.edge_length = run_.relative_size.is_uniform() ? stage_.size->size({}) : stage_.typical_size;
+  result.edge_length = run_.relative_size.is_uniform() ? stage_.asked_size->size({}) : stage_.typical_size;
   result.start_reason = scheme_.reason();
   const GlobalId points = result.mesh.point_slab.total;
   result.count_reason = count_reason(points);

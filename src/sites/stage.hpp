@@ -8,6 +8,7 @@
 #include "sites/stage_view.hpp"
 #include "sizing/lowered_size.hpp"
 #include "trime/core/types.hpp"
+#include "trime/geometry/boundary.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <memory>
@@ -25,6 +26,7 @@ struct Stage {
   std::unique_ptr<sizing::ScaledSize> asked_size;    ///< of the last stage
   std::unique_ptr<sizing::LoweredSize> lowered_size; ///< of the last stage; null if nothing lowers the size
   std::unique_ptr<sizing::SizeField> size;           ///< of this stage
+  std::shared_ptr<const geometry::Boundary> curves;  ///< on which these lie; null: those of the shape
   polygon::BoundarySites polygon;                    ///< the sites on the boundary; only the clean-up edits them
   std::unique_ptr<polygon::BoundaryGuard> guard;     ///< of their chords, of which it holds a copy
   std::unique_ptr<SiteState> state;

@@ -144,6 +144,8 @@ private:
   DensityFit for_edge_length(double factor) {
     const double wanted = *context_.options.edge_length;
     SizeTrial trial = trials_.run(factor);
+    if (context_.is_level)
+      return std::move(trial.fit);
     for (int round = 0;; ++round) {
       const double ratio = trial.totals.mean_size > 0 ? wanted / trial.totals.mean_size : 1;
       if (std::fabs(ratio - 1) < FitRules::close_enough)

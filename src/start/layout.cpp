@@ -79,24 +79,41 @@ void set_sizes(const LayoutContext& context, const FittedSize& fitted, Stage& st
   stage.size = std::make_unique<sizing::ScaledSize>(*within, stage.coarsening);
 }
 
+/// The curves on which the sites of a stage lie: those of the shape, without what is narrower than its last size.
+const geometry::Boundary& generalised_curves(const LayoutContext& context, FittedStage& laid) {
+  const geometry::Boundary& given = context.fixed.cornered_boundary();
+  CurvesAtSize& curves = laid.fitted.curves;
+  if (context.options.features.keep_all)
+    return given;
+  if (curves.factor != laid.fitted.factor)
+    curves = {laid.fitted.factor,
+              generalise::generalise(given, *laid.stage.asked_size, context.lattice, generalise::Narrow::keep,
+                                     context.fixed.inside()),
+              nullptr};
+  if (!curves.found)
+    return given;
+  laid.stage.curves = {curves.found, &curves.found->boundary};
+  return curves.found->boundary;
+}
+
 void lay_sites(const LayoutContext& context, std::size_t affordable, FittedStage& laid) {
   Stage& stage = laid.stage;
   const sizing::ScaledSize asked(*stage.asked_size, stage.coarsening);
   const bool keeps_all = context.options.features.keep_all;
   const FeatureRule rule{keeps_all ? 0 : context.options.features.tolerance,
                          keeps_all ? 0 : BoundaryRules::least_perimeter, nullptr};
+  const geometry::Boundary& curves = generalised_curves(context, laid);
   const auto make = [&](const BoundarySizes& sizes) {
-    return make_boundary_sites(context.fixed.cornered_boundary(), sizes, context.lattice,
+    return make_boundary_sites(curves, sizes, context.lattice,
                                context.options.features.corner_angle, context.fixed.inside(), rule, affordable);
   };
   if (stage.size->is_uniform()) {
     stage.polygon = make({*stage.size, asked});
     return;
   }
-  std::shared_ptr<const SizeSamples>& samples = laid.fitted.samples;
+  std::shared_ptr<const SizeSamples>& samples = stage.curves ? laid.fitted.curves.samples : laid.fitted.samples;
   if (!samples || !samples->serve(laid.fitted.factor))
-    samples =
-        std::make_shared<SizeSamples>(context.fixed.cornered_boundary(), context.relative_size, *stage.asked_size);
+    samples = std::make_shared<SizeSamples>(curves, context.relative_size, *stage.asked_size);
   stage.polygon = make({*stage.size, asked, {*samples, *stage.asked_size, stage.lowered_size.get(), stage.coarsening}});
 }
 
@@ -141,6 +158,7 @@ FittedStage lay_boundary(const LayoutContext& context, double factor, double exp
         round < BoundaryRules::lowering_rounds ? further_limits(context, laid.stage) : std::vector<sizing::SizeLimit>{};
     fitted.limits.insert(fitted.limits.end(), more.begin(), more.end());
     fitted.samples = laid.fitted.samples;
+    fitted.curves = laid.fitted.curves;
     if (more.empty()) {
       complete(context, laid.stage);
       return laid;
@@ -189,6 +207,17 @@ std::vector<sizing::SizeLimit> further_limits(const LayoutContext& context, cons
       more = size_limits(trial.polygon, *trial.size, *trial.asked_size, BoundaryRules::gradation);
     });
   return more;
+}
+
+bool needs_lowering(const LayoutContext& context, const Stage& laid) {
+  const auto time = context.timers.scope("boundary");
+  bool needed = false;
+  comm::run_agreed(context.comm, [&] {
+    for (const sizing::SizeLimit& limit :
+         size_limits(laid.polygon, *laid.size, *laid.asked_size, BoundaryRules::gradation))
+      needed |= limit.size < StartRules::lowering_pays * laid.size->size(limit.place);
+  });
+  return needed;
 }
 
 void complete(const LayoutContext& context, Stage& trial, double grid_coarsening) {

@@ -4,6 +4,7 @@
 
 #include "boundary/boundary_sizes.hpp"
 #include "boundary/fixed_points.hpp"
+#include "generalise/generalise.hpp"
 #include "mesh/tile_range.hpp"
 #include "sites/stage.hpp"
 #include "sizing/lowered_size.hpp"
@@ -29,6 +30,14 @@ struct LayoutContext {
   Log& log;
   TimerTable& timers;
   const boundary::FixedPoints& fixed; ///< with the boundary on which sites are laid
+  bool is_level = false;              ///< the relative size is the same everywhere, though its class does not say so
+};
+
+/// The boundary at the resolution of a size, and what belongs to it.
+struct CurvesAtSize {
+  double factor = 0;                                    ///< of the relative size
+  std::shared_ptr<const generalise::Generalised> found; ///< null: nothing was narrower
+  std::shared_ptr<const boundary::SizeSamples> samples; ///< of the relative size on it; made when they are needed
 };
 
 /// What the size field of the last stage follows from.
@@ -36,7 +45,8 @@ struct FittedSize {
   double factor = 1;                     ///< of the relative size; for a uniform field h itself
   std::vector<sizing::SizeLimit> limits; ///< where the boundary needs smaller triangles than that asks for
   std::shared_ptr<const boundary::SizeSamples>
-      samples{}; ///< of the relative size, on the boundary; made when they are needed
+      samples{}; ///< of the relative size, on the boundary of the shape; made when they are needed
+  CurvesAtSize curves{}; ///< for the last factor that was laid
 };
 
 /// A stage that was laid, and what its size field follows from.
@@ -70,6 +80,9 @@ FittedStage try_boundary(const LayoutContext& context, const FittedSize& fitted,
 
 /// Where the sites of a trial ask for smaller triangles than its size: limits to be added. Collective.
 std::vector<sizing::SizeLimit> further_limits(const LayoutContext& context, const sites::Stage& trial);
+
+/// Would a uniform size make bad triangles in narrow parts of the shape? Collective.
+bool needs_lowering(const LayoutContext& context, const sites::Stage& laid);
 
 /// Guard and empty container grid of a trial, unless it is overfull. Collective.
 /// @param grid_coarsening the grid's spacing over that of the points: above 1 for a layout that will hold none

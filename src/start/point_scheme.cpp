@@ -24,7 +24,11 @@ int divisions_for(double points) {
 
 } // namespace
 
-PointScheme::PointScheme(const LayoutContext& context) : context_(context), options_(context.options) {
+PointScheme::PointScheme(const LayoutContext& context)
+    : level_(context.relative_size), level_context_{context.comm,          context.given_boundary, level_,
+                                                    context.options,       context.lattice,        context.log,
+                                                    context.timers,        context.fixed,          true},
+      context_(&context), options_(context.options) {
   choose();
 }
 
@@ -32,7 +36,7 @@ PointScheme::PointScheme(const LayoutContext& context) : context_(context), opti
 /// its pieces, and of the points at most.
 GlobalId PointScheme::reserve() const {
   double pieces = 0;
-  for (const geometry::Loop& loop : context_.given_boundary.loops)
+  for (const geometry::Loop& loop : context_->given_boundary.loops)
     pieces += static_cast<double>(loop.pieces.size());
   if (!options_.points || !options_.cleanup)
     return 0;
@@ -43,11 +47,11 @@ GlobalId PointScheme::reserve() const {
 double PointScheme::expected_points() const {
   if (options_.points)
     return static_cast<double>(*options_.points - reserve());
-  return points_of_length(context_.given_boundary, *options_.edge_length);
+  return points_of_length(context_->given_boundary, *options_.edge_length);
 }
 
 void PointScheme::choose() {
-  const bool uniform = context_.relative_size.is_uniform();
+  const bool uniform = context_->relative_size.is_uniform();
   const Start start = options_.start;
   const double fraction = options_.initial_fraction.value_or(1);
   if (options_.initial_fraction && fraction < 1) {
@@ -77,19 +81,25 @@ Stage PointScheme::first() {
 }
 
 Stage PointScheme::first_of_lattice() {
-  LatticeFit fit = fit_lattice(context_);
+  LatticeFit fit = fit_lattice(*context_);
+  if (options_.features.refine_narrow && needs_lowering(*context_, fit.stage)) {
+    context_ = &level_context_;
+    scheme_ = Scheme::coarse_to_fine;
+    last_stage_ = divisions_for(expected_points());
+    return first_of_divisions();
+  }
   shortage_ = std::move(fit.shortage);
-  const auto time = context_.timers.scope("start");
-  place_sites(context_, fit.stage,
-              LatticeStart(context_.given_boundary, *fit.stage.guard, context_.lattice)
-                  .sites(even_share(fit.stage, context_.comm), fit.spacing,
+  const auto time = context_->timers.scope("start");
+  place_sites(*context_, fit.stage,
+              LatticeStart(context_->given_boundary, *fit.stage.guard, context_->lattice)
+                  .sites(even_share(fit.stage, context_->comm), fit.spacing,
                          static_cast<std::size_t>(fit.stage.placed_first())));
   return std::move(fit.stage);
 }
 
 Stage PointScheme::first_of_insertion() {
   const double coarsening = std::sqrt(expected_points() / points_now_);
-  DensityFit fit = fit_density(context_, expected_points(), std::fmin(coarsening, StartRules::coarsest_integral));
+  DensityFit fit = fit_density(*context_, expected_points(), std::fmin(coarsening, StartRules::coarsest_integral));
   shortage_ = std::move(fit.shortage);
   fitted_ = std::move(fit.laid.fitted);
   Stage stage = lay_coarsened(coarsening, points_now_);
@@ -108,7 +118,7 @@ Stage PointScheme::first_of_insertion() {
 /// many sites inside as on the boundary: a boundary full of corners does not become coarser with the size.
 Stage PointScheme::first_of_divisions() {
   DensityFit fit =
-      fit_density(context_, expected_points(),
+      fit_density(*context_, expected_points(),
                   last_stage_ == 0 ? 1 : std::fmax(StartRules::coarse_integral, std::ldexp(1.0, last_stage_)));
   shortage_ = std::move(fit.shortage);
   const double points = fit.inner + static_cast<double>(fit.laid.stage.placed_first());
@@ -143,7 +153,7 @@ Stage PointScheme::first_of_divisions() {
 
 /// A stage whose size is `coarsening` times that of the last.
 Stage PointScheme::lay_coarsened(double coarsening, double expected) {
-  FittedStage laid = lay_stage(context_, fitted_, coarsening, expected);
+  FittedStage laid = lay_stage(*context_, fitted_, coarsening, expected);
   fitted_ = std::move(laid.fitted);
   return std::move(laid.stage);
 }
@@ -153,35 +163,35 @@ Stage PointScheme::lay_coarsened(double coarsening, double expected) {
 Stage PointScheme::lay_division(Stage& last, double expected) {
   const double coarsening = std::ldexp(1.0, last_stage_ - stage_);
   if (coarsening == 1)
-    return lay_again(context_, std::move(last), expected);
+    return lay_again(*context_, std::move(last), expected);
   return lay_coarsened(coarsening, expected);
 }
 
 std::unique_ptr<const HilbertStart> PointScheme::along_curve(const Stage& stage, double expected,
                                                              double coarsening) const {
-  const auto time = context_.timers.scope("start");
-  return std::make_unique<const HilbertStart>(context_.comm, even_share(stage, context_.comm), *stage.guard,
-                                              *stage.size, context_.lattice, expected, coarsening);
+  const auto time = context_->timers.scope("start");
+  return std::make_unique<const HilbertStart>(context_->comm, even_share(stage, context_->comm), *stage.guard,
+                                              *stage.size, context_->lattice, expected, coarsening);
 }
 
 void PointScheme::place_along_curve(Stage& stage, double inner, const HilbertStart& start) const {
-  const auto time = context_.timers.scope("start");
+  const auto time = context_->timers.scope("start");
   const auto wanted = std::max<std::int64_t>(0, std::llround(inner));
   mesh::SiteList placed = start.sites(wanted, options_.seed);
-  if (!context_.fixed.inside().empty()) { // those too near to a fixed point will go: so many more are placed
-    const std::int64_t clear = context_.comm.sum(context_.fixed.count_clear(placed, *stage.size));
+  if (!context_->fixed.inside().empty()) { // those too near to a fixed point will go: so many more are placed
+    const std::int64_t clear = context_->comm.sum(context_->fixed.count_clear(placed, *stage.size));
     if (clear > 0 && clear < wanted) {
       placed = start.sites(
           std::llround(static_cast<double>(wanted) *
                        std::fmin(StartRules::most_replaced, static_cast<double>(wanted) / static_cast<double>(clear))),
           options_.seed);
       std::erase_if(placed, [&](const mesh::Site& site) {
-        return context_.fixed.count_clear(std::span(&site, 1), *stage.size) == 0;
+        return context_->fixed.count_clear(std::span(&site, 1), *stage.size) == 0;
       });
-      trim(context_.comm, stage, wanted, placed);
+      trim(context_->comm, stage, wanted, placed);
     }
   }
-  place_sites(context_, stage, std::move(placed));
+  place_sites(*context_, stage, std::move(placed));
 }
 
 Stage PointScheme::next(const Stage& previous) {
@@ -190,11 +200,11 @@ Stage PointScheme::next(const Stage& previous) {
 }
 
 Stage PointScheme::divide(const Stage& previous) {
-  const comm::Communicator& comm = context_.comm;
-  const StageView old = previous.view(context_.lattice);
+  const comm::Communicator& comm = context_->comm;
+  const StageView old = previous.view(context_->lattice);
   const GlobalId before = comm.sum(std::int64_t{previous.state->points().owned()});
   Stage stage = lay_division(laid_last_, 4 * static_cast<double>(before));
-  const auto time = context_.timers.scope("start");
+  const auto time = context_->timers.scope("start");
   mesh::SiteList sites = split_edges(old);
   clear_strip(stage, sites);
   if (options_.points && is_last()) {
@@ -205,13 +215,13 @@ Stage PointScheme::divide(const Stage& previous) {
         static_cast<double>(missing) > StartRules::small_shortage * static_cast<double>(*options_.points))
       insert_in_triangles(old, stage, missing, sites); // narrow parts that the coarse mesh has starved
   }
-  place_sites(context_, stage, std::move(sites));
+  place_sites(*context_, stage, std::move(sites));
   return stage;
 }
 
 Stage PointScheme::insert(const Stage& previous) {
-  const comm::Communicator& comm = context_.comm;
-  const StageView old = previous.view(context_.lattice);
+  const comm::Communicator& comm = context_->comm;
+  const StageView old = previous.view(context_->lattice);
   const GlobalId before = comm.sum(std::int64_t{previous.state->points().owned()});
   const double grown = std::floor(StartRules::growth * static_cast<double>(before)), all = expected_points();
   if (is_last() && 2 * grown < all && stage_ < StartRules::most_insertions)
@@ -219,14 +229,14 @@ Stage PointScheme::insert(const Stage& previous) {
   points_now_ = is_last() ? all : std::min(all, std::max(grown, std::floor(StartRules::growth * points_now_)));
   const double coarsening = is_last() ? 1 : std::fmax(1, std::sqrt(expected_points() / points_now_));
   Stage stage = lay_coarsened(coarsening, points_now_);
-  const auto time = context_.timers.scope("start");
+  const auto time = context_->timers.scope("start");
   mesh::SiteList sites = inner_sites(*previous.state);
   clear_strip(stage, sites);
   const std::int64_t most = std::max<std::int64_t>(0, std::llround(points_now_) - stage.placed_first());
   insert_in_triangles(old, stage, most - comm.sum(static_cast<std::int64_t>(sites.size())), sites);
   if (options_.points)
     trim(comm, stage, most, sites);
-  place_sites(context_, stage, std::move(sites));
+  place_sites(*context_, stage, std::move(sites));
   return stage;
 }
 

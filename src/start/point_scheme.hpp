@@ -11,6 +11,16 @@
 
 namespace trime::start {
 
+/// A uniform size that the boundary lowers here and there.
+class LevelSize final : public sizing::SizeField {
+public:
+  explicit LevelSize(const sizing::SizeField& size) : size_(size) {}
+  double size(geometry::Vec2 p) const override { return size_.size(p); }
+
+private:
+  const sizing::SizeField& size_;
+};
+
 /// @brief The stages of a run. Lattice: one stage of a hexagonal lattice whose spacing fits the count. Hilbert: one
 /// stage of quantiles along the Hilbert curve. Coarse to fine: 1/4^k of the points, relaxed, then all edges are
 /// divided, k times (the quality of 100 sweeps for the price of 20). Insertion, as TriMe++ does it: a share of the
@@ -54,7 +64,9 @@ private:
   sites::Stage divide(const sites::Stage& previous);
   sites::Stage insert(const sites::Stage& previous);
 
-  const LayoutContext& context_;
+  const LevelSize level_;
+  const LayoutContext level_context_; // with that size
+  const LayoutContext* context_;      // the given one, or that
   const StartOptions& options_;
   Scheme scheme_ = Scheme::lattice;
   int stage_ = 0, last_stage_ = 0;

@@ -9,6 +9,8 @@ namespace trime::start {
 
 /// The numbers by which points are placed.
 struct StartRules {
+  /// [h] If the boundary asks for smaller triangles somewhere than this, a uniform size is lowered there. Not measured.
+  static constexpr double lowering_pays = 0.6;
   /// [area of the shape] The grid covers so much of the container with cells as small as the triangles. In an emptier
   /// container cells are larger, since each costs memory. Not measured.
   static constexpr double emptiest_grid = 64;

@@ -18,11 +18,12 @@ FittedStage SizeTrials::lay(double factor) {
     limits_.clear();
     limit_rounds_ = 0;
   }
-  FittedSize fitted{factor, limits_, samples_};
+  FittedSize fitted{factor, limits_, samples_, curves_};
   for (sizing::SizeLimit& limit : fitted.limits)
     limit.size *= factor / limits_factor_;
   FittedStage laid = try_boundary(context_, fitted, points_);
   samples_ = laid.fitted.samples;
+  curves_ = laid.fitted.curves;
   return laid;
 }
 

@@ -50,6 +50,7 @@ private:
   double limits_factor_ = 0;              // for which the search for them began
   int limit_rounds_ = 0;                  // of that search
   std::shared_ptr<const boundary::SizeSamples> samples_;
+  CurvesAtSize curves_;
 };
 
 /// @brief Smallest relative size at some places around the shape: on its boundary and on a grid over it. The grid

@@ -8,6 +8,7 @@ namespace trime::boundary {
 struct FeatureOptions {
   double corner_angle = 30; ///< degrees: a vertex of the boundary that turns by more is a corner
   bool keep_all = false;    ///< keeps every corner, island and lake, however small
+  bool refine_narrow = true; ///< a uniform size is lowered where the shape is narrower than the triangles
   double tolerance = 0.1;   ///< in local sizes: how far chords may pass from corners that they leave out
 };
 

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "generalise/curve_map.hpp"
+
+#include "core/hilbert.hpp"
+#include "generalise/rules.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace trime::generalise {
+namespace {
+
+using geometry::Box;
+using geometry::Vec2;
+
+/// The box of the curves, and as much again on every side.
+Box box_around(const geometry::Boundary& boundary, const geometry::Lattice& lattice) {
+  Box box = boundary.bounding_box();
+  const double margin = 0.25 * std::fmax(box.width(), box.height());
+  box.min = lattice.snap(box.min - Vec2{margin, margin});
+  box.max = lattice.snap(box.max + Vec2{margin, margin});
+  return box;
+}
+
+} // namespace
+
+CurveMap::CurveMap(const geometry::Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice)
+    : boundary_(boundary), field_(size), lattice_(lattice), mesh_(box_around(boundary, lattice), lattice) {
+  for (LocalIndex loop = 0; loop < std::ssize(boundary.loops); ++loop)
+    add_strands(loop);
+  insert_nodes();
+  for (LocalIndex k = 0; k < std::ssize(strands_) && valid_; ++k)
+    valid_ = mesh_.constrain(strands_[at(k)].first, strands_[at(k)].last, k);
+}
+
+void CurveMap::add_strands(LocalIndex loop) {
+  const auto& pieces = boundary_.loops[at(loop)].pieces;
+  for (LocalIndex k = 0; k < std::ssize(pieces); ++k) {
+    const geometry::Piece& piece = pieces[at(k)];
+    const double whole = piece.length();
+    const int parts =
+        piece.circular ? std::max(1, static_cast<int>(std::ceil(std::fabs(piece.sweep) / GeneraliseRules::arc_step))) : 1;
+    for (int j = 0; j < parts; ++j)
+      strands_.push_back({loop, k, whole * j / parts, j + 1 == parts ? whole : whole * (j + 1) / parts, 0, 0});
+  }
+}
+
+void CurveMap::insert_nodes() {
+  const std::size_t n = strands_.size();
+  std::vector<Vec2> places(n);
+  Box box;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Strand& strand = strands_[k];
+    places[k] = lattice_.snap(boundary_.loops[at(strand.loop)].pieces[at(strand.piece)].point(strand.from));
+    box.include(places[k]);
+  }
+  constexpr int level = 20; // of the Hilbert curve: any order serves, this one keeps the walks short
+  const double scale = std::ldexp(0.999, level) / std::fmax(box.width(), box.height());
+  std::vector<std::pair<std::uint64_t, std::size_t>> order(n);
+  for (std::size_t k = 0; k < n; ++k)
+    order[k] = {hilbert_key(static_cast<std::uint32_t>((places[k].x - box.min.x) * scale),
+                            static_cast<std::uint32_t>((places[k].y - box.min.y) * scale), level),
+                k};
+  std::sort(order.begin(), order.end());
+  mesh_.reserve(n + n / 2);
+  size_.assign(4, 0);
+  kept_.assign(4, 0);
+  along_.assign(4, 0);
+  std::vector<LocalIndex> vertex(n);
+  for (const auto& [key, k] : order) {
+    vertex[k] = mesh_.insert(places[k]);
+    if (vertex[k] < std::ssize(size_)) { // two nodes in one place
+      valid_ = false;
+      return;
+    }
+    const Strand& strand = strands_[k];
+    size_.push_back(sizing::checked_size(field_, places[k]));
+    kept_.push_back(strand.from == 0 && boundary_.loops[at(strand.loop)].pieces[at(strand.piece)].corner);
+    along_.push_back(strand.from);
+  }
+  for (std::size_t k = 0, first = 0; k < n; ++k) {
+    const bool closes = k + 1 == n || strands_[k + 1].loop != strands_[k].loop;
+    strands_[k].first = vertex[k];
+    strands_[k].last = vertex[closes ? first : k + 1];
+    first = closes ? k + 1 : first;
+  }
+}
+
+CurveMap::Span CurveMap::span_of(HalfEdge e) const {
+  const Strand& strand = strands_[at(mesh_.mark(e))];
+  const LocalIndex a = mesh_.origin(e), b = mesh_.target(e);
+  return {strand.loop, strand.piece, a == strand.first ? strand.from : along_[at(a)],
+          b == strand.last ? strand.to : along_[at(b)]};
+}
+
+LocalIndex CurveMap::next_on_curve(LocalIndex v) const {
+  HalfEdge e = mesh_.leaving(v);
+  while (mesh_.mark(e) < 0)
+    e = mesh_.around(e);
+  return mesh_.target(e);
+}
+
+LocalIndex CurveMap::previous_on_curve(LocalIndex v) const {
+  HalfEdge e = mesh_.leaving(v);
+  while (!mesh_.is_constrained(e) || mesh_.mark(e) >= 0)
+    e = mesh_.around(e);
+  return mesh_.target(e);
+}
+
+bool CurveMap::add_node(HalfEdge e) {
+  const HalfEdge own = mesh_.mark(e) >= 0 ? e : mesh_.twin(e);
+  const Span span = span_of(own);
+  const double middle = 0.5 * (span.from + span.to);
+  const Vec2 p = lattice_.snap(boundary_.loops[at(span.loop)].pieces[at(span.piece)].point(middle));
+  const double h = sizing::checked_size(field_, p);
+  if (mesh_.split(own, p) == Triangulation::none)
+    return false;
+  size_.push_back(h);
+  kept_.push_back(0);
+  along_.push_back(middle);
+  return true;
+}
+
+std::vector<char> CurveMap::inside() const {
+  std::vector<char> side(at(mesh_.triangle_count()), 2); // not known
+  std::vector<LocalIndex> open{Triangulation::triangle(mesh_.leaving(0))};
+  side[at(open.front())] = 0;
+  while (!open.empty()) {
+    const LocalIndex t = open.back();
+    open.pop_back();
+    for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e) {
+      const HalfEdge f = mesh_.twin(e);
+      if (f == Triangulation::none || side[at(Triangulation::triangle(f))] != 2)
+        continue;
+      side[at(Triangulation::triangle(f))] = mesh_.is_constrained(e) ? !side[at(t)] : side[at(t)];
+      open.push_back(Triangulation::triangle(f));
+    }
+  }
+  return side;
+}
+
+} // namespace trime::generalise

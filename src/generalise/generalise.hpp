@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The boundary of a shape at the resolution of a mesh: without parts that are narrower than its triangles.
+#pragma once
+
+#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <memory>
+#include <span>
+
+namespace trime::generalise {
+
+/// What becomes of parts of the outside that are narrower than the resolution: slits, cracks, walls.
+enum class Narrow { keep, close };
+
+/// What was done.
+struct GeneralisedCounts {
+  std::int64_t cut = 0;       ///< narrow parts of the shape that were taken away
+  std::int64_t closed = 0;    ///< narrow parts of the outside that were filled
+  std::int64_t widened = 0;   ///< narrow parts of the outside whose sides were moved apart
+  double cut_area = 0, closed_area = 0;
+  double largest_move = 0;    ///< of a vertex, over h
+};
+
+struct Generalised {
+  geometry::Boundary boundary;
+  GeneralisedCounts counts;
+};
+
+/// @brief The boundary without narrow parts for elements of this size; null if it has none.
+///
+/// The curves are the constraints of a Delaunay triangulation of their nodes. Parts whose triangles are all narrow are
+/// dead ends (spits, inlets), passages (necks, straits, walls) or whole components and holes. Those of the shape are
+/// cut where they become wide enough. Those of the outside are kept, and their sides moved apart, or closed.
+/// Triangles that keep their orientation prove that curves do not cross. Periodic boundaries come back as they are.
+/// Deterministic, one thread. O(n log n) for n pieces.
+/// @param size h
+/// @param inside points that must stay inside
+/// @throws GeometryError if a size is not positive and finite
+std::unique_ptr<const Generalised> generalise(const geometry::Boundary& boundary, const sizing::SizeField& size,
+                                              const geometry::Lattice& lattice, Narrow narrow,
+                                              std::span<const geometry::Vec2> inside);
+
+} // namespace trime::generalise

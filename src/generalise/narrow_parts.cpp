@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "generalise/narrow_parts.hpp"
+
+#include "generalise/rules.hpp"
+#include "trime/geometry/segment.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace trime::generalise {
+namespace {
+
+using geometry::Segment;
+using geometry::Vec2;
+using HalfEdge = Triangulation::HalfEdge;
+
+/// Should the constrained edge e get a node, since the apex of its triangle is near?
+bool wants_node(const CurveMap& map, HalfEdge e) {
+  const Triangulation& mesh = map.mesh();
+  const LocalIndex a = mesh.origin(e), b = mesh.target(e), apex = mesh.origin(Triangulation::previous(e));
+  if (!map.is_on_curve(apex))
+    return false;
+  const double width =
+      std::fmax(GeneraliseRules::narrow_inside, GeneraliseRules::narrow_outside) * std::fmin(map.size(a), map.size(b));
+  const Vec2 along = mesh.point(b) - mesh.point(a), across = mesh.point(apex) - mesh.point(a);
+  const double whole = length(along), place = dot(across, along) / whole, height = cross(along, across) / whole;
+  return whole > GeneraliseRules::node_spacing * width && height < GeneraliseRules::node_reach * width &&
+         place > -height && place < whole + height;
+}
+
+class NarrowFinder {
+public:
+  NarrowFinder(const CurveMap& map, const std::vector<char>& labels, bool inside)
+      : map_(map), mesh_(map.mesh()), labels_(labels), inside_(inside),
+        share_(inside ? GeneraliseRules::narrow_inside : GeneraliseRules::narrow_outside),
+        narrow_(labels.size()), seen_(labels.size()) {
+    for (LocalIndex t = 0; t < mesh_.triangle_count(); ++t)
+      narrow_[at(t)] = is_narrow(t);
+  }
+
+  std::vector<NarrowPart> find() {
+    std::vector<NarrowPart> parts;
+    for (LocalIndex t = 0; t < mesh_.triangle_count(); ++t)
+      if (narrow_[at(t)] && !seen_[at(t)])
+        parts.push_back(collect(t));
+    return parts;
+  }
+
+private:
+  bool is_narrow_edge(HalfEdge e) const {
+    const LocalIndex a = mesh_.origin(e), b = mesh_.target(e);
+    if (!map_.is_on_curve(a) || !map_.is_on_curve(b))
+      return false;
+    const double width = share_ * std::fmin(map_.size(a), map_.size(b));
+    return squared_length(mesh_.point(b) - mesh_.point(a)) < width * width;
+  }
+  bool is_narrow(LocalIndex t) const {
+    if ((labels_[at(t)] != 0) != inside_)
+      return false;
+    int open = 0;
+    for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
+      if (!mesh_.is_constrained(e)) {
+        ++open;
+        if (!is_narrow_edge(e))
+          return false;
+      }
+    return open > 0;
+  }
+
+  NarrowPart collect(LocalIndex first) {
+    NarrowPart part;
+    part.inside = inside_;
+    part.triangles.push_back(first);
+    part.size = INFINITY;
+    seen_[at(first)] = 1;
+    for (std::size_t k = 0; k < part.triangles.size(); ++k) {
+      const LocalIndex t = part.triangles[k];
+      for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e) {
+        part.size = std::fmin(part.size, map_.size(mesh_.origin(e)));
+        part.holds_kept |= map_.is_kept(mesh_.origin(e));
+        if (mesh_.is_constrained(e))
+          continue;
+        const LocalIndex there = Triangulation::triangle(mesh_.twin(e));
+        if (!narrow_[at(there)])
+          part.lids.push_back(e);
+        else if (!seen_[at(there)]) {
+          seen_[at(there)] = 1;
+          part.triangles.push_back(there);
+        }
+      }
+    }
+    if (part.lids.size() == 1)
+      measure_dead_end(part);
+    return part;
+  }
+
+  void measure_dead_end(NarrowPart& part) const {
+    const Vec2 a = mesh_.point(mesh_.origin(part.lids[0])), b = mesh_.point(mesh_.target(part.lids[0]));
+    LocalIndex tip = mesh_.origin(part.lids[0]);
+    for (const LocalIndex t : part.triangles)
+      for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
+        if (const double d = std::sqrt(squared_distance(mesh_.point(mesh_.origin(e)), {a, b})); d > part.depth) {
+          part.depth = d;
+          tip = mesh_.origin(e);
+        }
+    const double opening = length(b - a) / part.depth; // the width of a corner grows by that share of the way
+    const double reach = GeneraliseRules::corner_width * part.size / opening;
+    part.is_corner = is_straight(tip, true, reach, opening) && is_straight(tip, false, reach, opening);
+  }
+
+  /// Is the curve from a tip on, ahead or behind, as straight as a corner of such an opening needs it?
+  bool is_straight(LocalIndex tip, bool ahead, double reach, double opening) const {
+    const Vec2 from = mesh_.point(tip);
+    std::vector<Vec2> arm;
+    for (LocalIndex v = tip; arm.empty() || length(arm.back() - from) < reach;) {
+      v = ahead ? map_.next_on_curve(v) : map_.previous_on_curve(v);
+      if (v == tip)
+        return false;
+      arm.push_back(mesh_.point(v));
+    }
+    for (std::size_t k = 0; k + 1 < arm.size(); ++k) {
+      const double leeway = GeneraliseRules::straight_arms * opening * std::fmax(length(arm[k] - from), 0.05 * reach);
+      if (squared_distance(arm[k], {from, arm.back()}) > leeway * leeway)
+        return false;
+    }
+    return true;
+  }
+
+  const CurveMap& map_;
+  const Triangulation& mesh_;
+  const std::vector<char>& labels_;
+  const bool inside_;
+  const double share_;
+  std::vector<char> narrow_, seen_; // by triangle
+};
+
+} // namespace
+
+void add_nodes_to_narrow_parts(CurveMap& map) {
+  const Triangulation& mesh = map.mesh();
+  for (int round = 0; round < GeneraliseRules::node_rounds; ++round) {
+    std::vector<std::array<LocalIndex, 2>> wanted;
+    for (HalfEdge e = 0; e < 3 * mesh.triangle_count(); ++e)
+      if (mesh.is_constrained(e) && wants_node(map, e))
+        wanted.push_back({std::min(mesh.origin(e), mesh.target(e)), std::max(mesh.origin(e), mesh.target(e))});
+    std::sort(wanted.begin(), wanted.end());
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+    bool added = false;
+    for (const auto& [a, b] : wanted)
+      added |= map.add_node(mesh.find_edge(a, b));
+    if (!added)
+      return;
+  }
+}
+
+std::vector<NarrowPart> find_narrow_parts(const CurveMap& map, const std::vector<char>& labels, bool inside) {
+  return NarrowFinder(map, labels, inside).find();
+}
+
+} // namespace trime::generalise

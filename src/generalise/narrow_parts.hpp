@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where a shape, or the outside between its parts, is narrower than the resolution.
+#pragma once
+
+#include "generalise/curve_map.hpp"
+
+#include <vector>
+
+namespace trime::generalise {
+
+/// @brief A connected set of triangles on one side of the curves that is narrow throughout. Its lids are the edges
+/// behind which that side becomes wider: none if all of a component or hole is narrow, one for a dead end, two or more
+/// for a passage.
+struct NarrowPart {
+  bool inside = false; ///< of the shape
+  std::vector<LocalIndex> triangles;
+  std::vector<Triangulation::HalfEdge> lids; ///< seen from the narrow part
+  double depth = 0;                          ///< largest distance of its nodes from the lid, of a dead end
+  double size = 0;                           ///< the smallest h at its nodes
+  bool is_corner = false;                    ///< a dead end between two straight arms
+  bool holds_kept = false;                   ///< a node that the user has asked for
+};
+
+/// Adds nodes where the two sides of a narrow part have too few to tell how wide it is.
+void add_nodes_to_narrow_parts(CurveMap& map);
+
+/// @brief All narrow parts on one side, in the order of their first triangles. O(triangles)
+/// @param labels by triangle: 1 inside, 0 outside
+std::vector<NarrowPart> find_narrow_parts(const CurveMap& map, const std::vector<char>& labels, bool inside);
+
+} // namespace trime::generalise

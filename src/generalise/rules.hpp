@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The numbers by which a boundary is generalised.
+#pragma once
+
+namespace trime::generalise {
+
+/// The numbers of the generalise module.
+struct GeneraliseRules {
+  /// [h] Parts of the shape narrower than this are cut. Not measured.
+  static constexpr double narrow_inside = 0.25;
+  /// [h] Parts of the outside narrower than this are closed, or widened to it. Not measured.
+  static constexpr double narrow_outside = 0.25;
+  /// [h] A narrow dead end that is less deep is left to the layout: chords pass over it. Not measured.
+  static constexpr double least_depth = 0.4;
+  /// [h] A corner is one that keeps its arms straight until they are so far apart. Not measured.
+  static constexpr double corner_width = 0.5;
+  /// [width] How far the sides of a corner may lie from two straight arms. Not measured.
+  static constexpr double straight_arms = 0.15;
+  /// [narrow width] Near narrow parts the curve has nodes at most so far apart. Not measured.
+  static constexpr double node_spacing = 0.6;
+  /// [narrow width] Nodes are added where the other side is nearer than this. Not measured.
+  static constexpr double node_reach = 1.5;
+  /// [rounds] Of adding nodes, each of which at least halves a spacing. Not measured.
+  static constexpr int node_rounds = 24;
+  /// [radians] Arcs have nodes at most so far apart: 15 degrees.
+  static constexpr double arc_step = 0.2617993877991494;
+  /// [rounds] Of separating loops that touch in a vertex. Not measured.
+  static constexpr int touch_rounds = 50;
+  /// [distance from the end] A slit is widened by at most this share of the way from its end. Not measured.
+  static constexpr double slit_taper = 0.4;
+  /// [width of a slit] Vertices on its sides are joined if they are nearer to each other. Not measured.
+  static constexpr double thinned = 0.5;
+  /// [1] Neighbours on the curve are shifted by at most so much of their distance more or less. Not measured.
+  static constexpr double steepest_shift = 0.6;
+  /// [rounds] Of making shifts less steep. Not measured.
+  static constexpr int calming_rounds = 40;
+  /// [rounds] Of halving displacements that would turn a triangle over; then they are dropped. Not measured.
+  static constexpr int displacement_rounds = 12;
+  /// [h] Corners nearer to each other than this, between long arms, become one. Not measured.
+  static constexpr double close_corners = 0.05;
+  /// [distance of close corners] A long arm has this length at least. Not measured.
+  static constexpr double long_arm = 4;
+};
+
+} // namespace trime::generalise

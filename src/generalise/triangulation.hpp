@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A constrained Delaunay triangulation of a few points of the plane, held by one thread: the map on which narrow parts
+// of a boundary are found. The mesh itself comes from the module delaunay.
+#pragma once
+
+#include "trime/core/types.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/geometry/vec2.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace trime::generalise {
+
+/// @brief Points inside a box, triangulated with the corners of the box; some edges are constrained.
+///
+/// Half-edge 3 t + k of triangle t leads from its vertex k to its vertex k + 1, interior on the left. Vertices 0 to 3
+/// are the corners of the box. Every edge without constraint is locally Delaunay (Lawson 1977; Sloan 1993 for
+/// constraints). All decisions are exact, so the result follows from points, order of insertion and constraints alone.
+class Triangulation {
+public:
+  using HalfEdge = LocalIndex;
+  static constexpr LocalIndex none = -1;
+
+  /// @param box corners are lattice points; all points lie strictly inside
+  Triangulation(const geometry::Box& box, const geometry::Lattice& lattice);
+
+  void reserve(std::size_t points);
+  /// @brief The vertex at p, a new one unless one lies there. O(steps of the walk from the last point); points should
+  /// come in the order of a space-filling curve.
+  LocalIndex insert(geometry::Vec2 p);
+  /// @brief Makes the edge from a to b, a constraint that bears `mark` (not negative), and -1 - mark from b to a.
+  /// @return false, with the triangulation as it was, if another vertex or a constraint is in the way
+  bool constrain(LocalIndex a, LocalIndex b, std::int32_t mark);
+  /// @brief A new vertex near the constrained edge e, which becomes two edges with its mark.
+  /// @return the vertex, or `none` if p is too near to other vertices for the lattice to tell
+  LocalIndex split(HalfEdge e, geometry::Vec2 p);
+
+  LocalIndex vertex_count() const { return static_cast<LocalIndex>(points_.size()); }
+  LocalIndex triangle_count() const { return static_cast<LocalIndex>(origin_.size() / 3); }
+  geometry::Vec2 point(LocalIndex v) const { return points_[at(v)]; }
+
+  static LocalIndex triangle(HalfEdge e) { return e / 3; }
+  static HalfEdge next(HalfEdge e) { return e % 3 == 2 ? e - 2 : e + 1; }
+  static HalfEdge previous(HalfEdge e) { return e % 3 == 0 ? e + 2 : e - 1; }
+  LocalIndex origin(HalfEdge e) const { return origin_[at(e)]; }
+  LocalIndex target(HalfEdge e) const { return origin_[at(next(e))]; }
+  /// The same edge seen from the other side; `none` on the border of the box.
+  HalfEdge twin(HalfEdge e) const { return twin_[at(e)]; }
+  bool is_constrained(HalfEdge e) const { return mark_[at(e)] != no_mark; }
+  /// Of a constrained edge in its own direction, else negative.
+  std::int32_t mark(HalfEdge e) const { return mark_[at(e)] == no_mark ? -1 : mark_[at(e)]; }
+  /// The same for both directions: of the constraint on which e lies. @pre is_constrained(e)
+  std::int32_t mark_of_edge(HalfEdge e) const { return mark_[at(e)] >= 0 ? mark_[at(e)] : -1 - mark_[at(e)]; }
+  /// The half-edge from a to b; `none` if they are no neighbours. O(degree of a)
+  HalfEdge find_edge(LocalIndex a, LocalIndex b) const;
+  /// Some half-edge that leaves v.
+  HalfEdge leaving(LocalIndex v) const { return leaving_[at(v)]; }
+  /// The next half-edge that leaves the same vertex, counter-clockwise; `none` behind the border of the box.
+  HalfEdge around(HalfEdge e) const { return twin(previous(e)); }
+
+private:
+  static constexpr std::int32_t no_mark = INT32_MIN;
+
+  /// Where a point lies: in the triangle left of `edge`, or on that edge, or at its origin.
+  struct Location {
+    HalfEdge edge;
+    enum { inside, on_edge, at_origin } kind;
+  };
+  Location locate(geometry::Vec2 p) const;
+  LocalIndex add_point(geometry::Vec2 p);
+  void set_triangle(LocalIndex t, std::array<LocalIndex, 3> vertices, std::array<HalfEdge, 3> twins,
+                    std::array<std::int32_t, 3> marks);
+  LocalIndex add_triangle();
+  void link(HalfEdge e, HalfEdge f);
+  LocalIndex split_triangle(LocalIndex t, geometry::Vec2 p);
+  LocalIndex split_edge(HalfEdge e, geometry::Vec2 p);
+  void legalize();
+  bool is_illegal(HalfEdge e) const;
+  bool is_strictly_convex(HalfEdge e) const;
+  void flip(HalfEdge e);
+  bool find_crossed(LocalIndex a, LocalIndex b, std::vector<HalfEdge>& crossed) const;
+  int side(LocalIndex a, LocalIndex b, LocalIndex c) const;
+
+  geometry::Lattice lattice_;
+  std::vector<geometry::Vec2> points_;
+  std::vector<HalfEdge> leaving_;       // by vertex
+  std::vector<LocalIndex> origin_;      // by half-edge
+  std::vector<HalfEdge> twin_;          // by half-edge
+  std::vector<std::int32_t> mark_;      // by half-edge
+  std::vector<HalfEdge> doubtful_;      // edges that legalize looks at
+  mutable HalfEdge last_ = 0;           // where the last search ended
+};
+
+} // namespace trime::generalise

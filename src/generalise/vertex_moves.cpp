@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "generalise/vertex_moves.hpp"
+
+#include "generalise/rules.hpp"
+#include "geometry/predicates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace trime::generalise {
+namespace {
+
+using geometry::Vec2;
+using HalfEdge = Triangulation::HalfEdge;
+
+} // namespace
+
+VertexMoves::VertexMoves(const CurveMap& map, const std::vector<char>& labels, const geometry::Lattice& lattice)
+    : map_(map), mesh_(map.mesh()), labels_(labels), lattice_(lattice), places_(at(mesh_.vertex_count())) {
+  for (LocalIndex v = 0; v < mesh_.vertex_count(); ++v)
+    places_[at(v)] = mesh_.point(v);
+  root_.resize(places_.size());
+  std::iota(root_.begin(), root_.end(), 0);
+}
+
+/// Triangles of which an edge has shrunk to nothing do not.
+bool VertexMoves::turns_over(LocalIndex t) const {
+  const LocalIndex a = root(mesh_.origin(3 * t)), b = root(mesh_.origin(3 * t + 1)), c = root(mesh_.origin(3 * t + 2));
+  return a != b && b != c && c != a && geometry::orient2d(places_[at(a)], places_[at(b)], places_[at(c)]) <= 0;
+}
+
+void VertexMoves::widen_one(const NarrowPart& part, std::vector<Vec2>& shifts) const {
+  struct AtVertex {
+    double gap = INFINITY;
+    Vec2 away; // from the other side: sum of normals
+  };
+  std::map<LocalIndex, AtVertex> vertices;
+  std::vector<Vec2> ends;
+  for (const LocalIndex t : part.triangles) {
+    int constrained = 0;
+    for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e) {
+      const LocalIndex a = mesh_.origin(e), b = mesh_.target(e), apex = mesh_.origin(Triangulation::previous(e));
+      const Vec2 along = mesh_.point(b) - mesh_.point(a);
+      const double whole = length(along);
+      if (!mesh_.is_constrained(e)) {
+        for (const LocalIndex v : {a, b})
+          vertices[v].gap = std::fmin(vertices[v].gap, whole);
+        continue;
+      }
+      ++constrained;
+      const Vec2 outward = (-1 / whole) * geometry::left_normal(along); // of this side of the outside
+      for (const LocalIndex v : {a, b})
+        vertices[v].away = vertices[v].away + outward;
+      vertices[apex].gap =
+          std::fmin(vertices[apex].gap, cross(along, mesh_.point(apex) - mesh_.point(a)) / whole);
+    }
+    if (constrained == 2)
+      for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
+        if (mesh_.is_constrained(e) && mesh_.is_constrained(Triangulation::previous(e)))
+          ends.push_back(mesh_.point(mesh_.origin(e)));
+  }
+  for (const auto& [v, here] : vertices) {
+    const double norm = length(here.away);
+    double way = 0.5 * (GeneraliseRules::narrow_outside * map_.size(v) - here.gap);
+    for (const Vec2 end : ends)
+      way = std::fmin(way, GeneraliseRules::slit_taper * length(mesh_.point(v) - end));
+    if (way > 0 && norm > 0.5 && !map_.is_kept(v) && root(v) == v)
+      shifts[at(v)] = (way / norm) * here.away;
+  }
+}
+
+/// Shifts of vertices that follow each other on the curve differ by less than their distance: no spikes.
+void VertexMoves::calm(std::vector<Vec2>& shifts) const {
+  for (int round = 0; round < GeneraliseRules::calming_rounds; ++round) {
+    bool changed = false;
+    for (HalfEdge e = 0; e < 3 * mesh_.triangle_count(); ++e) {
+      if (mesh_.mark(e) < 0)
+        continue;
+      const LocalIndex a = root(mesh_.origin(e)), b = root(mesh_.target(e));
+      const double most = GeneraliseRules::steepest_shift * length(mesh_.point(b) - mesh_.point(a));
+      const double difference = length(shifts[at(a)] - shifts[at(b)]);
+      if (a == b || difference <= most)
+        continue;
+      const double factor = most / difference;
+      shifts[at(a)] = factor * shifts[at(a)];
+      shifts[at(b)] = factor * shifts[at(b)];
+      changed = true;
+    }
+    if (!changed)
+      return;
+  }
+}
+
+void VertexMoves::widen(std::span<const NarrowPart> parts) {
+  thin(parts);
+  std::vector<Vec2> shifts(places_.size());
+  for (const NarrowPart& part : parts)
+    widen_one(part, shifts);
+  calm(shifts);
+  const auto place = [&](LocalIndex v) {
+    places_[at(v)] = lattice_.snap(mesh_.point(root(v)) + shifts[at(root(v))]);
+  };
+  for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v)
+    place(v);
+  for (int round = 0; round <= GeneraliseRules::displacement_rounds; ++round) {
+    const double factor = round == GeneraliseRules::displacement_rounds ? 0 : 0.5;
+    std::vector<LocalIndex> bad;
+    for (LocalIndex t = 0; t < mesh_.triangle_count(); ++t)
+      if (turns_over(t))
+        for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
+          bad.push_back(root(mesh_.origin(e)));
+    if (bad.empty())
+      break;
+    std::sort(bad.begin(), bad.end());
+    bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
+    bool stopped = false;
+    for (const LocalIndex v : bad) {
+      stopped |= shifts[at(v)] != Vec2{};
+      shifts[at(v)] = factor * shifts[at(v)];
+    }
+    for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v)
+      place(v);
+    if (factor == 0 && stopped)
+      --round; // those beside them follow
+  }
+  for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v)
+    any_ |= places_[at(v)] != mesh_.point(v);
+}
+
+/// Joins vertices on the sides of narrow parts that are nearer to each other than the parts become wide.
+void VertexMoves::thin(std::span<const NarrowPart> parts) {
+  std::vector<char> beside(places_.size());
+  for (const NarrowPart& part : parts)
+    for (const LocalIndex t : part.triangles)
+      for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
+        beside[at(mesh_.origin(e))] = 1;
+  for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v) {
+    if (!beside[at(v)])
+      continue;
+    const LocalIndex u = map_.next_on_curve(v);
+    if (!is_on_rim(mesh_.find_edge(v, u)))
+      continue;
+    const double close = GeneraliseRules::thinned * GeneraliseRules::narrow_outside * map_.size(v);
+    if (beside[at(u)] && !map_.is_kept(u) && root(u) == u &&
+        squared_length(mesh_.point(u) - places_[at(v)]) < close * close)
+      merge(u, root(v));
+  }
+}
+
+void VertexMoves::merge_close_corners() {
+  for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v) {
+    const HalfEdge first = mesh_.leaving(v);
+    HalfEdge e = first;
+    do {
+      const LocalIndex u = mesh_.target(e);
+      const double close = GeneraliseRules::close_corners * std::fmin(map_.size(u), map_.size(v));
+      if (is_on_rim(e) && !map_.is_kept(u) && root(u) == u && root(v) != u &&
+          squared_length(places_[at(u)] - places_[at(v)]) < close * close && !map_.is_kept(u) &&
+          has_long_arms(e, close))
+        merge(u, root(v));
+      e = mesh_.around(e);
+    } while (e != first);
+  }
+}
+
+VertexMoves::HalfEdge VertexMoves::curve_behind(HalfEdge e) const {
+  HalfEdge f = mesh_.leaving(mesh_.target(e));
+  while (mesh_.mark(f) < 0)
+    f = mesh_.around(f);
+  return f;
+}
+
+VertexMoves::HalfEdge VertexMoves::curve_before(HalfEdge e) const {
+  HalfEdge f = mesh_.leaving(mesh_.origin(e));
+  while (!mesh_.is_constrained(f) || mesh_.mark(f) >= 0)
+    f = mesh_.around(f);
+  return mesh_.twin(f);
+}
+
+/// Do straight pieces of some length lie before and behind the edge e, along edges that are as short?
+bool VertexMoves::has_long_arms(HalfEdge e, double close) const {
+  const auto is_long = [&](HalfEdge f, const auto& step) {
+    for (double way = 0; way < close; f = step(f)) {
+      const double here = length(mesh_.point(mesh_.target(f)) - mesh_.point(mesh_.origin(f)));
+      const CurveMap::Span span = map_.span_of(f);
+      if (map_.boundary().loops[at(span.loop)].pieces[at(span.piece)].length() > GeneraliseRules::long_arm * close)
+        return true;
+      way += here;
+    }
+    return false;
+  };
+  return is_long(curve_before(e), [&](HalfEdge f) { return curve_before(f); }) &&
+         is_long(curve_behind(e), [&](HalfEdge f) { return curve_behind(f); });
+}
+
+/// Moves u to the place of v, if no triangle turns over.
+void VertexMoves::merge(LocalIndex u, LocalIndex v) {
+  const Vec2 old = places_[at(u)];
+  places_[at(u)] = places_[at(v)];
+  root_[at(u)] = root_[at(v)];
+  const HalfEdge first = mesh_.leaving(u);
+  HalfEdge e = first;
+  do {
+    if (turns_over(Triangulation::triangle(e))) {
+      places_[at(u)] = old;
+      root_[at(u)] = u;
+      return;
+    }
+    e = mesh_.around(e);
+  } while (e != first);
+  any_ = true;
+}
+
+double VertexMoves::largest_share() const {
+  double largest = 0;
+  for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v)
+    if (places_[at(v)] != mesh_.point(v))
+      largest = std::fmax(largest, length(places_[at(v)] - mesh_.point(v)) / map_.size(v));
+  return largest;
+}
+
+} // namespace trime::generalise

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Vertices of a boundary that are moved: apart where a slit is narrower than the resolution, together where they are
+// nearly one. No triangle turns over, so no two curves come to cross.
+#pragma once
+
+#include "generalise/loop_builder.hpp"
+#include "generalise/narrow_parts.hpp"
+
+#include <span>
+#include <vector>
+
+namespace trime::generalise {
+
+/// The places of all vertices while some of them move.
+class VertexMoves {
+public:
+  /// @param labels by triangle: 1 inside; they may have changed since the map was made
+  VertexMoves(const CurveMap& map, const std::vector<char>& labels, const geometry::Lattice& lattice);
+
+  /// @brief Moves the sides of narrow parts of the outside apart, each half of what is missing, less towards the ends
+  /// of a slit. What would turn a triangle over is moved less, or not at all.
+  void widen(std::span<const NarrowPart> parts);
+  /// Joins corners that are nearer to each other than a small share of h, between long arms.
+  void merge_close_corners();
+
+  bool any() const { return any_; }
+  const MovedVertices& places() const { return places_; }
+  /// Largest distance over h that a vertex has moved.
+  double largest_share() const;
+
+private:
+  using HalfEdge = Triangulation::HalfEdge;
+  HalfEdge curve_before(HalfEdge e) const;
+  HalfEdge curve_behind(HalfEdge e) const;
+  bool has_long_arms(HalfEdge e, double close) const;
+  void merge(LocalIndex u, LocalIndex v);
+  /// Does the half-edge follow a curve that stays?
+  bool is_on_rim(HalfEdge e) const {
+    return mesh_.mark(e) >= 0 && labels_[at(Triangulation::triangle(e))] != 0 &&
+           labels_[at(Triangulation::triangle(mesh_.twin(e)))] == 0;
+  }
+  bool turns_over(LocalIndex t) const;
+  void widen_one(const NarrowPart& part, std::vector<geometry::Vec2>& shifts) const;
+
+  const CurveMap& map_;
+  const Triangulation& mesh_;
+  const std::vector<char>& labels_;
+  geometry::Lattice lattice_;
+  LocalIndex root(LocalIndex v) const { return root_[at(v)]; }
+  void calm(std::vector<geometry::Vec2>& shifts) const;
+  void thin(std::span<const NarrowPart> parts);
+  MovedVertices places_;
+  std::vector<LocalIndex> root_; // by vertex: the one to which it was moved, or itself
+  bool any_ = false;
+};
+
+} // namespace trime::generalise
