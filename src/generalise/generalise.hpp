@@ -21,6 +21,8 @@ struct GeneralisedCounts {
   std::int64_t widened = 0;   ///< narrow parts of the outside whose sides were moved apart
   double cut_area = 0, closed_area = 0;
   double largest_move = 0;    ///< of a vertex, over h
+
+  void add(const GeneralisedCounts& other);
 };
 
 struct Generalised {

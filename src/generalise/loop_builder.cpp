@@ -60,7 +60,7 @@ public:
         if (place(mesh_.origin(f)) != place(mesh_.target(f)))
           edges.push_back(f);
       }
-      if (edges.size() > 2 || (!edges.empty() && map_.boundary().loops[at(map_.span_of(edges[0]).loop)].pieces[0].circular))
+      if (edges.size() > 2)
         built_.push_back(build_loop(std::move(edges)));
     }
     name_loops();

@@ -2,16 +2,18 @@
 // The numbers by which a boundary is generalised.
 #pragma once
 
+#include <cstddef>
+
 namespace trime::generalise {
 
 /// The numbers of the generalise module.
 struct GeneraliseRules {
   /// [h] Parts of the shape narrower than this are cut. Not measured.
-  static constexpr double narrow_inside = 0.25;
+  static constexpr double narrow_inside = 0.4;
   /// [h] Parts of the outside narrower than this are closed, or widened to it. Not measured.
   static constexpr double narrow_outside = 0.25;
   /// [h] A narrow dead end that is less deep is left to the layout: chords pass over it. Not measured.
-  static constexpr double least_depth = 0.4;
+  static constexpr double least_depth = 0.1;
   /// [h] A corner is one that keeps its arms straight until they are so far apart. Not measured.
   static constexpr double corner_width = 0.5;
   /// [width] How far the sides of a corner may lie from two straight arms. Not measured.
@@ -36,6 +38,19 @@ struct GeneraliseRules {
   static constexpr int calming_rounds = 40;
   /// [rounds] Of halving displacements that would turn a triangle over; then they are dropped. Not measured.
   static constexpr int displacement_rounds = 12;
+  /// [h] Ragged runs of a curve lose vertices that are nearer to each other. Not measured.
+  static constexpr double thinned_share = 0.05;
+  /// [1] A curve is ragged where 1 - cosine of its turns adds up to more on that way: one turn of 75 degrees, or
+  /// several smaller ones. Not measured.
+  static constexpr double ragged_turn = 0.75;
+  /// [vertices] A loop keeps at least so many.
+  static constexpr std::size_t least_vertices = 6;
+  /// [1] If curves cross after thinning, it is tried again with this part of the share. Not measured.
+  static constexpr double finer_thinning = 0.2;
+  /// [passes] Over a boundary, at most: the later ones see what the earlier ones have left. Not measured.
+  static constexpr int passes = 4;
+  /// [rounds] Of such trials; then nothing is thinned.
+  static constexpr int thinning_rounds = 3;
   /// [h] Corners nearer to each other than this, between long arms, become one. Not measured.
   static constexpr double close_corners = 0.05;
   /// [distance of close corners] A long arm has this length at least. Not measured.

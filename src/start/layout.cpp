@@ -85,7 +85,7 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
   CurvesAtSize& curves = laid.fitted.curves;
   if (context.options.features.keep_all)
     return given;
-  if (curves.factor != laid.fitted.factor)
+  if (!(std::fabs(curves.factor - laid.fitted.factor) <= StartRules::same_curves * laid.fitted.factor))
     curves = {laid.fitted.factor,
               generalise::generalise(given, *laid.stage.asked_size, context.lattice, generalise::Narrow::keep,
                                      context.fixed.inside()),

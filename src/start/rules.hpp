@@ -9,6 +9,8 @@ namespace trime::start {
 
 /// The numbers by which points are placed.
 struct StartRules {
+  /// [1] While the factor of the size changes by a smaller share, the curves are not generalised anew. Not measured.
+  static constexpr double same_curves = 0.04;
   /// [h] If the boundary asks for smaller triangles somewhere than this, a uniform size is lowered there. Not measured.
   static constexpr double lowering_pays = 0.6;
   /// [area of the shape] The grid covers so much of the container with cells as small as the triangles. In an emptier
