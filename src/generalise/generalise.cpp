@@ -4,6 +4,7 @@
 #include "generalise/loop_builder.hpp"
 #include "generalise/narrow_parts.hpp"
 #include "generalise/ragged_curves.hpp"
+#include "generalise/regions.hpp"
 #include "generalise/rules.hpp"
 #include "generalise/vertex_moves.hpp"
 
@@ -35,6 +36,62 @@ bool matters(const Triangulation& mesh, const NarrowPart& part) {
 }
 
 
+/// Takes narrow parts out of the shape: the parts less wide than a share of h, or than a part of that if all of the
+/// shape is.
+void cut_narrow_parts(const CurveMap& map, const std::vector<char>& given, std::vector<char>& labels,
+                      GeneralisedCounts& counts) {
+  const Triangulation& mesh = map.mesh();
+  double share = GeneraliseRules::narrow_inside;
+  for (int round = 0; round < GeneraliseRules::narrower_rounds; ++round, share *= 0.5) {
+    labels = given;
+    counts.cut = 0;
+    counts.cut_area = 0;
+    for (const NarrowPart& part : find_narrow_parts(map, given, true, share)) {
+      if (part.holds_kept || !matters(mesh, part))
+        continue;
+      ++counts.cut;
+      counts.cut_area += area_of(mesh, part);
+      for (const LocalIndex t : part.triangles)
+        labels[at(t)] = 0;
+    }
+    if (std::find(labels.begin(), labels.end(), 1) != labels.end())
+      return;
+  }
+}
+
+/// Is a small component beside the part?
+bool is_beside_small(const CurveMap& map, const Regions& regions, const std::vector<char>& given,
+                     const NarrowPart& part) {
+  const Triangulation& mesh = map.mesh();
+  for (const LocalIndex t : part.triangles)
+    for (Triangulation::HalfEdge e = 3 * t; e < 3 * t + 3; ++e) {
+      const LocalIndex there = Triangulation::triangle(mesh.twin(e));
+      if (given[at(there)] && regions.perimeter(regions.of(there)) < GeneraliseRules::small_component)
+        return true;
+    }
+  return false;
+}
+
+/// Fills narrow parts of the outside that are to be closed; returns the others.
+std::vector<NarrowPart> close_narrow_parts(const CurveMap& map, const std::vector<char>& given, Narrow narrow,
+                                           std::vector<char>& labels, GeneralisedCounts& counts) {
+  const Regions regions(map, given);
+  std::vector<NarrowPart> slits;
+  for (NarrowPart& part : find_narrow_parts(map, given, false, GeneraliseRules::narrow_outside)) {
+    if (part.holds_kept || !matters(map.mesh(), part))
+      continue;
+    if (narrow == Narrow::keep && !is_beside_small(map, regions, given, part)) {
+      slits.push_back(std::move(part));
+      continue;
+    }
+    ++counts.closed;
+    counts.closed_area += area_of(map.mesh(), part);
+    for (const LocalIndex t : part.triangles)
+      labels[at(t)] = 1;
+  }
+  return slits;
+}
+
 /// Once over the boundary; null if nothing is to be done.
 std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::SizeField& size,
                                        const geometry::Lattice& lattice, Narrow narrow) {
@@ -53,32 +110,13 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
   add_nodes_to_narrow_parts(map);
   const Triangulation& mesh = map.mesh();
   const std::vector<char> given = map.inside();
-  std::vector<char> labels = given;
   auto result = std::make_unique<Generalised>();
   GeneralisedCounts& counts = result->counts;
-  for (const NarrowPart& part : find_narrow_parts(map, given, true)) {
-    if (part.holds_kept || !matters(mesh, part))
-      continue;
-    ++counts.cut;
-    counts.cut_area += area_of(mesh, part);
-    for (const LocalIndex t : part.triangles)
-      labels[at(t)] = 0;
-  }
-  std::vector<NarrowPart> slits;
-  for (NarrowPart& part : find_narrow_parts(map, given, false)) {
-    if (part.holds_kept || !matters(mesh, part))
-      continue;
-    if (narrow == Narrow::keep) {
-      slits.push_back(std::move(part));
-      continue;
-    }
-    ++counts.closed;
-    counts.closed_area += area_of(mesh, part);
-    for (const LocalIndex t : part.triangles)
-      labels[at(t)] = 1;
-  }
-  if (std::find(labels.begin(), labels.end(), 1) == labels.end())
-    return nullptr; // all of it is narrow
+  std::vector<char> filled = given;
+  counts.filled = fill_small_holes(map, filled);
+  std::vector<char> labels = filled;
+  cut_narrow_parts(map, filled, labels, counts);
+  const std::vector<NarrowPart> slits = close_narrow_parts(map, filled, narrow, labels, counts);
   if (!separate_touching_loops(map, labels))
     return nullptr;
   VertexMoves moves(map, labels, lattice);
@@ -96,6 +134,7 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
 
 void GeneralisedCounts::add(const GeneralisedCounts& other) {
   cut += other.cut;
+  filled += other.filled;
   closed += other.closed;
   widened += other.widened;
   cut_area += other.cut_area;

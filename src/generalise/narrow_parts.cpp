@@ -31,10 +31,8 @@ bool wants_node(const CurveMap& map, HalfEdge e) {
 
 class NarrowFinder {
 public:
-  NarrowFinder(const CurveMap& map, const std::vector<char>& labels, bool inside)
-      : map_(map), mesh_(map.mesh()), labels_(labels), inside_(inside),
-        share_(inside ? GeneraliseRules::narrow_inside : GeneraliseRules::narrow_outside),
-        narrow_(labels.size()), seen_(labels.size()) {
+  NarrowFinder(const CurveMap& map, const std::vector<char>& labels, bool inside, double share)
+      : map_(map), mesh_(map.mesh()), labels_(labels), inside_(inside), share_(share), narrow_(labels.size()), seen_(labels.size()) {
     for (LocalIndex t = 0; t < mesh_.triangle_count(); ++t)
       narrow_[at(t)] = is_narrow(t);
   }
@@ -48,6 +46,11 @@ public:
   }
 
 private:
+  /// Does the side end there? Not where a hole was filled.
+  bool is_wall(HalfEdge e) const {
+    const HalfEdge f = mesh_.twin(e);
+    return f != Triangulation::none && labels_[at(Triangulation::triangle(e))] != labels_[at(Triangulation::triangle(f))];
+  }
   bool is_narrow_edge(HalfEdge e) const {
     const LocalIndex a = mesh_.origin(e), b = mesh_.target(e);
     if (!map_.is_on_curve(a) || !map_.is_on_curve(b))
@@ -60,7 +63,7 @@ private:
       return false;
     int open = 0;
     for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
-      if (!mesh_.is_constrained(e)) {
+      if (!is_wall(e)) {
         ++open;
         if (!is_narrow_edge(e))
           return false;
@@ -79,7 +82,7 @@ private:
       for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e) {
         part.size = std::fmin(part.size, map_.size(mesh_.origin(e)));
         part.holds_kept |= map_.is_kept(mesh_.origin(e));
-        if (mesh_.is_constrained(e))
+        if (is_wall(e))
           continue;
         const LocalIndex there = Triangulation::triangle(mesh_.twin(e));
         if (!narrow_[at(there)])
@@ -154,8 +157,9 @@ void add_nodes_to_narrow_parts(CurveMap& map) {
   }
 }
 
-std::vector<NarrowPart> find_narrow_parts(const CurveMap& map, const std::vector<char>& labels, bool inside) {
-  return NarrowFinder(map, labels, inside).find();
+std::vector<NarrowPart> find_narrow_parts(const CurveMap& map, const std::vector<char>& labels, bool inside,
+                                         double share) {
+  return NarrowFinder(map, labels, inside, share).find();
 }
 
 } // namespace trime::generalise

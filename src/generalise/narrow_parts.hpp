@@ -26,6 +26,8 @@ void add_nodes_to_narrow_parts(CurveMap& map);
 
 /// @brief All narrow parts on one side, in the order of their first triangles. O(triangles)
 /// @param labels by triangle: 1 inside, 0 outside
-std::vector<NarrowPart> find_narrow_parts(const CurveMap& map, const std::vector<char>& labels, bool inside);
+/// @param share of h: what is less wide is narrow
+std::vector<NarrowPart> find_narrow_parts(const CurveMap& map, const std::vector<char>& labels, bool inside,
+                                          double share);
 
 } // namespace trime::generalise

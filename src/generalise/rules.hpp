@@ -47,6 +47,13 @@ struct GeneraliseRules {
   static constexpr std::size_t least_vertices = 6;
   /// [1] If curves cross after thinning, it is tried again with this part of the share. Not measured.
   static constexpr double finer_thinning = 0.2;
+  /// [h] Holes with a smaller perimeter are filled: no triangle of size h fits around them.
+  static constexpr double least_perimeter = 3;
+  /// [h] Narrow parts of the outside beside a component with a smaller perimeter are closed, so that small components
+  /// grow together before they are dropped. Not measured.
+  static constexpr double small_component = 5;
+  /// [rounds] If all of the shape is narrow, half the width counts as narrow; so often at most.
+  static constexpr int narrower_rounds = 20;
   /// [passes] Over a boundary, at most: the later ones see what the earlier ones have left. Not measured.
   static constexpr int passes = 4;
   /// [rounds] Of such trials; then nothing is thinned.

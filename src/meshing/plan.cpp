@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/plan.hpp"
 
+#include "meshing/rules.hpp"
+
 namespace trime::meshing {
 
 start::StartOptions start_options(const MeshOptions& options) {
@@ -25,7 +27,7 @@ sweep::SweepOptions sweep_options(const MeshOptions& options) {
 }
 
 cleanup::CleanupOptions cleanup_options(const MeshOptions& options) {
-  return {options.points.value_or(0), options.features.keep_all ? 0 : options.features.tolerance};
+  return {options.points.value_or(0), options.features.keep_all ? 0 : MeshingRules::cleanup_tolerance * options.features.tolerance};
 }
 
 } // namespace trime::meshing

@@ -16,6 +16,9 @@ struct MeshingRules {
   static constexpr GlobalId few_points = 2000;
   /// [1] To 2500 h: a void that no start can leave.
   static constexpr int cap_doublings = 10;
+  /// [FeatureOptions::tolerance] So far chords of the clean-up may pass from the curve: it looks at the worst triangles
+  /// only. Not measured.
+  static constexpr double cleanup_tolerance = 3;
   /// [points asked for] With fewer in the mesh a warning is given. Not measured.
   static constexpr double shortage_warning = 0.9;
   /// [points asked for] With fewer the result says why. Not measured.

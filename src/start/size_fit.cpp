@@ -26,7 +26,7 @@ std::optional<Stage> lay_affordable_boundary(const LayoutContext& context, doubl
     const double held = static_cast<double>(stage.placed_first());
     if (!context.options.points || stage.placed_first() <= *context.options.points) {
       const double size = stage.size->size({}), area = context.given_boundary.area + stage.polygon.dropped.change;
-      if (round > 0 && is_jump(held + area / (row_height * size * size), expected))
+      if (round > 0 && context.options.features.keep_all && is_jump(held + area / (row_height * size * size), expected))
         break;
       complete(context, stage);
       return stage;
