@@ -32,14 +32,31 @@ bool matters(const Triangulation& mesh, const NarrowPart& part) {
   if (part.lids.size() != 1)
     return true;
   const double lid = length(mesh.point(mesh.target(part.lids[0])) - mesh.point(mesh.origin(part.lids[0])));
-  return !part.is_corner && part.depth > GeneraliseRules::least_depth * part.size && part.depth > lid;
+  return part.depth > GeneraliseRules::least_depth * part.size && part.depth > lid;
 }
 
 
+/// The tips of the corners of the shape as it was given: they stay, however sharp.
+class Corners {
+public:
+  /// Is it a dead end at one? In the first pass those that have straight arms are.
+  bool holds(const NarrowPart& part) {
+    if (!part.is_corner)
+      return false;
+    if (is_first_pass)
+      tips_.push_back(part.tip);
+    return is_first_pass || std::find(tips_.begin(), tips_.end(), part.tip) != tips_.end();
+  }
+  bool is_first_pass = true;
+
+private:
+  std::vector<Vec2> tips_;
+};
+
 /// Takes narrow parts out of the shape: the parts less wide than a share of h, or than a part of that if all of the
 /// shape is.
-void cut_narrow_parts(const CurveMap& map, const std::vector<char>& given, std::vector<char>& labels,
-                      GeneralisedCounts& counts) {
+void cut_narrow_parts(const CurveMap& map, const std::vector<char>& given, Corners& corners,
+                      std::vector<char>& labels, GeneralisedCounts& counts) {
   const Triangulation& mesh = map.mesh();
   double share = GeneraliseRules::narrow_inside;
   for (int round = 0; round < GeneraliseRules::narrower_rounds; ++round, share *= 0.5) {
@@ -47,7 +64,7 @@ void cut_narrow_parts(const CurveMap& map, const std::vector<char>& given, std::
     counts.cut = 0;
     counts.cut_area = 0;
     for (const NarrowPart& part : find_narrow_parts(map, given, true, share)) {
-      if (part.holds_kept || !matters(mesh, part))
+      if (part.holds_kept || !matters(mesh, part) || corners.holds(part))
         continue;
       ++counts.cut;
       counts.cut_area += area_of(mesh, part);
@@ -74,11 +91,11 @@ bool is_beside_small(const CurveMap& map, const Regions& regions, const std::vec
 
 /// Fills narrow parts of the outside that are to be closed; returns the others.
 std::vector<NarrowPart> close_narrow_parts(const CurveMap& map, const std::vector<char>& given, Narrow narrow,
-                                           std::vector<char>& labels, GeneralisedCounts& counts) {
+                                           Corners& corners, std::vector<char>& labels, GeneralisedCounts& counts) {
   const Regions regions(map, given);
   std::vector<NarrowPart> slits;
   for (NarrowPart& part : find_narrow_parts(map, given, false, GeneraliseRules::narrow_outside)) {
-    if (part.holds_kept || !matters(map.mesh(), part))
+    if (part.holds_kept || !matters(map.mesh(), part) || corners.holds(part))
       continue;
     if (narrow == Narrow::keep && !is_beside_small(map, regions, given, part)) {
       slits.push_back(std::move(part));
@@ -94,7 +111,7 @@ std::vector<NarrowPart> close_narrow_parts(const CurveMap& map, const std::vecto
 
 /// Once over the boundary; null if nothing is to be done.
 std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::SizeField& size,
-                                       const geometry::Lattice& lattice, Narrow narrow) {
+                                       const geometry::Lattice& lattice, Narrow narrow, Corners& corners) {
   std::unique_ptr<const Boundary> thinned;
   std::optional<CurveMap> made;
   double share = GeneraliseRules::thinned_share;
@@ -115,8 +132,10 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
   std::vector<char> filled = given;
   counts.filled = fill_small_holes(map, filled);
   std::vector<char> labels = filled;
-  cut_narrow_parts(map, filled, labels, counts);
-  const std::vector<NarrowPart> slits = close_narrow_parts(map, filled, narrow, labels, counts);
+  cut_narrow_parts(map, filled, corners, labels, counts);
+  std::vector<NarrowPart> slits; // they are looked for once nothing narrow is left inside
+  if (counts.cut == 0)
+    slits = close_narrow_parts(map, filled, narrow, corners, labels, counts);
   if (!separate_touching_loops(map, labels))
     return nullptr;
   VertexMoves moves(map, labels, lattice);
@@ -149,8 +168,10 @@ std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const si
   if (boundary.periods.any() || boundary.loops.empty())
     return nullptr;
   std::unique_ptr<Generalised> result;
+  Corners corners;
   for (int pass = 0; pass < GeneraliseRules::passes; ++pass) { // parts that were moved apart may leave others narrow
-    std::unique_ptr<Generalised> next = pass_over(result ? result->boundary : boundary, size, lattice, narrow);
+    std::unique_ptr<Generalised> next = pass_over(result ? result->boundary : boundary, size, lattice, narrow, corners);
+    corners.is_first_pass = false;
     if (!next)
       break;
     if (result)

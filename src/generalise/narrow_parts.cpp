@@ -107,6 +107,7 @@ private:
           part.depth = d;
           tip = mesh_.origin(e);
         }
+    part.tip = mesh_.point(tip);
     const double opening = length(b - a) / part.depth; // the width of a corner grows by that share of the way
     const double reach = GeneraliseRules::corner_width * part.size / opening;
     part.is_corner = is_straight(tip, true, reach, opening) && is_straight(tip, false, reach, opening);

@@ -17,6 +17,7 @@ struct NarrowPart {
   std::vector<Triangulation::HalfEdge> lids; ///< seen from the narrow part
   double depth = 0;                          ///< largest distance of its nodes from the lid, of a dead end
   double size = 0;                           ///< the smallest h at its nodes
+  geometry::Vec2 tip;                        ///< the node farthest from the lid
   bool is_corner = false;                    ///< a dead end between two straight arms
   bool holds_kept = false;                   ///< a node that the user has asked for
 };

@@ -55,7 +55,7 @@ struct GeneraliseRules {
   /// [rounds] If all of the shape is narrow, half the width counts as narrow; so often at most.
   static constexpr int narrower_rounds = 20;
   /// [passes] Over a boundary, at most: the later ones see what the earlier ones have left. Not measured.
-  static constexpr int passes = 4;
+  static constexpr int passes = 8;
   /// [rounds] Of such trials; then nothing is thinned.
   static constexpr int thinning_rounds = 3;
   /// [h] Corners nearer to each other than this, between long arms, become one. Not measured.
