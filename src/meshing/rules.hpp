@@ -19,11 +19,11 @@ struct MeshingRules {
   /// [FeatureOptions::tolerance] So far chords of the clean-up may pass from the curve: it looks at the worst triangles
   /// only. Not measured.
   static constexpr double cleanup_tolerance = 3;
-  /// [points asked for] With fewer in the mesh a warning is given. Not measured.
+  /// [points asked for] With fewer in the mesh a warning is given.
   static constexpr double shortage_warning = 0.9;
   /// [points asked for] With fewer the result says why. Not measured.
   static constexpr double shortage_note = 0.99;
-  /// [points] Fewer missing ones are never mentioned: a triangle.
+  /// [points] Fewer missing ones are never mentioned: a triangle. Not measured.
   static constexpr GlobalId shortage_slack = 3;
 };
 
