@@ -188,18 +188,14 @@ def touching(seed, vertices):
 
 def twice(seed, vertices):
     """Contouring output whose second ring is given twice, the other way round and from another vertex."""
-    def with_copy(number):
+    rng, number = generator(seed), vertices - len(real_coasts.coast(seed, vertices)[1])
+    while True:
         rings = real_coasts.coast(seed, number)
-        return rings + [np.roll(rings[1][::-1], 2, axis=0)]
-
-    number = vertices
-    for _ in range(40):
-        rings = with_copy(number)
-        over = sum(map(len, rings)) - vertices
-        if over == 0:
-            return rings
-        number -= max(1, over // 2) if over > 0 else min(-1, over // 2)
-    return rings
+        copy = np.roll(rings[1][::-1], 2, axis=0)
+        over = number + len(copy) - vertices
+        if over <= 0:
+            return real_walls.subdivided(rng, rings[:1], len(rings[0]) - over) + rings[1:] + [copy]
+        number -= over
 
 
 def crack(seed, vertices):

@@ -156,7 +156,10 @@ def crossings(rings, most=10):
         a, b, c, d = starts[m], ends[m], starts[n], ends[n]
         near = ((np.minimum(a, b) <= np.maximum(c, d)) & (np.minimum(c, d) <= np.maximum(a, b))).all(axis=1)
         m, n, a, b, c, d = (v[near] for v in (m, n, a, b, c, d))
-        maybe = (side(a, b, c) * side(a, b, d) <= 0) & (side(c, d, a) * side(c, d, b) <= 0)
+        signs = side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b)
+        maybe = (signs[0] * signs[1] <= 0) & (signs[2] * signs[3] <= 0)
+        common = (a == c).all(axis=1) | (a == d).all(axis=1) | (b == c).all(axis=1) | (b == d).all(axis=1)
+        maybe &= ~common | ((signs[0] == 0) & (signs[1] == 0))  # with a common end only if in line
         for k in np.flatnonzero(maybe):
             if meet(a[k], b[k], c[k], d[k]):
                 found.add((int(m[k]), int(n[k])))
