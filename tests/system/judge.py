@@ -187,11 +187,11 @@ def table(options):
     for kind, seed, vertices in real_shapes.SETS[options.set]:
         for points in numbers_of_points(vertices):
             for sizing in options.sizing:
-                if (f"{kind} {seed} {vertices}", points, sizing) in known or (options.only and kind not in options.only):
+                left_out = (options.only and kind not in options.only) or (options.most and points > options.most)
+                if left_out or (f"{kind} {seed} {vertices}", points, sizing) in known:
                     continue
-                if options.most and points > options.most:
-                    continue
-                row = run_and_judge(kind, seed, vertices, points, sizing, options.override, options.timeout, options.keep)
+                row = run_and_judge(kind, seed, vertices, points, sizing, options.override, options.timeout,
+                                    options.keep)
                 rows.append(row)
                 print(one_line(row), flush=True)
                 with results.open("a", encoding="utf-8") as file:
@@ -235,7 +235,8 @@ def main():
     elif options.command == "table":
         table(options)
     elif options.command == "show":
-        print(markdown([json.loads(line) for path in options.results for line in path.read_text().splitlines()]), end="")
+        lines = [line for path in options.results for line in path.read_text().splitlines()]
+        print(markdown([json.loads(line) for line in lines]), end="")
     else:
         if options.command == "file":
             row = {"shape": options.contour.stem, **judge_file(options.mesh, rings_of(options.contour.read_text()))}

@@ -82,7 +82,7 @@ def spits(seed, vertices):
     for centre, width, length in zip(centres, widths, lengths):
         t = np.arange(1, per_side + 1) / per_side
         root = np.interp(centre, angle, rough, period=TURN)
-        half = 0.5 * width * (1 - 0.8 * t * (0.9 + 0.1 * rng.random(per_side)))
+        half = 0.5 * width * np.sort(1 - 0.8 * rng.random(per_side))[::-1]
         out = root + length * t
         thetas += [centre - half, [centre], (centre + half)]
         radii += [out, [root + 1.002 * length], out]
@@ -112,11 +112,13 @@ def discs_apart(rng, radii, room):
 
 
 def islands(seed, vertices):
-    """A main land and islands by power law, from a tenth of its size down to 1e-5 of it."""
+    """A main land and islands by power law, from a tenth of its size down to 2e-3; four in ten are smaller, to 1e-5."""
     rng = generator(seed)
     count = min(3000, vertices // 12)
-    radii = np.concatenate([[1.0], np.sort(np.minimum(0.3, 1e-5 * rng.random(count) ** -1.4))[::-1]])
-    discs = discs_apart(rng, radii, 1.8)
+    radii = np.minimum(0.3, 2e-3 * rng.random(count) ** -0.9)
+    radii = np.where(rng.random(count) < 0.4, log_uniform(rng, 1e-5, 2e-3, count), radii)
+    radii = np.concatenate([[1.0], np.sort(radii)[::-1]])
+    discs = discs_apart(rng, radii, 1.7)
     weights = discs[:, 2] ** 0.7
     counts = 3 + np.floor((vertices - 3 * len(discs)) * weights / weights.sum()).astype(int)
     counts[0] += vertices - counts.sum()
@@ -125,7 +127,7 @@ def islands(seed, vertices):
 
 def sea(seed, vertices):
     """The same, the sea being the shape: islands are holes of a box."""
-    return [3.0 * np.array([(-1.0, -1.0), (1, -1), (1, 1), (-1, 1)])] + islands(seed, vertices - 4)
+    return [2.0 * np.array([(-1.0, -1.0), (1, -1), (1, 1), (-1, 1)])] + islands(seed, vertices - 4)
 
 
 def nested(seed, vertices):

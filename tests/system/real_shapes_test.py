@@ -133,8 +133,8 @@ class Measures(unittest.TestCase):
         # A strip of bad triangles from the tip of 5 degrees; h = 0.1, so the arms are near up to 1.38.
         height = math.tan(math.radians(5))
         x = np.arange(0.0, 3.01, 0.1)
-        points = np.concatenate([[(0.0, 0.0)], np.stack([x[1:], 0 * x[1:]], axis=1), np.stack([x[1:], height * x[1:]], axis=1)])
-        n = len(x) - 1
+        n, along = len(x) - 1, np.stack([x[1:], 0 * x[1:]], axis=1)
+        points = np.concatenate([[(0.0, 0.0)], along, along + np.stack([0 * x[1:], height * x[1:]], axis=1)])
         triangles = [(0, 1, n + 1)]
         for k in range(1, n):
             triangles += [(k, k + 1, n + k + 1), (k, n + k + 1, n + k)]
@@ -163,7 +163,8 @@ class Measures(unittest.TestCase):
 
     def test_fans_that_touch_are_two_loops(self):
         points = np.array([(0.0, 0.0), (1, 0), (1, 1), (-1, 0), (-1, -1)])
-        mesh = MeshMeasures(points, np.array([(0, 1, 2), (0, 3, 4)]), np.full(5, 1.0), [points[[0, 1, 2]], points[[0, 3, 4]]])
+        triangles = np.array([(0, 1, 2), (0, 3, 4)])
+        mesh = MeshMeasures(points, triangles, np.full(5, 1.0), list(points[triangles]))
         self.assertEqual(mesh.loops(), 2)
 
     def test_a_run_of_the_program(self):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Thin parts: honeycombs, slits, curved walls, needles, channels; and what such shapes are made of. See real_shapes.py."""
+"""Thin parts: honeycombs, slits, curved walls, needles, channels; what shapes are made of. See real_shapes.py."""
 import math
 
 import numpy as np
@@ -137,14 +137,14 @@ def spiral(seed, vertices):
     count = (vertices - head) // 2
     t = np.linspace(0, 1, count)
     angle, radius = 3 * TURN * t, 0.4 + 1.2 * t
-    thick = 1e-3 * 100 ** (np.sin(TURN * (2 * t + rng.random())) - 0.0)  # 1e-5 to 1e-1
+    thick = 1e-3 * 100 ** np.sin(TURN * (2 * t + rng.random()))  # 1e-5 to 1e-1
     inner = np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
     outer = np.stack([(radius + thick) * np.cos(angle), (radius + thick) * np.sin(angle)], axis=1)
     # The head lies beyond the end, between the two arms' last vertices.
     extra = vertices - 2 * count
     turn = (np.arange(extra) + 1) / (extra + 1) * math.pi
     middle, half = (inner[-1] + outer[-1]) / 2, thick[-1] / 2
-    cap = middle + half * np.stack([np.cos(turn - 0.0), np.sin(turn)], axis=1)
+    cap = middle + half * np.stack([np.cos(turn), np.sin(turn)], axis=1)
     return [np.concatenate([outer, cap, inner[::-1]])]
 
 
@@ -182,7 +182,7 @@ def needles(seed, vertices):
 
 
 def delta(seed, vertices):
-    """Channels of a river delta: a meshed tree on a grid, 0.3 to 1e-4 of a cell wide, narrower with each fork, warped."""
+    """Channels of a river delta: a meshed tree on a warped grid, 0.3 to 1e-4 of a cell wide, narrower with each fork."""
     rng = generator(seed)
     side = max(3, int(math.sqrt(vertices / 6)))
     tree, width, parent = {(0, 0): []}, {(0, 0): 0.3}, {(0, 0): None}
