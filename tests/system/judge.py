@@ -7,7 +7,7 @@ Usage: judge.py file MESH.h5 CONTOUR.xy [--json]            one mesh that is the
        judge.py table SET [...] -o STEM                     a set (tuning, held_out): STEM.jsonl and STEM.md
        judge.py show FILE.jsonl ...                         the table of results that are there already
 
-SIZING is uniform, or a gradation K of the automatic size (0.1). TRIME_PROGRAM names the program.
+SIZING is uniform, a gradation K of the automatic size (0.1), or a formula (=1+3*x). TRIME_PROGRAM names the program.
 What the columns mean: `judge.py columns`.
 """
 import argparse
@@ -32,7 +32,7 @@ from trime_run import PROGRAM, environment
 COLUMNS = {
     "shape": "kind, seed and vertices of real_shapes.py",
     "asked": "points asked for",
-    "sizing": "uniform, or K of the automatic size",
+    "sizing": "uniform, K of the automatic size, or a formula",
     "exit": "exit code; `time` if the time ran out, then nothing else is known",
     "points": "points of the mesh",
     "triangles": "triangles of the mesh",
@@ -104,6 +104,8 @@ def judge_file(path, rings):
 
 def config_text(points, sizing):
     size = "type = uniform" if sizing == "uniform" else f"type = automatic\ngradation = {sizing}"
+    if sizing.startswith("="):
+        size = f"type = expression\nexpression = {sizing[1:]}"
     return (f"[shape]\nregion = it\n[shape.it]\ntype = contour\nfile = it.xy\nnormalize = true\n[sizing]\n{size}\n"
             f"[meshing]\npoints = {points}\n")
 
@@ -113,7 +115,8 @@ def run_and_judge(kind, seed, vertices, points, sizing, overrides=(), timeout=12
     row = {"shape": f"{kind} {seed} {vertices}", "vertices": vertices, "asked": points, "sizing": str(sizing)}
     rings = real_shapes.shape(kind, seed, vertices)
     with tempfile.TemporaryDirectory(prefix="trime-judge-") as temporary:
-        work = pathlib.Path(keep) / f"{kind}-{seed}-{vertices}-{points}-{sizing}" if keep else pathlib.Path(temporary)
+        name = re.sub(r"[^\w.=+-]", "_", f"{kind}-{seed}-{vertices}-{points}-{sizing}")
+        work = pathlib.Path(keep) / name if keep else pathlib.Path(temporary)
         work.mkdir(parents=True, exist_ok=True)
         text = text_of(rings)
         (work / "it.xy").write_text(text, encoding="ascii")
