@@ -195,6 +195,8 @@ class MeshMeasures:
                "lost": lost, "lost_at": lost_at.tolist(), "loops": self.loops(), "forced": int((~free).sum())}
         for name, chosen in (("free", free), ("kept", kept)):
             row[name] = float(self.alpha[chosen].max(initial=1.0))
+            row[f"{name}_mean"] = float(self.alpha[chosen].mean()) if chosen.any() else 1.0
+            row[f"{name}_good"] = 100 * float((self.alpha[chosen] <= GOOD).mean()) if chosen.any() else 100.0
             row[f"{name}_angle"] = float(self.angle[chosen].min(initial=60.0))
         worst = np.flatnonzero(free)[self.alpha[free].argmax()] if free.any() else self.alpha.argmax()
         return {**row, "at": self.place(worst)}

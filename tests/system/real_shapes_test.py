@@ -182,7 +182,8 @@ class Measures(unittest.TestCase):
         self.assertLess(row["loops"], row["rings"])
         self.assertEqual(row["failed"], [])
         self.assertIn("free=", judge.one_line(row))
-        told = judge.markdown([{**row, "exit": 0, "vertices": 300, "asked": 1000, "deviation": 0.9}])
+        run_of_it = {"shape": "sea 3 300", "vertices": 300, "asked": 1000, "sizing": "0.1", "exit": 0}
+        told = judge.markdown([{**row, **run_of_it, "deviation": 0.9}])
         self.assertIn("| **0.9** |", told)
 
 
