@@ -5,12 +5,13 @@
 A copy of the sources is built in which the numbers are read from the environment when the program starts. Numbers that
 the compiler must know (sizes of arrays) stay as they are and get no line. Then each number is changed alone, on some
 cases that use all modules, with one thread. What is written (CSV) is one line for each number and direction, with the
-largest differences over the cases.
+largest differences over the cases. The time of processors is written only where it changes beyond TIMES, and does so
+again in runs that alternate with runs of the numbers as they are.
 
 Usage: measure_rules.py [--work DIR] [--only WORD] [-o src/rules_effects.csv]
   --work DIR    where the copy is built (default build/rules)
   --only WORD   numbers whose full name holds this word; the lines of the others stay as they are
-Takes about half an hour on two cores.
+Takes about 40 minutes on two cores, 3 of them for the build.
 """
 import argparse
 import concurrent.futures
@@ -19,6 +20,7 @@ import os
 import pathlib
 import re
 import shutil
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -28,7 +30,8 @@ import rules_table
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 COLUMNS = ("number", "factor", "same_meshes", "mean_alpha", "largest_alpha", "points", "time", "failed")
-CASES = {  # name: config and overrides; together they use every module
+EFFECTS = ROOT / rules_table.EFFECTS
+CASES = {  # rules_table.CASES of them; name: config and overrides; together they use every module
     "square": ["square.ini", "meshing.points=8000", "sizing.type=uniform"],
     "coast": ["coast.ini", "meshing.points=6000"],
     "spade": ["spade.ini", "meshing.points=5000", "meshing.method=hybrid"],
@@ -36,6 +39,9 @@ CASES = {  # name: config and overrides; together they use every module
     "torus": ["torus_hole.ini", "meshing.points=4000"],
     "few": ["boolean.ini", "meshing.points=700"],
 }
+TIMES = (0.87, 1.15)  # of the time with the numbers as they are: between them it is noise
+REPETITIONS = 3
+MANY_LINES = 40  # so many show how much runs at the same time slow each other down
 SIMPLE = {"double": "double", "float": "float", "int": "int", "std::size_t": "std::size_t", "GlobalId": "GlobalId",
           "LocalIndex": "LocalIndex", "std::int64_t": "std::int64_t", "std::ptrdiff_t": "std::ptrdiff_t",
           "std::int32_t": "std::int32_t", "std::uint32_t": "std::uint32_t", "std::uint64_t": "std::uint64_t"}
@@ -65,7 +71,7 @@ def patch(tree, numbers, fixed):
     for path in sorted({number.where.rpartition(":")[0] for number in numbers}):
         text = (ROOT / path).read_text(encoding="utf-8")
         for number in (n for n in numbers if n.where.startswith(path + ":")):
-            name = f"{number.module}::{number.struct}::{number.name}"
+            name = number.full_name()
             pattern = re.compile(rf"static constexpr ([\w:]+) {number.name} = ([^;]+);")
             match = pattern.search(text)
             if not match or match.group(1) not in SIMPLE or name in fixed:
@@ -145,17 +151,52 @@ def measure(program, name, factor, base):
             "failed": " ".join(failed)}
 
 
+def is_noise(time):
+    """Does so small a change of the time mean nothing?"""
+    return TIMES[0] <= time <= TIMES[1]
+
+
+def repeated_time(program, row):
+    """The time of a line measured anew, each time beside that of the numbers as they are; None if once it is noise."""
+    cases, times = [case for case in CASES if case not in row["failed"].split()], []
+    for _ in range(REPETITIONS):
+        seconds = {}
+        for name in ("none", row["number"]):
+            with tempfile.TemporaryDirectory() as directory:
+                results = [run(program, name, row["factor"], case, directory) for case in cases]
+            seconds[name] = sum(result[4] for result in results if result)
+        times.append(seconds[row["number"]] / max(1e-9, seconds["none"]))
+        if is_noise(times[-1]):
+            return None
+    return statistics.median(times)
+
+
+def settle_times(program, rows, pool):
+    """Leaves the time only in those of the lines where it stays changed. Most others show how much all runs were
+    slowed down by each other."""
+    usual = statistics.median(float(row["time"]) for row in rows) if len(rows) >= MANY_LINES else 1
+    suspects = [row for row in rows if not is_noise(float(row["time"]) / usual)]
+    times = pool.map(lambda row: repeated_time(program, row), suspects)
+    for row in rows:
+        row["time"] = ""
+    for row, time in zip(suspects, times):
+        row["time"] = f"{time:.2f}" if time else ""
+        print(f"{row['number']} {row['factor']}: time {row['time'] or 'as before'}", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--work", type=pathlib.Path, default=ROOT / "build" / "rules")
     parser.add_argument("--only", default="")
-    parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "src" / "rules_effects.csv")
+    parser.add_argument("-o", "--output", type=pathlib.Path, default=EFFECTS)
     options = parser.parse_args()
     numbers, complaints = rules_table.read_tree(ROOT)
     if complaints:
         sys.exit("\n".join(complaints))
     program, names = build(options.work, numbers)
     names = [name for name in names if options.only in name]
+    if not names:
+        sys.exit(f"no number that can be changed has '{options.only}' in its name")
     with tempfile.TemporaryDirectory() as directory:
         base = {case: run(program, "none", 1, case, directory) for case in CASES}
     for case, result in base.items():
@@ -167,10 +208,13 @@ def main():
             kept = {(row["number"], row["factor"]): row for row in csv.DictReader(file)}
     jobs = [(name, factor) for name in names for factor in (1.25, 0.8)]
     with concurrent.futures.ThreadPoolExecutor(max_workers=max(1, (os.cpu_count() or 2))) as pool:
+        rows = []
         for row in pool.map(lambda job: measure(program, *job, base), jobs):
-            kept[(row["number"], str(row["factor"]))] = row
+            rows.append(row)
             print(" ".join(str(row[column]) for column in COLUMNS), flush=True)
-    known = {f"{n.module}::{n.struct}::{n.name}" for n in numbers}
+        settle_times(program, rows, pool)
+    kept.update({(row["number"], str(row["factor"])): row for row in rows})
+    known = {number.full_name() for number in numbers}
     with options.output.open("w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
         writer.writeheader()

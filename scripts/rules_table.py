@@ -7,19 +7,28 @@ A number stands in a struct whose name ends in `Rules` or `Options`, below its u
     /// [h] A move shorter than this counts as rest. With 0.01 sweeps stop earlier.
     static constexpr double still = 0.005;
 
+What a number does is the column "effect", made from src/rules_effects.csv, which scripts/measure_rules.py writes.
+
 Usage: rules_table.py [--check PAGE | --write PAGE] [--root ROOT]
   --check PAGE   compares the tables with the part of PAGE between the lines of MARKS; exits with 1 if they differ
   --write PAGE   puts them there
-Exits with 1 for a number without unit or reason. Warns, on the error stream, of one name with several values: two
-structs may use one word for two things only if their reasons say which things these are.
+Exits with 1 for a number without unit or reason, for one that has neither an effect nor the words "Not measured."
+(or "Measured", with the result) in its comment, for one that has an effect and says "Not measured.", and for an effect
+of a number that is not there. Warns, on the error stream, of one name with several values: two structs may use one word
+for two things only if their reasons say which things these are.
 """
 import argparse
+import csv
 import dataclasses
 import pathlib
 import re
 import sys
 
-MARKS = ("<!-- rules: made by scripts/rules_table.py --write src/README.md -->", "<!-- end of rules -->")
+MARKS = ("<!-- rules: made by scripts/rules_table.py --write src/rules.md -->", "<!-- end of rules -->")
+EFFECTS = pathlib.Path("src/rules_effects.csv")
+CASES = 6  # of scripts/measure_rules.py
+NOT_MEASURED = "Not measured."
+BY_HAND = re.compile(r"\bMeasured\b")  # the reason tells the result
 STRUCT = re.compile(r"^\s*(?:struct|class)\s+(\w+)[^;]*\{")
 NUMBER = re.compile(r"^\s*(?:static|inline)\s+constexpr\s+(?P<type>[\w:<>, ]+?)\s+(?P<name>\w+)\s*(?P<value>[={].*)$")
 COMMENT = re.compile(r"^\s*///\s?(.*)$")
@@ -36,6 +45,9 @@ class Number:
     unit: str
     reason: str
     where: str
+
+    def full_name(self):
+        return f"{self.module}::{self.struct}::{self.name}"
 
 
 def value_text(text):
@@ -96,6 +108,53 @@ def read_tree(root):
     return numbers, complaints
 
 
+def read_effects(root):
+    """The lines of the CSV by the full name of their number; none if there is no such file."""
+    effects = {}
+    if (root / EFFECTS).exists():
+        with (root / EFFECTS).open(encoding="utf-8", newline="") as file:
+            for row in csv.DictReader(file):
+                effects.setdefault(row["number"], []).append(row)
+    return effects
+
+
+def effect_complaints(numbers, effects):
+    """One line for each number of which it is not clear whether it is measured, and each effect of none."""
+    lines = []
+    for number in numbers:
+        is_measured, says_not = number.full_name() in effects, NOT_MEASURED in number.reason
+        if not is_measured and not says_not and not BY_HAND.search(number.reason):
+            lines.append(f"{number.where}: {number.name}: no line in {EFFECTS}: run scripts/measure_rules.py --only "
+                         f"{number.full_name()}, or say '{NOT_MEASURED}' in its comment")
+        if is_measured and says_not:
+            lines.append(f"{number.where}: {number.name}: its comment says '{NOT_MEASURED}', but {EFFECTS} has an effect")
+    known = {number.full_name() for number in numbers}
+    return lines + [f"{EFFECTS}: {name}: there is no such number" for name in sorted(effects) if name not in known]
+
+
+def change_text(row):
+    """What one line of the CSV says."""
+    failed = row["failed"].split()
+    changed = CASES - len(failed) - int(row["same_meshes"])
+    parts = [f"fails: {', '.join(failed)}"] if failed else []
+    if changed == 0:
+        parts.append("other meshes the same" if failed else "same meshes")
+    else:
+        parts.append(f"{changed} of {CASES} meshes")
+        parts += [f"mean alpha {row['mean_alpha']}"] if float(row["mean_alpha"]) else []
+        parts += [f"largest {float(row['largest_alpha']):+.2f}"] if abs(float(row["largest_alpha"])) >= 0.005 else []
+        parts += [f"points {100 * float(row['points']):+.2g} %"] if float(row["points"]) else []
+    return ", ".join(parts + ([f"time x{float(row['time']):.2g}"] if row["time"] else []))
+
+
+def effect_text(rows):
+    """The effect of a number: `x1.25: 1 of 6 meshes, mean alpha +0.0012; x0.8: same meshes`."""
+    texts = {}
+    for row in sorted(rows, key=lambda row: -float(row["factor"])):
+        texts.setdefault(change_text(row), []).append(f"x{row['factor']}")
+    return "; ".join(f"{', '.join(factors)}: {text}" for text, factors in texts.items())
+
+
 def warnings(numbers):
     """One line for each name that stands in several structs with different values or units."""
     by_name = {}
@@ -115,16 +174,16 @@ def cell(text):
     return text.replace("|", "\\|")
 
 
-def tables(numbers):
+def tables(numbers, effects):
     """The Markdown of all tables."""
     lines, module = [], None
     for number in numbers:
         if number.module != module:
             module = number.module
             lines += [""] if lines else []
-            lines += [f"#### {module}", "", "| name | value | unit | reason |", "|---|---|---|---|"]
+            lines += [f"## {module}", "", "| name | value | unit | reason | effect |", "|---|---|---|---|---|"]
         lines.append(f"| `{number.struct}::{number.name}` | {cell(number.value)} | {cell(number.unit)} | "
-                     f"{cell(number.reason)} |")
+                     f"{cell(number.reason)} | {effect_text(effects.get(number.full_name(), []))} |")
     return "\n".join(lines)
 
 
@@ -156,11 +215,13 @@ def main():
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent)
     options = parser.parse_args()
     numbers, complaints = read_tree(options.root)
+    effects = read_effects(options.root)
+    complaints += effect_complaints(numbers, effects)
     for line in warnings(numbers):
         print(f"warning: {line}", file=sys.stderr)
     for line in complaints:
         print(line, file=sys.stderr)
-    text = tables(numbers)
+    text = tables(numbers, effects)
     if options.write or options.check:
         page = options.write or options.check
         before, between, after = split_page(page)

@@ -85,6 +85,19 @@ std::string word_suggestion(const Option& option, const std::string& value) {
   return "";
 }
 
+/// What the help says of the values: which of them this version refuses, too.
+std::string help_values(const Option& option) {
+  const std::vector<std::string> supported = split_words(option.supported);
+  if (supported.empty())
+    return expectation(option);
+  if (option.kind != OptionKind::words)
+    return fmt::format("{}; others are refused by this version", fmt::join(supported, " or "));
+  std::vector<std::string> refused = split_words(option.choices);
+  std::erase_if(refused, [&](const std::string& word) { return is_one_of(word, option.supported); });
+  return fmt::format("a list of {}, separated by blanks; refused by this version: {}", fmt::join(supported, ", "),
+                     fmt::join(refused, ", "));
+}
+
 } // namespace
 
 std::optional<double> parse_number(std::string_view text) {
@@ -163,9 +176,8 @@ std::string help_config() {
   for (const Option& option : option_table()) {
     const std::string fallback = *option.fallback ? fmt::format(" ({})", option.fallback) : "";
     const std::string type = *option.part_type ? fmt::format(" ({})", option.part_type) : "";
-    const std::string limits = *option.supported ? fmt::format("; in this version only: {}", option.supported) : "";
-    text += fmt::format("| `[{}] {}`{} | {}{} | {}{} |\n", option.section, option.key, type, expectation(option),
-                        fallback, option.meaning, limits);
+    text += fmt::format("| `[{}] {}`{} | {}{} | {} |\n", option.section, option.key, type, help_values(option),
+                        fallback, option.meaning);
   }
   return text;
 }

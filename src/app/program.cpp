@@ -5,6 +5,7 @@
 #include "app/config.hpp"
 #include "app/machine.hpp"
 #include "app/option_table.hpp"
+#include "app/provenance.hpp"
 #include "app/run_report.hpp"
 #include "app/shape_builder.hpp"
 #include "app/size_builder.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/config.hpp"
-#include "app/run_report.hpp"
+#include "app/provenance.hpp"
 
+#include "app/config.hpp"
 #include "trime/io/describe.hpp"
 
 #include <algorithm>

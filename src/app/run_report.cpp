@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/run_report.hpp"
 
+#include "app/machine.hpp"
 #include "core/thread_loop.hpp"
 
 #include <algorithm>

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run has to say at its end, as text for people and as metadata for the file.
+// What a run has to say at its end, as text for people: the report and the exit code.
 #pragma once
 
-#include "app/command_line.hpp"
-#include "app/machine.hpp"
-#include "app/options.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/timer.hpp"
-#include "trime/geometry/boundary.hpp"
 #include "trime/io/mesh_file.hpp"
 #include "trime/meshing/make_mesh.hpp"
-#include "trime/meshing/mesher.hpp"
 
 #include <string>
 #include <vector>
@@ -47,19 +42,6 @@ Measurements gather_measurements(const TimerTable& timers, const comm::Communica
 /// @brief The report of a run, several lines. `files` may be empty.
 std::string run_report(const meshing::MeshResult& result, const SizeSummary& size, const Measurements& measured,
                        const io::WrittenFiles& files);
-
-/// Everything that the group /trime_mpi holds. Only that of rank 0 counts.
-struct Provenance {
-  const CommandLine& line;
-  const RunOptions& options;
-  const std::string& config_text;
-  const Placement& placement;
-  const geometry::Boundary& boundary;
-};
-io::Metadata describe_run(const Provenance& provenance, const meshing::MeshResult& result, const SizeSummary& size,
-                          const Measurements& measured);
-/// The same for a mesh in the middle of a run.
-io::Metadata describe_step(const Provenance& provenance, const meshing::Snapshot& snapshot);
 
 /// Number of the triangulation that became the final mesh, from 1: one more than those of the sweeps.
 int final_retriangulation(const meshing::MeshResult& result);

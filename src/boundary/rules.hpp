@@ -17,76 +17,73 @@ struct BoundaryRules {
   static constexpr double sharp_turn = 120;
   /// [radians] A chord stands for a curve that turns by 60 degrees at most; the rest is for rounding.
   static constexpr double largest_turn = pi / 3 + 1e-6;
-  /// [h] A corner with arms of this length on both sides is always kept. Not measured.
+  /// [h] A corner with arms of this length on both sides is always kept.
   static constexpr double long_arm = 2;
-  /// [radians] A curve that turns by more on a short way between two long arms is the end of a slit. Not measured.
+  /// [radians] A curve that turns by more on a short way between two long arms is the end of a slit.
   static constexpr double turned_back = 2 * pi / 3;
-  /// [extent of a loop] No corner is left out farther from its chord: small loops keep their shape. Not measured.
+  /// [extent of a loop] No corner is left out farther from its chord: small loops keep their shape.
   static constexpr double most_of_extent = 0.1;
   /// [lattice steps] Neither h nor a part that is divided may be shorter: snapping to the lattice then turns a chord by
   /// less than 0.001.
   static constexpr double shortest_in_steps = 0x1p11;
-  /// [radians] A junction of two arcs that turns by less lies within one circle: half a degree. Not measured.
+  /// [radians] A junction of two arcs that turns by less lies within one circle: half a degree.
   static constexpr double smooth_junction = pi / 360;
   /// [tolerance] A chord that leaves corners farther off is divided. The layout keeps within 1.1; the rest is leeway
-  /// for snapping and halving. Not measured.
+  /// for snapping and halving.
   static constexpr double most_deviation = 1.25;
-  /// [radians] A junction that turns by more becomes a site when its chord is divided. Not measured.
+  /// [radians] A junction that turns by more becomes a site when its chord is divided.
   static constexpr double junction_turn = pi / 4;
-  /// [rounds] Later rounds of halving look only at chords near the new sites. Not measured.
+  /// [rounds] Later rounds of halving look only at chords near the new sites.
   static constexpr int full_rounds = 20;
-  /// [sites] Halving of chords may always make so many; beyond, halving_growth is the bound. Not measured.
+  /// [sites] Halving of chords may always make so many; beyond, halving_growth is the bound.
   static constexpr std::size_t always_halved = 4000000;
   /// [1] Halving may make so many times the sites of the layout. With more the boundary is at fault, and an error says
-  /// so. Not measured.
+  /// so.
   static constexpr std::size_t halving_growth = 16;
   /// [h] Way along the curve between two samples of the size, which is interpolated between them. A size that grows by
-  /// 0.1 of the way changes by 5 % on it. Not measured.
+  /// 0.1 of the way changes by 5 % on it.
   static constexpr double sample_step = 0.5;
   /// [samples] If the size along a boundary takes more, it is far too small, and an error says so.
   static constexpr std::size_t most_samples = std::size_t{1} << 27;
-  /// [h] Sites are chosen by a path among places so far apart. Not measured.
+  /// [h] Sites are chosen by a path among places so far apart.
   static constexpr double place_spacing = 0.25;
-  /// [tolerance] A place nearer to the line through its neighbours is left out before the path: it cannot matter. Not
-  /// measured.
+  /// [tolerance] A place nearer to the line through its neighbours is left out before the path: it cannot matter.
   static constexpr double place_thinning = 0.1;
   /// [levels] Bounds that thinning; deeper, all places stay.
   static constexpr int deepest_division = 64;
-  /// [h] A path takes no longer chord, unless its ends are neighbours. Not measured.
+  /// [h] A path takes no longer chord, unless its ends are neighbours.
   static constexpr double longest_chord = 1.6;
-  /// [h] A path takes no shorter chord, unless its ends are neighbours. The same as place_spacing. Not measured.
+  /// [h] A path takes no shorter chord, unless its ends are neighbours. The same as place_spacing.
   static constexpr double shortest_chord = 0.25;
-  /// [places] The end of a chord is looked for among so many places behind its start, which bounds the time. Not
-  /// measured.
+  /// [places] The end of a chord is looked for among so many places behind its start, which bounds the time.
   static constexpr std::size_t farthest_place = 64;
-  /// [h] One chord stands for no longer way along the curve. Not measured.
+  /// [h] One chord stands for no longer way along the curve.
   static constexpr double farthest_way = 6;
-  /// [h] Behind a place that is farther from the start of a chord no end of it is looked for. Not measured.
+  /// [h] Behind a place that is farther from the start of a chord no end of it is looked for.
   static constexpr double farthest_reach = 2.5;
-  /// [1] Weight of the square of log(chord / h) in the cost of a path. Not measured.
+  /// [1] Weight of the square of log(chord / h) in the cost of a path.
   static constexpr double length_weight = 1;
-  /// [1] Weight of the square of the logarithm of the ratio of two neighbouring chords. Not measured.
+  /// [1] Weight of the square of the logarithm of the ratio of two neighbouring chords.
   static constexpr double ratio_weight = 0.3;
-  /// [1] Weight of the square of the deviation from the curve over h. Not measured.
+  /// [1] Weight of the square of the deviation from the curve over h.
   static constexpr double deviation_weight = 0.8;
-  /// [1] Cost of a site in the disc of a neighbouring chord, which would be halved for it. Not measured.
+  /// [1] Cost of a site in the disc of a neighbouring chord, which would be halved for it.
   static constexpr double encroachment = 1;
   /// [1] Cost of a closed path that goes along one chord and back: more than all other costs.
   static constexpr double back_and_forth = 1e3;
   /// [1] Around a place where it is lowered, the size grows by this share of the way. Triangles can follow about 0.5.
-  /// Not measured.
   static constexpr double gradation = 0.2;
-  /// [rounds] So often the boundary is laid anew with the limits that the last layout asks for. Not measured.
+  /// [rounds] So often the boundary is laid anew with the limits that the last layout asks for.
   static constexpr int lowering_rounds = 2;
-  /// [h] A shorter chord asks for a smaller size: a corner, or something near, has made it so short. Not measured.
+  /// [h] A shorter chord asks for a smaller size: a corner, or something near, has made it so short.
   static constexpr double short_chord = 0.65;
-  /// [chord lengths] The size at a short chord, since its neighbours may be longer. Not measured.
+  /// [chord lengths] The size at a short chord, since its neighbours may be longer.
   static constexpr double short_factor = 1.2;
-  /// [h] Sites that are nearer to each other across the inside ask for a smaller size. Not measured.
+  /// [h] Sites that are nearer to each other across the inside ask for a smaller size.
   static constexpr double narrow_gap = 0.65;
-  /// [asked h] No limit of the size is lower, so that lowering ends in wedges. Not measured.
+  /// [asked h] No limit of the size is lower, so that lowering ends in wedges.
   static constexpr double least_limit = 0.05;
-  /// [h] A limit above this share of h is left out: it would change hardly anything. Not measured.
+  /// [h] A limit above this share of h is left out: it would change hardly anything.
   static constexpr double least_lowering = 0.95;
   /// [chord lengths] Of the center of the circle that sees the chord at 75 degrees: 0.5 / tan(75 degrees).
   static constexpr double lens_offset = 0.134;
@@ -95,15 +92,15 @@ struct BoundaryRules {
   /// [1] Size over the width of a channel: the side of an equilateral triangle over its height.
   static constexpr double width_factor = 1.15;
   /// [chords] Sites on the two arms of one sharp corner are near to each other at any size, and ask for no smaller one.
-  /// The corner is looked for among so many chords on both sides. Not measured.
+  /// The corner is looked for among so many chords on both sides.
   static constexpr int longest_arms = 24;
   /// [h] A smaller island or lake is dropped: no triangle of size h fits around or into it.
   static constexpr double least_perimeter = 3;
-  /// [area of the shape] A loop that encloses more is never dropped. Not measured.
+  /// [area of the shape] A loop that encloses more is never dropped.
   static constexpr double largest_dropped_share = 0.01;
   /// [side of the container] A fixed point so near to a curve lies on it: coordinates in files are rounded.
   static constexpr double on_boundary = 1e-10;
-  /// [h] No free site starts nearer to a fixed one. Not measured.
+  /// [h] No free site starts nearer to a fixed one.
   static constexpr double fixed_clearance = 0.6;
 };
 

@@ -8,18 +8,17 @@ namespace trime::cones {
 
 /// The numbers of cones. Cells only make look-ups faster: none of these numbers changes an answer.
 struct ConeRules {
-  /// [cones] A block of cells, from which cells are split, has about so many. Not measured.
+  /// [cones] A block of cells, from which cells are split, has about so many.
   static constexpr double cones_per_block = 4;
-  /// [blocks] So many along a side at most: it bounds the memory. Not measured.
+  /// [blocks] So many along a side at most: it bounds the memory.
   static constexpr double most_blocks_along = 128;
   /// [cones] A cell with so few is not split. Cells and this together: a look-up took 60 ns instead of 330.
   static constexpr std::size_t enough = 12;
   /// [cones] A leaf lists so many at most; of the smallest cells with more the tree is asked. Not measured.
   static constexpr std::size_t most_in_leaf = 24;
-  /// [size] A cell with a side of so many times the envelope is not split: few look-ups come to one cell. Not measured.
+  /// [size] A cell with a side of so many times the envelope is not split: few look-ups come to one cell.
   static constexpr double smallest_cell = 2;
   /// [1] Cells reach so far around the apexes, as a share of the longer side of their box: beyond, the tree is asked.
-  /// Not measured.
   static constexpr double margin = 0.1;
 };
 

@@ -223,7 +223,6 @@ CellNode CellBuilder::bilinear_leaf(const ConeList& cones) {
   const CornerValues at = values(cones);
   part_.numbers.insert(part_.numbers.end(), at.begin(), at.end());
   include_in_range(at);
-  ++part_.leaves;
   return CellLeaf::bilinear(first).node();
 }
 
@@ -239,7 +238,6 @@ CellNode CellBuilder::cones_leaf(const ConeList& cones, const CellPlace& place, 
   const Vec2 lowest = lowest_point(numbers, pairs, grid_.box(place), source_.slope);
   part_.least = std::min(part_.least, lowest_cone(numbers, pairs, lowest, source_.slope, source_.cap));
   include_in_range(values(cones));
-  ++part_.leaves;
   return CellLeaf::with_pairs(first, pairs).node();
 }
 

@@ -111,8 +111,7 @@ geometry::Vec2 lowest_point(const double* pairs, std::size_t count, const geomet
 struct CellPart {
   std::vector<CellNode> roots; ///< of the blocks, row by row
   std::vector<CellChildren> children;
-  std::vector<double> numbers; ///< of the leaves
-  std::int64_t leaves = 0;
+  std::vector<double> numbers;                                         ///< of the leaves
   double least = std::numeric_limits<double>::infinity(), largest = 0; ///< bounds of the field
 };
 

@@ -99,7 +99,6 @@ void SizeQuadtree::assemble(const comm::Communicator& comm, std::vector<CellPart
         node = moved(node, child, number);
     }
     numbers_.insert(numbers_.end(), part.numbers.begin(), part.numbers.end());
-    leaf_count_ += static_cast<std::size_t>(part.leaves);
     least_ = std::min(least_, part.least);
     largest_ = std::max(largest_, part.largest);
   }
@@ -109,15 +108,13 @@ void SizeQuadtree::assemble(const comm::Communicator& comm, std::vector<CellPart
 std::vector<CellPart> SizeQuadtree::gather_parts(const comm::Communicator& comm, std::vector<CellPart> mine) const {
   struct Summary {
     std::size_t roots, children, numbers;
-    std::int64_t leaves;
     double least, largest;
   };
   std::vector<Summary> summaries;
   CellPart joined;
   const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   for (CellPart& part : mine) {
-    summaries.push_back(
-        {part.roots.size(), part.children.size(), part.numbers.size(), part.leaves, part.least, part.largest});
+    summaries.push_back({part.roots.size(), part.children.size(), part.numbers.size(), part.least, part.largest});
     append(joined.roots, part.roots);
     append(joined.children, part.children);
     append(joined.numbers, part.numbers);
@@ -143,7 +140,6 @@ std::vector<CellPart> SizeQuadtree::gather_parts(const comm::Communicator& comm,
       take(part.roots, root, summary->roots);
       take(part.children, child, summary->children);
       take(part.numbers, number, summary->numbers);
-      part.leaves = summary->leaves;
       part.least = summary->least;
       part.largest = summary->largest;
       ++summary;

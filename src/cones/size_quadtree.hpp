@@ -29,7 +29,6 @@ public:
   double value(geometry::Vec2 p) const;
   double least() const { return least_; }
   double largest() const { return largest_; }
-  std::size_t leaf_count() const { return leaf_count_; }
   std::size_t memory_bytes() const;
 
   /// @brief Calls visit(cell, values) for every cell that is not split, and once more for the lowest point of each cell
@@ -62,7 +61,6 @@ private:
   std::vector<CellNode> roots_; ///< of the blocks, row by row
   std::vector<CellChildren> children_;
   std::vector<double> numbers_; ///< of the leaves
-  std::size_t leaf_count_ = 0;
   double least_ = std::numeric_limits<double>::infinity(), largest_ = 0;
 };
 

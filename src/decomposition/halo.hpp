@@ -51,9 +51,6 @@ public:
   std::vector<GlobalId> exchange(const mesh::BinnedPoints& points, std::span<const GlobalId> owned_values) const;
   std::vector<double> exchange(const mesh::BinnedPoints& points, std::span<const double> owned_values) const;
 
-  /// Bins that this rank imports, ascending.
-  std::span<const mesh::BinRef> imported_bins() const { return imported_; }
-
 private:
   struct Peer {
     int rank;

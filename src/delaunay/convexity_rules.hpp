@@ -12,7 +12,7 @@ struct ConvexityRules {
   static constexpr double error = 20 * 0x1p-53;
   /// [1] A spoke must turn against the one before by a x b > this (a^2 + b^2), which leaves no doubt about the
   /// orientation of its triangle, and the squared circumradius is known to 1e-8 of itself. Flatter stars are left to
-  /// the exact test. Other values: not measured.
+  /// the exact test.
   static constexpr double least_turn = 1e-7;
 };
 

@@ -9,16 +9,15 @@ namespace trime::delaunay {
 
 /// The numbers of StarBuilder.
 struct StarRules {
-  /// [cap] A star from scratch first takes all sites in a window of this half-width. Not measured.
+  /// [cap] A star from scratch first takes all sites in a window of this half-width.
   static constexpr double first_window = 0.6;
-  /// [cap] Sites nearer than this are inserted before the others of that window: about the first ring. Not measured.
+  /// [cap] Sites nearer than this are inserted before the others of that window: about the first ring.
   static constexpr double nearer_sites = 0.5;
-  /// [1] A window grows at most so much at a time, since each can shrink the radius that must be searched. Not
-  /// measured.
+  /// [1] A window grows at most so much at a time, since each can shrink the radius that must be searched.
   static constexpr double window_growth = 1.6;
-  /// [cap^2] A squared circumradius below this counts without its canonical value. Not measured.
+  /// [cap^2] A squared circumradius below this counts without its canonical value.
   static constexpr double surely_below_cap = 0.99;
-  /// [periods] The largest cap, so that edges are shorter than half a period: a quarter, less a little. Not measured.
+  /// [periods] The largest cap, so that edges are shorter than half a period: a quarter, less a little.
   static constexpr double cap_in_period = 0.2499;
 };
 
@@ -31,22 +30,21 @@ struct WrapRules {
   static constexpr double reach_random = 2.7;
   /// [spacings] The longest reach; what needs more is left to the search of single stars. Not measured.
   static constexpr double reach_longest = 4;
-  /// [1] Share of stars that needed a longer reach above which that one is tried first. Not measured.
+  /// [1] Share of stars that needed a longer reach above which that one is tried first.
   static constexpr double many_larger = 0.2;
-  /// [1] Share of such stars below which a shorter reach is tried first again. Not measured.
+  /// [1] Share of such stars below which a shorter reach is tried first again.
   static constexpr double few_larger = 1e-4;
-  /// [stars] So many are counted before the reach is chosen anew. Not measured.
+  /// [stars] So many are counted before the reach is chosen anew.
   static constexpr double stars_to_learn = 500;
-  /// [1] Cost of a star that is searched alone from scratch; in a relaxed mesh, with its last ring, one costs 1. Not
-  /// measured.
+  /// [1] Cost of a star that is searched alone from scratch; in a relaxed mesh, with its last ring, one costs 1.
   static constexpr double cost_of_search = 5;
-  /// [1] Cost of a group, in units of a star alone in a relaxed mesh: so much for any. Not measured.
+  /// [1] Cost of a group, in units of a star alone in a relaxed mesh: so much for any.
   static constexpr double cost_of_group = 3;
-  /// [1] And so much more for each lane of the processor. Not measured.
+  /// [1] And so much more for each lane of the processor.
   static constexpr double cost_of_lane = 0.77;
-  /// [sites] A group has so many at least. Not measured.
+  /// [sites] A group has so many at least.
   static constexpr std::size_t fewest_in_group = 3;
-  /// [groups] Where ties are everywhere, at most so many groups are left alone before one is tried again. Not measured.
+  /// [groups] Where ties are everywhere, at most so many groups are left alone before one is tried again.
   static constexpr int longest_pause = 64;
 };
 

@@ -16,11 +16,11 @@ struct MeshingRules {
   static constexpr GlobalId few_points = 2000;
   /// [1] To 2500 h: a void that no start can leave.
   static constexpr int cap_doublings = 10;
-  /// [points asked for] With fewer in the mesh a warning is given. Not measured.
+  /// [points asked for] With fewer in the mesh a warning is given.
   static constexpr double shortage_warning = 0.9;
   /// [points asked for] With fewer the result says why. Not measured.
   static constexpr double shortage_note = 0.99;
-  /// [points] Fewer missing ones are never mentioned: a triangle.
+  /// [points] Fewer missing ones are never mentioned: a triangle. Not measured.
   static constexpr GlobalId shortage_slack = 3;
 };
 

@@ -20,8 +20,6 @@ struct DroppedLoops {
   double area = 0;   ///< of the islands plus that of the lakes
   double share = 0;  ///< that area over the shape's, as the shape was given
   double change = 0; ///< of the shape's area: lakes minus islands
-  /// Of the Euler characteristic.
-  int euler_change() const { return holes - components; }
   bool any() const { return components + holes > 0; }
 };
 

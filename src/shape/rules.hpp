@@ -9,16 +9,15 @@ namespace trime::shape {
 /// The numbers of tracing and thinning the zero set of a formula, and of contours.
 struct ShapeRules {
   /// [1] A contour that is normalised takes this share of the container's shorter side, so that a margin is left on all
-  /// sides. Not measured.
+  /// sides.
   static constexpr double normalized_share = 0.8;
-  /// [1] Fine cells have this share of the longer side of the container, unless the config says else. Not measured.
+  /// [1] Fine cells have this share of the longer side of the container, unless the config says else.
   static constexpr double default_resolution = 1.0 / 512;
-  /// [cells] Vertices so near to each other are one: rounding, or a node of the grid on the curve, made two. Not
-  /// measured.
+  /// [cells] Vertices so near to each other are one: rounding, or a node of the grid on the curve, made two.
   static constexpr double nearly_equal = 1e-3;
-  /// [1] A closed chain of fewer vertices is no loop. Not measured.
+  /// [1] A closed chain of fewer vertices is no loop.
   static constexpr std::size_t fewest_vertices = 3;
-  /// [chains] A formula may have so many: it bounds time and memory. Not measured.
+  /// [chains] A formula may have so many: it bounds time and memory.
   static constexpr std::size_t most_chains = 1 << 14;
   /// [halvings] From the coarse grid, whose cells are looked at first, to the fine one. Not measured.
   static constexpr int grid_levels = 2;
@@ -26,34 +25,33 @@ struct ShapeRules {
   static constexpr int fewest_coarse_cells = 16;
   /// [cells] And so many at most: it bounds time and memory. Not measured.
   static constexpr int most_coarse_cells = 4096;
-  /// [cells] Fine cells that the zero set may meet, at most: it bounds the memory. Not measured.
+  /// [cells] Fine cells that the zero set may meet, at most: it bounds the memory.
   static constexpr std::size_t most_near_zero = std::size_t{1} << 25;
-  /// [1] Slopes of a formula are taken so much larger than they were sampled. Not measured.
+  /// [1] Slopes of a formula are taken so much larger than they were sampled.
   static constexpr double slope_margin = 1.25;
-  /// [rad] Corners are looked for where two chords turn by more than this, about 4 degrees. Not measured.
+  /// [rad] Corners are looked for where two chords turn by more than this, about 4 degrees.
   static constexpr double smallest_turn = 0.07;
-  /// [halvings] A chord is halved so often at most. Not measured.
+  /// [halvings] A chord is halved so often at most.
   static constexpr int deepest_chord = 48;
-  /// [vertices] So many come into one chord at most, before thinning. Not measured.
+  /// [vertices] So many come into one chord at most, before thinning.
   static constexpr std::size_t most_in_chord = 4096;
-  /// [vertices] So many has a formula at most, before thinning: it bounds the memory. Not measured.
+  /// [vertices] So many has a formula at most, before thinning: it bounds the memory.
   static constexpr std::size_t most_vertices = std::size_t{1} << 23;
-  /// [1] The curve strays from a chord by this share of its length at most: turns stay below 9 degrees. Not measured.
+  /// [1] The curve strays from a chord by this share of its length at most: turns stay below 9 degrees.
   static constexpr double stray_share = 0.02;
-  /// [chords] The curve is looked for so far beside the middle of a chord: it may be far in a sharp tip. Not measured.
+  /// [chords] The curve is looked for so far beside the middle of a chord: it may be far in a sharp tip.
   static constexpr double farthest_beside = 16;
-  /// [chords] A corner is looked for so far from its chord at most. Not measured.
+  /// [chords] A corner is looked for so far from its chord at most.
   static constexpr double farthest_corner = 64;
-  /// [1] Each look at the arms of a supposed corner is so much nearer than the last. Not measured.
+  /// [1] Each look at the arms of a supposed corner is so much nearer than the last.
   static constexpr double nearer = 0.125;
-  /// [1] Lines whose directions differ by a smaller sine do not meet. Not measured.
+  /// [1] Lines whose directions differ by a smaller sine do not meet.
   static constexpr double nearly_parallel = 1e-3;
-  /// [1] Vertices of a traced curve so near to each other are one, as a share of the longer side. Not measured.
+  /// [1] Vertices of a traced curve so near to each other are one, as a share of the longer side.
   static constexpr double same_place = 1e-9;
-  /// [1] A piece of a contour at a periodic border finds its partner across within this share of the longer side. Not
-  /// measured.
+  /// [1] A piece of a contour at a periodic border finds its partner across within this share of the longer side.
   static constexpr double partner_reach = 1e-5;
-  /// [steps] A circle has a radius of so many lattice steps at least. Not measured.
+  /// [steps] A circle has a radius of so many lattice steps at least.
   static constexpr int smallest_radius = 64;
 };
 

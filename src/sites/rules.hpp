@@ -7,7 +7,7 @@ namespace trime::sites {
 /// The numbers of the sites module.
 struct SiteRules {
   /// [bins] Fetched unasked around the owned tiles. A bin has 3 to 4 sites, so two are wide enough for the discs of a
-  /// relaxed mesh; stars that need more ask for it. Other widths: not measured.
+  /// relaxed mesh; stars that need more ask for it.
   static constexpr int halo_margin = 2;
   /// [rounds] Of asking for more bins: every round reaches at least one bin farther, and two suffice in practice. More
   /// means a fault of the program.

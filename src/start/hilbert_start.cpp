@@ -108,10 +108,4 @@ mesh::SiteList HilbertStart::sites(std::int64_t n, std::uint64_t seed) const {
   return implementation_->sites(n, seed);
 }
 
-mesh::SiteList hilbert_start(const comm::Communicator& comm, const mesh::TileRange& tiles, const BoundaryGuard& guard,
-                             const sizing::SizeField& size, const geometry::Lattice& lattice, std::int64_t n,
-                             std::uint64_t seed) {
-  return HilbertStart(comm, tiles, guard, size, lattice, static_cast<double>(n)).sites(n, seed);
-}
-
 } // namespace trime::start

@@ -72,9 +72,4 @@ private:
   std::unique_ptr<const Implementation> implementation_;
 };
 
-/// The sites of a HilbertStart that is not asked for anything else. Collective.
-mesh::SiteList hilbert_start(const comm::Communicator& comm, const mesh::TileRange& tiles,
-                             const polygon::BoundaryGuard& guard, const sizing::SizeField& size,
-                             const geometry::Lattice& lattice, std::int64_t n, std::uint64_t seed);
-
 } // namespace trime::start

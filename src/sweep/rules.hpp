@@ -8,11 +8,11 @@ namespace trime::sweep {
 
 /// The numbers of the update rules and of the sweeps.
 struct SweepRules {
-  /// [h] All sites move at once, so that long moves would turn triangles over: moves are cut to this. All starts
-  /// and rules were compared with this cap; others: not measured.
+  /// [h] All sites move at once, so that long moves would turn triangles over: moves are cut to this. All starts and
+  /// rules were compared with this cap.
   static constexpr double move_cap = 0.4;
   /// [h] A site that moves by more counts as moving; if none does, the stage has converged: a picture does not show
-  /// less. Not measured.
+  /// less.
   static constexpr double still = 0.005;
   /// [h] A shorter move is not made, so that most of a lattice stays as it is, bit for bit. With 1e-4 a perturbed
   /// torus did not return to its lattice.
@@ -29,8 +29,7 @@ struct SweepRules {
   static constexpr int density_exponent = 4;
   /// [1] Largest factor of the momentum. 0.9, 0.95 and 0.98 were alike, 0.7 and 0.8 slightly worse.
   static constexpr double largest_momentum = 0.95;
-  /// [sweeps] The momentum of sweep k after a restart is k / (k + this), as is usual for
-  /// Nesterov's method. Not measured.
+  /// [sweeps] The momentum of sweep k after a restart is k / (k + this), as is usual for Nesterov's method.
   static constexpr int momentum_delay = 3;
   /// [1] k in the energy of TriangleRule: the resistance to a change of area is half that to shear. alpha - 1 fell to
   /// less than half of what the cells leave, and the deviation of lengths from h grew by a sixth at most.
@@ -40,36 +39,33 @@ struct SweepRules {
   static constexpr double triangle_damping = 0.7;
 
   /// [1] A site may be pushed out of discs of the boundary so often; then it is deleted. With it and starts outside of
-  /// the strip, pushes on a poker of 1e4 points ended within five sweeps, and nothing was deleted. Others: not
-  /// measured.
+  /// the strip, pushes on a poker of 1e4 points ended within five sweeps, and nothing was deleted.
   static constexpr int pushes_allowed = 3;
-  /// [1] Share of those to be deleted that go in one round: the room that one leaves may be enough for the others. Not
-  /// measured.
+  /// [1] Share of those to be deleted that go in one round: the room that one leaves may be enough for the others.
   static constexpr double deleted_share = 1.0 / 3;
   /// [rounds] Where no rule moves sites, an offender is pushed or chosen for deletion in so many rounds: a bound, since
-  /// patient_settling_rounds ends it. Not measured.
+  /// patient_settling_rounds ends it.
   static constexpr int settling_rounds = 12;
-  /// [rounds] From this round of settling on, every offender is deleted, so that settling ends. Not measured.
+  /// [rounds] From this round of settling on, every offender is deleted, so that settling ends.
   static constexpr int patient_settling_rounds = 8;
 
   /// [sweeps] h is evaluated anew after so many: the size field may be dear, and sites have moved little by then. With
   /// other changes of the same time, 6 in place of 4 left mean alpha as it was.
   static constexpr int sweeps_of_a_size = 6;
-  /// [sweeps] Sites that are to be deleted wait so long for the next sorting, which is what deletes them. Not measured.
+  /// [sweeps] Sites that are to be deleted wait so long for the next sorting, which is what deletes them.
   static constexpr int sweeps_of_a_sort = 8;
-  /// [h] Sites are sorted again when one may have come so far since: searches become long. Not measured.
+  /// [h] Sites are sorted again when one may have come so far since: searches become long.
   static constexpr double drift_in_sizes = 4;
   /// [tile sides] Sites are sorted again when one may have come so far since: what lies around a tile is found in the
-  /// tiles beside it. Not measured.
+  /// tiles beside it.
   static constexpr double drift_in_tiles = 0.25;
-  /// [1] All tiles wake when a scale of the rule (of the lengths of bars) has changed by this share. Not
-  /// measured.
+  /// [1] All tiles wake when a scale of the rule (of the lengths of bars) has changed by this share.
   static constexpr double scale_change = 1e-3;
   /// [1] Factor by which bounds on distances are raised, far above the rounding of the sums in them.
   static constexpr double drift_rounding = 1 + 1e-9;
 
   /// [1] Share of the squared cap. Triangles above it may exceed the cap by rounding or are near to it, and are left to
-  /// the exact test. Not measured.
+  /// the exact test.
   static constexpr double cap_margin = 0.98;
 
   /// [1] Bound on what one site adds to the power of the moves, which keeps sums within the reach of FixedSum.
@@ -79,18 +75,16 @@ struct SweepRules {
   /// [1] Bound on alpha - 1 in a sum, which keeps sums within the reach of FixedSum.
   static constexpr double largest_excess_term = 1000;
   /// [bytes a site] The measures of a tile are kept for sweeps in which it sleeps, unless all tiles together take more.
-  /// Not measured.
   static constexpr std::size_t bytes_for_measures = 4;
 };
 
 /// The numbers that say when a stage ends.
 struct StopRules {
-  /// [sweeps] From one measurement of the quality to the next: measuring takes about as long as a move. Not measured.
+  /// [sweeps] From one measurement of the quality to the next: measuring takes about as long as a move.
   static constexpr int measuring_interval = 3;
-  /// [sweeps] Gains are counted over so many: two measurements, so that one odd sweep decides nothing. Not measured.
+  /// [sweeps] Gains are counted over so many: two measurements, so that one odd sweep decides nothing.
   static constexpr int window = 2 * measuring_interval;
-  /// [sweeps] A rule has so many before it may stall: bars and cells first pay for the disorder of the start. Not
-  /// measured.
+  /// [sweeps] A rule has so many before it may stall: bars and cells first pay for the disorder of the start.
   static constexpr int earliest = 9;
   /// [1] As good as stalled if the mean of alpha falls by less in a window: nobody sees it. Together with a higher
   /// momentum, a square of 1e6 points took 21 sweeps in place of 48, for a mean alpha of 1.0002 in place of 1.0001.
@@ -99,24 +93,23 @@ struct StopRules {
   /// [1] Bars give way to cells when a window brings less than this share of the median of alpha - 1: accelerated cells
   /// do the rest sooner than bars. Measured with other changes only, see `seen`.
   static constexpr double median_gain = 0.3;
-  /// [1] A median of alpha - 1 below this leaves bars nothing to gain. Not measured.
+  /// [1] A median of alpha - 1 below this leaves bars nothing to gain.
   static constexpr double good_median = 0.001;
 
-  /// [1] Least gain of bars or cells in a window, in the last stage. Not measured.
+  /// [1] Least gain of bars or cells in a window, in the last stage.
   static constexpr double last_tolerance = 0.04;
-  /// [1] The same before points are inserted: their coming disturbs the order anyway. Not measured.
+  /// [1] The same before points are inserted: their coming disturbs the order anyway.
   static constexpr double insertion_tolerance = 0.12;
-  /// [1] The same for bars on a coarse mesh: it costs little and decides over the order of the finer ones. Not
-  /// measured.
+  /// [1] The same for bars on a coarse mesh: it costs little and decides over the order of the finer ones.
   static constexpr double coarse_bar_tolerance = 0.024;
   /// [1] The same for cells on a coarse mesh, with twice the patience of an earlier value, for the same reason.
   static constexpr double coarse_cell_tolerance = 0.015;
   /// [1] Method `distmesh` multiplies the tolerance by this: bars settle more slowly than accelerated cells. With 158
   /// sweeps in place of 83 a domain of 1e4 points had a median alpha of 1.0163 in place of 1.0197.
   static constexpr double bar_patience = 0.4;
-  /// [1] Least gain of triangles in a window, in the last stage: they gain nearly all in a few sweeps. Not measured.
+  /// [1] Least gain of triangles in a window, in the last stage: they gain nearly all in a few sweeps.
   static constexpr double triangle_tolerance = 0.084;
-  /// [1] The same on a coarse mesh. Not measured.
+  /// [1] The same on a coarse mesh.
   static constexpr double coarse_triangle_tolerance = 0.036;
 };
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Can a stranger read our prose once? No sentence of the pages or of the public headers has more than 30 words.
 
-Pages are README.md and the README.md of each folder, without tables, code blocks and lists of sources. Run by hand,
+Pages are README.md and the pages of each folder, without tables, code blocks and lists of sources. Run by hand,
 this prints the long sentences of the files that are named: prose_test.py FILE...
 """
 import functools
@@ -12,7 +12,7 @@ import sys
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGES = sorted([ROOT / "README.md", *ROOT.glob("*/README.md")])
+PAGES = sorted([ROOT / "README.md", *ROOT.glob("*/*.md")])
 HEADERS = sorted((ROOT / "include" / "trime").rglob("*.hpp"))
 MOST_WORDS = 30
 

@@ -2,6 +2,8 @@
 // The report: its time table adds up, and a mesh that failed is never told as if it were good.
 #include "app/run_report.hpp"
 
+#include "app/provenance.hpp"
+
 #include <gtest/gtest.h>
 
 namespace trime::app {

@@ -113,14 +113,16 @@ TEST(ConeTree, LeavesOutWhatIsSkipped) {
 TEST(SizeQuadtree, ObeysTheGradationAlongAllItsEdges) {
   for (const double gradation : {0.1, 0.2, 0.5}) {
     const Field field(comm::Communicator::world(), gradation);
+    int cells = 0;
     field.tree.for_each_leaf([&](const Box& cell, const CornerValues& v) {
+      ++cells;
       const double most = gradation * cell.width() + 1e-12;
       EXPECT_LE(std::fabs(v[1] - v[0]), most);
       EXPECT_LE(std::fabs(v[3] - v[2]), most);
       EXPECT_LE(std::fabs(v[2] - v[0]), most);
       EXPECT_LE(std::fabs(v[3] - v[1]), most);
     });
-    EXPECT_GT(field.tree.leaf_count(), 4096u);
+    EXPECT_GT(cells, 4096);
   }
 }
 

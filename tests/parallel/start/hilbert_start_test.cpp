@@ -38,8 +38,8 @@ struct Stage {
   SiteList start(const comm::Communicator& comm, const decomposition::Partition& split, std::int64_t n,
                  std::uint64_t seed = 1) const {
     const mesh::TileRange tiles{grid, split.first_tile(comm.rank()), split.last_tile(comm.rank())};
-    const std::vector<Site> all =
-        testing::gather_all(comm, hilbert_start(comm, tiles, guard, size, unit_lattice(), n, seed));
+    const HilbertStart hilbert(comm, tiles, guard, size, unit_lattice(), static_cast<double>(n));
+    const std::vector<Site> all = testing::gather_all(comm, hilbert.sites(n, seed));
     return {all.begin(), all.end()};
   }
 

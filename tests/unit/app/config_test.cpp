@@ -224,6 +224,15 @@ TEST(Config, RefusesByNameWhatThisVersionCannotDo) {
   expect_refused("checkpoint.keep=3", "not supported yet; leave it 2");
 }
 
+TEST(Config, TheHelpSaysWhichValuesThisVersionRefuses) {
+  const std::string help = help_config();
+  for (const char* values :
+       {"a list of vtkhdf, xdmf, text, separated by blanks; refused by this version: gmsh, triangle",
+        "| `[checkpoint] interval` | 0; others are refused by this version (0) |",
+        "| `[checkpoint] keep` | 2; others are refused by this version (2) |"})
+    EXPECT_NE(help.find(values), std::string::npos) << values;
+}
+
 TEST(Config, TakesTheDefaultsWhenTheyAreSpeltOut) {
   for (const char* text : {"domain.periodic_x=false", "domain.periodic_y=true", "sizing.gradation=0.1",
                            "sizing.gradation=0.0", "parallel.setup_threads=2", "meshing.initial_fraction=1",

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the mesh file says of the run that made it: the metadata of the group /trime_mpi.
+#pragma once
+
+#include "app/command_line.hpp"
+#include "app/machine.hpp"
+#include "app/options.hpp"
+#include "app/run_report.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/io/mesh_file.hpp"
+#include "trime/meshing/make_mesh.hpp"
+#include "trime/meshing/mesher.hpp"
+
+#include <string>
+
+namespace trime::app {
+
+/// Where a mesh comes from. Only that of rank 0 counts. @pre all outlive this object
+struct Provenance {
+  const CommandLine& line;
+  const RunOptions& options;
+  const std::string& config_text;
+  const Placement& placement;
+  const geometry::Boundary& boundary;
+};
+
+/// Everything that the group /trime_mpi holds. Not collective.
+io::Metadata describe_run(const Provenance& provenance, const meshing::MeshResult& result, const SizeSummary& size,
+                          const Measurements& measured);
+/// The same for a mesh in the middle of a run.
+io::Metadata describe_step(const Provenance& provenance, const meshing::Snapshot& snapshot);
+
+} // namespace trime::app
