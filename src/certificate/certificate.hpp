@@ -14,6 +14,7 @@ namespace trime::certificate {
 struct Expectation {
   const geometry::Boundary& shape;  ///< as it was given
   const geometry::Boundary& meshed; ///< as it was laid out: with fixed points as corners
+  const sizing::SizeField& asked;   ///< h before it was lowered: what the features of the boundary are judged by
   double side;                      ///< longer side of the container
 };
 
