@@ -60,6 +60,7 @@ struct Job {
   const std::string& config_text;
   const RunOptions& options;
   io::RunFiles* files;
+  UserPlaces& places;
   Log& log;
   TimerTable& timers;
 };
@@ -95,8 +96,9 @@ ExitCode make_mesh(const Job& job) {
 
   const ShapeInput input = [&] {
     const auto timing = timers.scope("shape");
-    return read_shape(options, comm, log);
+    return read_shape(options, comm, log, job.places);
   }();
+  log.set_rewriter([&places = job.places](const std::string& message) { return places.explain(message); });
   const geometry::Boundary& boundary = input.shape.boundary();
   meshing::MeshOptions mesh_options = options.mesh;
   mesh_options.fixed_points = read_fixed_points(options, input.fixed_points_place, comm);
@@ -115,7 +117,7 @@ ExitCode make_mesh(const Job& job) {
     return ExitCode::done;
   }
 
-  const Provenance provenance{job.line, options, job.config_text, placement, boundary};
+  const Provenance provenance{job.line, options, job.config_text, placement, boundary, input.normalized};
   const meshing::MeshResult result = run_mesher(job, provenance, *size.field, mesh_options, series);
   const SizeSummary sizes = summarize_size(size.description, result.mesh, comm);
   io::WrittenFiles files;
@@ -124,7 +126,7 @@ ExitCode make_mesh(const Job& job) {
     const auto timing = timers.scope("output");
     files = series.write_final({final_retriangulation(result), result.mesh, result.quality, metadata});
   }
-  log.info("{}", run_report(result, sizes, gather_measurements(timers, comm), files));
+  log.info("{}", run_report(result, sizes, gather_measurements(timers, comm), files, input.normalized));
   if (!is_complete(result))
     log.warning("{}", incompleteness(result, options.write));
   return exit_code(result);
@@ -132,7 +134,8 @@ ExitCode make_mesh(const Job& job) {
 
 } // namespace
 
-ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm, io::RunFiles* files) {
+ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm, io::RunFiles* files,
+                     UserPlaces& places) {
   TimerTable timers;
   const CommandLine line = parse_command_line(argc, argv);
   if (line.action == Action::help || line.action == Action::help_config || line.action == Action::version) {
@@ -149,7 +152,7 @@ ExitCode run_program(int argc, const char* const* argv, const comm::Communicator
   }
   Log log(options.log_level, comm.is_root());
   log.set_progress_interval(options.log_interval);
-  return make_mesh({comm, line, config_text, options, files, log, timers});
+  return make_mesh({comm, line, config_text, options, files, places, log, timers});
 }
 
 } // namespace trime::app

@@ -5,6 +5,7 @@
 #include "app/command_line.hpp"
 #include "app/machine.hpp"
 #include "app/options.hpp"
+#include "app/user_places.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/timer.hpp"
@@ -46,7 +47,7 @@ Measurements gather_measurements(const TimerTable& timers, const comm::Communica
 
 /// @brief The report of a run, several lines. `files` may be empty.
 std::string run_report(const meshing::MeshResult& result, const SizeSummary& size, const Measurements& measured,
-                       const io::WrittenFiles& files);
+                       const io::WrittenFiles& files, const std::vector<NormalizedPart>& normalized = {});
 
 /// Everything that the group /trime_mpi holds. Only that of rank 0 counts.
 struct Provenance {
@@ -55,6 +56,7 @@ struct Provenance {
   const std::string& config_text;
   const Placement& placement;
   const geometry::Boundary& boundary;
+  const std::vector<NormalizedPart>& normalized;
 };
 io::Metadata describe_run(const Provenance& provenance, const meshing::MeshResult& result, const SizeSummary& size,
                           const Measurements& measured);
