@@ -8,12 +8,14 @@
 #include "app/run_report.hpp"
 #include "app/shape_builder.hpp"
 #include "app/size_builder.hpp"
+#include "boundary/fixed_points.hpp"
 #include "core/free_memory.hpp"
 #include "core/thread_loop.hpp"
 #include "start/points_of_length.hpp"
 #include "trime/io/mesh_series.hpp"
 #include "trime/meshing/mesher.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace trime::app {
@@ -51,6 +53,20 @@ std::string estimate(const RunOptions& options, const geometry::Boundary& bounda
                         placement.ranks == 1 ? "" : "s", placement.threads, points / placement.ranks,
                         points / placement.ranks / placement.threads);
   return text + fmt::format("output: {} (not written)\n", options.output.file.path(".h5"));
+}
+
+/// Throws as the run would.
+void check_fixed_points(const meshing::MeshOptions& options, const shape::RegionShape& shape, Log& log) {
+  const geometry::Lattice lattice(options.container);
+  const boundary::FixedPoints checked(shape.boundary(), options.container, options.fixed_points, lattice, log);
+  for (const boundary::FixedPoint& point : options.fixed_points) {
+    const geometry::Vec2 p = shape.boundary().periods.wrap(lattice.snap(point.position));
+    if (std::binary_search(checked.inside().begin(), checked.inside().end(), p, geometry::lexicographically_less) &&
+        !shape.inside(p))
+      throw GeometryError(fmt::format("{}: the fixed point ({:.9g}, {:.9g}) lies outside the shape, {:.6g} from its "
+                                      "boundary",
+                                      point.label, p.x, p.y, shape.distance_to_boundary(p)));
+  }
 }
 
 /// Config, shape and what surrounds them, ready to be meshed.
@@ -103,8 +119,8 @@ ExitCode make_mesh(const Job& job) {
   meshing::MeshOptions mesh_options = options.mesh;
   mesh_options.fixed_points = read_fixed_points(options, input.fixed_points_place, comm);
   io::MeshSeries series(series_options(job, boundary), comm);
-  if (is_run && options.write)
-    for (const std::string& warning : series.check(expected_points(options, boundary)))
+  if (const double points = expected_points(options, boundary); options.write)
+    for (const std::string& warning : is_run ? series.check(points) : series.look(points))
       log.warning("{}", warning);
   const BuiltSize size = [&] {
     const auto timing = timers.scope("size field");
@@ -113,6 +129,7 @@ ExitCode make_mesh(const Job& job) {
   if (placement.threads != placement.setup_threads)
     use_threads(placement, placement.threads);
   if (!is_run) {
+    check_fixed_points(mesh_options, input.shape, log);
     print(comm, estimate(options, boundary, placement, job.line.action == Action::dry_run));
     return ExitCode::done;
   }

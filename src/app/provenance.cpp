@@ -202,8 +202,9 @@ io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result
                  result_attributes(result, size, measured)),
           texts(p),
           {history_group(result.history), io::quality_group(result.quality), io::checks_group(result.checks),
-           timers_group(measured.times), tags_group(p.boundary, result.loops, p.options.region),
-           sharp_corners_group(result.features.sharp_corners), normalization_group(p.normalized)}};
+           io::bad_triangles_group(result.quality), timers_group(measured.times),
+           tags_group(p.boundary, result.loops, p.options.region), sharp_corners_group(result.features.sharp_corners),
+           normalization_group(p.normalized)}};
 }
 
 io::Metadata describe_step(const Provenance& p, const meshing::Snapshot& snapshot) {

@@ -98,6 +98,21 @@ std::string quality_text(const mesh::QualitySummary& q) {
   return text;
 }
 
+/// The worst triangles with the corner that excuses each.
+std::string bad_triangles_text(const mesh::QualitySummary& q) {
+  if (q.bad_triangles == 0)
+    return {};
+  std::string text = fmt::format("Triangles with alpha above 2: {}{}\n", q.bad_triangles,
+                                 std::ssize(q.worst_triangles) < q.bad_triangles ? ", the worst:" : "");
+  for (const mesh::BadTriangle& one : q.worst_triangles) {
+    text += fmt::format("  {:>9} at ({:.10g}, {:.10g}): ", ratio_text(one.alpha), one.place.x, one.place.y);
+    text += one.corner_degrees > 0 ? fmt::format("at the corner ({:.10g}, {:.10g}) of {:.3g} degrees\n", one.corner.x,
+                                                 one.corner.y, one.corner_degrees)
+                                   : "no sharp corner near\n";
+  }
+  return text;
+}
+
 std::string cleanup_text(const cleanup::CleanupCounts& cleanup) {
   if (cleanup.patches == 0)
     return {};
@@ -195,7 +210,8 @@ std::string run_report(const meshing::MeshResult& result, const SizeSummary& siz
   text += fmt::format("Stopped after {} sweeps: {}\n", result.history.empty() ? 0 : result.history.back().sweep,
                       sweep::to_string(result.stop_reason));
   text += normalization_text(normalized) + boundary_text(result) + area_text(result) + cleanup_text(result.cleanup);
-  text += quality_text(result.quality) + "\n" + checks_text(result.checks) + "\n" + times_text(measured);
+  text += quality_text(result.quality) + bad_triangles_text(result.quality) + "\n" + checks_text(result.checks) + "\n" +
+          times_text(measured);
   text += fmt::format("  {:.0f} points per second\n\n", points / std::max(measured.total, 1e-9));
   text += fmt::format("Memory     at most {:.1f} MiB per rank, {:.0f} bytes per point over all ranks\n",
                       static_cast<double>(measured.peak_memory) / 0x1p20,

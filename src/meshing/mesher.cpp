@@ -143,6 +143,7 @@ MeshResult Run::extract() {
   result.mesh = std::move(made.mesh);
   result.checks = certificate::certify(
       view, numbering, {run_.given_boundary, boundary_.curves(), *stage_.asked_size, run_.side()}, result.mesh);
+  result.checks.push_back(extraction::worst_alpha_check(result.quality, run_.options.worst_alpha));
   result.history = relaxation_.take_history();
   result.triangulations = snapshots_.triangulations();
   result.stop_reason = relaxation_.stop_reason();
