@@ -73,7 +73,8 @@ constexpr Option table[] = {
      .key = "file",
      .part_type = "contour",
      .kind = OptionKind::path,
-     .meaning = "rings: `.xy`, one `x y` a line, a blank line or `>` ends a ring, `#` comments; holes by even-odd nesting"},
+     .meaning =
+         "rings: `.xy`, one `x y` a line, a blank line or `>` ends a ring, `#` comments; holes by even-odd nesting"},
     {.section = "shape.NAME",
      .key = "normalize",
      .part_type = "contour",
