@@ -21,7 +21,8 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
       ->expected(0, -1);
   app.add_flag("--help-config", flags.help_config, "list all keys of a config file");
   app.add_flag("--version", flags.version, "print versions and how the program was built");
-  app.add_flag("--validate", flags.validate, "check config and shape, estimate the memory, mesh nothing");
+  app.add_flag("--validate", flags.validate,
+               "check config, shape and output, estimate the memory, mesh and write nothing");
   app.add_flag("--dry-run", flags.dry_run, "the same, and say how the work is shared out");
   app.add_flag("--print-config", flags.print_config, "print the config with all defaults, as a complete file");
   app.add_option("--threads", flags.threads, "threads per rank: parallel.setup_threads and mesh_threads");

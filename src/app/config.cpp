@@ -186,6 +186,7 @@ void read_meshing(const Settings& settings, meshing::MeshOptions& mesh, Diagnost
   mesh.cleanup = settings.boolean("meshing", "cleanup");
   // No keys: tools for those who change the sweeps.
   mesh.star_tests = {std::getenv("TRIME_VERIFY_STARS") != nullptr, std::getenv("TRIME_STARS_BY_EMPTINESS") != nullptr};
+  mesh.worst_alpha = settings.number("meshing", "worst_alpha");
   mesh.stop_tolerance = settings.optional_number("meshing", "stop_tolerance");
 }
 

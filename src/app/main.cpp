@@ -2,6 +2,7 @@
 // trime_mpi: starts and ends MPI, and turns errors into messages and exit codes. The only try of the program.
 #include "app/large_arrays.hpp"
 #include "app/program.hpp"
+#include "app/user_places.hpp"
 #include "core/free_memory.hpp"
 #include "trime/io/run_files.hpp"
 
@@ -64,11 +65,12 @@ void print_error(const std::string& message) {
 
 /// Errors of the program are the same on all ranks; rank 0 tells them.
 ExitCode run(int argc, char** argv, const trime::comm::Communicator& comm) {
+  trime::app::UserPlaces places;
   try {
-    return trime::app::run_program(argc, argv, comm, run_files);
+    return trime::app::run_program(argc, argv, comm, run_files, places);
   } catch (const trime::Error& error) {
     if (comm.is_root())
-      print_error(error.what());
+      print_error(places.explain(error.what()));
     return error.code();
   } catch (const std::bad_alloc&) {
     leave_alone(trime::out_of_memory_text(), ExitCode::out_of_memory);

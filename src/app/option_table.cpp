@@ -73,7 +73,8 @@ constexpr Option table[] = {
      .key = "file",
      .part_type = "contour",
      .kind = OptionKind::path,
-     .meaning = "rings: `.xy`, one `x y` a line, a blank line ends a ring, `#` comments; holes by even-odd nesting"},
+     .meaning =
+         "rings: `.xy`, one `x y` a line, a blank line or `>` ends a ring, `#` comments; holes by even-odd nesting"},
     {.section = "shape.NAME",
      .key = "normalize",
      .part_type = "contour",
@@ -171,6 +172,12 @@ constexpr Option table[] = {
      .range = {0, 0.3},
      .meaning = "a corner less than 2 h from the next may be left out if the boundary of the mesh passes within this "
                 "times h of it"},
+    {.section = "meshing",
+     .key = "worst_alpha",
+     .fallback = "5",
+     .range = {1, 1e300},
+     .meaning = "a mesh with a worse triangle ends with exit code 5, written and marked, unless a corner of less than "
+                "60 degrees is within 3 edges of it"},
     {.section = "meshing",
      .key = "seed",
      .kind = OptionKind::integer,

@@ -9,12 +9,14 @@
 #include "app/run_report.hpp"
 #include "app/shape_builder.hpp"
 #include "app/size_builder.hpp"
+#include "boundary/fixed_points.hpp"
 #include "core/free_memory.hpp"
 #include "core/thread_loop.hpp"
 #include "start/points_of_length.hpp"
 #include "trime/io/mesh_series.hpp"
 #include "trime/meshing/mesher.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace trime::app {
@@ -54,6 +56,20 @@ std::string estimate(const RunOptions& options, const geometry::Boundary& bounda
   return text + fmt::format("output: {} (not written)\n", options.output.file.path(".h5"));
 }
 
+/// Throws as the run would.
+void check_fixed_points(const meshing::MeshOptions& options, const shape::RegionShape& shape, Log& log) {
+  const geometry::Lattice lattice(options.container);
+  const boundary::FixedPoints checked(shape.boundary(), options.container, options.fixed_points, lattice, log);
+  for (const boundary::FixedPoint& point : options.fixed_points) {
+    const geometry::Vec2 p = shape.boundary().periods.wrap(lattice.snap(point.position));
+    if (std::binary_search(checked.inside().begin(), checked.inside().end(), p, geometry::lexicographically_less) &&
+        !shape.inside(p))
+      throw GeometryError(fmt::format("{}: the fixed point ({:.9g}, {:.9g}) lies outside the shape, {:.6g} from its "
+                                      "boundary",
+                                      point.label, p.x, p.y, shape.distance_to_boundary(p)));
+  }
+}
+
 /// Config, shape and what surrounds them, ready to be meshed.
 struct Job {
   const comm::Communicator& comm;
@@ -61,6 +77,7 @@ struct Job {
   const std::string& config_text;
   const RunOptions& options;
   io::RunFiles* files;
+  UserPlaces& places;
   Log& log;
   TimerTable& timers;
 };
@@ -96,14 +113,15 @@ ExitCode make_mesh(const Job& job) {
 
   const ShapeInput input = [&] {
     const auto timing = timers.scope("shape");
-    return read_shape(options, comm, log);
+    return read_shape(options, comm, log, job.places);
   }();
+  log.set_rewriter([&places = job.places](const std::string& message) { return places.explain(message); });
   const geometry::Boundary& boundary = input.shape.boundary();
   meshing::MeshOptions mesh_options = options.mesh;
   mesh_options.fixed_points = read_fixed_points(options, input.fixed_points_place, comm);
   io::MeshSeries series(series_options(job, boundary), comm);
-  if (is_run && options.write)
-    for (const std::string& warning : series.check(expected_points(options, boundary)))
+  if (const double points = expected_points(options, boundary); options.write)
+    for (const std::string& warning : is_run ? series.check(points) : series.look(points))
       log.warning("{}", warning);
   const BuiltSize size = [&] {
     const auto timing = timers.scope("size field");
@@ -112,11 +130,12 @@ ExitCode make_mesh(const Job& job) {
   if (placement.threads != placement.setup_threads)
     use_threads(placement, placement.threads);
   if (!is_run) {
+    check_fixed_points(mesh_options, input.shape, log);
     print(comm, estimate(options, boundary, placement, job.line.action == Action::dry_run));
     return ExitCode::done;
   }
 
-  const Provenance provenance{job.line, options, job.config_text, placement, boundary};
+  const Provenance provenance{job.line, options, job.config_text, placement, boundary, input.normalized};
   const meshing::MeshResult result = run_mesher(job, provenance, *size.field, mesh_options, series);
   const SizeSummary sizes = summarize_size(size.description, result.mesh, comm);
   io::WrittenFiles files;
@@ -125,7 +144,7 @@ ExitCode make_mesh(const Job& job) {
     const auto timing = timers.scope("output");
     files = series.write_final({final_retriangulation(result), result.mesh, result.quality, metadata});
   }
-  log.info("{}", run_report(result, sizes, gather_measurements(timers, comm), files));
+  log.info("{}", run_report(result, sizes, gather_measurements(timers, comm), files, input.normalized));
   if (!is_complete(result))
     log.warning("{}", incompleteness(result, options.write));
   return exit_code(result);
@@ -133,7 +152,8 @@ ExitCode make_mesh(const Job& job) {
 
 } // namespace
 
-ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm, io::RunFiles* files) {
+ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm, io::RunFiles* files,
+                     UserPlaces& places) {
   TimerTable timers;
   const CommandLine line = parse_command_line(argc, argv);
   if (line.action == Action::help || line.action == Action::help_config || line.action == Action::version) {
@@ -150,7 +170,7 @@ ExitCode run_program(int argc, const char* const* argv, const comm::Communicator
   }
   Log log(options.log_level, comm.is_root());
   log.set_progress_interval(options.log_interval);
-  return make_mesh({comm, line, config_text, options, files, log, timers});
+  return make_mesh({comm, line, config_text, options, files, places, log, timers});
 }
 
 } // namespace trime::app

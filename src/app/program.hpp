@@ -11,9 +11,13 @@ class RunFiles;
 
 namespace trime::app {
 
+class UserPlaces;
+
 /// @brief Runs the program. @note Collective.
 /// @param files is told which files exist, for a signal handler; may be null
+/// @param places gets what the caller needs to explain an error that is thrown
 /// @throws Error on all ranks together
-ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm, io::RunFiles* files);
+ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm, io::RunFiles* files,
+                     UserPlaces& places);
 
 } // namespace trime::app

@@ -93,6 +93,29 @@ Attributes result_attributes(const meshing::MeshResult& result, const SizeSummar
           {"complete", std::int64_t{is_complete(result)}}};
 }
 
+/// user = (container - shift) / scale, if that is the same for all normalised contours.
+Attributes normalization_attributes(const std::vector<NormalizedPart>& parts) {
+  const auto differs = [&](const NormalizedPart& part) {
+    return part.scale != parts[0].scale || part.shift != parts[0].shift;
+  };
+  if (parts.empty() || std::any_of(parts.begin(), parts.end(), differs))
+    return {};
+  return {{"normalize_scale", parts[0].scale},
+          {"normalize_shift_x", parts[0].shift.x},
+          {"normalize_shift_y", parts[0].shift.y}};
+}
+
+/// The same for each normalised contour.
+io::MetadataGroup normalization_group(const std::vector<NormalizedPart>& parts) {
+  using Part = NormalizedPart;
+  return {"normalization",
+          {},
+          {column<std::string>("part_name", parts, &Part::name), column<std::string>("file", parts, &Part::file),
+           column<double>("scale", parts, &Part::scale),
+           column<double>("shift_x", parts, [](const Part& part) { return part.shift.x; }),
+           column<double>("shift_y", parts, [](const Part& part) { return part.shift.y; })}};
+}
+
 Attributes joined(Attributes a, const Attributes& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
@@ -174,21 +197,26 @@ io::MetadataGroup tags_group(const geometry::Boundary& boundary, const std::vect
 
 io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result, const SizeSummary& size,
                           const Measurements& measured) {
-  return {joined(joined(run_attributes(p), mesh_attributes(result.mesh, final_retriangulation(result))),
+  return {joined(joined(joined(run_attributes(p), normalization_attributes(p.normalized)),
+                        mesh_attributes(result.mesh, final_retriangulation(result))),
                  result_attributes(result, size, measured)),
           texts(p),
           {history_group(result.history), io::quality_group(result.quality), io::checks_group(result.checks),
-           timers_group(measured.times), tags_group(p.boundary, result.loops, p.options.region),
-           sharp_corners_group(result.features.sharp_corners)}};
+           io::bad_triangles_group(result.quality), timers_group(measured.times),
+           tags_group(p.boundary, result.loops, p.options.region), sharp_corners_group(result.features.sharp_corners),
+           normalization_group(p.normalized)}};
 }
 
 io::Metadata describe_step(const Provenance& p, const meshing::Snapshot& snapshot) {
   const Attributes step{{"stop_reason", std::string("none: a step of the run")},
                         {"seconds_total", snapshot.seconds},
                         {"complete", std::int64_t{0}}};
-  return {joined(joined(run_attributes(p), mesh_attributes(snapshot.mesh, snapshot.retriangulation)), step),
+  return {joined(joined(joined(run_attributes(p), normalization_attributes(p.normalized)),
+                        mesh_attributes(snapshot.mesh, snapshot.retriangulation)),
+                 step),
           texts(p),
-          {io::quality_group(snapshot.quality), tags_group(p.boundary, snapshot.loops, p.options.region)}};
+          {io::quality_group(snapshot.quality), tags_group(p.boundary, snapshot.loops, p.options.region),
+           normalization_group(p.normalized)}};
 }
 
 } // namespace trime::app

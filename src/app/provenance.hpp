@@ -12,6 +12,7 @@
 #include "trime/meshing/mesher.hpp"
 
 #include <string>
+#include <vector>
 
 namespace trime::app {
 
@@ -22,6 +23,7 @@ struct Provenance {
   const std::string& config_text;
   const Placement& placement;
   const geometry::Boundary& boundary;
+  const std::vector<NormalizedPart>& normalized;
 };
 
 /// Everything that the group /trime_mpi holds. Not collective.

@@ -26,9 +26,14 @@ TimeRow reduce_time(std::string section, double seconds, std::int64_t calls, con
           comm.max(seconds)};
 }
 
+/// Four decimals as long as that takes nine characters at most, so that columns stand.
+std::string ratio_text(double ratio) {
+  return std::fabs(ratio) < 1e4 ? fmt::format("{:.4f}", ratio) : fmt::format("{:.3e}", ratio);
+}
+
 std::string summary_line(const char* name, const mesh::RatioSummary& s) {
-  return fmt::format("  {:<8}{:>9.4f}{:>10.4f}{:>10.4f}{:>11.4f}{:>9.4f}\n", name, s.median, s.mean, s.max, s.half_mean,
-                     s.std);
+  return fmt::format("  {:<8}{:>9} {:>9} {:>9} {:>10} {:>9}\n", name, ratio_text(s.median), ratio_text(s.mean),
+                     ratio_text(s.max), ratio_text(s.half_mean), ratio_text(s.std));
 }
 
 /// Area of the mesh beside that of the shape: they differ by what lies between chords and curve.
@@ -59,6 +64,17 @@ std::string boundary_text(const meshing::MeshResult& result) {
   return text;
 }
 
+/// How to come from the mesh to the files of normalised contours.
+std::string normalization_text(const std::vector<NormalizedPart>& normalized) {
+  std::string text;
+  for (const NormalizedPart& part : normalized)
+    text +=
+        fmt::format("Normalized: part '{0}', coordinates of {1} are (x - {2:.17g})/s and (y - {3:.17g})/s of those of "
+                    "the mesh, s = {4:.17g}\n",
+                    part.name, part.file, part.shift.x, part.shift.y, part.scale);
+  return text;
+}
+
 std::string size_text(const SizeSummary& size) {
   return size.smallest == size.largest
              ? fmt::format("Size: {}; target edge length {:.6g}\n", size.description, size.largest)
@@ -67,9 +83,9 @@ std::string size_text(const SizeSummary& size) {
 }
 
 std::string quality_text(const mesh::QualitySummary& q) {
-  std::string text = "Quality    median      mean       max  half-mean      std   (1 is equilateral)\n";
+  std::string text = "Quality    median      mean       max  half-mean       std   (1 is equilateral)\n";
   text += summary_line("alpha", q.alpha) + summary_line("beta", q.beta);
-  text += fmt::format("  smallest angle {:.2f} degrees; worst triangle at ({:.6g}, {:.6g})\n", q.min_angle_degrees,
+  text += fmt::format("  smallest angle {:.2f} degrees; worst triangle at ({:.10g}, {:.10g})\n", q.min_angle_degrees,
                       q.worst_place.x, q.worst_place.y);
   text += fmt::format("  edge length over wanted length: mean {:.4f}, std {:.4f}\n", q.size_mean, q.size_std);
   std::int64_t count = 0;
@@ -80,6 +96,21 @@ std::string quality_text(const mesh::QualitySummary& q) {
     text += fmt::format(
         "  {:>10.2f}{:>12}{:>7.2f} %\n", mesh::RatioStatistics::histogram_edges[k], q.alpha_histogram[k],
         100 * static_cast<double>(q.alpha_histogram[k]) / static_cast<double>(std::max<std::int64_t>(count, 1)));
+  return text;
+}
+
+/// The worst triangles with the corner that excuses each.
+std::string bad_triangles_text(const mesh::QualitySummary& q) {
+  if (q.bad_triangles == 0)
+    return {};
+  std::string text = fmt::format("Triangles with alpha above 2: {}{}\n", q.bad_triangles,
+                                 std::ssize(q.worst_triangles) < q.bad_triangles ? ", the worst:" : "");
+  for (const mesh::BadTriangle& one : q.worst_triangles) {
+    text += fmt::format("  {:>9} at ({:.10g}, {:.10g}): ", ratio_text(one.alpha), one.place.x, one.place.y);
+    text += one.corner_degrees > 0 ? fmt::format("at the corner ({:.10g}, {:.10g}) of {:.3g} degrees\n", one.corner.x,
+                                                 one.corner.y, one.corner_degrees)
+                                   : "no sharp corner near\n";
+  }
   return text;
 }
 
@@ -94,9 +125,14 @@ std::string cleanup_text(const cleanup::CleanupCounts& cleanup) {
 
 std::string checks_text(const mesh::Checks& checks) {
   std::string text = "Checks\n";
+  std::size_t expected = 0, found = 0; // widths
+  for (const mesh::Check& check : checks) {
+    expected = std::max(expected, value_text(check.expected).size());
+    found = std::max(found, value_text(check.found).size());
+  }
   for (const mesh::Check& check : checks)
-    text += fmt::format("  {:<7}{:<26} expected {:<12} found {:<12} {}\n", check.passed ? "ok" : "FAILED", check.name,
-                        value_text(check.expected), value_text(check.found), check.meaning);
+    text += fmt::format("  {:<7}{:<26} expected {:<{}} found {:<{}} {}\n", check.passed ? "ok" : "FAILED", check.name,
+                        value_text(check.expected), expected, value_text(check.found), found, check.meaning);
   return text;
 }
 
@@ -165,7 +201,7 @@ int final_retriangulation(const meshing::MeshResult& result) {
 }
 
 std::string run_report(const meshing::MeshResult& result, const SizeSummary& size, const Measurements& measured,
-                       const io::WrittenFiles& files) {
+                       const io::WrittenFiles& files, const std::vector<NormalizedPart>& normalized) {
   const auto points = static_cast<double>(std::max<GlobalId>(result.mesh.point_slab.total, 1));
   std::string text = fmt::format("\n{} points, {} triangles, {} boundary edges\n", result.mesh.point_slab.total,
                                  result.mesh.triangle_slab.total, result.mesh.facet_slab.total);
@@ -174,8 +210,9 @@ std::string run_report(const meshing::MeshResult& result, const SizeSummary& siz
     text += "Start: " + result.start_reason + "\n";
   text += fmt::format("Stopped after {} sweeps: {}\n", result.history.empty() ? 0 : result.history.back().sweep,
                       sweep::to_string(result.stop_reason));
-  text += boundary_text(result) + area_text(result) + cleanup_text(result.cleanup);
-  text += quality_text(result.quality) + "\n" + checks_text(result.checks) + "\n" + times_text(measured);
+  text += normalization_text(normalized) + boundary_text(result) + area_text(result) + cleanup_text(result.cleanup);
+  text += quality_text(result.quality) + bad_triangles_text(result.quality) + "\n" + checks_text(result.checks) + "\n" +
+          times_text(measured);
   text += fmt::format("  {:.0f} points per second\n\n", points / std::max(measured.total, 1e-9));
   text += fmt::format("Memory     at most {:.1f} MiB per rank, {:.0f} bytes per point over all ranks\n",
                       static_cast<double>(measured.peak_memory) / 0x1p20,

@@ -2,6 +2,7 @@
 // What a run has to say at its end, as text for people: the report and the exit code.
 #pragma once
 
+#include "app/user_places.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/timer.hpp"
@@ -41,7 +42,7 @@ Measurements gather_measurements(const TimerTable& timers, const comm::Communica
 
 /// @brief The report of a run, several lines. `files` may be empty.
 std::string run_report(const meshing::MeshResult& result, const SizeSummary& size, const Measurements& measured,
-                       const io::WrittenFiles& files);
+                       const io::WrittenFiles& files, const std::vector<NormalizedPart>& normalized = {});
 
 /// Number of the triangulation that became the final mesh, from 1: one more than those of the sweeps.
 int final_retriangulation(const meshing::MeshResult& result);

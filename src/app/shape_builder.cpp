@@ -20,9 +20,9 @@ std::string read_text(const std::string& file, bool is_relative, const comm::Com
   return comm.broadcast(std::move(text));
 }
 
-/// @param place becomes what the vertices of a contour undergo
+/// @param place becomes what the vertices of a contour undergo @param places gets the contour, on rank 0
 shape::Part build_part(const PartOptions& part, const geometry::Frame& frame, const comm::Communicator& comm,
-                       shape::Normalization& place) {
+                       shape::Normalization& place, UserPlaces& places) {
   if (part.type == "rectangle")
     return shape::Part::rectangle(part.name, part.box, frame);
   if (part.type == "circle")
@@ -36,7 +36,10 @@ shape::Part build_part(const PartOptions& part, const geometry::Frame& frame, co
   const shape::Contour contour = shape::parse_xy(read_text(part.file, part.file_is_relative, comm), part.file);
   if (part.normalize)
     place = shape::fit_to_container(contour, frame.container());
-  return shape::Part::contour(part.name, contour, place, frame);
+  shape::Part made = shape::Part::contour(part.name, contour, place, frame);
+  if (comm.is_root())
+    places.add(contour, place);
+  return made;
 }
 
 } // namespace
@@ -51,19 +54,24 @@ std::string read_shared(const std::string& path, const comm::Communicator& comm)
 }
 
 /// All ranks build the same shape from the same numbers, so they throw the same errors without asking each other.
-ShapeInput read_shape(const RunOptions& options, const comm::Communicator& comm, Log& log) {
+ShapeInput read_shape(const RunOptions& options, const comm::Communicator& comm, Log& log, UserPlaces& places) {
   const geometry::Frame frame(options.mesh.container, options.periodic_x, options.periodic_y);
   std::vector<shape::Part> parts;
   shape::Normalization fixed_points_place;
+  std::vector<NormalizedPart> normalized;
+  UserPlaces found; // messages of the parts below speak of their files already
   for (const PartOptions& part : options.parts) {
     shape::Normalization place;
-    parts.push_back(build_part(part, frame, comm, place));
+    parts.push_back(build_part(part, frame, comm, place, found));
     if (part.name == options.fixed_points.normalize_with)
       fixed_points_place = place;
+    if (part.normalize)
+      normalized.push_back({part.name, part.file, place.scale, place.to - place.scale * place.from});
     for (const std::string& warning : parts.back().warnings())
       log.warning("{}", warning);
   }
-  return {shape::RegionShape(std::move(parts), options.region, frame), fixed_points_place};
+  places = std::move(found);
+  return {shape::RegionShape(std::move(parts), options.region, frame), fixed_points_place, std::move(normalized)};
 }
 
 std::vector<boundary::FixedPoint> read_fixed_points(const RunOptions& options, const shape::Normalization& place,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/options.hpp"
+#include "app/user_places.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/shape/contour.hpp"
 #include "trime/shape/region_shape.hpp"
@@ -18,12 +19,14 @@ std::string read_shared(const std::string& path, const comm::Communicator& comm)
 struct ShapeInput {
   shape::RegionShape shape;
   shape::Normalization fixed_points_place; ///< what fixed points undergo: that of the contour they are normalised with
+  std::vector<NormalizedPart> normalized;  ///< in the order of the parts
 };
 
 /// @brief Reads each file once, and tells warnings to the log.
+/// @param places gets the contours, on rank 0
 /// @throws GeometryError, ConfigError, FileError on all ranks together
 /// @note Collective.
-ShapeInput read_shape(const RunOptions& options, const comm::Communicator& comm, Log& log);
+ShapeInput read_shape(const RunOptions& options, const comm::Communicator& comm, Log& log, UserPlaces& places);
 
 /// @brief The fixed points with labels `file:line`, normalised; none if the options name no file.
 /// @param place ShapeInput::fixed_points_place

@@ -69,7 +69,7 @@ std::int64_t corners_in_place(const BoundaryTruth& truth) {
 
 /// The chords against their curves.
 struct ChordExtremes {
-  double deviation = 0; ///< largest, over h
+  double deviation = 0; ///< largest, over the h that was asked for
   double of_arcs = 0;   ///< largest of a chord of a circle, over what a good one has
   double area = 0;      ///< that all chords take from the shape
 };
@@ -82,7 +82,8 @@ ChordExtremes extremes_of(const BoundaryTruth& truth, const std::vector<ChordCur
     const BoundarySite& next = truth.sites.sites[at(truth.sites.sites[at(k)].next)];
     const double h = 0.5 * (truth.size.size(chord.a) + truth.size.size(next.position));
     const double sagitta = squared_length(chord.b - chord.a) * curve.curvature / 8;
-    extremes.deviation = std::max(extremes.deviation, curve.deviation / h);
+    const double asked = 0.5 * (truth.asked.size(chord.a) + truth.asked.size(next.position));
+    extremes.deviation = std::max(extremes.deviation, curve.deviation / asked);
     if (curve.curvature > 0)
       extremes.of_arcs = std::max(extremes.of_arcs, curve.deviation / (CertificateRules::arc_tolerance * sagitta +
                                                                        CertificateRules::arc_slack * h));
@@ -190,7 +191,7 @@ mesh::Checks prove_boundary(const BoundaryTruth& truth, const mesh::DistributedM
       limit_check("generalisation", CertificateRules::generalisation_limit, generalisation(truth),
                   "the curves that were meshed from the shape's boundary, over h (at most)"),
       limit_check("chord_deviation", CertificateRules::chord_limit, extremes.deviation,
-                  "the shape's boundary from the facets, over h (at most)"),
+                  "the shape's boundary from the facets, over h as it was asked for (at most)"),
       limit_check("arc_deviation", 1, extremes.of_arcs,
                   "arcs of circles from their facets, over 1.08 l^2/8R + h/1000, facet l, radius R (at most)"),
       limit_check("area_residual", CertificateRules::area_limit + step * truth.meshed.length() / shape_area,

@@ -22,11 +22,11 @@ struct BoundaryTruth {
   const geometry::Boundary& shape;     ///< as it was given
   const geometry::Boundary& meshed;    ///< as it was laid out: with fixed points as corners
   const polygon::BoundarySites& sites; ///< on `meshed`, the vertices of the mesh's boundary
-  const sizing::SizeField& size;
+  const sizing::SizeField& size;       ///< h of the mesh
+  const sizing::SizeField& asked; ///< the same before it was lowered: chords may leave out corners by shares of this
   const geometry::Lattice& lattice;
   double side;      ///< longer side of the container
   double mesh_area; ///< of all triangles
-  const sizing::SizeField& asked; ///< h, before anything lowers it
 };
 
 /// @brief Nine checks, all from the arrays of the mesh that will be written, the shape, and what it was laid out as.

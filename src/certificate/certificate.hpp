@@ -13,8 +13,8 @@ namespace trime::certificate {
 /// What the mesh is to be a mesh of.
 struct Expectation {
   const geometry::Boundary& shape;  ///< as it was given
-  const geometry::Boundary& meshed; ///< as it was laid out: with fixed points as corners, at the resolution of the mesh
-  const sizing::SizeField& asked;   ///< h, before anything lowers it
+  const geometry::Boundary& meshed; ///< as it was laid out: with fixed points as corners, at the resolution of h
+  const sizing::SizeField& asked;   ///< h before it was lowered: what the features of the boundary are judged by
   double side;                      ///< longer side of the container
 };
 

@@ -37,7 +37,7 @@ void Log::write(LogLevel level, const std::string& message) {
   if (!active_ || level < level_)
     return;
   end_progress_line();
-  fmt::print(stream_, "{}{}\n", level == LogLevel::warning ? "warning: " : "", message);
+  fmt::print(stream_, "{}{}\n", level == LogLevel::warning ? "warning: " : "", rewrite_ ? rewrite_(message) : message);
   std::fflush(stream_);
 }
 

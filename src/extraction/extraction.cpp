@@ -32,7 +32,8 @@ public:
 
   Extraction run() {
     Extraction made;
-    PerThread<QualityMeter> meters(view_.size, points_.grid().periods());
+    const SharpCorners corners(view_.polygon, points_.grid().periods());
+    PerThread<QualityMeter> meters(view_.size, points_.grid().periods(), corners);
     comm::run_agreed(view_.state.comm(), [&] { // the size field is the user's
       fill_points(made.mesh);
       const std::vector<Offsets> begin = offsets();
@@ -174,6 +175,12 @@ mesh::Slab slab_of(const comm::Communicator& comm, std::size_t count) {
 }
 
 } // namespace
+
+mesh::Check worst_alpha_check(const mesh::QualitySummary& quality, double most) {
+  const double found = std::max(1.0, quality.worst_away.alpha);
+  return {"worst_alpha", most, found, found <= most,
+          "largest alpha above 2 of a triangle away from sharp corners, else 1; at most meshing.worst_alpha"};
+}
 
 Extraction extract_mesh(const StageView& view, const decomposition::Numbering& numbering) {
   const comm::Communicator& comm = view.state.comm();

@@ -6,6 +6,7 @@
 #include "sites/fan.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
 #include "trime/mesh/quality.hpp"
+#include "trime/mesh/validity.hpp"
 
 namespace trime::extraction {
 
@@ -17,5 +18,8 @@ struct Extraction {
 /// @pre stars of all sites are certain, bins and halo fresh. O(points); threads.
 /// @throws GeometryError on all ranks together if the size at an edge is not positive and finite. Collective.
 Extraction extract_mesh(const sites::StageView& view, const decomposition::Numbering& numbering);
+
+/// Triangles beside corners below 60 degrees aside, none may be worse than `most`.
+mesh::Check worst_alpha_check(const mesh::QualitySummary& quality, double most);
 
 } // namespace trime::extraction

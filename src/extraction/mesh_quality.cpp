@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "extraction/mesh_quality.hpp"
 #include "core/angle.hpp"
+#include "extraction/rules.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,7 @@ void reduce(const comm::Communicator& comm, QualitySums& sums) {
   const double y = comm.min(here && sums.worst_place.x == x ? sums.worst_place.y : infinity);
   sums.worst_alpha = worst;
   sums.worst_place = {x, y};
+  sums.bad.reduce(comm);
 }
 
 } // namespace
@@ -52,6 +54,7 @@ void QualitySums::add(const QualitySums& other) {
   ratio.add(other.ratio);
   squared_ratio.add(other.squared_ratio);
   edges += other.edges;
+  bad.merge(other.bad);
 }
 
 void QualityMeter::add_triangle(Vec2 p, Vec2 q, Vec2 r) {
@@ -95,10 +98,18 @@ void QualityMeter::measure_triangles() {
     for (std::size_t k = 0; k < n; ++k)
       if (alpha[k] == worst)
         sums_.note_worst(worst, periods_.wrap((1.0 / 3) * (p_[k] + q_[k] + r_[k])));
+  for (std::size_t k = 0; worst > ExtractionRules::listed_alpha && k < n; ++k)
+    if (alpha[k] > ExtractionRules::listed_alpha)
+      list(alpha[k], k);
   sums_.alpha.add(std::span(alpha).first(n));
   sums_.beta.add(std::span(beta).first(n));
   write_to(alpha_.subspan(n), beta_.subspan(n));
   triangles_ = 0;
+}
+
+void QualityMeter::list(double alpha, std::size_t k) {
+  const SharpCorners::Corner corner = corners_.near(p_[k], q_[k], r_[k]);
+  sums_.bad.add({alpha, periods_.wrap((1.0 / 3) * (p_[k] + q_[k] + r_[k])), corner.degrees, corner.place});
 }
 
 void QualityMeter::measure_edges() {
@@ -129,6 +140,7 @@ mesh::QualitySummary summarize(const comm::Communicator& comm, QualitySums sums)
   quality.alpha_histogram = sums.alpha.histogram();
   quality.min_angle_degrees = std::min(60.0, std::asin(std::min(1.0, sums.least_sine)) * (180 / pi));
   quality.worst_place = sums.worst_place;
+  sums.bad.tell(quality);
   const double edges = static_cast<double>(std::max<std::int64_t>(1, sums.edges));
   const double mean = sums.ratio.value() / edges, square = sums.squared_ratio.value() / edges;
   quality.size_mean = mean;

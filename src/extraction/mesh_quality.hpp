@@ -3,6 +3,7 @@
 // blocks, so that the compiler works on several at a time.
 #pragma once
 
+#include "extraction/bad_triangles.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/geometry/periods.hpp"
 #include "trime/mesh/quality.hpp"
@@ -22,6 +23,7 @@ struct QualitySums {
   geometry::Vec2 worst_place;
   FixedSum ratio, squared_ratio; ///< L / h over edges
   std::int64_t edges = 0;
+  BadTriangles bad;
 
   void note_worst(double a, geometry::Vec2 place);
   void add(const QualitySums& other);
@@ -33,8 +35,9 @@ mesh::QualitySummary summarize(const comm::Communicator& comm, QualitySums sums)
 /// What one thread measures.
 class QualityMeter {
 public:
-  /// @pre both outlive this object
-  QualityMeter(const sizing::SizeField& size, const geometry::Periods& periods) : size_(size), periods_(periods) {}
+  /// @pre all outlive this object
+  QualityMeter(const sizing::SizeField& size, const geometry::Periods& periods, const SharpCorners& corners)
+      : size_(size), periods_(periods), corners_(corners) {}
 
   /// From here on the ratios of the triangles go to these places, one after the other.
   void write_to(std::span<float> alpha, std::span<float> beta) {
@@ -60,10 +63,12 @@ private:
     geometry::Vec2 operator[](std::size_t k) const { return {x[k], y[k]}; }
   };
   void measure_triangles();
+  void list(double alpha, std::size_t k);
   void measure_edges();
 
   const sizing::SizeField& size_;
   const geometry::Periods& periods_;
+  const SharpCorners& corners_;
   QualitySums sums_;
   std::size_t triangles_ = 0, edges_ = 0; // that wait
   Places p_, q_, r_, from_, to_;

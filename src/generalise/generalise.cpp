@@ -169,7 +169,7 @@ std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const si
     return nullptr;
   std::unique_ptr<Generalised> result;
   Corners corners;
-  for (int pass = 0; pass < GeneraliseRules::passes; ++pass) { // parts that were moved apart may leave others narrow
+  for (int pass = 0; pass < GeneraliseRules::most_passes; ++pass) { // parts that were moved apart may leave others narrow
     std::unique_ptr<Generalised> next = pass_over(result ? result->boundary : boundary, size, lattice, narrow, corners);
     corners.is_first_pass = false;
     if (!next)

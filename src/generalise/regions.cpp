@@ -44,7 +44,7 @@ std::int64_t fill_small_holes(const CurveMap& map, std::vector<char>& labels) {
   const auto is_small_hole = [&](LocalIndex t) {
     const LocalIndex region = regions.of(t);
     return !labels[at(t)] && region != regions.around() && !regions.holds_kept(region) &&
-           regions.perimeter(region) < GeneraliseRules::least_perimeter;
+           regions.perimeter(region) < GeneraliseRules::smallest_hole;
   };
   std::vector<char> filled(at(regions.count()));
   for (LocalIndex t = 0; t < map.mesh().triangle_count(); ++t)

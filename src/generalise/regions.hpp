@@ -30,7 +30,7 @@ private:
   std::vector<char> holds_kept_;
 };
 
-/// Makes holes inside whose perimeter is below GeneraliseRules::least_perimeter. Returns how many.
+/// Makes holes inside whose perimeter is below GeneraliseRules::smallest_hole. Returns how many.
 std::int64_t fill_small_holes(const CurveMap& map, std::vector<char>& labels);
 
 } // namespace trime::generalise

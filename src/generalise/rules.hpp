@@ -24,7 +24,7 @@ struct GeneraliseRules {
   static constexpr double node_reach = 1.5;
   /// [rounds] Of adding nodes, each of which at least halves a spacing. Not measured.
   static constexpr int node_rounds = 24;
-  /// [radians] Arcs have nodes at most so far apart: 15 degrees.
+  /// [radians] Arcs have nodes at most so far apart: 15 degrees. Not measured.
   static constexpr double arc_step = 0.2617993877991494;
   /// [rounds] Of separating loops that touch in a vertex. Not measured.
   static constexpr int touch_rounds = 50;
@@ -43,25 +43,25 @@ struct GeneraliseRules {
   /// [1] A curve is ragged where 1 - cosine of its turns adds up to more on that way: one turn of 75 degrees, or
   /// several smaller ones. Not measured.
   static constexpr double ragged_turn = 0.75;
-  /// [vertices] A loop keeps at least so many.
+  /// [vertices] A loop keeps at least so many. Not measured.
   static constexpr std::size_t least_vertices = 6;
   /// [1] If curves cross after thinning, it is tried again with this part of the share. Not measured.
   static constexpr double finer_thinning = 0.2;
-  /// [h] Holes with a smaller perimeter are filled: no triangle of size h fits around them.
-  static constexpr double least_perimeter = 3;
+  /// [h] Holes with a smaller perimeter are filled: no triangle of size h fits around them. Not measured.
+  static constexpr double smallest_hole = 3;
   /// [h] Narrow parts of the outside beside a component with a smaller perimeter are closed, so that small components
   /// grow together before they are dropped. Not measured.
   static constexpr double small_component = 5;
-  /// [rounds] If all of the shape is narrow, half the width counts as narrow; so often at most.
+  /// [rounds] If all of the shape is narrow, half the width counts as narrow; so often at most. Not measured.
   static constexpr int narrower_rounds = 20;
   /// [passes] Over a boundary, at most: the later ones see what the earlier ones have left. Not measured.
-  static constexpr int passes = 8;
-  /// [rounds] Of such trials; then nothing is thinned.
+  static constexpr int most_passes = 8;
+  /// [rounds] Of such trials; then nothing is thinned. Not measured.
   static constexpr int thinning_rounds = 3;
   /// [h] Corners nearer to each other than this, between long arms, become one. Not measured.
   static constexpr double close_corners = 0.05;
   /// [distance of close corners] A long arm has this length at least. Not measured.
-  static constexpr double long_arm = 4;
+  static constexpr double arm_length = 4;
 };
 
 } // namespace trime::generalise

@@ -185,7 +185,7 @@ bool VertexMoves::has_long_arms(HalfEdge e, double close) const {
     for (double way = 0; way < close; f = step(f)) {
       const double here = length(mesh_.point(mesh_.target(f)) - mesh_.point(mesh_.origin(f)));
       const CurveMap::Span span = map_.span_of(f);
-      if (map_.boundary().loops[at(span.loop)].pieces[at(span.piece)].length() > GeneraliseRules::long_arm * close)
+      if (map_.boundary().loops[at(span.loop)].pieces[at(span.piece)].length() > GeneraliseRules::arm_length * close)
         return true;
       way += here;
     }

@@ -34,11 +34,25 @@ MetadataGroup quality_group(const mesh::QualitySummary& quality) {
   group.attributes.push_back({"min_angle_degrees", quality.min_angle_degrees});
   group.attributes.push_back({"size_mean", quality.size_mean});
   group.attributes.push_back({"size_std", quality.size_std});
+  group.attributes.push_back({"bad_triangles", quality.bad_triangles});
   const auto& edges = mesh::RatioStatistics::histogram_edges;
   const auto& counts = quality.alpha_histogram;
   group.columns.push_back({"alpha_histogram_from", std::vector<double>(edges.begin(), edges.end())});
   group.columns.push_back({"alpha_histogram", std::vector<std::int64_t>(counts.begin(), counts.end())});
   return group;
+}
+
+MetadataGroup bad_triangles_group(const mesh::QualitySummary& quality) {
+  using mesh::BadTriangle;
+  const std::vector<BadTriangle>& worst = quality.worst_triangles;
+  return {"worst_triangles",
+          {},
+          {column<double>("alpha", worst, &BadTriangle::alpha),
+           column<double>("x", worst, [](const BadTriangle& one) { return one.place.x; }),
+           column<double>("y", worst, [](const BadTriangle& one) { return one.place.y; }),
+           column<double>("corner_degrees", worst, &BadTriangle::corner_degrees),
+           column<double>("corner_x", worst, [](const BadTriangle& one) { return one.corner.x; }),
+           column<double>("corner_y", worst, [](const BadTriangle& one) { return one.corner.y; })}};
 }
 
 MetadataGroup checks_group(const mesh::Checks& checks) {

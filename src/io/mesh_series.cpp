@@ -31,6 +31,15 @@ std::vector<std::string> MeshSeries::check(double expected_points) {
   return warnings;
 }
 
+std::vector<std::string> MeshSeries::look(double expected_points) const {
+  std::vector<std::string> warnings;
+  comm::run_agreed(comm_, [&] {
+    if (comm_.is_root())
+      warnings = look_at_files(options_, expected_points);
+  });
+  return warnings;
+}
+
 void MeshSeries::write_step(const SeriesMesh& mesh) {
   write(mesh, step_name(options_.file.name, mesh.retriangulation), std::to_string(mesh.retriangulation));
 }

@@ -41,6 +41,20 @@ void check_writable(const std::string& directory, const std::string& name) {
   unlink(probe.c_str());
 }
 
+/// @brief Could make_directory and check_writable do their work? By permissions alone, since nothing is made.
+void check_could_be_made(const std::string& directory) {
+  std::error_code error;
+  std::filesystem::path existing = std::filesystem::absolute(directory, error).lexically_normal();
+  while (!std::filesystem::exists(std::filesystem::symlink_status(existing, error)) && existing.has_relative_path())
+    existing = existing.parent_path();
+  if (!std::filesystem::is_directory(existing, error))
+    throw FileError(fmt::format("cannot make the output directory {}: {} is no directory; set output.directory",
+                                directory, existing.string()));
+  if (access(existing.c_str(), W_OK | X_OK) != 0)
+    throw FileError(fmt::format("cannot write into the output directory {}: {}: {}; set output.directory", directory,
+                                existing.string(), system_error()));
+}
+
 void check_absent(const std::string& path, bool overwrite) {
   struct stat status {};
   if (lstat(path.c_str(), &status) != 0)
@@ -104,6 +118,24 @@ std::string space_warning(const SeriesOptions& options, double points) {
                            options.file.directory);
 }
 
+/// Nothing may be in the way of the files of this run.
+void check_all_absent(const SeriesOptions& options) {
+  const MeshFileOptions& file = options.file;
+  for (const char* ending : view_endings)
+    check_absent(file.path(ending), file.overwrite);
+  if (options.steps || options.text)
+    for (const std::string& path : files_of_series(options))
+      check_absent(path, file.overwrite);
+}
+
+/// Of what an older run left, and of a disk that is too small.
+std::vector<std::string> warnings_for(const SeriesOptions& options, double expected_points) {
+  std::vector<std::string> warnings = leftovers(options.file);
+  if (const std::string warning = space_warning(options, expected_points); !warning.empty())
+    warnings.push_back(warning);
+  return warnings;
+}
+
 } // namespace
 
 std::string step_name(const std::string& name, int retriangulation) {
@@ -134,18 +166,18 @@ std::vector<std::string> files_of_series(const SeriesOptions& options) {
 std::vector<std::string> check_files(const SeriesOptions& options, double expected_points) {
   const MeshFileOptions& file = options.file;
   make_directory(file.directory);
-  for (const char* ending : view_endings)
-    check_absent(file.path(ending), file.overwrite);
-  if (options.steps || options.text)
-    for (const std::string& path : files_of_series(options))
-      check_absent(path, file.overwrite);
+  check_all_absent(options);
   if (options.text)
     make_directory(file.path(""));
-  std::vector<std::string> warnings = leftovers(file);
+  std::vector<std::string> warnings = warnings_for(options, expected_points);
   check_writable(file.directory, file.name);
-  if (const std::string warning = space_warning(options, expected_points); !warning.empty())
-    warnings.push_back(warning);
   return warnings;
+}
+
+std::vector<std::string> look_at_files(const SeriesOptions& options, double expected_points) {
+  check_could_be_made(options.file.directory);
+  check_all_absent(options);
+  return warnings_for(options, expected_points);
 }
 
 } // namespace trime::io

@@ -21,5 +21,7 @@ std::vector<std::string> files_of_series(const SeriesOptions& options);
 
 /// What MeshSeries::check() does on rank 0.
 std::vector<std::string> check_files(const SeriesOptions& options, double expected_points);
+/// What MeshSeries::look() does on rank 0.
+std::vector<std::string> look_at_files(const SeriesOptions& options, double expected_points);
 
 } // namespace trime::io

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/shape/contour.hpp"
 
+#include "contour_text.hpp"
 #include "core/read_file.hpp"
 #include "shape/rules.hpp"
 #include "trime/core/error.hpp"
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 
 namespace trime::shape {
@@ -16,18 +17,6 @@ using geometry::Box;
 using geometry::Vec2;
 
 constexpr int most_warnings = 5;
-
-bool is_space(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_space(text.front()))
-    text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back()))
-    text.remove_suffix(1);
-  return text;
-}
 
 bool ends_with_extension(const std::string& path, std::string_view extension) {
   if (path.size() < extension.size())
@@ -46,9 +35,7 @@ public:
   explicit RingBuilder(Contour& contour) : contour_(contour) {}
 
   void add(Vec2 p, int line) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y))
-      throw GeometryError(
-          fmt::format("{}:{}: expected finite coordinates, found ({}, {})", contour_.source, line, p.x, p.y));
+    check_coordinates(p, contour_.source, line);
     if (!ring_.points.empty() && ring_.points.back() == p) {
       warn(p, line);
       return;
@@ -109,79 +96,40 @@ private:
   int merged_ = 0;
 };
 
-/// Reads one number from the front of `text`; false if there is none that a blank or the end follows.
-bool take_number(std::string_view& text, double& value) {
-  text = trimmed(text);
-  if (!text.empty() && text.front() == '+')
-    text.remove_prefix(1);
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec == std::errc::result_out_of_range)
-    value = HUGE_VAL; // too small counts as not finite, too: nobody means such a number
-  else if (result.ec != std::errc{})
-    return false;
-  text.remove_prefix(static_cast<std::size_t>(result.ptr - text.data()));
-  return text.empty() || is_space(text.front());
-}
-
-/// What people write instead of 'x y', for the message; empty if it is none of that.
-std::string hint_for(std::string_view line) {
-  if (line.find(',') != std::string_view::npos)
-    return "; separate the numbers by blanks, not commas, and write decimals with a point";
-  double number = 0;
-  int numbers = 0;
-  while (numbers < 4 && take_number(line, number))
-    ++numbers;
-  return numbers == 3 && trimmed(line).empty() ? "; found three numbers, but points of the plane have two" : "";
-}
-
-Vec2 parse_vertex(std::string_view line, const std::string& source, int number) {
-  Vec2 p;
-  std::string_view rest = line;
-  if (!take_number(rest, p.x) || !take_number(rest, p.y) || !trimmed(rest).empty())
-    throw GeometryError(fmt::format("{}:{}: expected two numbers 'x y', found '{}'{}", source, number,
-                                    line.substr(0, 60), hint_for(line)));
-  return p;
-}
-
-/// Calls visit(content without comment, number, is the whole line blank?) for every line.
-template <class Visit>
-void for_each_line(std::string_view text, const Visit& visit) {
-  int number = 0;
-  if (text.starts_with("\xEF\xBB\xBF")) // byte order mark of some editors
-    text.remove_prefix(3);
-  while (!text.empty()) {
-    const std::size_t length = text.find('\n');
-    const std::string_view line = text.substr(0, length);
-    text.remove_prefix(length == std::string_view::npos ? text.size() : length + 1);
-    visit(trimmed(line.substr(0, line.find_first_of("#;"))), ++number, trimmed(line).empty());
-  }
-}
-
 } // namespace
 
 Contour parse_xy(std::string_view text, const std::string& source) {
+  check_encoding(text, source);
   Contour contour;
   contour.source = source;
   RingBuilder builder(contour);
-  for_each_line(text, [&](std::string_view content, int number, bool blank) {
-    if (!content.empty())
-      builder.add(parse_vertex(content, source, number), number);
-    else if (blank)
+  VertexReader reader(contour.source);
+  for_each_line(text, [&](std::string_view content, int number, bool parts_rings) {
+    if (parts_rings)
       builder.end_ring();
+    else if (!content.empty())
+      if (const auto vertex = reader.read(content, number))
+        builder.add(*vertex, number);
   });
   builder.finish();
+  contour.warnings.insert(contour.warnings.begin(), reader.warnings().begin(), reader.warnings().end());
   return contour;
 }
 
 std::vector<FilePoint> parse_points(std::string_view text, const std::string& source) {
+  check_encoding(text, source);
   std::vector<FilePoint> points;
+  VertexReader reader(source);
   for_each_line(text, [&](std::string_view content, int number, bool) {
     if (content.empty())
       return;
-    const Vec2 p = parse_vertex(content, source, number);
-    if (!std::isfinite(p.x) || !std::isfinite(p.y))
-      throw GeometryError(fmt::format("{}:{}: expected finite coordinates, found ({}, {})", source, number, p.x, p.y));
-    points.push_back({p, number});
+    const auto p = reader.read(content, number);
+    if (!p) // nobody would hear the warning
+      throw GeometryError(fmt::format("{}:{}: expected two numbers 'x y', found the names of columns; put '#' before "
+                                      "them",
+                                      source, number));
+    check_coordinates(*p, source, number);
+    points.push_back({*p, number});
   });
   if (points.empty())
     throw GeometryError(fmt::format("{}: expected points, one 'x y' a line, found none", source));
@@ -220,11 +168,15 @@ Normalization fit_to_container(const Contour& contour, const Box& container) {
   for (const ContourRing& ring : contour.rings)
     for (const Vec2 p : ring.points)
       box.include(p);
+  const double side = std::fmax(box.width(), box.height());
+  if (!(side >= ShapeRules::smallest_normalized)) // also where all coordinates are equal
+    throw GeometryError(fmt::format("{}: the rings are {:g} wide and {:g} high; expected {:g} at least, to normalize "
+                                    "them: scale the coordinates up",
+                                    contour.source, box.width(), box.height(), ShapeRules::smallest_normalized));
   Normalization fit;
   fit.from = 0.5 * (box.min + box.max);
   fit.to = 0.5 * (container.min + container.max);
-  fit.scale = ShapeRules::normalized_share * std::fmin(container.width(), container.height()) /
-              std::fmax(box.width(), box.height());
+  fit.scale = ShapeRules::normalized_share * std::fmin(container.width(), container.height()) / side;
   return fit;
 }
 

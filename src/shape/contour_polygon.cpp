@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "contour_polygon.hpp"
 
-#include "core/thread_loop.hpp"
 #include "geometry/predicates.hpp"
+#include "lattice_rings.hpp"
+#include "shape/rules.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 namespace trime::shape {
 
@@ -19,29 +22,11 @@ using geometry::Segment;
 using geometry::SegmentGrid;
 using geometry::Vec2;
 
-enum class Meeting { none, touch, crossing };
+constexpr std::size_t most_told = 5; // warnings of a kind
 
 bool in_box_of(const Segment& s, Vec2 p) {
   return p.x >= std::fmin(s.a.x, s.b.x) && p.x <= std::fmax(s.a.x, s.b.x) && p.y >= std::fmin(s.a.y, s.b.y) &&
          p.y <= std::fmax(s.a.y, s.b.y);
-}
-
-/// How two segments without a common end meet; exact.
-Meeting meeting_of(const Segment& s, const Segment& t) {
-  if (std::fmax(s.a.x, s.b.x) < std::fmin(t.a.x, t.b.x) || std::fmax(t.a.x, t.b.x) < std::fmin(s.a.x, s.b.x) ||
-      std::fmax(s.a.y, s.b.y) < std::fmin(t.a.y, t.b.y) || std::fmax(t.a.y, t.b.y) < std::fmin(s.a.y, s.b.y))
-    return Meeting::none;
-  const int ta = orient2d(s.a, s.b, t.a), tb = orient2d(s.a, s.b, t.b);
-  if (ta * tb > 0)
-    return Meeting::none;
-  const int sa = orient2d(t.a, t.b, s.a), sb = orient2d(t.a, t.b, s.b);
-  if (sa * sb > 0)
-    return Meeting::none;
-  if (ta * tb < 0 && sa * sb < 0)
-    return Meeting::crossing;
-  const bool touching = (ta == 0 && in_box_of(s, t.a)) || (tb == 0 && in_box_of(s, t.b)) ||
-                        (sa == 0 && in_box_of(t, s.a)) || (sb == 0 && in_box_of(t, s.b));
-  return touching ? Meeting::touch : Meeting::none;
 }
 
 /// A point that both segments have, to within rounding; for messages only.
@@ -62,10 +47,22 @@ public:
   Polygon make(std::vector<std::string>& warnings) {
     for (const ContourRing& ring : contour_.rings)
       add_ring(ring, warnings);
+    for (const RepeatedRing& ring : drop_repeated(rings_))
+      warnings.push_back(fmt::format("{}:{}: the ring that starts here was given before, at line {}; it is used once",
+                                     contour_.source, ring.line, ring.first_line));
+    SegmentGrid grid(segments_of(rings_));
+    if (const std::vector<SegmentPair> meetings = find_meetings(rings_, grid); !meetings.empty()) {
+      tell_touches(part_touches(rings_, meetings, grid, frame_), warnings);
+      grid = SegmentGrid(segments_of(rings_));
+      if (const std::vector<SegmentPair> left = find_meetings(rings_, grid); !left.empty())
+        report(grid, left[0]);
+    }
     Polygon polygon;
-    polygon.grid = SegmentGrid(std::move(segments_));
-    polygon.rings = std::move(rings_);
-    check_meetings(polygon);
+    polygon.grid = std::move(grid);
+    for (LocalIndex first = 0; const LatticeRing& ring : rings_) {
+      polygon.rings.push_back({first, static_cast<LocalIndex>(ring.points.size()), false});
+      first += polygon.rings.back().count;
+    }
     orient(polygon);
     tell_pieces(polygon, warnings);
     return polygon;
@@ -76,9 +73,9 @@ public:
 private:
   void add_ring(const ContourRing& ring, std::vector<std::string>& warnings);
   void check_turns(const std::vector<Vec2>& p, const std::vector<int>& lines) const;
-  void check_meetings(const Polygon& polygon) const;
+  void tell_touches(const std::vector<RingTouch>& touches, std::vector<std::string>& warnings) const;
   void tell_pieces(const Polygon& polygon, std::vector<std::string>& warnings) const;
-  [[noreturn]] void report(const Polygon& polygon, LocalIndex i, LocalIndex j) const;
+  [[noreturn]] void report(const SegmentGrid& grid, const SegmentPair& pair) const;
   std::string in_file(Vec2 p) const {
     const Vec2 original = normalization_.undo(p);
     return fmt::format("({:.12g}, {:.12g})", original.x, original.y);
@@ -87,9 +84,7 @@ private:
   const Contour& contour_;
   const Normalization& normalization_;
   const Frame& frame_;
-  std::vector<Segment> segments_;
-  std::vector<int> segment_line_; // line of the start of each segment
-  std::vector<Polygon::Ring> rings_;
+  std::vector<LatticeRing> rings_;
 };
 
 void Placement::add_ring(const ContourRing& ring, std::vector<std::string>& warnings) {
@@ -117,10 +112,7 @@ void Placement::add_ring(const ContourRing& ring, std::vector<std::string>& warn
                                    frame_.step() / normalization_.scale));
   lines.resize(points.size());
   check_turns(points, lines);
-  rings_.push_back({static_cast<LocalIndex>(segments_.size()), static_cast<LocalIndex>(points.size()), false});
-  for (std::size_t k = 0; k < points.size(); ++k)
-    segments_.push_back({points[k], points[(k + 1) % points.size()]});
-  segment_line_.insert(segment_line_.end(), lines.begin(), lines.end());
+  rings_.push_back({std::move(points), std::move(lines)});
 }
 
 void Placement::check_turns(const std::vector<Vec2>& p, const std::vector<int>& lines) const {
@@ -141,67 +133,48 @@ void Placement::check_turns(const std::vector<Vec2>& p, const std::vector<int>& 
   }
 }
 
-void Placement::check_meetings(const Polygon& polygon) const {
-  const std::span<const Segment> segments = polygon.grid.segments();
-  const LocalIndex n = static_cast<LocalIndex>(segments.size());
-  std::vector<LocalIndex> after(n), before(n);
-  for (const Polygon::Ring& ring : polygon.rings)
-    for (LocalIndex k = 0; k < ring.count; ++k) {
-      after[ring.first + k] = ring.first + (k + 1) % ring.count;
-      before[ring.first + (k + 1) % ring.count] = ring.first + k;
-    }
-  constexpr LocalIndex chunk = 2048;
-  const LocalIndex chunks = (n + chunk - 1) / chunk;
-  // Lowest pair of each chunk: what is reported does not depend on the threads.
-  std::vector<std::array<LocalIndex, 2>> found(chunks, {n, n});
-  thread_loop(chunks, 1, [&](std::ptrdiff_t c, int) {
-    const LocalIndex first = static_cast<LocalIndex>(c) * chunk, last = std::min(n, first + chunk);
-    for (LocalIndex i = first; i < last && found[c][0] == n; ++i) {
-      Box box;
-      box.include(segments[i].a);
-      box.include(segments[i].b);
-      LocalIndex partner = n;
-      polygon.grid.for_each_near(box, [&](LocalIndex j) {
-        if (j > i && j < partner && j != after[i] && j != before[i] &&
-            meeting_of(segments[i], segments[j]) != Meeting::none)
-          partner = j;
-        return true;
-      });
-      if (partner < n)
-        found[c] = {i, partner};
-    }
-  });
-  for (const auto& pair : found)
-    if (pair[0] < n)
-      report(polygon, pair[0], pair[1]);
+void Placement::tell_touches(const std::vector<RingTouch>& touches, std::vector<std::string>& warnings) const {
+  const std::size_t told = std::min(touches.size(), most_told);
+  for (const RingTouch& touch : std::span(touches).first(told))
+    warnings.push_back(fmt::format("{}:{}: rings touch at {} (line {} too); they are parted there by {:.2g}, and no "
+                                   "triangles join through this point",
+                                   contour_.source, touch.line, in_file(touch.place), touch.other_line,
+                                   ShapeRules::touch_gap * frame_.step() / normalization_.scale));
+  if (told < touches.size())
+    warnings.push_back(
+        fmt::format("{}: rings touch in {} more places and are parted there", contour_.source, touches.size() - told));
 }
 
-void Placement::report(const Polygon& polygon, LocalIndex i, LocalIndex j) const {
-  const Segment &s = polygon.grid.segments()[i], &t = polygon.grid.segments()[j];
-  const auto ring_of = [&](LocalIndex k) {
-    std::size_t ring = 0;
-    while (k >= polygon.rings[ring].first + polygon.rings[ring].count)
-      ++ring;
-    return ring;
-  };
-  const bool same = ring_of(i) == ring_of(j), crossing = meeting_of(s, t) == Meeting::crossing;
-  throw GeometryError(
-      fmt::format("{}:{}: the edge that starts here {} the edge that starts at line {} near {}; {}", contour_.source,
-                  segment_line_[i], crossing ? "crosses" : "touches", segment_line_[j], in_file(meeting_point(s, t)),
-                  same ? (crossing ? "a ring must not cross itself; is a blank line between two rings "
-                                     "missing?"
-                                   : "a ring touches itself; is a blank line between two rings missing?")
-                       : (crossing ? "two rings must not cross" : "two rings touch or overlap")));
+void Placement::report(const SegmentGrid& grid, const SegmentPair& pair) const {
+  const Segment &s = grid.segments()[at(pair[0])], &t = grid.segments()[at(pair[1])];
+  std::array<std::size_t, 2> ring{};
+  std::array<int, 2> line{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    auto index = at(pair[k]);
+    while (index >= rings_[ring[k]].points.size())
+      index -= rings_[ring[k]++].points.size();
+    line[k] = rings_[ring[k]].lines[index];
+  }
+  const bool same = ring[0] == ring[1], crossing = meeting_of(s, t) == Meeting::crossing;
+  const char* remedy = same && crossing ? "a ring must not cross itself; is a blank line between two rings missing?"
+                       : same           ? "a ring touches itself; is a blank line between two rings missing?"
+                       : crossing       ? "two rings must not cross; to join areas, make each a part of its own and "
+                                          "unite them in 'region'"
+                                        : "two rings touch or overlap along an edge, or cross at a vertex; make each a "
+                                          "part of its own and unite them in 'region', or take the common edge out";
+  throw GeometryError(fmt::format("{}:{}: the edge that starts here {} the edge that starts at line {} near {}; {}",
+                                  contour_.source, line[0], crossing ? "crosses" : "touches", line[1],
+                                  in_file(meeting_point(s, t)), remedy));
 }
 
 /// A warning for every ring that encloses a piece of its own, except the one of the largest area.
 void Placement::tell_pieces(const Polygon& polygon, std::vector<std::string>& warnings) const {
-  constexpr int most_warnings = 5;
   const std::span<const Segment> segments = polygon.grid.segments();
-  std::vector<LocalIndex> starts; // first segments of the rings that are no holes
+  std::vector<int> starts; // lines of the rings that are no holes
   double largest = 0;
   std::size_t main = 0;
-  for (const Polygon::Ring& ring : polygon.rings) {
+  for (std::size_t k = 0; k < polygon.rings.size(); ++k) {
+    const Polygon::Ring& ring = polygon.rings[k];
     const Vec2 origin = segments[ring.first].a;
     double twice_area = 0;
     for (const Segment& s : segments.subspan(ring.first, ring.count))
@@ -212,17 +185,17 @@ void Placement::tell_pieces(const Polygon& polygon, std::vector<std::string>& wa
       largest = std::fabs(twice_area);
       main = starts.size();
     }
-    starts.push_back(ring.first);
+    starts.push_back(rings_[k].lines[0]);
   }
-  int told = 0;
+  std::size_t told = 0;
   for (std::size_t k = 0; k < starts.size(); ++k)
-    if (k != main && ++told <= most_warnings)
+    if (k != main && ++told <= most_told)
       warnings.push_back(
           fmt::format("{}:{}: the ring that starts here lies outside the area of all others and becomes a "
                       "separate piece",
-                      contour_.source, segment_line_[starts[k]]));
-  if (told > most_warnings)
-    warnings.push_back(fmt::format("{}: {} more rings become separate pieces", contour_.source, told - most_warnings));
+                      contour_.source, starts[k]));
+  if (told > most_told)
+    warnings.push_back(fmt::format("{}: {} more rings become separate pieces", contour_.source, told - most_told));
 }
 
 void Placement::orient(Polygon& polygon) {

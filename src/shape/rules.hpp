@@ -2,6 +2,7 @@
 // The tuned numbers of the module shape: how formulas become curves, and what becomes one vertex.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 namespace trime::shape {
@@ -11,6 +12,26 @@ struct ShapeRules {
   /// [1] A contour that is normalised takes this share of the container's shorter side, so that a margin is left on all
   /// sides.
   static constexpr double normalized_share = 0.8;
+  /// [file units] Larger coordinates of a contour are refused, as those of a container are: squares stay finite.
+  /// Not measured.
+  static constexpr double largest_coordinate = 1e30;
+  /// [file units] A contour that is normalised is so wide or high at least: its inverse stays finite. Not measured.
+  static constexpr double smallest_normalized = 1e-30;
+  /// [steps] A vertex that an edge of a contour passes so near by, with a touch or a crossing there, lies on that edge:
+  /// snapping moves each end by up to one. Not measured.
+  static constexpr double on_edge = 2;
+  /// [steps] Where rings touch they are parted by so much. At a touch with 64 steps, 4e-12 of the container's side,
+  /// triangles on both sides are as good as elsewhere (a largest alpha of 1.12 beside two touching squares).
+  /// Not measured.
+  static constexpr double touch_gap = 64;
+  /// [1] A vertex whose arms enclose a half angle of a smaller sine stays where rings are parted, if another can move.
+  /// Not measured.
+  static constexpr double sharp_sine = 0.1;
+  /// [1] Where rings are parted, a vertex moves into its sector along the middle, or so far from it towards one of the
+  /// two arms: the first direction that keeps it out of the discs over other arms. Not measured.
+  static constexpr std::array<double, 7> tried_directions{0, 0.5, -0.5, 0.75, -0.75, 0.9, -0.9};
+  /// [1] A vertex in a sharper tip is moved no farther than one with a half angle of this sine. Not measured.
+  static constexpr double least_sine = 1.0 / 64;
   /// [1] Fine cells have this share of the longer side of the container, unless the config says else.
   static constexpr double default_resolution = 1.0 / 512;
   /// [cells] Vertices so near to each other are one: rounding, or a node of the grid on the curve, made two.

@@ -49,8 +49,9 @@ class BadInput(unittest.TestCase):
                     (work / path).write_text(text, encoding="utf-8")
                 before = sorted(work.rglob("*"))
                 place = [] if any("output.directory" in word for word in extra) else [f"output.directory={work}/result"]
-                done = run(work / name, *place, *extra, ranks=ranks, cwd=work, timeout=60)
-                self.check(done, code, expect)
+                for mode in ([], ["--validate"]):  # both find the same
+                    done = run(work / name, *place, *extra, *mode, ranks=ranks, cwd=work, timeout=60)
+                    self.check(done, code, expect)
                 left = [path for path in sorted(work.rglob("*")) if path not in before and path.is_file()]
                 self.assertEqual(left, [], "files left behind")
 
@@ -218,6 +219,8 @@ class BadInput(unittest.TestCase):
             for ranks in (1, 3):
                 done = run(work / "case.ini", f"output.directory={work}", ranks=ranks)
                 self.check(done, FILE, [r"case\.h5.*overwrite"])
+                self.check(run(work / "case.ini", f"output.directory={work}", "--validate", ranks=ranks), FILE,
+                           [r"case\.h5.*overwrite"])
             self.assertEqual((work / "case.h5").read_text(encoding="utf-8"), "precious")
             self.assertEqual(sorted(path.name for path in work.iterdir()), ["case.h5", "case.ini"])
             done = run(work / "case.ini", f"output.directory={work}", "output.overwrite=true")

@@ -72,6 +72,7 @@ class FixedPoints(unittest.TestCase):
                 self.assertEqual(done.returncode, code, done.stdout + done.stderr)
                 self.assertRegex(done.stderr, message)
                 self.assertFalse((directory / "job.h5").exists())
+                self.assertEqual(run(directory / "job.ini", "--validate", ranks=2).returncode, code)
         with Workspace() as directory:
             done = self.mesh(directory, "1 1\n", "meshing.fixed_points=missing.xy")
             self.assertEqual(done.returncode, 4, done.stderr)

@@ -97,11 +97,16 @@ def two(region, first, second):
 ANNULUS = "[shape]\nregion = difference(a, b)\n" + disc("a", 0.5, 0.5, 0.4)
 
 
+# What is finer than the triangles has bad ones; here the certificate is asked, not the angles.
+ANY_ANGLES = "meshing.worst_alpha=1e300"
+
+
 class HardShapes(unittest.TestCase):
     def mesh(self, shape, *overrides, euler=1, ranks=1):
         """Asserts a certified mesh; returns its hash and number of points."""
         with Workspace() as work:
-            done = run(config(shape, work), *overrides, f"output.directory={work}", ranks=ranks, timeout=TIMEOUT)
+            done = run(config(shape, work), ANY_ANGLES, *overrides, f"output.directory={work}", ranks=ranks,
+                       timeout=TIMEOUT)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             with h5py.File(work / "c.h5", "r") as file:
                 checks = file["trime_mpi/checks"]
@@ -141,8 +146,14 @@ class HardShapes(unittest.TestCase):
                    says=["touches itself at (0.5, 0.5) (part 'a', 'b')", "move the parts apart"])
         self.error(two("union", block("a", 0.1, 0.1, 0.5, 0.5), block("b", 0.5, 0.5, 0.9, 0.9)), "meshing.points=1000",
                    code=3, says=["touches itself at (0.5, 0.5)"])
-        self.error([rectangle(0.1, 0.1, 0.5, 0.5), rectangle(0.5, 0.5, 0.9, 0.9)], "meshing.points=1000", code=3,
-                   says=["c.xy:2: the edge that starts here touches", "(0.5, 0.5)"])
+        self.error([rectangle(0.1, 0.1, 0.5, 0.5), rectangle(0.5, 0.2, 0.9, 0.4)], "meshing.points=1000", code=3,
+                   says=["c.xy:2: the edge that starts here touches", "(0.5, 0.2)", "take the common edge out"])
+
+    def test_rings_that_touch_in_a_vertex(self):
+        self.mesh([rectangle(0.1, 0.1, 0.5, 0.5), rectangle(0.5, 0.5, 0.9, 0.9)], "meshing.points=1000", euler=2)
+        self.mesh([SQUARE, [(0.5, 0.1), (0.6, 0.3), (0.4, 0.3)]], "meshing.points=1000")  # the hole becomes a bay
+        self.mesh([[(0.1, 0.1), (0.5, 0.5), (0.9, 0.1), (0.9, 0.9), (0.5, 0.5), (0.1, 0.9)]], "meshing.points=1000",
+                  "sizing.type=automatic", euler=2)
 
     def test_nearly_touching(self):
         near = two("union", disc("a", 0.3, 0.5, 0.2), disc("b", 0.7, 0.5, 0.2 - 1e-7))

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <functional>
 #include <string>
 
 namespace trime {
@@ -34,6 +35,8 @@ public:
   /// step is printed (interval 0: steps 1, 2, 5, 10, 20, 50, ...), and those with `force`.
   void progress(long step, const std::string& line, bool force = false);
   void set_progress_interval(int interval) { interval_ = interval; }
+  /// From now on each message but progress lines is printed as `rewrite` returns it.
+  void set_rewriter(std::function<std::string(const std::string&)> rewrite) { rewrite_ = std::move(rewrite); }
 
 private:
   void write(LogLevel level, const std::string& message);
@@ -45,6 +48,7 @@ private:
   bool progress_open_ = false;
   int interval_ = 0;
   std::FILE* stream_;
+  std::function<std::string(const std::string&)> rewrite_; ///< none: messages are printed as they are
 };
 
 } // namespace trime

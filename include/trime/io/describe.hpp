@@ -13,6 +13,8 @@ namespace trime::io {
 MetadataGroup quality_group(const mesh::QualitySummary& quality);
 /// Group `checks`.
 MetadataGroup checks_group(const mesh::Checks& checks);
+/// QualitySummary::worst_triangles, as the group `worst_triangles`.
+MetadataGroup bad_triangles_group(const mesh::QualitySummary& quality);
 
 /// @brief Counts, hash, quality and checks, as write_mesh takes them; `complete` is 1 if all checks passed.
 Metadata describe(const mesh::DistributedMesh& mesh, const mesh::QualitySummary& quality, const mesh::Checks& checks);

@@ -43,6 +43,10 @@ public:
   /// @note Collective.
   std::vector<std::string> check(double expected_points);
 
+  /// @brief The same without making anything: goes by permissions alone. For those who only want to know.
+  /// @throws FileError on all ranks @note Collective.
+  std::vector<std::string> look(double expected_points) const;
+
   /// @brief Writes NAME_step_000012.h5 (12: the retriangulation) with its views, and the collections anew.
   /// @throws FileError on all ranks together
   /// @note Collective.

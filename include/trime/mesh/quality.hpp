@@ -88,6 +88,14 @@ private:
   std::vector<std::int64_t> bins_;
 };
 
+/// One of the worst triangles, and the sharp corner of the shape that excuses it.
+struct BadTriangle {
+  double alpha = 0;
+  geometry::Vec2 place;      ///< its centre
+  double corner_degrees = 0; ///< angle of the nearest sharp corner within 3 of its longest edges; 0: there is none
+  geometry::Vec2 corner;
+};
+
 /// Quality of a whole mesh, as printed and stored.
 struct QualitySummary {
   RatioSummary alpha, beta;
@@ -95,6 +103,9 @@ struct QualitySummary {
   geometry::Vec2 worst_place;         ///< centre of the triangle with the largest alpha
   double size_mean = 1, size_std = 0; ///< L / (s h(mid)) over edges; s is chosen so that the mean is 1
   std::array<std::int64_t, 9> alpha_histogram{};
+  std::int64_t bad_triangles = 0;           ///< of an alpha above 2
+  std::vector<BadTriangle> worst_triangles; ///< of these, the worst first; at most 10
+  BadTriangle worst_away;                   ///< the worst of these that no corner excuses; alpha 0: there is none
 };
 
 } // namespace trime::mesh

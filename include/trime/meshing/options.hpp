@@ -47,6 +47,7 @@ struct MeshOptions {
   /// comparisons.
   int density_exponent = 4;
   sweep::StarTests star_tests; ///< slow
+  double worst_alpha = 5;      ///< a worse triangle away from corners below 60 degrees fails a check of the mesh
   bool cleanup = true;         ///< mend the worst triangles after the sweeps
   /// 0: none; -2: a snapshot of the first triangulation; n > 0: of the first and of every n-th.
   int snapshot_interval = 0;

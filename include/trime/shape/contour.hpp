@@ -28,11 +28,14 @@ struct Contour {
 /// @throws ConfigError for `.poly` and `.geojson`, which this version does not read; FileError if it cannot be read
 std::string read_contour_text(const std::string& path, const std::string& hint = "");
 
-/// @brief Rings of `.xy` text: one `x y` a line, a blank line ends a ring, `#` and `;` start comments.
+/// @brief Rings of `.xy` text: one `x y` a line, a blank line or one that starts with `>` ends a ring, `#` and `;`
+/// start comments.
 ///
-/// A ring may repeat its first vertex at its end or not; repeated consecutive vertices are merged with a warning.
-/// @throws GeometryError `source:line: ...` for a line that is not two finite numbers, a ring with fewer than three
-/// distinct vertices, a text without vertices
+/// Lines end by LF, CR LF or CR. Exponents may be written with `d` (Fortran). A first line `x y`, `lon lat` or the like
+/// is left out with a warning. A ring may repeat its first vertex at its end or not; repeated consecutive vertices are
+/// merged with a warning.
+/// @throws GeometryError `source:line: ...` for a line that is not two finite numbers of at most 1e30, a ring with
+/// fewer than three distinct vertices, a text without vertices, UTF-16
 Contour parse_xy(std::string_view text, const std::string& source);
 
 /// A point with its line in the file.
@@ -41,7 +44,7 @@ struct FilePoint {
   int line;
 };
 
-/// @brief Points of `.xy` text: one `x y` a line; blank lines mean nothing, `#` and `;` start comments.
+/// @brief Points of `.xy` text, as in parse_xy; blank lines and those with `>` mean nothing.
 /// @throws GeometryError `source:line: ...` for a line that is not two finite numbers, or without any point
 std::vector<FilePoint> parse_points(std::string_view text, const std::string& source);
 
@@ -64,6 +67,7 @@ struct Normalization {
 
 /// @brief Moves the centre of the bounding box of all rings to the centre of the container, and scales its longer side
 /// to 0.8 of the container's shorter side.
+/// @throws GeometryError if both sides are below 1e-30
 Normalization fit_to_container(const Contour& contour, const geometry::Box& container);
 
 } // namespace trime::shape

@@ -29,8 +29,10 @@ public:
   /// @brief Rings of a contour, moved by `normalization` and snapped; holes by even-odd nesting.
   ///
   /// O(M log M) for M vertices; the test for crossings uses all threads.
-  /// @throws GeometryError `source:line: ...` if rings cross, touch or overlap themselves or each other, enclose no
-  /// area, or leave frame.reach()
+  /// Rings that touch at a vertex are parted there by some 1e-12 of the container, and the area does not reach through
+  /// the gap. A ring given twice is used once. Warnings tell both.
+  /// @throws GeometryError `source:line: ...` if rings cross or overlap along edges, enclose no area, or leave
+  /// frame.reach()
   static Part contour(const std::string& name, const Contour& contour, const Normalization& normalization,
                       const geometry::Frame& frame);
   /// @brief A polygon that is on the lattice already. @param warnings for the user, one sentence each

@@ -79,7 +79,7 @@ TEST(RunReport, AFailedCheckMarksTheFile) {
   const std::string text;
   const Placement placement;
   const geometry::Boundary boundary;
-  const Provenance provenance{line, options, text, placement, boundary};
+  const Provenance provenance{line, options, text, placement, boundary, {}};
   meshing::MeshResult result = good_result();
   EXPECT_EQ(number(describe_run(provenance, result, {}, {}), "complete"), 1);
   result.checks.push_back({"vertex_distance", 1e-9, 1e-7, false, "boundary vertices"});
@@ -98,7 +98,7 @@ TEST(RunReport, TheTableOfTagsNamesLoopsAndParts) {
   const Placement placement;
   geometry::Boundary boundary;
   boundary.part_names = {"square", "unused", "disc"};
-  const Provenance provenance{line, options, text, placement, boundary};
+  const Provenance provenance{line, options, text, placement, boundary, {}};
   meshing::MeshResult result = good_result();
   using Kind = polygon::LoopSummary::Kind;
   result.loops = {{1, Kind::outer, 40, 3.25, {0, 2}}, {2, Kind::hole, 7, 0.5, {2}}, {3, Kind::band, 9, 1, {0}}};
@@ -123,6 +123,31 @@ TEST(RunReport, SaysHowManyPointsWereAskedForAndWhatTheSizesAre) {
   EXPECT_NE(text.find("2000 asked for, 1000 made (50.00 %): the sizes have bounds\n"), std::string::npos) << text;
   EXPECT_NE(text.find("Size: automatic; target edge length from 0.5 to 0.75\n"), std::string::npos) << text;
   EXPECT_NE(run_report(result, {"uniform", 0.5, 0.5}, {}, {}).find("target edge length 0.5\n"), std::string::npos);
+}
+
+TEST(RunReport, ColumnsStandWhenNumbersAreLarge) {
+  meshing::MeshResult result = good_result();
+  result.checks = {{"euler_characteristic", 1, 1, true, "of the shape"},
+                   {"area", 123456789012.25, 123456789012.25, true, "triangles fill the boundary polygon"},
+                   {"written_triangles", 123456789012345, 123456789012345, true, "the triangles"}};
+  result.quality.alpha = {1.0004, 35.63824, 41917.2643, 1.2969, 2e9};
+  const std::string text = run_report(result, {}, {}, {});
+  const auto column_of = [&](const std::string& line, const std::string& word) {
+    const std::size_t start = text.find(line);
+    return text.find(word, start) - text.rfind('\n', start);
+  };
+  EXPECT_EQ(column_of("ok     euler", "found"), column_of("ok     area", "found")) << text;
+  EXPECT_EQ(column_of("ok     euler", "of the shape"), column_of("ok     written", "the triangles")) << text;
+  EXPECT_NE(text.find("   35.6382 4.192e+04 "), std::string::npos) << text;
+  EXPECT_EQ(column_of("  alpha  ", "2.000e+09") + 9, column_of("  beta  ", "0.0000\n") + 6) << text;
+}
+
+TEST(RunReport, TellsTheTransformOfANormalizedContour) {
+  const std::vector<NormalizedPart> parts{{"sea", "coast.xy", 0.25, {-3, 1.5}}};
+  EXPECT_NE(
+      run_report(good_result(), {}, {}, {}, parts)
+          .find("part 'sea', coordinates of coast.xy are (x - -3)/s and (y - 1.5)/s of those of the mesh, s = 0.25"),
+      std::string::npos);
 }
 
 TEST(RunReport, TheSmallestAndLargestSizeAreThoseOfAllRanks) {

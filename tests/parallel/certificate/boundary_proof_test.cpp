@@ -91,7 +91,7 @@ protected:
     return 0.5 * twice;
   }
 
-  BoundaryTruth truth() const { return {boundary, boundary, sites, size, frame.lattice(), 1, area(), size}; }
+  BoundaryTruth truth() const { return {boundary, boundary, sites, size, size, frame.lattice(), 1, area()}; }
 
   /// Names of the checks that fail, in order.
   std::vector<std::string> failures(const BoundaryTruth& truth, const mesh::DistributedMesh& mesh) const {
@@ -147,14 +147,14 @@ TEST_F(BoundaryProof, FindsVerticesBesideTheCurve) {
   EXPECT_EQ(failures(truth(), mesh), Names{});
   sites.sites[3].along += 1e-8;
   EXPECT_EQ(failures(truth(), mesh), Names{"vertex_distance"}) << "a site that is not at its place";
-  const BoundaryTruth larger{other.boundary(), boundary, sites, size, frame.lattice(), 1, area(), size};
+  const BoundaryTruth larger{other.boundary(), boundary, sites, size, size, frame.lattice(), 1, area()};
   EXPECT_EQ(failures(larger, mesh), Names{"vertex_distance"}) << "the shape is another one";
 }
 
 TEST_F(BoundaryProof, FindsACornerThatMovedByOneStep) {
   const RegionShape triangle({Part::triangle("t", {Vec2{0.1, 0.1}, {0.9, 0.2}, {0.4, 0.8}}, frame)}, "t", frame);
   sites = make_boundary_sites(triangle.boundary(), size, frame.lattice(), 30);
-  BoundaryTruth truth{triangle.boundary(), triangle.boundary(), sites, size, frame.lattice(), 1, area(), size};
+  BoundaryTruth truth{triangle.boundary(), triangle.boundary(), sites, size, size, frame.lattice(), 1, area()};
   EXPECT_EQ(failures(truth, mesh_of_sites()), Names{});
   const auto corner = std::find_if(sites.sites.begin() + 1, sites.sites.end(), [](const auto& s) { return s.corner; });
   corner->position.x += frame.step();
@@ -165,14 +165,17 @@ TEST_F(BoundaryProof, FindsACornerThatMovedByOneStep) {
 TEST_F(BoundaryProof, FindsChordsThatLeaveTheCurve) {
   const mesh::DistributedMesh mesh = mesh_of_sites();
   const sizing::UniformSize tiny(1e-4);
-  const BoundaryTruth fine{boundary, boundary, sites, tiny, frame.lattice(), 1, area(), size};
+  const BoundaryTruth fine{boundary, boundary, sites, size, tiny, frame.lattice(), 1, area()};
   EXPECT_EQ(failures(fine, mesh), Names{"chord_deviation"}) << "edges far longer than h";
+  const BoundaryTruth lowered{boundary, boundary, sites, tiny, size, frame.lattice(), 1, area()};
+  EXPECT_EQ(failures(lowered, mesh), Names{})
+      << "the size was lowered: corners are left out by shares of the asked one";
   // The curve goes all the way round from one site to its next.
   BoundarySites turned = sites;
   std::swap(turned.sites[1].position, turned.sites[2].position);
   std::swap(turned.sites[1].along, turned.sites[2].along);
   std::swap(turned.sites[1].piece, turned.sites[2].piece);
-  const BoundaryTruth round{boundary, boundary, turned, size, frame.lattice(), 1, area(), size};
+  const BoundaryTruth round{boundary, boundary, turned, size, size, frame.lattice(), 1, area()};
   const Names found = failures(round, mesh);
   EXPECT_NE(std::find(found.begin(), found.end(), "chord_deviation"), found.end());
   EXPECT_NE(std::find(found.begin(), found.end(), "arc_deviation"), found.end());
@@ -181,11 +184,11 @@ TEST_F(BoundaryProof, FindsChordsThatLeaveTheCurve) {
 TEST_F(BoundaryProof, FindsAreaThatChordsDoNotExplain) {
   const mesh::DistributedMesh mesh = mesh_of_sites();
   const double shape_area = boundary.area;
-  BoundaryTruth wrong{boundary, boundary, sites, size, frame.lattice(), 1, area() + 2e-10 * shape_area, size};
+  BoundaryTruth wrong{boundary, boundary, sites, size, size, frame.lattice(), 1, area() + 2e-10 * shape_area};
   EXPECT_EQ(failures(wrong, mesh), Names{"area_residual"});
   wrong.mesh_area = area() + 0.5e-10 * shape_area;
   EXPECT_EQ(failures(wrong, mesh), Names{});
-  const BoundaryTruth larger{boundary, other.boundary(), sites, size, frame.lattice(), 1, area(), size};
+  const BoundaryTruth larger{boundary, other.boundary(), sites, size, size, frame.lattice(), 1, area()};
   const Names found = failures(larger, mesh);
   EXPECT_NE(std::find(found.begin(), found.end(), "vertex_distance"), found.end());
 }

@@ -201,6 +201,7 @@ TEST(MeshSeries, RefusesWhatLiesInTheWay) {
     comm.barrier();
     SeriesOptions options = options_in(directory.path());
     EXPECT_THROW(MeshSeries(options, comm).check(1000), Error) << file;
+    EXPECT_THROW(MeshSeries(options, comm).look(1000), Error) << file;
     options.file.overwrite = true;
     EXPECT_NO_THROW(MeshSeries(options, comm).check(1000)) << file;
   }

@@ -88,13 +88,73 @@ TEST(Contour, CrossingsAreLocated) {
                {"map.xy:2", "crosses", "line 6", "two rings", "(0.5, 0.3)"});
 }
 
-TEST(Contour, TouchingIsLocated) {
-  // A vertex on an edge, a vertex visited twice, an edge on an edge, twice the same ring, a corner at an edge.
-  expect_error("0 0\n1 0\n1 1\n0.5 0\n0 1\n", {"map.xy:1", "touches", "touches itself", "(0.5, 0)"});
-  expect_error("0 0\n0.5 0.5\n1 0\n1 1\n0.5 0.5\n0 1\n", {"touches itself", "(0.5, 0.5)"});
-  expect_error("0 0\n0.5 0\n0.5 0.5\n0 0.5\n\n0.5 0.1\n0.9 0.1\n0.9 0.2\n0.5 0.2\n", {"map.xy:2", "two rings touch"});
-  expect_error("0 0\n0.5 0\n0.5 0.5\n\n0.5 0\n0.5 0.5\n0 0\n", {"two rings touch"});
-  expect_error("0 0\n0.5 0\n0.5 0.5\n0 0.5\n\n0.5 0.25\n0.9 0.1\n0.9 0.2\n", {"map.xy:2", "(0.5, 0.25)"});
+TEST(Contour, OverlapsAreLocated) {
+  // An edge on an edge, another edge on an edge, two rings that cross at their vertices.
+  expect_error("0 0\n0.5 0\n0.5 0.5\n0 0.5\n\n0.5 0.1\n0.9 0.1\n0.9 0.2\n0.5 0.2\n",
+               {"map.xy:2", "line 6", "two rings touch or overlap", "common edge"});
+  expect_error("0 0\n0.5 0\n0.5 0.5\n\n0.5 0\n0.5 0.5\n0.9 0.5\n", {"two rings touch"});
+  expect_error("0.2 0.2\n0.5 0.2\n0.8 0.2\n0.8 0.5\n0.2 0.5\n\n0.5 0\n0.6 0.1\n0.5 0.2\n0.6 0.4\n0.4 0.1\n",
+               {"map.xy:1", "cross at a vertex", "(0.5, 0.2)"});
+}
+
+/// Area, components and holes of the contour; checks that the boundary is valid, and that so many touches are told.
+void expect_parted(const std::string& text, double area, int components, int holes, std::size_t touches) {
+  const Part part = part_of(text);
+  const RegionShape shape({part}, "spade", unit_frame);
+  expect_valid(shape.boundary());
+  expect_inside_on_left(shape);
+  EXPECT_NEAR(shape.boundary().area, area, 1e-10) << text;
+  EXPECT_EQ(shape.boundary().components(), components) << text;
+  EXPECT_EQ(shape.boundary().holes(), holes) << text;
+  std::size_t told = 0;
+  for (const std::string& warning : part.warnings())
+    told += warning.find("rings touch at (") != std::string::npos ? 1 : 0;
+  EXPECT_EQ(told, touches) << text;
+}
+
+TEST(Contour, RingsThatTouchAreParted) {
+  const std::string square = "0.1 0.1\n0.5 0.1\n0.9 0.1\n0.9 0.9\n0.1 0.9\n";
+  // A hole at a vertex of the outer ring, at its edge, at its corner: a bay. Two holes at each other: one hole.
+  expect_parted(square + "\n0.5 0.1\n0.6 0.3\n0.4 0.3\n", 0.62, 1, 0, 1);
+  expect_parted(square + "\n0.3 0.1\n0.4 0.3\n0.2 0.3\n", 0.62, 1, 0, 1);
+  expect_parted(square + "\n0.1 0.1\n0.3 0.3\n0.3 0.2\n", 0.63, 1, 0, 1);
+  expect_parted(square + "\n0.5 0.5\n0.6 0.7\n0.4 0.7\n\n0.5 0.5\n0.6 0.3\n0.4 0.3\n", 0.6, 1, 1, 1);
+  // A hole at the outer ring twice cuts the area in two.
+  expect_parted(square + "\n0.5 0.1\n0.6 0.5\n0.5 0.9\n0.4 0.5\n", 0.56, 2, 0, 2);
+  // Two squares at a corner; a ring that pinches the area; a hole as a loop of the outer ring; four at one place.
+  expect_parted("0.1 0.1\n0.5 0.1\n0.5 0.5\n0.1 0.5\n\n0.5 0.5\n0.9 0.5\n0.9 0.9\n0.5 0.9\n", 0.32, 2, 0, 1);
+  expect_parted("0 0\n0.5 0.5\n1 0\n1 1\n0.5 0.5\n0 1\n", 0.5, 2, 0, 1);
+  expect_parted("0 0\n1 0\n1 1\n0.5 0\n0 1\n", 0.5, 2, 0, 1);
+  for (const char* loop : {"0.6 0.3\n0.4 0.3\n", "0.4 0.3\n0.6 0.3\n"})
+    expect_parted(fmt::format("0.5 0.1\n{}0.5 0.1\n0.9 0.1\n0.9 0.9\n0.1 0.9\n0.1 0.1\n", loop), 0.62, 1, 0, 1);
+  expect_parted("0.5 0.5\n0.9 0.4\n0.9 0.6\n\n0.5 0.5\n0.6 0.9\n0.4 0.9\n\n0.5 0.5\n0.1 0.6\n0.1 0.4\n\n"
+                "0.5 0.5\n0.4 0.1\n0.6 0.1\n",
+                0.16, 4, 0, 1);
+  // A vertex that snapping leaves beside the slanted edge it is meant to lie on.
+  expect_parted("0.1 0.1\n0.8 0.2\n0.1 0.9\n\n0.3 0.12857142857142856\n0.3 0.3\n0.2 0.3\n", 0.28 - 0.0085714286, 1, 0,
+                1);
+}
+
+TEST(Contour, TouchesInALongChainAreAllParted) {
+  std::string text;
+  for (int k = 0; k < 500; ++k) // squares corner to corner
+    text += fmt::format("{0} {0}\n{1} {0}\n{1} {1}\n{0} {1}\n\n", k / 512.0, (k + 1) / 512.0);
+  const Part part = part_of(text);
+  const RegionShape shape({part}, "spade", unit_frame);
+  EXPECT_EQ(shape.boundary().components(), 500);
+  EXPECT_NEAR(shape.boundary().area, 500 / 512.0 / 512.0, 1e-10);
+  EXPECT_LT(part.warnings().size(), 15u);
+}
+
+TEST(Contour, ARingGivenTwiceIsUsedOnce) {
+  const Part part = part_of("0 0\n0.5 0\n0.5 0.5\n\n0.5 0.5\n0.5 0\n0 0\n\n0.6 0.6\n0.7 0.6\n0.7 0.7\n\n"
+                            "0.5 0\n0.5 0.5\n0 0\n");
+  EXPECT_EQ(part.boundary().size(), 2u);
+  ASSERT_EQ(part.warnings().size(), 3u); // two repeated, one piece apart
+  EXPECT_NE(part.warnings()[0].find("map.xy:5: the ring that starts here was given before, at line 1"),
+            std::string::npos)
+      << part.warnings()[0];
+  EXPECT_NE(part.warnings()[1].find("map.xy:13:"), std::string::npos) << part.warnings()[1];
 }
 
 TEST(Contour, SpikesAreLocated) {
@@ -157,6 +217,50 @@ TEST(Contour, OrientationFollowsFromNesting) {
       outer += loop.outer ? 1 : 0;
     EXPECT_EQ(outer, 3);
   }
+}
+
+TEST(Contour, ReadsWhatOtherProgramsWrite) {
+  const std::vector<Vec2> triangle{{0.125, 0}, {1, 0}, {0, 1}};
+  for (const char* text : {"1.25D-1 0\n1d0 0\n0 +1.0D+00\n", "0.125 0\r1 0\r0 1\r", "0.125 0\r\n1 0\r\r\n0 1",
+                           "> a ring\n.125 0\n1 0\n0 1\n>", "# lines\n0.125 1e-400\n1 4.9e-324\n0 1\n"}) {
+    const Contour contour = parse_xy(text, "map.xy");
+    ASSERT_EQ(contour.rings.size(), 1u) << text;
+    ASSERT_EQ(contour.rings[0].points.size(), 3u) << text;
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(length(contour.rings[0].points[k] - triangle[k]), 0, 1e-300) << text;
+    EXPECT_TRUE(contour.warnings.empty());
+  }
+  const Contour two = parse_xy(">\r0 0\r1 0\r0 1\r>\r.2 .2\r.3 .2\r.2 .3\r\r.5 .2\r.6 .2\r.5 .3\r", "map.xy");
+  ASSERT_EQ(two.rings.size(), 3u);
+  EXPECT_EQ(two.rings[1].lines, (std::vector<int>{6, 7, 8}));
+  EXPECT_EQ(two.rings[2].lines[0], 10);
+}
+
+TEST(Contour, TakesNamesOfColumnsForWhatTheyAre) {
+  for (const char* names : {"x y", "X\tY", "lon lat", "\"Longitude\",\"Latitude\""}) {
+    const Contour contour = parse_xy(std::string(names) + "\n0 0\n1 0\n0 1\n", "map.xy");
+    EXPECT_EQ(contour.rings[0].points.size(), 3u);
+    ASSERT_EQ(contour.warnings.size(), 1u);
+    EXPECT_NE(contour.warnings[0].find("map.xy:1:"), std::string::npos);
+  }
+  expect_error("lat lon\n0 0\n1 0\n0 1\n", {"map.xy:1", "x (longitude) before y"});
+  expect_error("id x y\n0 0\n1 0\n0 1\n", {"map.xy:1", "put '#' before it"});
+  expect_error("0 0\nx y\n1 0\n0 1\n", {"map.xy:2", "two numbers"});
+  EXPECT_NE(message_of<GeometryError>([] { parse_points("x y\n0 0\n", "p.xy"); }).find("p.xy:1"), std::string::npos);
+}
+
+TEST(Contour, OtherEncodingsAndNumbersAreToldWithARemedy) {
+  expect_error(std::string("\xFF\xFE"
+                           "0\0 \0",
+                           6),
+               {"map.xy:1", "UTF-16", "iconv"});
+  expect_error(std::string("0\0 \0000\0\n\0", 9), {"map.xy:1", "zero bytes", "UTF-8"});
+  expect_error("{\"type\": \"Polygon\"}", {"map.xy:1", "GeoJSON"});
+  expect_error("0 0\n1 0\n0 1\nNaN NaN\n0 0\n", {"map.xy:4", "blank line", "'>'"});
+  expect_error("0 0\n1 0\n0.5 1e200\n", {"map.xy:3", "at most 1e+30", "1e+200"});
+  const Contour small = parse_xy("0 0\n1e-310 0\n0 1e-310\n", "map.xy");
+  EXPECT_NE(message_of<GeometryError>([&] { fit_to_container(small, unit_frame.container()); }).find("1e-310 wide"),
+            std::string::npos);
 }
 
 TEST(Contour, SkipsAByteOrderMark) {

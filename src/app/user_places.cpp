@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/user_places.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+namespace trime::app {
+namespace {
+
+using geometry::Vec2;
+
+/// [extent of the contour] A place farther from all its vertices is not told by them.
+constexpr double farthest = 0.25;
+
+bool is_name(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/// "(x, y)" at the start of the text; its length too.
+struct FoundPlace {
+  Vec2 place;
+  std::size_t length;
+};
+std::optional<FoundPlace> place_at(std::string_view text) {
+  FoundPlace found{};
+  const char *at = text.data() + 1, *end = text.data() + text.size();
+  const auto x = std::from_chars(at, end, found.place.x);
+  if (x.ec != std::errc{} || !std::string_view(x.ptr, end).starts_with(", "))
+    return std::nullopt;
+  const auto y = std::from_chars(x.ptr + 2, end, found.place.y);
+  if (y.ec != std::errc{} || y.ptr == end || *y.ptr != ')' || !std::isfinite(found.place.x + found.place.y))
+    return std::nullopt;
+  found.length = static_cast<std::size_t>(y.ptr + 1 - text.data());
+  return found;
+}
+
+} // namespace
+
+void UserPlaces::add(const shape::Contour& contour, const shape::Normalization& place) {
+  OneContour one{contour.source, place, place.scale != 1 || place.from != place.to, {}, {}, {}};
+  for (const shape::ContourRing& ring : contour.rings)
+    for (std::size_t k = 0; k < ring.points.size(); ++k) {
+      one.vertices.push_back(place.apply(ring.points[k]));
+      one.lines.push_back(ring.lines[k]);
+      one.box.include(one.vertices.back());
+    }
+  contours_.push_back(std::move(one));
+}
+
+/// In brackets, with a blank before them; nothing if no contour is near.
+std::string UserPlaces::name_of(Vec2 place) const {
+  const OneContour* contour = nullptr;
+  std::size_t vertex = 0;
+  double least = INFINITY;
+  for (const OneContour& one : contours_) {
+    const double reach = farthest * std::fmax(one.box.width(), one.box.height());
+    for (std::size_t k = 0; k < one.vertices.size(); ++k)
+      if (const double d = squared_length(one.vertices[k] - place); d < least && d < reach * reach) {
+        least = d;
+        contour = &one;
+        vertex = k;
+      }
+  }
+  if (contour == nullptr)
+    return "";
+  const Vec2 user = contour->place.undo(place);
+  return contour->moved
+             ? fmt::format(" [{}:{}: ({:.10g}, {:.10g})]", contour->file, contour->lines[vertex], user.x, user.y)
+             : fmt::format(" [{}:{}]", contour->file, contour->lines[vertex]);
+}
+
+std::string UserPlaces::explain(const std::string& message) const {
+  if (contours_.empty())
+    return message;
+  std::string text;
+  for (std::size_t at = 0; at < message.size();) {
+    const bool starts = message[at] == '(' && (at == 0 || !is_name(message[at - 1])); // no argument list
+    const auto found = starts ? place_at(std::string_view(message).substr(at)) : std::nullopt;
+    const std::size_t length = found ? found->length : 1;
+    text.append(message, at, length);
+    if (found)
+      text += name_of(found->place);
+    at += length;
+  }
+  return text;
+}
+
+} // namespace trime::app

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where a place of the container lies in the files of the user: messages of all modules speak of the container.
+#pragma once
+
+#include "trime/geometry/vec2.hpp"
+#include "trime/shape/contour.hpp"
+
+#include <string>
+#include <vector>
+
+namespace trime::app {
+
+/// A contour that was normalised: container = scale * user + shift.
+struct NormalizedPart {
+  std::string name; ///< of the part
+  std::string file;
+  double scale = 1;
+  geometry::Vec2 shift;
+};
+
+/// @brief The vertices of all contours, in the container and in their files. Empty at first.
+class UserPlaces {
+public:
+  /// @param place what the vertices undergo on their way into the container
+  void add(const shape::Contour& contour, const shape::Normalization& place);
+
+  /// @brief The message with `[FILE:LINE]`, the nearest vertex, behind each place "(x, y)" in it; with
+  /// `[FILE:LINE: (x, y)]`, in the coordinates of the file, if the contour is normalised.
+  ///
+  /// Places that are far from all contours stay as they are, and so does the whole without contours. O(vertices) for
+  /// each place.
+  std::string explain(const std::string& message) const;
+
+private:
+  struct OneContour {
+    std::string file;
+    shape::Normalization place;
+    bool moved;
+    geometry::Box box; ///< in the container
+    std::vector<geometry::Vec2> vertices;
+    std::vector<int> lines;
+  };
+  std::string name_of(geometry::Vec2 place) const;
+
+  std::vector<OneContour> contours_;
+};
+
+} // namespace trime::app

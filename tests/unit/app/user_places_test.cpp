@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Places in messages, told in the user's own coordinates and by the line of the nearest vertex.
+#include "app/user_places.hpp"
+
+#include <gtest/gtest.h>
+
+namespace trime::app {
+namespace {
+
+using geometry::Vec2;
+
+/// A square of side 200 around (1000, 5000), which goes to [0.1, 0.9]^2.
+UserPlaces places_of_square() {
+  const shape::Contour contour = shape::parse_xy("# a coast\n900 4900\n1100 4900\n1100 5100\n900 5100\n", "coast.xy");
+  UserPlaces places;
+  places.add(contour, {{1000, 5000}, {0.5, 0.5}, 0.004});
+  return places;
+}
+
+UserPlaces square_as_given() {
+  UserPlaces places;
+  places.add(shape::make_contour({{{0.1, 0.1}, {0.9, 0.1}, {0.5, 0.9}}}, "ring.xy"), {});
+  return places;
+}
+
+TEST(UserPlaces, TellPlacesOfANormalizedContourInItsCoordinates) {
+  EXPECT_EQ(places_of_square().explain("worst triangle at (0.88, 0.9)"),
+            "worst triangle at (0.88, 0.9) [coast.xy:4: (1095, 5100)]");
+}
+
+TEST(UserPlaces, TellTheLineOfTheNearestVertex) {
+  EXPECT_EQ(square_as_given().explain("too narrow near (0.88, 0.11): 3 apart"),
+            "too narrow near (0.88, 0.11) [ring.xy:2]: 3 apart");
+  EXPECT_EQ(square_as_given().explain("at (5e-1, 0.9), (0.1, 0.1000001)"),
+            "at (5e-1, 0.9) [ring.xy:3], (0.1, 0.1000001) [ring.xy:1]");
+}
+
+TEST(UserPlaces, LeaveTheRestAlone) {
+  for (const char* text : {"atan2(0.5, 0.5) is no place", "(0.5; 0.5)", "( 0.5, 0.5)", "(0.5, 0.5", "(0.5, x)", "(",
+                           "(nan, 0.5)", "far away at (7, 7)", ""})
+    EXPECT_EQ(square_as_given().explain(text), text);
+  EXPECT_EQ(UserPlaces().explain("at (0.5, 0.5)"), "at (0.5, 0.5)");
+}
+
+} // namespace
+} // namespace trime::app
