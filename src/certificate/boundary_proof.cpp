@@ -19,7 +19,8 @@ using polygon::BoundarySite;
 using polygon::ChordCurve;
 using polygon::compare_chords;
 
-/// Largest distance of a boundary vertex from the curve: of those written, from the nearest piece of it; of those laid out, from their places on it. Collective.
+/// Largest distance of a boundary vertex from the curve: of those written, from the nearest piece of it; of those laid
+/// out, from their places on it. Collective.
 double vertex_distance(const BoundaryTruth& truth, const std::vector<ChordCurve>& chords,
                        const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
   const geometry::PieceTree pieces(truth.meshed);
@@ -186,8 +187,9 @@ mesh::Checks prove_boundary(const BoundaryTruth& truth, const mesh::DistributedM
       count_check("foreign_tags", 0, cycles.foreign, "facets with another tag than their cycle"),
       count_check("corner_places", truth.sites.corners, corners_in_place(truth),
                   "corners that are vertices of the shape, bit for bit"),
-      limit_check("vertex_distance", std::max(CertificateRules::vertex_limit, step / truth.side), distance,
-                  "boundary vertices from the curves that were meshed, over the longer side of the container (at most)"),
+      limit_check(
+          "vertex_distance", std::max(CertificateRules::vertex_limit, step / truth.side), distance,
+          "boundary vertices from the curves that were meshed, over the longer side of the container (at most)"),
       limit_check("generalisation", CertificateRules::generalisation_limit, generalisation(truth),
                   "the curves that were meshed from the shape's boundary, over h (at most)"),
       limit_check("chord_deviation", CertificateRules::chord_limit, extremes.deviation,

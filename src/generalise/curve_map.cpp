@@ -39,8 +39,9 @@ void CurveMap::add_strands(LocalIndex loop) {
   for (LocalIndex k = 0; k < std::ssize(pieces); ++k) {
     const geometry::Piece& piece = pieces[at(k)];
     const double whole = piece.length();
-    const int parts =
-        piece.circular ? std::max(1, static_cast<int>(std::ceil(std::fabs(piece.sweep) / GeneraliseRules::arc_step))) : 1;
+    const int parts = piece.circular
+                          ? std::max(1, static_cast<int>(std::ceil(std::fabs(piece.sweep) / GeneraliseRules::arc_step)))
+                          : 1;
     for (int j = 0; j < parts; ++j)
       strands_.push_back({loop, k, whole * j / parts, j + 1 == parts ? whole : whole * (j + 1) / parts, 0, 0});
   }

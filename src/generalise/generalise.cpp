@@ -35,7 +35,6 @@ bool matters(const Triangulation& mesh, const NarrowPart& part) {
   return part.depth > GeneraliseRules::least_depth * part.size && part.depth > lid;
 }
 
-
 /// The tips of the corners of the shape as it was given: they stay, however sharp.
 class Corners {
 public:
@@ -55,8 +54,8 @@ private:
 
 /// Takes narrow parts out of the shape: the parts less wide than a share of h, or than a part of that if all of the
 /// shape is.
-void cut_narrow_parts(const CurveMap& map, const std::vector<char>& given, Corners& corners,
-                      std::vector<char>& labels, GeneralisedCounts& counts) {
+void cut_narrow_parts(const CurveMap& map, const std::vector<char>& given, Corners& corners, std::vector<char>& labels,
+                      GeneralisedCounts& counts) {
   const Triangulation& mesh = map.mesh();
   double share = GeneraliseRules::narrow_inside;
   for (int round = 0; round < GeneraliseRules::narrower_rounds; ++round, share *= 0.5) {
@@ -125,7 +124,6 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
   if (!map.is_valid())
     return nullptr;
   add_nodes_to_narrow_parts(map);
-  const Triangulation& mesh = map.mesh();
   const std::vector<char> given = map.inside();
   auto result = std::make_unique<Generalised>();
   GeneralisedCounts& counts = result->counts;
@@ -169,7 +167,8 @@ std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const si
     return nullptr;
   std::unique_ptr<Generalised> result;
   Corners corners;
-  for (int pass = 0; pass < GeneraliseRules::most_passes; ++pass) { // parts that were moved apart may leave others narrow
+  for (int pass = 0; pass < GeneraliseRules::most_passes;
+       ++pass) { // parts that were moved apart may leave others narrow
     std::unique_ptr<Generalised> next = pass_over(result ? result->boundary : boundary, size, lattice, narrow, corners);
     corners.is_first_pass = false;
     if (!next)

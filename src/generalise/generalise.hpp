@@ -16,12 +16,12 @@ enum class Narrow { keep, close };
 
 /// What was done.
 struct GeneralisedCounts {
-  std::int64_t cut = 0;       ///< narrow parts of the shape that were taken away
-  std::int64_t filled = 0;    ///< holes with a small perimeter
-  std::int64_t closed = 0;    ///< narrow parts of the outside that were filled
-  std::int64_t widened = 0;   ///< narrow parts of the outside whose sides were moved apart
+  std::int64_t cut = 0;     ///< narrow parts of the shape that were taken away
+  std::int64_t filled = 0;  ///< holes with a small perimeter
+  std::int64_t closed = 0;  ///< narrow parts of the outside that were filled
+  std::int64_t widened = 0; ///< narrow parts of the outside whose sides were moved apart
   double cut_area = 0, closed_area = 0;
-  double largest_move = 0;    ///< of a vertex, over h
+  double largest_move = 0; ///< of a vertex, over h
 
   void add(const GeneralisedCounts& other);
 };

@@ -93,7 +93,9 @@ private:
   }
 
   Piece piece_between(HalfEdge first, HalfEdge last) const {
-    Piece piece{place(mesh_.origin(first)), place(mesh_.target(last))};
+    Piece piece;
+    piece.start = place(mesh_.origin(first));
+    piece.end = place(mesh_.target(last));
     if (mesh_.mark(first) < 0)
       return piece;
     const CurveMap::Span from = map_.span_of(first), to = map_.span_of(last);
@@ -223,9 +225,8 @@ bool separate_touching_loops(const CurveMap& map, std::vector<char>& labels) {
     for (LocalIndex v = 4; v < mesh.vertex_count(); ++v) {
       std::vector<Sector> sectors = sectors_at(mesh, rim, v);
       while (sectors.size() > 1) {
-        const auto least = std::min_element(sectors.begin(), sectors.end(), [](const Sector& a, const Sector& b) {
-          return a.longest < b.longest;
-        });
+        const auto least = std::min_element(sectors.begin(), sectors.end(),
+                                            [](const Sector& a, const Sector& b) { return a.longest < b.longest; });
         for (const LocalIndex t : least->triangles)
           labels[at(t)] = 0;
         sectors.erase(least);

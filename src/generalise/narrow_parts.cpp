@@ -32,7 +32,8 @@ bool wants_node(const CurveMap& map, HalfEdge e) {
 class NarrowFinder {
 public:
   NarrowFinder(const CurveMap& map, const std::vector<char>& labels, bool inside, double share)
-      : map_(map), mesh_(map.mesh()), labels_(labels), inside_(inside), share_(share), narrow_(labels.size()), seen_(labels.size()) {
+      : map_(map), mesh_(map.mesh()), labels_(labels), inside_(inside), share_(share), narrow_(labels.size()),
+        seen_(labels.size()) {
     for (LocalIndex t = 0; t < mesh_.triangle_count(); ++t)
       narrow_[at(t)] = is_narrow(t);
   }
@@ -49,7 +50,8 @@ private:
   /// Does the side end there? Not where a hole was filled.
   bool is_wall(HalfEdge e) const {
     const HalfEdge f = mesh_.twin(e);
-    return f != Triangulation::none && labels_[at(Triangulation::triangle(e))] != labels_[at(Triangulation::triangle(f))];
+    return f != Triangulation::none &&
+           labels_[at(Triangulation::triangle(e))] != labels_[at(Triangulation::triangle(f))];
   }
   bool is_narrow_edge(HalfEdge e) const {
     const LocalIndex a = mesh_.origin(e), b = mesh_.target(e);
@@ -159,7 +161,7 @@ void add_nodes_to_narrow_parts(CurveMap& map) {
 }
 
 std::vector<NarrowPart> find_narrow_parts(const CurveMap& map, const std::vector<char>& labels, bool inside,
-                                         double share) {
+                                          double share) {
   return NarrowFinder(map, labels, inside, share).find();
 }
 

@@ -166,8 +166,8 @@ bool Triangulation::is_illegal(HalfEdge e) const {
   const HalfEdge f = twin(e);
   if (f == none || is_constrained(e))
     return false;
-  return geometry::in_circle(point(origin(e)), point(target(e)), point(origin(previous(e))),
-                             point(origin(previous(f))), lattice_) > 0;
+  return geometry::in_circle(point(origin(e)), point(target(e)), point(origin(previous(e))), point(origin(previous(f))),
+                             lattice_) > 0;
 }
 
 void Triangulation::legalize() {

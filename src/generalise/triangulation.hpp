@@ -87,12 +87,12 @@ private:
 
   geometry::Lattice lattice_;
   std::vector<geometry::Vec2> points_;
-  std::vector<HalfEdge> leaving_;       // by vertex
-  std::vector<LocalIndex> origin_;      // by half-edge
-  std::vector<HalfEdge> twin_;          // by half-edge
-  std::vector<std::int32_t> mark_;      // by half-edge
-  std::vector<HalfEdge> doubtful_;      // edges that legalize looks at
-  mutable HalfEdge last_ = 0;           // where the last search ended
+  std::vector<HalfEdge> leaving_;  // by vertex
+  std::vector<LocalIndex> origin_; // by half-edge
+  std::vector<HalfEdge> twin_;     // by half-edge
+  std::vector<std::int32_t> mark_; // by half-edge
+  std::vector<HalfEdge> doubtful_; // edges that legalize looks at
+  mutable HalfEdge last_ = 0;      // where the last search ended
 };
 
 } // namespace trime::generalise

@@ -53,8 +53,7 @@ void VertexMoves::widen_one(const NarrowPart& part, std::vector<Vec2>& shifts) c
       const Vec2 outward = (-1 / whole) * geometry::left_normal(along); // of this side of the outside
       for (const LocalIndex v : {a, b})
         vertices[v].away = vertices[v].away + outward;
-      vertices[apex].gap =
-          std::fmin(vertices[apex].gap, cross(along, mesh_.point(apex) - mesh_.point(a)) / whole);
+      vertices[apex].gap = std::fmin(vertices[apex].gap, cross(along, mesh_.point(apex) - mesh_.point(a)) / whole);
     }
     if (constrained == 2)
       for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
@@ -99,9 +98,7 @@ void VertexMoves::widen(std::span<const NarrowPart> parts) {
   for (const NarrowPart& part : parts)
     widen_one(part, shifts);
   calm(shifts);
-  const auto place = [&](LocalIndex v) {
-    places_[at(v)] = lattice_.snap(mesh_.point(root(v)) + shifts[at(root(v))]);
-  };
+  const auto place = [&](LocalIndex v) { places_[at(v)] = lattice_.snap(mesh_.point(root(v)) + shifts[at(root(v))]); };
   for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v)
     place(v);
   for (int round = 0; round <= GeneraliseRules::displacement_rounds; ++round) {

@@ -32,7 +32,7 @@ private:
 
   boundary::FixedPoints fixed_;
   std::shared_ptr<const geometry::Boundary> laid_; // null: the cornered boundary
-  geometry::Boundary remaining_; // that without the dropped loops; unused if none was dropped
+  geometry::Boundary remaining_;                   // that without the dropped loops; unused if none was dropped
   bool drops_loops_ = false;
 };
 

@@ -27,7 +27,8 @@ sweep::SweepOptions sweep_options(const MeshOptions& options) {
 }
 
 cleanup::CleanupOptions cleanup_options(const MeshOptions& options) {
-  return {options.points.value_or(0), options.features.keep_all ? 0 : MeshingRules::cleanup_tolerance * options.features.tolerance};
+  return {options.points.value_or(0),
+          options.features.keep_all ? 0 : MeshingRules::cleanup_tolerance * options.features.tolerance};
 }
 
 } // namespace trime::meshing

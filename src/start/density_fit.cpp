@@ -132,7 +132,8 @@ private:
       if (bracket.is_hopeless(factor))
         fail_for_few_points(context_, fewest);
     }
-    if (!bracket.has_upper() || (context_.options.features.keep_all && bracket.has_lower() && is_jump(best.points, points_)))
+    if (!bracket.has_upper() ||
+        (context_.options.features.keep_all && bracket.has_lower() && is_jump(best.points, points_)))
       fail_for_few_points(context_, fewest);
     if (best.points < FitRules::enough_points * points_)
       best.fit.shortage = context_.options.min_size

@@ -104,8 +104,8 @@ void lay_sites(const LayoutContext& context, std::size_t affordable, FittedStage
                          keeps_all ? 0 : BoundaryRules::least_perimeter, nullptr};
   const geometry::Boundary& curves = generalised_curves(context, laid);
   const auto make = [&](const BoundarySizes& sizes) {
-    return make_boundary_sites(curves, sizes, context.lattice,
-                               context.options.features.corner_angle, context.fixed.inside(), rule, affordable);
+    return make_boundary_sites(curves, sizes, context.lattice, context.options.features.corner_angle,
+                               context.fixed.inside(), rule, affordable);
   };
   if (stage.size->is_uniform()) {
     stage.polygon = make({*stage.size, asked});

@@ -45,7 +45,7 @@ struct FittedSize {
   double factor = 1;                     ///< of the relative size; for a uniform field h itself
   std::vector<sizing::SizeLimit> limits; ///< where the boundary needs smaller triangles than that asks for
   std::shared_ptr<const boundary::SizeSamples>
-      samples{}; ///< of the relative size, on the boundary of the shape; made when they are needed
+      samples{};         ///< of the relative size, on the boundary of the shape; made when they are needed
   CurvesAtSize curves{}; ///< for the last factor that was laid
 };
 

@@ -25,9 +25,9 @@ int divisions_for(double points) {
 } // namespace
 
 PointScheme::PointScheme(const LayoutContext& context)
-    : level_(context.relative_size), level_context_{context.comm,          context.given_boundary, level_,
-                                                    context.options,       context.lattice,        context.log,
-                                                    context.timers,        context.fixed,          true},
+    : level_(context.relative_size), level_context_{context.comm,    context.given_boundary, level_,
+                                                    context.options, context.lattice,        context.log,
+                                                    context.timers,  context.fixed,          true},
       context_(&context), options_(context.options) {
   choose();
 }
