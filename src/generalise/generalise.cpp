@@ -110,13 +110,14 @@ std::vector<NarrowPart> close_narrow_parts(const CurveMap& map, const std::vecto
 
 /// Once over the boundary; null if nothing is to be done.
 std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::SizeField& size,
-                                       const geometry::Lattice& lattice, Narrow narrow, Corners& corners) {
+                                       const geometry::Lattice& lattice, Narrow narrow, std::span<const Vec2> inside,
+                                       Corners& corners) {
   std::unique_ptr<const Boundary> thinned;
   std::optional<CurveMap> made;
   double share = GeneraliseRules::thinned_share;
   for (int round = 0; round <= GeneraliseRules::thinning_rounds; ++round, share *= GeneraliseRules::finer_thinning) {
     thinned = round < GeneraliseRules::thinning_rounds ? without_ragged_runs(boundary, size, share) : nullptr;
-    made.emplace(thinned ? *thinned : boundary, size, lattice);
+    made.emplace(thinned ? *thinned : boundary, size, lattice, inside);
     if (made->is_valid() || !thinned)
       break;
   }
@@ -134,7 +135,7 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
   std::vector<NarrowPart> slits; // they are looked for once nothing narrow is left inside
   if (counts.cut == 0)
     slits = close_narrow_parts(map, filled, narrow, corners, labels, counts);
-  if (!separate_touching_loops(map, labels))
+  if (!separate_touching_loops(map, filled, labels))
     return nullptr;
   VertexMoves moves(map, labels, lattice);
   moves.widen(slits);
@@ -162,14 +163,17 @@ void GeneralisedCounts::add(const GeneralisedCounts& other) {
 std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const sizing::SizeField& size,
                                               const geometry::Lattice& lattice, Narrow narrow,
                                               std::span<const Vec2> inside) {
-  (void)inside;
   if (boundary.periods.any() || boundary.loops.empty())
     return nullptr;
+  std::vector<Vec2> held;
+  if (!inside.empty())
+    if (const CurveMap given(boundary, size, lattice); given.is_valid())
+      held = given.those_inside(inside);
   std::unique_ptr<Generalised> result;
   Corners corners;
-  for (int pass = 0; pass < GeneraliseRules::most_passes;
-       ++pass) { // parts that were moved apart may leave others narrow
-    std::unique_ptr<Generalised> next = pass_over(result ? result->boundary : boundary, size, lattice, narrow, corners);
+  for (int pass = 0; pass < GeneraliseRules::most_passes; ++pass) { // what was moved apart may leave others narrow
+    std::unique_ptr<Generalised> next =
+        pass_over(result ? result->boundary : boundary, size, lattice, narrow, held, corners);
     corners.is_first_pass = false;
     if (!next)
       break;
