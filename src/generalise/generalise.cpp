@@ -9,6 +9,7 @@
 #include "generalise/vertex_moves.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -88,24 +89,73 @@ bool is_beside_small(const CurveMap& map, const Regions& regions, const std::vec
   return false;
 }
 
+/// Would the next pass cut a closed part out again? By part.
+std::vector<char> cut_again(const CurveMap& map, const std::vector<char>& given, const std::vector<char>& labels,
+                            std::span<const NarrowPart> closed) {
+  std::vector<char> goes(labels.size()), result;
+  for (const NarrowPart& part : find_narrow_parts(map, labels, true, GeneraliseRules::narrow_inside))
+    if (!part.holds_kept && matters(map.mesh(), part) && !part.is_corner)
+      for (const LocalIndex t : part.triangles)
+        goes[at(t)] = !given[at(t)];
+  for (const NarrowPart& part : closed)
+    result.push_back(
+        std::any_of(part.triangles.begin(), part.triangles.end(), [&](LocalIndex t) { return goes[at(t)] != 0; }));
+  return result;
+}
+
+/// Fills parts of the outside. Those that would be narrow parts of the shape then are opened again and moved from
+/// `closed` to `slits`.
+void fill(const CurveMap& map, const std::vector<char>& given, std::vector<NarrowPart>& closed,
+          std::vector<NarrowPart>& slits, std::vector<char>& labels) {
+  for (const NarrowPart& part : closed)
+    for (const LocalIndex t : part.triangles)
+      labels[at(t)] = 1;
+  for (int round = 0; round <= GeneraliseRules::opening_rounds && !closed.empty(); ++round) {
+    std::vector<char> open = cut_again(map, given, labels, closed);
+    if (std::find(open.begin(), open.end(), 1) == open.end())
+      return;
+    if (round == GeneraliseRules::opening_rounds)
+      open.assign(closed.size(), 1);
+    std::vector<NarrowPart> stay;
+    for (std::size_t k = 0; k < closed.size(); ++k) {
+      if (open[k])
+        for (const LocalIndex t : closed[k].triangles)
+          labels[at(t)] = 0;
+      (open[k] ? slits : stay).push_back(std::move(closed[k]));
+    }
+    closed = std::move(stay);
+  }
+}
+
 /// Fills narrow parts of the outside that are to be closed; returns the others.
 std::vector<NarrowPart> close_narrow_parts(const CurveMap& map, const std::vector<char>& given, Narrow narrow,
                                            Corners& corners, std::vector<char>& labels, GeneralisedCounts& counts) {
   const Regions regions(map, given);
-  std::vector<NarrowPart> slits;
+  std::vector<NarrowPart> slits, closed;
   for (NarrowPart& part : find_narrow_parts(map, given, false, GeneraliseRules::narrow_outside)) {
     if (part.holds_kept || !matters(map.mesh(), part) || corners.holds(part))
       continue;
-    if (narrow == Narrow::keep && !is_beside_small(map, regions, given, part)) {
-      slits.push_back(std::move(part));
-      continue;
-    }
-    ++counts.closed;
-    counts.closed_area += area_of(map.mesh(), part);
-    for (const LocalIndex t : part.triangles)
-      labels[at(t)] = 1;
+    const bool stays = narrow == Narrow::keep && !is_beside_small(map, regions, given, part);
+    (stays ? slits : closed).push_back(std::move(part));
   }
+  fill(map, given, closed, slits, labels);
+  counts.closed = std::ssize(closed);
+  for (const NarrowPart& part : closed)
+    counts.closed_area += area_of(map.mesh(), part);
   return slits;
+}
+
+/// Do the boundaries have the same pieces, in whatever order?
+bool have_same_pieces(const Boundary& a, const Boundary& b) {
+  const auto ends = [](const Boundary& boundary) {
+    std::vector<std::array<double, 4>> all;
+    for (const geometry::Loop& loop : boundary.loops)
+      for (const geometry::Piece& piece : loop.pieces)
+        all.push_back({piece.start.x, piece.start.y, piece.end.x, piece.end.y});
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  return ends(a) == ends(b);
 }
 
 /// Once over the boundary; null if nothing is to be done.
@@ -138,13 +188,14 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
   if (!separate_touching_loops(map, filled, labels))
     return nullptr;
   VertexMoves moves(map, labels, lattice);
-  moves.widen(slits);
-  counts.widened = std::ssize(slits);
+  counts.widened = moves.widen(std::move(slits));
   moves.merge_close_corners();
   counts.largest_move = moves.largest_share();
   if (labels == given && !moves.any() && !thinned)
     return nullptr;
   result->boundary = build_loops(map, labels, moves.any() ? moves.places() : MovedVertices{});
+  if (have_same_pieces(result->boundary, boundary)) // vertices that were added went again
+    return nullptr;
   return result;
 }
 

@@ -6,6 +6,9 @@
 #include "generalise/loop_builder.hpp"
 #include "generalise/narrow_parts.hpp"
 
+#include <cmath>
+#include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -18,8 +21,9 @@ public:
   VertexMoves(const CurveMap& map, const std::vector<char>& labels, const geometry::Lattice& lattice);
 
   /// @brief Moves the sides of narrow parts of the outside apart, each half of what is missing, less towards the ends
-  /// of a slit. What would turn a triangle over is moved less, or not at all.
-  void widen(std::span<const NarrowPart> parts);
+  /// of a slit. What would turn a triangle over is moved less, or not at all. Parts of which no vertex misses much stay.
+  /// @return how many parts were too narrow. O(triangles) a round, and rounds are few
+  std::int64_t widen(std::vector<NarrowPart> parts);
   /// Joins corners that are nearer to each other than a small share of h, between long arms.
   void merge_close_corners();
 
@@ -40,6 +44,18 @@ private:
            labels_[at(Triangulation::triangle(mesh_.twin(e)))] == 0;
   }
   bool turns_over(LocalIndex t) const;
+  /// The sides of a narrow part of the outside, and the ends of slits there.
+  struct Sides {
+    struct AtVertex {
+      double gap = INFINITY; // distance of the other side
+      geometry::Vec2 away;   // from the other side: sum of normals
+    };
+    std::map<LocalIndex, AtVertex> vertices;
+    std::vector<geometry::Vec2> ends;
+  };
+  Sides sides_of(const NarrowPart& part) const;
+  double missing_way(const Sides& sides, LocalIndex v) const;
+  bool is_too_narrow(const NarrowPart& part) const;
   void widen_one(const NarrowPart& part, std::vector<geometry::Vec2>& shifts) const;
 
   const CurveMap& map_;
@@ -49,6 +65,7 @@ private:
   LocalIndex root(LocalIndex v) const { return root_[at(v)]; }
   void calm(std::vector<geometry::Vec2>& shifts) const;
   void thin(std::span<const NarrowPart> parts);
+  void forget();
   MovedVertices places_;
   std::vector<LocalIndex> root_; // by vertex: the one to which it was moved, or itself
   bool any_ = false;
