@@ -54,25 +54,39 @@ private:
 
 /// Takes narrow parts out of the shape: the parts less wide than a share of h, or than a part of that if all of the
 /// shape is.
-void cut_narrow_parts(const CurveMap& map, const std::vector<char>& given, Corners& corners, std::vector<char>& labels,
-                      GeneralisedCounts& counts) {
+/// Components that are narrow all over stay, unless they are small or all is to be cut.
+/// @return those components
+std::vector<NarrowPart> cut_narrow_parts(const CurveMap& map, const std::vector<char>& given, const Choice& choice,
+                                         Corners& corners, std::vector<char>& labels, GeneralisedCounts& counts) {
   const Triangulation& mesh = map.mesh();
+  const Regions regions(map, given);
+  const auto stays = [&](const NarrowPart& part) {
+    return !choice.cuts_thin_components && part.lids.empty() &&
+           regions.perimeter(regions.of(part.triangles[0])) >= GeneraliseRules::small_component;
+  };
+  std::vector<NarrowPart> thin;
   double share = GeneraliseRules::narrow_inside;
   for (int round = 0; round < GeneraliseRules::narrower_rounds; ++round, share *= 0.5) {
     labels = given;
+    thin.clear();
     counts.cut = 0;
     counts.cut_area = 0;
     for (const NarrowPart& part : find_narrow_parts(map, given, true, share)) {
       if (part.holds_kept || !matters(mesh, part) || corners.holds(part))
         continue;
+      if (stays(part)) {
+        thin.push_back(part);
+        continue;
+      }
       ++counts.cut;
       counts.cut_area += area_of(mesh, part);
       for (const LocalIndex t : part.triangles)
         labels[at(t)] = 0;
     }
     if (std::find(labels.begin(), labels.end(), 1) != labels.end())
-      return;
+      break;
   }
+  return thin;
 }
 
 /// Is a small component beside the part?
@@ -89,14 +103,14 @@ bool is_beside_small(const CurveMap& map, const Regions& regions, const std::vec
 }
 
 /// Fills narrow parts of the outside that are to be closed; returns the others.
-std::vector<NarrowPart> close_narrow_parts(const CurveMap& map, const std::vector<char>& given, Narrow narrow,
+std::vector<NarrowPart> close_narrow_parts(const CurveMap& map, const std::vector<char>& given, const Choice& choice,
                                            Corners& corners, std::vector<char>& labels, GeneralisedCounts& counts) {
   const Regions regions(map, given);
   std::vector<NarrowPart> slits;
   for (NarrowPart& part : find_narrow_parts(map, given, false, GeneraliseRules::narrow_outside)) {
     if (part.holds_kept || !matters(map.mesh(), part) || corners.holds(part))
       continue;
-    if (narrow == Narrow::keep && !is_beside_small(map, regions, given, part)) {
+    if (choice.narrow == Narrow::keep && !is_beside_small(map, regions, given, part)) {
       slits.push_back(std::move(part));
       continue;
     }
@@ -110,7 +124,7 @@ std::vector<NarrowPart> close_narrow_parts(const CurveMap& map, const std::vecto
 
 /// Once over the boundary; null if nothing is to be done.
 std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::SizeField& size,
-                                       const geometry::Lattice& lattice, Narrow narrow, Corners& corners) {
+                                       const geometry::Lattice& lattice, const Choice& choice, Corners& corners) {
   std::unique_ptr<const Boundary> thinned;
   std::optional<CurveMap> made;
   double share = GeneraliseRules::thinned_share;
@@ -130,20 +144,22 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
   std::vector<char> filled = given;
   counts.filled = fill_small_holes(map, filled);
   std::vector<char> labels = filled;
-  cut_narrow_parts(map, filled, corners, labels, counts);
-  std::vector<NarrowPart> slits; // they are looked for once nothing narrow is left inside
-  if (counts.cut == 0)
-    slits = close_narrow_parts(map, filled, narrow, corners, labels, counts);
+  std::vector<NarrowPart> apart = cut_narrow_parts(map, filled, choice, corners, labels, counts); // to be widened
+  if (counts.cut == 0) // slits are looked for once nothing narrow is left inside
+    for (NarrowPart& slit : close_narrow_parts(map, filled, choice, corners, labels, counts))
+      apart.push_back(std::move(slit));
   if (!separate_touching_loops(map, labels))
     return nullptr;
   VertexMoves moves(map, labels, lattice);
-  moves.widen(slits);
-  counts.widened = std::ssize(slits);
+  moves.widen(apart);
+  counts.widened = std::ssize(apart);
   moves.merge_close_corners();
   counts.largest_move = moves.largest_share();
   if (labels == given && !moves.any() && !thinned)
     return nullptr;
   result->boundary = build_loops(map, labels, moves.any() ? moves.places() : MovedVertices{});
+  if (result->boundary.loops.empty())
+    return nullptr; // nothing is left
   return result;
 }
 
@@ -160,7 +176,7 @@ void GeneralisedCounts::add(const GeneralisedCounts& other) {
 }
 
 std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const sizing::SizeField& size,
-                                              const geometry::Lattice& lattice, Narrow narrow,
+                                              const geometry::Lattice& lattice, const Choice& choice,
                                               std::span<const Vec2> inside) {
   (void)inside;
   if (boundary.periods.any() || boundary.loops.empty())
@@ -169,7 +185,7 @@ std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const si
   Corners corners;
   for (int pass = 0; pass < GeneraliseRules::most_passes;
        ++pass) { // parts that were moved apart may leave others narrow
-    std::unique_ptr<Generalised> next = pass_over(result ? result->boundary : boundary, size, lattice, narrow, corners);
+    std::unique_ptr<Generalised> next = pass_over(result ? result->boundary : boundary, size, lattice, choice, corners);
     corners.is_first_pass = false;
     if (!next)
       break;

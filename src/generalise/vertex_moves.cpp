@@ -34,7 +34,7 @@ bool VertexMoves::turns_over(LocalIndex t) const {
 void VertexMoves::widen_one(const NarrowPart& part, std::vector<Vec2>& shifts) const {
   struct AtVertex {
     double gap = INFINITY;
-    Vec2 away; // from the other side: sum of normals
+    Vec2 away; // from the middle of the part: sum of normals
   };
   std::map<LocalIndex, AtVertex> vertices;
   std::vector<Vec2> ends;
@@ -50,7 +50,7 @@ void VertexMoves::widen_one(const NarrowPart& part, std::vector<Vec2>& shifts) c
         continue;
       }
       ++constrained;
-      const Vec2 outward = (-1 / whole) * geometry::left_normal(along); // of this side of the outside
+      const Vec2 outward = (-1 / whole) * geometry::left_normal(along);
       for (const LocalIndex v : {a, b})
         vertices[v].away = vertices[v].away + outward;
       vertices[apex].gap = std::fmin(vertices[apex].gap, cross(along, mesh_.point(apex) - mesh_.point(a)) / whole);
@@ -62,7 +62,9 @@ void VertexMoves::widen_one(const NarrowPart& part, std::vector<Vec2>& shifts) c
   }
   for (const auto& [v, here] : vertices) {
     const double norm = length(here.away);
-    double way = 0.5 * (GeneraliseRules::narrow_outside * map_.size(v) - here.gap);
+    double way =
+        0.5 *
+        ((part.inside ? GeneraliseRules::narrow_inside : GeneraliseRules::narrow_outside) * map_.size(v) - here.gap);
     for (const Vec2 end : ends)
       way = std::fmin(way, GeneraliseRules::slit_taper * length(mesh_.point(v) - end));
     if (way > 0 && norm > 0.5 && !map_.is_kept(v) && root(v) == v)

@@ -17,7 +17,7 @@ public:
   /// @param labels by triangle: 1 inside; they may have changed since the map was made
   VertexMoves(const CurveMap& map, const std::vector<char>& labels, const geometry::Lattice& lattice);
 
-  /// @brief Moves the sides of narrow parts of the outside apart, each half of what is missing, less towards the ends
+  /// @brief Moves the sides of narrow parts apart, each half of what is missing, less towards the ends
   /// of a slit. What would turn a triangle over is moved less, or not at all.
   void widen(std::span<const NarrowPart> parts);
   /// Joins corners that are nearer to each other than a small share of h, between long arms.
