@@ -55,25 +55,39 @@ private:
 
 /// Takes narrow parts out of the shape: the parts less wide than a share of h, or than a part of that if all of the
 /// shape is.
-void cut_narrow_parts(const CurveMap& map, const std::vector<char>& given, Corners& corners, std::vector<char>& labels,
-                      GeneralisedCounts& counts) {
+/// Components that are narrow all over stay, unless they are small or all is to be cut.
+/// @return those components
+std::vector<NarrowPart> cut_narrow_parts(const CurveMap& map, const std::vector<char>& given, const Choice& choice,
+                                         Corners& corners, std::vector<char>& labels, GeneralisedCounts& counts) {
   const Triangulation& mesh = map.mesh();
+  const Regions regions(map, given);
+  const auto stays = [&](const NarrowPart& part) {
+    return !choice.cuts_thin_components && part.lids.empty() &&
+           regions.perimeter(regions.of(part.triangles[0])) >= GeneraliseRules::small_component;
+  };
+  std::vector<NarrowPart> thin;
   double share = GeneraliseRules::narrow_inside;
   for (int round = 0; round < GeneraliseRules::narrower_rounds; ++round, share *= 0.5) {
     labels = given;
+    thin.clear();
     counts.cut = 0;
     counts.cut_area = 0;
     for (const NarrowPart& part : find_narrow_parts(map, given, true, share)) {
       if (part.holds_kept || !matters(mesh, part) || corners.holds(part))
         continue;
+      if (stays(part)) {
+        thin.push_back(part);
+        continue;
+      }
       ++counts.cut;
       counts.cut_area += area_of(mesh, part);
       for (const LocalIndex t : part.triangles)
         labels[at(t)] = 0;
     }
     if (std::find(labels.begin(), labels.end(), 1) != labels.end())
-      return;
+      break;
   }
+  return thin;
 }
 
 /// Is a small component beside the part?
@@ -128,14 +142,14 @@ void fill(const CurveMap& map, const std::vector<char>& given, std::vector<Narro
 }
 
 /// Fills narrow parts of the outside that are to be closed; returns the others.
-std::vector<NarrowPart> close_narrow_parts(const CurveMap& map, const std::vector<char>& given, Narrow narrow,
+std::vector<NarrowPart> close_narrow_parts(const CurveMap& map, const std::vector<char>& given, const Choice& choice,
                                            Corners& corners, std::vector<char>& labels, GeneralisedCounts& counts) {
   const Regions regions(map, given);
   std::vector<NarrowPart> slits, closed;
   for (NarrowPart& part : find_narrow_parts(map, given, false, GeneraliseRules::narrow_outside)) {
     if (part.holds_kept || !matters(map.mesh(), part) || corners.holds(part))
       continue;
-    const bool stays = narrow == Narrow::keep && !is_beside_small(map, regions, given, part);
+    const bool stays = choice.narrow == Narrow::keep && !is_beside_small(map, regions, given, part);
     (stays ? slits : closed).push_back(std::move(part));
   }
   fill(map, given, closed, slits, labels);
@@ -160,8 +174,8 @@ bool have_same_pieces(const Boundary& a, const Boundary& b) {
 
 /// Once over the boundary; null if nothing is to be done.
 std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::SizeField& size,
-                                       const geometry::Lattice& lattice, Narrow narrow, std::span<const Vec2> inside,
-                                       Corners& corners) {
+                                       const geometry::Lattice& lattice, const Choice& choice,
+                                       std::span<const Vec2> inside, Corners& corners) {
   std::unique_ptr<const Boundary> thinned;
   std::optional<CurveMap> made;
   double share = GeneraliseRules::thinned_share;
@@ -181,21 +195,21 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
   std::vector<char> filled = given;
   counts.filled = fill_small_holes(map, filled);
   std::vector<char> labels = filled;
-  cut_narrow_parts(map, filled, corners, labels, counts);
-  std::vector<NarrowPart> slits; // they are looked for once nothing narrow is left inside
-  if (counts.cut == 0)
-    slits = close_narrow_parts(map, filled, narrow, corners, labels, counts);
+  std::vector<NarrowPart> apart = cut_narrow_parts(map, filled, choice, corners, labels, counts); // to be widened
+  if (counts.cut == 0) // slits are looked for once nothing narrow is left inside
+    for (NarrowPart& slit : close_narrow_parts(map, filled, choice, corners, labels, counts))
+      apart.push_back(std::move(slit));
   if (!separate_touching_loops(map, filled, labels))
     return nullptr;
   VertexMoves moves(map, labels, lattice);
-  counts.widened = moves.widen(std::move(slits));
+  counts.widened = moves.widen(std::move(apart));
   moves.merge_close_corners();
   counts.largest_move = moves.largest_share();
   if (labels == given && !moves.any() && !thinned)
     return nullptr;
   result->boundary = build_loops(map, labels, moves.any() ? moves.places() : MovedVertices{});
-  if (have_same_pieces(result->boundary, boundary)) // vertices that were added went again
-    return nullptr;
+  if (result->boundary.loops.empty() || have_same_pieces(result->boundary, boundary))
+    return nullptr; // nothing is left, or vertices that were added went again
   return result;
 }
 
@@ -212,7 +226,7 @@ void GeneralisedCounts::add(const GeneralisedCounts& other) {
 }
 
 std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const sizing::SizeField& size,
-                                              const geometry::Lattice& lattice, Narrow narrow,
+                                              const geometry::Lattice& lattice, const Choice& choice,
                                               std::span<const Vec2> inside) {
   if (boundary.periods.any() || boundary.loops.empty())
     return nullptr;
@@ -224,7 +238,7 @@ std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const si
   Corners corners;
   for (int pass = 0; pass < GeneraliseRules::most_passes; ++pass) { // what was moved apart may leave others narrow
     std::unique_ptr<Generalised> next =
-        pass_over(result ? result->boundary : boundary, size, lattice, narrow, held, corners);
+        pass_over(result ? result->boundary : boundary, size, lattice, choice, held, corners);
     corners.is_first_pass = false;
     if (!next)
       break;

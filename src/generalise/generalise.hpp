@@ -14,6 +14,12 @@ namespace trime::generalise {
 /// What becomes of parts of the outside that are narrower than the resolution: slits, cracks, walls.
 enum class Narrow { keep, close };
 
+/// How much is simplified.
+struct Choice {
+  Narrow narrow = Narrow::keep;
+  bool cuts_thin_components = false; ///< components that are narrow all over are cut to pieces, not widened
+};
+
 /// What was done.
 struct GeneralisedCounts {
   std::int64_t cut = 0;     ///< narrow parts of the shape that were taken away
@@ -35,15 +41,15 @@ struct Generalised {
 ///
 /// The curves are the constraints of a Delaunay triangulation of their nodes. Parts whose triangles are all narrow are
 /// dead ends (spits, inlets), passages (necks, straits, walls) or whole components and holes. Those of the shape are
-/// cut where they become wide enough. Those of the outside are kept, and their sides moved apart, or closed.
-/// Triangles that keep their orientation prove that curves do not cross. Periodic boundaries come back as they are.
-/// Deterministic, one thread. O(n log n) for n pieces.
+/// cut where they become wide enough; components that are narrow all over are widened. Those of the outside are kept,
+/// and their sides moved apart, or closed. Triangles that keep their orientation prove that curves do not cross.
+/// Periodic boundaries come back as they are. Deterministic, one thread. O(n log n) for n pieces.
 /// @param size h
 /// @param inside lattice points that must stay inside: a narrow part with one of them is not cut, and no curve moves
 /// over one. Those that are not inside the given boundary are left out.
 /// @throws GeometryError if a size is not positive and finite
 std::unique_ptr<const Generalised> generalise(const geometry::Boundary& boundary, const sizing::SizeField& size,
-                                              const geometry::Lattice& lattice, Narrow narrow,
+                                              const geometry::Lattice& lattice, const Choice& choice,
                                               std::span<const geometry::Vec2> inside);
 
 } // namespace trime::generalise

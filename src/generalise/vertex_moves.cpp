@@ -50,7 +50,7 @@ VertexMoves::Sides VertexMoves::sides_of(const NarrowPart& part) const {
         continue;
       }
       ++constrained;
-      const Vec2 outward = (-1 / whole) * geometry::left_normal(along); // of this side of the outside
+      const Vec2 outward = (-1 / whole) * geometry::left_normal(along);
       for (const LocalIndex v : {a, b})
         sides.vertices[v].away = sides.vertices[v].away + outward;
       double& gap = sides.vertices[apex].gap;
@@ -65,8 +65,9 @@ VertexMoves::Sides VertexMoves::sides_of(const NarrowPart& part) const {
 }
 
 /// How far a vertex is to move: half of what is missing, less near the end of a slit; 0 or less if nothing is.
-double VertexMoves::missing_way(const Sides& sides, LocalIndex v) const {
-  double way = 0.5 * (GeneraliseRules::narrow_outside * map_.size(v) - sides.vertices.at(v).gap);
+double VertexMoves::missing_way(const NarrowPart& part, const Sides& sides, LocalIndex v) const {
+  const double width = part.inside ? GeneraliseRules::narrow_inside : GeneraliseRules::narrow_outside;
+  double way = 0.5 * (width * map_.size(v) - sides.vertices.at(v).gap);
   for (const Vec2 end : sides.ends)
     way = std::fmin(way, GeneraliseRules::slit_taper * length(mesh_.point(v) - end));
   return map_.is_kept(v) ? 0 : way;
@@ -75,14 +76,14 @@ double VertexMoves::missing_way(const Sides& sides, LocalIndex v) const {
 bool VertexMoves::is_too_narrow(const NarrowPart& part) const {
   const Sides sides = sides_of(part);
   return std::any_of(sides.vertices.begin(), sides.vertices.end(), [&](const auto& entry) {
-    return missing_way(sides, entry.first) > GeneraliseRules::least_shift * map_.size(entry.first);
+    return missing_way(part, sides, entry.first) > GeneraliseRules::least_shift * map_.size(entry.first);
   });
 }
 
 void VertexMoves::widen_one(const NarrowPart& part, std::vector<Vec2>& shifts) const {
   const Sides sides = sides_of(part);
   for (const auto& [v, here] : sides.vertices) {
-    const double norm = length(here.away), way = missing_way(sides, v);
+    const double norm = length(here.away), way = missing_way(part, sides, v);
     if (way > 0 && norm > 0.5 && root(v) == v)
       shifts[at(v)] = (way / norm) * here.away;
   }
@@ -144,6 +145,7 @@ std::int64_t VertexMoves::widen(std::vector<NarrowPart> parts) {
     if (factor == 0 && stopped)
       --round; // those beside them follow
   }
+  any_ = false;
   for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v)
     any_ |= length(places_[at(v)] - mesh_.point(v)) > GeneraliseRules::least_shift * map_.size(v) && root(v) == v;
   if (!any_) // what joined vertices alone moved is not worth it

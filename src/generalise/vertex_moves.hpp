@@ -20,8 +20,8 @@ public:
   /// @param labels by triangle: 1 inside; they may have changed since the map was made
   VertexMoves(const CurveMap& map, const std::vector<char>& labels, const geometry::Lattice& lattice);
 
-  /// @brief Moves the sides of narrow parts of the outside apart, each half of what is missing, less towards the ends
-  /// of a slit. What would turn a triangle over is moved less, or not at all. Parts of which no vertex misses much stay.
+  /// @brief Moves the sides of narrow parts apart, each half of what is missing, less towards the ends of a slit. What
+  /// would turn a triangle over is moved less, or not at all. Parts of which no vertex misses much stay.
   /// @return how many parts were too narrow. O(triangles) a round, and rounds are few
   std::int64_t widen(std::vector<NarrowPart> parts);
   /// Joins corners that are nearer to each other than a small share of h, between long arms.
@@ -44,17 +44,17 @@ private:
            labels_[at(Triangulation::triangle(mesh_.twin(e)))] == 0;
   }
   bool turns_over(LocalIndex t) const;
-  /// The sides of a narrow part of the outside, and the ends of slits there.
+  /// The sides of a narrow part, and the ends of slits there.
   struct Sides {
     struct AtVertex {
       double gap = INFINITY; // distance of the other side
-      geometry::Vec2 away;   // from the other side: sum of normals
+      geometry::Vec2 away;   // from the middle of the part: sum of normals
     };
     std::map<LocalIndex, AtVertex> vertices;
     std::vector<geometry::Vec2> ends;
   };
   Sides sides_of(const NarrowPart& part) const;
-  double missing_way(const Sides& sides, LocalIndex v) const;
+  double missing_way(const NarrowPart& part, const Sides& sides, LocalIndex v) const;
   bool is_too_narrow(const NarrowPart& part) const;
   void widen_one(const NarrowPart& part, std::vector<geometry::Vec2>& shifts) const;
 

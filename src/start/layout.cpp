@@ -87,8 +87,8 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
     return given;
   if (!(std::fabs(curves.factor - laid.fitted.factor) <= StartRules::same_curves * laid.fitted.factor))
     curves = {laid.fitted.factor,
-              generalise::generalise(given, *laid.stage.asked_size, context.lattice, generalise::Narrow::keep,
-                                     context.fixed.inside()),
+              generalise::generalise(given, *laid.stage.asked_size, context.lattice,
+                                     {generalise::Narrow::keep, context.cuts_thin_components}, context.fixed.inside()),
               nullptr};
   if (!curves.found)
     return given;

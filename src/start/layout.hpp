@@ -30,6 +30,7 @@ struct LayoutContext {
   Log& log;
   TimerTable& timers;
   const boundary::FixedPoints& fixed; ///< with the boundary on which sites are laid
+  bool cuts_thin_components = false;  ///< as generalise::Choice has it: no other boundary has so few points
   bool is_level = false;              ///< the relative size is the same everywhere, though its class does not say so
 };
 

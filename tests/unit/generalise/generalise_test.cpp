@@ -17,7 +17,7 @@ using testing::unit_lattice;
 
 std::unique_ptr<const Generalised> at_size(const Boundary& boundary, double h, Narrow narrow = Narrow::keep,
                                            const std::vector<Vec2>& inside = {}) {
-  return generalise(boundary, sizing::UniformSize(h), unit_lattice(), narrow, inside);
+  return generalise(boundary, sizing::UniformSize(h), unit_lattice(), {narrow}, inside);
 }
 
 Loop box(Vec2 low, Vec2 high, bool hole = false, int tag = 1) {
