@@ -27,8 +27,10 @@ double area_of(const Triangulation& mesh, const NarrowPart& part) {
   return 0.5 * twice;
 }
 
-/// Is it more than roughness or a corner of the shape?
+/// Is it clearly narrow, and more than roughness?
 bool matters(const Triangulation& mesh, const NarrowPart& part) {
+  if (part.width > GeneraliseRules::clearly_narrow)
+    return false;
   if (part.lids.size() != 1)
     return true;
   const double lid = length(mesh.point(mesh.target(part.lids[0])) - mesh.point(mesh.origin(part.lids[0])));

@@ -77,7 +77,7 @@ private:
     NarrowPart part;
     part.inside = inside_;
     part.triangles.push_back(first);
-    part.size = INFINITY;
+    part.size = part.width = INFINITY;
     seen_[at(first)] = 1;
     for (std::size_t k = 0; k < part.triangles.size(); ++k) {
       const LocalIndex t = part.triangles[k];
@@ -86,6 +86,8 @@ private:
         part.holds_kept |= map_.is_kept(mesh_.origin(e));
         if (is_wall(e))
           continue;
+        part.width = std::fmin(part.width, length(mesh_.point(mesh_.target(e)) - mesh_.point(mesh_.origin(e))) /
+                                               (share_ * std::fmin(map_.size(mesh_.origin(e)), map_.size(mesh_.target(e)))));
         const LocalIndex there = Triangulation::triangle(mesh_.twin(e));
         if (!narrow_[at(there)])
           part.lids.push_back(e);
