@@ -86,8 +86,9 @@ private:
         part.holds_kept |= map_.is_kept(mesh_.origin(e));
         if (is_wall(e))
           continue;
-        part.width = std::fmin(part.width, length(mesh_.point(mesh_.target(e)) - mesh_.point(mesh_.origin(e))) /
-                                               (share_ * std::fmin(map_.size(mesh_.origin(e)), map_.size(mesh_.target(e)))));
+        part.width =
+            std::fmin(part.width, length(mesh_.point(mesh_.target(e)) - mesh_.point(mesh_.origin(e))) /
+                                      (share_ * std::fmin(map_.size(mesh_.origin(e)), map_.size(mesh_.target(e)))));
         const LocalIndex there = Triangulation::triangle(mesh_.twin(e));
         if (!narrow_[at(there)])
           part.lids.push_back(e);

@@ -61,10 +61,10 @@ struct GeneraliseRules {
   static constexpr int most_passes = 8;
   /// [rounds] Of such trials; then nothing is thinned. Not measured.
   static constexpr int thinning_rounds = 3;
-  /// [h] Corners nearer to each other than this, between long arms, become one. Not measured.
-  static constexpr double close_corners = 0.05;
-  /// [distance of close corners] A long arm has this length at least. Not measured.
-  static constexpr double arm_length = 4;
+  /// [h] Neighbouring corners nearer to each other than this become one. Not measured.
+  static constexpr double close_corners = 0.1;
+  /// [1] 1 - cosine of the turn of such a corner: 30 degrees. Not measured.
+  static constexpr double corner_turn = 0.13;
 };
 
 } // namespace trime::generalise
