@@ -28,8 +28,10 @@ double area_of(const Triangulation& mesh, const NarrowPart& part) {
   return 0.5 * twice;
 }
 
-/// Is it more than roughness or a corner of the shape?
+/// Is it clearly narrow, and more than roughness?
 bool matters(const Triangulation& mesh, const NarrowPart& part) {
+  if (part.width > GeneraliseRules::clearly_narrow)
+    return false;
   if (part.lids.size() != 1)
     return true;
   const double lid = length(mesh.point(mesh.target(part.lids[0])) - mesh.point(mesh.origin(part.lids[0])));
@@ -219,7 +221,7 @@ void GeneralisedCounts::add(const GeneralisedCounts& other) {
   cut += other.cut;
   filled += other.filled;
   closed += other.closed;
-  widened += other.widened;
+  widened = std::max(widened, other.widened); // what a pass widens, the next ones may widen a little more
   cut_area += other.cut_area;
   closed_area += other.closed_area;
   largest_move = std::max(largest_move, other.largest_move);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "generalise/loop_builder.hpp"
 
+#include "generalise/rim.hpp"
 #include "generalise/rules.hpp"
 #include "polygon/chord_curve.hpp"
 
@@ -16,26 +17,6 @@ using geometry::Loop;
 using geometry::Piece;
 using geometry::Vec2;
 using HalfEdge = Triangulation::HalfEdge;
-
-/// The way around the inside, as edges that have the inside on their left.
-class Rim {
-public:
-  Rim(const Triangulation& mesh, const std::vector<char>& labels) : mesh_(mesh), labels_(labels) {}
-
-  bool is_inside(HalfEdge e) const { return e != Triangulation::none && labels_[at(Triangulation::triangle(e))] != 0; }
-  bool holds(HalfEdge e) const { return is_inside(e) && !is_inside(mesh_.twin(e)); }
-  /// The next edge around the same part of the inside.
-  HalfEdge next(HalfEdge e) const {
-    HalfEdge f = Triangulation::next(e);
-    while (!holds(f))
-      f = Triangulation::next(mesh_.twin(f));
-    return f;
-  }
-
-private:
-  const Triangulation& mesh_;
-  const std::vector<char>& labels_;
-};
 
 /// A loop that is being built.
 struct BuiltLoop {

@@ -15,6 +15,7 @@ struct NarrowPart {
   bool inside = false; ///< of the shape
   std::vector<LocalIndex> triangles;
   std::vector<Triangulation::HalfEdge> lids; ///< seen from the narrow part
+  double width = 0;                          ///< its least one, over the width below which parts are narrow
   double depth = 0;                          ///< of a dead end that holds nothing kept: from the lid to its tip
   double size = 0;                           ///< the smallest h at its nodes
   geometry::Vec2 tip;                        ///< the node farthest from the lid

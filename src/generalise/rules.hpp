@@ -9,9 +9,12 @@ namespace trime::generalise {
 /// The numbers of the generalise module.
 struct GeneraliseRules {
   /// [h] Parts of the shape narrower than this are cut. Not measured.
-  static constexpr double narrow_inside = 0.4;
+  static constexpr double narrow_inside = 0.5;
   /// [h] Parts of the outside narrower than this are closed, or widened to it. Not measured.
-  static constexpr double narrow_outside = 0.25;
+  static constexpr double narrow_outside = 0.33;
+  /// [narrow width] A part is left alone if it is nowhere less wide: else parts of one width, about the narrow one,
+  /// would be cut to pieces where nodes happen to face each other. Not measured.
+  static constexpr double clearly_narrow = 0.75;
   /// [h] A narrow dead end that is less deep is left to the layout: chords pass over it. Not measured.
   static constexpr double least_depth = 0.1;
   /// [h] A corner is one that keeps its arms straight until they are so far apart. Not measured.
@@ -19,7 +22,7 @@ struct GeneraliseRules {
   /// [width] How far the sides of a corner may lie from two straight arms. Not measured.
   static constexpr double straight_arms = 0.15;
   /// [narrow width] Near narrow parts the curve has nodes at most so far apart. Not measured.
-  static constexpr double node_spacing = 0.6;
+  static constexpr double node_spacing = 0.4;
   /// [narrow width] Nodes are added where the other side is nearer than this. Not measured.
   static constexpr double node_reach = 1.5;
   /// [rounds] Of adding nodes, each of which at least halves a spacing. Not measured.
@@ -63,10 +66,10 @@ struct GeneraliseRules {
   static constexpr int most_passes = 8;
   /// [rounds] Of such trials; then nothing is thinned. Not measured.
   static constexpr int thinning_rounds = 3;
-  /// [h] Corners nearer to each other than this, between long arms, become one. Not measured.
-  static constexpr double close_corners = 0.05;
-  /// [distance of close corners] A long arm has this length at least. Not measured.
-  static constexpr double arm_length = 4;
+  /// [h] Neighbouring corners nearer to each other than this become one. Not measured.
+  static constexpr double close_corners = 0.1;
+  /// [1] 1 - cosine of the turn of such a corner: 30 degrees. Not measured.
+  static constexpr double corner_turn = 0.13;
 };
 
 } // namespace trime::generalise

@@ -17,7 +17,7 @@ using HalfEdge = Triangulation::HalfEdge;
 } // namespace
 
 VertexMoves::VertexMoves(const CurveMap& map, const std::vector<char>& labels, const geometry::Lattice& lattice)
-    : map_(map), mesh_(map.mesh()), labels_(labels), lattice_(lattice), places_(at(mesh_.vertex_count())) {
+    : map_(map), mesh_(map.mesh()), rim_(mesh_, labels), lattice_(lattice), places_(at(mesh_.vertex_count())) {
   root_.resize(places_.size());
   forget();
 }
@@ -27,6 +27,7 @@ void VertexMoves::forget() {
   for (LocalIndex v = 0; v < mesh_.vertex_count(); ++v)
     places_[at(v)] = mesh_.point(v);
   std::iota(root_.begin(), root_.end(), 0);
+  is_root_.assign(places_.size(), 0);
   any_ = false;
 }
 
@@ -164,7 +165,7 @@ void VertexMoves::thin(std::span<const NarrowPart> parts) {
     if (!beside[at(v)])
       continue;
     const LocalIndex u = map_.next_on_curve(v);
-    if (!is_on_rim(mesh_.find_edge(v, u)))
+    if (!rim_.holds(mesh_.find_edge(v, u)))
       continue;
     const double close = GeneraliseRules::thinned * GeneraliseRules::narrow_outside * map_.size(v);
     if (beside[at(u)] && !map_.is_kept(u) && root(u) == u &&
@@ -173,50 +174,34 @@ void VertexMoves::thin(std::span<const NarrowPart> parts) {
   }
 }
 
+/// 1 - cosine of the turn of the rim at the start of e, edges without length left out; 0 if nothing else is left.
+double VertexMoves::turn_at(HalfEdge e) const {
+  const auto along = [&](HalfEdge f) { return places_[at(mesh_.target(f))] - places_[at(mesh_.origin(f))]; };
+  HalfEdge ahead = e, behind = rim_.previous(e);
+  while (along(ahead) == Vec2{})
+    if (ahead = rim_.next(ahead); ahead == e)
+      return 0;
+  while (along(behind) == Vec2{})
+    behind = rim_.previous(behind);
+  const Vec2 in = along(behind), out = along(ahead);
+  return 1 - dot(in, out) / std::sqrt(squared_length(in) * squared_length(out));
+}
+
 void VertexMoves::merge_close_corners() {
-  for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v) {
-    const HalfEdge first = mesh_.leaving(v);
-    HalfEdge e = first;
-    do {
-      const LocalIndex u = mesh_.target(e);
-      const double close = GeneraliseRules::close_corners * std::fmin(map_.size(u), map_.size(v));
-      if (is_on_rim(e) && !map_.is_kept(u) && root(u) == u && root(v) != u &&
-          squared_length(places_[at(u)] - places_[at(v)]) < close * close && !map_.is_kept(u) &&
-          has_long_arms(e, close))
-        merge(u, root(v));
-      e = mesh_.around(e);
-    } while (e != first);
+  for (HalfEdge e = 0; e < 3 * mesh_.triangle_count(); ++e) {
+    if (!rim_.holds(e))
+      continue;
+    const LocalIndex v = root(mesh_.origin(e)), u = root(mesh_.target(e));
+    const double close = GeneraliseRules::close_corners * std::fmin(map_.size(u), map_.size(v));
+    if (u == v || !(squared_length(places_[at(u)] - places_[at(v)]) < close * close))
+      continue;
+    const double at_v = turn_at(e), at_u = turn_at(rim_.next(e));
+    if (std::fmin(at_v, at_u) < GeneraliseRules::corner_turn)
+      continue;
+    const bool moves_u = map_.is_kept(v) || (!map_.is_kept(u) && at_u < at_v);
+    if (const LocalIndex mover = moves_u ? u : v; !map_.is_kept(mover) && is_alone(mover))
+      merge(mover, moves_u ? v : u);
   }
-}
-
-VertexMoves::HalfEdge VertexMoves::curve_behind(HalfEdge e) const {
-  HalfEdge f = mesh_.leaving(mesh_.target(e));
-  while (mesh_.mark(f) < 0)
-    f = mesh_.around(f);
-  return f;
-}
-
-VertexMoves::HalfEdge VertexMoves::curve_before(HalfEdge e) const {
-  HalfEdge f = mesh_.leaving(mesh_.origin(e));
-  while (!mesh_.is_constrained(f) || mesh_.mark(f) >= 0)
-    f = mesh_.around(f);
-  return mesh_.twin(f);
-}
-
-/// Do straight pieces of some length lie before and behind the edge e, along edges that are as short?
-bool VertexMoves::has_long_arms(HalfEdge e, double close) const {
-  const auto is_long = [&](HalfEdge f, const auto& step) {
-    for (double way = 0; way < close; f = step(f)) {
-      const double here = length(mesh_.point(mesh_.target(f)) - mesh_.point(mesh_.origin(f)));
-      const CurveMap::Span span = map_.span_of(f);
-      if (map_.boundary().loops[at(span.loop)].pieces[at(span.piece)].length() > GeneraliseRules::arm_length * close)
-        return true;
-      way += here;
-    }
-    return false;
-  };
-  return is_long(curve_before(e), [&](HalfEdge f) { return curve_before(f); }) &&
-         is_long(curve_behind(e), [&](HalfEdge f) { return curve_behind(f); });
 }
 
 /// Moves u to the place of v, if no triangle turns over.
@@ -224,6 +209,7 @@ void VertexMoves::merge(LocalIndex u, LocalIndex v) {
   const Vec2 old = places_[at(u)];
   places_[at(u)] = places_[at(v)];
   root_[at(u)] = root_[at(v)];
+  is_root_[at(v)] = 1;
   const HalfEdge first = mesh_.leaving(u);
   HalfEdge e = first;
   do {
