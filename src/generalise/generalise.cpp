@@ -9,6 +9,7 @@
 #include "generalise/vertex_moves.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -104,35 +105,85 @@ bool is_beside_small(const CurveMap& map, const Regions& regions, const std::vec
   return false;
 }
 
+/// Would the next pass cut a closed part out again? By part.
+std::vector<char> cut_again(const CurveMap& map, const std::vector<char>& given, const std::vector<char>& labels,
+                            std::span<const NarrowPart> closed) {
+  std::vector<char> goes(labels.size()), result;
+  for (const NarrowPart& part : find_narrow_parts(map, labels, true, GeneraliseRules::narrow_inside))
+    if (!part.holds_kept && matters(map.mesh(), part) && !part.is_corner)
+      for (const LocalIndex t : part.triangles)
+        goes[at(t)] = !given[at(t)];
+  for (const NarrowPart& part : closed)
+    result.push_back(
+        std::any_of(part.triangles.begin(), part.triangles.end(), [&](LocalIndex t) { return goes[at(t)] != 0; }));
+  return result;
+}
+
+/// Fills parts of the outside. Those that would be narrow parts of the shape then are opened again and moved from
+/// `closed` to `slits`.
+void fill(const CurveMap& map, const std::vector<char>& given, std::vector<NarrowPart>& closed,
+          std::vector<NarrowPart>& slits, std::vector<char>& labels) {
+  for (const NarrowPart& part : closed)
+    for (const LocalIndex t : part.triangles)
+      labels[at(t)] = 1;
+  for (int round = 0; round <= GeneraliseRules::opening_rounds && !closed.empty(); ++round) {
+    std::vector<char> open = cut_again(map, given, labels, closed);
+    if (std::find(open.begin(), open.end(), 1) == open.end())
+      return;
+    if (round == GeneraliseRules::opening_rounds)
+      open.assign(closed.size(), 1);
+    std::vector<NarrowPart> stay;
+    for (std::size_t k = 0; k < closed.size(); ++k) {
+      if (open[k])
+        for (const LocalIndex t : closed[k].triangles)
+          labels[at(t)] = 0;
+      (open[k] ? slits : stay).push_back(std::move(closed[k]));
+    }
+    closed = std::move(stay);
+  }
+}
+
 /// Fills narrow parts of the outside that are to be closed; returns the others.
 std::vector<NarrowPart> close_narrow_parts(const CurveMap& map, const std::vector<char>& given, const Choice& choice,
                                            Corners& corners, std::vector<char>& labels, GeneralisedCounts& counts) {
   const Regions regions(map, given);
-  std::vector<NarrowPart> slits;
+  std::vector<NarrowPart> slits, closed;
   for (NarrowPart& part : find_narrow_parts(map, given, false, GeneraliseRules::narrow_outside)) {
     if (part.holds_kept || !matters(map.mesh(), part) || corners.holds(part))
       continue;
-    if (choice.narrow == Narrow::keep && !is_beside_small(map, regions, given, part)) {
-      slits.push_back(std::move(part));
-      continue;
-    }
-    ++counts.closed;
-    counts.closed_area += area_of(map.mesh(), part);
-    for (const LocalIndex t : part.triangles)
-      labels[at(t)] = 1;
+    const bool stays = choice.narrow == Narrow::keep && !is_beside_small(map, regions, given, part);
+    (stays ? slits : closed).push_back(std::move(part));
   }
+  fill(map, given, closed, slits, labels);
+  counts.closed = std::ssize(closed);
+  for (const NarrowPart& part : closed)
+    counts.closed_area += area_of(map.mesh(), part);
   return slits;
+}
+
+/// Do the boundaries have the same pieces, in whatever order?
+bool have_same_pieces(const Boundary& a, const Boundary& b) {
+  const auto ends = [](const Boundary& boundary) {
+    std::vector<std::array<double, 4>> all;
+    for (const geometry::Loop& loop : boundary.loops)
+      for (const geometry::Piece& piece : loop.pieces)
+        all.push_back({piece.start.x, piece.start.y, piece.end.x, piece.end.y});
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  return ends(a) == ends(b);
 }
 
 /// Once over the boundary; null if nothing is to be done.
 std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::SizeField& size,
-                                       const geometry::Lattice& lattice, const Choice& choice, Corners& corners) {
+                                       const geometry::Lattice& lattice, const Choice& choice,
+                                       std::span<const Vec2> inside, Corners& corners) {
   std::unique_ptr<const Boundary> thinned;
   std::optional<CurveMap> made;
   double share = GeneraliseRules::thinned_share;
   for (int round = 0; round <= GeneraliseRules::thinning_rounds; ++round, share *= GeneraliseRules::finer_thinning) {
     thinned = round < GeneraliseRules::thinning_rounds ? without_ragged_runs(boundary, size, share) : nullptr;
-    made.emplace(thinned ? *thinned : boundary, size, lattice);
+    made.emplace(thinned ? *thinned : boundary, size, lattice, inside);
     if (made->is_valid() || !thinned)
       break;
   }
@@ -150,18 +201,17 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
   if (counts.cut == 0) // slits are looked for once nothing narrow is left inside
     for (NarrowPart& slit : close_narrow_parts(map, filled, choice, corners, labels, counts))
       apart.push_back(std::move(slit));
-  if (!separate_touching_loops(map, labels))
+  if (!separate_touching_loops(map, filled, labels))
     return nullptr;
   VertexMoves moves(map, labels, lattice);
-  moves.widen(apart);
-  counts.widened = std::ssize(apart);
+  counts.widened = moves.widen(std::move(apart));
   moves.merge_close_corners();
   counts.largest_move = moves.largest_share();
   if (labels == given && !moves.any() && !thinned)
     return nullptr;
   result->boundary = build_loops(map, labels, moves.any() ? moves.places() : MovedVertices{});
-  if (result->boundary.loops.empty())
-    return nullptr; // nothing is left
+  if (result->boundary.loops.empty() || have_same_pieces(result->boundary, boundary))
+    return nullptr; // nothing is left, or vertices that were added went again
   return result;
 }
 
@@ -180,14 +230,17 @@ void GeneralisedCounts::add(const GeneralisedCounts& other) {
 std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const sizing::SizeField& size,
                                               const geometry::Lattice& lattice, const Choice& choice,
                                               std::span<const Vec2> inside) {
-  (void)inside;
   if (boundary.periods.any() || boundary.loops.empty())
     return nullptr;
+  std::vector<Vec2> held;
+  if (!inside.empty())
+    if (const CurveMap given(boundary, size, lattice); given.is_valid())
+      held = given.those_inside(inside);
   std::unique_ptr<Generalised> result;
   Corners corners;
-  for (int pass = 0; pass < GeneraliseRules::most_passes;
-       ++pass) { // parts that were moved apart may leave others narrow
-    std::unique_ptr<Generalised> next = pass_over(result ? result->boundary : boundary, size, lattice, choice, corners);
+  for (int pass = 0; pass < GeneraliseRules::most_passes; ++pass) { // what was moved apart may leave others narrow
+    std::unique_ptr<Generalised> next =
+        pass_over(result ? result->boundary : boundary, size, lattice, choice, held, corners);
     corners.is_first_pass = false;
     if (!next)
       break;

@@ -45,7 +45,8 @@ struct Generalised {
 /// and their sides moved apart, or closed. Triangles that keep their orientation prove that curves do not cross.
 /// Periodic boundaries come back as they are. Deterministic, one thread. O(n log n) for n pieces.
 /// @param size h
-/// @param inside points that must stay inside
+/// @param inside lattice points that must stay inside: a narrow part with one of them is not cut, and no curve moves
+/// over one. Those that are not inside the given boundary are left out.
 /// @throws GeometryError if a size is not positive and finite
 std::unique_ptr<const Generalised> generalise(const geometry::Boundary& boundary, const sizing::SizeField& size,
                                               const geometry::Lattice& lattice, const Choice& choice,

@@ -55,9 +55,7 @@ private:
   }
   bool is_narrow_edge(HalfEdge e) const {
     const LocalIndex a = mesh_.origin(e), b = mesh_.target(e);
-    if (!map_.is_on_curve(a) || !map_.is_on_curve(b))
-      return false;
-    const double width = share_ * std::fmin(map_.size(a), map_.size(b));
+    const double width = share_ * std::fmin(map_.size(a), map_.size(b)); // 0 at the corners of the box
     return squared_length(mesh_.point(b) - mesh_.point(a)) < width * width;
   }
   bool is_narrow(LocalIndex t) const {
@@ -98,7 +96,7 @@ private:
         }
       }
     }
-    if (part.lids.size() == 1)
+    if (part.lids.size() == 1 && !part.holds_kept)
       measure_dead_end(part);
     return part;
   }

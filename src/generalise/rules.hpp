@@ -31,6 +31,11 @@ struct GeneraliseRules {
   static constexpr double arc_step = 0.2617993877991494;
   /// [rounds] Of separating loops that touch in a vertex. Not measured.
   static constexpr int touch_rounds = 50;
+  /// [h] A narrow part of the outside is widened if a vertex there is to move by more: else the next pass would move it
+  /// again, by less. Not measured.
+  static constexpr double least_shift = 0.01;
+  /// [rounds] Of opening again what, once closed, is a narrow part of the shape; then all of it. Not measured.
+  static constexpr int opening_rounds = 8;
   /// [distance from the end] A slit is widened by at most this share of the way from its end. Not measured.
   static constexpr double slit_taper = 0.4;
   /// [width of a slit] Vertices on its sides are joined if they are nearer to each other. Not measured.

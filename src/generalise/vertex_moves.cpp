@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 namespace trime::generalise {
@@ -19,11 +18,17 @@ using HalfEdge = Triangulation::HalfEdge;
 
 VertexMoves::VertexMoves(const CurveMap& map, const std::vector<char>& labels, const geometry::Lattice& lattice)
     : map_(map), mesh_(map.mesh()), rim_(mesh_, labels), lattice_(lattice), places_(at(mesh_.vertex_count())) {
+  root_.resize(places_.size());
+  forget();
+}
+
+/// All vertices are where they were.
+void VertexMoves::forget() {
   for (LocalIndex v = 0; v < mesh_.vertex_count(); ++v)
     places_[at(v)] = mesh_.point(v);
-  root_.resize(places_.size());
   std::iota(root_.begin(), root_.end(), 0);
-  is_root_.resize(places_.size());
+  is_root_.assign(places_.size(), 0);
+  any_ = false;
 }
 
 /// Triangles of which an edge has shrunk to nothing do not.
@@ -32,13 +37,8 @@ bool VertexMoves::turns_over(LocalIndex t) const {
   return a != b && b != c && c != a && geometry::orient2d(places_[at(a)], places_[at(b)], places_[at(c)]) <= 0;
 }
 
-void VertexMoves::widen_one(const NarrowPart& part, std::vector<Vec2>& shifts) const {
-  struct AtVertex {
-    double gap = INFINITY;
-    Vec2 away; // from the middle of the part: sum of normals
-  };
-  std::map<LocalIndex, AtVertex> vertices;
-  std::vector<Vec2> ends;
+VertexMoves::Sides VertexMoves::sides_of(const NarrowPart& part) const {
+  Sides sides;
   for (const LocalIndex t : part.triangles) {
     int constrained = 0;
     for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e) {
@@ -47,28 +47,45 @@ void VertexMoves::widen_one(const NarrowPart& part, std::vector<Vec2>& shifts) c
       const double whole = length(along);
       if (!mesh_.is_constrained(e)) {
         for (const LocalIndex v : {a, b})
-          vertices[v].gap = std::fmin(vertices[v].gap, whole);
+          sides.vertices[v].gap = std::fmin(sides.vertices[v].gap, whole);
         continue;
       }
       ++constrained;
       const Vec2 outward = (-1 / whole) * geometry::left_normal(along);
       for (const LocalIndex v : {a, b})
-        vertices[v].away = vertices[v].away + outward;
-      vertices[apex].gap = std::fmin(vertices[apex].gap, cross(along, mesh_.point(apex) - mesh_.point(a)) / whole);
+        sides.vertices[v].away = sides.vertices[v].away + outward;
+      double& gap = sides.vertices[apex].gap;
+      gap = std::fmin(gap, cross(along, mesh_.point(apex) - mesh_.point(a)) / whole);
     }
     if (constrained == 2)
       for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
         if (mesh_.is_constrained(e) && mesh_.is_constrained(Triangulation::previous(e)))
-          ends.push_back(mesh_.point(mesh_.origin(e)));
+          sides.ends.push_back(mesh_.point(mesh_.origin(e)));
   }
-  for (const auto& [v, here] : vertices) {
-    const double norm = length(here.away);
-    double way =
-        0.5 *
-        ((part.inside ? GeneraliseRules::narrow_inside : GeneraliseRules::narrow_outside) * map_.size(v) - here.gap);
-    for (const Vec2 end : ends)
-      way = std::fmin(way, GeneraliseRules::slit_taper * length(mesh_.point(v) - end));
-    if (way > 0 && norm > 0.5 && !map_.is_kept(v) && root(v) == v)
+  return sides;
+}
+
+/// How far a vertex is to move: half of what is missing, less near the end of a slit; 0 or less if nothing is.
+double VertexMoves::missing_way(const NarrowPart& part, const Sides& sides, LocalIndex v) const {
+  const double width = part.inside ? GeneraliseRules::narrow_inside : GeneraliseRules::narrow_outside;
+  double way = 0.5 * (width * map_.size(v) - sides.vertices.at(v).gap);
+  for (const Vec2 end : sides.ends)
+    way = std::fmin(way, GeneraliseRules::slit_taper * length(mesh_.point(v) - end));
+  return map_.is_kept(v) ? 0 : way;
+}
+
+bool VertexMoves::is_too_narrow(const NarrowPart& part) const {
+  const Sides sides = sides_of(part);
+  return std::any_of(sides.vertices.begin(), sides.vertices.end(), [&](const auto& entry) {
+    return missing_way(part, sides, entry.first) > GeneraliseRules::least_shift * map_.size(entry.first);
+  });
+}
+
+void VertexMoves::widen_one(const NarrowPart& part, std::vector<Vec2>& shifts) const {
+  const Sides sides = sides_of(part);
+  for (const auto& [v, here] : sides.vertices) {
+    const double norm = length(here.away), way = missing_way(part, sides, v);
+    if (way > 0 && norm > 0.5 && root(v) == v)
       shifts[at(v)] = (way / norm) * here.away;
   }
 }
@@ -95,7 +112,11 @@ void VertexMoves::calm(std::vector<Vec2>& shifts) const {
   }
 }
 
-void VertexMoves::widen(std::span<const NarrowPart> parts) {
+std::int64_t VertexMoves::widen(std::vector<NarrowPart> parts) {
+  parts.erase(std::remove_if(parts.begin(), parts.end(), [&](const NarrowPart& part) { return !is_too_narrow(part); }),
+              parts.end());
+  if (parts.empty())
+    return 0;
   thin(parts);
   std::vector<Vec2> shifts(places_.size());
   for (const NarrowPart& part : parts)
@@ -125,8 +146,12 @@ void VertexMoves::widen(std::span<const NarrowPart> parts) {
     if (factor == 0 && stopped)
       --round; // those beside them follow
   }
+  any_ = false;
   for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v)
-    any_ |= places_[at(v)] != mesh_.point(v);
+    any_ |= length(places_[at(v)] - mesh_.point(v)) > GeneraliseRules::least_shift * map_.size(v) && root(v) == v;
+  if (!any_) // what joined vertices alone moved is not worth it
+    forget();
+  return any_ ? std::ssize(parts) : 0;
 }
 
 /// Joins vertices on the sides of narrow parts that are nearer to each other than the parts become wide.

@@ -7,6 +7,9 @@
 #include "generalise/narrow_parts.hpp"
 #include "generalise/rim.hpp"
 
+#include <cmath>
+#include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -18,9 +21,10 @@ public:
   /// @param labels by triangle: 1 inside; they may have changed since the map was made
   VertexMoves(const CurveMap& map, const std::vector<char>& labels, const geometry::Lattice& lattice);
 
-  /// @brief Moves the sides of narrow parts apart, each half of what is missing, less towards the ends
-  /// of a slit. What would turn a triangle over is moved less, or not at all.
-  void widen(std::span<const NarrowPart> parts);
+  /// @brief Moves the sides of narrow parts apart, each half of what is missing, less towards the ends of a slit. What
+  /// would turn a triangle over is moved less, or not at all. Parts of which no vertex misses much stay.
+  /// @return how many parts were too narrow. O(triangles) a round, and rounds are few
+  std::int64_t widen(std::vector<NarrowPart> parts);
   /// Joins neighbouring corners that are nearer to each other than a small share of h: steps, blunt tips.
   void merge_close_corners();
 
@@ -36,6 +40,18 @@ private:
   bool is_alone(LocalIndex v) const { return is_root_[at(v)] == 0; }
   void merge(LocalIndex u, LocalIndex v);
   bool turns_over(LocalIndex t) const;
+  /// The sides of a narrow part, and the ends of slits there.
+  struct Sides {
+    struct AtVertex {
+      double gap = INFINITY; // distance of the other side
+      geometry::Vec2 away;   // from the middle of the part: sum of normals
+    };
+    std::map<LocalIndex, AtVertex> vertices;
+    std::vector<geometry::Vec2> ends;
+  };
+  Sides sides_of(const NarrowPart& part) const;
+  double missing_way(const NarrowPart& part, const Sides& sides, LocalIndex v) const;
+  bool is_too_narrow(const NarrowPart& part) const;
   void widen_one(const NarrowPart& part, std::vector<geometry::Vec2>& shifts) const;
 
   const CurveMap& map_;
@@ -45,6 +61,7 @@ private:
   LocalIndex root(LocalIndex v) const { return root_[at(v)]; }
   void calm(std::vector<geometry::Vec2>& shifts) const;
   void thin(std::span<const NarrowPart> parts);
+  void forget();
   MovedVertices places_;
   std::vector<char> is_root_;    // by vertex: of others
   std::vector<LocalIndex> root_; // by vertex: the one to which it was moved, or itself
