@@ -95,8 +95,7 @@ bool CurveMap::insert_one(Vec2 p, Strand* strand) {
     return !strand && is_held(v); // a point that was given twice
   size_.push_back(sizing::checked_size(field_, p));
   held_.push_back(!strand);
-  kept_.push_back(!strand ||
-                  (strand->from == 0 && boundary_.loops[at(strand->loop)].pieces[at(strand->piece)].corner));
+  kept_.push_back(!strand || (strand->from == 0 && boundary_.loops[at(strand->loop)].pieces[at(strand->piece)].corner));
   along_.push_back(strand ? strand->from : 0);
   if (strand)
     strand->first = v;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 namespace trime::generalise {
@@ -55,41 +56,42 @@ private:
   std::vector<Vec2> tips_;
 };
 
-/// Takes narrow parts out of the shape: the parts less wide than a share of h, or than a part of that if all of the
-/// shape is.
-/// Components that are narrow all over stay, unless they are small or all is to be cut.
-/// @return those components
-std::vector<NarrowPart> cut_narrow_parts(const CurveMap& map, const std::vector<char>& given, const Choice& choice,
-                                         Corners& corners, std::vector<char>& labels, GeneralisedCounts& counts) {
-  const Triangulation& mesh = map.mesh();
+/// What becomes of narrow parts in one pass.
+struct Plan {
+  std::vector<NarrowPart> changed; ///< cut, or closed: they go to the other side
+  std::vector<NarrowPart> apart;   ///< their sides are moved apart
+};
+
+void put(const NarrowPart& part, bool inside, std::vector<char>& labels) {
+  for (const LocalIndex t : part.triangles)
+    labels[at(t)] = inside;
+}
+
+/// Plans to take narrow parts out of the shape: the parts less wide than a share of h, or than a part of that if all of
+/// the shape is. Components that are narrow all over stay, unless they are small or all is to be cut.
+Plan plan_cuts(const CurveMap& map, const std::vector<char>& given, const Choice& choice, Corners& corners) {
   const Regions regions(map, given);
   const auto stays = [&](const NarrowPart& part) {
     return !choice.cuts_thin_components && part.lids.empty() &&
            regions.perimeter(regions.of(part.triangles[0])) >= GeneraliseRules::small_component;
   };
-  std::vector<NarrowPart> thin;
+  Plan plan;
   double share = GeneraliseRules::narrow_inside;
   for (int round = 0; round < GeneraliseRules::narrower_rounds; ++round, share *= 0.5) {
-    labels = given;
-    thin.clear();
-    counts.cut = 0;
-    counts.cut_area = 0;
-    for (const NarrowPart& part : find_narrow_parts(map, given, true, share)) {
-      if (part.holds_kept || !matters(mesh, part) || corners.holds(part))
+    std::vector<char> labels = given;
+    plan = {};
+    for (NarrowPart& part : find_narrow_parts(map, given, true, share)) {
+      if (part.holds_kept || !matters(map.mesh(), part) || corners.holds(part))
         continue;
-      if (stays(part)) {
-        thin.push_back(part);
-        continue;
-      }
-      ++counts.cut;
-      counts.cut_area += area_of(mesh, part);
-      for (const LocalIndex t : part.triangles)
-        labels[at(t)] = 0;
+      const bool is_thin = stays(part);
+      if (!is_thin)
+        put(part, false, labels);
+      (is_thin ? plan.apart : plan.changed).push_back(std::move(part));
     }
     if (std::find(labels.begin(), labels.end(), 1) != labels.end())
       break;
   }
-  return thin;
+  return plan;
 }
 
 /// Is a small component beside the part?
@@ -119,46 +121,62 @@ std::vector<char> cut_again(const CurveMap& map, const std::vector<char>& given,
   return result;
 }
 
-/// Fills parts of the outside. Those that would be narrow parts of the shape then are opened again and moved from
-/// `closed` to `slits`.
-void fill(const CurveMap& map, const std::vector<char>& given, std::vector<NarrowPart>& closed,
-          std::vector<NarrowPart>& slits, std::vector<char>& labels) {
-  for (const NarrowPart& part : closed)
-    for (const LocalIndex t : part.triangles)
-      labels[at(t)] = 1;
-  for (int round = 0; round <= GeneraliseRules::opening_rounds && !closed.empty(); ++round) {
-    std::vector<char> open = cut_again(map, given, labels, closed);
-    if (std::find(open.begin(), open.end(), 1) == open.end())
-      return;
-    if (round == GeneraliseRules::opening_rounds)
-      open.assign(closed.size(), 1);
-    std::vector<NarrowPart> stay;
-    for (std::size_t k = 0; k < closed.size(); ++k) {
-      if (open[k])
-        for (const LocalIndex t : closed[k].triangles)
-          labels[at(t)] = 0;
-      (open[k] ? slits : stay).push_back(std::move(closed[k]));
-    }
-    closed = std::move(stay);
-  }
+/// Takes parts out of what is changed, into what is moved apart.
+void take_back(const std::vector<char>& which, Plan& plan) {
+  std::vector<NarrowPart> stay;
+  for (std::size_t k = 0; k < plan.changed.size(); ++k)
+    (which[k] ? plan.apart : stay).push_back(std::move(plan.changed[k]));
+  plan.changed = std::move(stay);
 }
 
-/// Fills narrow parts of the outside that are to be closed; returns the others.
-std::vector<NarrowPart> close_narrow_parts(const CurveMap& map, const std::vector<char>& given, const Choice& choice,
-                                           Corners& corners, std::vector<char>& labels, GeneralisedCounts& counts) {
+/// Plans to fill narrow parts of the outside. Those that would be narrow parts of the shape then are moved apart.
+Plan plan_closings(const CurveMap& map, const std::vector<char>& given, const Choice& choice, Corners& corners) {
   const Regions regions(map, given);
-  std::vector<NarrowPart> slits, closed;
+  Plan plan;
   for (NarrowPart& part : find_narrow_parts(map, given, false, GeneraliseRules::narrow_outside)) {
     if (part.holds_kept || !matters(map.mesh(), part) || corners.holds(part))
       continue;
     const bool stays = choice.narrow == Narrow::keep && !is_beside_small(map, regions, given, part);
-    (stays ? slits : closed).push_back(std::move(part));
+    (stays ? plan.apart : plan.changed).push_back(std::move(part));
   }
-  fill(map, given, closed, slits, labels);
-  counts.closed = std::ssize(closed);
-  for (const NarrowPart& part : closed)
-    counts.closed_area += area_of(map.mesh(), part);
-  return slits;
+  for (int round = 0; round <= GeneraliseRules::opening_rounds && !plan.changed.empty(); ++round) {
+    std::vector<char> labels = given;
+    for (const NarrowPart& part : plan.changed)
+      put(part, true, labels);
+    std::vector<char> open = cut_again(map, given, labels, plan.changed);
+    if (std::find(open.begin(), open.end(), 1) == open.end())
+      break;
+    if (round == GeneraliseRules::opening_rounds)
+      open.assign(plan.changed.size(), 1);
+    take_back(open, plan);
+  }
+  return plan;
+}
+
+/// The labels after the plan. What cannot be changed without a touch of two loops is moved apart instead. Empty if that
+/// does not end.
+std::vector<char> follow(const CurveMap& map, const std::vector<char>& given, Plan& plan) {
+  for (;;) {
+    std::vector<char> labels = given;
+    for (const NarrowPart& part : plan.changed)
+      put(part, !part.inside, labels);
+    if (!separate_touching_loops(map, given, labels))
+      return {};
+    std::vector<char> back;
+    for (const NarrowPart& part : plan.changed)
+      back.push_back(part.inside && std::any_of(part.triangles.begin(), part.triangles.end(),
+                                                [&](LocalIndex t) { return labels[at(t)] != 0; }));
+    if (std::find(back.begin(), back.end(), 1) == back.end())
+      return labels;
+    take_back(back, plan);
+  }
+}
+
+void count(const Triangulation& mesh, const Plan& plan, GeneralisedCounts& counts) {
+  for (const NarrowPart& part : plan.changed) {
+    ++(part.inside ? counts.cut : counts.closed);
+    (part.inside ? counts.cut_area : counts.closed_area) += area_of(mesh, part);
+  }
 }
 
 /// Do the boundaries have the same pieces, in whatever order?
@@ -174,20 +192,32 @@ bool have_same_pieces(const Boundary& a, const Boundary& b) {
   return ends(a) == ends(b);
 }
 
+/// The map of a boundary, or of the one without its ragged runs if there are any.
+struct ThinnedMap {
+  std::unique_ptr<const Boundary> thinned; ///< null if nothing was ragged
+  std::optional<CurveMap> map;
+};
+
+/// Thins less, then not at all, while that makes curves cross.
+ThinnedMap make_map(const Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
+                    std::span<const Vec2> inside) {
+  ThinnedMap made;
+  double share = GeneraliseRules::thinned_share;
+  for (int round = 0; round <= GeneraliseRules::thinning_rounds; ++round, share *= GeneraliseRules::finer_thinning) {
+    made.thinned = round < GeneraliseRules::thinning_rounds ? without_ragged_runs(boundary, size, share) : nullptr;
+    made.map.emplace(made.thinned ? *made.thinned : boundary, size, lattice, inside);
+    if (made.map->is_valid() || !made.thinned)
+      break;
+  }
+  return made;
+}
+
 /// Once over the boundary; null if nothing is to be done.
 std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::SizeField& size,
                                        const geometry::Lattice& lattice, const Choice& choice,
                                        std::span<const Vec2> inside, Corners& corners) {
-  std::unique_ptr<const Boundary> thinned;
-  std::optional<CurveMap> made;
-  double share = GeneraliseRules::thinned_share;
-  for (int round = 0; round <= GeneraliseRules::thinning_rounds; ++round, share *= GeneraliseRules::finer_thinning) {
-    thinned = round < GeneraliseRules::thinning_rounds ? without_ragged_runs(boundary, size, share) : nullptr;
-    made.emplace(thinned ? *thinned : boundary, size, lattice, inside);
-    if (made->is_valid() || !thinned)
-      break;
-  }
-  CurveMap& map = *made;
+  ThinnedMap made = make_map(boundary, size, lattice, inside);
+  CurveMap& map = *made.map;
   if (!map.is_valid())
     return nullptr;
   add_nodes_to_narrow_parts(map);
@@ -196,18 +226,21 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
   GeneralisedCounts& counts = result->counts;
   std::vector<char> filled = given;
   counts.filled = fill_small_holes(map, filled);
-  std::vector<char> labels = filled;
-  std::vector<NarrowPart> apart = cut_narrow_parts(map, filled, choice, corners, labels, counts); // to be widened
-  if (counts.cut == 0) // slits are looked for once nothing narrow is left inside
-    for (NarrowPart& slit : close_narrow_parts(map, filled, choice, corners, labels, counts))
-      apart.push_back(std::move(slit));
-  if (!separate_touching_loops(map, filled, labels))
+  Plan plan = plan_cuts(map, filled, choice, corners);
+  if (plan.changed.empty()) { // slits are looked for once nothing narrow is left inside
+    Plan more = plan_closings(map, filled, choice, corners);
+    plan.changed = std::move(more.changed);
+    std::move(more.apart.begin(), more.apart.end(), std::back_inserter(plan.apart));
+  }
+  const std::vector<char> labels = follow(map, filled, plan);
+  if (labels.empty())
     return nullptr;
+  count(map.mesh(), plan, counts);
   VertexMoves moves(map, labels, lattice);
-  counts.widened = moves.widen(std::move(apart));
+  counts.widened = moves.widen(std::move(plan.apart));
   moves.merge_close_corners();
   counts.largest_move = moves.largest_share();
-  if (labels == given && !moves.any() && !thinned)
+  if (labels == given && !moves.any() && !made.thinned)
     return nullptr;
   result->boundary = build_loops(map, labels, moves.any() ? moves.places() : MovedVertices{});
   if (result->boundary.loops.empty() || have_same_pieces(result->boundary, boundary))
@@ -221,7 +254,7 @@ void GeneralisedCounts::add(const GeneralisedCounts& other) {
   cut += other.cut;
   filled += other.filled;
   closed += other.closed;
-  widened += other.widened;
+  widened = std::max(widened, other.widened); // what a pass widens, the next ones may widen a little more
   cut_area += other.cut_area;
   closed_area += other.closed_area;
   largest_move = std::max(largest_move, other.largest_move);

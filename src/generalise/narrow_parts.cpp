@@ -33,7 +33,10 @@ class NarrowFinder {
 public:
   NarrowFinder(const CurveMap& map, const std::vector<char>& labels, bool inside, double share)
       : map_(map), mesh_(map.mesh()), labels_(labels), inside_(inside), share_(share), narrow_(labels.size()),
-        seen_(labels.size()) {
+        seen_(labels.size()), on_rim_(at(mesh_.vertex_count())) {
+    for (HalfEdge e = 0; e < 3 * mesh_.triangle_count(); ++e)
+      if (is_wall(e))
+        on_rim_[at(mesh_.origin(e))] = 1;
     for (LocalIndex t = 0; t < mesh_.triangle_count(); ++t)
       narrow_[at(t)] = is_narrow(t);
   }
@@ -53,8 +56,12 @@ private:
     return f != Triangulation::none &&
            labels_[at(Triangulation::triangle(e))] != labels_[at(Triangulation::triangle(f))];
   }
+  /// Nodes of a hole that was filled, or of a slit that was closed, tell nothing of widths.
+  bool tells_width(LocalIndex v) const { return on_rim_[at(v)] || map_.is_held(v); }
   bool is_narrow_edge(HalfEdge e) const {
     const LocalIndex a = mesh_.origin(e), b = mesh_.target(e);
+    if (!tells_width(a) || !tells_width(b))
+      return false;
     const double width = share_ * std::fmin(map_.size(a), map_.size(b)); // 0 at the corners of the box
     return squared_length(mesh_.point(b) - mesh_.point(a)) < width * width;
   }
@@ -140,6 +147,7 @@ private:
   const bool inside_;
   const double share_;
   std::vector<char> narrow_, seen_; // by triangle
+  std::vector<char> on_rim_;        // by vertex
 };
 
 } // namespace

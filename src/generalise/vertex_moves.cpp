@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace trime::generalise {
 namespace {
@@ -168,7 +169,7 @@ void VertexMoves::thin(std::span<const NarrowPart> parts) {
     if (!rim_.holds(mesh_.find_edge(v, u)))
       continue;
     const double close = GeneraliseRules::thinned * GeneraliseRules::narrow_outside * map_.size(v);
-    if (beside[at(u)] && !map_.is_kept(u) && root(u) == u &&
+    if (beside[at(u)] && !map_.is_kept(u) && root(u) == u && is_alone(u) && leaves_a_loop(mesh_.find_edge(v, u)) &&
         squared_length(mesh_.point(u) - places_[at(v)]) < close * close)
       merge(u, root(v));
   }
@@ -199,9 +200,24 @@ void VertexMoves::merge_close_corners() {
     if (std::fmin(at_v, at_u) < GeneraliseRules::corner_turn)
       continue;
     const bool moves_u = map_.is_kept(v) || (!map_.is_kept(u) && at_u < at_v);
-    if (const LocalIndex mover = moves_u ? u : v; !map_.is_kept(mover) && is_alone(mover))
+    if (const LocalIndex mover = moves_u ? u : v; !map_.is_kept(mover) && is_alone(mover) && leaves_a_loop(e))
       merge(mover, moves_u ? v : u);
   }
+}
+
+/// Has the loop of the half-edge e on the rim two more places than the ends of e?
+bool VertexMoves::leaves_a_loop(HalfEdge e) const {
+  const Vec2 a = places_[at(mesh_.origin(e))], b = places_[at(mesh_.target(e))];
+  std::optional<Vec2> third;
+  for (HalfEdge f = rim_.next(e); f != e; f = rim_.next(f)) {
+    const Vec2 p = places_[at(mesh_.target(f))];
+    if (p == a || p == b)
+      continue;
+    if (third && *third != p)
+      return true;
+    third = p;
+  }
+  return false;
 }
 
 /// Moves u to the place of v, if no triangle turns over.

@@ -38,6 +38,7 @@ private:
   double turn_at(HalfEdge e) const;
   /// Has no other vertex been moved to it?
   bool is_alone(LocalIndex v) const { return is_root_[at(v)] == 0; }
+  bool leaves_a_loop(HalfEdge e) const;
   void merge(LocalIndex u, LocalIndex v);
   bool turns_over(LocalIndex t) const;
   /// The sides of a narrow part, and the ends of slits there.

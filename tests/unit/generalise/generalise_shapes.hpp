@@ -128,9 +128,10 @@ inline Boundary thin_walls(Draws& draws) {
     for (int j = 0; j < n; ++j) {
       const Vec2 a{0.1 + side * i, 0.1 + side * j};
       const auto inset = [&] { return draws.log_between(1e-6, 0.2 * side); };
-      loops.push_back(polygon_loop(reversed({a + Vec2{inset(), inset()}, a + Vec2{side - inset(), inset()},
-                                             a + Vec2{side - inset(), side - inset()}, a + Vec2{inset(), side - inset()}}),
-                                   static_cast<int>(loops.size()) + 1));
+      loops.push_back(
+          polygon_loop(reversed({a + Vec2{inset(), inset()}, a + Vec2{side - inset(), inset()},
+                                 a + Vec2{side - inset(), side - inset()}, a + Vec2{inset(), side - inset()}}),
+                       static_cast<int>(loops.size()) + 1));
     }
   return boundary_of(std::move(loops));
 }
@@ -197,8 +198,8 @@ struct ShapeClass {
 
 inline const std::vector<ShapeClass>& shape_classes() {
   static const std::vector<ShapeClass> classes{
-      {"crack", crack},     {"blunt tip", blunt_tip},     {"comb", comb},
-      {"spits", spits},     {"thin walls", thin_walls},   {"islands", islands},
+      {"crack", crack},       {"blunt tip", blunt_tip},         {"comb", comb},
+      {"spits", spits},       {"thin walls", thin_walls},       {"islands", islands},
       {"coast", rough_coast}, {"near vertices", near_vertices}, {"round holes", round_holes}};
   return classes;
 }

@@ -117,8 +117,8 @@ std::vector<std::pair<std::string, std::vector<Vec2>>> point_sets() {
 /// In an order that follows from the seed.
 std::vector<Vec2> shuffled(std::vector<Vec2> points, std::uint64_t seed) {
   for (std::size_t k = points.size(); k > 1; --k)
-    std::swap(points[k - 1], points[static_cast<std::size_t>(random_unit(seed, RandomPurpose::test, k, 7) *
-                                                             static_cast<double>(k))]);
+    std::swap(points[k - 1],
+              points[static_cast<std::size_t>(random_unit(seed, RandomPurpose::test, k, 7) * static_cast<double>(k))]);
   return points;
 }
 
