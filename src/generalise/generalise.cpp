@@ -260,6 +260,16 @@ void GeneralisedCounts::add(const GeneralisedCounts& other) {
   largest_move = std::max(largest_move, other.largest_move);
 }
 
+std::unique_ptr<const Boundary> thinned(const Boundary& boundary, const sizing::SizeField& size,
+                                        const geometry::Lattice& lattice) {
+  if (boundary.periods.any())
+    return nullptr;
+  std::unique_ptr<const Boundary> result = without_ragged_runs(boundary, size, GeneraliseRules::thinned_share);
+  if (result && !CurveMap(*result, size, lattice).is_valid())
+    return nullptr;
+  return result;
+}
+
 std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const sizing::SizeField& size,
                                               const geometry::Lattice& lattice, const Choice& choice,
                                               std::span<const Vec2> inside) {

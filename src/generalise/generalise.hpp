@@ -37,6 +37,12 @@ struct Generalised {
   GeneralisedCounts counts;
 };
 
+/// @brief The boundary without vertices that are far below elements of this size, in ragged and in dense runs; null if
+/// there are none, in a periodic container, and where curves would cross. O(n log n)
+/// @param size h @throws GeometryError if a size is not positive and finite
+std::unique_ptr<const geometry::Boundary> thinned(const geometry::Boundary& boundary, const sizing::SizeField& size,
+                                                  const geometry::Lattice& lattice);
+
 /// @brief The boundary without narrow parts for elements of this size; null if it has none.
 ///
 /// The curves are the constraints of a Delaunay triangulation of their nodes. Parts whose triangles are all narrow are

@@ -48,6 +48,9 @@ struct GeneraliseRules {
   static constexpr int displacement_rounds = 12;
   /// [h] Ragged runs of a curve lose vertices that are nearer to each other. Not measured.
   static constexpr double thinned_share = 0.05;
+  /// [share of ragged runs] Smooth runs lose vertices that are nearer to each other: 0.02 h, where a chord is within
+  /// 5e-5 h of a curve of radius h. Not measured.
+  static constexpr double dense_share = 0.4;
   /// [1] A curve is ragged where 1 - cosine of its turns adds up to more on that way: one turn of 75 degrees, or
   /// several smaller ones. Not measured.
   static constexpr double ragged_turn = 0.75;

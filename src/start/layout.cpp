@@ -85,11 +85,20 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
   CurvesAtSize& curves = laid.fitted.curves;
   if (context.options.features.keep_all)
     return given;
-  if (!(std::fabs(curves.factor - laid.fitted.factor) <= StartRules::same_curves * laid.fitted.factor))
-    curves = {laid.fitted.factor,
-              generalise::generalise(given, *laid.stage.asked_size, context.lattice,
-                                     {generalise::Narrow::keep, context.cuts_thin_components}, context.fixed.inside()),
-              nullptr};
+  const double factor = laid.fitted.factor;
+  if (!(std::fabs(curves.factor - factor) <= StartRules::same_curves * factor)) {
+    if (!(curves.thinned_factor * StartRules::thinned_ahead <= factor &&
+          factor <= curves.thinned_factor * StartRules::thinned_ahead * StartRules::thinned_ahead)) {
+      curves.thinned_factor = factor / StartRules::thinned_ahead;
+      curves.thinned = generalise::thinned(
+          given, sizing::ScaledSize(*laid.stage.asked_size, 1 / StartRules::thinned_ahead), context.lattice);
+    }
+    curves.factor = factor;
+    curves.samples = nullptr;
+    curves.found = generalise::generalise(curves.thinned ? *curves.thinned : given, *laid.stage.asked_size,
+                                          context.lattice, {generalise::Narrow::keep, context.cuts_thin_components},
+                                          context.fixed.inside());
+  }
   if (!curves.found)
     return given;
   laid.stage.curves = {curves.found, &curves.found->boundary};
