@@ -20,13 +20,15 @@ struct Choice {
   bool cuts_thin_components = false; ///< components that are narrow all over are cut to pieces, not widened
 };
 
-/// What was done.
+/// What was done, over all passes.
 struct GeneralisedCounts {
-  std::int64_t cut = 0;     ///< narrow parts of the shape that were taken away
-  std::int64_t filled = 0;  ///< holes with a small perimeter
-  std::int64_t closed = 0;  ///< narrow parts of the outside that were filled
-  std::int64_t widened = 0; ///< narrow parts of the outside whose sides were moved apart
-  double cut_area = 0, closed_area = 0;
+  std::int64_t cut = 0;    ///< narrow parts of the shape that were taken away
+  std::int64_t filled = 0; ///< holes with a small perimeter
+  std::int64_t closed = 0; ///< narrow parts of the outside that were filled
+  std::int64_t widened =
+      0; ///< narrow parts whose sides were moved apart: of the outside, and thin components; in the pass with most
+  double cut_area = 0; ///< in the units of the coordinates, squared
+  double closed_area = 0;
   double largest_move = 0; ///< of a vertex, over h
 
   void add(const GeneralisedCounts& other);
