@@ -79,6 +79,11 @@ void set_sizes(const LayoutContext& context, const FittedSize& fitted, Stage& st
   stage.size = std::make_unique<sizing::ScaledSize>(*within, stage.coarsening);
 }
 
+generalise::Narrow narrow_outside(const LayoutContext& context) {
+  return context.options.features.narrow == boundary::NarrowOutside::close ? generalise::Narrow::close
+                                                                           : generalise::Narrow::keep;
+}
+
 /// The curves on which the sites of a stage lie: those of the shape, without what is narrower than its last size.
 const geometry::Boundary& generalised_curves(const LayoutContext& context, FittedStage& laid) {
   const geometry::Boundary& given = context.fixed.cornered_boundary();
@@ -87,7 +92,7 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
     return given;
   if (!(std::fabs(curves.factor - laid.fitted.factor) <= StartRules::same_curves * laid.fitted.factor))
     curves = {laid.fitted.factor,
-              generalise::generalise(given, *laid.stage.asked_size, context.lattice, generalise::Narrow::keep,
+              generalise::generalise(given, *laid.stage.asked_size, context.lattice, narrow_outside(context),
                                      context.fixed.inside()),
               nullptr};
   if (!curves.found)
