@@ -162,10 +162,24 @@ constexpr Option table[] = {
      .key = "keep_features",
      .kind = OptionKind::boolean,
      .fallback = "false",
-     .meaning = "true: every corner, island and lake is kept, however small, and the size is lowered around it; false: "
-                "islands and lakes with a perimeter below 3 h (h: the local size) are dropped, and corners may be left "
-                "out, see "
-                "`feature_tolerance`; the report counts them"},
+     .meaning = "true: every corner, island, lake and narrow part is kept, however small, and the size is lowered "
+                "around it; false: parts of the shape narrower than 0.4 h (h: the local size) are cut, islands and "
+                "lakes with a perimeter below 3 h are dropped, and corners may be left out, see `feature_tolerance`; "
+                "the report counts them"},
+    {.section = "meshing",
+     .key = "narrow",
+     .kind = OptionKind::word,
+     .fallback = "keep",
+     .choices = "keep close",
+     .meaning = "parts of the outside that are narrower than a quarter of h (slits, cracks, walls): keep: their sides "
+                "are moved apart; close: they are filled, as they always are beside components with a perimeter below "
+                "5 h; means nothing with `keep_features`"},
+    {.section = "meshing",
+     .key = "refine_narrow",
+     .kind = OptionKind::boolean,
+     .fallback = "true",
+     .meaning = "true: a uniform size is lowered where the shape is narrower than the triangles; false: it is the same "
+                "everywhere"},
     {.section = "meshing",
      .key = "feature_tolerance",
      .fallback = "0.1",

@@ -79,6 +79,11 @@ void set_sizes(const LayoutContext& context, const FittedSize& fitted, Stage& st
   stage.size = std::make_unique<sizing::ScaledSize>(*within, stage.coarsening);
 }
 
+generalise::Narrow narrow_outside(const LayoutContext& context) {
+  return context.options.features.narrow == boundary::NarrowOutside::close ? generalise::Narrow::close
+                                                                           : generalise::Narrow::keep;
+}
+
 /// The curves on which the sites of a stage lie: those of the shape, without what is narrower than its last size.
 const geometry::Boundary& generalised_curves(const LayoutContext& context, FittedStage& laid) {
   const geometry::Boundary& given = context.fixed.cornered_boundary();
@@ -96,8 +101,10 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
     curves.factor = factor;
     curves.samples = nullptr;
     curves.found = generalise::generalise(curves.thinned ? *curves.thinned : given, *laid.stage.asked_size,
-                                          context.lattice, {generalise::Narrow::keep, context.cuts_thin_components},
+                                          context.lattice, {narrow_outside(context), context.cuts_thin_components},
                                           context.fixed.inside());
+    if (!curves.found && curves.thinned)
+      curves.found = std::make_shared<generalise::Generalised>(generalise::Generalised{*curves.thinned, {}});
   }
   if (!curves.found)
     return given;

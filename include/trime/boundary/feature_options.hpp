@@ -4,12 +4,19 @@
 
 namespace trime::boundary {
 
-/// Which corners, islands and lakes of the shape the mesh keeps.
+/// What becomes of parts of the outside that are narrower than the triangles: slits, cracks, walls.
+enum class NarrowOutside {
+  keep,  ///< their sides are moved apart where they are nearer than a quarter of the local size
+  close, ///< they become a part of the shape
+};
+
+/// Which corners, islands, lakes and narrow parts of the shape the mesh keeps.
 struct FeatureOptions {
-  double corner_angle = 30; ///< degrees: a vertex of the boundary that turns by more is a corner
-  bool keep_all = false;    ///< keeps every corner, island and lake, however small
+  double corner_angle = 30;  ///< degrees: a vertex of the boundary that turns by more is a corner
+  bool keep_all = false;     ///< keeps every corner, island, lake and narrow part, however small
   bool refine_narrow = true; ///< a uniform size is lowered where the shape is narrower than the triangles
-  double tolerance = 0.1;   ///< in local sizes: how far chords may pass from corners that they leave out
+  double tolerance = 0.1;    ///< in local sizes: how far chords may pass from corners that they leave out
+  NarrowOutside narrow = NarrowOutside::keep; ///< beside components of less than 5 h perimeter they close anyway
 };
 
 } // namespace trime::boundary

@@ -118,6 +118,17 @@ TEST(Config, UnderstandsAGoodFile) {
   EXPECT_NE(options.warnings[0].find("'map'"), std::string::npos);
 }
 
+TEST(Config, SaysWhatBecomesOfNarrowParts) {
+  const auto features = [](const std::vector<std::string>& overrides) {
+    return parse_config(good, "c.ini", overrides).mesh.features;
+  };
+  EXPECT_EQ(features({}).narrow, boundary::NarrowOutside::keep);
+  EXPECT_TRUE(features({}).refine_narrow);
+  EXPECT_EQ(features({"meshing.narrow=close"}).narrow, boundary::NarrowOutside::close);
+  EXPECT_FALSE(features({"meshing.refine_narrow=false"}).refine_narrow);
+  expect_refused("meshing.narrow=closed", "'narrow = closed' in [meshing]");
+}
+
 TEST(Config, AbsoluteContourPathsStay) {
   const RunOptions options = parse_config(good + "[shape.map]\ntype = contour\nfile = /data/b.xy\n", "dir/c.ini", {});
   EXPECT_EQ(options.parts[2].file, "/data/b.xy");
