@@ -100,9 +100,9 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
     }
     curves.factor = factor;
     curves.samples = nullptr;
-    curves.found = generalise::generalise(curves.thinned ? *curves.thinned : given, *laid.stage.asked_size,
-                                          context.lattice, {narrow_outside(context), context.cuts_thin_components},
-                                          context.fixed.inside());
+    curves.found =
+        generalise::generalise(curves.thinned ? *curves.thinned : given, *laid.stage.asked_size, context.lattice,
+                               {narrow_outside(context), context.cuts_thin_components}, context.fixed.inside());
     if (!curves.found && curves.thinned)
       curves.found = std::make_shared<generalise::Generalised>(generalise::Generalised{*curves.thinned, {}});
   }
