@@ -135,7 +135,8 @@ ExitCode make_mesh(const Job& job) {
     return ExitCode::done;
   }
 
-  const Provenance provenance{job.line, options, job.config_text, placement, boundary, input.normalized};
+  const Provenance provenance{
+      job.line, options, job.config_text, placement, boundary, input.normalized, job.places.ring_lines(boundary)};
   const meshing::MeshResult result = run_mesher(job, provenance, *size.field, mesh_options, series);
   const SizeSummary sizes = summarize_size(size.description, result.mesh, comm);
   io::WrittenFiles files;

@@ -108,6 +108,13 @@ std::vector<NarrowPart> close_narrow_parts(const CurveMap& map, const std::vecto
   return slits;
 }
 
+std::int64_t piece_count(const Boundary& boundary) {
+  std::int64_t count = 0;
+  for (const geometry::Loop& loop : boundary.loops)
+    count += std::ssize(loop.pieces);
+  return count;
+}
+
 /// Once over the boundary; null if nothing is to be done.
 std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::SizeField& size,
                                        const geometry::Lattice& lattice, Narrow narrow, Corners& corners) {
@@ -127,6 +134,8 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
   const std::vector<char> given = map.inside();
   auto result = std::make_unique<Generalised>();
   GeneralisedCounts& counts = result->counts;
+  if (thinned)
+    counts.thinned = piece_count(boundary) - piece_count(*thinned);
   std::vector<char> filled = given;
   counts.filled = fill_small_holes(map, filled);
   std::vector<char> labels = filled;
@@ -149,16 +158,6 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
 
 } // namespace
 
-void GeneralisedCounts::add(const GeneralisedCounts& other) {
-  cut += other.cut;
-  filled += other.filled;
-  closed += other.closed;
-  widened += other.widened;
-  cut_area += other.cut_area;
-  closed_area += other.closed_area;
-  largest_move = std::max(largest_move, other.largest_move);
-}
-
 std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const sizing::SizeField& size,
                                               const geometry::Lattice& lattice, Narrow narrow,
                                               std::span<const Vec2> inside) {
@@ -178,6 +177,14 @@ std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const si
     result = std::move(next);
   }
   return result;
+}
+
+bool has_narrow_parts(const Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
+                      Narrow narrow) {
+  if (boundary.periods.any() || boundary.loops.empty())
+    return false;
+  Corners corners;
+  return pass_over(boundary, size, lattice, narrow, corners) != nullptr;
 }
 
 } // namespace trime::generalise

@@ -2,6 +2,7 @@
 // The boundary of a shape at the resolution of a mesh: without parts that are narrower than its triangles.
 #pragma once
 
+#include "polygon/simplification.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/sizing/size_field.hpp"
@@ -14,17 +15,7 @@ namespace trime::generalise {
 /// What becomes of parts of the outside that are narrower than the resolution: slits, cracks, walls.
 enum class Narrow { keep, close };
 
-/// What was done.
-struct GeneralisedCounts {
-  std::int64_t cut = 0;     ///< narrow parts of the shape that were taken away
-  std::int64_t filled = 0;  ///< holes with a small perimeter
-  std::int64_t closed = 0;  ///< narrow parts of the outside that were filled
-  std::int64_t widened = 0; ///< narrow parts of the outside whose sides were moved apart
-  double cut_area = 0, closed_area = 0;
-  double largest_move = 0; ///< of a vertex, over h
-
-  void add(const GeneralisedCounts& other);
-};
+using GeneralisedCounts = polygon::Simplification;
 
 struct Generalised {
   geometry::Boundary boundary;
@@ -44,5 +35,9 @@ struct Generalised {
 std::unique_ptr<const Generalised> generalise(const geometry::Boundary& boundary, const sizing::SizeField& size,
                                               const geometry::Lattice& lattice, Narrow narrow,
                                               std::span<const geometry::Vec2> inside);
+
+/// Would generalise() change anything? Costs one pass of its several.
+bool has_narrow_parts(const geometry::Boundary& boundary, const sizing::SizeField& size,
+                      const geometry::Lattice& lattice, Narrow narrow);
 
 } // namespace trime::generalise

@@ -98,9 +98,15 @@ void Run::begin(Stage stage) {
 /// What was done about small features, and what the user may want to change. Collective.
 void Run::report_boundary() {
   features_ = boundary::report_features(stage_.polygon, scheme_.limits(), *stage_.asked_size);
+  comm::run_agreed(run_.comm, [this] { // this and the warnings ask the size field, which may be a user's
+    boundary::report_losses(boundary_.fixed().cornered_boundary(), boundary_.curves(), stage_.simplified,
+                            stage_.polygon.dropped, *stage_.asked_size, run_.lattice, features_);
+  });
   for (const std::string& line : describe(features_))
     run_.log.info("boundary: {}", line);
-  comm::run_agreed(run_.comm, [this] { // the warnings ask the size field, which may be a user's
+  if (const std::string warning = loss_warning(features_); !warning.empty())
+    run_.log.warning("{}", warning);
+  comm::run_agreed(run_.comm, [this] {
     start::warn_of_fine_features(stage_, run_.log);
     start::warn_of_steep_sizes(stage_, run_.given_boundary, run_.lattice, run_.log);
     if (!boundary_.fixed().empty())

@@ -98,6 +98,7 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
   if (!curves.found)
     return given;
   laid.stage.curves = {curves.found, &curves.found->boundary};
+  laid.stage.simplified = curves.found->counts;
   return curves.found->boundary;
 }
 
