@@ -7,6 +7,7 @@
 #include "comm/agree.hpp"
 #include "core/free_memory.hpp"
 #include "extraction/extraction.hpp"
+#include "meshing/outlook.hpp"
 #include "meshing/relaxation.hpp"
 #include "meshing/rules.hpp"
 #include "start/layout.hpp"
@@ -204,6 +205,10 @@ void Mesher::on_snapshot(SnapshotObserver observer) {
 
 MeshResult Mesher::run() {
   return Run(implementation_->run, implementation_->observer).make();
+}
+
+Outlook Mesher::outlook() const {
+  return look_ahead(implementation_->run);
 }
 
 } // namespace trime::meshing

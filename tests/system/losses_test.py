@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """What a mesh leaves out of a shape: every loop that is dropped, filled or merged is counted in a warning and listed in
-the file."""
+the file, and --dry-run foretells it."""
 import re
 import unittest
 
@@ -15,6 +15,7 @@ from trime_run import Workspace, run
 CONFIG = ("[shape]\nregion = sea\n[shape.sea]\ntype = contour\nfile = sea.xy\nnormalize = true\n"
           "[meshing]\npoints = 800\nworst_alpha = 1e300\n")
 LOST = {"dropped": "dropped", "hole filled": "filled", "holes filled": "filled", "merged with others": "merged"}
+KEPT = "nothing of the shape is simplified"
 
 
 def counts_of(text):
@@ -96,6 +97,24 @@ class Losses(unittest.TestCase):
         columns, says, _ = self.table(spit, "meshing.points=300", "meshing.keep_features=true")
         self.assertNotIn("area lost", says)
         self.assertEqual(columns["state"], ["kept"])
+
+    def test_the_dry_run_foretells_losses_and_what_keeps_everything(self):
+        def box(x, y, side):
+            return f"{x} {y}\n{x + side} {y}\n{x + side} {y + side}\n{x} {y + side}\n\n"
+        sea = box(0, 0, 1) + "".join(box(0.1 + 0.2 * k, 0.5, 0.01 * (1 + k)) for k in range(4))
+        with Workspace() as work:
+            config = self.prepare(work, sea)
+            done = run(config, "--dry-run", "meshing.points=200")
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            told = run(config, "--quiet", "output.interval=0", "meshing.points=200").stdout
+            self.assertEqual(counts_of(done.stdout), counts_of(told))
+            self.assertGreaterEqual(counts_of(told)[0]["filled"], 2)
+            keeps = re.search(r"^about (\S+) points \(edge_length = (\S+)\) keep everything$", done.stdout, re.M)
+            self.assertAlmostEqual(float(keeps[2]), 0.8 * 0.04 / 3, delta=0.0015)  # a perimeter of 3 h
+            for share, says in ((0.8, True), (1.5, False)):
+                edge_length = f"meshing.edge_length={share * float(keeps[2])}"
+                done = run(config, "--dry-run", "meshing.points=", edge_length)
+                self.assertEqual(KEPT in done.stdout, says, done.stdout)
 
 
 if __name__ == "__main__":

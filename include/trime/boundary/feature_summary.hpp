@@ -40,8 +40,8 @@ struct FeatureReport {
 /// One line for each thing that was done; none for a boundary that needed nothing.
 std::vector<std::string> describe(const FeatureReport& report);
 
-/// What of the shape is not in the mesh, and what to do about it: a warning if loops are lost, or if more than 0.1 % of
-/// the area is lost or added. Empty if not.
+/// What of the shape is not in the mesh, and what to do about it, in one warning. Empty if no loop is lost, and at most
+/// 0.1 % of the area is lost or added.
 std::string loss_warning(const FeatureReport& report);
 
 } // namespace trime::boundary
