@@ -23,7 +23,9 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
   app.add_flag("--version", flags.version, "print versions and how the program was built");
   app.add_flag("--validate", flags.validate,
                "check config, shape and output, estimate the memory, mesh and write nothing");
-  app.add_flag("--dry-run", flags.dry_run, "the same, and say how the work is shared out");
+  app.add_flag("--dry-run", flags.dry_run,
+               "the same, say how the work is shared out, what of the shape is simplified, and how many "
+               "points keep everything");
   app.add_flag("--print-config", flags.print_config, "print the config with all defaults, as a complete file");
   app.add_option("--threads", flags.threads, "threads per rank: parallel.setup_threads and mesh_threads");
   app.add_option("--log-level", flags.level, "debug, info, warning, error, silent: log.level");

@@ -56,6 +56,20 @@ std::string estimate(const RunOptions& options, const geometry::Boundary& bounda
   return text + fmt::format("output: {} (not written)\n", options.output.file.path(".h5"));
 }
 
+/// What --dry-run says of the boundary.
+std::string outlook_text(const meshing::Outlook& outlook) {
+  std::string text;
+  for (const std::string& line : boundary::describe(outlook.features))
+    text += "boundary: " + line + "\n";
+  if (outlook.keeps_all)
+    return text + "nothing of the shape is simplified at this size\n";
+  if (const std::string warning = boundary::loss_warning(outlook.features); !warning.empty())
+    text += "warning: " + warning + "\n";
+  return text + fmt::format("{} {:.2g} points ({} {:.2g}) keep everything\n",
+                            outlook.is_enough ? "about" : "more than about", outlook.keeping_points,
+                            outlook.is_enough ? "edge_length =" : "edge_length below", outlook.keeping_edge_length);
+}
+
 /// Throws as the run would.
 void check_fixed_points(const meshing::MeshOptions& options, const shape::RegionShape& shape, Log& log) {
   const geometry::Lattice lattice(options.container);
@@ -131,11 +145,16 @@ ExitCode make_mesh(const Job& job) {
     use_threads(placement, placement.threads);
   if (!is_run) {
     check_fixed_points(mesh_options, input.shape, log);
-    print(comm, estimate(options, boundary, placement, job.line.action == Action::dry_run));
+    const bool is_dry_run = job.line.action == Action::dry_run;
+    print(comm, estimate(options, boundary, placement, is_dry_run));
+    Log quiet(LogLevel::error, comm.is_root()); // what it warns of was told before
+    if (is_dry_run)
+      print(comm, outlook_text(meshing::Mesher(comm, boundary, *size.field, mesh_options, quiet, timers).outlook()));
     return ExitCode::done;
   }
 
-  const Provenance provenance{job.line, options, job.config_text, placement, boundary, input.normalized};
+  const Provenance provenance{
+      job.line, options, job.config_text, placement, boundary, input.normalized, job.places.ring_lines(boundary)};
   const meshing::MeshResult result = run_mesher(job, provenance, *size.field, mesh_options, series);
   const SizeSummary sizes = summarize_size(size.description, result.mesh, comm);
   io::WrittenFiles files;

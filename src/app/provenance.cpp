@@ -87,6 +87,12 @@ Attributes result_attributes(const meshing::MeshResult& result, const SizeSummar
           {"segments_halved", result.features.segments_halved},
           {"size_limits", result.features.size_limits},
           {"lowest_size_share", result.features.lowest_size_share},
+          {"narrow_cut", result.features.cut},
+          {"narrow_closed", result.features.closed},
+          {"narrow_widened", result.features.widened},
+          {"holes_filled", result.features.filled},
+          {"lost_share", result.features.lost_share},
+          {"added_share", result.features.added_share},
           {"seconds_total", measured.total}, // up to the writing of this file
           {"peak_memory_bytes", measured.peak_memory},
           {"bytes_per_point", static_cast<double>(measured.memory_sum) / points},
@@ -169,6 +175,36 @@ io::MetadataGroup sharp_corners_group(const std::vector<boundary::SharpCorner>& 
            column<double>("degrees", corners, &Corner::degrees)}};
 }
 
+/// What became of each loop of the shape.
+io::MetadataGroup rings_group(const Provenance& p, const std::vector<boundary::LoopFate>& loops) {
+  using Fate = boundary::LoopFate;
+  std::vector<std::int32_t> numbers(loops.size()), lines = p.ring_lines;
+  std::iota(numbers.begin(), numbers.end(), 1);
+  lines.resize(loops.size());
+  const auto all_tags = [](const Fate& fate) {
+    std::string text;
+    for (const std::int32_t tag : fate.tags)
+      text += fmt::format("{}{}", text.empty() ? "" : " ", tag);
+    return text;
+  };
+  return {"rings",
+          {},
+          {{"loop", std::move(numbers)},
+           {"line", std::move(lines)},
+           column<std::string>(
+               "part_name", loops,
+               [&](const Fate& fate) { return p.boundary.part_names.at(static_cast<std::size_t>(fate.part)); }),
+           column<std::string>("state", loops, [](const Fate& fate) { return std::string(to_string(fate.state)); }),
+           column<std::int32_t>("tag", loops, [](const Fate& fate) { return fate.tags.empty() ? 0 : fate.tags[0]; }),
+           column<std::string>("tags", loops, all_tags),
+           column<double>("x", loops, [](const Fate& fate) { return fate.place.x; }),
+           column<double>("y", loops, [](const Fate& fate) { return fate.place.y; }),
+           column<double>("area", loops, &Fate::area),
+           column<double>("length", loops, &Fate::length),
+           column<double>("remaining_length", loops, &Fate::remaining_length),
+           column<double>("largest_deviation", loops, &Fate::largest_deviation)}};
+}
+
 std::string kind_name(const polygon::LoopSummary& loop) {
   using Kind = polygon::LoopSummary::Kind;
   return loop.kind == Kind::outer ? "outer" : loop.kind == Kind::hole ? "hole" : "band";
@@ -204,7 +240,7 @@ io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result
           {history_group(result.history), io::quality_group(result.quality), io::checks_group(result.checks),
            io::bad_triangles_group(result.quality), timers_group(measured.times),
            tags_group(p.boundary, result.loops, p.options.region), sharp_corners_group(result.features.sharp_corners),
-           normalization_group(p.normalized)}};
+           rings_group(p, result.features.loops), normalization_group(p.normalized)}};
 }
 
 io::Metadata describe_step(const Provenance& p, const meshing::Snapshot& snapshot) {

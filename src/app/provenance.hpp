@@ -11,6 +11,7 @@
 #include "trime/meshing/make_mesh.hpp"
 #include "trime/meshing/mesher.hpp"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct Provenance {
   const Placement& placement;
   const geometry::Boundary& boundary;
   const std::vector<NormalizedPart>& normalized;
+  std::vector<std::int32_t> ring_lines; ///< UserPlaces::ring_lines
 };
 
 /// Everything that the group /trime_mpi holds. Not collective.

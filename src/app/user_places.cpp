@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -15,6 +16,8 @@ using geometry::Vec2;
 
 /// [extent of the contour] A place farther from all its vertices is not told by them.
 constexpr double farthest = 0.25;
+/// [extent of the contour] The lattice moves a vertex by less.
+constexpr double same_place = 1e-10;
 
 bool is_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
@@ -41,11 +44,12 @@ std::optional<FoundPlace> place_at(std::string_view text) {
 } // namespace
 
 void UserPlaces::add(const shape::Contour& contour, const shape::Normalization& place) {
-  OneContour one{contour.source, place, place.scale != 1 || place.from != place.to, {}, {}, {}};
+  OneContour one{contour.source, place, place.scale != 1 || place.from != place.to, {}, {}, {}, {}};
   for (const shape::ContourRing& ring : contour.rings)
     for (std::size_t k = 0; k < ring.points.size(); ++k) {
       one.vertices.push_back(place.apply(ring.points[k]));
       one.lines.push_back(ring.lines[k]);
+      one.ring_lines.push_back(ring.lines[0]);
       one.box.include(one.vertices.back());
     }
   contours_.push_back(std::move(one));
@@ -71,6 +75,39 @@ std::string UserPlaces::name_of(Vec2 place) const {
   return contour->moved
              ? fmt::format(" [{}:{}: ({:.10g}, {:.10g})]", contour->file, contour->lines[vertex], user.x, user.y)
              : fmt::format(" [{}:{}]", contour->file, contour->lines[vertex]);
+}
+
+std::vector<std::int32_t> UserPlaces::ring_lines(const geometry::Boundary& boundary) const {
+  struct Vertex {
+    Vec2 place;
+    double reach;
+    int line;
+  };
+  std::vector<Vertex> vertices;
+  double reach = 0;
+  for (const OneContour& one : contours_) {
+    const double own = same_place * std::fmax(one.box.width(), one.box.height());
+    reach = std::fmax(reach, own);
+    for (std::size_t k = 0; k < one.vertices.size(); ++k)
+      vertices.push_back({one.vertices[k], own, one.ring_lines[k]});
+  }
+  std::stable_sort(vertices.begin(), vertices.end(),
+                   [](const Vertex& a, const Vertex& b) { return a.place.x < b.place.x; });
+  const auto line_at = [&](Vec2 p) {
+    auto v = std::lower_bound(vertices.begin(), vertices.end(), p.x - reach,
+                              [](const Vertex& vertex, double x) { return vertex.place.x < x; });
+    for (; v != vertices.end() && v->place.x <= p.x + reach; ++v)
+      if (squared_length(v->place - p) <= v->reach * v->reach)
+        return v->line;
+    return 0;
+  };
+  std::vector<std::int32_t> lines;
+  for (const geometry::Loop& loop : boundary.loops) {
+    lines.push_back(0);
+    for (std::size_t k = 0; k < loop.pieces.size() && lines.back() == 0 && !vertices.empty(); ++k)
+      lines.back() = line_at(loop.pieces[k].start);
+  }
+  return lines;
 }
 
 std::string UserPlaces::explain(const std::string& message) const {

@@ -2,9 +2,11 @@
 // Where a place of the container lies in the files of the user: messages of all modules speak of the container.
 #pragma once
 
+#include "trime/geometry/boundary.hpp"
 #include "trime/geometry/vec2.hpp"
 #include "trime/shape/contour.hpp"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,10 @@ public:
   /// each place.
   std::string explain(const std::string& message) const;
 
+  /// @brief For each loop of the boundary the line of the file on which its ring begins: that of the first vertex of
+  /// the loop that is one of a contour; 0 if none is. O(vertices log(vertices))
+  std::vector<std::int32_t> ring_lines(const geometry::Boundary& boundary) const;
+
 private:
   struct OneContour {
     std::string file;
@@ -39,6 +45,7 @@ private:
     geometry::Box box; ///< in the container
     std::vector<geometry::Vec2> vertices;
     std::vector<int> lines;
+    std::vector<int> ring_lines; ///< where the ring of each vertex begins
   };
   std::string name_of(geometry::Vec2 place) const;
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "boundary/feature_report.hpp"
 
+#include "boundary/loop_fates.hpp"
 #include "boundary/rules.hpp"
 #include "core/angle.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 namespace trime::boundary {
 namespace {
@@ -25,6 +27,40 @@ double interior_angle(const BoundarySites& boundary, LocalIndex k) {
 
 std::string counted(GlobalId count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+/// "a, b, c" of those that are not 0, or nothing.
+struct Counted {
+  GlobalId count;
+  const char *one, *many;
+};
+std::string listed(std::initializer_list<Counted> items) {
+  std::string text;
+  for (const Counted& item : items)
+    if (item.count > 0)
+      text += (text.empty() ? "" : ", ") + counted(item.count, item.one, item.many);
+  return text;
+}
+
+GlobalId loops_of_mesh(const FeatureReport& report) {
+  std::vector<std::int32_t> tags;
+  for (const LoopFate& fate : report.loops)
+    tags.insert(tags.end(), fate.tags.begin(), fate.tags.end());
+  std::sort(tags.begin(), tags.end());
+  return std::unique(tags.begin(), tags.end()) - tags.begin();
+}
+
+/// One line for all that was done to the curves.
+std::string simplification_line(const FeatureReport& report) {
+  std::string line = listed({{report.cut, "narrow part cut", "narrow parts cut"},
+                             {report.closed, "narrow part of the outside closed", "narrow parts of the outside closed"},
+                             {report.widened, "widened", "widened"},
+                             {report.filled, "small hole filled", "small holes filled"},
+                             {report.thinned, "piece of ragged curves thinned", "pieces of ragged curves thinned"}});
+  if (!line.empty())
+    line = fmt::format("at the size of the triangles: {}; {:.3g} % of the area lost, {:.3g} % added", line,
+                       100 * report.lost_share, 100 * report.added_share);
+  return line;
 }
 
 } // namespace
@@ -51,9 +87,52 @@ FeatureReport report_features(const BoundarySites& boundary, std::span<const siz
   return report;
 }
 
+void report_losses(const geometry::Boundary& given, const geometry::Boundary& meshed,
+                   const polygon::Simplification& simplified, const polygon::DroppedLoops& dropped,
+                   const sizing::SizeField& asked, const geometry::Lattice& lattice, FeatureReport& report) {
+  report.cut = simplified.cut;
+  report.closed = simplified.closed;
+  report.widened = simplified.widened;
+  report.filled = simplified.filled;
+  report.thinned = simplified.thinned;
+  double lost = simplified.cut_area + 0.5 * (dropped.area - dropped.change);
+  double added = simplified.closed_area + 0.5 * (dropped.area + dropped.change);
+  const double rest = meshed.area - given.area - (added - lost); // filled holes, thinned curves, moved sides
+  (rest > 0 ? added : lost) += std::fabs(rest);
+  report.lost_share = lost / given.area;
+  report.added_share = added / given.area;
+  report.loops = find_loop_fates(given, meshed, asked, lattice);
+}
+
+std::string loss_warning(const FeatureReport& report) {
+  using State = LoopFate::State;
+  const auto number_of = [&](State state) {
+    return static_cast<GlobalId>(std::count_if(report.loops.begin(), report.loops.end(),
+                                               [&](const LoopFate& fate) { return fate.state == state; }));
+  };
+  const GlobalId dropped = number_of(State::dropped), filled = number_of(State::filled),
+                 merged = number_of(State::merged), lost = dropped + filled + merged;
+  if (lost == 0 && !(std::fmax(report.lost_share, report.added_share) > BoundaryRules::warned_loss))
+    return {};
+  std::string text = fmt::format("the shape is simplified at this size: {:.3g} % of its area lost, {:.3g} % added",
+                                 100 * report.lost_share, 100 * report.added_share);
+  if (lost > 0)
+    text += fmt::format(", {} of {} loops lost ({})", lost, report.loops.size(),
+                        listed({{dropped, "dropped", "dropped"},
+                                {filled, "hole filled", "holes filled"},
+                                {merged, "merged with others", "merged with others"}}));
+  if (merged > 0)
+    text += fmt::format(", the mesh has {}", counted(loops_of_mesh(report), "loop", "loops"));
+  return text + ". More points (a smaller edge_length) keep more, --dry-run says how many keep everything; "
+                "meshing.keep_features = true keeps all at any price. The table /trime_mpi/rings of the file says what "
+                "became of each loop";
+}
+
 std::vector<std::string> describe(const FeatureReport& report) {
   constexpr std::size_t most_listed = 5;
   std::vector<std::string> lines;
+  if (std::string line = simplification_line(report); !line.empty())
+    lines.push_back(std::move(line));
   if (report.dropped_islands + report.dropped_lakes > 0)
     lines.push_back(fmt::format("{} and {} with a perimeter below {:g} local sizes dropped, {:.3g} of the area",
                                 counted(report.dropped_islands, "island", "islands"),

@@ -3,8 +3,11 @@
 #pragma once
 
 #include "polygon/polygon.hpp"
+#include "polygon/simplification.hpp"
 #include "sizing/lowered_size.hpp"
 #include "trime/boundary/feature_summary.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/lattice.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <span>
@@ -15,5 +18,13 @@ namespace trime::boundary {
 /// O(sites of the boundary + limits)
 FeatureReport report_features(const polygon::BoundarySites& boundary, std::span<const sizing::SizeLimit> limits,
                               const sizing::SizeField& asked);
+
+/// @brief Adds what the way from the given boundary to the meshed one took from the shape and added to it.
+/// @param dropped the loops that were left out at its end
+/// @param asked as above
+/// Costs and errors as find_loop_fates.
+void report_losses(const geometry::Boundary& given, const geometry::Boundary& meshed,
+                   const polygon::Simplification& simplified, const polygon::DroppedLoops& dropped,
+                   const sizing::SizeField& asked, const geometry::Lattice& lattice, FeatureReport& report);
 
 } // namespace trime::boundary

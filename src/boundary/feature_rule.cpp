@@ -27,18 +27,6 @@ bool is_small(const geometry::Boundary& boundary, const Loop& loop, const sizing
   return true;
 }
 
-/// Signed, counter-clockwise positive.
-double enclosed_area(const Loop& loop) {
-  const Vec2 origin = loop.pieces.front().start;
-  double twice = 0;
-  for (const Piece& piece : loop.pieces) {
-    twice += cross(piece.start - origin, piece.end - origin);
-    if (piece.circular)
-      twice += piece.radius * piece.radius * (piece.sweep - sin_cos(piece.sweep).sin);
-  }
-  return 0.5 * twice;
-}
-
 /// A loop as a polygon, arcs by many chords, and which points it encloses.
 class Enclosure {
 public:
@@ -101,6 +89,17 @@ void keep_one_component(const geometry::Boundary& boundary, std::vector<char>& d
 }
 
 } // namespace
+
+double enclosed_area(const Loop& loop) {
+  const Vec2 origin = loop.pieces.front().start;
+  double twice = 0;
+  for (const Piece& piece : loop.pieces) {
+    twice += cross(piece.start - origin, piece.end - origin);
+    if (piece.circular)
+      twice += piece.radius * piece.radius * (piece.sweep - sin_cos(piece.sweep).sin);
+  }
+  return 0.5 * twice;
+}
 
 DroppedLoops drop_small_loops(const geometry::Boundary& boundary, const sizing::SizeField& size, double least_perimeter,
                               std::span<const Vec2> inside) {

@@ -20,6 +20,9 @@ struct FeatureRule {
   const sizing::SizeField* size = nullptr;
 };
 
+/// Signed, counter-clockwise positive; arcs included. O(pieces) @pre the loop does not wind around the container
+double enclosed_area(const geometry::Loop& loop);
+
 /// The boundary of what is left. O(pieces)
 geometry::Boundary boundary_without(const geometry::Boundary& boundary, const polygon::DroppedLoops& dropped);
 

@@ -35,6 +35,15 @@ struct BoundaryRules {
   static constexpr double junction_turn = pi / 4;
   /// [rounds] Later rounds of halving look only at chords near the new sites.
   static constexpr int full_rounds = 20;
+  /// [extent of the shape] A vertex so near to a given curve lies on it: the lattice rounds by less. Not
+  /// measured.
+  static constexpr double on_curve = 1e-10;
+  /// [h] Distance of the places at which the deviation of a simplified curve is measured. Not measured.
+  static constexpr double deviation_step = 0.25;
+  /// [places] Of such a piece, at most; the worst ones are short. Not measured.
+  static constexpr int deviation_places = 16;
+  /// [1] A larger share of the shape's area that is lost or added is a warning. Not measured.
+  static constexpr double warned_loss = 0.001;
   /// [sites] Halving of chords may always make so many; beyond, halving_growth is the bound.
   static constexpr std::size_t always_halved = 4000000;
   /// [1] Halving may make so many times the sites of the layout. With more the boundary is at fault, and an error says

@@ -212,6 +212,13 @@ ThinnedMap make_map(const Boundary& boundary, const sizing::SizeField& size, con
   return made;
 }
 
+std::int64_t piece_count(const Boundary& boundary) {
+  std::int64_t count = 0;
+  for (const geometry::Loop& loop : boundary.loops)
+    count += std::ssize(loop.pieces);
+  return count;
+}
+
 /// Once over the boundary; null if nothing is to be done.
 std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::SizeField& size,
                                        const geometry::Lattice& lattice, const Choice& choice,
@@ -224,6 +231,8 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
   const std::vector<char> given = map.inside();
   auto result = std::make_unique<Generalised>();
   GeneralisedCounts& counts = result->counts;
+  if (made.thinned)
+    counts.thinned = piece_count(boundary) - piece_count(*made.thinned);
   std::vector<char> filled = given;
   counts.filled = fill_small_holes(map, filled);
   Plan plan = plan_cuts(map, filled, choice, corners);
@@ -249,16 +258,6 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
 }
 
 } // namespace
-
-void GeneralisedCounts::add(const GeneralisedCounts& other) {
-  cut += other.cut;
-  filled += other.filled;
-  closed += other.closed;
-  widened = std::max(widened, other.widened); // what a pass widens, the next ones may widen a little more
-  cut_area += other.cut_area;
-  closed_area += other.closed_area;
-  largest_move = std::max(largest_move, other.largest_move);
-}
 
 std::unique_ptr<const Boundary> thinned(const Boundary& boundary, const sizing::SizeField& size,
                                         const geometry::Lattice& lattice) {
@@ -292,6 +291,14 @@ std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const si
     result = std::move(next);
   }
   return result;
+}
+
+bool has_narrow_parts(const Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
+                      Narrow narrow) {
+  if (boundary.periods.any() || boundary.loops.empty())
+    return false;
+  Corners corners;
+  return pass_over(boundary, size, lattice, narrow, corners) != nullptr;
 }
 
 } // namespace trime::generalise

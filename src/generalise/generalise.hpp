@@ -2,6 +2,7 @@
 // The boundary of a shape at the resolution of a mesh: without parts that are narrower than its triangles.
 #pragma once
 
+#include "polygon/simplification.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/sizing/size_field.hpp"
@@ -20,19 +21,7 @@ struct Choice {
   bool cuts_thin_components = false; ///< components that are narrow all over are cut to pieces, not widened
 };
 
-/// What was done, over all passes.
-struct GeneralisedCounts {
-  std::int64_t cut = 0;    ///< narrow parts of the shape that were taken away
-  std::int64_t filled = 0; ///< holes with a small perimeter
-  std::int64_t closed = 0; ///< narrow parts of the outside that were filled
-  std::int64_t widened =
-      0; ///< narrow parts whose sides were moved apart: of the outside, and thin components; in the pass with most
-  double cut_area = 0; ///< in the units of the coordinates, squared
-  double closed_area = 0;
-  double largest_move = 0; ///< of a vertex, over h
-
-  void add(const GeneralisedCounts& other);
-};
+using GeneralisedCounts = polygon::Simplification;
 
 struct Generalised {
   geometry::Boundary boundary;
@@ -59,5 +48,9 @@ std::unique_ptr<const geometry::Boundary> thinned(const geometry::Boundary& boun
 std::unique_ptr<const Generalised> generalise(const geometry::Boundary& boundary, const sizing::SizeField& size,
                                               const geometry::Lattice& lattice, const Choice& choice,
                                               std::span<const geometry::Vec2> inside);
+
+/// Would generalise() change anything? Costs one pass of its several.
+bool has_narrow_parts(const geometry::Boundary& boundary, const sizing::SizeField& size,
+                      const geometry::Lattice& lattice, Narrow narrow);
 
 } // namespace trime::generalise

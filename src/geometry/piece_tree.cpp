@@ -50,39 +50,38 @@ PieceTree::PieceTree(const Boundary& boundary) : periods_(boundary.periods) {
       }
 }
 
-double PieceTree::squared_distance_to_run(std::size_t run, Vec2 p) const {
-  double best = std::numeric_limits<double>::infinity();
+/// Within this file Nearest::distance is squared.
+void PieceTree::look_at_run(std::size_t run, Vec2 p, Nearest& best) const {
   const std::size_t last = std::min(ends_.size(), (run + 1) * run_length);
   for (std::size_t k = run * run_length; k < last; ++k) {
+    double squared = 0;
     if (ends_[k].arc < 0) {
-      best = std::fmin(best, squared_distance(p, {ends_[k].a, ends_[k].b}));
+      squared = squared_distance(p, {ends_[k].a, ends_[k].b});
     } else {
       const double distance = arcs_[ends_[k].arc].distance(p);
-      best = std::fmin(best, distance * distance);
+      squared = distance * distance;
     }
+    if (squared < best.distance)
+      best = {squared, k};
   }
-  return best;
 }
 
-double PieceTree::distance(Vec2 p) const {
-  double best = std::numeric_limits<double>::infinity();
+PieceTree::Nearest PieceTree::nearest(Vec2 p) const {
+  Nearest best{std::numeric_limits<double>::infinity(), 0};
   if (ends_.empty())
     return best;
-  if (!periods_.any()) {
-    search(p, best);
-    return std::sqrt(best);
-  }
   // Pieces lie in the container, the nearest is at most half a period away: one image to each side is enough.
-  const Vec2 canonical = periods_.wrap(p);
+  const Vec2 canonical = periods_.any() ? periods_.wrap(p) : p;
   for (const int i : {0, -1, 1})
     for (const int j : {0, -1, 1})
       if ((i == 0 || periods_.x > 0) && (j == 0 || periods_.y > 0))
         search(canonical + Vec2{i * periods_.x, j * periods_.y}, best);
-  return std::sqrt(best);
+  best.distance = std::sqrt(best.distance);
+  return best;
 }
 
-/// Lowers `best` to the squared distance from p if that is less.
-void PieceTree::search(Vec2 p, double& best) const {
+/// Goes over to the nearest piece to p if that is nearer than `best`.
+void PieceTree::search(Vec2 p, Nearest& best) const {
   struct Entry {
     std::size_t node;
     double squared_distance;
@@ -93,10 +92,10 @@ void PieceTree::search(Vec2 p, double& best) const {
   stack[size++] = {1, boxes_[1].squared_distance(p)};
   while (size > 0) {
     const Entry entry = stack[--size];
-    if (entry.squared_distance >= best)
+    if (entry.squared_distance >= best.distance)
       continue;
     if (entry.node >= leaves) {
-      best = std::fmin(best, squared_distance_to_run(entry.node - leaves, p));
+      look_at_run(entry.node - leaves, p, best);
       continue;
     }
     Entry near{2 * entry.node, boxes_[2 * entry.node].squared_distance(p)};

@@ -7,6 +7,7 @@
 #include "comm/agree.hpp"
 #include "core/free_memory.hpp"
 #include "extraction/extraction.hpp"
+#include "meshing/outlook.hpp"
 #include "meshing/relaxation.hpp"
 #include "meshing/rules.hpp"
 #include "start/layout.hpp"
@@ -98,9 +99,15 @@ void Run::begin(Stage stage) {
 /// What was done about small features, and what the user may want to change. Collective.
 void Run::report_boundary() {
   features_ = boundary::report_features(stage_.polygon, scheme_.limits(), *stage_.asked_size);
+  comm::run_agreed(run_.comm, [this] { // this and the warnings ask the size field, which may be a user's
+    boundary::report_losses(boundary_.fixed().cornered_boundary(), boundary_.curves(), stage_.simplified,
+                            stage_.polygon.dropped, *stage_.asked_size, run_.lattice, features_);
+  });
   for (const std::string& line : describe(features_))
     run_.log.info("boundary: {}", line);
-  comm::run_agreed(run_.comm, [this] { // the warnings ask the size field, which may be a user's
+  if (const std::string warning = loss_warning(features_); !warning.empty())
+    run_.log.warning("{}", warning);
+  comm::run_agreed(run_.comm, [this] {
     start::warn_of_fine_features(stage_, run_.log);
     start::warn_of_steep_sizes(stage_, run_.given_boundary, run_.lattice, run_.log);
     if (!boundary_.fixed().empty())
@@ -198,6 +205,10 @@ void Mesher::on_snapshot(SnapshotObserver observer) {
 
 MeshResult Mesher::run() {
   return Run(implementation_->run, implementation_->observer).make();
+}
+
+Outlook Mesher::outlook() const {
+  return look_ahead(implementation_->run);
 }
 
 } // namespace trime::meshing

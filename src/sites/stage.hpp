@@ -4,6 +4,7 @@
 
 #include "polygon/boundary_guard.hpp"
 #include "polygon/polygon.hpp"
+#include "polygon/simplification.hpp"
 #include "sites/site_state.hpp"
 #include "sites/stage_view.hpp"
 #include "sizing/lowered_size.hpp"
@@ -27,6 +28,7 @@ struct Stage {
   std::unique_ptr<sizing::LoweredSize> lowered_size; ///< of the last stage; null if nothing lowers the size
   std::unique_ptr<sizing::SizeField> size;           ///< of this stage
   std::shared_ptr<const geometry::Boundary> curves;  ///< on which these lie; null: those of the shape
+  polygon::Simplification simplified;                ///< how they came from those
   polygon::BoundarySites polygon;                    ///< the sites on the boundary; only the clean-up edits them
   std::unique_ptr<polygon::BoundaryGuard> guard;     ///< of their chords, of which it holds a copy
   std::unique_ptr<SiteState> state;

@@ -79,11 +79,6 @@ void set_sizes(const LayoutContext& context, const FittedSize& fitted, Stage& st
   stage.size = std::make_unique<sizing::ScaledSize>(*within, stage.coarsening);
 }
 
-generalise::Narrow narrow_outside(const LayoutContext& context) {
-  return context.options.features.narrow == boundary::NarrowOutside::close ? generalise::Narrow::close
-                                                                           : generalise::Narrow::keep;
-}
-
 /// The curves on which the sites of a stage lie: those of the shape, without what is narrower than its last size.
 const geometry::Boundary& generalised_curves(const LayoutContext& context, FittedStage& laid) {
   const geometry::Boundary& given = context.fixed.cornered_boundary();
@@ -109,6 +104,7 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
   if (!curves.found)
     return given;
   laid.stage.curves = {curves.found, &curves.found->boundary};
+  laid.stage.simplified = curves.found->counts;
   return curves.found->boundary;
 }
 
@@ -160,6 +156,11 @@ FittedStage lay_bare(const LayoutContext& context, const FittedSize& fitted, dou
 constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
 
 } // namespace
+
+generalise::Narrow narrow_outside(const LayoutContext& context) {
+  return context.options.features.narrow == boundary::NarrowOutside::close ? generalise::Narrow::close
+                                                                           : generalise::Narrow::keep;
+}
 
 double estimated_size(double area, double perimeter, double n) {
   const double a = 2 * area / std::sqrt(3.0), b = perimeter / 2;

@@ -46,6 +46,17 @@ struct StartRules {
   /// [1] The integral that fits the size of the last division is taken over cells so many times wider: it errs by a few
   /// thousandths.
   static constexpr double coarse_integral = 4;
+  /// [points] The outlook of --dry-run fits the size for so many at most, and scales it from there. Not
+  /// measured.
+  static constexpr double outlook_points = 1e5;
+  /// [trials] Sizes at which the outlook simplifies the boundary: the last is within some per cent of the largest that
+  /// keeps everything. Not measured.
+  static constexpr int outlook_trials = 12;
+  /// [sites] On the boundary: the outlook tries no smaller size, since long walls have as many nodes as that; 3e4 on
+  /// 156 rings with thin gaps took 16 s. It tries one outlook_step in any case. Not measured.
+  static constexpr double outlook_sites = 1e4;
+  /// [1] While everything is not kept, the outlook tries so many times smaller sizes. Not measured.
+  static constexpr double outlook_step = 10;
   /// [1] The density of a start that is relaxed and divided is taken over cells so many times wider: the mesh came out
   /// no worse than with 1.
   static constexpr double coarse_start = 2;

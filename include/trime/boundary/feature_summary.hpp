@@ -2,6 +2,7 @@
 // What a run did about features of the boundary that are smaller than the triangles: a part of the result.
 #pragma once
 
+#include "trime/boundary/loop_fate.hpp"
 #include "trime/core/types.hpp"
 #include "trime/geometry/vec2.hpp"
 
@@ -28,9 +29,19 @@ struct FeatureReport {
   GlobalId size_limits = 0;               ///< places where the size was lowered
   double lowest_size_share = 1;           ///< there, of what was asked for
   std::vector<SharpCorner> sharp_corners; ///< below sharp_angle, the sharpest first
+  GlobalId cut = 0;                       ///< narrow parts of the shape, before anything was laid out
+  GlobalId closed = 0, widened = 0;       ///< narrow parts of the outside: filled; sides moved apart
+  GlobalId filled = 0;                    ///< holes around which no triangle fits
+  GlobalId thinned = 0;                   ///< pieces of ragged curves that others stand for
+  double lost_share = 0, added_share = 0; ///< of the shape's area, by all of these, dropped islands and lakes included
+  std::vector<LoopFate> loops;            ///< of the shape, in their order
 };
 
 /// One line for each thing that was done; none for a boundary that needed nothing.
 std::vector<std::string> describe(const FeatureReport& report);
+
+/// What of the shape is not in the mesh, and what to do about it, in one warning. Empty if no loop is lost, and at most
+/// 0.1 % of the area is lost or added.
+std::string loss_warning(const FeatureReport& report);
 
 } // namespace trime::boundary

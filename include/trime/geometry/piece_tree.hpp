@@ -20,7 +20,14 @@ public:
   explicit PieceTree(const Boundary& boundary);
   /// @brief Distance from p to the nearest piece or image of one, infinity without pieces; O(log M) for curves,
   /// thread-safe.
-  double distance(Vec2 p) const;
+  double distance(Vec2 p) const { return nearest(p).distance; }
+
+  struct Nearest {
+    double distance;
+    std::size_t piece; ///< counted through all loops in their order
+  };
+  /// The same with the piece, one of those equally near; O(log M) for curves, thread-safe.
+  Nearest nearest(Vec2 p) const;
 
 private:
   static constexpr std::size_t run_length = 4;
@@ -28,8 +35,8 @@ private:
     Vec2 a, b;
     LocalIndex arc; ///< into arcs_, or -1 for a segment
   };
-  double squared_distance_to_run(std::size_t run, Vec2 p) const;
-  void search(Vec2 p, double& best) const;
+  void look_at_run(std::size_t run, Vec2 p, Nearest& best) const;
+  void search(Vec2 p, Nearest& best) const;
 
   Periods periods_;
   std::vector<Ends> ends_;

@@ -7,6 +7,7 @@
 #include "trime/core/timer.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/meshing/options.hpp"
+#include "trime/meshing/outlook.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <functional>
@@ -41,6 +42,11 @@ public:
   /// @throws GeometryError on all ranks together if the shape cannot be meshed at this resolution
   /// @throws ConfigError on all ranks together for options that no mesh can meet
   MeshResult run();
+
+  /// @brief What run() will do to the boundary, about; no mesh is made. Takes as long as a mesh of 10^5 points needs for
+  /// its start, and 12 simplifications of the boundary at most. @note Collective.
+  /// @throws as run
+  Outlook outlook() const;
 
 private:
   class Implementation;

@@ -2,6 +2,8 @@
 // Places in messages, told in the user's own coordinates and by the line of the nearest vertex.
 #include "app/user_places.hpp"
 
+#include "support/boundary_shapes.hpp"
+
 #include <gtest/gtest.h>
 
 namespace trime::app {
@@ -33,6 +35,19 @@ TEST(UserPlaces, TellTheLineOfTheNearestVertex) {
             "too narrow near (0.88, 0.11) [ring.xy:2]: 3 apart");
   EXPECT_EQ(square_as_given().explain("at (5e-1, 0.9), (0.1, 0.1000001)"),
             "at (5e-1, 0.9) [ring.xy:3], (0.1, 0.1000001) [ring.xy:1]");
+}
+
+TEST(UserPlaces, KnowTheLineWhereTheRingOfALoopBegins) {
+  const shape::Contour contour =
+      shape::parse_xy("# two\n0.1 0.1\n0.2 0.1\n0.2 0.2\n\n0.5 0.5\n0.6 0.5\n0.6 0.6\n", "rings.xy");
+  UserPlaces places;
+  places.add(contour, {});
+  const geometry::Boundary boundary =
+      testing::boundary_of({testing::polygon_loop({{0.6, 0.5}, {0.6, 0.6}, {0.5, 0.5}}),
+                            testing::polygon_loop({{0.7, 0.1}, {0.2, 0.1}, {0.2, 0.2}}),
+                            testing::polygon_loop({{0.7, 0.7}, {0.8, 0.7}, {0.8, 0.8}})});
+  EXPECT_EQ(places.ring_lines(boundary), (std::vector<std::int32_t>{6, 2, 0}));
+  EXPECT_EQ(UserPlaces().ring_lines(boundary), (std::vector<std::int32_t>{0, 0, 0}));
 }
 
 TEST(UserPlaces, LeaveTheRestAlone) {

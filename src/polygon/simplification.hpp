@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What was done to the curves of a shape before the sites of a stage were laid on them. Plain data.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace trime::polygon {
+
+/// Narrow parts of a boundary, and what became of them.
+struct Simplification {
+  std::int64_t cut = 0;     ///< narrow parts of the shape that were taken away
+  std::int64_t filled = 0;  ///< holes with a small perimeter
+  std::int64_t closed = 0;  ///< narrow parts of the outside that were filled
+  std::int64_t widened = 0; ///< narrow parts whose sides were moved apart, in the pass with most
+  std::int64_t thinned = 0; ///< pieces of ragged runs that others stand for
+  double cut_area = 0, closed_area = 0;
+  double largest_move = 0; ///< of a vertex, over h
+
+  void add(const Simplification& other) {
+    cut += other.cut;
+    filled += other.filled;
+    closed += other.closed;
+    widened = std::max(widened, other.widened); // what a pass widens, the next ones may widen a little more
+    thinned += other.thinned;
+    cut_area += other.cut_area;
+    closed_area += other.closed_area;
+    largest_move = std::max(largest_move, other.largest_move);
+  }
+};
+
+} // namespace trime::polygon
