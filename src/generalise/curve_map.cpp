@@ -3,6 +3,7 @@
 
 #include "core/hilbert.hpp"
 #include "generalise/rules.hpp"
+#include "geometry/predicates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,13 +26,15 @@ Box box_around(const geometry::Boundary& boundary, const geometry::Lattice& latt
 
 } // namespace
 
-CurveMap::CurveMap(const geometry::Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice)
+CurveMap::CurveMap(const geometry::Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
+                   std::span<const Vec2> inside)
     : boundary_(boundary), field_(size), lattice_(lattice), mesh_(box_around(boundary, lattice), lattice) {
   for (LocalIndex loop = 0; loop < std::ssize(boundary.loops); ++loop)
     add_strands(loop);
-  insert_nodes();
+  insert_vertices(inside);
   for (LocalIndex k = 0; k < std::ssize(strands_) && valid_; ++k)
     valid_ = mesh_.constrain(strands_[at(k)].first, strands_[at(k)].last, k);
+  valid_ = valid_ && (inside.empty() || holds_points());
 }
 
 void CurveMap::add_strands(LocalIndex loop) {
@@ -47,7 +50,8 @@ void CurveMap::add_strands(LocalIndex loop) {
   }
 }
 
-void CurveMap::insert_nodes() {
+/// In the order of a space-filling curve: any order serves, this one keeps the walks short.
+void CurveMap::insert_vertices(std::span<const Vec2> held) {
   const std::size_t n = strands_.size();
   std::vector<Vec2> places(n);
   Box box;
@@ -56,36 +60,72 @@ void CurveMap::insert_nodes() {
     places[k] = lattice_.snap(boundary_.loops[at(strand.loop)].pieces[at(strand.piece)].point(strand.from));
     box.include(places[k]);
   }
-  constexpr int level = 20; // of the Hilbert curve: any order serves, this one keeps the walks short
+  for (const Vec2 p : held)
+    if (box.contains(p))
+      places.push_back(p);
+  constexpr int level = 20;
   const double scale = std::ldexp(0.999, level) / std::fmax(box.width(), box.height());
-  std::vector<std::pair<std::uint64_t, std::size_t>> order(n);
-  for (std::size_t k = 0; k < n; ++k)
+  std::vector<std::pair<std::uint64_t, std::size_t>> order(places.size());
+  for (std::size_t k = 0; k < places.size(); ++k)
     order[k] = {hilbert_key(static_cast<std::uint32_t>((places[k].x - box.min.x) * scale),
                             static_cast<std::uint32_t>((places[k].y - box.min.y) * scale), level),
                 k};
   std::sort(order.begin(), order.end());
-  mesh_.reserve(n + n / 2);
+  mesh_.reserve(places.size() + n / 2);
   size_.assign(4, 0);
   kept_.assign(4, 0);
+  held_.assign(4, 0);
   along_.assign(4, 0);
-  std::vector<LocalIndex> vertex(n);
-  for (const auto& [key, k] : order) {
-    vertex[k] = mesh_.insert(places[k]);
-    if (vertex[k] < std::ssize(size_)) { // two nodes in one place
+  for (const auto& [key, k] : order)
+    if (!insert_one(places[k], k < n ? &strands_[k] : nullptr)) {
       valid_ = false;
       return;
     }
-    const Strand& strand = strands_[k];
-    size_.push_back(sizing::checked_size(field_, places[k]));
-    kept_.push_back(strand.from == 0 && boundary_.loops[at(strand.loop)].pieces[at(strand.piece)].corner);
-    along_.push_back(strand.from);
-  }
   for (std::size_t k = 0, first = 0; k < n; ++k) {
     const bool closes = k + 1 == n || strands_[k + 1].loop != strands_[k].loop;
-    strands_[k].first = vertex[k];
-    strands_[k].last = vertex[closes ? first : k + 1];
+    strands_[k].last = strands_[closes ? first : k + 1].first;
     first = closes ? k + 1 : first;
   }
+}
+
+/// The start of a strand, or a point that is held; false if it is where a node is.
+bool CurveMap::insert_one(Vec2 p, Strand* strand) {
+  const LocalIndex v = mesh_.insert(p);
+  if (v < std::ssize(size_))
+    return !strand && is_held(v); // a point that was given twice
+  size_.push_back(sizing::checked_size(field_, p));
+  held_.push_back(!strand);
+  kept_.push_back(!strand || (strand->from == 0 && boundary_.loops[at(strand->loop)].pieces[at(strand->piece)].corner));
+  along_.push_back(strand ? strand->from : 0);
+  if (strand)
+    strand->first = v;
+  return true;
+}
+
+bool CurveMap::holds_points() const {
+  const std::vector<char> side = inside();
+  for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v)
+    if (is_held(v) && side[at(Triangulation::triangle(mesh_.leaving(v)))] != 1)
+      return false;
+  return true;
+}
+
+std::vector<Vec2> CurveMap::those_inside(std::span<const Vec2> points) const {
+  std::vector<Vec2> found;
+  const std::vector<char> side = inside();
+  const Box box = boundary_.bounding_box();
+  for (const Vec2 p : points) {
+    if (!box.contains(p))
+      continue;
+    const LocalIndex t = mesh_.triangle_at(p);
+    bool is_on_curve = false;
+    for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
+      is_on_curve |= mesh_.is_constrained(e) &&
+                     geometry::orient2d(mesh_.point(mesh_.origin(e)), mesh_.point(mesh_.target(e)), p) == 0;
+    if (side[at(t)] == 1 && !is_on_curve)
+      found.push_back(p);
+  }
+  return found;
 }
 
 CurveMap::Span CurveMap::span_of(HalfEdge e) const {
@@ -119,6 +159,7 @@ bool CurveMap::add_node(HalfEdge e) {
     return false;
   size_.push_back(h);
   kept_.push_back(0);
+  held_.push_back(0);
   along_.push_back(middle);
   return true;
 }

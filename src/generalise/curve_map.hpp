@@ -18,10 +18,14 @@ class CurveMap {
 public:
   using HalfEdge = Triangulation::HalfEdge;
 
-  /// @param size h @pre no periods
-  CurveMap(const geometry::Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice);
+  /// @param size h
+  /// @param inside lattice points that become vertices too, not on the curves: they must lie inside @pre no periods
+  /// @throws GeometryError if a size is not positive and finite
+  CurveMap(const geometry::Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
+           std::span<const geometry::Vec2> inside = {});
 
-  /// False if the chords between nodes cross: arcs too near to others. Then nothing else may be asked.
+  /// False if the chords between nodes cross, since arcs are too near to others, or if a point that must lie inside
+  /// does not. Then nothing else may be asked.
   bool is_valid() const { return valid_; }
   const Triangulation& mesh() const { return mesh_; }
   const geometry::Boundary& boundary() const { return boundary_; }
@@ -31,8 +35,10 @@ public:
 
   /// h at a vertex; 0 at the corners of the box.
   double size(LocalIndex v) const { return size_[at(v)]; }
-  bool is_on_curve(LocalIndex v) const { return v >= 4; }
-  /// Has the user asked for this vertex?
+  bool is_on_curve(LocalIndex v) const { return v >= 4 && !is_held(v); }
+  /// Is it a point that must stay inside?
+  bool is_held(LocalIndex v) const { return held_[at(v)] != 0; }
+  /// Has the user asked for this vertex, on the curve or inside?
   bool is_kept(LocalIndex v) const { return kept_[at(v)] != 0; }
 
   /// The neighbours of a vertex on its curve, the shape on the left. O(degree)
@@ -49,6 +55,8 @@ public:
 
   /// By triangle: does it lie in the shape? O(triangles)
   std::vector<char> inside() const;
+  /// Those points that lie inside and on no curve. O(triangles + the walks from each point to the next)
+  std::vector<geometry::Vec2> those_inside(std::span<const geometry::Vec2> points) const;
 
 private:
   /// The curve between two neighbouring nodes.
@@ -58,7 +66,9 @@ private:
     LocalIndex first, last; // vertices
   };
   void add_strands(LocalIndex loop);
-  void insert_nodes();
+  void insert_vertices(std::span<const geometry::Vec2> held);
+  bool insert_one(geometry::Vec2 p, Strand* strand);
+  bool holds_points() const;
 
   const geometry::Boundary& boundary_;
   const sizing::SizeField& field_;
@@ -67,6 +77,7 @@ private:
   std::vector<Strand> strands_;
   std::vector<double> size_;  // by vertex
   std::vector<char> kept_;    // by vertex
+  std::vector<char> held_;    // by vertex
   std::vector<double> along_; // by vertex: of those that were added, on their piece
   bool valid_ = true;
 };

@@ -9,7 +9,9 @@
 #include "generalise/vertex_moves.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 namespace trime::generalise {
@@ -27,8 +29,10 @@ double area_of(const Triangulation& mesh, const NarrowPart& part) {
   return 0.5 * twice;
 }
 
-/// Is it more than roughness or a corner of the shape?
+/// Is it clearly narrow, and more than roughness?
 bool matters(const Triangulation& mesh, const NarrowPart& part) {
+  if (part.width > GeneraliseRules::clearly_narrow)
+    return false;
   if (part.lids.size() != 1)
     return true;
   const double lid = length(mesh.point(mesh.target(part.lids[0])) - mesh.point(mesh.origin(part.lids[0])));
@@ -52,27 +56,42 @@ private:
   std::vector<Vec2> tips_;
 };
 
-/// Takes narrow parts out of the shape: the parts less wide than a share of h, or than a part of that if all of the
-/// shape is.
-void cut_narrow_parts(const CurveMap& map, const std::vector<char>& given, Corners& corners, std::vector<char>& labels,
-                      GeneralisedCounts& counts) {
-  const Triangulation& mesh = map.mesh();
+/// What becomes of narrow parts in one pass.
+struct Plan {
+  std::vector<NarrowPart> changed; ///< cut, or closed: they go to the other side
+  std::vector<NarrowPart> apart;   ///< their sides are moved apart
+};
+
+void put(const NarrowPart& part, bool inside, std::vector<char>& labels) {
+  for (const LocalIndex t : part.triangles)
+    labels[at(t)] = inside;
+}
+
+/// Plans to take narrow parts out of the shape: the parts less wide than a share of h, or than a part of that if all of
+/// the shape is. Components that are narrow all over stay, unless they are small or all is to be cut.
+Plan plan_cuts(const CurveMap& map, const std::vector<char>& given, const Choice& choice, Corners& corners) {
+  const Regions regions(map, given);
+  const auto stays = [&](const NarrowPart& part) {
+    return !choice.cuts_thin_components && part.lids.empty() &&
+           regions.perimeter(regions.of(part.triangles[0])) >= GeneraliseRules::small_component;
+  };
+  Plan plan;
   double share = GeneraliseRules::narrow_inside;
   for (int round = 0; round < GeneraliseRules::narrower_rounds; ++round, share *= 0.5) {
-    labels = given;
-    counts.cut = 0;
-    counts.cut_area = 0;
-    for (const NarrowPart& part : find_narrow_parts(map, given, true, share)) {
-      if (part.holds_kept || !matters(mesh, part) || corners.holds(part))
+    std::vector<char> labels = given;
+    plan = {};
+    for (NarrowPart& part : find_narrow_parts(map, given, true, share)) {
+      if (part.holds_kept || !matters(map.mesh(), part) || corners.holds(part))
         continue;
-      ++counts.cut;
-      counts.cut_area += area_of(mesh, part);
-      for (const LocalIndex t : part.triangles)
-        labels[at(t)] = 0;
+      const bool is_thin = stays(part);
+      if (!is_thin)
+        put(part, false, labels);
+      (is_thin ? plan.apart : plan.changed).push_back(std::move(part));
     }
     if (std::find(labels.begin(), labels.end(), 1) != labels.end())
-      return;
+      break;
   }
+  return plan;
 }
 
 /// Is a small component beside the part?
@@ -88,87 +107,181 @@ bool is_beside_small(const CurveMap& map, const Regions& regions, const std::vec
   return false;
 }
 
-/// Fills narrow parts of the outside that are to be closed; returns the others.
-std::vector<NarrowPart> close_narrow_parts(const CurveMap& map, const std::vector<char>& given, Narrow narrow,
-                                           Corners& corners, std::vector<char>& labels, GeneralisedCounts& counts) {
+/// Would the next pass cut a closed part out again? By part.
+std::vector<char> cut_again(const CurveMap& map, const std::vector<char>& given, const std::vector<char>& labels,
+                            std::span<const NarrowPart> closed) {
+  std::vector<char> goes(labels.size()), result;
+  for (const NarrowPart& part : find_narrow_parts(map, labels, true, GeneraliseRules::narrow_inside))
+    if (!part.holds_kept && matters(map.mesh(), part) && !part.is_corner)
+      for (const LocalIndex t : part.triangles)
+        goes[at(t)] = !given[at(t)];
+  for (const NarrowPart& part : closed)
+    result.push_back(
+        std::any_of(part.triangles.begin(), part.triangles.end(), [&](LocalIndex t) { return goes[at(t)] != 0; }));
+  return result;
+}
+
+/// Takes parts out of what is changed, into what is moved apart.
+void take_back(const std::vector<char>& which, Plan& plan) {
+  std::vector<NarrowPart> stay;
+  for (std::size_t k = 0; k < plan.changed.size(); ++k)
+    (which[k] ? plan.apart : stay).push_back(std::move(plan.changed[k]));
+  plan.changed = std::move(stay);
+}
+
+/// Plans to fill narrow parts of the outside. Those that would be narrow parts of the shape then are moved apart.
+Plan plan_closings(const CurveMap& map, const std::vector<char>& given, const Choice& choice, Corners& corners) {
   const Regions regions(map, given);
-  std::vector<NarrowPart> slits;
+  Plan plan;
   for (NarrowPart& part : find_narrow_parts(map, given, false, GeneraliseRules::narrow_outside)) {
     if (part.holds_kept || !matters(map.mesh(), part) || corners.holds(part))
       continue;
-    if (narrow == Narrow::keep && !is_beside_small(map, regions, given, part)) {
-      slits.push_back(std::move(part));
-      continue;
-    }
-    ++counts.closed;
-    counts.closed_area += area_of(map.mesh(), part);
-    for (const LocalIndex t : part.triangles)
-      labels[at(t)] = 1;
+    const bool stays = choice.narrow == Narrow::keep && !is_beside_small(map, regions, given, part);
+    (stays ? plan.apart : plan.changed).push_back(std::move(part));
   }
-  return slits;
+  for (int round = 0; round <= GeneraliseRules::opening_rounds && !plan.changed.empty(); ++round) {
+    std::vector<char> labels = given;
+    for (const NarrowPart& part : plan.changed)
+      put(part, true, labels);
+    std::vector<char> open = cut_again(map, given, labels, plan.changed);
+    if (std::find(open.begin(), open.end(), 1) == open.end())
+      break;
+    if (round == GeneraliseRules::opening_rounds)
+      open.assign(plan.changed.size(), 1);
+    take_back(open, plan);
+  }
+  return plan;
 }
 
-std::int64_t piece_count(const Boundary& boundary) {
-  std::int64_t count = 0;
-  for (const geometry::Loop& loop : boundary.loops)
-    count += std::ssize(loop.pieces);
-  return count;
+/// The labels after the plan. What cannot be changed without a touch of two loops is moved apart instead. Empty if that
+/// does not end.
+std::vector<char> follow(const CurveMap& map, const std::vector<char>& given, Plan& plan) {
+  for (;;) {
+    std::vector<char> labels = given;
+    for (const NarrowPart& part : plan.changed)
+      put(part, !part.inside, labels);
+    if (!separate_touching_loops(map, given, labels))
+      return {};
+    std::vector<char> back;
+    for (const NarrowPart& part : plan.changed)
+      back.push_back(part.inside && std::any_of(part.triangles.begin(), part.triangles.end(),
+                                                [&](LocalIndex t) { return labels[at(t)] != 0; }));
+    if (std::find(back.begin(), back.end(), 1) == back.end())
+      return labels;
+    take_back(back, plan);
+  }
+}
+
+void count(const Triangulation& mesh, const Plan& plan, GeneralisedCounts& counts) {
+  for (const NarrowPart& part : plan.changed) {
+    ++(part.inside ? counts.cut : counts.closed);
+    (part.inside ? counts.cut_area : counts.closed_area) += area_of(mesh, part);
+  }
+}
+
+/// Do the boundaries have the same pieces, in whatever order?
+bool have_same_pieces(const Boundary& a, const Boundary& b) {
+  const auto ends = [](const Boundary& boundary) {
+    std::vector<std::array<double, 4>> all;
+    for (const geometry::Loop& loop : boundary.loops)
+      for (const geometry::Piece& piece : loop.pieces)
+        all.push_back({piece.start.x, piece.start.y, piece.end.x, piece.end.y});
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  return ends(a) == ends(b);
+}
+
+/// The map of a boundary, or of the one without its ragged runs if there are any.
+struct ThinnedMap {
+  std::unique_ptr<const Boundary> thinned; ///< null if nothing was ragged
+  std::optional<CurveMap> map;
+};
+
+/// Thins less, then not at all, while that makes curves cross.
+ThinnedMap make_map(const Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
+                    std::span<const Vec2> inside) {
+  ThinnedMap made;
+  double share = GeneraliseRules::thinned_share;
+  for (int round = 0; round <= GeneraliseRules::thinning_rounds; ++round, share *= GeneraliseRules::finer_thinning) {
+    made.thinned = round < GeneraliseRules::thinning_rounds ? without_ragged_runs(boundary, size, share) : nullptr;
+    made.map.emplace(made.thinned ? *made.thinned : boundary, size, lattice, inside);
+    if (made.map->is_valid() || !made.thinned)
+      break;
+  }
+  return made;
+}
+
+/// Those of the points that are inside the boundary.
+std::vector<Vec2> held_points(const Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
+                              std::span<const Vec2> inside) {
+  if (!inside.empty())
+    if (const CurveMap given(boundary, size, lattice); given.is_valid())
+      return given.those_inside(inside);
+  return {};
 }
 
 /// Once over the boundary; null if nothing is to be done.
 std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::SizeField& size,
-                                       const geometry::Lattice& lattice, Narrow narrow, Corners& corners) {
-  std::unique_ptr<const Boundary> thinned;
-  std::optional<CurveMap> made;
-  double share = GeneraliseRules::thinned_share;
-  for (int round = 0; round <= GeneraliseRules::thinning_rounds; ++round, share *= GeneraliseRules::finer_thinning) {
-    thinned = round < GeneraliseRules::thinning_rounds ? without_ragged_runs(boundary, size, share) : nullptr;
-    made.emplace(thinned ? *thinned : boundary, size, lattice);
-    if (made->is_valid() || !thinned)
-      break;
-  }
-  CurveMap& map = *made;
+                                       const geometry::Lattice& lattice, const Choice& choice,
+                                       std::span<const Vec2> inside, Corners& corners) {
+  ThinnedMap made = make_map(boundary, size, lattice, inside);
+  CurveMap& map = *made.map;
   if (!map.is_valid())
     return nullptr;
   add_nodes_to_narrow_parts(map);
   const std::vector<char> given = map.inside();
   auto result = std::make_unique<Generalised>();
   GeneralisedCounts& counts = result->counts;
-  if (thinned)
-    counts.thinned = piece_count(boundary) - piece_count(*thinned);
+  if (made.thinned)
+    counts.thinned = polygon::piece_count(boundary) - polygon::piece_count(*made.thinned);
   std::vector<char> filled = given;
   counts.filled = fill_small_holes(map, filled);
-  std::vector<char> labels = filled;
-  cut_narrow_parts(map, filled, corners, labels, counts);
-  std::vector<NarrowPart> slits; // they are looked for once nothing narrow is left inside
-  if (counts.cut == 0)
-    slits = close_narrow_parts(map, filled, narrow, corners, labels, counts);
-  if (!separate_touching_loops(map, labels))
+  Plan plan = plan_cuts(map, filled, choice, corners);
+  if (plan.changed.empty()) { // slits are looked for once nothing narrow is left inside
+    Plan more = plan_closings(map, filled, choice, corners);
+    plan.changed = std::move(more.changed);
+    std::move(more.apart.begin(), more.apart.end(), std::back_inserter(plan.apart));
+  }
+  const std::vector<char> labels = follow(map, filled, plan);
+  if (labels.empty())
     return nullptr;
+  count(map.mesh(), plan, counts);
   VertexMoves moves(map, labels, lattice);
-  moves.widen(slits);
-  counts.widened = std::ssize(slits);
+  counts.widened = moves.widen(std::move(plan.apart));
   moves.merge_close_corners();
   counts.largest_move = moves.largest_share();
-  if (labels == given && !moves.any() && !thinned)
+  if (labels == given && !moves.any() && !made.thinned)
     return nullptr;
   result->boundary = build_loops(map, labels, moves.any() ? moves.places() : MovedVertices{});
+  if (result->boundary.loops.empty() || have_same_pieces(result->boundary, boundary))
+    return nullptr; // nothing is left, or vertices that were added went again
   return result;
 }
 
 } // namespace
 
+std::unique_ptr<const Boundary> thinned(const Boundary& boundary, const sizing::SizeField& size,
+                                        const geometry::Lattice& lattice) {
+  if (boundary.periods.any())
+    return nullptr;
+  std::unique_ptr<const Boundary> result = without_ragged_runs(boundary, size, GeneraliseRules::thinned_share);
+  if (result && !CurveMap(*result, size, lattice).is_valid())
+    return nullptr;
+  return result;
+}
+
 std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const sizing::SizeField& size,
-                                              const geometry::Lattice& lattice, Narrow narrow,
+                                              const geometry::Lattice& lattice, const Choice& choice,
                                               std::span<const Vec2> inside) {
-  (void)inside;
   if (boundary.periods.any() || boundary.loops.empty())
     return nullptr;
+  const std::vector<Vec2> held = held_points(boundary, size, lattice, inside);
   std::unique_ptr<Generalised> result;
   Corners corners;
-  for (int pass = 0; pass < GeneraliseRules::most_passes;
-       ++pass) { // parts that were moved apart may leave others narrow
-    std::unique_ptr<Generalised> next = pass_over(result ? result->boundary : boundary, size, lattice, narrow, corners);
+  for (int pass = 0; pass < GeneraliseRules::most_passes; ++pass) { // what was moved apart may leave others narrow
+    std::unique_ptr<Generalised> next =
+        pass_over(result ? result->boundary : boundary, size, lattice, choice, held, corners);
     corners.is_first_pass = false;
     if (!next)
       break;
@@ -180,11 +293,11 @@ std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const si
 }
 
 bool has_narrow_parts(const Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
-                      Narrow narrow) {
+                      const Choice& choice, std::span<const Vec2> inside) {
   if (boundary.periods.any() || boundary.loops.empty())
     return false;
   Corners corners;
-  return pass_over(boundary, size, lattice, narrow, corners) != nullptr;
+  return pass_over(boundary, size, lattice, choice, held_points(boundary, size, lattice, inside), corners) != nullptr;
 }
 
 } // namespace trime::generalise

@@ -17,27 +17,40 @@ enum class Narrow { keep, close };
 
 using GeneralisedCounts = polygon::Simplification;
 
+/// How much is simplified.
+struct Choice {
+  Narrow narrow = Narrow::keep;
+  bool cuts_thin_components = false; ///< components that are narrow all over are cut to pieces, not widened
+};
+
 struct Generalised {
   geometry::Boundary boundary;
   GeneralisedCounts counts;
 };
 
+/// @brief The boundary without vertices that are far below elements of this size, in ragged and in dense runs; null if
+/// there are none, in a periodic container, and where curves would cross. O(n log n)
+/// @param size h @throws GeometryError if a size is not positive and finite
+std::unique_ptr<const geometry::Boundary> thinned(const geometry::Boundary& boundary, const sizing::SizeField& size,
+                                                  const geometry::Lattice& lattice);
+
 /// @brief The boundary without narrow parts for elements of this size; null if it has none.
 ///
 /// The curves are the constraints of a Delaunay triangulation of their nodes. Parts whose triangles are all narrow are
 /// dead ends (spits, inlets), passages (necks, straits, walls) or whole components and holes. Those of the shape are
-/// cut where they become wide enough. Those of the outside are kept, and their sides moved apart, or closed.
-/// Triangles that keep their orientation prove that curves do not cross. Periodic boundaries come back as they are.
-/// Deterministic, one thread. O(n log n) for n pieces.
+/// cut where they become wide enough; components that are narrow all over are widened. Those of the outside are kept,
+/// and their sides moved apart, or closed. Triangles that keep their orientation prove that curves do not cross.
+/// Periodic boundaries come back as they are. Deterministic, one thread. O(n log n) for n pieces.
 /// @param size h
-/// @param inside points that must stay inside
+/// @param inside lattice points that must stay inside: a narrow part with one of them is not cut, and no curve moves
+/// over one. Those that are not inside the given boundary are left out.
 /// @throws GeometryError if a size is not positive and finite
 std::unique_ptr<const Generalised> generalise(const geometry::Boundary& boundary, const sizing::SizeField& size,
-                                              const geometry::Lattice& lattice, Narrow narrow,
+                                              const geometry::Lattice& lattice, const Choice& choice,
                                               std::span<const geometry::Vec2> inside);
 
 /// Would generalise() change anything? Costs one pass of its several.
 bool has_narrow_parts(const geometry::Boundary& boundary, const sizing::SizeField& size,
-                      const geometry::Lattice& lattice, Narrow narrow);
+                      const geometry::Lattice& lattice, const Choice& choice, std::span<const geometry::Vec2> inside);
 
 } // namespace trime::generalise

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "generalise/loop_builder.hpp"
 
+#include "generalise/rim.hpp"
 #include "generalise/rules.hpp"
 #include "polygon/chord_curve.hpp"
 
@@ -17,26 +18,6 @@ using geometry::Piece;
 using geometry::Vec2;
 using HalfEdge = Triangulation::HalfEdge;
 
-/// The way around the inside, as edges that have the inside on their left.
-class Rim {
-public:
-  Rim(const Triangulation& mesh, const std::vector<char>& labels) : mesh_(mesh), labels_(labels) {}
-
-  bool is_inside(HalfEdge e) const { return e != Triangulation::none && labels_[at(Triangulation::triangle(e))] != 0; }
-  bool holds(HalfEdge e) const { return is_inside(e) && !is_inside(mesh_.twin(e)); }
-  /// The next edge around the same part of the inside.
-  HalfEdge next(HalfEdge e) const {
-    HalfEdge f = Triangulation::next(e);
-    while (!holds(f))
-      f = Triangulation::next(mesh_.twin(f));
-    return f;
-  }
-
-private:
-  const Triangulation& mesh_;
-  const std::vector<char>& labels_;
-};
-
 /// A loop that is being built.
 struct BuiltLoop {
   Loop loop;
@@ -47,7 +28,10 @@ struct BuiltLoop {
 class LoopBuilder {
 public:
   LoopBuilder(const CurveMap& map, const std::vector<char>& labels, const MovedVertices& moved)
-      : map_(map), mesh_(map.mesh()), rim_(map.mesh(), labels), moved_(moved) {}
+      : map_(map), mesh_(map.mesh()), rim_(map.mesh(), labels), moved_(moved) {
+    for (LocalIndex v = 0; v < mesh_.vertex_count(); ++v)
+      kept_.push_back(map.is_kept(v));
+  }
 
   Boundary build() {
     std::vector<char> seen(3 * at(mesh_.triangle_count()));
@@ -57,9 +41,9 @@ public:
       std::vector<HalfEdge> edges;
       for (HalfEdge f = e; !seen[at(f)]; f = rim_.next(f)) {
         seen[at(f)] = 1;
-        if (place(mesh_.origin(f)) != place(mesh_.target(f)))
-          edges.push_back(f);
+        edges.push_back(f);
       }
+      leave_out_collapsed(edges);
       if (edges.size() > 2)
         built_.push_back(build_loop(std::move(edges)));
     }
@@ -74,6 +58,16 @@ public:
   }
 
 private:
+  /// Edges whose ends were joined. If the first end is one that the user has asked for, the next piece starts there.
+  void leave_out_collapsed(std::vector<HalfEdge>& edges) {
+    const auto collapsed = [&](HalfEdge e) { return place(mesh_.origin(e)) == place(mesh_.target(e)); };
+    for (int round = 0; round < 2; ++round) // the way may begin between two of them
+      for (const HalfEdge e : edges)
+        if (collapsed(e))
+          kept_[at(mesh_.target(e))] |= kept_[at(mesh_.origin(e))];
+    edges.erase(std::remove_if(edges.begin(), edges.end(), collapsed), edges.end());
+  }
+
   Vec2 place(LocalIndex v) const { return moved_.empty() ? mesh_.point(v) : moved_[at(v)]; }
   bool is_moved(LocalIndex v) const { return !moved_.empty() && moved_[at(v)] != mesh_.point(v); }
   const Piece& piece_of(const CurveMap::Span& span) const {
@@ -96,6 +90,7 @@ private:
     Piece piece;
     piece.start = place(mesh_.origin(first));
     piece.end = place(mesh_.target(last));
+    piece.corner = kept_[at(mesh_.origin(first))] != 0;
     if (mesh_.mark(first) < 0)
       return piece;
     const CurveMap::Span from = map_.span_of(first), to = map_.span_of(last);
@@ -103,11 +98,14 @@ private:
     const double whole = given.length();
     const bool is_whole = from.from == 0 && to.to == whole;
     piece.part = given.part;
-    piece.corner = given.corner && from.from == 0;
     if (!is_true(first))
       return piece;
-    if (is_whole)
-      return given;
+    if (is_whole) {
+      const bool corner = piece.corner;
+      piece = given;
+      piece.corner = corner;
+      return piece;
+    }
     if (given.circular) {
       piece.circular = true;
       piece.center = given.center;
@@ -175,17 +173,19 @@ private:
   const Triangulation& mesh_;
   const Rim rim_;
   const MovedVertices& moved_;
+  std::vector<char> kept_; // by vertex: do pieces that start there start at a corner?
   std::vector<BuiltLoop> built_;
 };
 
 /// The triangles of one side around a vertex, between two constrained or changed edges.
 struct Sector {
   std::vector<LocalIndex> triangles;
-  double longest = 0; // edge at the vertex
+  double longest = 0; // edge at the vertex; infinite if it leads to a point that must stay inside
 };
 
 /// The inside sectors at v. @pre v is no corner of the box
-std::vector<Sector> sectors_at(const Triangulation& mesh, const Rim& rim, LocalIndex v) {
+std::vector<Sector> sectors_at(const CurveMap& map, const Rim& rim, LocalIndex v) {
+  const Triangulation& mesh = map.mesh();
   std::vector<Sector> sectors;
   const HalfEdge first = mesh.leaving(v);
   HalfEdge start = first;
@@ -204,11 +204,21 @@ std::vector<Sector> sectors_at(const Triangulation& mesh, const Rim& rim, LocalI
       Sector& sector = sectors.back();
       sector.triangles.push_back(Triangulation::triangle(e));
       for (const LocalIndex end : {mesh.target(e), mesh.origin(Triangulation::previous(e))})
-        sector.longest = std::fmax(sector.longest, length(mesh.point(end) - mesh.point(v)));
+        sector.longest =
+            map.is_held(end) ? INFINITY : std::fmax(sector.longest, length(mesh.point(end) - mesh.point(v)));
     }
     e = mesh.around(e);
   } while (e != start);
   return sectors;
+}
+
+void restore_around(const Triangulation& mesh, LocalIndex v, const std::vector<char>& given,
+                    std::vector<char>& labels) {
+  HalfEdge e = mesh.leaving(v);
+  do {
+    labels[at(Triangulation::triangle(e))] = given[at(Triangulation::triangle(e))];
+    e = mesh.around(e);
+  } while (e != mesh.leaving(v));
 }
 
 } // namespace
@@ -217,20 +227,24 @@ Boundary build_loops(const CurveMap& map, const std::vector<char>& labels, const
   return LoopBuilder(map, labels, moved).build();
 }
 
-bool separate_touching_loops(const CurveMap& map, std::vector<char>& labels) {
+bool separate_touching_loops(const CurveMap& map, const std::vector<char>& given, std::vector<char>& labels) {
   const Triangulation& mesh = map.mesh();
   const Rim rim(mesh, labels);
   for (int round = 0; round < GeneraliseRules::touch_rounds; ++round) {
     bool changed = false;
     for (LocalIndex v = 4; v < mesh.vertex_count(); ++v) {
-      std::vector<Sector> sectors = sectors_at(mesh, rim, v);
+      std::vector<Sector> sectors = sectors_at(map, rim, v);
       while (sectors.size() > 1) {
+        changed = true;
         const auto least = std::min_element(sectors.begin(), sectors.end(),
                                             [](const Sector& a, const Sector& b) { return a.longest < b.longest; });
+        if (least->longest > GeneraliseRules::narrow_inside * map.size(v)) {
+          restore_around(mesh, v, given, labels);
+          break;
+        }
         for (const LocalIndex t : least->triangles)
           labels[at(t)] = 0;
         sectors.erase(least);
-        changed = true;
       }
     }
     if (!changed)

@@ -17,8 +17,11 @@ using MovedVertices = std::vector<geometry::Vec2>;
 /// @param labels by triangle, such that no loops touch: see separate_touching_loops
 geometry::Boundary build_loops(const CurveMap& map, const std::vector<char>& labels, const MovedVertices& moved);
 
-/// @brief Takes more triangles out of the inside until no two ways around the inside meet in a vertex: where they do,
-/// the part with the shortest edges. False if that does not end.
-bool separate_touching_loops(const CurveMap& map, std::vector<char>& labels);
+/// @brief Changes labels until no two ways around the inside meet in a vertex. Where they do, the part with the
+/// shortest edges goes, if they are shorter than GeneraliseRules::narrow_inside and lead to no point that must stay
+/// inside. Else the triangles around the vertex get back the labels that they had. False if that does not end.
+/// O(triangles) a round
+/// @param given the labels of a boundary that does not touch itself
+bool separate_touching_loops(const CurveMap& map, const std::vector<char>& given, std::vector<char>& labels);
 
 } // namespace trime::generalise

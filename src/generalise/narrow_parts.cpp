@@ -33,7 +33,10 @@ class NarrowFinder {
 public:
   NarrowFinder(const CurveMap& map, const std::vector<char>& labels, bool inside, double share)
       : map_(map), mesh_(map.mesh()), labels_(labels), inside_(inside), share_(share), narrow_(labels.size()),
-        seen_(labels.size()) {
+        seen_(labels.size()), on_rim_(at(mesh_.vertex_count())) {
+    for (HalfEdge e = 0; e < 3 * mesh_.triangle_count(); ++e)
+      if (is_wall(e))
+        on_rim_[at(mesh_.origin(e))] = 1;
     for (LocalIndex t = 0; t < mesh_.triangle_count(); ++t)
       narrow_[at(t)] = is_narrow(t);
   }
@@ -53,11 +56,13 @@ private:
     return f != Triangulation::none &&
            labels_[at(Triangulation::triangle(e))] != labels_[at(Triangulation::triangle(f))];
   }
+  /// Nodes of a hole that was filled, or of a slit that was closed, tell nothing of widths.
+  bool tells_width(LocalIndex v) const { return on_rim_[at(v)] || map_.is_held(v); }
   bool is_narrow_edge(HalfEdge e) const {
     const LocalIndex a = mesh_.origin(e), b = mesh_.target(e);
-    if (!map_.is_on_curve(a) || !map_.is_on_curve(b))
+    if (!tells_width(a) || !tells_width(b))
       return false;
-    const double width = share_ * std::fmin(map_.size(a), map_.size(b));
+    const double width = share_ * std::fmin(map_.size(a), map_.size(b)); // 0 at the corners of the box
     return squared_length(mesh_.point(b) - mesh_.point(a)) < width * width;
   }
   bool is_narrow(LocalIndex t) const {
@@ -77,7 +82,7 @@ private:
     NarrowPart part;
     part.inside = inside_;
     part.triangles.push_back(first);
-    part.size = INFINITY;
+    part.size = part.width = INFINITY;
     seen_[at(first)] = 1;
     for (std::size_t k = 0; k < part.triangles.size(); ++k) {
       const LocalIndex t = part.triangles[k];
@@ -86,6 +91,9 @@ private:
         part.holds_kept |= map_.is_kept(mesh_.origin(e));
         if (is_wall(e))
           continue;
+        part.width =
+            std::fmin(part.width, length(mesh_.point(mesh_.target(e)) - mesh_.point(mesh_.origin(e))) /
+                                      (share_ * std::fmin(map_.size(mesh_.origin(e)), map_.size(mesh_.target(e)))));
         const LocalIndex there = Triangulation::triangle(mesh_.twin(e));
         if (!narrow_[at(there)])
           part.lids.push_back(e);
@@ -95,7 +103,7 @@ private:
         }
       }
     }
-    if (part.lids.size() == 1)
+    if (part.lids.size() == 1 && !part.holds_kept)
       measure_dead_end(part);
     return part;
   }
@@ -139,6 +147,7 @@ private:
   const bool inside_;
   const double share_;
   std::vector<char> narrow_, seen_; // by triangle
+  std::vector<char> on_rim_;        // by vertex
 };
 
 } // namespace

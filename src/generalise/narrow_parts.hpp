@@ -15,11 +15,12 @@ struct NarrowPart {
   bool inside = false; ///< of the shape
   std::vector<LocalIndex> triangles;
   std::vector<Triangulation::HalfEdge> lids; ///< seen from the narrow part
-  double depth = 0;                          ///< largest distance of its nodes from the lid, of a dead end
+  double width = 0;                          ///< its least one, over the width below which parts are narrow
+  double depth = 0;                          ///< of a dead end that holds nothing kept: from the lid to its tip
   double size = 0;                           ///< the smallest h at its nodes
   geometry::Vec2 tip;                        ///< the node farthest from the lid
   bool is_corner = false;                    ///< a dead end between two straight arms
-  bool holds_kept = false;                   ///< a node that the user has asked for
+  bool holds_kept = false;                   ///< a vertex that the user has asked for, on the curve or inside
 };
 
 /// Adds nodes where the two sides of a narrow part have too few to tell how wide it is.

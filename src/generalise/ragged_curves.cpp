@@ -42,7 +42,7 @@ public:
     }
     std::size_t left = n_;
     for (const std::size_t k : order)
-      if (ragged_[k] == ragged && left > GeneraliseRules::least_vertices && may_go(k)) {
+      if (ragged_[k] <= ragged && left > GeneraliseRules::least_vertices && may_go(k)) {
         ragged_[nearer_neighbour(k)] = stays;
         next_[previous_[k]] = next_[k];
         previous_[next_[k]] = previous_[k];
@@ -104,10 +104,14 @@ private:
     }
   }
 
-  /// A vertex that no user asked for, between straight pieces, with another near that stays.
+  /// A vertex that no user asked for, between straight pieces of one part, with another near that turns as much.
   bool may_go(std::size_t k) const {
-    return !loop_.pieces[k].corner && !loop_.pieces[k].circular && !loop_.pieces[previous_[k]].circular &&
-           length(vertex(k) - vertex(nearer_neighbour(k))) < close_[k];
+    const Piece &before = loop_.pieces[(k + n_ - 1) % n_], &behind = loop_.pieces[k];
+    if (behind.corner || behind.circular || before.circular || before.part != behind.part)
+      return false;
+    const std::size_t nearer = nearer_neighbour(k);
+    const double near = (ragged_[k] == ragged ? 1 : GeneraliseRules::dense_share) * close_[k];
+    return turn_[k] <= turn_[nearer] && squared_length(vertex(k) - vertex(nearer)) < near * near;
   }
 
   const Loop& loop_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Curves that turn to and fro on ways far below the resolution.
+// Curves that turn to and fro on ways far below the resolution, or have far more vertices than it needs.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
@@ -10,7 +10,8 @@
 namespace trime::generalise {
 
 /// @brief The boundary with straight pieces in place of runs of straight pieces that are ragged: that turn by more
-/// than GeneraliseRules::ragged_turn on a way of `share` h. Vertices stay where they are or go; what goes lies within
+/// than GeneraliseRules::ragged_turn on a way of `share` h; and of smooth runs whose vertices are far closer to each
+/// other still. Vertices stay where they are or go; what goes lies within
 /// about share h of a vertex that stays. The sharpest turns stay. Curves may come to cross: the caller finds out. Null
 /// if there is nothing ragged. O(pieces log(pieces))
 std::unique_ptr<geometry::Boundary> without_ragged_runs(const geometry::Boundary& boundary,

@@ -9,9 +9,12 @@ namespace trime::generalise {
 /// The numbers of the generalise module.
 struct GeneraliseRules {
   /// [h] Parts of the shape narrower than this are cut. Not measured.
-  static constexpr double narrow_inside = 0.4;
+  static constexpr double narrow_inside = 0.5;
   /// [h] Parts of the outside narrower than this are closed, or widened to it. Not measured.
-  static constexpr double narrow_outside = 0.25;
+  static constexpr double narrow_outside = 0.33;
+  /// [narrow width] A part is left alone if it is nowhere less wide: else parts of one width, about the narrow one,
+  /// would be cut to pieces where nodes happen to face each other. Not measured.
+  static constexpr double clearly_narrow = 0.75;
   /// [h] A narrow dead end that is less deep is left to the layout: chords pass over it. Not measured.
   static constexpr double least_depth = 0.1;
   /// [h] A corner is one that keeps its arms straight until they are so far apart. Not measured.
@@ -19,7 +22,7 @@ struct GeneraliseRules {
   /// [width] How far the sides of a corner may lie from two straight arms. Not measured.
   static constexpr double straight_arms = 0.15;
   /// [narrow width] Near narrow parts the curve has nodes at most so far apart. Not measured.
-  static constexpr double node_spacing = 0.6;
+  static constexpr double node_spacing = 0.4;
   /// [narrow width] Nodes are added where the other side is nearer than this. Not measured.
   static constexpr double node_reach = 1.5;
   /// [rounds] Of adding nodes, each of which at least halves a spacing. Not measured.
@@ -28,6 +31,11 @@ struct GeneraliseRules {
   static constexpr double arc_step = 0.2617993877991494;
   /// [rounds] Of separating loops that touch in a vertex. Not measured.
   static constexpr int touch_rounds = 50;
+  /// [h] A narrow part of the outside is widened if a vertex there is to move by more: else the next pass would move it
+  /// again, by less. Not measured.
+  static constexpr double least_shift = 0.01;
+  /// [rounds] Of opening again what, once closed, is a narrow part of the shape; then all of it. Not measured.
+  static constexpr int opening_rounds = 8;
   /// [distance from the end] A slit is widened by at most this share of the way from its end. Not measured.
   static constexpr double slit_taper = 0.4;
   /// [width of a slit] Vertices on its sides are joined if they are nearer to each other. Not measured.
@@ -40,6 +48,9 @@ struct GeneraliseRules {
   static constexpr int displacement_rounds = 12;
   /// [h] Ragged runs of a curve lose vertices that are nearer to each other. Not measured.
   static constexpr double thinned_share = 0.05;
+  /// [share of ragged runs] Smooth runs lose vertices that are nearer to each other: 0.02 h, where a chord is within
+  /// 5e-5 h of a curve of radius h. Not measured.
+  static constexpr double dense_share = 0.4;
   /// [1] A curve is ragged where 1 - cosine of its turns adds up to more on that way: one turn of 75 degrees, or
   /// several smaller ones. Not measured.
   static constexpr double ragged_turn = 0.75;
@@ -58,10 +69,10 @@ struct GeneraliseRules {
   static constexpr int most_passes = 8;
   /// [rounds] Of such trials; then nothing is thinned. Not measured.
   static constexpr int thinning_rounds = 3;
-  /// [h] Corners nearer to each other than this, between long arms, become one. Not measured.
-  static constexpr double close_corners = 0.05;
-  /// [distance of close corners] A long arm has this length at least. Not measured.
-  static constexpr double arm_length = 4;
+  /// [h] Neighbouring corners nearer to each other than this become one. Not measured.
+  static constexpr double close_corners = 0.1;
+  /// [1] 1 - cosine of the turn of such a corner: 30 degrees. Not measured.
+  static constexpr double corner_turn = 0.13;
 };
 
 } // namespace trime::generalise

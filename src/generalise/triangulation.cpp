@@ -125,6 +125,7 @@ LocalIndex Triangulation::split_triangle(LocalIndex t, Vec2 p) {
 }
 
 /// p takes the edge e in two; @pre the four triangles that come about turn left, or p lies on the border of the box.
+/// Where p lies beside e, on needles, the edges from p to the apexes may have to flip too.
 LocalIndex Triangulation::split_edge(HalfEdge e, Vec2 p) {
   const HalfEdge f = twin(e);
   const LocalIndex v = add_point(p), a = origin(e), b = target(e), c = origin(previous(e));
@@ -135,7 +136,7 @@ LocalIndex Triangulation::split_edge(HalfEdge e, Vec2 p) {
   set_triangle(t, {a, v, c}, {none, none, from_c}, {there, no_mark, from_c_mark});
   set_triangle(t1, {v, b, c}, {none, to_c, none}, {there, to_c_mark, no_mark});
   link(3 * t + 1, 3 * t1 + 2);
-  doubtful_.insert(doubtful_.end(), {3 * t + 2, 3 * t1 + 1});
+  doubtful_.insert(doubtful_.end(), {3 * t + 1, 3 * t + 2, 3 * t1 + 1});
   if (f == none)
     return v;
   const LocalIndex d = origin(previous(f)), u = triangle(f), u1 = add_triangle();
@@ -145,7 +146,7 @@ LocalIndex Triangulation::split_edge(HalfEdge e, Vec2 p) {
   set_triangle(u, {b, v, d}, {3 * t1, none, from_d}, {back, no_mark, from_d_mark});
   set_triangle(u1, {v, a, d}, {3 * t, to_d, none}, {back, to_d_mark, no_mark});
   link(3 * u + 1, 3 * u1 + 2);
-  doubtful_.insert(doubtful_.end(), {3 * u + 2, 3 * u1 + 1});
+  doubtful_.insert(doubtful_.end(), {3 * u + 1, 3 * u + 2, 3 * u1 + 1});
   return v;
 }
 

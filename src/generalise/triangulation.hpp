@@ -57,6 +57,8 @@ public:
   std::int32_t mark_of_edge(HalfEdge e) const { return mark_[at(e)] >= 0 ? mark_[at(e)] : -1 - mark_[at(e)]; }
   /// The half-edge from a to b; `none` if they are no neighbours. O(degree of a)
   HalfEdge find_edge(LocalIndex a, LocalIndex b) const;
+  /// A triangle that holds p, inside or on its rim. O(steps of the walk from the last point) @pre p lies in the box
+  LocalIndex triangle_at(geometry::Vec2 p) const { return triangle(locate(p).edge); }
   /// Some half-edge that leaves v.
   HalfEdge leaving(LocalIndex v) const { return leaving_[at(v)]; }
   /// The next half-edge that leaves the same vertex, counter-clockwise; `none` behind the border of the box.

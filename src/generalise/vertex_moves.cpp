@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
+#include <optional>
 
 namespace trime::generalise {
 namespace {
@@ -18,11 +18,18 @@ using HalfEdge = Triangulation::HalfEdge;
 } // namespace
 
 VertexMoves::VertexMoves(const CurveMap& map, const std::vector<char>& labels, const geometry::Lattice& lattice)
-    : map_(map), mesh_(map.mesh()), labels_(labels), lattice_(lattice), places_(at(mesh_.vertex_count())) {
+    : map_(map), mesh_(map.mesh()), rim_(mesh_, labels), lattice_(lattice), places_(at(mesh_.vertex_count())) {
+  root_.resize(places_.size());
+  forget();
+}
+
+/// All vertices are where they were.
+void VertexMoves::forget() {
   for (LocalIndex v = 0; v < mesh_.vertex_count(); ++v)
     places_[at(v)] = mesh_.point(v);
-  root_.resize(places_.size());
   std::iota(root_.begin(), root_.end(), 0);
+  is_root_.assign(places_.size(), 0);
+  any_ = false;
 }
 
 /// Triangles of which an edge has shrunk to nothing do not.
@@ -31,13 +38,8 @@ bool VertexMoves::turns_over(LocalIndex t) const {
   return a != b && b != c && c != a && geometry::orient2d(places_[at(a)], places_[at(b)], places_[at(c)]) <= 0;
 }
 
-void VertexMoves::widen_one(const NarrowPart& part, std::vector<Vec2>& shifts) const {
-  struct AtVertex {
-    double gap = INFINITY;
-    Vec2 away; // from the other side: sum of normals
-  };
-  std::map<LocalIndex, AtVertex> vertices;
-  std::vector<Vec2> ends;
+VertexMoves::Sides VertexMoves::sides_of(const NarrowPart& part) const {
+  Sides sides;
   for (const LocalIndex t : part.triangles) {
     int constrained = 0;
     for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e) {
@@ -46,26 +48,45 @@ void VertexMoves::widen_one(const NarrowPart& part, std::vector<Vec2>& shifts) c
       const double whole = length(along);
       if (!mesh_.is_constrained(e)) {
         for (const LocalIndex v : {a, b})
-          vertices[v].gap = std::fmin(vertices[v].gap, whole);
+          sides.vertices[v].gap = std::fmin(sides.vertices[v].gap, whole);
         continue;
       }
       ++constrained;
-      const Vec2 outward = (-1 / whole) * geometry::left_normal(along); // of this side of the outside
+      const Vec2 outward = (-1 / whole) * geometry::left_normal(along);
       for (const LocalIndex v : {a, b})
-        vertices[v].away = vertices[v].away + outward;
-      vertices[apex].gap = std::fmin(vertices[apex].gap, cross(along, mesh_.point(apex) - mesh_.point(a)) / whole);
+        sides.vertices[v].away = sides.vertices[v].away + outward;
+      double& gap = sides.vertices[apex].gap;
+      gap = std::fmin(gap, cross(along, mesh_.point(apex) - mesh_.point(a)) / whole);
     }
     if (constrained == 2)
       for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
         if (mesh_.is_constrained(e) && mesh_.is_constrained(Triangulation::previous(e)))
-          ends.push_back(mesh_.point(mesh_.origin(e)));
+          sides.ends.push_back(mesh_.point(mesh_.origin(e)));
   }
-  for (const auto& [v, here] : vertices) {
-    const double norm = length(here.away);
-    double way = 0.5 * (GeneraliseRules::narrow_outside * map_.size(v) - here.gap);
-    for (const Vec2 end : ends)
-      way = std::fmin(way, GeneraliseRules::slit_taper * length(mesh_.point(v) - end));
-    if (way > 0 && norm > 0.5 && !map_.is_kept(v) && root(v) == v)
+  return sides;
+}
+
+/// How far a vertex is to move: half of what is missing, less near the end of a slit; 0 or less if nothing is.
+double VertexMoves::missing_way(const NarrowPart& part, const Sides& sides, LocalIndex v) const {
+  const double width = part.inside ? GeneraliseRules::narrow_inside : GeneraliseRules::narrow_outside;
+  double way = 0.5 * (width * map_.size(v) - sides.vertices.at(v).gap);
+  for (const Vec2 end : sides.ends)
+    way = std::fmin(way, GeneraliseRules::slit_taper * length(mesh_.point(v) - end));
+  return map_.is_kept(v) ? 0 : way;
+}
+
+bool VertexMoves::is_too_narrow(const NarrowPart& part) const {
+  const Sides sides = sides_of(part);
+  return std::any_of(sides.vertices.begin(), sides.vertices.end(), [&](const auto& entry) {
+    return missing_way(part, sides, entry.first) > GeneraliseRules::least_shift * map_.size(entry.first);
+  });
+}
+
+void VertexMoves::widen_one(const NarrowPart& part, std::vector<Vec2>& shifts) const {
+  const Sides sides = sides_of(part);
+  for (const auto& [v, here] : sides.vertices) {
+    const double norm = length(here.away), way = missing_way(part, sides, v);
+    if (way > 0 && norm > 0.5 && root(v) == v)
       shifts[at(v)] = (way / norm) * here.away;
   }
 }
@@ -92,7 +113,11 @@ void VertexMoves::calm(std::vector<Vec2>& shifts) const {
   }
 }
 
-void VertexMoves::widen(std::span<const NarrowPart> parts) {
+std::int64_t VertexMoves::widen(std::vector<NarrowPart> parts) {
+  parts.erase(std::remove_if(parts.begin(), parts.end(), [&](const NarrowPart& part) { return !is_too_narrow(part); }),
+              parts.end());
+  if (parts.empty())
+    return 0;
   thin(parts);
   std::vector<Vec2> shifts(places_.size());
   for (const NarrowPart& part : parts)
@@ -122,8 +147,12 @@ void VertexMoves::widen(std::span<const NarrowPart> parts) {
     if (factor == 0 && stopped)
       --round; // those beside them follow
   }
+  any_ = false;
   for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v)
-    any_ |= places_[at(v)] != mesh_.point(v);
+    any_ |= length(places_[at(v)] - mesh_.point(v)) > GeneraliseRules::least_shift * map_.size(v) && root(v) == v;
+  if (!any_) // what joined vertices alone moved is not worth it
+    forget();
+  return any_ ? std::ssize(parts) : 0;
 }
 
 /// Joins vertices on the sides of narrow parts that are nearer to each other than the parts become wide.
@@ -137,59 +166,58 @@ void VertexMoves::thin(std::span<const NarrowPart> parts) {
     if (!beside[at(v)])
       continue;
     const LocalIndex u = map_.next_on_curve(v);
-    if (!is_on_rim(mesh_.find_edge(v, u)))
+    if (!rim_.holds(mesh_.find_edge(v, u)))
       continue;
     const double close = GeneraliseRules::thinned * GeneraliseRules::narrow_outside * map_.size(v);
-    if (beside[at(u)] && !map_.is_kept(u) && root(u) == u &&
+    if (beside[at(u)] && !map_.is_kept(u) && root(u) == u && is_alone(u) && leaves_a_loop(mesh_.find_edge(v, u)) &&
         squared_length(mesh_.point(u) - places_[at(v)]) < close * close)
       merge(u, root(v));
   }
 }
 
+/// 1 - cosine of the turn of the rim at the start of e, edges without length left out; 0 if nothing else is left.
+double VertexMoves::turn_at(HalfEdge e) const {
+  const auto along = [&](HalfEdge f) { return places_[at(mesh_.target(f))] - places_[at(mesh_.origin(f))]; };
+  HalfEdge ahead = e, behind = rim_.previous(e);
+  while (along(ahead) == Vec2{})
+    if (ahead = rim_.next(ahead); ahead == e)
+      return 0;
+  while (along(behind) == Vec2{})
+    behind = rim_.previous(behind);
+  const Vec2 in = along(behind), out = along(ahead);
+  return 1 - dot(in, out) / std::sqrt(squared_length(in) * squared_length(out));
+}
+
 void VertexMoves::merge_close_corners() {
-  for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v) {
-    const HalfEdge first = mesh_.leaving(v);
-    HalfEdge e = first;
-    do {
-      const LocalIndex u = mesh_.target(e);
-      const double close = GeneraliseRules::close_corners * std::fmin(map_.size(u), map_.size(v));
-      if (is_on_rim(e) && !map_.is_kept(u) && root(u) == u && root(v) != u &&
-          squared_length(places_[at(u)] - places_[at(v)]) < close * close && !map_.is_kept(u) &&
-          has_long_arms(e, close))
-        merge(u, root(v));
-      e = mesh_.around(e);
-    } while (e != first);
+  for (HalfEdge e = 0; e < 3 * mesh_.triangle_count(); ++e) {
+    if (!rim_.holds(e))
+      continue;
+    const LocalIndex v = root(mesh_.origin(e)), u = root(mesh_.target(e));
+    const double close = GeneraliseRules::close_corners * std::fmin(map_.size(u), map_.size(v));
+    if (u == v || !(squared_length(places_[at(u)] - places_[at(v)]) < close * close))
+      continue;
+    const double at_v = turn_at(e), at_u = turn_at(rim_.next(e));
+    if (std::fmin(at_v, at_u) < GeneraliseRules::corner_turn)
+      continue;
+    const bool moves_u = map_.is_kept(v) || (!map_.is_kept(u) && at_u < at_v);
+    if (const LocalIndex mover = moves_u ? u : v; !map_.is_kept(mover) && is_alone(mover) && leaves_a_loop(e))
+      merge(mover, moves_u ? v : u);
   }
 }
 
-VertexMoves::HalfEdge VertexMoves::curve_behind(HalfEdge e) const {
-  HalfEdge f = mesh_.leaving(mesh_.target(e));
-  while (mesh_.mark(f) < 0)
-    f = mesh_.around(f);
-  return f;
-}
-
-VertexMoves::HalfEdge VertexMoves::curve_before(HalfEdge e) const {
-  HalfEdge f = mesh_.leaving(mesh_.origin(e));
-  while (!mesh_.is_constrained(f) || mesh_.mark(f) >= 0)
-    f = mesh_.around(f);
-  return mesh_.twin(f);
-}
-
-/// Do straight pieces of some length lie before and behind the edge e, along edges that are as short?
-bool VertexMoves::has_long_arms(HalfEdge e, double close) const {
-  const auto is_long = [&](HalfEdge f, const auto& step) {
-    for (double way = 0; way < close; f = step(f)) {
-      const double here = length(mesh_.point(mesh_.target(f)) - mesh_.point(mesh_.origin(f)));
-      const CurveMap::Span span = map_.span_of(f);
-      if (map_.boundary().loops[at(span.loop)].pieces[at(span.piece)].length() > GeneraliseRules::arm_length * close)
-        return true;
-      way += here;
-    }
-    return false;
-  };
-  return is_long(curve_before(e), [&](HalfEdge f) { return curve_before(f); }) &&
-         is_long(curve_behind(e), [&](HalfEdge f) { return curve_behind(f); });
+/// Has the loop of the half-edge e on the rim two more places than the ends of e?
+bool VertexMoves::leaves_a_loop(HalfEdge e) const {
+  const Vec2 a = places_[at(mesh_.origin(e))], b = places_[at(mesh_.target(e))];
+  std::optional<Vec2> third;
+  for (HalfEdge f = rim_.next(e); f != e; f = rim_.next(f)) {
+    const Vec2 p = places_[at(mesh_.target(f))];
+    if (p == a || p == b)
+      continue;
+    if (third && *third != p)
+      return true;
+    third = p;
+  }
+  return false;
 }
 
 /// Moves u to the place of v, if no triangle turns over.
@@ -197,6 +225,7 @@ void VertexMoves::merge(LocalIndex u, LocalIndex v) {
   const Vec2 old = places_[at(u)];
   places_[at(u)] = places_[at(v)];
   root_[at(u)] = root_[at(v)];
+  is_root_[at(v)] = 1;
   const HalfEdge first = mesh_.leaving(u);
   HalfEdge e = first;
   do {

@@ -5,7 +5,11 @@
 
 #include "generalise/loop_builder.hpp"
 #include "generalise/narrow_parts.hpp"
+#include "generalise/rim.hpp"
 
+#include <cmath>
+#include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -17,10 +21,11 @@ public:
   /// @param labels by triangle: 1 inside; they may have changed since the map was made
   VertexMoves(const CurveMap& map, const std::vector<char>& labels, const geometry::Lattice& lattice);
 
-  /// @brief Moves the sides of narrow parts of the outside apart, each half of what is missing, less towards the ends
-  /// of a slit. What would turn a triangle over is moved less, or not at all.
-  void widen(std::span<const NarrowPart> parts);
-  /// Joins corners that are nearer to each other than a small share of h, between long arms.
+  /// @brief Moves the sides of narrow parts apart, each half of what is missing, less towards the ends of a slit. What
+  /// would turn a triangle over is moved less, or not at all. Parts of which no vertex misses much stay.
+  /// @return how many parts were too narrow. O(triangles) a round, and rounds are few
+  std::int64_t widen(std::vector<NarrowPart> parts);
+  /// Joins neighbouring corners that are nearer to each other than a small share of h: steps, blunt tips.
   void merge_close_corners();
 
   bool any() const { return any_; }
@@ -30,26 +35,36 @@ public:
 
 private:
   using HalfEdge = Triangulation::HalfEdge;
-  HalfEdge curve_before(HalfEdge e) const;
-  HalfEdge curve_behind(HalfEdge e) const;
-  bool has_long_arms(HalfEdge e, double close) const;
+  double turn_at(HalfEdge e) const;
+  /// Has no other vertex been moved to it?
+  bool is_alone(LocalIndex v) const { return is_root_[at(v)] == 0; }
+  bool leaves_a_loop(HalfEdge e) const;
   void merge(LocalIndex u, LocalIndex v);
-  /// Does the half-edge follow a curve that stays?
-  bool is_on_rim(HalfEdge e) const {
-    return mesh_.mark(e) >= 0 && labels_[at(Triangulation::triangle(e))] != 0 &&
-           labels_[at(Triangulation::triangle(mesh_.twin(e)))] == 0;
-  }
   bool turns_over(LocalIndex t) const;
+  /// The sides of a narrow part, and the ends of slits there.
+  struct Sides {
+    struct AtVertex {
+      double gap = INFINITY; // distance of the other side
+      geometry::Vec2 away;   // from the middle of the part: sum of normals
+    };
+    std::map<LocalIndex, AtVertex> vertices;
+    std::vector<geometry::Vec2> ends;
+  };
+  Sides sides_of(const NarrowPart& part) const;
+  double missing_way(const NarrowPart& part, const Sides& sides, LocalIndex v) const;
+  bool is_too_narrow(const NarrowPart& part) const;
   void widen_one(const NarrowPart& part, std::vector<geometry::Vec2>& shifts) const;
 
   const CurveMap& map_;
   const Triangulation& mesh_;
-  const std::vector<char>& labels_;
+  const Rim rim_;
   geometry::Lattice lattice_;
   LocalIndex root(LocalIndex v) const { return root_[at(v)]; }
   void calm(std::vector<geometry::Vec2>& shifts) const;
   void thin(std::span<const NarrowPart> parts);
+  void forget();
   MovedVertices places_;
+  std::vector<char> is_root_;    // by vertex: of others
   std::vector<LocalIndex> root_; // by vertex: the one to which it was moved, or itself
   bool any_ = false;
 };

@@ -2,6 +2,8 @@
 // What was done to the curves of a shape before the sites of a stage were laid on them. Plain data.
 #pragma once
 
+#include "trime/geometry/boundary.hpp"
+
 #include <algorithm>
 #include <cstdint>
 
@@ -21,12 +23,20 @@ struct Simplification {
     cut += other.cut;
     filled += other.filled;
     closed += other.closed;
-    widened += other.widened;
+    widened = std::max(widened, other.widened); // what a pass widens, the next ones may widen a little more
     thinned += other.thinned;
     cut_area += other.cut_area;
     closed_area += other.closed_area;
     largest_move = std::max(largest_move, other.largest_move);
   }
 };
+
+/// Number of pieces of all loops.
+inline std::int64_t piece_count(const geometry::Boundary& boundary) {
+  std::int64_t count = 0;
+  for (const geometry::Loop& loop : boundary.loops)
+    count += static_cast<std::int64_t>(loop.pieces.size());
+  return count;
+}
 
 } // namespace trime::polygon

@@ -85,15 +85,25 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
   CurvesAtSize& curves = laid.fitted.curves;
   if (context.options.features.keep_all)
     return given;
-  if (!(std::fabs(curves.factor - laid.fitted.factor) <= StartRules::same_curves * laid.fitted.factor))
-    curves = {laid.fitted.factor,
-              generalise::generalise(given, *laid.stage.asked_size, context.lattice, narrow_outside(context),
-                                     context.fixed.inside()),
-              nullptr};
+  const double factor = laid.fitted.factor;
+  if (!(std::fabs(curves.factor - factor) <= StartRules::same_curves * factor)) {
+    if (!(curves.thinned_factor * StartRules::thinned_ahead <= factor &&
+          factor <= curves.thinned_factor * StartRules::thinned_ahead * StartRules::thinned_ahead)) {
+      curves.thinned_factor = factor / StartRules::thinned_ahead;
+      curves.thinned = generalise::thinned(
+          given, sizing::ScaledSize(*laid.stage.asked_size, 1 / StartRules::thinned_ahead), context.lattice);
+    }
+    curves.factor = factor;
+    curves.samples = nullptr;
+    curves.found = generalise::generalise(curves.thinned ? *curves.thinned : given, *laid.stage.asked_size,
+                                          context.lattice, generalise_choice(context), context.fixed.inside());
+  }
   if (!curves.found)
     return given;
   laid.stage.curves = {curves.found, &curves.found->boundary};
   laid.stage.simplified = curves.found->counts;
+  if (curves.thinned)
+    laid.stage.simplified.thinned += polygon::piece_count(given) - polygon::piece_count(*curves.thinned);
   return curves.found->boundary;
 }
 
@@ -146,9 +156,9 @@ constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
 
 } // namespace
 
-generalise::Narrow narrow_outside(const LayoutContext& context) {
-  return context.options.features.narrow == boundary::NarrowOutside::close ? generalise::Narrow::close
-                                                                           : generalise::Narrow::keep;
+generalise::Choice generalise_choice(const LayoutContext& context) {
+  const bool closes = context.options.features.narrow == boundary::NarrowOutside::close;
+  return {closes ? generalise::Narrow::close : generalise::Narrow::keep, context.cuts_thin_components};
 }
 
 double estimated_size(double area, double perimeter, double n) {

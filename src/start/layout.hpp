@@ -30,6 +30,7 @@ struct LayoutContext {
   Log& log;
   TimerTable& timers;
   const boundary::FixedPoints& fixed; ///< with the boundary on which sites are laid
+  bool cuts_thin_components = false;  ///< as generalise::Choice has it: no other boundary has so few points
   bool is_level = false;              ///< the relative size is the same everywhere, though its class does not say so
 };
 
@@ -38,6 +39,9 @@ struct CurvesAtSize {
   double factor = 0;                                    ///< of the relative size
   std::shared_ptr<const generalise::Generalised> found; ///< null: nothing was narrower
   std::shared_ptr<const boundary::SizeSamples> samples; ///< of the relative size on it; made when they are needed
+  double thinned_factor = 0;                            ///< at which the next one was made
+  std::shared_ptr<const geometry::Boundary> thinned{};  ///< the boundary without what is far below smaller sizes, null
+                                                       ///< if that is nothing: each trial begins with it
 };
 
 /// What the size field of the last stage follows from.
@@ -55,8 +59,8 @@ struct FittedStage {
   sites::Stage stage;
 };
 
-/// What the options say of narrow parts of the outside.
-generalise::Narrow narrow_outside(const LayoutContext& context);
+/// How much the boundary is simplified.
+generalise::Choice generalise_choice(const LayoutContext& context);
 
 /// Edge length of n nearly equilateral triangles' vertices on area A inside perimeter P: from V = (T + B)/2 + 1 with
 /// T = A / (sqrt(3)/4 h^2) and B = P/h.

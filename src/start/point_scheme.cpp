@@ -5,6 +5,7 @@
 #include "start/refinement.hpp"
 #include "start/rules.hpp"
 #include "start/size_fit.hpp"
+#include "trime/core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,10 +26,12 @@ int divisions_for(double points) {
 } // namespace
 
 PointScheme::PointScheme(const LayoutContext& context)
-    : level_(context.relative_size), level_context_{context.comm,    context.given_boundary, level_,
-                                                    context.options, context.lattice,        context.log,
-                                                    context.timers,  context.fixed,          true},
-      context_(&context), options_(context.options) {
+    : level_(context.relative_size), given_context_(context), level_context_{context.comm,    context.given_boundary,
+                                                                             level_,          context.options,
+                                                                             context.lattice, context.log,
+                                                                             context.timers,  context.fixed,
+                                                                             false,           true},
+      context_(&given_context_), options_(context.options) {
   choose();
 }
 
@@ -50,6 +53,7 @@ double PointScheme::expected_points() const {
   return points_of_length(context_->given_boundary, *options_.edge_length);
 }
 
+/// By the options and the size.
 void PointScheme::choose() {
   const bool uniform = context_->relative_size.is_uniform();
   const Start start = options_.start;
@@ -75,6 +79,20 @@ void PointScheme::choose() {
 }
 
 Stage PointScheme::first() {
+  try {
+    return first_of_scheme();
+  } catch (const ConfigError&) { // too few points, on all ranks together
+    if (options_.features.keep_all)
+      throw;
+  }
+  given_context_.cuts_thin_components = level_context_.cuts_thin_components = true;
+  context_ = &given_context_;
+  last_stage_ = 0;
+  choose();
+  return first_of_scheme();
+}
+
+Stage PointScheme::first_of_scheme() {
   return scheme_ == Scheme::lattice     ? first_of_lattice()
          : scheme_ == Scheme::insertion ? first_of_insertion()
                                         : first_of_divisions();

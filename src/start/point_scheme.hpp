@@ -53,6 +53,7 @@ private:
   void choose();
   GlobalId reserve() const;
   double expected_points() const;
+  sites::Stage first_of_scheme();
   sites::Stage first_of_lattice();
   sites::Stage first_of_insertion();
   sites::Stage first_of_divisions();
@@ -65,8 +66,8 @@ private:
   sites::Stage insert(const sites::Stage& previous);
 
   const LevelSize level_;
-  const LayoutContext level_context_; // with that size
-  const LayoutContext* context_;      // the given one, or that
+  LayoutContext given_context_, level_context_; // as given, and with that size
+  const LayoutContext* context_;                // one of them
   const StartOptions& options_;
   Scheme scheme_ = Scheme::lattice;
   int stage_ = 0, last_stage_ = 0;

@@ -9,6 +9,9 @@ namespace trime::start {
 
 /// The numbers by which points are placed.
 struct StartRules {
+  /// [1] Trials of the size begin with the boundary thinned for sizes so many times smaller than the first. Not
+  /// measured.
+  static constexpr double thinned_ahead = 3;
   /// [1] While the factor of the size changes by a smaller share, the curves are not generalised anew. Not measured.
   static constexpr double same_curves = 0.04;
   /// [h] If the boundary asks for smaller triangles somewhere than this, a uniform size is lowered there. Not measured.
