@@ -212,11 +212,13 @@ ThinnedMap make_map(const Boundary& boundary, const sizing::SizeField& size, con
   return made;
 }
 
-std::int64_t piece_count(const Boundary& boundary) {
-  std::int64_t count = 0;
-  for (const geometry::Loop& loop : boundary.loops)
-    count += std::ssize(loop.pieces);
-  return count;
+/// Those of the points that are inside the boundary.
+std::vector<Vec2> held_points(const Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
+                              std::span<const Vec2> inside) {
+  if (!inside.empty())
+    if (const CurveMap given(boundary, size, lattice); given.is_valid())
+      return given.those_inside(inside);
+  return {};
 }
 
 /// Once over the boundary; null if nothing is to be done.
@@ -232,7 +234,7 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
   auto result = std::make_unique<Generalised>();
   GeneralisedCounts& counts = result->counts;
   if (made.thinned)
-    counts.thinned = piece_count(boundary) - piece_count(*made.thinned);
+    counts.thinned = polygon::piece_count(boundary) - polygon::piece_count(*made.thinned);
   std::vector<char> filled = given;
   counts.filled = fill_small_holes(map, filled);
   Plan plan = plan_cuts(map, filled, choice, corners);
@@ -274,10 +276,7 @@ std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const si
                                               std::span<const Vec2> inside) {
   if (boundary.periods.any() || boundary.loops.empty())
     return nullptr;
-  std::vector<Vec2> held;
-  if (!inside.empty())
-    if (const CurveMap given(boundary, size, lattice); given.is_valid())
-      held = given.those_inside(inside);
+  const std::vector<Vec2> held = held_points(boundary, size, lattice, inside);
   std::unique_ptr<Generalised> result;
   Corners corners;
   for (int pass = 0; pass < GeneraliseRules::most_passes; ++pass) { // what was moved apart may leave others narrow
@@ -294,11 +293,11 @@ std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const si
 }
 
 bool has_narrow_parts(const Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
-                      Narrow narrow) {
+                      const Choice& choice, std::span<const Vec2> inside) {
   if (boundary.periods.any() || boundary.loops.empty())
     return false;
   Corners corners;
-  return pass_over(boundary, size, lattice, narrow, corners) != nullptr;
+  return pass_over(boundary, size, lattice, choice, held_points(boundary, size, lattice, inside), corners) != nullptr;
 }
 
 } // namespace trime::generalise

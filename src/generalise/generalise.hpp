@@ -51,6 +51,6 @@ std::unique_ptr<const Generalised> generalise(const geometry::Boundary& boundary
 
 /// Would generalise() change anything? Costs one pass of its several.
 bool has_narrow_parts(const geometry::Boundary& boundary, const sizing::SizeField& size,
-                      const geometry::Lattice& lattice, Narrow narrow);
+                      const geometry::Lattice& lattice, const Choice& choice, std::span<const geometry::Vec2> inside);
 
 } // namespace trime::generalise

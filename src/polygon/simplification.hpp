@@ -2,6 +2,8 @@
 // What was done to the curves of a shape before the sites of a stage were laid on them. Plain data.
 #pragma once
 
+#include "trime/geometry/boundary.hpp"
+
 #include <algorithm>
 #include <cstdint>
 
@@ -28,5 +30,13 @@ struct Simplification {
     largest_move = std::max(largest_move, other.largest_move);
   }
 };
+
+/// Number of pieces of all loops.
+inline std::int64_t piece_count(const geometry::Boundary& boundary) {
+  std::int64_t count = 0;
+  for (const geometry::Loop& loop : boundary.loops)
+    count += static_cast<std::int64_t>(loop.pieces.size());
+  return count;
+}
 
 } // namespace trime::polygon

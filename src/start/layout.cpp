@@ -95,9 +95,8 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
     }
     curves.factor = factor;
     curves.samples = nullptr;
-    curves.found =
-        generalise::generalise(curves.thinned ? *curves.thinned : given, *laid.stage.asked_size, context.lattice,
-                               {narrow_outside(context), context.cuts_thin_components}, context.fixed.inside());
+    curves.found = generalise::generalise(curves.thinned ? *curves.thinned : given, *laid.stage.asked_size,
+                                          context.lattice, generalise_choice(context), context.fixed.inside());
     if (!curves.found && curves.thinned)
       curves.found = std::make_shared<generalise::Generalised>(generalise::Generalised{*curves.thinned, {}});
   }
@@ -105,6 +104,8 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
     return given;
   laid.stage.curves = {curves.found, &curves.found->boundary};
   laid.stage.simplified = curves.found->counts;
+  if (curves.thinned)
+    laid.stage.simplified.thinned += polygon::piece_count(given) - polygon::piece_count(*curves.thinned);
   return curves.found->boundary;
 }
 
@@ -157,9 +158,9 @@ constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
 
 } // namespace
 
-generalise::Narrow narrow_outside(const LayoutContext& context) {
-  return context.options.features.narrow == boundary::NarrowOutside::close ? generalise::Narrow::close
-                                                                           : generalise::Narrow::keep;
+generalise::Choice generalise_choice(const LayoutContext& context) {
+  const bool closes = context.options.features.narrow == boundary::NarrowOutside::close;
+  return {closes ? generalise::Narrow::close : generalise::Narrow::keep, context.cuts_thin_components};
 }
 
 double estimated_size(double area, double perimeter, double n) {

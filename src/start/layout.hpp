@@ -59,8 +59,8 @@ struct FittedStage {
   sites::Stage stage;
 };
 
-/// What the options say of narrow parts of the outside.
-generalise::Narrow narrow_outside(const LayoutContext& context);
+/// How much the boundary is simplified.
+generalise::Choice generalise_choice(const LayoutContext& context);
 
 /// Edge length of n nearly equilateral triangles' vertices on area A inside perimeter P: from V = (T + B)/2 + 1 with
 /// T = A / (sqrt(3)/4 h^2) and B = P/h.

@@ -55,9 +55,10 @@ bool keeps_all(const LayoutContext& context, double factor) {
   comm::run_agreed(context.comm, [&] {
     const sizing::ScaledSize size(context.relative_size, factor, options.min_size.value_or(0),
                                   options.max_size.value_or(INFINITY));
-    keeps = !boundary::drop_small_loops(given, size, boundary::BoundaryRules::least_perimeter, context.fixed.inside())
-                 .any() &&
-            !generalise::has_narrow_parts(given, size, context.lattice, narrow_outside(context));
+    keeps =
+        !boundary::drop_small_loops(given, size, boundary::BoundaryRules::least_perimeter, context.fixed.inside())
+             .any() &&
+        !generalise::has_narrow_parts(given, size, context.lattice, generalise_choice(context), context.fixed.inside());
   });
   return keeps;
 }
