@@ -128,7 +128,9 @@ class HardShapes(unittest.TestCase):
     def test_sharp(self):
         self.mesh([wedge(1)], "meshing.points=1000")
         self.mesh([wedge(0.1)], "meshing.points=1000")
-        self.error([wedge(1e-4)], "meshing.points=1000", code=3, says=["too narrow near (0.1", "simplify the contour"])
+        self.error([wedge(1e-4)], "meshing.points=1000", "meshing.keep_features=true", code=3,
+                   says=["too narrow near (0.1", "simplify the contour"])
+        self.mesh([wedge(1e-4)], "meshing.points=1000")
         self.mesh([star(1000, 0.2, 0.45)], "meshing.points=20000")
         self.mesh([[(0.1, 0.1), (0.5, 0.1 + 7e-7), (0.9, 0.1), (0.9, 0.9), (0.1, 0.9)]], "meshing.points=500")
 
