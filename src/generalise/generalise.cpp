@@ -248,6 +248,15 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
   return result;
 }
 
+/// The points that lie inside the boundary; none if its chords cross.
+std::vector<Vec2> those_inside(const Boundary& boundary, const sizing::SizeField& size,
+                               const geometry::Lattice& lattice, std::span<const Vec2> points) {
+  if (points.empty())
+    return {};
+  const CurveMap map(boundary, size, lattice);
+  return map.is_valid() ? map.those_inside(points) : std::vector<Vec2>{};
+}
+
 } // namespace
 
 void GeneralisedCounts::add(const GeneralisedCounts& other) {
@@ -261,11 +270,11 @@ void GeneralisedCounts::add(const GeneralisedCounts& other) {
 }
 
 std::unique_ptr<const Boundary> thinned(const Boundary& boundary, const sizing::SizeField& size,
-                                        const geometry::Lattice& lattice) {
+                                        const geometry::Lattice& lattice, std::span<const Vec2> inside) {
   if (boundary.periods.any())
     return nullptr;
   std::unique_ptr<const Boundary> result = without_ragged_runs(boundary, size, GeneraliseRules::thinned_share);
-  if (result && !CurveMap(*result, size, lattice).is_valid())
+  if (result && !CurveMap(*result, size, lattice, those_inside(boundary, size, lattice, inside)).is_valid())
     return nullptr;
   return result;
 }
@@ -275,10 +284,7 @@ std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const si
                                               std::span<const Vec2> inside) {
   if (boundary.periods.any() || boundary.loops.empty())
     return nullptr;
-  std::vector<Vec2> held;
-  if (!inside.empty())
-    if (const CurveMap given(boundary, size, lattice); given.is_valid())
-      held = given.those_inside(inside);
+  const std::vector<Vec2> held = those_inside(boundary, size, lattice, inside);
   std::unique_ptr<Generalised> result;
   Corners corners;
   for (int pass = 0; pass < GeneraliseRules::most_passes; ++pass) { // what was moved apart may leave others narrow
