@@ -39,9 +39,9 @@ struct CurvesAtSize {
   double factor = 0;                                    ///< of the relative size
   std::shared_ptr<const generalise::Generalised> found; ///< null: nothing was narrower
   std::shared_ptr<const boundary::SizeSamples> samples; ///< of the relative size on it; made when they are needed
-  double thinned_factor = 0; ///< at which the next one was made
-  std::shared_ptr<const geometry::Boundary> thinned{}; ///< the boundary without what is far below smaller sizes, null if
-                                                       ///< that is nothing: each trial begins with it
+  double thinned_factor = 0;                            ///< at which the next one was made
+  std::shared_ptr<const geometry::Boundary> thinned{};  ///< the boundary without what is far below smaller sizes, null
+                                                       ///< if that is nothing: each trial begins with it
 };
 
 /// What the size field of the last stage follows from.
