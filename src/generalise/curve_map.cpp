@@ -60,9 +60,12 @@ void CurveMap::insert_vertices(std::span<const Vec2> held) {
     places[k] = lattice_.snap(boundary_.loops[at(strand.loop)].pieces[at(strand.piece)].point(strand.from));
     box.include(places[k]);
   }
-  for (const Vec2 p : held)
-    if (box.contains(p))
-      places.push_back(p);
+  for (const Vec2 p : held) {
+    valid_ = valid_ && box.contains(p);
+    places.push_back(p);
+  }
+  if (!valid_)
+    return;
   constexpr int level = 20;
   const double scale = std::ldexp(0.999, level) / std::fmax(box.width(), box.height());
   std::vector<std::pair<std::uint64_t, std::size_t>> order(places.size());

@@ -212,15 +212,6 @@ ThinnedMap make_map(const Boundary& boundary, const sizing::SizeField& size, con
   return made;
 }
 
-/// Those of the points that are inside the boundary.
-std::vector<Vec2> held_points(const Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
-                              std::span<const Vec2> inside) {
-  if (!inside.empty())
-    if (const CurveMap given(boundary, size, lattice); given.is_valid())
-      return given.those_inside(inside);
-  return {};
-}
-
 /// Once over the boundary; null if nothing is to be done.
 std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::SizeField& size,
                                        const geometry::Lattice& lattice, const Choice& choice,
@@ -259,14 +250,23 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
   return result;
 }
 
+/// The points that lie inside the boundary; none if its chords cross.
+std::vector<Vec2> those_inside(const Boundary& boundary, const sizing::SizeField& size,
+                               const geometry::Lattice& lattice, std::span<const Vec2> points) {
+  if (points.empty())
+    return {};
+  const CurveMap map(boundary, size, lattice);
+  return map.is_valid() ? map.those_inside(points) : std::vector<Vec2>{};
+}
+
 } // namespace
 
 std::unique_ptr<const Boundary> thinned(const Boundary& boundary, const sizing::SizeField& size,
-                                        const geometry::Lattice& lattice) {
+                                        const geometry::Lattice& lattice, std::span<const Vec2> inside) {
   if (boundary.periods.any())
     return nullptr;
   std::unique_ptr<const Boundary> result = without_ragged_runs(boundary, size, GeneraliseRules::thinned_share);
-  if (result && !CurveMap(*result, size, lattice).is_valid())
+  if (result && !CurveMap(*result, size, lattice, those_inside(boundary, size, lattice, inside)).is_valid())
     return nullptr;
   return result;
 }
@@ -276,7 +276,7 @@ std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const si
                                               std::span<const Vec2> inside) {
   if (boundary.periods.any() || boundary.loops.empty())
     return nullptr;
-  const std::vector<Vec2> held = held_points(boundary, size, lattice, inside);
+  const std::vector<Vec2> held = those_inside(boundary, size, lattice, inside);
   std::unique_ptr<Generalised> result;
   Corners corners;
   for (int pass = 0; pass < GeneraliseRules::most_passes; ++pass) { // what was moved apart may leave others narrow
@@ -297,7 +297,7 @@ bool has_narrow_parts(const Boundary& boundary, const sizing::SizeField& size, c
   if (boundary.periods.any() || boundary.loops.empty())
     return false;
   Corners corners;
-  return pass_over(boundary, size, lattice, choice, held_points(boundary, size, lattice, inside), corners) != nullptr;
+  return pass_over(boundary, size, lattice, choice, those_inside(boundary, size, lattice, inside), corners) != nullptr;
 }
 
 } // namespace trime::generalise

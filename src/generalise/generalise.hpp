@@ -30,9 +30,12 @@ struct Generalised {
 
 /// @brief The boundary without vertices that are far below elements of this size, in ragged and in dense runs; null if
 /// there are none, in a periodic container, and where curves would cross. O(n log n)
-/// @param size h @throws GeometryError if a size is not positive and finite
+/// @param size h
+/// @param inside lattice points that must stay inside, else it is null; those outside of the boundary are left out
+/// @throws GeometryError if a size is not positive and finite
 std::unique_ptr<const geometry::Boundary> thinned(const geometry::Boundary& boundary, const sizing::SizeField& size,
-                                                  const geometry::Lattice& lattice);
+                                                  const geometry::Lattice& lattice,
+                                                  std::span<const geometry::Vec2> inside);
 
 /// @brief The boundary without narrow parts for elements of this size; null if it has none.
 ///

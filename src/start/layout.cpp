@@ -90,8 +90,9 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
     if (!(curves.thinned_factor * StartRules::thinned_ahead <= factor &&
           factor <= curves.thinned_factor * StartRules::thinned_ahead * StartRules::thinned_ahead)) {
       curves.thinned_factor = factor / StartRules::thinned_ahead;
-      curves.thinned = generalise::thinned(
-          given, sizing::ScaledSize(*laid.stage.asked_size, 1 / StartRules::thinned_ahead), context.lattice);
+      curves.thinned =
+          generalise::thinned(given, sizing::ScaledSize(*laid.stage.asked_size, 1 / StartRules::thinned_ahead),
+                              context.lattice, context.fixed.inside());
     }
     curves.factor = factor;
     curves.samples = nullptr;

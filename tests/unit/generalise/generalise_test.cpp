@@ -127,6 +127,39 @@ TEST(Generalise, DoesNotCutWhatHoldsAPointThatMustStayInside) {
   EXPECT_TRUE(are_equal(made->boundary, at_size(given, 0.05)->boundary));
 }
 
+TEST(Generalise, KeepsABluntTipThatHoldsAPoint) {
+  const double blunt = 4e-6;
+  const std::vector<Vec2> ring{{0.1, 0.1},         {0.6, 0.1}, {0.6, 0.4}, {0.9, 0.5 - blunt}, {0.9 + 0.4 * blunt, 0.5},
+                               {0.9, 0.5 + blunt}, {0.6, 0.6}, {0.6, 0.9}, {0.1, 0.9}};
+  const Vec2 p =
+      unit_lattice().snap({0.9 + 0.1 * blunt, 0.5}); // beyond the box of the shape without the outermost vertex
+  const Boundary given = boundary_of({polygon_loop(ring)});
+  ASSERT_TRUE(at_size(given, 0.006));
+  EXPECT_LT(at_size(given, 0.006)->boundary.bounding_box().max.x, p.x);
+  if (const auto made = at_size(given, 0.006, Narrow::keep, {p})) {
+    EXPECT_TRUE(geometry::SegmentGrid(segments_of(made->boundary)).inside(p));
+  }
+}
+
+TEST(Thinned, KeepsPointsInside) {
+  std::vector<Vec2> ring{{0.9, 0.1}, {0.9, 0.9}, {0.1, 0.9}};
+  for (int k = 0; k < 100; ++k)
+    ring.push_back({0.3 + 0.001 * k, k % 2 == 0 ? 0.1 : 0.099});
+  const Boundary given = boundary_of({polygon_loop(ring)});
+  const sizing::UniformSize size(0.1);
+  const auto made = thinned(given, size, unit_lattice(), {});
+  ASSERT_TRUE(made);
+  expect_proper(*made);
+  std::vector<Vec2> points; // in the teeth
+  for (int k = 1; k < 99; k += 2)
+    points.push_back(unit_lattice().snap({0.3 + 0.001 * k, 0.09901}));
+  EXPECT_EQ(thinned(given, size, unit_lattice(), points), nullptr);
+  const std::vector<Vec2> elsewhere{{0.25, 0.25}, {0.5, 0.5}, {0.015625, 0.5}}; // the last is not inside
+  const auto other = thinned(given, size, unit_lattice(), elsewhere);
+  ASSERT_TRUE(other);
+  EXPECT_TRUE(are_equal(*other, *made));
+}
+
 TEST(Generalise, GoesByTheLocalSize) {
   class Graded final : public sizing::SizeField {
   public:
