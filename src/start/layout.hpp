@@ -41,7 +41,7 @@ struct CurvesAtSize {
   std::shared_ptr<const boundary::SizeSamples> samples; ///< of the relative size on it; made when they are needed
   double thinned_factor = 0;                            ///< at which the next one was made
   std::shared_ptr<const geometry::Boundary> thinned{};  ///< the boundary without what is far below smaller sizes, null
-                                                       ///< if that is nothing: each trial begins with it
+                                                        ///< if that is nothing: each trial begins with it
 };
 
 /// What the size field of the last stage follows from.

@@ -43,8 +43,8 @@ public:
   /// @throws ConfigError on all ranks together for options that no mesh can meet
   MeshResult run();
 
-  /// @brief What run() will do to the boundary, about; no mesh is made. Takes as long as a mesh of 10^5 points needs for
-  /// its start, and 12 simplifications of the boundary at most. @note Collective.
+  /// @brief What run() will do to the boundary, about; no mesh is made. Takes as long as a mesh of 10^5 points needs
+  /// for its start, and 12 simplifications of the boundary at most. @note Collective.
   /// @throws as run
   Outlook outlook() const;
 
