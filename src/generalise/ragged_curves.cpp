@@ -82,7 +82,8 @@ private:
   /// Vertices from which the curve turns much on a short way.
   void mark_ragged() {
     ragged_.assign(n_, 0);
-    std::size_t last = 0; // the window: vertices k + 1 to last, on the unrolled loop
+    std::size_t last = 0;   // the window: vertices k + 1 to last, on the unrolled loop
+    std::size_t marked = 0; // vertices below are
     double way = 0, turned = 0;
     for (std::size_t k = 0; k < n_; ++k) {
       if (last < k) {
@@ -95,8 +96,8 @@ private:
         turned += turn_[last % n_];
       }
       if (turned > GeneraliseRules::ragged_turn)
-        for (std::size_t j = k; j <= last; ++j)
-          ragged_[j % n_] = ragged;
+        for (marked = std::max(marked, k); marked <= last; ++marked)
+          ragged_[marked % n_] = ragged;
       if (last > k) {
         way -= loop_.pieces[k].length();
         turned -= turn_[(k + 1) % n_];

@@ -55,14 +55,15 @@ private:
   bool is_too_narrow(const NarrowPart& part) const;
   void widen_one(const NarrowPart& part, std::vector<geometry::Vec2>& shifts) const;
 
+  void calm(std::vector<geometry::Vec2>& shifts) const;
+  void thin(std::span<const NarrowPart> parts);
+  void forget();
+  LocalIndex root(LocalIndex v) const { return root_[at(v)]; }
+
   const CurveMap& map_;
   const Triangulation& mesh_;
   const Rim rim_;
   geometry::Lattice lattice_;
-  LocalIndex root(LocalIndex v) const { return root_[at(v)]; }
-  void calm(std::vector<geometry::Vec2>& shifts) const;
-  void thin(std::span<const NarrowPart> parts);
-  void forget();
   MovedVertices places_;
   std::vector<char> is_root_;    // by vertex: of others
   std::vector<LocalIndex> root_; // by vertex: the one to which it was moved, or itself

@@ -97,6 +97,8 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
     curves.samples = nullptr;
     curves.found = generalise::generalise(curves.thinned ? *curves.thinned : given, *laid.stage.asked_size,
                                           context.lattice, generalise_choice(context), context.fixed.inside());
+    if (!curves.found && curves.thinned)
+      curves.found = std::make_shared<generalise::Generalised>(generalise::Generalised{*curves.thinned, {}});
   }
   if (!curves.found)
     return given;

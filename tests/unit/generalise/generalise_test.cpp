@@ -234,7 +234,7 @@ std::size_t narrow_parts(const Case& it, const Boundary& boundary) {
 TEST(Generalise, LeavesHardlyAnythingNarrowInside) {
   std::size_t before = 0, after = 0;
   for (const ShapeClass& shape : shape_classes())
-    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       SCOPED_TRACE(std::string(shape.name) + " " + std::to_string(seed));
       const Case it = make_case(shape, seed);
       if (!it.made)
@@ -249,7 +249,7 @@ TEST(Generalise, LeavesHardlyAnythingNarrowInside) {
 
 TEST(Generalise, ComesToAnEnd) {
   for (const ShapeClass& shape : shape_classes())
-    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       SCOPED_TRACE(std::string(shape.name) + " " + std::to_string(seed));
       const Case it = make_case(shape, seed);
       if (!it.made)
