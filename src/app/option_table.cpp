@@ -163,7 +163,7 @@ constexpr Option table[] = {
      .kind = OptionKind::boolean,
      .fallback = "false",
      .meaning = "true: every corner, island, lake and narrow part is kept, however small, and the size is lowered "
-                "around it; false: parts of the shape narrower than 0.4 h (h: the local size) are cut, islands and "
+                "around it; false: parts of the shape narrower than 0.5 h (h: the local size) are cut, islands and "
                 "lakes with a perimeter below 3 h are dropped, and corners may be left out, see `feature_tolerance`; "
                 "the report counts them"},
     {.section = "meshing",
@@ -171,7 +171,7 @@ constexpr Option table[] = {
      .kind = OptionKind::word,
      .fallback = "keep",
      .choices = "keep close",
-     .meaning = "parts of the outside that are narrower than a quarter of h (slits, cracks, walls): keep: their sides "
+     .meaning = "parts of the outside that are narrower than a third of h (slits, cracks, walls): keep: their sides "
                 "are moved apart; close: they are filled, as they always are beside components with a perimeter below "
                 "5 h; means nothing with `keep_features`"},
     {.section = "meshing",

@@ -99,6 +99,9 @@ void report_losses(const geometry::Boundary& given, const geometry::Boundary& me
   double added = simplified.closed_area + 0.5 * (dropped.area + dropped.change);
   const double rest = meshed.area - given.area - (added - lost); // filled holes, thinned curves, moved sides
   (rest > 0 ? added : lost) += std::fabs(rest);
+  const double twice = std::fmax(0, lost - given.area); // what one pass added, and a later one took away
+  lost -= twice;
+  added -= twice;
   report.lost_share = lost / given.area;
   report.added_share = added / given.area;
   report.loops = find_loop_fates(given, meshed, asked, lattice);

@@ -9,15 +9,16 @@
 
 namespace trime::polygon {
 
-/// Narrow parts of a boundary, and what became of them.
+/// Narrow parts of a boundary, and what became of them, over all passes.
 struct Simplification {
-  std::int64_t cut = 0;     ///< narrow parts of the shape that were taken away
-  std::int64_t filled = 0;  ///< holes with a small perimeter
-  std::int64_t closed = 0;  ///< narrow parts of the outside that were filled
-  std::int64_t widened = 0; ///< narrow parts whose sides were moved apart, in the pass with most
-  std::int64_t thinned = 0; ///< pieces of ragged runs that others stand for
-  double cut_area = 0, closed_area = 0;
-  double largest_move = 0; ///< of a vertex, over h
+  std::int64_t cut = 0;    ///< narrow parts of the shape that were taken away
+  std::int64_t filled = 0; ///< holes with a small perimeter
+  std::int64_t closed = 0; ///< narrow parts of the outside that were filled
+  std::int64_t widened =
+      0; ///< narrow parts of the outside and thin components, sides moved apart; in the pass with most
+  std::int64_t thinned = 0;             ///< pieces of ragged runs that others stand for
+  double cut_area = 0, closed_area = 0; ///< in the units of the coordinates, squared
+  double largest_move = 0;              ///< of a vertex, over h
 
   void add(const Simplification& other) {
     cut += other.cut;

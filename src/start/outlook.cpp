@@ -7,6 +7,7 @@
 #include "start/points_of_length.hpp"
 #include "start/rules.hpp"
 #include "start/size_fit.hpp"
+#include "trime/core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,8 +31,9 @@ double fitted_factor(const LayoutContext& context, double points) {
     options.points = static_cast<GlobalId>(fewer);
   else
     options.edge_length = *options.edge_length * longer;
-  const LayoutContext small{context.comm, context.given_boundary, context.relative_size, options, context.lattice,
-                            context.log,  context.timers,         context.fixed};
+  const LayoutContext small{context.comm,   context.given_boundary, context.relative_size,
+                            options,        context.lattice,        context.log,
+                            context.timers, context.fixed,          context.cuts_thin_components};
   double factor = 0, on_boundary = 0;
   if (context.relative_size.is_uniform()) {
     const LatticeFit fit = fit_lattice(small);
@@ -91,12 +93,22 @@ double LaidOutlook::points_at(double factor) const {
   return ratio * (on_boundary + ratio * (points - on_boundary));
 }
 
-LaidOutlook look_ahead(const LayoutContext& context) {
-  const StartOptions& options = context.options;
+LaidOutlook look_ahead(const LayoutContext& given) {
+  const StartOptions& options = given.options;
+  LayoutContext context = given;
   LaidOutlook outlook;
   outlook.points = options.points ? static_cast<double>(*options.points)
-                                  : points_of_length(context.given_boundary, *options.edge_length);
-  outlook.laid = try_boundary(context, {fitted_factor(context, outlook.points), {}}, outlook.points);
+                                  : points_of_length(given.given_boundary, *options.edge_length);
+  double factor = 0;
+  try {
+    factor = fitted_factor(context, outlook.points);
+  } catch (const ConfigError&) { // too few points, on all ranks together: the run then goes on like this, too
+    if (options.features.keep_all)
+      throw;
+    context.cuts_thin_components = true;
+    factor = fitted_factor(context, outlook.points);
+  }
+  outlook.laid = try_boundary(context, {factor, {}}, outlook.points);
   find_keeping_factor(context, outlook);
   return outlook;
 }

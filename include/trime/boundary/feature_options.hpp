@@ -6,7 +6,7 @@ namespace trime::boundary {
 
 /// What becomes of parts of the outside that are narrower than the triangles: slits, cracks, walls.
 enum class NarrowOutside {
-  keep,  ///< their sides are moved apart where they are nearer than a quarter of the local size
+  keep,  ///< their sides are moved apart where they are nearer than a third of the local size
   close, ///< they become a part of the shape
 };
 
