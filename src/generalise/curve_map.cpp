@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace trime::generalise {
 namespace {
@@ -15,7 +14,7 @@ namespace {
 using geometry::Box;
 using geometry::Vec2;
 
-/// The box of the curves, and as much again on every side.
+/// The box of the curves, and a quarter of its longer side around it.
 Box box_around(const geometry::Boundary& boundary, const geometry::Lattice& lattice) {
   Box box = boundary.bounding_box();
   const double margin = 0.25 * std::fmax(box.width(), box.height());

@@ -172,7 +172,7 @@ std::vector<char> follow(const CurveMap& map, const std::vector<char>& given, Pl
   }
 }
 
-void count(const Triangulation& mesh, const Plan& plan, GeneralisedCounts& counts) {
+void count(const Triangulation& mesh, const Plan& plan, polygon::Simplification& counts) {
   for (const NarrowPart& part : plan.changed) {
     ++(part.inside ? counts.cut : counts.closed);
     (part.inside ? counts.cut_area : counts.closed_area) += area_of(mesh, part);
@@ -223,7 +223,7 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
   add_nodes_to_narrow_parts(map);
   const std::vector<char> given = map.inside();
   auto result = std::make_unique<Generalised>();
-  GeneralisedCounts& counts = result->counts;
+  polygon::Simplification& counts = result->counts;
   if (made.thinned)
     counts.thinned = polygon::piece_count(boundary) - polygon::piece_count(*made.thinned);
   std::vector<char> filled = given;

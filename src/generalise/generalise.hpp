@@ -21,11 +21,9 @@ struct Choice {
   bool cuts_thin_components = false; ///< components that are narrow all over are cut to pieces, not widened
 };
 
-using GeneralisedCounts = polygon::Simplification;
-
 struct Generalised {
   geometry::Boundary boundary;
-  GeneralisedCounts counts;
+  polygon::Simplification counts;
 };
 
 /// @brief The boundary without vertices that are far below elements of this size, in ragged and in dense runs; null if

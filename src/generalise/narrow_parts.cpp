@@ -11,7 +11,6 @@
 namespace trime::generalise {
 namespace {
 
-using geometry::Segment;
 using geometry::Vec2;
 using HalfEdge = Triangulation::HalfEdge;
 

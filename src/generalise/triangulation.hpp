@@ -33,7 +33,7 @@ public:
   /// come in the order of a space-filling curve.
   LocalIndex insert(geometry::Vec2 p);
   /// @brief Makes the edge from a to b, a constraint that bears `mark` (not negative), and -1 - mark from b to a.
-  /// @return false, with the triangulation as it was, if another vertex or a constraint is in the way
+  /// @return false, without a new constraint, if another vertex or a constraint is in the way
   bool constrain(LocalIndex a, LocalIndex b, std::int32_t mark);
   /// @brief A new vertex near the constrained edge e, which becomes two edges with its mark.
   /// @return the vertex, or `none` if p is too near to other vertices for the lattice to tell

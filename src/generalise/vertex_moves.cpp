@@ -10,12 +10,8 @@
 #include <optional>
 
 namespace trime::generalise {
-namespace {
 
 using geometry::Vec2;
-using HalfEdge = Triangulation::HalfEdge;
-
-} // namespace
 
 VertexMoves::VertexMoves(const CurveMap& map, const std::vector<char>& labels, const geometry::Lattice& lattice)
     : map_(map), mesh_(map.mesh()), rim_(mesh_, labels), lattice_(lattice), places_(at(mesh_.vertex_count())) {
