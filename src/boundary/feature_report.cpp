@@ -95,6 +95,7 @@ void report_losses(const geometry::Boundary& given, const geometry::Boundary& me
   report.widened = simplified.widened;
   report.filled = simplified.filled;
   report.thinned = simplified.thinned;
+  report.coarseness = simplified.coarseness;
   double lost = simplified.cut_area + 0.5 * (dropped.area - dropped.change);
   double added = simplified.closed_area + 0.5 * (dropped.area + dropped.change);
   const double rest = meshed.area - given.area - (added - lost); // filled holes, thinned curves, moved sides
@@ -126,6 +127,10 @@ std::string loss_warning(const FeatureReport& report) {
                                 {merged, "merged with others", "merged with others"}}));
   if (merged > 0)
     text += fmt::format(", the mesh has {}", counted(loops_of_mesh(report), "loop", "loops"));
+  if (report.coarseness > BoundaryRules::told_coarseness)
+    text += fmt::format(", as for triangles {:.2g} times as large: what the next smaller ones keep takes more points "
+                        "than asked for",
+                        report.coarseness);
   return text + ". More points (a smaller edge_length) keep more, --dry-run says how many keep everything; "
                 "meshing.keep_features = true keeps all at any price. The table /trime_mpi/rings of the file says what "
                 "became of each loop";

@@ -39,7 +39,7 @@ double vertex_distance(const BoundaryTruth& truth, const std::vector<ChordCurve>
   return comm.max(largest);
 }
 
-/// Largest distance, over h, of the curves that were meshed from the shape.
+/// Largest distance of the curves that were meshed from the shape, over the h for which they were simplified.
 double generalisation(const BoundaryTruth& truth) {
   const geometry::PieceTree given(truth.shape);
   PerThread<double> of_thread(0);
@@ -53,7 +53,7 @@ double generalisation(const BoundaryTruth& truth) {
   double largest = 0;
   for (const double one : of_thread)
     largest = std::max(largest, one);
-  return largest;
+  return largest / truth.coarseness;
 }
 
 /// Corner sites that are a vertex of the shape, bit for bit.
@@ -190,8 +190,9 @@ mesh::Checks prove_boundary(const BoundaryTruth& truth, const mesh::DistributedM
       limit_check(
           "vertex_distance", std::max(CertificateRules::vertex_limit, step / truth.side), distance,
           "boundary vertices from the curves that were meshed, over the longer side of the container (at most)"),
-      limit_check("generalisation", CertificateRules::generalisation_limit, generalisation(truth),
-                  "the curves that were meshed from the shape's boundary, over h (at most)"),
+      limit_check(
+          "generalisation", CertificateRules::generalisation_limit, generalisation(truth),
+          "the curves that were meshed from the shape's boundary, over the h for which they were simplified (at most)"),
       limit_check("chord_deviation", CertificateRules::chord_limit, extremes.deviation,
                   "the shape's boundary from the facets, over h as it was asked for (at most)"),
       limit_check("arc_deviation", 1, extremes.of_arcs,

@@ -25,8 +25,9 @@ struct BoundaryTruth {
   const sizing::SizeField& size;       ///< h of the mesh
   const sizing::SizeField& asked; ///< the same before it was lowered: chords may leave out corners by shares of this
   const geometry::Lattice& lattice;
-  double side;      ///< longer side of the container
-  double mesh_area; ///< of all triangles
+  double side;           ///< longer side of the container
+  double mesh_area;      ///< of all triangles
+  double coarseness = 1; ///< the h for which the boundary was simplified, over that of the mesh
 };
 
 /// @brief Nine checks, all from the arrays of the mesh that will be written, the shape, and what it was laid out as.

@@ -16,6 +16,7 @@ struct Expectation {
   const geometry::Boundary& meshed; ///< as it was laid out: with fixed points as corners, at the resolution of h
   const sizing::SizeField& asked;   ///< h before it was lowered: what the features of the boundary are judged by
   double side;                      ///< longer side of the container
+  double coarseness = 1;            ///< the h for which the boundary was simplified, over that of the mesh
 };
 
 /// @brief The certificate: manifold, positive, Euler characteristic, area, Delaunay, chords, corners, fixed

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "generalise/generalise.hpp"
 
+#include "generalise/curve_flow.hpp"
 #include "generalise/loop_builder.hpp"
 #include "generalise/narrow_parts.hpp"
 #include "generalise/ragged_curves.hpp"
@@ -250,6 +251,23 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
   return result;
 }
 
+/// The boundary without ragged runs; null if there are none. Smooths less, then not at all, while curves cross.
+std::unique_ptr<Generalised> smoothed(const Boundary& boundary, const sizing::SizeField& size,
+                                      const geometry::Lattice& lattice, std::span<const Vec2> inside) {
+  double reach = GeneraliseRules::flow_reach;
+  for (int round = 0; round < GeneraliseRules::flow_rounds; ++round, reach *= 0.5) {
+    std::unique_ptr<SmoothedCurves> flowed = smooth_ragged_runs(boundary, size, lattice, reach);
+    if (!flowed)
+      return nullptr;
+    if (!CurveMap(flowed->boundary, size, lattice, inside).is_valid())
+      continue;
+    auto result = std::make_unique<Generalised>(Generalised{std::move(flowed->boundary), {}});
+    result->counts.smoothed = flowed->vertices;
+    return result;
+  }
+  return nullptr;
+}
+
 /// The points that lie inside the boundary; none if its chords cross.
 std::vector<Vec2> those_inside(const Boundary& boundary, const sizing::SizeField& size,
                                const geometry::Lattice& lattice, std::span<const Vec2> points) {
@@ -278,17 +296,27 @@ std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const si
     return nullptr;
   const std::vector<Vec2> held = those_inside(boundary, size, lattice, inside);
   std::unique_ptr<Generalised> result;
-  Corners corners;
-  for (int pass = 0; pass < GeneraliseRules::most_passes; ++pass) { // what was moved apart may leave others narrow
-    std::unique_ptr<Generalised> next =
-        pass_over(result ? result->boundary : boundary, size, lattice, choice, held, corners);
-    corners.is_first_pass = false;
-    if (!next)
-      break;
-    if (result)
+  const auto follow_with = [&result](std::unique_ptr<Generalised> next) {
+    if (next && result)
       next->counts.add(result->counts);
-    result = std::move(next);
-  }
+    const bool any = next != nullptr;
+    if (any)
+      result = std::move(next);
+    return any;
+  };
+  Corners corners;
+  const auto pass = [&](int most) { // what was moved apart may leave others narrow
+    for (int k = 0; k < most; ++k) {
+      const bool changed =
+          follow_with(pass_over(result ? result->boundary : boundary, size, lattice, choice, held, corners));
+      corners.is_first_pass = false;
+      if (!changed)
+        break;
+    }
+  };
+  pass(GeneraliseRules::most_passes);
+  if (follow_with(smoothed(result ? result->boundary : boundary, size, lattice, held)))
+    pass(GeneraliseRules::late_passes);
   return result;
 }
 

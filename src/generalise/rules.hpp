@@ -69,6 +69,28 @@ struct GeneraliseRules {
   static constexpr int most_passes = 8;
   /// [rounds] Of such trials; then nothing is thinned. Not measured.
   static constexpr int thinning_rounds = 3;
+  /// [h] Features of ragged curves that are smaller are smoothed away. Not measured.
+  static constexpr double flow_reach = 0.4;
+  /// [steps] In so many that is done; each looks anew where the curve is still ragged. Not measured.
+  static constexpr int flow_steps = 8;
+  /// [h] Distance of nodes on curves that are smoothed. Not measured.
+  static constexpr double flow_spacing = 0.12;
+  /// [flow_spacing] Nodes that have come nearer to each other are joined. Not measured.
+  static constexpr double flow_join = 0.4;
+  /// [h] Shorter ways count as so long, lest rates become infinite. Not measured.
+  static constexpr double flow_least_way = 0.005;
+  /// [h] Within this way along the curve, to both sides, turns to and fro make it ragged. Not measured.
+  static constexpr double ragged_way = 0.75;
+  /// [radians] If the turns there add up to so much more than the turn in all, the curve begins to move. Not measured.
+  static constexpr double least_ragged = 0.5;
+  /// [radians] With so much more than that it moves freely. Not measured.
+  static constexpr double ragged_range = 0.5;
+  /// [h] In one step a smoothed loop grows by so much at most, to keep its area. Not measured.
+  static constexpr double most_outward = 0.03;
+  /// [rounds] If smoothed curves cross, it is tried again with half the reach; then nothing is smoothed. Not measured.
+  static constexpr int flow_rounds = 3;
+  /// [passes] For narrow parts after smoothing, at most. Not measured.
+  static constexpr int late_passes = 2;
   /// [h] Neighbouring corners nearer to each other than this become one. Not measured.
   static constexpr double close_corners = 0.1;
   /// [1] 1 - cosine of the turn of such a corner: 30 degrees. Not measured.

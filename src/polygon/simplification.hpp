@@ -17,8 +17,10 @@ struct Simplification {
   std::int64_t widened =
       0; ///< narrow parts of the outside and thin components, sides moved apart; in the pass with most
   std::int64_t thinned = 0;             ///< pieces of ragged runs that others stand for
+  std::int64_t smoothed = 0;            ///< vertices of ragged runs that others stand for
   double cut_area = 0, closed_area = 0; ///< in the units of the coordinates, squared
   double largest_move = 0;              ///< of a vertex, over h
+  double coarseness = 1;                ///< the h that this was done for, over that of the mesh
 
   void add(const Simplification& other) {
     cut += other.cut;
@@ -26,6 +28,7 @@ struct Simplification {
     closed += other.closed;
     widened = std::max(widened, other.widened); // what a pass widens, the next ones may widen a little more
     thinned += other.thinned;
+    smoothed += other.smoothed;
     cut_area += other.cut_area;
     closed_area += other.closed_area;
     largest_move = std::max(largest_move, other.largest_move);

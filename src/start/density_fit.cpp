@@ -109,37 +109,75 @@ private:
     return {factor, std::nullopt};
   }
 
-  /// @param uniform size of a uniform mesh of so many points
-  /// @param smallest size for a factor of 1
-  DensityFit for_points(double uniform, double smallest) {
-    Approach approach = approached(estimated_factor(uniform, uniform / smallest));
-    FactorBracket bracket(points_, smallest, context_.options.container);
+  /// What came of trials between factors that make too few and too many points.
+  struct Search {
+    std::optional<DensityFit> accepted;
+    SizeTrial best; ///< else: the one with most points of those that are not too many
     Fewest fewest;
-    SizeTrial best;
+    bool fits = false; ///< there is a best one
+  };
+  Search search(Approach approach, FactorBracket& bracket) {
+    Search found;
     double factor = approach.factor;
     for (int round = 0; round < FitRules::most_trials && !bracket.is_closed(); ++round) {
       SizeTrial trial = approach.trial ? *std::exchange(approach.trial, std::nullopt) : trials_.run(factor);
       const double points = trial.points;
       const bool overfull = trial.fit.laid.stage.polygon.overfull;
-      if (std::optional<DensityFit> fit = accepted(trial))
-        return std::move(*fit);
+      found.accepted = accepted(trial);
+      if (found.accepted)
+        return found;
       if (points > points_)
-        fewest.consider(trial.fit.laid.stage, points);
+        found.fewest.consider(trial.fit.laid.stage, points);
       const double guess = search_.next(factor, points);
       if (bracket.add(factor, points))
-        best = std::move(trial);
+        found.best = std::move(trial);
       factor = bracket.next(factor, guess, overfull);
       if (bracket.is_hopeless(factor))
-        fail_for_few_points(context_, fewest);
+        break;
     }
-    if (!bracket.has_upper() ||
-        (context_.options.features.keep_all && bracket.has_lower() && is_jump(best.points, points_)))
-      fail_for_few_points(context_, fewest);
-    if (best.points < FitRules::enough_points * points_)
-      best.fit.shortage = context_.options.min_size
-                              ? fmt::format("min_size = {:g} leaves no room for more", *context_.options.min_size)
-                              : "the discs of the chords leave no room for more";
-    return std::move(best.fit);
+    found.fits = bracket.has_upper();
+    return found;
+  }
+
+  /// @param uniform size of a uniform mesh of so many points
+  /// @param smallest size for a factor of 1
+  DensityFit for_points(double uniform, double smallest) {
+    FactorBracket bracket(points_, smallest, context_.options.container);
+    Search found = search(approached(estimated_factor(uniform, uniform / smallest)), bracket);
+    if (found.accepted)
+      return std::move(*found.accepted);
+    if (!found.fits)
+      fail_for_few_points(context_, found.fewest);
+    DensityFit fit = with_most_points(std::move(found), bracket.has_lower(), smallest);
+    if (fit.inner + static_cast<double>(fit.laid.stage.placed_first()) < FitRules::enough_points * points_)
+      fit.shortage = context_.options.min_size
+                         ? fmt::format("min_size = {:g} leaves no room for more", *context_.options.min_size)
+                         : "the discs of the chords leave no room for more";
+    return fit;
+  }
+
+  /// @brief Where the number of points jumps, a little smaller size keeps parts of the shape that take too many of
+  /// them. Then the triangles become smaller and the boundary stays as it is.
+  /// @param jumps smaller sizes were tried, and took too many
+  DensityFit with_most_points(Search found, bool jumps, double smallest) {
+    SizeTrial best = std::move(found.best);
+    if (best.points >= FitRules::enough_points * points_ || !jumps)
+      return std::move(best.fit);
+    if (!best.fit.laid.stage.curves) { // nothing was simplified
+      if (context_.options.features.keep_all && is_jump(best.points, points_))
+        fail_for_few_points(context_, found.fewest);
+      return std::move(best.fit);
+    }
+    trials_.hold_curves(best.fit.laid);
+    FactorBracket bracket(points_, smallest, context_.options.container);
+    const double factor = best.fit.laid.fitted.factor;
+    bracket.add(factor, best.points);
+    search_.expect(FitRules::uncrowded_power);
+    const double next = bracket.next(factor, search_.next(factor, best.points), false);
+    Search finer = search({next, std::nullopt}, bracket);
+    if (finer.accepted)
+      return std::move(*finer.accepted);
+    return std::move(finer.best.points > best.points ? finer.best.fit : best.fit);
   }
 
   DensityFit for_edge_length(double factor) {

@@ -79,32 +79,40 @@ void set_sizes(const LayoutContext& context, const FittedSize& fitted, Stage& st
   stage.size = std::make_unique<sizing::ScaledSize>(*within, stage.coarsening);
 }
 
-/// The curves on which the sites of a stage lie: those of the shape, without what is narrower than its last size.
+/// Simplifies the boundary for the size of a stage.
+void generalise_curves(const LayoutContext& context, const FittedStage& laid, CurvesAtSize& curves) {
+  const geometry::Boundary& given = context.fixed.cornered_boundary();
+  const double factor = laid.fitted.factor;
+  if (!(curves.thinned_factor * StartRules::thinned_ahead <= factor &&
+        factor <= curves.thinned_factor * StartRules::thinned_ahead * StartRules::thinned_ahead)) {
+    curves.thinned_factor = factor / StartRules::thinned_ahead;
+    curves.thinned =
+        generalise::thinned(given, sizing::ScaledSize(*laid.stage.asked_size, 1 / StartRules::thinned_ahead),
+                            context.lattice, context.fixed.inside());
+  }
+  curves.factor = factor;
+  curves.samples = nullptr;
+  curves.found = generalise::generalise(curves.thinned ? *curves.thinned : given, *laid.stage.asked_size,
+                                        context.lattice, generalise_choice(context), context.fixed.inside());
+  if (!curves.found && curves.thinned)
+    curves.found = std::make_shared<generalise::Generalised>(generalise::Generalised{*curves.thinned, {}});
+}
+
+/// The curves on which the sites of a stage lie: those of the shape, without what is narrower than its last size, or
+/// than a larger one if they are held.
 const geometry::Boundary& generalised_curves(const LayoutContext& context, FittedStage& laid) {
   const geometry::Boundary& given = context.fixed.cornered_boundary();
   CurvesAtSize& curves = laid.fitted.curves;
   if (context.options.features.keep_all)
     return given;
   const double factor = laid.fitted.factor;
-  if (!(std::fabs(curves.factor - factor) <= StartRules::same_curves * factor)) {
-    if (!(curves.thinned_factor * StartRules::thinned_ahead <= factor &&
-          factor <= curves.thinned_factor * StartRules::thinned_ahead * StartRules::thinned_ahead)) {
-      curves.thinned_factor = factor / StartRules::thinned_ahead;
-      curves.thinned =
-          generalise::thinned(given, sizing::ScaledSize(*laid.stage.asked_size, 1 / StartRules::thinned_ahead),
-                              context.lattice, context.fixed.inside());
-    }
-    curves.factor = factor;
-    curves.samples = nullptr;
-    curves.found = generalise::generalise(curves.thinned ? *curves.thinned : given, *laid.stage.asked_size,
-                                          context.lattice, generalise_choice(context), context.fixed.inside());
-    if (!curves.found && curves.thinned)
-      curves.found = std::make_shared<generalise::Generalised>(generalise::Generalised{*curves.thinned, {}});
-  }
+  if (!curves.held && !(std::fabs(curves.factor - factor) <= StartRules::same_curves * factor))
+    generalise_curves(context, laid, curves);
   if (!curves.found)
     return given;
   laid.stage.curves = {curves.found, &curves.found->boundary};
   laid.stage.simplified = curves.found->counts;
+  laid.stage.simplified.coarseness = std::fmax(1, curves.factor / factor);
   if (curves.thinned)
     laid.stage.simplified.thinned += polygon::piece_count(given) - polygon::piece_count(*curves.thinned);
   return curves.found->boundary;

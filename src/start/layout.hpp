@@ -42,6 +42,7 @@ struct CurvesAtSize {
   double thinned_factor = 0;                            ///< at which the next one was made
   std::shared_ptr<const geometry::Boundary> thinned{};  ///< the boundary without what is far below smaller sizes, null
                                                         ///< if that is nothing: each trial begins with it
+  bool held = false;                                    ///< at other factors, too
 };
 
 /// What the size field of the last stage follows from.

@@ -33,6 +33,7 @@ struct FeatureReport {
   GlobalId closed = 0, widened = 0;       ///< narrow parts of the outside: filled; sides moved apart
   GlobalId filled = 0;                    ///< holes around which no triangle fits
   GlobalId thinned = 0;                   ///< pieces of ragged curves that others stand for
+  double coarseness = 1;                  ///< the h for which all this was done, over that of the mesh
   double lost_share = 0, added_share = 0; ///< of the shape's area, by all of these, dropped islands and lakes included
   std::vector<LoopFate> loops;            ///< of the shape, in their order
 };

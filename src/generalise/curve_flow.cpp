@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "generalise/curve_flow.hpp"
+
+#include "core/angle.hpp"
+#include "generalise/rules.hpp"
+#include "polygon/chord_curve.hpp"
+#include "trime/core/types.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::generalise {
+namespace {
+
+using geometry::Box;
+using geometry::Loop;
+using geometry::Piece;
+using geometry::Vec2;
+
+/// A vertex of a loop that flows, and the way to the next one.
+struct Node {
+  Vec2 place;
+  double size;
+  std::size_t piece;   // on which the way to the next node lies
+  bool given;          // the start of that piece
+  bool pinned;         // it stays
+  bool moved = false;  // it has left its place
+  double mobility = 0; // 0 where the curve is as smooth as the resolution, 1 where it is ragged
+};
+
+/// Solves cyclic tridiagonal systems: row i is below[i] x[i-1] + diagonal[i] x[i] + above[i] x[i+1].
+class CyclicSystem {
+public:
+  explicit CyclicSystem(std::size_t n) : below(n), diagonal(n, 1), above(n), n_(n), pivot_(n), share_(n) {}
+  std::vector<double> below, diagonal, above;
+
+  /// Once all rows are set. The corners are split off (Sherman and Morrison).
+  void factorise() {
+    gamma_ = -diagonal[0];
+    diagonal[0] -= gamma_;
+    diagonal[n_ - 1] -= below[0] * above[n_ - 1] / gamma_;
+    pivot_[0] = diagonal[0];
+    for (std::size_t i = 1; i < n_; ++i)
+      pivot_[i] = diagonal[i] - below[i] * above[i - 1] / pivot_[i - 1];
+    share_.assign(n_, 0);
+    share_[0] = gamma_;
+    share_[n_ - 1] = above[n_ - 1];
+    solve_open(share_);
+  }
+  /// The right-hand side becomes the solution.
+  void solve(std::vector<double>& x) const {
+    solve_open(x);
+    const double ratio = below[0] / gamma_;
+    const double factor = (x[0] + ratio * x[n_ - 1]) / (1 + share_[0] + ratio * share_[n_ - 1]);
+    for (std::size_t i = 0; i < n_; ++i)
+      x[i] -= factor * share_[i];
+  }
+
+private:
+  void solve_open(std::vector<double>& x) const {
+    for (std::size_t i = 1; i < n_; ++i)
+      x[i] -= below[i] / pivot_[i - 1] * x[i - 1];
+    x[n_ - 1] /= pivot_[n_ - 1];
+    for (std::size_t i = n_ - 1; i-- > 0;)
+      x[i] = (x[i] - above[i] * x[i + 1]) / pivot_[i];
+  }
+
+  std::size_t n_;
+  double gamma_ = 0;
+  std::vector<double> pivot_, share_;
+};
+
+/// The turns near one node of a closed curve after the other.
+class TurnWindow {
+public:
+  /// @param ways from each node to the next
+  /// @param turns at the nodes, signed
+  TurnWindow(const std::vector<double>& ways, const std::vector<double>& turns)
+      : ways_(ways), turns_(turns), n_(std::ssize(ways)) {
+    take(0, 1);
+  }
+
+  /// By how much the turns within a way of the node add up to more than the turn in all. For node 0 first; the next
+  /// call is for the next node.
+  double to_and_fro(double reach) {
+    while (last_ + 1 < first_ + n_ && after_ + way(last_) <= reach) {
+      after_ += way(last_);
+      take(++last_, 1);
+    }
+    for (; last_ > node_ && after_ > reach; after_ -= way(last_))
+      take(last_--, -1);
+    while (first_ > node_ - n_ / 2 && last_ + 1 < first_ + n_ && before_ + way(first_ - 1) <= reach) {
+      before_ += way(first_ - 1);
+      take(--first_, 1);
+    }
+    for (; first_ < node_ && before_ > reach; before_ -= way(first_ - 1))
+      take(first_++, -1);
+    const double result = all_ - std::fabs(net_);
+    go_on();
+    return result;
+  }
+
+private:
+  std::size_t once(std::ptrdiff_t k) const { return static_cast<std::size_t>(k < 0 ? k + n_ : k >= n_ ? k - n_ : k); }
+  double way(std::ptrdiff_t k) const { return ways_[once(k)]; }
+  void take(std::ptrdiff_t k, double sign) {
+    all_ += sign * std::fabs(turns_[once(k)]);
+    net_ += sign * turns_[once(k)];
+  }
+  void go_on() {
+    before_ += way(node_);
+    after_ -= way(node_);
+    if (last_ == node_) {
+      take(++last_, 1);
+      after_ = 0;
+    }
+    ++node_;
+  }
+
+  const std::vector<double>&ways_, &turns_;
+  const std::ptrdiff_t n_;
+  std::ptrdiff_t node_ = 0, first_ = 0, last_ = 0; // the stretch, on the unrolled curve; less than once around
+  double before_ = 0, after_ = 0;                  // ways from the node to its ends
+  double all_ = 0, net_ = 0;                       // turns there
+};
+
+/// One loop while it flows.
+class FlowingLoop {
+public:
+  FlowingLoop(const Loop& loop, const sizing::SizeField& size, const Box& bounds)
+      : loop_(loop), size_(size), bounds_(bounds) {
+    const std::vector<Piece>& pieces = loop.pieces;
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      const Piece &before = pieces[(k + pieces.size() - 1) % pieces.size()], &behind = pieces[k];
+      nodes_.push_back({behind.start, checked_size(size, behind.start), k, true,
+                        behind.corner || behind.circular || before.circular || before.part != behind.part});
+    }
+  }
+
+  /// Flows as long as it is ragged. False if it is not from the start.
+  bool flow(double reach) {
+    if (!measure_mobility())
+      return false;
+    divide();
+    const double time = 0.5 * reach * reach / GeneraliseRules::flow_steps;
+    for (int step = 0; step < GeneraliseRules::flow_steps && measure_mobility(); ++step) {
+      const double area = twice_area();
+      move(time);
+      restore_area(area);
+      join();
+    }
+    std::erase_if(nodes_, [](const Node& node) { return !node.given && !node.moved; });
+    return nodes_.size() > GeneraliseRules::least_vertices &&
+           std::any_of(nodes_.begin(), nodes_.end(), [](const Node& node) { return node.moved; });
+  }
+
+  Loop result(const geometry::Lattice& lattice) const {
+    Loop result = loop_;
+    result.pieces.clear();
+    for (const Node& node : nodes_) {
+      Piece piece = loop_.pieces[node.piece];
+      piece.corner = piece.corner && node.given;
+      if (node.moved)
+        piece.start = lattice.snap(node.place);
+      result.pieces.push_back(piece);
+    }
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      result.pieces[k].end = result.pieces[(k + 1) % nodes_.size()].start;
+    std::erase_if(result.pieces, [](const Piece& piece) { return piece.start == piece.end; });
+    return result;
+  }
+
+  /// Vertices of the given loop that have moved or gone.
+  std::int64_t changed() const {
+    return std::ssize(loop_.pieces) -
+           std::count_if(nodes_.begin(), nodes_.end(), [](const Node& node) { return node.given && !node.moved; });
+  }
+
+private:
+  static double checked_size(const sizing::SizeField& size, Vec2 p) { return sizing::checked_size(size, p); }
+  std::size_t ahead(std::size_t k) const { return k + 1 < nodes_.size() ? k + 1 : 0; }
+  std::size_t behind(std::size_t k) const { return k > 0 ? k - 1 : nodes_.size() - 1; }
+  bool is_arc(const Node& node) const { return loop_.pieces[node.piece].circular; }
+
+  double twice_area() const {
+    double twice = 0;
+    for (std::size_t k = 0; k < nodes_.size(); ++k)
+      twice += cross(nodes_[k].place - nodes_[0].place, nodes_[ahead(k)].place - nodes_[0].place);
+    return twice;
+  }
+
+  /// Signed angles of the turns; 0 beside arcs.
+  void measure_turns() {
+    const std::size_t n = nodes_.size();
+    ways_.resize(n);
+    turns_.resize(n);
+    for (std::size_t k = 0; k < n; ++k)
+      ways_[k] = length(nodes_[ahead(k)].place - nodes_[k].place);
+    for (std::size_t k = 0; k < n; ++k) {
+      const Vec2 in = nodes_[k].place - nodes_[behind(k)].place, out = nodes_[ahead(k)].place - nodes_[k].place;
+      turns_[k] = is_arc(nodes_[k]) || is_arc(nodes_[behind(k)]) ? 0 : angle_of(cross(in, out), dot(in, out));
+    }
+  }
+
+  /// @brief The curve is ragged at a node if, near it, it turns much more than it does in all: to and fro. False if it
+  /// is ragged nowhere.
+  bool measure_mobility() {
+    measure_turns();
+    TurnWindow window(ways_, turns_);
+    bool any = false;
+    for (Node& node : nodes_) {
+      const double ragged = window.to_and_fro(GeneraliseRules::ragged_way * node.size) - GeneraliseRules::least_ragged;
+      node.mobility = node.pinned ? 0 : std::clamp(ragged / GeneraliseRules::ragged_range, 0.0, 1.0);
+      any |= node.mobility > 0;
+    }
+    return any;
+  }
+
+  /// Adds nodes to straight ways of which an end moves.
+  void divide() {
+    std::vector<Node> divided;
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      const Node &from = nodes_[k], &to = nodes_[ahead(k)];
+      divided.push_back(from);
+      if (is_arc(from) || std::fmax(from.mobility, to.mobility) == 0)
+        continue;
+      const double spacing = GeneraliseRules::flow_spacing * std::fmin(from.size, to.size);
+      const double parts = std::ceil(length(to.place - from.place) / spacing);
+      for (double part = 1; part < parts; ++part) {
+        const Vec2 place = from.place + (part / parts) * (to.place - from.place);
+        divided.push_back({place, checked_size(size_, place), from.piece, false, false});
+      }
+    }
+    nodes_ = std::move(divided);
+  }
+
+  /// One step, implicit: dx/dt = mobility h^2 d2x/ds2. @param time over h^2
+  void move(double time) {
+    const std::size_t n = nodes_.size();
+    CyclicSystem system(n);
+    std::vector<double> x(n), y(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      const Node& node = nodes_[k];
+      x[k] = node.place.x;
+      y[k] = node.place.y;
+      if (node.mobility == 0)
+        continue;
+      const double least = GeneraliseRules::flow_least_way * node.size;
+      const double in = std::fmax(ways_[behind(k)], least), out = std::fmax(ways_[k], least);
+      const double rate = 2 * time * node.mobility * node.size * node.size / (in + out);
+      system.below[k] = -rate / in;
+      system.above[k] = -rate / out;
+      system.diagonal[k] = 1 + rate / in + rate / out;
+    }
+    system.factorise();
+    system.solve(x);
+    system.solve(y);
+    for (std::size_t k = 0; k < n; ++k)
+      if (nodes_[k].mobility > 0)
+        place(nodes_[k], {x[k], y[k]});
+  }
+
+  void place(Node& node, Vec2 p) {
+    node.place = {std::clamp(p.x, bounds_.min.x, bounds_.max.x), std::clamp(p.y, bounds_.min.y, bounds_.max.y)};
+    node.moved = true;
+  }
+
+  /// Shifts what has moved along its normals, until the loop has the area again that it had.
+  void restore_area(double twice) {
+    const std::size_t n = nodes_.size();
+    std::vector<Vec2> outward(n);
+    double width = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      const Vec2 along = nodes_[ahead(k)].place - nodes_[behind(k)].place;
+      const double way = length(along);
+      if (nodes_[k].mobility == 0 || !(way > 0))
+        continue;
+      outward[k] = (-nodes_[k].mobility / way) * geometry::left_normal(along);
+      width += 0.5 * nodes_[k].mobility * way;
+    }
+    if (!(width > 0))
+      return;
+    const double shift = 0.5 * (twice - twice_area()) / width;
+    for (std::size_t k = 0; k < n; ++k)
+      if (nodes_[k].mobility > 0) {
+        const double most = GeneraliseRules::most_outward * nodes_[k].size;
+        place(nodes_[k], nodes_[k].place + std::clamp(shift, -most, most) * outward[k]);
+      }
+  }
+
+  /// Takes out nodes that have come near to the one before.
+  void join() {
+    std::vector<Node> joined;
+    std::size_t left = nodes_.size();
+    for (const Node& node : nodes_) {
+      const double close = GeneraliseRules::flow_join * GeneraliseRules::flow_spacing * node.size;
+      if (!joined.empty() && node.moved && left > GeneraliseRules::least_vertices + 1 &&
+          squared_length(node.place - joined.back().place) < close * close) {
+        joined.back().piece = node.piece;
+        --left;
+      } else {
+        joined.push_back(node);
+      }
+    }
+    nodes_ = std::move(joined);
+  }
+
+  const Loop& loop_;
+  const sizing::SizeField& size_;
+  const Box bounds_;
+  std::vector<Node> nodes_;
+  std::vector<double> ways_, turns_; // by node: length of the way to the next, angle of the turn
+};
+
+} // namespace
+
+std::unique_ptr<SmoothedCurves> smooth_ragged_runs(const geometry::Boundary& boundary, const sizing::SizeField& size,
+                                                   const geometry::Lattice& lattice, double reach) {
+  std::unique_ptr<SmoothedCurves> result;
+  const Box bounds = boundary.bounding_box();
+  for (std::size_t k = 0; k < boundary.loops.size(); ++k) {
+    FlowingLoop flowing(boundary.loops[k], size, bounds);
+    if (!flowing.flow(reach))
+      continue;
+    if (!result)
+      result = std::make_unique<SmoothedCurves>(SmoothedCurves{boundary, 0});
+    result->boundary.loops[k] = flowing.result(lattice);
+    result->vertices += flowing.changed();
+  }
+  if (result)
+    result->boundary.area = polygon::area_of_loops(result->boundary);
+  return result;
+}
+
+} // namespace trime::generalise
