@@ -213,6 +213,53 @@ private:
       node.mobility = node.pinned ? 0 : std::clamp(ragged / GeneraliseRules::ragged_range, 0.0, 1.0);
       any |= node.mobility > 0;
     }
+    return free_close_corners() || any;
+  }
+
+  /// @brief Two sharp turns with so short a way between them carry no feature: they and what is near move, too. True if
+  /// there are any.
+  bool free_close_corners() {
+    const std::size_t n = nodes_.size();
+    const auto sharpness = [&](std::size_t k) {
+      return (std::fabs(turns_[k]) - GeneraliseRules::sharp_turn) / GeneraliseRules::sharp_range;
+    };
+    bool any = false;
+    for (std::size_t first = 0; first < n; ++first) {
+      if (!(sharpness(first) > 0))
+        continue;
+      std::size_t last = first;
+      double way = 0;
+      do {
+        way += ways_[last];
+        last = ahead(last);
+      } while (last != first && way < GeneraliseRules::corner_arm * nodes_[first].size && !(sharpness(last) > 0));
+      if (last == first || !(way < GeneraliseRules::corner_arm * nodes_[first].size))
+        continue;
+      const double mobility = std::fmin(1, std::fmin(sharpness(first), sharpness(last)));
+      any |= free(first, last, mobility);
+    }
+    return any;
+  }
+
+  /// Lets the nodes from one to the other, and a little beyond, move. True if one can.
+  bool free(std::size_t first, std::size_t last, double mobility) {
+    const double beyond = GeneraliseRules::beside_corner * nodes_[first].size;
+    double way = 0;
+    for (std::size_t rest = nodes_.size() / 4; rest > 0 && way < beyond; --rest) {
+      first = behind(first);
+      way += ways_[first];
+    }
+    way = 0;
+    for (std::size_t rest = nodes_.size() / 4; rest > 0 && way < beyond; --rest) {
+      way += ways_[last];
+      last = ahead(last);
+    }
+    bool any = false;
+    for (std::size_t k = ahead(first); k != last; k = ahead(k))
+      if (!nodes_[k].pinned) {
+        nodes_[k].mobility = std::fmax(nodes_[k].mobility, mobility);
+        any = true;
+      }
     return any;
   }
 

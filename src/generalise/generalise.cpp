@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 #include <optional>
 
@@ -259,8 +260,10 @@ std::unique_ptr<Generalised> smoothed(const Boundary& boundary, const sizing::Si
     std::unique_ptr<SmoothedCurves> flowed = smooth_ragged_runs(boundary, size, lattice, reach);
     if (!flowed)
       return nullptr;
-    if (!CurveMap(flowed->boundary, size, lattice, inside).is_valid())
+    if (!CurveMap(flowed->boundary, size, lattice, inside).is_valid()) {
+      fprintf(stderr, "DEBUG flow crossed %d\n", round);
       continue;
+    }
     auto result = std::make_unique<Generalised>(Generalised{std::move(flowed->boundary), {}});
     result->counts.smoothed = flowed->vertices;
     return result;

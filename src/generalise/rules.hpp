@@ -85,6 +85,14 @@ struct GeneraliseRules {
   static constexpr double least_ragged = 0.5;
   /// [radians] With so much more than that it moves freely. Not measured.
   static constexpr double ragged_range = 0.5;
+  /// [radians] Turns that are less sharp are no corners: 45 degrees. Not measured.
+  static constexpr double sharp_turn = 0.7853981633974483;
+  /// [radians] Between corners so much sharper the curve moves freely: 30 degrees. Not measured.
+  static constexpr double sharp_range = 0.5235987755982988;
+  /// [h] Corners with a shorter way between them are smoothed. Not measured.
+  static constexpr double corner_arm = 0.75;
+  /// [h] So far to both sides of them the curve moves, too. Not measured.
+  static constexpr double beside_corner = 0.25;
   /// [h] In one step a smoothed loop grows by so much at most, to keep its area. Not measured.
   static constexpr double most_outward = 0.03;
   /// [rounds] If smoothed curves cross, it is tried again with half the reach; then nothing is smoothed. Not measured.

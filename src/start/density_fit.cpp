@@ -13,6 +13,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -123,6 +125,10 @@ private:
       SizeTrial trial = approach.trial ? *std::exchange(approach.trial, std::nullopt) : trials_.run(factor);
       const double points = trial.points;
       const bool overfull = trial.fit.laid.stage.polygon.overfull;
+      if (getenv("DBG"))
+        fprintf(stderr, "DEBUG f %.6g pts %g bnd %g inner %g over %d coarse %g limits %zu\n", factor, points,
+                (double)trial.fit.laid.stage.placed_first(), trial.fit.inner, overfull,
+                trial.fit.laid.stage.simplified.coarseness, trials_.limits());
       found.accepted = accepted(trial);
       if (found.accepted)
         return found;
@@ -157,7 +163,7 @@ private:
   }
 
   /// @brief Where the number of points jumps, a little smaller size keeps parts of the shape that take too many of
-  /// them. Then the triangles become smaller and the boundary stays as it is.
+  /// them. Then the triangles become smaller and the curves stay as they are.
   /// @param jumps smaller sizes were tried, and took too many
   DensityFit with_most_points(Search found, bool jumps, double smallest) {
     SizeTrial best = std::move(found.best);
@@ -168,7 +174,7 @@ private:
         fail_for_few_points(context_, found.fewest);
       return std::move(best.fit);
     }
-    trials_.hold_curves(best.fit.laid);
+    trials_.hold(best.fit.laid);
     FactorBracket bracket(points_, smallest, context_.options.container);
     const double factor = best.fit.laid.fitted.factor;
     bracket.add(factor, best.points);

@@ -12,15 +12,24 @@ namespace trime::start {
 using boundary::BoundaryRules;
 using sites::Stage;
 
+void SizeTrials::hold(const FittedStage& laid) {
+  curves_ = laid.fitted.curves;
+  curves_.held = true;
+  limits_ = laid.fitted.limits;
+  limits_factor_ = laid.fitted.factor;
+  limit_rounds_ = BoundaryRules::lowering_rounds;
+}
+
 FittedStage SizeTrials::lay(double factor) {
-  if (!(std::fabs(factor - limits_factor_) < FitRules::limits_reach * factor)) {
+  if (!curves_.held && !(std::fabs(factor - limits_factor_) < FitRules::limits_reach * factor)) {
     limits_factor_ = factor;
     limits_.clear();
     limit_rounds_ = 0;
   }
   FittedSize fitted{factor, limits_, samples_, curves_};
-  for (sizing::SizeLimit& limit : fitted.limits)
-    limit.size *= factor / limits_factor_;
+  if (!curves_.held)
+    for (sizing::SizeLimit& limit : fitted.limits)
+      limit.size *= factor / limits_factor_;
   FittedStage laid = try_boundary(context_, fitted, points_);
   samples_ = laid.fitted.samples;
   curves_ = laid.fitted.curves;

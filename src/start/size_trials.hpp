@@ -38,11 +38,9 @@ public:
   /// Lays with all limits that the factor needs, and counts.
   SizeTrial run(double factor);
 
-  /// From now on all trials have the boundary as it was simplified for a trial.
-  void hold_curves(const FittedStage& laid) {
-    curves_ = laid.fitted.curves;
-    curves_.held = true;
-  }
+  /// @brief From now on all trials have the boundary as it was simplified for this one, and its limits: smaller
+  /// triangles need no others.
+  void hold(const FittedStage& laid);
 
   double coarsening() const { return coarsening_; }
   std::size_t limits() const { return limits_.size(); }
