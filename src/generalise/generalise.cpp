@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <optional>
 
@@ -260,10 +259,8 @@ std::unique_ptr<Generalised> smoothed(const Boundary& boundary, const sizing::Si
     std::unique_ptr<SmoothedCurves> flowed = smooth_ragged_runs(boundary, size, lattice, reach);
     if (!flowed)
       return nullptr;
-    if (!CurveMap(flowed->boundary, size, lattice, inside).is_valid()) {
-      fprintf(stderr, "DEBUG flow crossed %d\n", round);
+    if (!CurveMap(flowed->boundary, size, lattice, inside).is_valid())
       continue;
-    }
     auto result = std::make_unique<Generalised>(Generalised{std::move(flowed->boundary), {}});
     result->counts.smoothed = flowed->vertices;
     return result;

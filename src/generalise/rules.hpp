@@ -70,7 +70,7 @@ struct GeneraliseRules {
   /// [rounds] Of such trials; then nothing is thinned. Not measured.
   static constexpr int thinning_rounds = 3;
   /// [h] Features of ragged curves that are smaller are smoothed away. Not measured.
-  static constexpr double flow_reach = 0.4;
+  static constexpr double flow_reach = 0.45;
   /// [steps] In so many that is done; each looks anew where the curve is still ragged. Not measured.
   static constexpr int flow_steps = 8;
   /// [h] Distance of nodes on curves that are smoothed. Not measured.
@@ -80,7 +80,7 @@ struct GeneraliseRules {
   /// [h] Shorter ways count as so long, lest rates become infinite. Not measured.
   static constexpr double flow_least_way = 0.005;
   /// [h] Within this way along the curve, to both sides, turns to and fro make it ragged. Not measured.
-  static constexpr double ragged_way = 0.75;
+  static constexpr double ragged_way = 1;
   /// [radians] If the turns there add up to so much more than the turn in all, the curve begins to move. Not measured.
   static constexpr double least_ragged = 0.5;
   /// [radians] With so much more than that it moves freely. Not measured.
@@ -90,7 +90,7 @@ struct GeneraliseRules {
   /// [radians] Between corners so much sharper the curve moves freely: 30 degrees. Not measured.
   static constexpr double sharp_range = 0.5235987755982988;
   /// [h] Corners with a shorter way between them are smoothed. Not measured.
-  static constexpr double corner_arm = 0.75;
+  static constexpr double corner_arm = 1;
   /// [h] So far to both sides of them the curve moves, too. Not measured.
   static constexpr double beside_corner = 0.25;
   /// [h] In one step a smoothed loop grows by so much at most, to keep its area. Not measured.

@@ -13,8 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -125,10 +123,6 @@ private:
       SizeTrial trial = approach.trial ? *std::exchange(approach.trial, std::nullopt) : trials_.run(factor);
       const double points = trial.points;
       const bool overfull = trial.fit.laid.stage.polygon.overfull;
-      if (getenv("DBG"))
-        fprintf(stderr, "DEBUG f %.6g pts %g bnd %g inner %g over %d coarse %g limits %zu\n", factor, points,
-                (double)trial.fit.laid.stage.placed_first(), trial.fit.inner, overfull,
-                trial.fit.laid.stage.simplified.coarseness, trials_.limits());
       found.accepted = accepted(trial);
       if (found.accepted)
         return found;
