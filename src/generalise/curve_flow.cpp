@@ -21,8 +21,9 @@ using geometry::Vec2;
 struct Node {
   Vec2 place;
   double size;
+  std::size_t vertex;  // the start of this piece, or a place on it
   std::size_t piece;   // on which the way to the next node lies
-  bool given;          // the start of that piece
+  bool given;          // the start of `vertex`
   bool pinned;         // it stays
   bool moved = false;  // it has left its place
   double mobility = 0; // 0 where the curve is as smooth as the resolution, 1 where it is ragged
@@ -132,22 +133,22 @@ public:
     const std::vector<Piece>& pieces = loop.pieces;
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       const Piece &before = pieces[(k + pieces.size() - 1) % pieces.size()], &behind = pieces[k];
-      nodes_.push_back({behind.start, checked_size(size, behind.start), k, true,
+      nodes_.push_back({behind.start, checked_size(size, behind.start), k, k, true,
                         behind.corner || behind.circular || before.circular || before.part != behind.part});
     }
   }
 
   /// Flows as long as it is ragged. False if it is not from the start.
   bool flow(double reach) {
-    if (!measure_mobility())
+    if (nodes_.size() <= GeneraliseRules::least_vertices || !measure_mobility())
       return false;
     divide();
     const double time = 0.5 * reach * reach / GeneraliseRules::flow_steps;
     for (int step = 0; step < GeneraliseRules::flow_steps && measure_mobility(); ++step) {
       const double area = twice_area();
       move(time);
-      restore_area(area);
       join();
+      restore_area(area);
     }
     std::erase_if(nodes_, [](const Node& node) { return !node.given && !node.moved; });
     return nodes_.size() > GeneraliseRules::least_vertices &&
@@ -159,9 +160,8 @@ public:
     result.pieces.clear();
     for (const Node& node : nodes_) {
       Piece piece = loop_.pieces[node.piece];
-      piece.corner = piece.corner && node.given;
-      if (node.moved)
-        piece.start = lattice.snap(node.place);
+      piece.corner = node.given && loop_.pieces[node.vertex].corner;
+      piece.start = node.moved ? lattice.snap(node.place) : node.place;
       result.pieces.push_back(piece);
     }
     for (std::size_t k = 0; k < nodes_.size(); ++k)
@@ -275,7 +275,7 @@ private:
       const double parts = std::ceil(length(to.place - from.place) / spacing);
       for (double part = 1; part < parts; ++part) {
         const Vec2 place = from.place + (part / parts) * (to.place - from.place);
-        divided.push_back({place, checked_size(size_, place), from.piece, false, false});
+        divided.push_back({place, checked_size(size_, place), from.piece, from.piece, false, false});
       }
     }
     nodes_ = std::move(divided);
