@@ -181,6 +181,7 @@ void read_meshing(const Settings& settings, meshing::MeshOptions& mesh, Diagnost
   mesh.features.corner_angle = settings.number("meshing", "corner_angle");
   mesh.features.keep_all = settings.boolean("meshing", "keep_features");
   mesh.features.tolerance = settings.number("meshing", "feature_tolerance");
+  mesh.features.within = settings.number("meshing", "simplify_within");
   mesh.features.refine_narrow = settings.boolean("meshing", "refine_narrow");
   if (settings.text("meshing", "narrow") == "close")
     mesh.features.narrow = boundary::NarrowOutside::close;

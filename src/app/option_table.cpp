@@ -167,6 +167,13 @@ constexpr Option table[] = {
                 "lakes with a perimeter below 3 h are dropped, and corners may be left out, see `feature_tolerance`; "
                 "the report counts them"},
     {.section = "meshing",
+     .key = "simplify_within",
+     .fallback = "0.5",
+     .range = {0, 1},
+     .meaning = "times h: how far the boundary of the mesh may lie from that of the shape, where that is narrower or "
+                "rougher than the triangles; with 0.25 only what is half as large is simplified, with 0 nothing; means "
+                "nothing with `keep_features`"},
+    {.section = "meshing",
      .key = "narrow",
      .kind = OptionKind::word,
      .fallback = "keep",

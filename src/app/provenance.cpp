@@ -91,6 +91,7 @@ Attributes result_attributes(const meshing::MeshResult& result, const SizeSummar
           {"narrow_closed", result.features.closed},
           {"narrow_widened", result.features.widened},
           {"holes_filled", result.features.filled},
+          {"vertices_smoothed", result.features.smoothed},
           {"coarseness", result.features.coarseness},
           {"lost_share", result.features.lost_share},
           {"added_share", result.features.added_share},

@@ -52,11 +52,13 @@ GlobalId loops_of_mesh(const FeatureReport& report) {
 
 /// One line for all that was done to the curves.
 std::string simplification_line(const FeatureReport& report) {
-  std::string line = listed({{report.cut, "narrow part cut", "narrow parts cut"},
-                             {report.closed, "narrow part of the outside closed", "narrow parts of the outside closed"},
-                             {report.widened, "widened", "widened"},
-                             {report.filled, "small hole filled", "small holes filled"},
-                             {report.thinned, "piece of ragged curves thinned", "pieces of ragged curves thinned"}});
+  std::string line =
+      listed({{report.cut, "narrow part cut", "narrow parts cut"},
+              {report.closed, "narrow part of the outside closed", "narrow parts of the outside closed"},
+              {report.widened, "widened", "widened"},
+              {report.filled, "small hole filled", "small holes filled"},
+              {report.thinned, "piece of ragged curves thinned", "pieces of ragged curves thinned"},
+              {report.smoothed, "vertex of ragged curves smoothed", "vertices of ragged curves smoothed"}});
   if (!line.empty())
     line = fmt::format("at the size of the triangles: {}; {:.3g} % of the area lost, {:.3g} % added", line,
                        100 * report.lost_share, 100 * report.added_share);
@@ -95,6 +97,7 @@ void report_losses(const geometry::Boundary& given, const geometry::Boundary& me
   report.widened = simplified.widened;
   report.filled = simplified.filled;
   report.thinned = simplified.thinned;
+  report.smoothed = simplified.smoothed;
   report.coarseness = simplified.coarseness;
   double lost = simplified.cut_area + 0.5 * (dropped.area - dropped.change);
   double added = simplified.closed_area + 0.5 * (dropped.area + dropped.change);

@@ -42,7 +42,8 @@ struct BoundaryRules {
   static constexpr double deviation_step = 0.25;
   /// [places] Of such a piece, at most; the worst ones are short. Not measured.
   static constexpr int deviation_places = 16;
-  /// [1] If the boundary was simplified for an h so many times larger than that of the mesh, that is told. Not measured.
+  /// [1] If the boundary was simplified for an h so many times larger than that of the mesh, that is told. Not
+  /// measured.
   static constexpr double told_coarseness = 1.1;
   /// [1] A larger share of the shape's area that is lost or added is a warning. Not measured.
   static constexpr double warned_loss = 0.001;

@@ -191,7 +191,7 @@ mesh::Checks prove_boundary(const BoundaryTruth& truth, const mesh::DistributedM
           "vertex_distance", std::max(CertificateRules::vertex_limit, step / truth.side), distance,
           "boundary vertices from the curves that were meshed, over the longer side of the container (at most)"),
       limit_check(
-          "generalisation", CertificateRules::generalisation_limit, generalisation(truth),
+          "generalisation", std::max(truth.within, CertificateRules::least_within), generalisation(truth),
           "the curves that were meshed from the shape's boundary, over the h for which they were simplified (at most)"),
       limit_check("chord_deviation", CertificateRules::chord_limit, extremes.deviation,
                   "the shape's boundary from the facets, over h as it was asked for (at most)"),

@@ -28,6 +28,7 @@ struct BoundaryTruth {
   double side;           ///< longer side of the container
   double mesh_area;      ///< of all triangles
   double coarseness = 1; ///< the h for which the boundary was simplified, over that of the mesh
+  double within = 0.5;   ///< [that h] so far it may have moved
 };
 
 /// @brief Nine checks, all from the arrays of the mesh that will be written, the shape, and what it was laid out as.

@@ -327,9 +327,9 @@ mesh::Checks certify(const StageView& view, const decomposition::Numbering& numb
   checks.push_back({"area", polygon.value(view.lattice), counts.area.value(view.lattice),
                     polygon.twice == counts.area.twice, "triangles fill the boundary polygon (exact integers)"});
   const BoundaryTruth truth{
-      expectation.shape,     expectation.meshed, view.polygon,     view.size,
-      expectation.asked,     view.lattice,       expectation.side, counts.area.value(view.lattice),
-      expectation.coarseness};
+      expectation.shape,      expectation.meshed, view.polygon,     view.size,
+      expectation.asked,      view.lattice,       expectation.side, counts.area.value(view.lattice),
+      expectation.coarseness, expectation.within};
   for (mesh::Check& proof : prove_boundary(truth, mesh, view.state.comm()))
     checks.push_back(std::move(proof));
   return checks;

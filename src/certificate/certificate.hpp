@@ -17,6 +17,7 @@ struct Expectation {
   const sizing::SizeField& asked;   ///< h before it was lowered: what the features of the boundary are judged by
   double side;                      ///< longer side of the container
   double coarseness = 1;            ///< the h for which the boundary was simplified, over that of the mesh
+  double within = 0.5;              ///< [that h] so far it may have moved
 };
 
 /// @brief The certificate: manifold, positive, Euler characteristic, area, Delaunay, chords, corners, fixed

@@ -8,9 +8,9 @@ namespace trime::certificate {
 struct CertificateRules {
   /// [side of the container] A boundary vertex lies no farther from the shape: curves are computed in doubles.
   static constexpr double vertex_limit = 1e-9;
-  /// [h asked for] Of the curves that are meshed from those of the shape: narrow parts are cut or widened by less.
-  /// Not measured.
-  static constexpr double generalisation_limit = 0.5;
+  /// [h asked for] The curves that are meshed may always lie so far from those of the shape: distances are computed in
+  /// doubles. Not measured.
+  static constexpr double least_within = 1e-9;
   /// [h asked for] An arc of length h strays from its chord by h/2 at most, and sites may lie a little more than h
   /// apart. Where h was lowered, chords still leave out corners by shares of what was asked for: 240 meshes of
   /// archipelagos had 0.17 at most, but three of them 0.78 to 1.03 of the lowered h.

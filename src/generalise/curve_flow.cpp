@@ -221,7 +221,7 @@ private:
   bool free_close_corners() {
     const std::size_t n = nodes_.size();
     const auto sharpness = [&](std::size_t k) {
-      return (std::fabs(turns_[k]) - GeneraliseRules::sharp_turn) / GeneraliseRules::sharp_range;
+      return (std::fabs(turns_[k]) - GeneraliseRules::close_turn) / GeneraliseRules::close_range;
     };
     bool any = false;
     for (std::size_t first = 0; first < n; ++first) {

@@ -320,12 +320,13 @@ std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const si
   return result;
 }
 
-bool has_narrow_parts(const Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
+bool would_generalise(const Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
                       const Choice& choice, std::span<const Vec2> inside) {
   if (boundary.periods.any() || boundary.loops.empty())
     return false;
   Corners corners;
-  return pass_over(boundary, size, lattice, choice, those_inside(boundary, size, lattice, inside), corners) != nullptr;
+  return pass_over(boundary, size, lattice, choice, those_inside(boundary, size, lattice, inside), corners) ||
+         smooth_ragged_runs(boundary, size, lattice, GeneraliseRules::flow_reach);
 }
 
 } // namespace trime::generalise

@@ -40,7 +40,8 @@ std::unique_ptr<const geometry::Boundary> thinned(const geometry::Boundary& boun
 /// The curves are the constraints of a Delaunay triangulation of their nodes. Parts whose triangles are all narrow are
 /// dead ends (spits, inlets), passages (necks, straits, walls) or whole components and holes. Those of the shape are
 /// cut where they become wide enough; components that are narrow all over are widened. Those of the outside are kept,
-/// and their sides moved apart, or closed. Triangles that keep their orientation prove that curves do not cross.
+/// and their sides moved apart, or closed. Triangles that keep their orientation prove that curves do not cross. Then
+/// ragged runs are smoothed, see curve_flow.hpp, and a triangulation of the result proves the same.
 /// Periodic boundaries come back as they are. Deterministic, one thread. O(n log n) for n pieces.
 /// @param size h
 /// @param inside lattice points that must stay inside: a narrow part with one of them is not cut, and no curve moves
@@ -51,7 +52,7 @@ std::unique_ptr<const Generalised> generalise(const geometry::Boundary& boundary
                                               std::span<const geometry::Vec2> inside);
 
 /// Would generalise() change anything? Costs one pass of its several.
-bool has_narrow_parts(const geometry::Boundary& boundary, const sizing::SizeField& size,
+bool would_generalise(const geometry::Boundary& boundary, const sizing::SizeField& size,
                       const geometry::Lattice& lattice, const Choice& choice, std::span<const geometry::Vec2> inside);
 
 } // namespace trime::generalise

@@ -86,9 +86,9 @@ struct GeneraliseRules {
   /// [radians] With so much more than that it moves freely. Not measured.
   static constexpr double ragged_range = 0.5;
   /// [radians] Turns that are less sharp are no corners: 45 degrees. Not measured.
-  static constexpr double sharp_turn = 0.7853981633974483;
+  static constexpr double close_turn = 0.7853981633974483;
   /// [radians] Between corners so much sharper the curve moves freely: 30 degrees. Not measured.
-  static constexpr double sharp_range = 0.5235987755982988;
+  static constexpr double close_range = 0.5235987755982988;
   /// [h] Corners with a shorter way between them are smoothed. Not measured.
   static constexpr double corner_arm = 1;
   /// [h] So far to both sides of them the curve moves, too. Not measured.

@@ -148,10 +148,10 @@ MeshResult Run::extract() {
   extraction::Extraction made = extraction::extract_mesh(view, numbering);
   result.quality = std::move(made.quality);
   result.mesh = std::move(made.mesh);
-  result.checks = certificate::certify(
-      view, numbering,
-      {run_.given_boundary, boundary_.curves(), *stage_.asked_size, run_.side(), stage_.simplified.coarseness},
-      result.mesh);
+  result.checks = certificate::certify(view, numbering,
+                                       {run_.given_boundary, boundary_.curves(), *stage_.asked_size, run_.side(),
+                                        stage_.simplified.coarseness, run_.options.features.within},
+                                       result.mesh);
   result.checks.push_back(extraction::worst_alpha_check(result.quality, run_.options.worst_alpha));
   result.history = relaxation_.take_history();
   result.triangulations = snapshots_.triangulations();

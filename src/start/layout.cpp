@@ -82,18 +82,18 @@ void set_sizes(const LayoutContext& context, const FittedSize& fitted, Stage& st
 /// Simplifies the boundary for the size of a stage.
 void generalise_curves(const LayoutContext& context, const FittedStage& laid, CurvesAtSize& curves) {
   const geometry::Boundary& given = context.fixed.cornered_boundary();
+  const sizing::ScaledSize size = generalised_size(context, *laid.stage.asked_size);
   const double factor = laid.fitted.factor;
   if (!(curves.thinned_factor * StartRules::thinned_ahead <= factor &&
         factor <= curves.thinned_factor * StartRules::thinned_ahead * StartRules::thinned_ahead)) {
     curves.thinned_factor = factor / StartRules::thinned_ahead;
-    curves.thinned =
-        generalise::thinned(given, sizing::ScaledSize(*laid.stage.asked_size, 1 / StartRules::thinned_ahead),
-                            context.lattice, context.fixed.inside());
+    curves.thinned = generalise::thinned(given, sizing::ScaledSize(size, 1 / StartRules::thinned_ahead),
+                                         context.lattice, context.fixed.inside());
   }
   curves.factor = factor;
   curves.samples = nullptr;
-  curves.found = generalise::generalise(curves.thinned ? *curves.thinned : given, *laid.stage.asked_size,
-                                        context.lattice, generalise_choice(context), context.fixed.inside());
+  curves.found = generalise::generalise(curves.thinned ? *curves.thinned : given, size, context.lattice,
+                                        generalise_choice(context), context.fixed.inside());
   if (!curves.found && curves.thinned)
     curves.found = std::make_shared<generalise::Generalised>(generalise::Generalised{*curves.thinned, {}});
 }
@@ -103,7 +103,7 @@ void generalise_curves(const LayoutContext& context, const FittedStage& laid, Cu
 const geometry::Boundary& generalised_curves(const LayoutContext& context, FittedStage& laid) {
   const geometry::Boundary& given = context.fixed.cornered_boundary();
   CurvesAtSize& curves = laid.fitted.curves;
-  if (context.options.features.keep_all)
+  if (!generalises(context))
     return given;
   const double factor = laid.fitted.factor;
   if (!curves.held && !(std::fabs(curves.factor - factor) <= StartRules::same_curves * factor))
@@ -170,6 +170,14 @@ constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
 generalise::Choice generalise_choice(const LayoutContext& context) {
   const bool closes = context.options.features.narrow == boundary::NarrowOutside::close;
   return {closes ? generalise::Narrow::close : generalise::Narrow::keep, context.cuts_thin_components};
+}
+
+bool generalises(const LayoutContext& context) {
+  return !context.options.features.keep_all && context.options.features.within > 0;
+}
+
+sizing::ScaledSize generalised_size(const LayoutContext& context, const sizing::SizeField& asked) {
+  return {asked, context.options.features.within / boundary::FeatureOptions{}.within};
 }
 
 double estimated_size(double area, double perimeter, double n) {

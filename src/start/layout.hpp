@@ -63,6 +63,12 @@ struct FittedStage {
 /// How much the boundary is simplified.
 generalise::Choice generalise_choice(const LayoutContext& context);
 
+/// Is it at all?
+bool generalises(const LayoutContext& context);
+
+/// The h by whose shares that is done: the one asked for, unless the user wants another distance than the usual.
+sizing::ScaledSize generalised_size(const LayoutContext& context, const sizing::SizeField& asked);
+
 /// Edge length of n nearly equilateral triangles' vertices on area A inside perimeter P: from V = (T + B)/2 + 1 with
 /// T = A / (sqrt(3)/4 h^2) and B = P/h.
 double estimated_size(double area, double perimeter, double n);

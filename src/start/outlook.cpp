@@ -60,7 +60,8 @@ bool keeps_all(const LayoutContext& context, double factor) {
     keeps =
         !boundary::drop_small_loops(given, size, boundary::BoundaryRules::least_perimeter, context.fixed.inside())
              .any() &&
-        !generalise::has_narrow_parts(given, size, context.lattice, generalise_choice(context), context.fixed.inside());
+        !(generalises(context) && generalise::would_generalise(given, generalised_size(context, size), context.lattice,
+                                                               generalise_choice(context), context.fixed.inside()));
   });
   return keeps;
 }

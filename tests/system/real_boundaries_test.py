@@ -29,13 +29,14 @@ BARS = {
     ("tip", 1, 9, 2000, "uniform"): 1.5,
 }
 SAME_ON_RANKS = [("contours", 1, 1000, 1000, "uniform"), ("crack", 1, 8, 2000, "uniform")]
-DEVIATION = 0.5  # of the asked size: what a generalised curve may be off
+DEVIATION = 0.5  # of the size for which it was simplified: what a generalised curve may be off
 
 
 def deviation(path, contour):
-    """Largest distance of a facet from the input's curve over the asked size, which is uniform: the largest one."""
+    """Largest distance of a facet from the input's curve over the size for which that was simplified: the asked one,
+    which is uniform and so the largest, or a larger one."""
     with h5py.File(path, "r") as file:
-        size = file["VTKHDF/PointData/size"][:]
+        size = file["trime_mpi"].attrs["coarseness"] * file["VTKHDF/PointData/size"][:]
         rings = input_rings(file, rings_of(contour.read_text(encoding="ascii")))
         measures = MeshMeasures(file["Mesh/mesh/geometry"][:], file["Mesh/mesh/topology"][:],
                                 np.full_like(size, size.max()), rings)

@@ -16,6 +16,7 @@ struct FeatureOptions {
   bool keep_all = false;     ///< keeps every corner, island, lake and narrow part, however small
   bool refine_narrow = true; ///< a uniform size is lowered where the shape is narrower than the triangles
   double tolerance = 0.1;    ///< in local sizes: how far chords may pass from corners that they leave out
+  double within = 0.5;       ///< in local sizes: how far simplified curves may lie from the given ones
   NarrowOutside narrow = NarrowOutside::keep; ///< beside components of less than 5 h perimeter they close anyway
 };
 

@@ -32,6 +32,7 @@ struct FeatureReport {
   GlobalId cut = 0;                       ///< narrow parts of the shape, before anything was laid out
   GlobalId closed = 0, widened = 0;       ///< narrow parts of the outside: filled; sides moved apart
   GlobalId filled = 0;                    ///< holes around which no triangle fits
+  GlobalId smoothed = 0;                  ///< vertices of ragged curves that others stand for
   GlobalId thinned = 0;                   ///< pieces of ragged curves that others stand for
   double coarseness = 1;                  ///< the h for which all this was done, over that of the mesh
   double lost_share = 0, added_share = 0; ///< of the shape's area, by all of these, dropped islands and lakes included
