@@ -23,7 +23,13 @@ bool PatchStart::build(Vec2 center, double size, std::span<const PatchSite> site
   patch_.gain = 0;
   link_boundary();
   missing_chords_ = patch_.missing_chords();
-  return std::find(patch_.role.begin(), patch_.role.end(), VertexRole::free) != patch_.role.end();
+  return std::any_of(sites.begin(), sites.end(), [this](const PatchSite& site) { return is_deep(site); });
+}
+
+/// Does nothing outside feel a change there? Where all such sites are corners, others may come.
+bool PatchStart::is_deep(const PatchSite& site) const {
+  return site.boundary != mesh::fixed_site &&
+         distance(site.position) + CleanupRules::free_depth * std::fmax(site.size, size_) < CleanupRules::reach * size_;
 }
 
 VertexRole PatchStart::role_of(const PatchSite& site) const {
@@ -31,7 +37,7 @@ VertexRole PatchStart::role_of(const PatchSite& site) const {
   const double coarser = std::fmax(site.size, size_);
   const bool is_corner = site.boundary >= 0 && boundary().sites[at(site.boundary)].corner;
   VertexRole role = VertexRole::held;
-  if (away + CleanupRules::free_depth * coarser < reach && site.boundary != mesh::fixed_site)
+  if (is_deep(site))
     role = VertexRole::free;
   else if (away + CleanupRules::scored_depth * coarser < reach)
     role = VertexRole::scored;

@@ -19,7 +19,8 @@ public:
   PatchStart(const polygon::BoundaryChain& chain, const geometry::Lattice& lattice)
       : chain_(chain), lattice_(lattice), patch_(lattice, chain.sites().periods) {}
 
-  /// @brief Triangulates the sites. @return false if nothing can be done: there are too many sites, or none may move
+  /// @brief Triangulates the sites. @return false if nothing can be done: there are too many sites, or all are near the
+  /// rim
   /// @param sites see PatchOptimizer::improve
   bool build(geometry::Vec2 center, double size, std::span<const PatchSite> sites);
 
@@ -51,6 +52,7 @@ public:
   double distance(geometry::Vec2 p) const { return geometry::length(p - center_); }
 
 private:
+  bool is_deep(const PatchSite& site) const;
   VertexRole role_of(const PatchSite& site) const;
   BoundaryVertex on_boundary(const PatchSite& site) const;
   void link_boundary();

@@ -216,8 +216,8 @@ private:
     return free_close_corners() || any;
   }
 
-  /// @brief Two sharp turns with so short a way between them carry no feature: they and what is near move, too. True if
-  /// there are any.
+  /// @brief Two sharp turns with so short a way between them carry no feature: they and what is near move, too. But not
+  /// where both turn away from the shape: the end of a slit forces no small angles. True if there are any.
   bool free_close_corners() {
     const std::size_t n = nodes_.size();
     const auto sharpness = [&](std::size_t k) {
@@ -233,7 +233,8 @@ private:
         way += ways_[last];
         last = ahead(last);
       } while (last != first && way < GeneraliseRules::corner_arm * nodes_[first].size && !(sharpness(last) > 0));
-      if (last == first || !(way < GeneraliseRules::corner_arm * nodes_[first].size))
+      const bool is_slit = turns_[first] < 0 && turns_[last] < 0;
+      if (last == first || is_slit || !(way < GeneraliseRules::corner_arm * nodes_[first].size))
         continue;
       const double mobility = std::fmin(1, std::fmin(sharpness(first), sharpness(last)));
       any |= free(first, last, mobility);

@@ -35,16 +35,18 @@ PointScheme::PointScheme(const LayoutContext& context)
   choose();
 }
 
-/// Points that are left to the clean-up, for smaller triangles where the boundary is ragged: a share of the number of
-/// its pieces, and of the points at most.
+/// Points that are left to the clean-up, for smaller triangles where the boundary is ragged, and for the middle of
+/// small components: a share of the number of pieces and of components, and of the points at most.
 GlobalId PointScheme::reserve() const {
   double pieces = 0;
   for (const geometry::Loop& loop : context_->given_boundary.loops)
     pieces += static_cast<double>(loop.pieces.size());
   if (!options_.points || !options_.cleanup)
     return 0;
-  return static_cast<GlobalId>(std::fmin(StartRules::reserved_share * static_cast<double>(*options_.points),
-                                         StartRules::reserved_per_piece * pieces));
+  const double points = static_cast<double>(*options_.points), components = context_->given_boundary.components();
+  return static_cast<GlobalId>(
+      std::fmin(StartRules::reserved_share * points, StartRules::reserved_per_piece * pieces) +
+      std::fmin(StartRules::reserved_for_components * points, StartRules::reserved_per_component * (components - 1)));
 }
 
 double PointScheme::expected_points() const {

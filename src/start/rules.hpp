@@ -29,6 +29,10 @@ struct StartRules {
   /// [points] The start keeps back so many for each piece of the boundary: ragged boundaries are where the clean-up
   /// inserts.
   static constexpr double reserved_per_piece = 0.1;
+  /// [points asked for] It keeps back so many more at most where there are several components. Not measured.
+  static constexpr double reserved_for_components = 0.01;
+  /// [points] So many for each further component: a small one may lack its only inner site. Not measured.
+  static constexpr double reserved_per_component = 0.5;
   /// [1] One insertion multiplies the number of points by this, as TriMe++ does.
   static constexpr double growth = 1.6;
   /// [stages] A bound on the run where a mesh has too few triangles for the points to be inserted.
