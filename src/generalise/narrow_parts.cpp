@@ -28,6 +28,19 @@ bool wants_node(const CurveMap& map, HalfEdge e) {
          place > -height && place < whole + height;
 }
 
+/// Calls `visit` with the half-edges of all triangles around a vertex.
+template <class Visit>
+void for_each_around(const Triangulation& mesh, LocalIndex v, const Visit& visit) {
+  const HalfEdge first = mesh.leaving(v);
+  HalfEdge e = first;
+  do {
+    const HalfEdge of_triangle = 3 * Triangulation::triangle(e);
+    for (HalfEdge f = of_triangle; f < of_triangle + 3; ++f)
+      visit(f);
+    e = mesh.around(e);
+  } while (e != first);
+}
+
 class NarrowFinder {
 public:
   NarrowFinder(const CurveMap& map, const std::vector<char>& labels, bool inside, double share)
@@ -153,11 +166,21 @@ private:
 
 void add_nodes_to_narrow_parts(CurveMap& map) {
   const Triangulation& mesh = map.mesh();
+  std::vector<std::array<LocalIndex, 2>> wanted;
+  const auto look_at = [&](HalfEdge e) {
+    if (mesh.is_constrained(e) && wants_node(map, e))
+      wanted.push_back({std::min(mesh.origin(e), mesh.target(e)), std::max(mesh.origin(e), mesh.target(e))});
+  };
+  LocalIndex first_new = 0;
   for (int round = 0; round < GeneraliseRules::node_rounds; ++round) {
-    std::vector<std::array<LocalIndex, 2>> wanted;
-    for (HalfEdge e = 0; e < 3 * mesh.triangle_count(); ++e)
-      if (mesh.is_constrained(e) && wants_node(map, e))
-        wanted.push_back({std::min(mesh.origin(e), mesh.target(e)), std::max(mesh.origin(e), mesh.target(e))});
+    wanted.clear();
+    if (round == 0)
+      for (HalfEdge e = 0; e < 3 * mesh.triangle_count(); ++e)
+        look_at(e);
+    else // all triangles that have changed lie around the new nodes
+      for (LocalIndex v = first_new; v < mesh.vertex_count(); ++v)
+        for_each_around(mesh, v, look_at);
+    first_new = mesh.vertex_count();
     std::sort(wanted.begin(), wanted.end());
     wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
     bool added = false;
