@@ -147,9 +147,13 @@ ExitCode make_mesh(const Job& job) {
     check_fixed_points(mesh_options, input.shape, log);
     const bool is_dry_run = job.line.action == Action::dry_run;
     print(comm, estimate(options, boundary, placement, is_dry_run));
-    Log quiet(LogLevel::error, comm.is_root()); // what it warns of was told before
-    if (is_dry_run)
-      print(comm, outlook_text(meshing::Mesher(comm, boundary, *size.field, mesh_options, quiet, timers).outlook()));
+    Log quiet(LogLevel::error, comm.is_root());         // what it warns of was told before
+    if (is_dry_run || mesh_options.features.keep_all) { // where nothing gives way the layout may fail
+      const std::string text =
+          outlook_text(meshing::Mesher(comm, boundary, *size.field, mesh_options, quiet, timers).outlook());
+      if (is_dry_run)
+        print(comm, text);
+    }
     return ExitCode::done;
   }
 

@@ -27,8 +27,8 @@ struct Offsets {
 /// Lists triangles and facets at that of their vertices which has the lowest global id.
 class Extractor {
 public:
-  Extractor(const StageView& view, const decomposition::Numbering& numbering)
-      : view_(view), numbering_(numbering), points_(view.state.points()) {}
+  Extractor(const StageView& view, const decomposition::Numbering& numbering, const sizing::SizeField& asked)
+      : view_(view), numbering_(numbering), asked_(asked), points_(view.state.points()) {}
 
   Extraction run() {
     Extraction made;
@@ -115,6 +115,7 @@ private:
     mesh.facets.resize(total.facets);
     mesh.facet_tags.resize(total.facets);
     mesh.facet_parts.resize(total.facets);
+    mesh.facet_sizes.resize(total.facets);
   }
 
   void fill_tile(LocalIndex tile, Offsets next, FlatFan& fan, QualityMeter& meter, DistributedMesh& mesh) const {
@@ -128,7 +129,7 @@ private:
         if (fan.place[k] > vertex)
           meter.add_edge(points_.position(site), fan.positions[k]);
       if (!fan.closed && fan.complete)
-        list_facets(vertex, points_.boundary(site), fan, next, mesh);
+        list_facets(vertex, site, fan, next, mesh);
     }
     meter.finish();
   }
@@ -144,11 +145,14 @@ private:
 
   /// Of the edges to the next boundary site and from the previous one those whose other end is higher, by their first
   /// vertex and then the second.
-  void list_facets(LocalIndex vertex, std::int32_t boundary_site, const FlatFan& fan, Offsets& next,
-                   DistributedMesh& mesh) const {
+  void list_facets(LocalIndex vertex, LocalIndex own, const FlatFan& fan, Offsets& next, DistributedMesh& mesh) const {
     const std::vector<BoundarySite>& sites = view_.polygon.sites;
+    const std::int32_t boundary_site = points_.boundary(own);
     const std::size_t last = fan.triangles;
     const auto add = [&](LocalIndex from, LocalIndex to, const BoundarySite& site) {
+      const Vec2 other = fan.positions[from == vertex ? 0 : last];
+      const Vec2 middle = points_.grid().periods().wrap(0.5 * (points_.position(own) + other));
+      mesh.facet_sizes[next.facets] = static_cast<float>(asked_.size(middle));
       mesh.facets[next.facets] = {numbering_.global_id(from), numbering_.global_id(to)};
       mesh.facet_tags[next.facets] = site.tag;
       mesh.facet_parts[next.facets++] = site.part;
@@ -166,6 +170,7 @@ private:
 
   const StageView& view_;
   const decomposition::Numbering& numbering_;
+  const sizing::SizeField& asked_;
   const mesh::BinnedPoints& points_;
 };
 
@@ -182,9 +187,10 @@ mesh::Check worst_alpha_check(const mesh::QualitySummary& quality, double most) 
           "largest alpha above 2 of a triangle away from sharp corners, else 1; at most meshing.worst_alpha"};
 }
 
-Extraction extract_mesh(const StageView& view, const decomposition::Numbering& numbering) {
+Extraction extract_mesh(const StageView& view, const decomposition::Numbering& numbering,
+                        const sizing::SizeField& asked) {
   const comm::Communicator& comm = view.state.comm();
-  Extraction made = Extractor(view, numbering).run();
+  Extraction made = Extractor(view, numbering, asked).run();
   mesh::DistributedMesh& mesh = made.mesh;
   mesh.triangle_slab = slab_of(comm, mesh.triangles.size());
   mesh.facet_slab = slab_of(comm, mesh.facets.size());

@@ -17,7 +17,9 @@ struct Extraction {
 };
 /// @pre stars of all sites are certain, bins and halo fresh. O(points); threads.
 /// @throws GeometryError on all ranks together if the size at an edge is not positive and finite. Collective.
-Extraction extract_mesh(const sites::StageView& view, const decomposition::Numbering& numbering);
+/// @param asked h before it was lowered, for the facets
+Extraction extract_mesh(const sites::StageView& view, const decomposition::Numbering& numbering,
+                        const sizing::SizeField& asked);
 
 /// Triangles beside corners below 60 degrees aside, none may be worse than `most`.
 mesh::Check worst_alpha_check(const mesh::QualitySummary& quality, double most);

@@ -171,6 +171,7 @@ void write_facets(SlabFile& file, const mesh::DistributedMesh& mesh) {
   file.slab(stored<std::int64_t>("/Mesh/facets/topology", mesh.facet_slab, 2, mesh.facets));
   file.slab(stored<std::int32_t>("/Mesh/facets/values", mesh.facet_slab, 0, mesh.facet_tags));
   file.slab(stored<std::int32_t>("/Mesh/facets/parts", mesh.facet_slab, 0, mesh.facet_parts));
+  file.slab(stored<float>("/Mesh/facets/asked_size", mesh.facet_slab, 0, mesh.facet_sizes));
 }
 
 void write_metadata(SlabFile& file, const Metadata& metadata) {
@@ -235,8 +236,10 @@ void check_shapes(const mesh::DistributedMesh& mesh) {
                    (mesh.region.empty() || mesh.region.size() == triangles),
                "{} triangles, {} alpha, {} beta, {} region", triangles, mesh.alpha.size(), mesh.beta.size(),
                mesh.region.size());
-  TRIME_ASSERT(mesh.facet_tags.size() == facets && mesh.facet_parts.size() == facets, "{} facets, {} tags, {} parts",
-               facets, mesh.facet_tags.size(), mesh.facet_parts.size());
+  TRIME_ASSERT(mesh.facet_tags.size() == facets && mesh.facet_parts.size() == facets &&
+                   mesh.facet_sizes.size() == facets,
+               "{} facets, {} tags, {} parts, {} sizes", facets, mesh.facet_tags.size(), mesh.facet_parts.size(),
+               mesh.facet_sizes.size());
 }
 
 /// Rank 0: final names, and the views that belong to them.

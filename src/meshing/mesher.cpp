@@ -145,7 +145,7 @@ MeshResult Run::extract() {
   result.components = boundary_.curves().components();
   result.holes = boundary_.curves().holes();
   result.loops = boundary_.loops(stage_.polygon);
-  extraction::Extraction made = extraction::extract_mesh(view, numbering);
+  extraction::Extraction made = extraction::extract_mesh(view, numbering, *stage_.asked_size);
   result.quality = std::move(made.quality);
   result.mesh = std::move(made.mesh);
   result.checks = certificate::certify(view, numbering,

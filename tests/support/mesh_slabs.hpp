@@ -67,6 +67,7 @@ inline mesh::DistributedMesh holed_square(int n) {
       mesh.facets.push_back({edge.first, edge.second});
       mesh.facet_tags.push_back(is_outer(edge.first) ? 1 : 2);
       mesh.facet_parts.push_back(is_outer(edge.first) ? 1 : 0);
+      mesh.facet_sizes.push_back(1);
     }
   mesh.boundary.resize(mesh.points.size(), 0);
   for (std::size_t k = 0; k < mesh.facets.size(); ++k)
@@ -100,6 +101,7 @@ inline mesh::DistributedMesh slabs_of(const mesh::DistributedMesh& whole, const 
   mesh.facets = cut(whole.facets, mesh.facet_slab, facets);
   mesh.facet_tags = cut(whole.facet_tags, mesh.facet_slab, facets);
   mesh.facet_parts = cut(whole.facet_parts, mesh.facet_slab, facets);
+  mesh.facet_sizes = cut(whole.facet_sizes, mesh.facet_slab, facets);
   return mesh;
 }
 

@@ -83,6 +83,7 @@ class MeshMeasures:
         self.area = float(0.5 * cross(self.corners[:, 1] - self.corners[:, 0],
                                       self.corners[:, 2] - self.corners[:, 0]).sum())
         self.facets = self.rim()
+        self.asked = None  # per facet, see set_asked_sizes
 
     def rim(self):
         """Directed edges (b, 2) of one triangle only; the mesh lies on their left."""
@@ -153,6 +154,16 @@ class MeshMeasures:
             marked[list(seen)] = True
         return marked
 
+    def set_asked_sizes(self, facets, sizes):
+        """The size asked for at each of these facets, which are all, in any order."""
+        n = len(self.points)
+        keys, given = (f[:, 0] * n + f[:, 1] for f in (self.facets, np.asarray(facets)))
+        order = np.argsort(given)
+        found = order[np.minimum(np.searchsorted(given[order], keys), len(order) - 1)]
+        if not np.array_equal(given[found], keys):
+            raise ValueError("the facets of the table are not the boundary edges of the triangles")
+        self.asked = np.asarray(sizes, float)[found]
+
     def is_input_vertex(self):
         """Which points are vertices of the rings."""
         vertices = np.concatenate(self.rings)
@@ -160,11 +171,14 @@ class MeshMeasures:
         return away <= SAME * np.ptp(vertices, axis=0).max()
 
     def deviation(self):
-        """Largest distance of the facets from the curve over the local size, and its place."""
+        """Largest distance of the facets from the curve over the size, and its place: the size that was asked for at
+        the middle of the facet if that is known, else the local one."""
         share = np.linspace(0, 1, SAMPLES)[None, :, None]
         start, end = (self.points[self.facets[:, k]][:, None] for k in (0, 1))
         places = (start + share * (end - start)).reshape(-1, 2)
         size = (1 - share[..., 0]) * self.size[self.facets[:, :1]] + share[..., 0] * self.size[self.facets[:, 1:]]
+        if self.asked is not None:
+            size = np.broadcast_to(self.asked[:, None], size.shape)
         away = Curve(*segments_of(self.rings)).distance(places)[0] / size.ravel()
         worst = int(away.argmax())
         return float(away[worst]), places[worst]

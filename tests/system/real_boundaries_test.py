@@ -6,12 +6,10 @@
 import unittest
 
 import h5py
-import numpy as np
 
 import real_shapes
-from judge import config_text, input_rings, run_and_judge
-from mesh_measures import MeshMeasures
-from ring_tools import rings_of, text_of
+from judge import config_text, run_and_judge
+from ring_tools import text_of
 from trime_run import Workspace, run
 
 # (kind, seed, vertices, points, sizing): the largest alpha away from sharp corners of the input (`kept`)
@@ -32,17 +30,6 @@ SAME_ON_RANKS = [("contours", 1, 1000, 1000, "uniform"), ("crack", 1, 8, 2000, "
 DEVIATION = 0.5  # of the size for which it was simplified: what a generalised curve may be off
 
 
-def deviation(path, contour):
-    """Largest distance of a facet from the input's curve over the size for which that was simplified: the asked one,
-    which is uniform and so the largest, or a larger one."""
-    with h5py.File(path, "r") as file:
-        size = file["trime_mpi"].attrs["coarseness"] * file["VTKHDF/PointData/size"][:]
-        rings = input_rings(file, rings_of(contour.read_text(encoding="ascii")))
-        measures = MeshMeasures(file["Mesh/mesh/geometry"][:], file["Mesh/mesh/topology"][:],
-                                np.full_like(size, size.max()), rings)
-    return measures.deviation()
-
-
 class RealBoundaries(unittest.TestCase):
     def test_meshes_are_certified_near_the_curve_and_without_bad_triangles(self):
         tuning = {(kind, seed, vertices) for kind, seed, vertices in real_shapes.TUNING}
@@ -53,10 +40,7 @@ class RealBoundaries(unittest.TestCase):
                 self.assertEqual(row["exit"], 0, row.get("message"))
                 self.assertEqual(row["failed"], [])
                 self.assertLessEqual(row["kept"], bar, f"at {row['at']}")
-                if shape[4] == "uniform":
-                    mesh, = work.glob("*/it.h5")
-                    away, place = deviation(mesh, mesh.with_suffix(".xy"))
-                    self.assertLessEqual(away, DEVIATION, f"at {place}")
+                self.assertLessEqual(row["deviation"], DEVIATION, f"at {row['deviation_at']}")
 
     def test_one_mesh_on_any_ranks(self):
         for kind, seed, vertices, points, sizing in SAME_ON_RANKS:

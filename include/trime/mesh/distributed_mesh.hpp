@@ -44,6 +44,7 @@ struct DistributedMesh {
   std::vector<std::array<GlobalId, 2>> facets;
   std::vector<std::int32_t> facet_tags;  ///< of its loop
   std::vector<std::int32_t> facet_parts; ///< which part of the shape it follows: index into Boundary::part_names
+  std::vector<float> facet_sizes;        ///< h at its middle as it was asked for; that of the points may be lower
 
   /// Hash of points and triangles over all ranks, independent of how they are distributed.
   std::uint64_t hash = 0;

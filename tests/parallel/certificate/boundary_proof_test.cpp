@@ -79,6 +79,7 @@ protected:
       mesh.facets.push_back({k, site.next});
       mesh.facet_tags.push_back(site.tag);
       mesh.facet_parts.push_back(site.part);
+      mesh.facet_sizes.push_back(1);
     }
     mesh.point_slab = mesh.facet_slab = {first, n};
     return mesh;

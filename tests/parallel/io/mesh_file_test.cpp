@@ -58,6 +58,7 @@ mesh::DistributedMesh make_mesh(const comm::Communicator& comm, std::uint64_t se
     mesh.facets.push_back({i, (i + 1) % n_facets});
     mesh.facet_tags.push_back(static_cast<std::int32_t>(1 + i % 3));
     mesh.facet_parts.push_back(static_cast<std::int32_t>(i % 5));
+    mesh.facet_sizes.push_back(0.25F * static_cast<float>(i));
   }
   return mesh;
 }

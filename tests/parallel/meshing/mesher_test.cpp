@@ -117,6 +117,7 @@ void expect_same_everywhere(const Case& c, const std::vector<int>& threads_to_tr
     expect_gathered(world, result.mesh.facets, serial.mesh.facets, "boundary edges");
     expect_gathered(world, result.mesh.facet_tags, serial.mesh.facet_tags, "tags of edges");
     expect_gathered(world, result.mesh.facet_parts, serial.mesh.facet_parts, "parts of edges");
+    expect_gathered(world, result.mesh.facet_sizes, serial.mesh.facet_sizes, "asked sizes of edges");
   }
 }
 
