@@ -3,6 +3,8 @@
 """The shapes of real_shapes.py are what they say, and judge.py measures what it says, on meshes with known answers."""
 import math
 import pathlib
+import subprocess
+import sys
 import unittest
 
 import numpy as np
@@ -175,6 +177,12 @@ class Measures(unittest.TestCase):
             done = run(work / "it.ini", f"output.directory={work}")
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             row = judge.judge_file(pathlib.Path(work) / "it.h5", rings_of(text))
+            drawn = subprocess.run([sys.executable, pathlib.Path(__file__).with_name("worst_places.py"), work / "it.h5",
+                                    work / "it.xy", "-o", work / "worst.png", "--places", "2"], capture_output=True,
+                                   text=True, check=False)
+            self.assertEqual(drawn.returncode, 0, drawn.stderr)
+            self.assertIn(f"alpha {row['max']:.3f} at", drawn.stdout)
+            self.assertGreater((work / "worst.png").stat().st_size, 10000)
         self.assertTrue(900 <= row["points"] <= 1000, row)
         self.assertTrue(1 < row["mean"] < 1.06 and row["mean"] < row["free"] <= row["max"], row)
         self.assertLess(row["deviation"], 0.5)
