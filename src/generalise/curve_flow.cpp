@@ -19,7 +19,7 @@ using geometry::Vec2;
 
 /// A vertex of a loop that flows, and the way to the next one.
 struct Node {
-  Vec2 place;
+  Vec2 place, home; // now and at first
   double size;
   std::size_t vertex;  // the start of this piece, or a place on it
   std::size_t piece;   // on which the way to the next node lies
@@ -133,7 +133,7 @@ public:
     const std::vector<Piece>& pieces = loop.pieces;
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       const Piece &before = pieces[(k + pieces.size() - 1) % pieces.size()], &behind = pieces[k];
-      nodes_.push_back({behind.start, checked_size(size, behind.start), k, k, true,
+      nodes_.push_back({behind.start, behind.start, checked_size(size, behind.start), k, k, true,
                         behind.corner || behind.circular || before.circular || before.part != behind.part});
     }
   }
@@ -276,7 +276,7 @@ private:
       const double parts = std::ceil(length(to.place - from.place) / spacing);
       for (double part = 1; part < parts; ++part) {
         const Vec2 place = from.place + (part / parts) * (to.place - from.place);
-        divided.push_back({place, checked_size(size_, place), from.piece, from.piece, false, false});
+        divided.push_back({place, place, checked_size(size_, place), from.piece, from.piece, false, false});
       }
     }
     nodes_ = std::move(divided);
@@ -308,7 +308,12 @@ private:
         place(nodes_[k], {x[k], y[k]});
   }
 
+  /// No farther from where it was than the curve may move.
   void place(Node& node, Vec2 p) {
+    const Vec2 way = p - node.home;
+    const double most = GeneraliseRules::flow_most * node.size, far = length(way);
+    if (far > most)
+      p = node.home + (most / far) * way;
     node.place = {std::clamp(p.x, bounds_.min.x, bounds_.max.x), std::clamp(p.y, bounds_.min.y, bounds_.max.y)};
     node.moved = true;
   }

@@ -93,6 +93,9 @@ struct GeneraliseRules {
   static constexpr double corner_arm = 1;
   /// [h] So far to both sides of them the curve moves, too. Not measured.
   static constexpr double beside_corner = 0.25;
+  /// [h] Smoothing moves no vertex farther: with what was cut or widened before, curves stay within 0.5 h. Not
+  /// measured.
+  static constexpr double flow_most = 0.24;
   /// [h] In one step a smoothed loop grows by so much at most, to keep its area. Not measured.
   static constexpr double most_outward = 0.03;
   /// [rounds] If smoothed curves cross, it is tried again with half the reach; then nothing is smoothed. Not measured.
