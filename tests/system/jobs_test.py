@@ -98,9 +98,21 @@ class Jobs(unittest.TestCase):
         _, log = self.submit("--array=2", "jobs/array.sbatch", "short.txt", succeeds=False)
         self.assertIn("Expected a config in line 2 of short.txt, found none", log)
 
+    def test_srun(self):
+        environment = dict(os.environ, SLURM_CONF=str(self.slurm / "slurm.conf"))
+        known = subprocess.run(["srun", "--mpi=list"], env=environment, capture_output=True, text=True, check=False)
+        if "pmix" not in known.stdout + known.stderr:
+            self.skipTest("this srun has no PMIx")
+        job, log = self.submit("jobs/single_node.sbatch", SMALL, TRIME_LAUNCHER="srun --mpi=pmix")
+        self.assertEqual(self.hash_of(self.work / "out" / job / "square.h5"), self.expected)
+        self.assertIn("2 ranks x 1 thread on 1 node", log)
+
     def test_no_program(self):
-        _, log = self.submit("jobs/single_node.sbatch", succeeds=False, TRIME_PROGRAM="/nowhere")
-        self.assertIn("Expected the program at /nowhere", log)
+        environment = dict(os.environ, SLURM_JOB_ID="1", TRIME_PROGRAM="/nowhere")
+        done = subprocess.run(["bash", "jobs/single_node.sbatch"], cwd=self.work, env=environment, capture_output=True,
+                              text=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("Expected the program at /nowhere", done.stderr)
 
 
 if __name__ == "__main__":
