@@ -17,6 +17,7 @@ trime_test_packages=(
   libcgal-dev libboost-dev                        # their oracles: CGAL, big integers of Boost
   hdf5-tools python3-vtk9 python3-meshio          # h5diff, and two foreign readers of the mesh file
   python3-scipy gmsh                              # Poisson's equation, on meshes of Gmsh too, judge.py; benchmark.py --gmsh
+  munge slurmctld slurmd slurm-client             # a SLURM of one node for the job scripts
   clang clang-format libomp-dev libclang-rt-14-dev # second compiler with its OpenMP and sanitizers, house style
 )
 

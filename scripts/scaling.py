@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Strong-scaling table: the same mesh on several numbers of ranks and threads.
+"""Scaling table: the same mesh on several numbers of ranks and threads; --weak: the same number of points per core.
 
 Runs trime_mpi for every case and number of points (one warm-up run dropped, then --repeats runs, all cases in turn),
 reads times from the mesh files that it writes, and makes scaling.md, scaling.csv and runs.jsonl in the output
 directory. The efficiency is T1 / (p Tp): T of the base case (the one with fewest cores), p = ranks x threads. A case
 with more threads than there are cores is marked and gets no efficiency. Every row carries the mesh hash: all rows of
-one size must agree.
+one size must agree. With --weak a case gets --points times its cores, and the efficiency is T1/Tp.
 
   scripts/scaling.py --cases 1x1,1x2,2x1 --points 1e5,1e6
   scripts/scaling.py --config my.ini --points 1e7 --cases 1x16,2x8,16x1 meshing.max_sweeps=20
@@ -169,13 +169,20 @@ def summarise(runs, case, points):
 
 
 def compare(rows):
-    """Fills speed-up, efficiency and the verdict on the hash, for the rows of one number of points."""
+    """Fills speed-up (in points per second), efficiency and the verdict on the hash, for the rows of one size."""
     base = min(rows, key=lambda row: row["cores"])
     for row in rows:
-        row["same_mesh"] = "OK" if row["mesh_hash"] == base["mesh_hash"] and "/" not in row["mesh_hash"] else "MISMATCH"
-        row["speedup"] = base["median_s"] / max(row["median_s"], 1e-9)
+        hashes = {other["mesh_hash"] for other in rows if other["points_asked"] == row["points_asked"]}
+        row["same_mesh"] = "OK" if len(hashes) == 1 and "/" not in row["mesh_hash"] else "MISMATCH"
+        work = row["points_asked"] / base["points_asked"]  # 1 but for --weak
+        row["speedup"] = work * base["median_s"] / max(row["median_s"], 1e-9)
         if not row["oversubscribed"]:
             row["efficiency"] = row["speedup"] * base["cores"] / row["cores"]
+
+
+def points_of(options, case, points):
+    """How many points a case is asked for."""
+    return points * case[0] * case[1] if options.weak else points
 
 
 def markdown_table(head, rows):
@@ -197,7 +204,7 @@ def scaling_table(rows):
                      f"{row['min_s']:.3f} - {row['max_s']:.3f}", number(row["command_s"], ".2f"),
                      number(row["speedup"], ".2f"), efficiency, str(row["sweeps"]), f"{row['points_per_s']:.3g}",
                      number(row["bytes_per_point"], ".0f"), row["mesh_hash"], row["same_mesh"]])
-    return markdown_table(["points", "ranks x threads", "median s", "min - max s", "command s", "speed-up", "T1/(p Tp)",
+    return markdown_table(["points", "ranks x threads", "median s", "min - max s", "command s", "speed-up", "efficiency",
                            "sweeps", "points/s", "bytes/point", "mesh_hash", "same mesh"], body)
 
 
@@ -214,7 +221,7 @@ def report(rows, machine, options):
     about = [f"* {key.replace('_', ' ')}: {value}" for key, value in machine.items() if key != "environment"]
     environment = " ".join(f"{key}={value}" for key, value in machine["environment"].items()) or "none"
     return "\n".join([
-        f"# Strong scaling: {options.config.name}", "",
+        f"# {'Weak' if options.weak else 'Strong'} scaling: {options.config.name}", "",
         f"Median of {options.repeats} runs after one that is dropped. Seconds are those of the program from its "
         "start to the writing of the mesh file; 'command s' is the wall clock of the whole command, with start of MPI "
         "and output."
@@ -245,12 +252,13 @@ def measure(options, machine):
                 for case, of_this_case in zip(options.cases, runs):
                     print(f"{points} points, {case[0]} x {case[1]}, "
                           + (f"run {repeat} of {options.repeats}" if repeat else "warm-up"), file=sys.stderr, flush=True)
-                    run = run_once(options, case, points)
+                    run = run_once(options, case, points_of(options, case, points))
                     if repeat:
                         of_this_case.append(run)
                         stream.write(json.dumps(run | {"machine": machine}) + "\n")
                         stream.flush()
-            of_this_size = [summarise(of_this_case, case, points) for case, of_this_case in zip(options.cases, runs)]
+            of_this_size = [summarise(of_this_case, case, points_of(options, case, points))
+                            for case, of_this_case in zip(options.cases, runs)]
             compare(of_this_size)
             rows += of_this_size
     return rows
@@ -279,6 +287,7 @@ def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cases", type=case_list, default="1x1,1x2,2x1", help="ranks x threads (default %(default)s)")
     parser.add_argument("--points", type=point_list, default="1e5,1e6", help="default %(default)s")
+    parser.add_argument("--weak", action="store_true", help="--points are those of one core")
     parser.add_argument("--repeats", type=int, default=3,
                         help="runs per case, after a dropped one (default %(default)s)")
     parser.add_argument("--config", type=pathlib.Path, default=ROOT / "configs" / "square.ini")

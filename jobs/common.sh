@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# What all job scripts share; they source it, and it does nothing by itself. It sets
+#   program   the trime_mpi to run: TRIME_PROGRAM, else the one built in this tree, else the installed one
+#   threads   threads of each rank: --cpus-per-task of the job
+# and has functions to take the config from the arguments, to start the program, and to list cases for a scaling table.
+# shellcheck shell=bash
+
+# On most clusters MPI and HDF5 come as modules. Load the same ones that you built the program with, here, once for all
+# scripts, or before sbatch (a job inherits the environment of the shell that submits it):
+# module load gcc openmpi hdf5
+
+job_fail() { echo "$*" >&2; exit 2; }
+
+[ -n "${SLURM_JOB_ID:-}" ] || job_fail "This is a job script: expected a SLURM job, found none. Try: sbatch $0 $*"
+
+program=${TRIME_PROGRAM:-build/release/trime_mpi}
+if [ -z "${TRIME_PROGRAM:-}" ] && [ ! -x "$program" ] && command -v trime_mpi >/dev/null; then
+  program=$(command -v trime_mpi)
+fi
+[ -x "$program" ] || [ -n "${TRIME_CONTAINER:-}" ] || job_fail "Expected the program at $program in $PWD, found nothing." \
+  "Submit from the top of the source tree, after scripts/run.sh or cmake --workflow --preset release, or set TRIME_PROGRAM."
+
+threads=${SLURM_CPUS_PER_TASK:-1}
+export OMP_NUM_THREADS=$threads             # threads of each rank
+export OMP_PLACES=cores                     # one core for each thread,
+export OMP_PROC_BIND=close                  # the threads of a rank side by side
+# Since SLURM 22.05 srun does not read --cpus-per-task from the job: without this, every rank would get one core.
+export SRUN_CPUS_PER_TASK=$threads
+if [ "$(id -u)" -eq 0 ]; then               # containers; never so on a cluster
+  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+fi
+
+# job_config ARGUMENT...: sets config and overrides. The first argument is the config unless it is an override.
+job_config() {
+  config=${TRIME_CONFIG:-configs/square.ini}
+  case "${1:-}" in
+    '' | -* | *=*) ;;
+    *) config=$1; shift ;;
+  esac
+  overrides=("$@")
+  [ -r "$config" ] || job_fail "Expected a config file at $config in $PWD, found none that can be read." \
+    "Give its path as the first argument."
+}
+
+# job_run CONFIG [section.key=value ...]: starts the program on all ranks of the job; returns its exit code.
+# TRIME_LAUNCHER: mpirun (default), or srun with its options, e.g. "srun --mpi=pmix".
+# TRIME_CONTAINER: what to put before the program, e.g. "apptainer exec trime_mpi.sif".
+job_run() {
+  local launch=() container=()
+  read -ra launch <<<"${TRIME_LAUNCHER:-mpirun}"
+  read -ra container <<<"${TRIME_CONTAINER:-}"
+  if [ "${launch[0]}" = mpirun ]; then
+    # A block of as many cores for each rank as it has threads. Without PE= Open MPI binds a rank to one core when there
+    # are one or two ranks, and all its threads would share that core. --report-bindings prints where each rank went.
+    launch+=(-np "$SLURM_NTASKS" --map-by "slot:PE=$threads" --bind-to core --report-bindings)
+  else
+    launch+=(--ntasks="$SLURM_NTASKS" --cpu-bind=cores --kill-on-bad-exit=1)
+  fi
+  "${launch[@]}" ${container[@]+"${container[@]}"} "$program" "$@"
+}
+
+# job_hello WHAT: the first lines of the log, so that a result can be traced.
+job_hello() {
+  echo "job $SLURM_JOB_ID on $SLURM_JOB_NODELIST: $SLURM_NTASKS ranks x $threads threads, $1"
+  git describe --always --dirty 2>/dev/null || true
+}
+
+# job_cases: all powers of two up to the cores of the job, and all cores, each as ranks only, as threads only (within one
+# node), and as half of the doublings each; as scripts/scaling.py takes them: 1x1,2x1,1x2,...
+job_cases() {
+  local cores=$SLURM_NTASKS cases=1x1 count threads half per_node
+  per_node=$((cores / SLURM_JOB_NUM_NODES))
+  local counts=()
+  for ((count = 2; count < cores; count *= 2)); do counts+=("$count"); done
+  [ "$cores" -lt 2 ] || counts+=("$cores")
+  for count in ${counts[@]+"${counts[@]}"}; do
+    half=1
+    while [ $((half * half)) -lt "$count" ]; do half=$((half * 2)); done
+    for threads in 1 "$half" "$count"; do
+      if [ $((count % threads)) -eq 0 ] && [ "$threads" -le "$per_node" ]; then
+        case ",$cases," in
+          *",$((count / threads))x$threads,"*) ;;
+          *) cases+=",$((count / threads))x$threads" ;;
+        esac
+      fi
+    done
+  done
+  echo "$cases"
+}
+
+# job_scaling NAME ARGUMENT...: scripts/scaling.py on the cases of the job, into the directory NAME-JOBID.
+job_scaling() {
+  local name=$1 cases
+  shift
+  [ -r scripts/scaling.py ] || job_fail "Expected scripts/scaling.py in $PWD, found none. Submit from the top of the source tree."
+  cases=$(job_cases)
+  job_hello "cases $cases"
+  "${PYTHON:-/usr/bin/python3}" scripts/scaling.py --program "$program" --cases "$cases" \
+    --output "$name-$SLURM_JOB_ID" "$@"
+}

@@ -1,0 +1,119 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""All job scripts through a real SLURM of one node (scripts/slurm_here.sh). Skipped, with the reason, where it cannot
+start: no root, no SLURM."""
+import csv
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import h5py
+
+from trime_run import PROGRAM, ROOT, run
+
+SLURM = ROOT / "scripts" / "slurm_here.sh"
+SMALL = "meshing.points=800"
+
+
+class Jobs(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        if os.geteuid() != 0 or not shutil.which("slurmctld"):
+            raise unittest.SkipTest("no SLURM here: needs root and munge slurmctld slurmd slurm-client")
+        cls.work = pathlib.Path(tempfile.mkdtemp(prefix="trime-jobs-"))
+        cls.slurm = cls.work / "slurm"
+        cls.addClassCleanup(cls.stop)
+        with (cls.work / "start.log").open("w", encoding="utf-8") as log:  # daemons would keep a pipe open
+            done = subprocess.run([SLURM, "start", cls.slurm], stdout=log, stderr=log, check=False, timeout=90)
+        if done.returncode != 0:
+            raise unittest.SkipTest("SLURM does not start here: " + (cls.work / "start.log").read_text(encoding="utf-8"))
+        for name in ("jobs", "configs", "scripts"):
+            (cls.work / name).symlink_to(ROOT / name)
+        done = run(ROOT / "configs" / "square.ini", SMALL, f"output.directory={cls.work / 'direct'}")
+        assert done.returncode == 0, done.stdout + done.stderr
+        cls.expected = cls.hash_of(cls.work / "direct" / "square.h5")
+
+    @classmethod
+    def stop(cls):
+        subprocess.run([SLURM, "stop", cls.slurm], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+        shutil.rmtree(cls.work, ignore_errors=True)
+
+    @staticmethod
+    def hash_of(path):
+        with h5py.File(path) as file:
+            return file["trime_mpi"].attrs["mesh_hash"]
+
+    def submit(self, *arguments, succeeds=True, **changes):
+        """Submits and waits; returns the number of the job and the text of its logs."""
+        environment = dict(os.environ, SLURM_CONF=str(self.slurm / "slurm.conf"), TRIME_PROGRAM=PROGRAM) | changes
+        done = subprocess.run(["sbatch", "--wait", "--parsable", *arguments], cwd=self.work, env=environment, text=True,
+                              capture_output=True, check=False, timeout=120)
+        job = done.stdout.split(";")[0].strip()
+        self.assertTrue(job.isdigit(), done.stdout + done.stderr)
+        log = "".join(path.read_text(encoding="utf-8") for path in sorted(self.work.glob(f"*-{job}*.log")))
+        self.assertEqual(done.returncode == 0, succeeds, log)
+        return job, log
+
+    def table(self, directory):
+        with (self.work / directory / "scaling.csv").open(encoding="utf-8") as stream:
+            return list(csv.DictReader(stream))
+
+    def test_single_node(self):
+        job, log = self.submit("jobs/single_node.sbatch", SMALL)
+        self.assertEqual(self.hash_of(self.work / "out" / job / "square.h5"), self.expected)
+        self.assertIn("2 ranks x 1 threads", log)
+
+    def test_multi_node(self):
+        job, log = self.submit("--nodes=1", "--ntasks-per-node=1", "--ntasks-per-socket=1", "--cpus-per-task=2",
+                               "jobs/multi_node.sbatch", "configs/square.ini", SMALL)
+        self.assertEqual(self.hash_of(self.work / "out" / job / "square.h5"), self.expected)
+        self.assertIn("1 ranks x 2 threads", log)
+
+    def test_strong_scaling(self):
+        job, _ = self.submit("jobs/strong_scaling.sbatch", "--points", "800", "--repeats", "1")
+        rows = self.table(f"scaling-{job}")
+        self.assertEqual([(row["ranks"], row["threads"]) for row in rows], [("1", "1"), ("2", "1"), ("1", "2")])
+        self.assertEqual(len({row["mesh_hash"] for row in rows}), 1)
+
+    def test_weak_scaling(self):
+        job, _ = self.submit("jobs/weak_scaling.sbatch", "--points", "500", "--repeats", "1")
+        rows = self.table(f"weak-{job}")
+        self.assertEqual([row["points_asked"] for row in rows], ["500", "1000", "1000"])
+        self.assertEqual(rows[1]["mesh_hash"], rows[2]["mesh_hash"])
+        self.assertEqual({row["same_mesh"] for row in rows}, {"OK"})
+        for row in rows:
+            self.assertAlmostEqual(float(row["efficiency"]), float(rows[0]["median_s"]) / float(row["median_s"]))
+
+    def test_array(self):
+        (self.work / "list.txt").write_text("configs/square.ini\nconfigs/circle.ini meshing.seed=3\n", encoding="utf-8")
+        job, _ = self.submit("--array=1-2", "jobs/array.sbatch", "list.txt", SMALL)
+        self.assertEqual(self.hash_of(self.work / "out" / job / "1" / "square.h5"), self.expected)
+        self.assertTrue((self.work / "out" / job / "2" / "circle.h5").exists())
+
+    def test_array_beyond_the_list(self):
+        (self.work / "short.txt").write_text("configs/square.ini\n", encoding="utf-8")
+        _, log = self.submit("--array=2", "jobs/array.sbatch", "short.txt", succeeds=False)
+        self.assertIn("Expected a config in line 2 of short.txt, found none", log)
+
+    def test_srun(self):
+        environment = dict(os.environ, SLURM_CONF=str(self.slurm / "slurm.conf"))
+        known = subprocess.run(["srun", "--mpi=list"], env=environment, capture_output=True, text=True, check=False)
+        if "pmix" not in known.stdout + known.stderr:
+            self.skipTest("this srun has no PMIx")
+        job, log = self.submit("jobs/single_node.sbatch", SMALL, TRIME_LAUNCHER="srun --mpi=pmix")
+        self.assertEqual(self.hash_of(self.work / "out" / job / "square.h5"), self.expected)
+        self.assertIn("2 ranks x 1 thread on 1 node", log)
+
+    def test_no_program(self):
+        environment = dict(os.environ, SLURM_JOB_ID="1", TRIME_PROGRAM="/nowhere")
+        done = subprocess.run(["bash", "jobs/single_node.sbatch"], cwd=self.work, env=environment, capture_output=True,
+                              text=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("Expected the program at /nowhere", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
