@@ -163,11 +163,13 @@ ExitCode make_mesh(const Job& job) {
   const SizeSummary sizes = summarize_size(size.description, result.mesh, comm);
   io::WrittenFiles files;
   if (options.write) {
-    const io::Metadata metadata = describe_run(provenance, result, sizes, gather_measurements(timers, comm));
+    const io::Metadata metadata =
+        describe_run(provenance, result, sizes, gather_measurements(timers, std::ssize(result.mesh.points), comm));
     const auto timing = timers.scope("output");
     files = series.write_final({final_retriangulation(result), result.mesh, result.quality, metadata});
   }
-  log.info("{}", run_report(result, sizes, gather_measurements(timers, comm), files, input.normalized));
+  log.info("{}", run_report(result, sizes, gather_measurements(timers, std::ssize(result.mesh.points), comm), files,
+                            input.normalized));
   if (!is_complete(result))
     log.warning("{}", incompleteness(result, options.write));
   return exit_code(result);
@@ -177,7 +179,7 @@ ExitCode make_mesh(const Job& job) {
 
 ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm, io::RunFiles* files,
                      UserPlaces& places) {
-  TimerTable timers;
+  TimerTable timers(&comm.traffic());
   const CommandLine line = parse_command_line(argc, argv);
   if (line.action == Action::help || line.action == Action::help_config || line.action == Action::version) {
     print(comm, line.action == Action::help      ? line.help

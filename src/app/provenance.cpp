@@ -95,6 +95,7 @@ Attributes result_attributes(const meshing::MeshResult& result, const SizeSummar
           {"coarseness", result.features.coarseness},
           {"lost_share", result.features.lost_share},
           {"added_share", result.features.added_share},
+          {"most_points_of_a_rank", measured.most_points},
           {"seconds_total", measured.total}, // up to the writing of this file
           {"peak_memory_bytes", measured.peak_memory},
           {"bytes_per_point", static_cast<double>(measured.memory_sum) / points},
@@ -156,7 +157,9 @@ io::MetadataGroup timers_group(const std::vector<TimeRow>& times) {
           {},
           {column<std::string>("name", times, &TimeRow::section), column<std::int64_t>("calls", times, &TimeRow::calls),
            column<double>("min", times, &TimeRow::min), column<double>("avg", times, &TimeRow::mean),
-           column<double>("max", times, &TimeRow::max)}};
+           column<double>("max", times, &TimeRow::max), column<std::int64_t>("messages", times, &TimeRow::messages),
+           column<std::int64_t>("bytes", times, &TimeRow::bytes),
+           column<std::int64_t>("collectives", times, &TimeRow::collectives)}};
 }
 
 /// Names of the parts along a loop, in order, each once: "square" or "square+disc".

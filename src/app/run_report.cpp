@@ -5,6 +5,7 @@
 #include "core/thread_loop.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -20,10 +21,16 @@ std::string value_text(double value) {
 
 constexpr double microsecond = 1e-6;
 
-TimeRow reduce_time(std::string section, double seconds, std::int64_t calls, const comm::Communicator& comm) {
-  const std::int64_t sum = comm.sum(static_cast<std::int64_t>(std::llround(seconds / microsecond)));
-  return {std::move(section), comm.max(calls), comm.min(seconds), static_cast<double>(sum) * microsecond / comm.size(),
-          comm.max(seconds)};
+TimeRow reduce_time(const TimerTable::Section& own, const comm::Communicator& comm) {
+  std::array<std::int64_t, 3> sums{std::llround(own.seconds / microsecond), own.traffic.messages, own.traffic.bytes};
+  comm.sum(sums);
+  std::array<double, 4> largest{static_cast<double>(own.calls), own.seconds, -own.seconds,
+                                static_cast<double>(own.traffic.collectives)};
+  comm.max(largest);
+  return {own.name,    std::llround(largest[0]),
+          -largest[2], static_cast<double>(sums[0]) * microsecond / comm.size(),
+          largest[1],  sums[1],
+          sums[2],     std::llround(largest[3])};
 }
 
 /// Four decimals as long as that takes nine characters at most, so that columns stand.
@@ -136,25 +143,39 @@ std::string checks_text(const mesh::Checks& checks) {
   return text;
 }
 
+/// What the ranks sent each other, by phase; nothing for one rank.
+std::string traffic_text(const Measurements& measured) {
+  if (measured.ranks == 1)
+    return {};
+  std::string text = "Traffic                  messages/rank    KiB/rank    collectives\n";
+  for (const TimeRow& row : measured.times)
+    if (row.messages > 0 || row.collectives > 0)
+      text += fmt::format("  {:<18}{:>18.1f}{:>12.1f}{:>15}\n", row.section,
+                          static_cast<double>(row.messages) / measured.ranks,
+                          static_cast<double>(row.bytes) / 0x1p10 / measured.ranks, row.collectives);
+  return text + fmt::format("Imbalance: the rank with most points has {:.2f} times the mean, {} of {:.0f}\n",
+                            static_cast<double>(measured.most_points) / measured.mean_points, measured.most_points,
+                            measured.mean_points);
+}
+
 std::string times_text(const Measurements& measured) {
   std::string text = "Time [s]                 min      mean       max    share\n";
   const double whole = std::max(measured.total, 1e-9);
   for (const TimeRow& row : measured.times)
     text += fmt::format("  {:<18}{:>8.3f}{:>10.3f}{:>10.3f}{:>7.1f} %\n", row.section, row.min, row.mean, row.max,
                         100 * row.mean / whole);
-  return text + fmt::format("  {:<18}{:>18.3f}{:>17.1f} %\n", "total", measured.total, 100.0);
+  return text + fmt::format("  {:<18}{:>18.3f}{:>17.1f} %\n", "total", measured.total, 100.0) + traffic_text(measured);
 }
 
 } // namespace
 
-Measurements gather_measurements(const TimerTable& timers, const comm::Communicator& comm) {
+Measurements gather_measurements(const TimerTable& timers, std::int64_t points, const comm::Communicator& comm) {
   // Rank 0 names the sections; what another rank alone has timed counts as "other".
   std::string names;
   for (const TimerTable::Section& section : timers.sections())
     names += section.name + "\n";
   names = comm.broadcast(std::move(names));
-  const double total = timers.total();
-  double rest = total;
+  TimerTable::Section rest{"other", timers.total(), 1, timers.traffic()};
   Measurements measured;
   for (std::size_t at = 0; at < names.size();) {
     const std::size_t end = names.find('\n', at);
@@ -163,12 +184,16 @@ Measurements gather_measurements(const TimerTable& timers, const comm::Communica
     for (const TimerTable::Section& section : timers.sections())
       if (section.name == own.name)
         own = section;
-    rest -= own.seconds;
-    measured.times.push_back(reduce_time(own.name, own.seconds, own.calls, comm));
+    rest.seconds -= own.seconds;
+    rest.traffic = rest.traffic - own.traffic;
+    measured.times.push_back(reduce_time(own, comm));
   }
-  measured.times.push_back(reduce_time("other", rest, 1, comm));
+  measured.times.push_back(reduce_time(rest, comm));
   for (const TimeRow& row : measured.times)
     measured.total += row.mean;
+  measured.ranks = comm.size();
+  measured.most_points = comm.max(points);
+  measured.mean_points = std::max(1.0, static_cast<double>(comm.sum(points)) / comm.size());
   measured.peak_memory = comm.max(peak_memory());
   measured.memory_sum = comm.sum(peak_memory());
   return measured;

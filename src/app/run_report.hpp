@@ -14,17 +14,22 @@
 
 namespace trime::app {
 
-/// Seconds of one section over the ranks.
+/// Seconds of one section over the ranks, and what was sent in it.
 struct TimeRow {
   std::string section;
   std::int64_t calls = 0;
   double min = 0, mean = 0, max = 0;
+  std::int64_t messages = 0, bytes = 0; ///< of all ranks together
+  std::int64_t collectives = 0;         ///< of the rank with most
 };
 
 /// What the ranks measured, brought together.
 struct Measurements {
-  std::vector<TimeRow> times;                   ///< sections, then "other": the means add up to the total
-  double total = 0;                             ///< seconds, mean over ranks
+  std::vector<TimeRow> times; ///< sections, then "other": the means add up to the total
+  double total = 0;           ///< seconds, mean over ranks
+  int ranks = 1;
+  std::int64_t most_points = 0;                 ///< of a rank
+  double mean_points = 1;                       ///< over ranks
   std::int64_t peak_memory = 0, memory_sum = 0; ///< bytes: largest of a rank, and of all ranks together
 };
 
@@ -37,8 +42,9 @@ struct SizeSummary {
 /// @note Collective.
 SizeSummary summarize_size(std::string description, const mesh::DistributedMesh& mesh, const comm::Communicator& comm);
 
+/// @param points that this rank holds
 /// @note Collective.
-Measurements gather_measurements(const TimerTable& timers, const comm::Communicator& comm);
+Measurements gather_measurements(const TimerTable& timers, std::int64_t points, const comm::Communicator& comm);
 
 /// @brief The report of a run, several lines. `files` may be empty.
 std::string run_report(const meshing::MeshResult& result, const SizeSummary& size, const Measurements& measured,

@@ -3,6 +3,7 @@
 
 #include "comm/native.hpp"
 #include "trime/core/error.hpp"
+#include "trime/core/timer.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -29,13 +30,27 @@ enum Tag : int { tag_any = 101, tag_known = 102 };
 /// Largest piece of a message: MPI counts are int. Longer messages travel in several pieces, in order.
 constexpr std::size_t piece_bytes = std::size_t{1} << 30;
 
-void post(const Message& message, bool send, int tag, MPI_Comm comm, std::vector<MPI_Request>& requests) {
+/// The handle for a collective call, which is counted.
+MPI_Comm collective(const Communicator::Native& native) {
+  ++native.traffic.collectives;
+  return native.comm;
+}
+
+void count_message(const Communicator::Native& native, std::size_t bytes) {
+  ++native.traffic.messages;
+  native.traffic.bytes += static_cast<std::int64_t>(bytes);
+}
+
+void post(const Message& message, bool send, int tag, const Communicator::Native& native,
+          std::vector<MPI_Request>& requests) {
   for (std::size_t offset = 0; offset < message.data.size(); offset += piece_bytes) {
     const int count = static_cast<int>(std::min(piece_bytes, message.data.size() - offset));
     std::byte* start = const_cast<std::byte*>(message.data.data()) + offset; // MPI receives through the same path
     requests.emplace_back();
-    check(send ? MPI_Isend(start, count, MPI_BYTE, message.peer, tag, comm, &requests.back())
-               : MPI_Irecv(start, count, MPI_BYTE, message.peer, tag, comm, &requests.back()));
+    if (send)
+      count_message(native, static_cast<std::size_t>(count));
+    check(send ? MPI_Isend(start, count, MPI_BYTE, message.peer, tag, native.comm, &requests.back())
+               : MPI_Irecv(start, count, MPI_BYTE, message.peer, tag, native.comm, &requests.back()));
   }
 }
 
@@ -63,6 +78,7 @@ Environment::Environment(int& argc, char**& argv) {
   setenv("OMPI_MCA_fcoll", "^vulcan", 0); // stays if the user has chosen a writer
   int provided = MPI_THREAD_SINGLE;
   check(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided));
+  set_wall_clock(MPI_Wtime);
   if (provided < MPI_THREAD_FUNNELED) {
     fmt::print(stderr, "trime_mpi: this MPI gives thread level {}, at least MPI_THREAD_FUNNELED is needed\n", provided);
     MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitCode::internal_error));
@@ -109,18 +125,22 @@ Communicator::~Communicator() {
     MPI_Comm_free(&native_->comm);
 }
 
+const Traffic& Communicator::traffic() const {
+  return native_->traffic;
+}
+
 void Communicator::barrier() const {
-  check(MPI_Barrier(native_->comm));
+  check(MPI_Barrier(collective(*native_)));
 }
 
 void Communicator::sum(std::span<std::int64_t> values) const {
-  reduce_in_place(values, MPI_INT64_T, MPI_SUM, native_->comm);
+  reduce_in_place(values, MPI_INT64_T, MPI_SUM, collective(*native_));
 }
 void Communicator::min(std::span<double> values) const {
-  reduce_in_place(values, MPI_DOUBLE, MPI_MIN, native_->comm);
+  reduce_in_place(values, MPI_DOUBLE, MPI_MIN, collective(*native_));
 }
 void Communicator::max(std::span<double> values) const {
-  reduce_in_place(values, MPI_DOUBLE, MPI_MAX, native_->comm);
+  reduce_in_place(values, MPI_DOUBLE, MPI_MAX, collective(*native_));
 }
 
 namespace {
@@ -153,7 +173,7 @@ void Communicator::sum_and_max(std::span<std::int64_t> sums, std::span<double> l
   check(MPI_Type_contiguous(static_cast<int>(words.size()), MPI_INT64_T, &block));
   check(MPI_Type_commit(&block));
   check(MPI_Op_create(sum_and_max_of_blocks, 1, &reduce));
-  check(MPI_Allreduce(MPI_IN_PLACE, words.data(), 1, block, reduce, native_->comm));
+  check(MPI_Allreduce(MPI_IN_PLACE, words.data(), 1, block, reduce, collective(*native_)));
   check(MPI_Op_free(&reduce));
   check(MPI_Type_free(&block));
   std::copy_n(words.begin() + 2, sums.size(), sums.begin());
@@ -162,15 +182,15 @@ void Communicator::sum_and_max(std::span<std::int64_t> sums, std::span<double> l
 }
 
 std::int64_t Communicator::sum(std::int64_t value) const {
-  reduce_in_place(std::span(&value, 1), MPI_INT64_T, MPI_SUM, native_->comm);
+  reduce_in_place(std::span(&value, 1), MPI_INT64_T, MPI_SUM, collective(*native_));
   return value;
 }
 std::int64_t Communicator::min(std::int64_t value) const {
-  reduce_in_place(std::span(&value, 1), MPI_INT64_T, MPI_MIN, native_->comm);
+  reduce_in_place(std::span(&value, 1), MPI_INT64_T, MPI_MIN, collective(*native_));
   return value;
 }
 std::int64_t Communicator::max(std::int64_t value) const {
-  reduce_in_place(std::span(&value, 1), MPI_INT64_T, MPI_MAX, native_->comm);
+  reduce_in_place(std::span(&value, 1), MPI_INT64_T, MPI_MAX, collective(*native_));
   return value;
 }
 double Communicator::min(double value) const {
@@ -184,18 +204,18 @@ double Communicator::max(double value) const {
 
 std::int64_t Communicator::exclusive_scan(std::int64_t value) const {
   std::int64_t before = 0;
-  check(MPI_Exscan(&value, &before, 1, MPI_INT64_T, MPI_SUM, native_->comm));
+  check(MPI_Exscan(&value, &before, 1, MPI_INT64_T, MPI_SUM, collective(*native_)));
   return rank_ == 0 ? 0 : before;
 }
 
 std::vector<std::int64_t> Communicator::all_gather(std::int64_t value) const {
   std::vector<std::int64_t> all(static_cast<std::size_t>(size_));
-  check(MPI_Allgather(&value, 1, MPI_INT64_T, all.data(), 1, MPI_INT64_T, native_->comm));
+  check(MPI_Allgather(&value, 1, MPI_INT64_T, all.data(), 1, MPI_INT64_T, collective(*native_)));
   return all;
 }
 std::vector<double> Communicator::all_gather(double value) const {
   std::vector<double> all(static_cast<std::size_t>(size_));
-  check(MPI_Allgather(&value, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, native_->comm));
+  check(MPI_Allgather(&value, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, collective(*native_)));
   return all;
 }
 
@@ -211,17 +231,17 @@ std::vector<std::byte> Communicator::all_gather(std::span<const std::byte> bytes
   TRIME_ASSERT(total <= std::numeric_limits<int>::max(), "{} bytes for every rank", total);
   std::vector<std::byte> all(static_cast<std::size_t>(total));
   check(MPI_Allgatherv(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, all.data(), counts.data(), starts.data(),
-                       MPI_BYTE, native_->comm));
+                       MPI_BYTE, collective(*native_)));
   return all;
 }
 
 std::string Communicator::broadcast(std::string text, int root) const {
   std::int64_t length = static_cast<std::int64_t>(text.size());
-  check(MPI_Bcast(&length, 1, MPI_INT64_T, root, native_->comm));
+  check(MPI_Bcast(&length, 1, MPI_INT64_T, root, collective(*native_)));
   text.resize(static_cast<std::size_t>(length));
   for (std::size_t offset = 0; offset < text.size(); offset += piece_bytes)
     check(MPI_Bcast(text.data() + offset, static_cast<int>(std::min(piece_bytes, text.size() - offset)), MPI_CHAR, root,
-                    native_->comm));
+                    collective(*native_)));
   return text;
 }
 
@@ -249,10 +269,11 @@ std::vector<Message> Communicator::exchange_any(const std::vector<Message>& outg
   for (std::size_t k = 0; k < outgoing.size(); ++k)
     counts[static_cast<std::size_t>(outgoing[k].peer)] += 1;
   int expected = 0;
-  check(MPI_Reduce_scatter_block(counts.data(), &expected, 1, MPI_INT, MPI_SUM, native_->comm));
+  check(MPI_Reduce_scatter_block(counts.data(), &expected, 1, MPI_INT, MPI_SUM, collective(*native_)));
   for (std::size_t k = 0; k < outgoing.size(); ++k) {
     sizes[k] = static_cast<std::int64_t>(outgoing[k].data.size());
     requests.emplace_back();
+    count_message(*native_, sizeof sizes[k]);
     check(MPI_Isend(&sizes[k], 1, MPI_INT64_T, outgoing[k].peer, tag_any, native_->comm, &requests.back()));
   }
   std::vector<Message> incoming;
@@ -272,9 +293,9 @@ std::vector<Message> Communicator::exchange_any(const std::vector<Message>& outg
 void Communicator::exchange_known(std::span<const Message> outgoing, std::span<Message> incoming) const {
   std::vector<MPI_Request> requests;
   for (const Message& message : incoming)
-    post(message, false, tag_known, native_->comm, requests);
+    post(message, false, tag_known, *native_, requests);
   for (const Message& message : outgoing)
-    post(message, true, tag_known, native_->comm, requests);
+    post(message, true, tag_known, *native_, requests);
   check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
 }
 
@@ -310,9 +331,9 @@ Communicator::Exchange Communicator::begin_exchange(std::vector<Message> outgoin
   exchange.requests_ = std::make_unique<Exchange::Requests>();
   exchange.outgoing_ = std::move(outgoing);
   for (const Message& message : incoming)
-    post(message, false, tag_known, native_->comm, exchange.requests_->list);
+    post(message, false, tag_known, *native_, exchange.requests_->list);
   for (const Message& message : exchange.outgoing_)
-    post(message, true, tag_known, native_->comm, exchange.requests_->list);
+    post(message, true, tag_known, *native_, exchange.requests_->list);
   return exchange;
 }
 

@@ -10,6 +10,7 @@ namespace trime::comm {
 
 struct Communicator::Native {
   MPI_Comm comm = MPI_COMM_NULL;
+  mutable Traffic traffic{};
 };
 
 inline MPI_Comm native_handle(const Communicator& communicator) {

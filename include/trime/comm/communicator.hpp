@@ -3,6 +3,8 @@
 // Callers need no mpi.h. Every MPI error ends the job with its text: there is no recovery from a broken network.
 #pragma once
 
+#include "trime/core/traffic.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -52,6 +54,8 @@ public:
   int rank() const { return rank_; }
   int size() const { return size_; }
   bool is_root() const { return rank_ == 0; }
+  /// What this rank has sent and waited for so far; what io does is not in it. Valid as long as the communicator.
+  const Traffic& traffic() const;
 
   /// Collective.
   void barrier() const;

@@ -25,7 +25,7 @@ TEST(RunReport, TheTimeTableAddsUpOverRanks) {
   timers.add("stars", 0.001 * (1 + comm.rank()));
   if (comm.rank() == 1)
     timers.add("known to rank 1 only", 0.001);
-  const Measurements measured = gather_measurements(timers, comm);
+  const Measurements measured = gather_measurements(timers, 10 + comm.rank(), comm);
   ASSERT_EQ(measured.times.size(), 2u);
   EXPECT_EQ(measured.times[1].section, "other");
   EXPECT_DOUBLE_EQ(measured.times[0].min, 0.001);
@@ -34,6 +34,31 @@ TEST(RunReport, TheTimeTableAddsUpOverRanks) {
   EXPECT_DOUBLE_EQ(measured.times[0].mean + measured.times[1].mean, measured.total);
   EXPECT_GE(measured.memory_sum, measured.peak_memory);
   EXPECT_GT(measured.peak_memory, 1 << 20);
+}
+
+TEST(RunReport, TellsTheTrafficOfEachSection) {
+  const comm::Communicator comm = comm::Communicator::world();
+  TimerTable timers(&comm.traffic());
+  {
+    const auto time = timers.scope("talk");
+    std::vector<comm::Message> outgoing;
+    if (comm.rank() > 0)
+      outgoing.push_back({0, std::vector<std::byte>(static_cast<std::size_t>(100 * comm.rank()))});
+    comm.exchange_any(outgoing);
+  }
+  comm.barrier();
+  const Measurements measured = gather_measurements(timers, 10 + comm.rank(), comm);
+  const int others = comm.size() - 1;
+  ASSERT_EQ(measured.times.size(), 2u);
+  EXPECT_EQ(measured.times[0].messages, 2 * others); // a size, and the bytes
+  EXPECT_EQ(measured.times[0].bytes, 8 * others + 50 * others * comm.size());
+  EXPECT_EQ(measured.times[0].collectives, 2); // the counts, and a barrier
+  EXPECT_GE(measured.times[1].collectives, 1);
+  EXPECT_EQ(measured.most_points, 10 + others);
+  EXPECT_DOUBLE_EQ(measured.mean_points, 10 + 0.5 * others);
+  const std::string report = run_report(good_result(), {}, measured, {});
+  EXPECT_EQ(report.find("Traffic") != std::string::npos, comm.size() > 1);
+  EXPECT_EQ(report.find("Imbalance: the rank with most points has") != std::string::npos, comm.size() > 1);
 }
 
 TEST(RunReport, MarksWhatIsNotComplete) {
