@@ -110,7 +110,7 @@ Measurements gather_measurements(TimerTable& timers, std::int64_t points, const 
   }
   add(whole, reduction);
   reduction.add_spread(points);
-  reduction.add_spread(peak_memory());
+  reduction.add_spread(comm::is_simulated() ? peak_memory() / comm.size() : peak_memory()); // or of all ranks together
   reduction.reduce(comm);
   Measurements measured;
   measured.ranks = comm.size();
