@@ -80,7 +80,7 @@ status=0
 TMPDIR=$work OMP_NUM_THREADS=1 smpirun -quiet -np "$ranks" -platform "$cluster" -hostfile "$work/hosts" "${simulation[@]}" \
   "$program" "${rest[@]}" output.interval=0 --threads 1 --record "$work/record.json" || status=$?
 [ -s "$work/record.json" ] || fail $((status > 0 ? status : 4)) "the simulated run left no record"
+[ -z "$record" ] || cp "$work/record.json" "$record"
 found=$(hash_of "$work/record.json")
 [ "$found" = "$hash" ] || fail 4 "mesh_hash $found on $ranks simulated ranks, $hash on a real one; please report this with the config"
-[ -z "$record" ] || cp "$work/record.json" "$record"
 exit "$status"
