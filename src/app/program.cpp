@@ -184,7 +184,7 @@ ExitCode make_mesh(const Job& job) {
 
 ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm, io::RunFiles* files,
                      UserPlaces& places) {
-  TimerTable timers(&comm.traffic());
+  TimerTable timers(&comm.counters());
   const CommandLine line = parse_command_line(argc, argv);
   if (line.action == Action::help || line.action == Action::help_config || line.action == Action::version) {
     print(comm, line.action == Action::help      ? line.help

@@ -32,13 +32,22 @@ constexpr std::size_t piece_bytes = std::size_t{1} << 30;
 
 /// The handle for a collective call, which is counted.
 MPI_Comm collective(const Communicator::Native& native) {
-  ++native.traffic.collectives;
+  native.counters.add(Counter::collectives);
   return native.comm;
 }
 
-void count_message(const Communicator::Native& native, std::size_t bytes) {
-  ++native.traffic.messages;
-  native.traffic.bytes += static_cast<std::int64_t>(bytes);
+/// What a rank sends to itself is no traffic.
+void count_message(const Communicator::Native& native, int to, std::size_t bytes) {
+  if (to != native.rank)
+    native.counters.add_message(to, static_cast<std::int64_t>(bytes));
+}
+
+/// A table with a value of each rank.
+template <class T>
+std::vector<T> table_of_ranks(const Communicator& comm) {
+  std::vector<T> table(static_cast<std::size_t>(comm.size()));
+  comm.counters().note(Counter::rank_bytes, static_cast<std::int64_t>(table.size() * sizeof(T)));
+  return table;
 }
 
 void post(const Message& message, bool send, int tag, const Communicator::Native& native,
@@ -48,7 +57,7 @@ void post(const Message& message, bool send, int tag, const Communicator::Native
     std::byte* start = const_cast<std::byte*>(message.data.data()) + offset; // MPI receives through the same path
     requests.emplace_back();
     if (send)
-      count_message(native, static_cast<std::size_t>(count));
+      count_message(native, message.peer, static_cast<std::size_t>(count));
     check(send ? MPI_Isend(start, count, MPI_BYTE, message.peer, tag, native.comm, &requests.back())
                : MPI_Irecv(start, count, MPI_BYTE, message.peer, tag, native.comm, &requests.back()));
   }
@@ -117,6 +126,7 @@ Communicator Communicator::self() {
 
 Communicator::Communicator(std::unique_ptr<Native> native) : native_(std::move(native)) {
   check(MPI_Comm_rank(native_->comm, &rank_));
+  native_->rank = rank_;
   check(MPI_Comm_size(native_->comm, &size_));
 }
 Communicator::Communicator(Communicator&&) noexcept = default;
@@ -131,8 +141,8 @@ Communicator::~Communicator() {
     MPI_Comm_free(&native_->comm);
 }
 
-const Traffic& Communicator::traffic() const {
-  return native_->traffic;
+Counters& Communicator::counters() const {
+  return native_->counters;
 }
 
 void Communicator::barrier() const {
@@ -215,12 +225,12 @@ std::int64_t Communicator::exclusive_scan(std::int64_t value) const {
 }
 
 std::vector<std::int64_t> Communicator::all_gather(std::int64_t value) const {
-  std::vector<std::int64_t> all(static_cast<std::size_t>(size_));
+  std::vector<std::int64_t> all = table_of_ranks<std::int64_t>(*this);
   check(MPI_Allgather(&value, 1, MPI_INT64_T, all.data(), 1, MPI_INT64_T, collective(*native_)));
   return all;
 }
 std::vector<double> Communicator::all_gather(double value) const {
-  std::vector<double> all(static_cast<std::size_t>(size_));
+  std::vector<double> all = table_of_ranks<double>(*this);
   check(MPI_Allgather(&value, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, collective(*native_)));
   return all;
 }
@@ -271,7 +281,7 @@ std::vector<std::string> Communicator::gather(const std::string& text) const {
 
 std::vector<Message> Communicator::exchange_any(const std::vector<Message>& outgoing) const {
   // O(ranks) memory: one count per rank, reduced and scattered, tells how many messages to expect.
-  std::vector<int> counts(static_cast<std::size_t>(size_), 0);
+  std::vector<int> counts = table_of_ranks<int>(*this);
   std::vector<std::int64_t> sizes(outgoing.size());
   std::vector<MPI_Request> requests;
   for (std::size_t k = 0; k < outgoing.size(); ++k)
@@ -281,7 +291,7 @@ std::vector<Message> Communicator::exchange_any(const std::vector<Message>& outg
   for (std::size_t k = 0; k < outgoing.size(); ++k) {
     sizes[k] = static_cast<std::int64_t>(outgoing[k].data.size());
     requests.emplace_back();
-    count_message(*native_, sizeof sizes[k]);
+    count_message(*native_, outgoing[k].peer, sizeof sizes[k]);
     check(MPI_Isend(&sizes[k], 1, MPI_INT64_T, outgoing[k].peer, tag_any, native_->comm, &requests.back()));
   }
   std::vector<Message> incoming;

@@ -146,6 +146,7 @@ void Halo::refresh(mesh::BinnedPoints& points) {
   const std::vector<std::int32_t> counts = concatenate<std::int32_t>(counts_in);
   note_renumbering(points.owned(), counts);
   points.assign_ghosts(imported_, counts, concatenate<Ghost>(sites_in));
+  comm_->counters().note(Counter::ghosts, points.size() - points.owned());
   counts_ = counts;
   refreshed_ = imported_;
 }
@@ -257,6 +258,7 @@ void Halo::begin_positions(const mesh::BinnedPoints& points) {
 void Halo::finish_positions(mesh::BinnedPoints& points) {
   exchange_.wait();
   const std::span<geometry::Vec2> ghosts = points.ghost_positions();
+  comm_->counters().note(Counter::ghosts, std::ssize(ghosts));
   for (std::size_t next = 0, m = 0; m < positions_.size(); ++m) {
     const std::byte* from = positions_[m].data.data();
     const auto take = [&from](void* to, std::size_t size) {

@@ -36,6 +36,9 @@ public:
 
   const TileGrid& grid() const { return bins_.grid(); }
 
+  /// Of tables that are as long as the container has tiles.
+  std::size_t grid_table_bytes() const { return bins_.grid_table_bytes() + drifts_.grid_table_bytes(); }
+
   /// @brief Replaces the owned sites: those of tiles [first_tile, last_tile). Sorts them by tile and bin and drops
   /// all but one of interior sites at equal coordinates (a boundary site stays, the larger push count is kept).
   /// Forgets the ghosts.

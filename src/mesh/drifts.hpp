@@ -15,6 +15,7 @@ class Drifts {
 public:
   double of(LocalIndex tile) const { return of_tile_[static_cast<std::size_t>(tile)]; }
   void set(LocalIndex tile, double distance) { of_tile_[static_cast<std::size_t>(tile)] = distance; }
+  std::size_t grid_table_bytes() const { return of_tile_.capacity() * sizeof(double); }
   const std::vector<double>& of_tiles() const { return of_tile_; }
   /// The largest of all, over all ranks. It is assumed of a tile of which no bin is known.
   double largest() const { return largest_; }

@@ -27,6 +27,9 @@ public:
 
   const TileGrid& grid() const { return *grid_; }
 
+  /// Of the table that is as long as the container has tiles.
+  std::size_t grid_table_bytes() const { return tile_block_.capacity() * sizeof(LocalIndex); }
+
   /// All bins of tiles [first_tile, last_tile) are known from now on, and no others; their ranges are to be set.
   void own(LocalIndex first_tile, LocalIndex last_tile);
   /// Only the bins of the owned tiles stay known.

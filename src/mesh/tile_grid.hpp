@@ -46,6 +46,10 @@ public:
 
   const geometry::Box& container() const { return container_; }
   LocalIndex tile_count() const { return static_cast<LocalIndex>(tile_position_.size()); }
+  std::size_t memory_bytes() const {
+    return tile_number_.capacity() * sizeof(LocalIndex) + tile_position_.capacity() * sizeof(GridPosition) +
+           bin_bits_.capacity();
+  }
   int tiles_x() const { return tiles_x_; }
   int tiles_y() const { return tiles_y_; }
   /// Cells of the container grid along each axis.

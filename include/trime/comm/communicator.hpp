@@ -3,7 +3,7 @@
 // Callers need no mpi.h. Every MPI error ends the job with its text: there is no recovery from a broken network.
 #pragma once
 
-#include "trime/core/traffic.hpp"
+#include "trime/core/counters.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -54,8 +54,10 @@ public:
   int rank() const { return rank_; }
   int size() const { return size_; }
   bool is_root() const { return rank_ == 0; }
-  /// What this rank has sent and waited for so far; what io does is not in it. Valid as long as the communicator.
-  const Traffic& traffic() const;
+  /// @brief The counters of this rank, which go wherever ranks work together: messages, bytes and collectives are
+  /// counted here, the rest by the modules that do the work. What HDF5 sends is not in them. Valid as long as the
+  /// communicator.
+  Counters& counters() const;
 
   /// Collective.
   void barrier() const;
