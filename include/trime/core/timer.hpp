@@ -31,7 +31,7 @@ public:
   class Scope {
   public:
     Scope(TimerTable& table, const std::string& name) : table_(table), name_(name), start_(wall_seconds()) {
-      table_.outside();
+      table_.outside(); // the section begins with nothing
     }
     ~Scope() { table_.add(name_, wall_seconds() - start_, table_.take()); }
     Scope(const Scope&) = delete;
