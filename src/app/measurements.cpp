@@ -100,7 +100,7 @@ double Measurements::share(const std::string& phase) const {
   return found == phases.end() || total <= 0 ? 0 : found->mean / total;
 }
 
-Measurements gather_measurements(TimerTable& timers, std::int64_t points, const comm::Communicator& comm) {
+Measurements gather_measurements(TimerTable& timers, const comm::Communicator& comm) {
   const std::vector<TimerTable::Section> sections = agreed_sections(timers, comm);
   Reduction reduction;
   CounterValues whole;
@@ -109,7 +109,6 @@ Measurements gather_measurements(TimerTable& timers, std::int64_t points, const 
     whole += section.counts;
   }
   add(whole, reduction);
-  reduction.add_spread(points);
   reduction.add_spread(peak_memory());
   reduction.reduce(comm);
   Measurements measured;
@@ -119,9 +118,7 @@ Measurements gather_measurements(TimerTable& timers, std::int64_t points, const 
     measured.total += measured.phases.back().mean;
   }
   measured.counters = read_counters(reduction);
-  const Spread all_points = reduction.spread(), memory = reduction.spread();
-  measured.most_points = all_points.max;
-  measured.mean_points = std::max(1.0, static_cast<double>(all_points.sum) / comm.size());
+  const Spread memory = reduction.spread();
   measured.peak_memory = memory.max;
   measured.memory_sum = memory.sum;
   return measured;

@@ -13,7 +13,7 @@ TEST(Measurements, TheTimesAddUpOverRanks) {
   timers.add("stars", 0.001 * (1 + comm.rank()));
   if (comm.rank() == 1)
     timers.add("known to rank 1 only", 0.001);
-  const Measurements measured = gather_measurements(timers, 10 + comm.rank(), comm);
+  const Measurements measured = gather_measurements(timers, comm);
   ASSERT_EQ(measured.phases.size(), 2u);
   EXPECT_EQ(measured.phases[1].name, "other");
   EXPECT_DOUBLE_EQ(measured.phases[0].min, 0.001);
@@ -24,8 +24,6 @@ TEST(Measurements, TheTimesAddUpOverRanks) {
   EXPECT_EQ(measured.share("no such phase"), 0);
   EXPECT_GE(measured.memory_sum, measured.peak_memory);
   EXPECT_GT(measured.peak_memory, 1 << 20);
-  EXPECT_EQ(measured.most_points, 10 + comm.size() - 1);
-  EXPECT_DOUBLE_EQ(measured.mean_points, 10 + 0.5 * (comm.size() - 1));
 }
 
 TEST(Measurements, CountersAreToldByPhaseAndForTheWholeRun) {
@@ -44,7 +42,7 @@ TEST(Measurements, CountersAreToldByPhaseAndForTheWholeRun) {
     count(5, 20);
   }
   count(1, 15);
-  const Measurements measured = gather_measurements(timers, 0, comm);
+  const Measurements measured = gather_measurements(timers, comm);
   const std::int64_t n = comm.size();
   const Spread& swept = measured.phases[0].counters[Counter::sites_swept];
   EXPECT_EQ(swept.sum, 50 * n * (n + 1));
@@ -68,7 +66,7 @@ TEST(Measurements, TrafficIsWhatGoesToOtherRanks) {
     comm.exchange_any({{0, std::vector<std::byte>(static_cast<std::size_t>(100 * comm.rank()))}}); // rank 0 to itself
   }
   comm.barrier();
-  const Measurements measured = gather_measurements(timers, 0, comm);
+  const Measurements measured = gather_measurements(timers, comm);
   const CounterSpreads& talk = measured.phases[0].counters;
   const int others = comm.size() - 1;
   EXPECT_EQ(talk[Counter::messages].sum, 2 * others); // a size, and the bytes
@@ -87,7 +85,7 @@ TEST(Measurements, TakeAsManyCollectivesForManyPhasesAsForOne) {
     for (int k = 0; k < phases; ++k)
       timers.add("phase " + std::to_string(k), 1);
     comm.counters().take();
-    EXPECT_EQ(std::ssize(gather_measurements(timers, 0, comm).phases), phases + 1);
+    EXPECT_EQ(std::ssize(gather_measurements(timers, comm).phases), phases + 1);
     return comm.counters().take()[Counter::collectives];
   };
   EXPECT_EQ(collectives(40), collectives(1));
