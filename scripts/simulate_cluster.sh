@@ -52,7 +52,9 @@ fi
 
 work=$(mktemp -d "${TMPDIR:-/tmp}/trime-simulation-XXXXXX")
 trap 'rm -rf "$work"' EXIT
-seq 0 $(((ranks - 1) / cores)) | sed "s/.*/node&:$cores/" >"$work/hosts"
+for ((rank = 0; rank < ranks; ++rank)); do # one line a rank
+  echo "node$((rank / cores))"
+done >"$work/hosts"
 
 # hash_of FILE: the mesh_hash in a record, empty if there is none.
 hash_of() { sed -n 's/.*"mesh_hash_hex": *"\([0-9a-f]*\)".*/\1/p' "$1" 2>/dev/null | head -n 1; }
@@ -75,10 +77,10 @@ simulation=(
   --cfg=smpi/coll-selector:ompi --cfg=smpi/host-speed:10Gf --log=root.thres:warning
 )
 status=0
-OMP_NUM_THREADS=1 smpirun -np "$ranks" -platform "$cluster" -hostfile "$work/hosts" -tmpdir "$work" "${simulation[@]}" \
+TMPDIR=$work OMP_NUM_THREADS=1 smpirun -quiet -np "$ranks" -platform "$cluster" -hostfile "$work/hosts" "${simulation[@]}" \
   "$program" "${rest[@]}" output.interval=0 --threads 1 --record "$work/record.json" || status=$?
 [ -s "$work/record.json" ] || fail $((status > 0 ? status : 4)) "the simulated run left no record"
+[ -z "$record" ] || cp "$work/record.json" "$record"
 found=$(hash_of "$work/record.json")
 [ "$found" = "$hash" ] || fail 4 "mesh_hash $found on $ranks simulated ranks, $hash on a real one; please report this with the config"
-[ -z "$record" ] || cp "$work/record.json" "$record"
 exit "$status"

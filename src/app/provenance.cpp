@@ -96,7 +96,7 @@ Attributes result_attributes(const meshing::MeshResult& result, const SizeSummar
           {"coarseness", result.features.coarseness},
           {"lost_share", result.features.lost_share},
           {"added_share", result.features.added_share},
-          {"most_points_of_a_rank", measured.most_points},
+          {"most_points_of_a_rank", measured.counters[Counter::sites_extracted].max},
           {"seconds_total", measured.total}, // up to the writing of this file
           {"peak_memory_bytes", measured.peak_memory},
           {"bytes_per_point", static_cast<double>(measured.memory_sum) / points},

@@ -162,10 +162,10 @@ class FileContract(unittest.TestCase):
         self.assertTrue((counters["mean"][:] <= counters["max"][:]).all())
         phases, names = counters["phase"].asstr()[:], counters["name"].asstr()[:]
         run = {name: counters["sum"][k] for k, name in enumerate(names) if phases[k] == "run"}
-        self.assertEqual(run["sites_extracted"], len(self.points))
+        self.assertEqual(run["sites_extracted"], len(self.xy))
         for name in ("messages", "sites_swept", "stars_by_emptiness"):
             self.assertEqual(counters["sum"][(phases != "run") & (names == name)].sum(), run[name], name)
-        self.assertEqual(counters["max"][(phases == "sweeps") & (names == "neighbours")].tolist(), [1])
+        self.assertEqual(counters["max"][(phases == "run") & (names == "neighbours")].tolist(), [1])
 
     def test_a_very_long_command_line_is_kept(self):
         """Longer than HDF5 lets an attribute be."""
