@@ -26,7 +26,7 @@ import shlex
 import shutil
 import sys
 
-from scaling import tables
+from scaling import model_report, tables
 from scaling.backends import NAMES, make_backend, slurm
 from scaling.compare import compare
 from scaling.errors import CHECK_FAILED, FAILED, ROOT, HarnessError, UsageError
@@ -57,6 +57,7 @@ def parser():
     add("--sbatch", default="", metavar="OPTIONS", help="slurm: more options for sbatch, in one text")
     add("--collect", type=pathlib.Path, metavar="DIR", help="tables from the SLURM jobs that were submitted into DIR")
     add("--compare", type=pathlib.Path, metavar="OLD.jsonl", help="tell what is slower than there")
+    add("--model", nargs="+", type=pathlib.Path, metavar="RUNS.jsonl", help="fit, check and extrapolate a model of the time")
     add("--machine", action="store_true", help="print the block of this machine, as SLURM jobs do")
     add("--list", action="store_true", help="print the cases, run nothing")
     add("--read", nargs="+", type=pathlib.Path, metavar="RUNS.jsonl", help="tables from these runs, run nothing")
@@ -97,6 +98,19 @@ def write_results(options, paths, failures):
     return FAILED if mismatches or failures else CHECK_FAILED if slower else 0
 
 
+def write_model(options):
+    """Fits the model to some runs.jsonl; model.md goes into the output directory. Returns the exit code."""
+    runs, machine = read_runs(options.model)
+    rows, mismatches = rows_of(runs)
+    text = model_report.report(rows, sum(machine.get("cores_per_node", [])))
+    options.output.mkdir(parents=True, exist_ok=True)
+    (options.output / "model.md").write_text(text, encoding="utf-8")
+    print(text)
+    for message in mismatches:
+        print(f"scaling.py: {message}", file=sys.stderr)
+    return FAILED if mismatches else 0
+
+
 def backends_of(options, plan):
     """The backends of the cases by name, each of which can run its cases."""
     made = {}
@@ -134,6 +148,8 @@ def work(options):
     if options.machine:
         print(json.dumps(machine_block(options.program)))
         return 0
+    if options.model:
+        return write_model(options)
     if options.collect:
         options.output = options.collect
         return write_results(options, [options.output / "runs.jsonl"], slurm.collect(options.output.resolve()))

@@ -17,6 +17,14 @@ def table_rows(group):
     return [dict(zip(columns, values)) for values in zip(*columns.values())]
 
 
+def nested_counters(group):
+    """Counters as {phase: {name: {sum, min, mean, max}}}; of a phase `run` those of the whole run."""
+    nested = {}
+    for row in table_rows(group):
+        nested.setdefault(row["phase"], {})[row["name"]] = {key: row[key] for key in ("sum", "min", "mean", "max")}
+    return nested
+
+
 def point_sweeps(history):
     """Points moved in all sweeps together: a sweep over a coarse mesh counts with its points."""
     moved, before = 0, 0
@@ -43,7 +51,8 @@ def read_record(path):
             "bytes_per_point": attributes["bytes_per_point"], "peak_memory_bytes": attributes["peak_memory_bytes"],
             "most_points_of_a_rank": attributes["most_points_of_a_rank"], "cleanup_patches": attributes["cleanup_patches"],
             "quality": groups.get("quality", {}).get("attributes", {}),
-            "counters": groups.get("counters", {}),
+            "counters": nested_counters(groups.get("counters", {})),
+            "limit": groups.get("counters", {}).get("attributes", {}).get("limit", ""),
             "build": {key: attributes.get(key, "unknown") for key in
                       ("program_version", "git_commit", "build_type", "compiler", "mpi_library", "hdf5_library", "host")},
         }

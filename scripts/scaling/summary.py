@@ -57,7 +57,7 @@ def summarise(runs):
     seconds = [run["seconds"] for run in runs]
     row |= {"min_s": min(seconds), "max_s": max(seconds), "spread": spread_of(seconds)}
     row |= {key: last[key] for key in ("oversubscribed", "points", "triangles", "iterations", "point_sweeps", "stop_reason",
-                                       "exit_code", "quality", "counters", "cleanup_patches", "most_points_of_a_rank")}
+                                       "exit_code", "quality", "counters", "limit", "cleanup_patches", "most_points_of_a_rank")}
     row["bytes_per_point"] = max(run["bytes_per_point"] for run in runs)
     row["imbalance"] = last["most_points_of_a_rank"] * last["ranks"] / max(last["points"], 1)
     row["mesh_hash"] = "/".join(sorted({run["mesh_hash"] for run in runs}))

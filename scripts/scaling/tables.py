@@ -2,6 +2,7 @@
 """Rows as Markdown and CSV."""
 import csv
 
+from .record import TRAFFIC
 from .summary import curves_of, group_by, key_of
 
 OVERSUBSCRIBED = "oversubscribed"
@@ -90,14 +91,24 @@ def quality_table(rows):
                            "same mesh"], body)
 
 
+def counter_text(counter):
+    """Mean of the ranks, and the largest where they differ."""
+    if not counter:
+        return ""
+    most = f" ({counter['max']:,.4g})" if counter["max"] != counter["min"] else ""
+    return f"{counter['mean']:,.4g}{most}"
+
+
 def counter_table(rows):
-    """Attributes of the group of counters, one column each; no lines where there are none."""
-    names = list(dict.fromkeys(name for row in rows for name in row["counters"].get("attributes", {})))
+    """Counters of the whole run but the traffic; no lines where there are none."""
+    names = [name for name in dict.fromkeys(name for row in rows for name in row["counters"].get("run", {}))
+             if name not in TRAFFIC]
     if not names:
         return []
     body = [[row["method"], row["stop"], f"{row['points_asked']:,}", f"{row['ranks']} x {row['threads']}"]
-            + [str(row["counters"].get("attributes", {}).get(name, "")) for name in names] for row in rows]
-    return ["Counters:", ""] + markdown_table(["method", "stop", "points", "ranks x threads"] + names, body) + [""]
+            + [counter_text(row["counters"].get("run", {}).get(name)) for name in names] + [row["limit"]] for row in rows]
+    return ["Counters, mean of the ranks (largest):", "", *markdown_table(
+        ["method", "stop", "points", "ranks x threads"] + names + ["what limits the run"], body), ""]
 
 
 def sweep_text(rows, reference):
@@ -147,7 +158,8 @@ def flat(row):
     plain = {key: value for key, value in row.items() if key not in ("phases", "quality", "counters", "options")}
     plain["options"] = " ".join(row["options"])
     plain |= {f"quality_{key}": value for key, value in row["quality"].items() if not isinstance(value, (list, dict))}
-    plain |= {f"counter_{key}": value for key, value in row["counters"].get("attributes", {}).items()}
+    plain |= {f"{name}_{key}": counter[key] for name, counter in row["counters"].get("run", {}).items()
+              for key in ("mean", "max")}
     return plain | {"phase_" + name.replace(" ", "_"): phase["avg"] for name, phase in row["phases"].items()}
 
 

@@ -16,6 +16,7 @@ class Simulated:
 
     def __init__(self, cluster):
         self.cluster = cluster
+        self.hashes = {}  # by arguments: that of the real run with which the script compares a first simulated one
         if not os.access(SCRIPT, os.X_OK):
             raise UsageError(f"there is no simulator: expected {SCRIPT}, found none")
         done = subprocess.run([str(SCRIPT), "--ranks", "1", *self.cluster_option(), "--build-only"], text=True,
@@ -43,6 +44,10 @@ class Simulated:
 
     def run(self, case, record, limit):
         """One run; `record` is where its numbers go. Raises RunError."""
+        arguments = mesh_arguments(case, record.parent)
+        known = self.hashes.get(tuple(arguments))
         command = [str(SCRIPT), "--ranks", str(case.ranks), *self.cluster_option(), "--record", str(record),
-                   *mesh_arguments(case, record.parent)]
-        return run_command(command, record, {"OMP_NUM_THREADS": "1"}, limit)
+                   *(["--hash", known] if known else []), *arguments]
+        run = run_command(command, record, {}, limit)
+        self.hashes[tuple(arguments)] = run["mesh_hash"]
+        return run

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The model beside what was measured, and what it says of 10^4 ranks, as Markdown.
+
+It is fitted twice: to some rows, to be checked on the others (those that are held out), and to all rows, for predictions.
+"""
+from .errors import RunError
+from .model import PLATFORMS, fit, sample_of
+from .summary import group_by, key_of
+from .tables import markdown_table
+from .traffic_model import fit_traffic
+
+PROBLEM = ("backend", "config", "method", "variant", "stop", "options")  # rows that one model describes
+HELD_RANKS = 2      # so many of the largest numbers of ranks are held out ...
+LEAST_RANKS = 3     # ... if as many others are left; else the largest size, if two others are left
+BARS = {"local": (0.20, "all rows"), "simulated": (0.25, "rows of 64 ranks and more")}
+BAR_RANKS = {"local": 1, "simulated": 64}
+
+STRONG_POINTS = (10**6, 10**8, 10**10)
+WEAK_POINTS = (10**4, 10**5, 10**6)  # of a rank
+RANKS = (1, 4, 16, 64, 256, 1024, 4096, 10**4)
+FEWEST_POINTS = 100  # of a rank: below that no row is predicted
+
+TERMS = {"work": "work", "threads": "work that threads do not share", "memory": "memory shared by busy cores",
+         "replicated": "replicated work", "packing": "packing", "waiting": "waiting at collectives",
+         "imbalance": "imbalance", "messages": "latency", "bytes": "bandwidth", "collectives": "steps of collectives"}
+
+
+def held_out(rows):
+    """The rows that the first fit does not see; none where too few are left."""
+    ranks, sizes = (sorted({row[key] for row in rows}) for key in ("ranks", "points"))
+    if len(ranks) >= LEAST_RANKS + HELD_RANKS:
+        return [row for row in rows if row["ranks"] in ranks[-HELD_RANKS:]]
+    return [row for row in rows if row["points"] == sizes[-1]] if len(sizes) > 2 else []
+
+
+def error_text(predicted, row):
+    return f"{100 * (predicted / row['seconds'] - 1):+.0f} %"
+
+
+def check(rows, samples, platform):
+    """Lines that compare model and rows, and the model of all rows."""
+    held = held_out(rows)
+    seen = [sample for row, sample in zip(rows, samples) if row not in held]
+    first, last = fit(seen, platform), fit(samples, platform)
+    body, worst = [], 0.0
+    for row, sample in zip(rows, samples):
+        blind, full = first.seconds(sample), last.seconds(sample)
+        body.append([f"{row['points']:,}", f"{row['ranks']} x {row['threads']}", f"{row['seconds']:.4g}", f"{blind:.4g}",
+                     error_text(blind, row), "held out" if row in held else "fitted", error_text(full, row)])
+        if row["ranks"] >= BAR_RANKS.get(platform.name, 1):
+            worst = max(worst, abs(blind / row["seconds"] - 1))
+    lines = markdown_table(["points", "ranks x threads", "measured s", "model s", "error", "this row", "error, all fitted"], body)
+    bar, which = BARS.get(platform.name, (None, ""))
+    if bar is not None:
+        lines += ["", f"Largest error of {which}, of the model that has not seen the rows held out: {100 * worst:.0f} % "
+                  f"(bar: {100 * bar:.0f} %)."]
+    if not held:
+        lines += ["", "Too few rows to hold any out: these errors are those of a fit, not of a prediction."]
+    return lines, last
+
+
+def coefficient_table(model):
+    """What was fitted, by phase."""
+    body = []
+    for phase in model.phases:
+        value = phase.coefficients.get
+        cells = [f"{1e9 * value(term, 0):.3g}" for term in ("work", "threads", "memory")]
+        replicated = f"{1e3 * value('replicated'):.3g} ms x N^{phase.exponent:g}" if value("replicated") else ""
+        body.append([phase.name, *cells, replicated, f"{1e9 * value('packing', 0):.3g}", f"{1e6 * value('waiting', 0):.3g}"])
+    return markdown_table(["phase", "work, ns a point", "not shared by threads, ns", "memory, ns", "replicated",
+                           "packing, ns a byte", "waiting, us a step"], body)
+
+
+def limit_text(terms, total):
+    """The largest term beside the work, with its phase and its share of the time."""
+    (phase, term), seconds = max(((key, value) for key, value in terms.items() if key[1] != "work"), key=lambda item: item[1])
+    return f"{TERMS[term]}, {phase} ({100 * seconds / total:.0f} %)"
+
+
+def prediction_row(model, traffic, points, ranks, like, base):
+    """Seconds, efficiency and limit of one number of points and ranks; base: seconds for E = 1 here."""
+    sample = traffic.sample(points, ranks, like)
+    terms = model.terms(sample)
+    total = sum(terms.values())
+    return [f"{points:.3g}", f"{ranks:,}", f"{total:.3g}", f"{base / total:.2f}", f"{sample.imbalance:.2f}",
+            limit_text(terms, total)]
+
+
+def prediction_tables(model, traffic, like):
+    """Strong and weak efficiency to 10^4 ranks."""
+    head = ["points", "ranks", "seconds", "E", "imbalance", "largest term beside the work"]
+    lines = []
+    for points in STRONG_POINTS:
+        alone = model.seconds(traffic.sample(points, 1, like))
+        body = [prediction_row(model, traffic, points, ranks, like, alone / ranks) for ranks in RANKS
+                if points / ranks >= FEWEST_POINTS]
+        lines += [f"Strong, {points:.0e} points:", "", *markdown_table(head, body), ""]
+    for points in WEAK_POINTS:
+        alone = model.seconds(traffic.sample(points, 1, like))
+        body = [prediction_row(model, traffic, points * ranks, ranks, like, alone) for ranks in RANKS]
+        lines += [f"Weak, {points:.0e} points a rank:", "", *markdown_table(head, body), ""]
+    return lines
+
+
+def assumptions(samples, platform, like, traffic):
+    """What the predictions stand on."""
+    ranks, points = (sorted({getattr(sample, key) for sample in samples}) for key in ("ranks", "points"))
+    return ["Assumptions of the predictions:", "",
+            f"* {platform.source}; overhead of a message {platform.overhead:.2g} s, latency {platform.latency:.2g} s in a node and "
+            f"{platform.network_latency:.2g} s between nodes; {platform.bandwidth:.3g} B/s for each rank in a node, "
+            f"{platform.network_bandwidth:.3g} B/s for a node; 1/sqrt(cores of a node) of the traffic leaves a node; no jams",
+            "* one thread a rank; the cores of a node do not slow each other down",
+            f"* all that was fitted holds beyond {ranks[0]} to {ranks[-1]} ranks and {points[0]:.3g} to {points[-1]:.3g} points",
+            f"* {like.sweeps} sweeps, each point moved {like.moved / like.points:.3g} times, as in the largest mesh measured",
+            f"* traffic as counted and carried on by the forms of traffic_model.py; ranks are made of tiles of "
+            f"{traffic.granularity:.3g} points, so the fullest rank has 1 + {traffic.granularity:.3g} P/N times the mean", ""]
+
+
+def problem_text(rows, machine_cores):
+    """All about one config, method and platform."""
+    first = rows[0]
+    platform = PLATFORMS[first["backend"]]
+    samples = [sample_of(row, machine_cores) for row in rows]
+    lines = [f"## {first['config']}, {first['method']}, {first['stop']}{', ' + first['variant'] if first['variant'] else ''}: "
+             f"{platform.name}", ""]
+    if len(rows) < LEAST_RANKS:
+        return lines + [f"{len(rows)} rows are too few for a model.", ""]
+    checked, model = check(rows, samples, platform)
+    lines += [*checked, "", "Fitted to all rows:", "", *coefficient_table(model), ""]
+    if max(sample.ranks for sample in samples) <= LEAST_RANKS:
+        return lines
+    traffic = fit_traffic(samples)
+    largest = max(samples, key=lambda sample: sample.points)
+    return lines + assumptions(samples, platform, largest, traffic) + prediction_tables(model, traffic, largest)
+
+
+def report(rows, machine_cores):
+    """The whole text. Raises RunError where scipy is not there."""
+    try:
+        import scipy.optimize  # noqa: F401
+    except ImportError as error:
+        raise RunError("--model needs the Python module scipy. Debian: apt-get install python3-scipy") from error
+    usable = [row for row in rows if not row["oversubscribed"] and not row["output"]]
+    lines = ["# A model of the time", "", "T = work + replicated work + latency x messages + bytes / bandwidth + collectives "
+             "x log2 P, phase by phase; scripts/scaling/model.py says how.", ""]
+    for group in group_by(usable, lambda row: key_of(row, PROBLEM)):
+        lines += problem_text(group, machine_cores)
+    return "\n".join(lines)
