@@ -3,10 +3,10 @@
 """Scaling tables: strong and weak sweeps over ranks, threads, methods and points, from a small ini.
 
 Each case runs once to warm up and five times to count, all cases in turn. Tables hold medians, spread, the efficiency
-E = T1/(p Tp) (strong) or T1/Tp (weak), the serial fraction of Karp and Flatt, and seconds by phase. All runs of one mesh
-must have the same hash. OUTPUT gets scaling.md, scaling.csv, runs.jsonl (every run), and plots as PNG and SVG.
+E = T1/(p Tp) (strong) or T1/Tp (weak), the serial fraction of Karp and Flatt, and seconds by phase. All runs of one
+mesh must have the same hash. OUTPUT gets scaling.md, scaling.csv, runs.jsonl (every run), and plots as PNG and SVG.
 
-  scripts/scaling.py                                           # scaling/sweeps/default.ini: 1 and 2 cores, a few minutes
+  scripts/scaling.py                                           # scaling/sweeps/default.ini: 1 and 2 cores, some minutes
   scripts/scaling.py --kind strong --points 1e7 --cases powers --config my.ini sizing.gradation=0.2
   scripts/scaling.py scripts/scaling/sweeps/trime_square.ini   # the study of TriMe++
   scripts/scaling.py scripts/scaling/sweeps/simulated.ini --backend simulated
@@ -44,7 +44,8 @@ def parser():
     """The command line."""
     made = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add = made.add_argument
-    add("arguments", nargs="*", metavar="INI | section.key=value", help="sweeps (default: default.ini); options of trime_mpi")
+    add("arguments", nargs="*", metavar="INI | section.key=value",
+        help="sweeps (default: default.ini); options of trime_mpi")
     add("--backend", default="local", help=f"one of {', '.join(NAMES)} (default %(default)s)")
     add("--program", type=pathlib.Path, default=ROOT / "build" / "release" / "trime_mpi")
     add("--cluster", type=pathlib.Path, help="simulated: platform file of SimGrid")
@@ -53,11 +54,12 @@ def parser():
     add("--kind", default="", choices=("strong", "weak"), help="sweeps of that kind")
     for key in ("config", "points", "cases", "methods", "stops", "sweeps", "repeats"):
         add(f"--{key}", help="instead of the value in the ini")
-    add("--nodes", default="", metavar="NxC", help="slurm: so many nodes of C cores, for the words powers, ranks, threads")
+    add("--nodes", default="", metavar="NxC", help="slurm: N nodes of C cores, for the words powers, ranks, threads")
     add("--sbatch", default="", metavar="OPTIONS", help="slurm: more options for sbatch, in one text")
     add("--collect", type=pathlib.Path, metavar="DIR", help="tables from the SLURM jobs that were submitted into DIR")
     add("--compare", type=pathlib.Path, metavar="OLD.jsonl", help="tell what is slower than there")
-    add("--model", nargs="+", type=pathlib.Path, metavar="RUNS.jsonl", help="fit, check and extrapolate a model of the time")
+    add("--model", nargs="+", type=pathlib.Path, metavar="RUNS.jsonl",
+        help="fit, check and extrapolate a model of the time")
     add("--machine", action="store_true", help="print the block of this machine, as SLURM jobs do")
     add("--list", action="store_true", help="print the cases, run nothing")
     add("--read", nargs="+", type=pathlib.Path, metavar="RUNS.jsonl", help="tables from these runs, run nothing")
@@ -92,7 +94,7 @@ def write_results(options, paths, failures):
     (options.output / "scaling.md").write_text(text, encoding="utf-8")
     tables.write_csv(options.output / "scaling.csv", rows)
     print(text)
-    print(f"Written to {options.output}: scaling.md, scaling.csv, {len(pictures)} pictures as PNG and SVG", file=sys.stderr)
+    print(f"Written to {options.output}: scaling.md, scaling.csv, {len(pictures)} plots (PNG, SVG)", file=sys.stderr)
     for message in mismatches + failures:
         print(f"scaling.py: {message}", file=sys.stderr)
     return FAILED if mismatches or failures else CHECK_FAILED if slower else 0
@@ -169,7 +171,7 @@ def work(options):
 
 
 def main():
-    options = parser().parse_args()
+    options = parser().parse_intermixed_args()
     try:
         return work(options)
     except HarnessError as error:

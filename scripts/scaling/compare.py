@@ -3,12 +3,13 @@
 import math
 
 from .summary import CASE, key_of
-from .tables import markdown_table, number, percent
+from .tables import ROW_HEAD, markdown_table, number, percent, row_head
 
 LEAST = 0.05         # a change below this share is none: between builds alone, times differ by as much
 SPREADS = 2          # how many times the spread of both a change must exceed
 UNKNOWN_SPREAD = 0.3  # of a row with fewer than three runs
 
+HEAD = ["sweep", *ROW_HEAD, "before", "now", "ratio", "threshold", "mesh", "verdict"]
 BETTER, SAME, WORSE = "faster", "same", "SLOWER"
 
 
@@ -35,13 +36,11 @@ def compare(old_rows, new_rows):
         compared += 1
         ratio, word = verdict(old, row)
         slower += word == WORSE
-        body.append([row["sweep"], row["method"], row["stop"], f"{row['points_asked']:,}",
-                     f"{row['ranks']} x {row['threads']}", number(old["seconds"], ".3g"), number(row["seconds"], ".3g"),
+        body.append([row["sweep"], *row_head(row), number(old["seconds"], ".3g"), number(row["seconds"], ".3g"),
                      number(ratio, ".2f"), percent(threshold(old, row)),
                      "same" if old["mesh_hash"] == row["mesh_hash"] else "another", word])
     lines = ["## Compared with before", "",
-             f"{compared} rows have a row of before; {len(new_rows) - compared} are new, {len(old_rows) - compared} are gone. "
-             f"A change counts above {100 * LEAST:.0f} % and {SPREADS} times the spread of both. {slower} got slower.", "",
-             *markdown_table(["sweep", "method", "stop", "points", "ranks x threads", "before", "now", "ratio", "threshold",
-                              "mesh", "verdict"], body), ""]
+             f"{compared} rows have a row of before; {len(new_rows) - compared} are new, {len(old_rows) - compared} "
+             f"are gone. A change counts above {100 * LEAST:.0f} % and {SPREADS} times the spread of both. "
+             f"{slower} got slower.", "", *markdown_table(HEAD, body), ""]
     return lines, slower

@@ -24,7 +24,8 @@ class Progress:
     def show(self, case, turn, left):
         """Before a run; `left`: the cases of all runs that are still to come."""
         self.done += 1
-        which = "warm-up" if turn < self.plan.warm_ups else f"run {turn - self.plan.warm_ups + 1} of {self.plan.repeats}"
+        number = turn - self.plan.warm_ups + 1
+        which = "warm-up" if number < 1 else f"run {number} of {self.plan.repeats}"
         seconds = sum(self.guess(other) for other in left)
         rest = f"about {time.strftime('%H:%M:%S', time.gmtime(seconds))} left" if self.seconds else "time left unknown"
         print(f"[{self.done}/{self.done - 1 + len(left)}] {case.label}: {which}; {rest}", file=sys.stderr, flush=True)

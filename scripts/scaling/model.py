@@ -6,20 +6,21 @@ Each phase takes, on P ranks of t threads,
   T = a I W / (P t)              work that ranks and threads share; W: points x sweeps, or points
     + b I W / P                  work that the threads of a rank do not share
     + c I W / (P t)              the same work where all cores of the machine are busy: they share memory
-    + r N^k                      work that each rank does for itself; k is 0, 1/2 (the boundary) or 1 (tables of all tiles)
+    + r N^k                      work of each rank for itself; k: 0, 1/2 (the boundary) or 1 (tables of all tiles)
     + L M + B / bandwidth        messages and bytes of a rank
     + u B                        packing and unpacking of these bytes
     + L C log2 P + s C log2 P    collectives: their steps, and the wait for the slowest rank at each
 
 N points, I the points of the fullest rank over the mean, M, B and C counted. L (latency) and bandwidth are those of the
-Platform, given and never fitted. a, b, c, r, u, s >= 0 come from non-negative least squares, each phase for itself, with
-errors relative to the time of the whole run. k is the one that fits best.
+Platform, given and never fitted. a, b, c, r, u, s >= 0 come from non-negative least squares, each phase for itself,
+with errors relative to the time of the whole run. k is the one that fits best.
 """
 import dataclasses
 import math
 
 import numpy as np
 
+from .least_squares import nonnegative
 from .record import OUTPUT, TRAFFIC
 
 EXPONENTS = (0.0, 0.5, 1.0)
@@ -54,15 +55,16 @@ class Platform:
         return (1 - away) / self.bandwidth + away * self.cores / self.network_bandwidth
 
     def collective(self, ranks):
-        """Seconds of a collective of few bytes: log2 P messages one after the other, as many of them as can in a node."""
+        """Seconds of a collective of few bytes: log2 P messages one after the other, as many as can within a node."""
         inside = math.log2(min(ranks, self.cores))
-        return inside * (self.overhead + self.latency) + (math.log2(ranks) - inside) * (self.overhead + self.network_latency)
+        outside = math.log2(ranks) - inside
+        return inside * (self.overhead + self.latency) + outside * (self.overhead + self.network_latency)
 
 
 CLUSTER = (64, 0.4e-6, 0.3e-6, 15e9, 2e-6, 12.5e9)
 PLATFORMS = {
-    "simulated": Platform("simulated", *CLUSTER, "scripts/cluster/fat_tree.xml: nodes of 64 cores, 100 Gbit/s InfiniBand"),
-    "slurm": Platform("slurm", *CLUSTER, "assumed: nodes of 64 cores, 100 Gbit/s InfiniBand"),
+    "simulated": Platform("simulated", *CLUSTER, "that of scripts/cluster/fat_tree.xml: 64 cores a node, InfiniBand"),
+    "slurm": Platform("slurm", *CLUSTER, "assumed: 64 cores a node, 100 Gbit/s InfiniBand"),
     "local": Platform("local", 10**9, 0.4e-6, 0.3e-6, 5e9, 2e-6, 12.5e9, "assumed: shared memory between processes"),
 }
 
@@ -148,18 +150,12 @@ class PhaseModel:
 
 def solve(samples, phase, platform, exponent):
     """Coefficients and residual of one phase with a given exponent."""
-    from scipy.optimize import nnls  # needed here only
-    columns = [fitted_columns(sample, phase, exponent) for sample in samples]
-    names = [name for name in columns[0] if any(column[name] for column in columns)]
-    if len({sample.threads for sample in samples}) == 1 and "threads" in names:
-        names.remove("threads")  # the same column as the work
-    weights = np.array([1 / sample.total for sample in samples])
-    matrix = np.array([[column[name] for name in names] for column in columns]) * weights[:, None]
-    target = np.array([sample.seconds.get(phase, 0.0) - sum(given_terms(sample, phase, platform).values())
-                       for sample in samples]) * weights
-    scale = np.maximum(np.abs(matrix).max(axis=0), 1e-300)  # columns differ by many powers of ten
-    found, residual = nnls(matrix / scale, target)
-    return {name: value / unit for name, value, unit in zip(names, found, scale) if value > 0}, residual
+    rows = [fitted_columns(sample, phase, exponent) for sample in samples]
+    columns = {name: [row[name] for row in rows] for name in rows[0]}
+    if len({sample.threads for sample in samples}) == 1:
+        del columns["threads"]  # the same as the work
+    target = [sample.seconds.get(phase, 0.0) - sum(given_terms(sample, phase, platform).values()) for sample in samples]
+    return nonnegative(columns, target, np.array([1 / sample.total for sample in samples]))
 
 
 def fit_phase(samples, phase, platform):

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The model beside what was measured, and what it says of 10^4 ranks, as Markdown.
 
-It is fitted twice: to some rows, to be checked on the others (those that are held out), and to all rows, for predictions.
+It is fitted twice: to some rows, to be checked on the others, which are held out, and to all rows, for predictions.
 """
+import math
+
 from .errors import RunError
 from .model import PLATFORMS, fit, sample_of
 from .summary import group_by, key_of
@@ -45,15 +47,17 @@ def check(rows, samples, platform):
     body, worst = [], 0.0
     for row, sample in zip(rows, samples):
         blind, full = first.seconds(sample), last.seconds(sample)
-        body.append([f"{row['points']:,}", f"{row['ranks']} x {row['threads']}", f"{row['seconds']:.4g}", f"{blind:.4g}",
-                     error_text(blind, row), "held out" if row in held else "fitted", error_text(full, row)])
+        body.append([f"{row['points']:,}", f"{row['ranks']} x {row['threads']}", f"{row['seconds']:.4g}",
+                     f"{blind:.4g}", error_text(blind, row), "held out" if row in held else "fitted",
+                     error_text(full, row)])
         if row["ranks"] >= BAR_RANKS.get(platform.name, 1):
             worst = max(worst, abs(blind / row["seconds"] - 1))
-    lines = markdown_table(["points", "ranks x threads", "measured s", "model s", "error", "this row", "error, all fitted"], body)
+    lines = markdown_table(["points", "ranks x threads", "measured s", "model s", "error", "this row",
+                            "error, all fitted"], body)
     bar, which = BARS.get(platform.name, (None, ""))
     if bar is not None:
-        lines += ["", f"Largest error of {which}, of the model that has not seen the rows held out: {100 * worst:.0f} % "
-                  f"(bar: {100 * bar:.0f} %)."]
+        lines += ["", f"Largest error of {which}, of the model that has not seen the rows held out: "
+                  f"{100 * worst:.0f} % (bar: {100 * bar:.0f} %)."]
     if not held:
         lines += ["", "Too few rows to hold any out: these errors are those of a fit, not of a prediction."]
     return lines, last
@@ -66,14 +70,16 @@ def coefficient_table(model):
         value = phase.coefficients.get
         cells = [f"{1e9 * value(term, 0):.3g}" for term in ("work", "threads", "memory")]
         replicated = f"{1e3 * value('replicated'):.3g} ms x N^{phase.exponent:g}" if value("replicated") else ""
-        body.append([phase.name, *cells, replicated, f"{1e9 * value('packing', 0):.3g}", f"{1e6 * value('waiting', 0):.3g}"])
+        body.append([phase.name, *cells, replicated, f"{1e9 * value('packing', 0):.3g}",
+                     f"{1e6 * value('waiting', 0):.3g}"])
     return markdown_table(["phase", "work, ns a point", "not shared by threads, ns", "memory, ns", "replicated",
                            "packing, ns a byte", "waiting, us a step"], body)
 
 
 def limit_text(terms, total):
     """The largest term beside the work, with its phase and its share of the time."""
-    (phase, term), seconds = max(((key, value) for key, value in terms.items() if key[1] != "work"), key=lambda item: item[1])
+    losses = {key: seconds for key, seconds in terms.items() if key[1] != "work"}
+    (phase, term), seconds = max(losses.items(), key=lambda item: item[1])
     return f"{TERMS[term]}, {phase} ({100 * seconds / total:.0f} %)"
 
 
@@ -106,14 +112,15 @@ def assumptions(samples, platform, like, traffic):
     """What the predictions stand on."""
     ranks, points = (sorted({getattr(sample, key) for sample in samples}) for key in ("ranks", "points"))
     return ["Assumptions of the predictions:", "",
-            f"* {platform.source}; overhead of a message {platform.overhead:.2g} s, latency {platform.latency:.2g} s in a node and "
-            f"{platform.network_latency:.2g} s between nodes; {platform.bandwidth:.3g} B/s for each rank in a node, "
-            f"{platform.network_bandwidth:.3g} B/s for a node; 1/sqrt(cores of a node) of the traffic leaves a node; no jams",
+            f"* platform {platform.source}; overhead of a message {platform.overhead:.2g} s, latency in a node "
+            f"{platform.latency:.2g} s, between nodes {platform.network_latency:.2g} s; bandwidth of a rank in a node "
+            f"{platform.bandwidth:.3g} B/s, of a node {platform.network_bandwidth:.3g} B/s",
+            f"* one in {math.sqrt(platform.cores):.3g} messages and bytes leaves the node; no jams in the network",
             "* one thread a rank; the cores of a node do not slow each other down",
-            f"* all that was fitted holds beyond {ranks[0]} to {ranks[-1]} ranks and {points[0]:.3g} to {points[-1]:.3g} points",
-            f"* {like.sweeps} sweeps, each point moved {like.moved / like.points:.3g} times, as in the largest mesh measured",
-            f"* traffic as counted and carried on by the forms of traffic_model.py; ranks are made of tiles of "
-            f"{traffic.granularity:.3g} points, so the fullest rank has 1 + {traffic.granularity:.3g} P/N times the mean", ""]
+            f"* all goes on as on {ranks[0]} to {ranks[-1]} ranks and {points[0]:.3g} to {points[-1]:.3g} points",
+            f"* {like.sweeps} sweeps, each point moved {like.moved / like.points:.3g} times, as in the largest mesh",
+            "* traffic as counted, and carried on by the forms of traffic_model.py",
+            f"* the fullest rank has 1 + {traffic.granularity:.3g} P/N times the mean: ranks are made of tiles", ""]
 
 
 def problem_text(rows, machine_cores):
@@ -121,8 +128,8 @@ def problem_text(rows, machine_cores):
     first = rows[0]
     platform = PLATFORMS[first["backend"]]
     samples = [sample_of(row, machine_cores) for row in rows]
-    lines = [f"## {first['config']}, {first['method']}, {first['stop']}{', ' + first['variant'] if first['variant'] else ''}: "
-             f"{platform.name}", ""]
+    name = ", ".join(filter(None, (first["config"], first["method"], first["stop"], first["variant"])))
+    lines = [f"## {name}: {platform.name}", ""]
     if len(rows) < LEAST_RANKS:
         return lines + [f"{len(rows)} rows are too few for a model.", ""]
     checked, model = check(rows, samples, platform)
@@ -141,8 +148,8 @@ def report(rows, machine_cores):
     except ImportError as error:
         raise RunError("--model needs the Python module scipy. Debian: apt-get install python3-scipy") from error
     usable = [row for row in rows if not row["oversubscribed"] and not row["output"]]
-    lines = ["# A model of the time", "", "T = work + replicated work + latency x messages + bytes / bandwidth + collectives "
-             "x log2 P, phase by phase; scripts/scaling/model.py says how.", ""]
+    lines = ["# A model of the time", "", "T = work + replicated work + latency x messages + bytes / bandwidth + "
+             "collectives x log2 P, phase by phase; scripts/scaling/model.py says how.", ""]
     for group in group_by(usable, lambda row: key_of(row, PROBLEM)):
         lines += problem_text(group, machine_cores)
     return "\n".join(lines)

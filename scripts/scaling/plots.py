@@ -40,9 +40,10 @@ def cores_axis(axes, cores):
     axes.set_xlabel("cores")
 
 
-def save(figure, directory, name):
-    """One picture in both formats; returns the name of the PNG."""
-    stem = re.sub(r"[^A-Za-z0-9]+", "-", name).strip("-")
+def save(figure, directory, rows, *words):
+    """One figure of some rows in both formats; returns the name of the PNG."""
+    size = f"{size_of(rows[0]):.6g}".replace("+", "")
+    stem = re.sub(r"[^A-Za-z0-9.]+", "-", " ".join([title_of(rows[0]), *words[:-1], size, rows[0]["stop"], words[-1]]))
     figure.savefig(directory / f"{stem}.png", dpi=150)
     figure.savefig(directory / f"{stem}.svg")
     plt.close(figure)
@@ -72,7 +73,7 @@ def curve_figure(rows, value, label, ideal):
                       markersize=5, label=f"{line[0]['method']}, {way}")
         ideals[tuple(ideal(curve)(count) for count in cores)] = None
     for number, line in enumerate(ideals):
-        axes.plot(cores, line, color="0.6", linewidth=1, zorder=0, label="" if number else "ideal")
+        axes.plot(cores, line, color="0.4", linewidth=1, zorder=1, label="" if number else "ideal")
     cores_axis(axes, cores)
     axes.set_ylabel(label)
     axes.set_title(subtitle(rows), fontsize=10)
@@ -86,7 +87,7 @@ def efficiency_figure(rows, directory):
     figure, axes = curve_figure(rows, lambda row: row["efficiency"], "efficiency", lambda _: lambda cores: 1)
     axes.set_ylim(0, max(1.1, axes.get_ylim()[1]))
     axes.legend(fontsize=8, loc="lower left", frameon=False)
-    return save(figure, directory, f"{subtitle(rows)} efficiency")
+    return save(figure, directory, rows, "efficiency")
 
 
 def base_time(curve):
@@ -104,7 +105,7 @@ def time_figure(rows, directory):
     axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.yaxis.set_minor_locator(NullLocator())
-    return save(figure, directory, f"{subtitle(rows)} time")
+    return save(figure, directory, rows, "time")
 
 
 def phase_heights(rows):
@@ -133,14 +134,21 @@ def phase_figure(rows, directory):
     axes.set_title(f"{rows[0]['method']}, {subtitle(rows)}", fontsize=10)
     handles, labels = axes.get_legend_handles_labels()
     axes.legend(handles[::-1], labels[::-1], fontsize=8, frameon=False, loc="center left", bbox_to_anchor=(1, 0.5))
-    return save(figure, directory, f"{rows[0]['method']} {subtitle(rows)} phases")
+    return save(figure, directory, rows, rows[0]["method"], "phases")
+
+
+def last_stop(rows, like):
+    """The stop that the phases of a sweep are drawn for: one is enough."""
+    return [row["stop"] for row in rows if row["sweep"] == like["sweep"]][-1]
 
 
 def draw(rows, directory):
     """All pictures of some rows; returns the names of the PNGs."""
     names = []
-    for group in group_by(rows, lambda row: key_of(row, ("backend", "sweep", "variant", "stop", "output")) + (size_of(row),)):
+    figures = ("backend", "sweep", "variant", "stop", "output")
+    for group in group_by(rows, lambda row: key_of(row, figures) + (size_of(row),)):
         if len({row["cores"] for row in group if row["efficiency"] is not None}) > 1:
             names += [time_figure(group, directory), efficiency_figure(group, directory)]
-            names += [phase_figure(of_method, directory) for of_method in group_by(group, lambda row: row["method"])]
+            names += [phase_figure(of_method, directory) for of_method in group_by(group, lambda row: row["method"])
+                      if of_method[0]["stop"] == last_stop(rows, of_method[0])]
     return names

@@ -7,6 +7,7 @@ from .errors import RunError
 
 SET_UP = ("shape", "size field", "boundary", "start")  # before the first sweep
 OUTPUT = ("output", "snapshots")
+BUILD = ("program_version", "git_commit", "build_type", "compiler", "mpi_library", "hdf5_library", "host")
 TRAFFIC = ("messages", "bytes", "collectives")
 MACHINE, RUN = "machine", "run"  # kinds of lines in runs.jsonl
 
@@ -49,12 +50,11 @@ def read_record(path):
             "stop_reason": attributes["stop_reason"], "total_s": attributes["seconds_total"],
             "point_sweeps": point_sweeps(table_rows(groups.get("history", {}))),
             "bytes_per_point": attributes["bytes_per_point"], "peak_memory_bytes": attributes["peak_memory_bytes"],
-            "most_points_of_a_rank": attributes["most_points_of_a_rank"], "cleanup_patches": attributes["cleanup_patches"],
+            "most_points_of_a_rank": attributes["most_points_of_a_rank"],
             "quality": groups.get("quality", {}).get("attributes", {}),
             "counters": nested_counters(groups.get("counters", {})),
             "limit": groups.get("counters", {}).get("attributes", {}).get("limit", ""),
-            "build": {key: attributes.get(key, "unknown") for key in
-                      ("program_version", "git_commit", "build_type", "compiler", "mpi_library", "hdf5_library", "host")},
+            "build": {key: attributes.get(key, "unknown") for key in BUILD},
         }
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise RunError(f"expected the record of a run in {path}, found none that can be read: "

@@ -8,6 +8,8 @@ CASE = ("backend", "sweep", "kind", "config", "method", "variant", "stop", "poin
         "ranks", "threads", "options", "output", "reference")
 MESH = ("config", "options", "points_asked")                                      # what a mesh is a function of
 SERIES = ("backend", "sweep", "kind", "config", "variant", "method", "stop", "output")  # rows of one curve ...
+RESULT = ("oversubscribed", "points", "triangles", "iterations", "point_sweeps", "stop_reason", "exit_code", "quality",
+          "counters", "limit", "most_points_of_a_rank")  # equal in all runs of a case
 TIMES = ("seconds", "total_s", "set_up_s", "mesh_s", "output_s", "command_s")
 
 
@@ -56,8 +58,7 @@ def summarise(runs):
     row |= {name: statistics.median(run[name] for run in runs) for name in TIMES}
     seconds = [run["seconds"] for run in runs]
     row |= {"min_s": min(seconds), "max_s": max(seconds), "spread": spread_of(seconds)}
-    row |= {key: last[key] for key in ("oversubscribed", "points", "triangles", "iterations", "point_sweeps", "stop_reason",
-                                       "exit_code", "quality", "counters", "limit", "cleanup_patches", "most_points_of_a_rank")}
+    row |= {key: last[key] for key in RESULT}
     row["bytes_per_point"] = max(run["bytes_per_point"] for run in runs)
     row["imbalance"] = last["most_points_of_a_rank"] * last["ranks"] / max(last["points"], 1)
     row["mesh_hash"] = "/".join(sorted({run["mesh_hash"] for run in runs}))
@@ -82,8 +83,8 @@ def fill_scaling(rows):
     """Base, speed-up, efficiency and serial fraction of the rows of one curve; none for oversubscribed ones."""
     base = min(rows, key=lambda row: (row["oversubscribed"], row["cores"], row["threads"]))
     for row in rows:
-        row |= {"base": f"{base['ranks']} x {base['threads']}", "is_base": row is base, "speedup": None, "efficiency": None,
-                "serial_fraction": None}
+        row |= {"base": f"{base['ranks']} x {base['threads']}", "is_base": row is base, "speedup": None,
+                "efficiency": None, "serial_fraction": None}
         if row["oversubscribed"] or base["oversubscribed"]:
             continue
         row["efficiency"] = efficiency(base, row)
@@ -101,9 +102,10 @@ def check_hashes(rows):
         for row in group:
             row["same_mesh"] = same
         if not same:
-            cases = ", ".join(f"{row['backend']} {row['ranks']} x {row['threads']}: {row['mesh_hash']}" for row in group)
-            messages.append(f"unequal meshes of {group[0]['sweep']}, {group[0]['method']}, {group[0]['points_asked']} "
-                            f"points, which is a bug of the program: {cases}")
+            first = group[0]
+            cases = [f"{row['backend']} {row['ranks']} x {row['threads']}: {row['mesh_hash']}" for row in group]
+            messages.append(f"unequal meshes of {first['sweep']}, {first['method']}, {first['points_asked']} points, "
+                            f"which is a bug of the program: {', '.join(cases)}")
     return messages
 
 

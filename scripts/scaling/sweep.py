@@ -111,9 +111,9 @@ def parse_layouts(text, nodes, where):
         match = re.fullmatch(r"([1-9]\d*)x([1-9]\d*)", part)
         pairs = [(int(match[1]), int(match[2]))] if match else layouts(part, nodes or [1])
         if not match and pairs and not nodes:
-            raise UsageError(f"{where}: '{part}' needs to know the cores of the nodes; say --nodes 4x64, or name the cases")
+            raise UsageError(f"{where}: '{part}' needs the cores of the nodes; say --nodes 4x64, or name the cases")
         if pairs is None:
-            raise UsageError(f"{where}: expected ranks x threads like 1x1 2x4, or one of powers, ranks, threads; found '{part}'")
+            raise UsageError(f"{where}: expected cases like 1x1 2x4, or powers, ranks or threads; found '{part}'")
         found += [pair for pair in pairs if pair not in found]
     return found
 
@@ -174,7 +174,8 @@ def read_section(parser, path, section, keys):
     for key in values:
         if key not in keys:
             near = difflib.get_close_matches(key, keys, 1)
-            raise UsageError(f"{path}: unknown key '{key}' in [{section}]" + (f"; did you mean '{near[0]}'?" if near else ""))
+            guess = f"; did you mean '{near[0]}'?" if near else ""
+            raise UsageError(f"{path}: unknown key '{key}' in [{section}]{guess}")
     for key, default in keys.items():
         if values.setdefault(key, default) is None:
             raise UsageError(f"{path}: [{section}] has no '{key}'")
@@ -210,17 +211,17 @@ def cases_of(section, values, path, backend, nodes, overrides):
                     if stop == "fixed":
                         options += (f"meshing.max_sweeps={sweeps}",)
                     for on, (ranks, threads) in pairs:
-                        share = points if kind == "weak" else 0
-                        found.append(Case(section, kind, config, method, name, stop, points * (ranks * threads if share else 1),
-                                          share, ranks, threads, options, output == "yes", on, values["reference"]))
+                        size = (points * ranks * threads, points) if kind == "weak" else (points, 0)
+                        found.append(Case(section, kind, config, method, name, stop, *size, ranks, threads, options,
+                                          output == "yes", on, values["reference"]))
     return found
 
 
 def read_plan(path, backend, nodes, changes=None, overrides=(), only="", kind=""):
     """All cases of an ini.
 
-    `changes` replaces values of all sections (by key), `overrides` are more options of trime_mpi, `only` keeps sections whose name contains it, `kind` those of
-    that kind. Raises UsageError, also where no case is left.
+    `changes` replaces values of all sections (by key). `overrides` are more options of trime_mpi. `only` keeps sections
+    whose name contains it, `kind` those of that kind. Raises UsageError, also where no case is left.
     """
     changes = {key: value for key, value in (changes or {}).items() if value is not None}
     parser = configparser.ConfigParser(interpolation=None, inline_comment_prefixes=(";", "#"), default_section="")

@@ -33,6 +33,14 @@ def sort_key(row):
     return (row["points_per_core"] or row["points_asked"], row["cores"], row["threads"])
 
 
+ROW_HEAD = ["method", "stop", "points", "ranks x threads"]
+
+
+def row_head(row):
+    """The cells below ROW_HEAD."""
+    return [row["method"], row["stop"], f"{row['points_asked']:,}", f"{row['ranks']} x {row['threads']}"]
+
+
 def times_of(row):
     """Seconds, spread, efficiency and serial fraction of a row."""
     share = OVERSUBSCRIBED if row["oversubscribed"] else number(row["efficiency"], ".2f")
@@ -67,12 +75,10 @@ def efficiency_table(rows, reference):
 def phase_table(rows):
     """Seconds of each phase, mean over ranks; set-up, mesh and output of each row apart."""
     names = list(dict.fromkeys(name for row in rows for name in row["phases"]))
-    body = [[row["method"], row["stop"], f"{row['points_asked']:,}", f"{row['ranks']} x {row['threads']}",
-             number(row["set_up_s"], ".3f"), number(row["mesh_s"], ".3f"), number(row["output_s"] or None, ".3f"),
-             number(row["command_s"], ".2f")]
+    body = [row_head(row) + [number(row["set_up_s"], ".3f"), number(row["mesh_s"], ".3f"),
+                             number(row["output_s"] or None, ".3f"), number(row["command_s"], ".2f")]
             + [number(row["phases"].get(name, {}).get("avg"), ".3f") for name in names] for row in rows]
-    return markdown_table(["method", "stop", "points", "ranks x threads", "set-up", "mesh", "output", "command"] + names,
-                          body)
+    return markdown_table(ROW_HEAD + ["set-up", "mesh", "output", "command"] + names, body)
 
 
 def quality_table(rows):
@@ -80,15 +86,14 @@ def quality_table(rows):
     body = []
     for row in rows:
         quality = row["quality"]
-        body.append([row["method"], row["stop"], f"{row['points_asked']:,}", f"{row['ranks']} x {row['threads']}",
+        body.append(row_head(row) + [
                      f"{row['points']:,}", number(quality.get("alpha_median"), ".4f"),
                      number(quality.get("alpha_mean"), ".4f"), number(quality.get("alpha_max"), ".3f"),
                      number(quality.get("min_angle_degrees"), ".1f"), number(row["imbalance"], ".2f"),
                      f"{row['messages']:,}", f"{row['bytes']:,}", f"{row['collectives']:,}",
                      number(row["bytes_per_point"], ".0f"), row["mesh_hash"], "OK" if row["same_mesh"] else "MISMATCH"])
-    return markdown_table(["method", "stop", "points", "ranks x threads", "made", "median alpha", "mean", "max",
-                           "min angle", "imbalance", "messages", "bytes", "collectives", "bytes/point", "mesh_hash",
-                           "same mesh"], body)
+    return markdown_table(ROW_HEAD + ["made", "median alpha", "mean", "max", "min angle", "imbalance", "messages",
+                                      "bytes", "collectives", "bytes/point", "mesh_hash", "same mesh"], body)
 
 
 def counter_text(counter):
@@ -105,10 +110,10 @@ def counter_table(rows):
              if name not in TRAFFIC]
     if not names:
         return []
-    body = [[row["method"], row["stop"], f"{row['points_asked']:,}", f"{row['ranks']} x {row['threads']}"]
-            + [counter_text(row["counters"].get("run", {}).get(name)) for name in names] + [row["limit"]] for row in rows]
-    return ["Counters, mean of the ranks (largest):", "", *markdown_table(
-        ["method", "stop", "points", "ranks x threads"] + names + ["what limits the run"], body), ""]
+    body = [row_head(row) + [counter_text(row["counters"].get("run", {}).get(name)) for name in names] + [row["limit"]]
+            for row in rows]
+    return ["Counters, mean of the ranks (largest):", "",
+            *markdown_table(ROW_HEAD + names + ["what limits the run"], body), ""]
 
 
 def sweep_text(rows, reference):
@@ -139,12 +144,12 @@ def report(rows, machine, reference, notes=()):
     repeats = sorted({row["repeats"] for row in rows})
     few = " Fewer than five runs say little about the spread." if repeats and repeats[0] < 5 else ""
     lines = ["# Scaling", "",
-             f"Medians of {' to '.join(map(str, dict.fromkeys((repeats[0], repeats[-1]))))} runs, after warm-ups that are "
-             f"dropped; the cases took turns.{few}", "",
+             f"Medians of {' to '.join(map(str, dict.fromkeys((repeats[0], repeats[-1]))))} runs, after warm-ups that "
+             f"are dropped; the cases took turns.{few}", "",
              "* `fixed`: a fixed number of sweeps, so the work is the same in all rows: how the machine scales. "
              "`rule`: the stop rule of the method: what a user waits for.",
-             "* seconds: from the start of the program to the finished mesh, without output. Set-up, output and the whole "
-             "command with the start of MPI stand in the table by phase.",
+             "* seconds: from the start of the program to the finished mesh, without output. Set-up, output and the "
+             "whole command with the start of MPI stand in the table by phase.",
              "* spread: width of the middle half of the runs over the median. serial: the fraction of Karp and Flatt.",
              f"* `{OVERSUBSCRIBED}`: more threads than cores; such a row has no efficiency.", ""]
     lines += [f"**{note.splitlines()[0]}**\n" for note in notes]

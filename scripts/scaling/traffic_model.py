@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What is counted in measured rows (traffic, imbalance) at numbers of points and ranks that were not measured.
 
-Per phase and rank, with the sweeps as a factor in phases that recur: messages and collectives are sums of 1, log2 P and P;
-bytes of sqrt(N/P) (borders), N/P (sites that move to another rank), sqrt(N) (boundary), N (tables) and P, all with
+Per phase and rank, with the sweeps as a factor in phases that recur: messages and collectives are sums of 1, log2 P and
+P; bytes of sqrt(N/P) (borders), N/P (sites that move to another rank), sqrt(N) (boundary), N (tables) and P, all with
 coefficients >= 0. The imbalance is 1 + g P/N: the tiles that ranks are made of have g points.
 """
 import dataclasses
@@ -10,12 +10,13 @@ import math
 
 import numpy as np
 
+from .least_squares import nonnegative
 from .model import BY_SWEEPS, Sample
 
 FORMS = {
     "messages": {"1": lambda n, p: 1.0, "log2 P": lambda n, p: math.log2(p), "P": lambda n, p: float(p)},
-    "bytes": {"sqrt(N/P)": lambda n, p: math.sqrt(n / p), "N/P": lambda n, p: n / p, "sqrt(N)": lambda n, p: math.sqrt(n),
-              "N": lambda n, p: float(n), "P": lambda n, p: float(p)},
+    "bytes": {"sqrt(N/P)": lambda n, p: math.sqrt(n / p), "N/P": lambda n, p: n / p,
+              "sqrt(N)": lambda n, p: math.sqrt(n), "N": lambda n, p: float(n), "P": lambda n, p: float(p)},
     "collectives": {"1": lambda n, p: 1.0, "log2 P": lambda n, p: math.log2(p), "P": lambda n, p: float(p)},
 }
 KINDS = tuple(FORMS)
@@ -27,17 +28,11 @@ def rounds_of(sample, phase):
 
 
 def fit_count(samples, phase, kind):
-    """Coefficients of one count by the names of its forms."""
-    from scipy.optimize import nnls  # needed here only
+    """Coefficients of one count by the names of its forms; errors are relative."""
     position = KINDS.index(kind)
     values = np.array([sample.traffic.get(phase, (0, 0, 0))[position] / rounds_of(sample, phase) for sample in samples])
-    forms = FORMS[kind]
-    matrix = np.array([[form(sample.points, sample.ranks) for form in forms.values()] for sample in samples])
-    weights = 1 / np.maximum(values, 1e-3 * max(values.max(), 1e-300))
-    matrix *= weights[:, None]
-    scale = np.abs(matrix).max(axis=0)
-    found, _ = nnls(matrix / scale, values * weights)
-    return {name: value / unit for name, value, unit in zip(forms, found, scale) if value > 0}
+    columns = {name: [form(sample.points, sample.ranks) for sample in samples] for name, form in FORMS[kind].items()}
+    return nonnegative(columns, values, 1 / np.maximum(values, max(1e-3 * values.max(), 1e-9)))[0]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -49,7 +44,8 @@ class TrafficModel:
     def sample(self, points, ranks, like):
         """A sample without times, of one thread a rank, with the sweeps of another one."""
         moved = points * like.moved / like.points
-        bare = Sample(points, ranks, 1, like.sweeps, moved, 1 + self.granularity * (ranks > 1) * ranks / points, 0.0, {}, {})
+        imbalance = 1 + self.granularity * ranks / points if ranks > 1 else 1.0
+        bare = Sample(points, ranks, 1, like.sweeps, moved, imbalance, 0.0, {}, {})
         traffic = {}
         for phase, kinds in self.counts.items():
             traffic[phase] = tuple(rounds_of(bare, phase) * sum(

@@ -1,13 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The scripts around the program: picture, scaling table, and what the first command does where it may not install."""
-import csv
-import json
+"""The scripts around the program: picture, and what the first command does where it may not install."""
 import os
 import subprocess
 import unittest
 
-from trime_run import PROGRAM, ROOT, Workspace, environment, run
+from trime_run import ROOT, Workspace, environment, run
 
 SCRIPTS = ROOT / "scripts"
 

@@ -4,12 +4,13 @@ import os
 import shutil
 
 from ..errors import UsageError
-from ..machine import cores_per_node
+from ..machine import cores_per_node, shell
 from .process import mesh_arguments, run_command
 
 
 class Local:
-    """mpirun with a block of cores for each rank; without binding where the cores do not suffice."""
+    """mpirun with a block of cores for each rank; without binding where the cores do not suffice. Options of mpirun are
+    those of Open MPI, or of the Hydra of MPICH and others, which hands the whole environment on."""
     name = "local"
 
     def __init__(self, program):
@@ -20,6 +21,7 @@ class Local:
             raise UsageError("there is no mpirun on the path; load the module of your MPI")
         self.program = program
         self.nodes = cores_per_node()
+        self.is_open_mpi = "Open MPI" in shell("mpirun", "--version")
 
     def oversubscribed(self, case):
         """More threads than cores, or a rank that no node can hold."""
@@ -34,12 +36,16 @@ class Local:
 
     def command(self, case, record):
         """mpirun and the program with all its arguments."""
-        start = ["mpirun", "-np", str(case.ranks), "-x", "OMP_NUM_THREADS", "-x", "OMP_PROC_BIND", "-x", "OMP_PLACES"]
+        start = ["mpirun", "-np", str(case.ranks)]
+        if self.is_open_mpi:
+            start += ["-x", "OMP_NUM_THREADS", "-x", "OMP_PROC_BIND", "-x", "OMP_PLACES"]
         if self.oversubscribed(case):
-            start += ["--oversubscribe", "--bind-to", "none"]
-        else:
+            start += ["--oversubscribe", "--bind-to", "none"] if self.is_open_mpi else ["-bind-to", "none"]
+        elif self.is_open_mpi:
             per_node = min(case.ranks, min(self.nodes) // case.threads)
             start += ["--map-by", f"ppr:{per_node}:node:PE={case.threads}", "--bind-to", "core"]
+        else:
+            start += ["-bind-to", f"core:{case.threads}"]
         return start + [str(self.program), "--quiet", "--record", str(record)] + mesh_arguments(case, record.parent)
 
     def run(self, case, record, limit):

@@ -22,8 +22,8 @@ class Simulated:
         done = subprocess.run([str(SCRIPT), "--ranks", "1", *self.cluster_option(), "--build-only"], text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
         if done.returncode != 0:
-            raise UsageError(f"the simulator cannot be built (Debian: libsimgrid-dev): exit code {done.returncode} from "
-                             f"{SCRIPT} --build-only\n{done.stdout.strip()}")
+            raise UsageError(f"the simulator cannot be built: exit code {done.returncode} from {SCRIPT} --build-only\n"
+                             f"{done.stdout.strip()}")
 
     def cluster_option(self):
         return ["--cluster", str(self.cluster)] if self.cluster else []

@@ -31,8 +31,8 @@ source {root}/jobs/common.sh
 cd {directory} || exit 2
 "${{PYTHON:-/usr/bin/python3}}" {root}/scripts/scaling.py --program "$TRIME_PROGRAM" --machine >{name}.machine
 
-# one NUMBER TURN ARGUMENT...: a run of the case NUMBER. Its record goes to NUMBER-TURN.json, its output to .log, exit code
-# and seconds to .exit. A case that has failed is not tried again.
+# one NUMBER TURN ARGUMENT...: a run of the case NUMBER. Its record goes to NUMBER-TURN.json, its output to .log, exit
+# code, begin and end to .exit. A case that has failed is not tried again.
 one() {{
   local stem=$1-$2 begin=$EPOCHREALTIME code=0
   [ ! -e "$1.failed" ] || return 0
@@ -56,7 +56,8 @@ def job_script(numbered, plan, program, directory):
     """The text of the job that runs some cases of the same ranks and threads; `numbered`: pairs (number, case)."""
     case = numbered[0][1]
     lines = [f"  one {number} \"$turn\" {shlex.join(mesh_arguments(each, directory))}" for number, each in numbered]
-    quoted = {"directory": shlex.quote(str(directory)), "root": shlex.quote(str(ROOT)), "program": shlex.quote(str(program))}
+    paths = {"directory": directory, "root": ROOT, "program": program}
+    quoted = {name: shlex.quote(str(path)) for name, path in paths.items()}
     return SCRIPT.format(ranks=case.ranks, threads=case.threads, name=job_name(case), capped=STOPPED_BY_CAP,
                          turns=plan.warm_ups + plan.repeats, lines="\n".join(lines), **quoted)
 
@@ -78,7 +79,8 @@ def submit(plan, program, directory, options):
         name = job_name(numbered[0][1])
         script = place / f"{name}.sbatch"
         script.write_text(job_script(numbered, plan, program, place), encoding="utf-8")
-        done = subprocess.run(["sbatch", "--parsable", *options, str(script)], capture_output=True, text=True, check=False)
+        done = subprocess.run(["sbatch", "--parsable", *options, str(script)], capture_output=True, text=True,
+                              check=False)
         if done.returncode != 0:
             raise UsageError(f"sbatch refuses {script}: {done.stderr.strip()}")
         numbers[name] = done.stdout.split(";")[0].strip()
