@@ -88,6 +88,20 @@ class Jobs(unittest.TestCase):
         for row in rows:
             self.assertAlmostEqual(float(row["efficiency"]), float(rows[0]["seconds"]) / float(row["seconds"]))
 
+    def test_scaling_submits_and_collects(self):
+        def scaling(*arguments):
+            environment = dict(os.environ, SLURM_CONF=str(self.slurm / "slurm.conf"), MPLCONFIGDIR=str(self.work))
+            done = subprocess.run([ROOT / "scripts" / "scaling.py", *arguments], cwd=self.work, env=environment,
+                                  capture_output=True, text=True, check=False, timeout=120)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        scaling("--backend", "slurm", "--kind", "strong", "--cases", "1x1,2x1,1x2", "--points", "800", *QUICK,
+                "--program", PROGRAM, "--output", "many", "--sbatch=--wait")
+        scaling("--collect", "many")
+        rows = self.table("many")
+        self.assertEqual([(row["ranks"], row["threads"]) for row in rows], [("1", "1"), ("2", "1"), ("1", "2")])
+        self.assertEqual(len({row["mesh_hash"] for row in rows}), 1)
+        self.assertIn("SLURM_JOB_ID", (self.work / "many" / "scaling.md").read_text(encoding="utf-8"))
+
     def test_array(self):
         (self.work / "list.txt").write_text("configs/square.ini\nconfigs/circle.ini meshing.seed=3\n", encoding="utf-8")
         job, _ = self.submit("--array=1-2", "jobs/array.sbatch", "list.txt", SMALL)
