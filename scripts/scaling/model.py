@@ -1,19 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The time of a run as a sum of terms, fitted to measured rows.
 
-Each phase takes, on P ranks of t threads,
+Each phase takes, on P ranks of t threads, a sum of some of these terms:
 
-  T = a I W / (P t)              work that ranks and threads share; W: points x sweeps, or points
-    + b I W / P                  work that the threads of a rank do not share
-    + c I W / (P t)              the same work where all cores of the machine are busy: they share memory
-    + r N^k                      work of each rank for itself; k: 0, 1/2 (the boundary) or 1 (tables of all tiles)
-    + L M + B / bandwidth        messages and bytes of a rank
-    + u B                        packing and unpacking of these bytes
-    + L C log2 P + s C log2 P    collectives: their steps, and the wait for the slowest rank at each
+  work       a I W / (P t)     what ranks and threads share; W: points x sweeps, or points
+  threads    a I W / P         work that the threads of a rank do not share
+  memory     a I W / (P t)     the same where all cores of the machine are busy: they share memory
+  once       a                 what each rank does for itself, whatever the size
+  boundary   a sqrt(N)         ... for the whole boundary
+  tables     a N               ... for tables of the whole mesh
+  packing    a B               handling of the bytes that are sent
+  waiting    a C log2 P        for the slowest rank at each collective
+  ranks      a C P             collectives whose data grow with the ranks
+  messages, bytes, collectives: latency x M, B / bandwidth, latency x C log2 P
 
-N points, I the points of the fullest rank over the mean, M, B and C counted. L (latency) and bandwidth are those of the
-Platform, given and never fitted. a, b, c, r, u, s >= 0 come from non-negative least squares, each phase for itself,
-with errors relative to the time of the whole run. k is the one that fits best.
+N points, I the points of the fullest rank over the mean; M, B and C counted. Latency and bandwidth are those of the
+Platform, given and never fitted. The factors a >= 0 come from non-negative least squares, each phase for itself, with
+errors relative to the time of the whole run. A term is taken only if it lowers the error by LEAST_GAIN: what is lost in
+the noise must not be carried on to 10^4 ranks.
 """
 import dataclasses
 import math
@@ -23,9 +27,9 @@ import numpy as np
 from .least_squares import nonnegative
 from .record import OUTPUT, TRAFFIC
 
-EXPONENTS = (0.0, 0.5, 1.0)
-CLEARLY = 0.9  # a larger exponent must lower the residual to this share of that of a smaller one
-BY_SWEEPS = ("sweeps", "measure", "sort", "stars")  # phases that recur: their work and traffic go with the sweeps
+LEAST_GAIN = 0.004  # of the time of a run, root mean square over the rows: about what medians of five runs are good for
+WORK = ("work", "threads", "memory")  # terms that imbalance lengthens
+BY_SWEEPS = ("sweeps", "measure", "sort")  # phases that recur: their work and traffic go with the sweeps
 
 
 @dataclasses.dataclass(frozen=True)
@@ -117,56 +121,51 @@ def given_terms(sample, phase, platform):
             "collectives": platform.collective(sample.ranks) * collectives}
 
 
-def fitted_columns(sample, phase, exponent):
-    """What stands beside each coefficient."""
-    _, size, collectives = sample.traffic.get(phase, (0, 0, 0))
+def fitted_columns(sample, phase):
+    """What stands beside the factor of each term."""
+    _, size, collectives = sample.traffic.get(phase, (0, 0, 0)) if sample.ranks > 1 else (0, 0, 0)
     share = sample.imbalance * sample.work(phase) / sample.ranks
-    alone = sample.ranks == 1
     return {"work": share / sample.threads, "threads": share, "memory": share / sample.threads * sample.full,
-            "replicated": sample.points**exponent, "packing": 0 if alone else size,
-            "waiting": 0 if alone else collectives * sample.depth}
+            "once": 1.0, "boundary": math.sqrt(sample.points), "tables": sample.points,
+            "packing": size, "waiting": collectives * sample.depth, "ranks": collectives * sample.ranks}
 
 
 @dataclasses.dataclass(frozen=True)
 class PhaseModel:
-    """One phase: coefficients by term, and the exponent of the replicated work."""
+    """One phase: factors by term."""
     name: str
-    coefficients: dict
-    exponent: float
+    factors: dict
 
     def terms(self, sample, platform):
-        """Seconds by term. Work is split: what imbalance adds to it stands apart."""
-        columns = fitted_columns(sample, self.name, self.exponent)
-        terms = {term: coefficient * columns[term] for term, coefficient in self.coefficients.items()}
+        """Seconds by term. What imbalance adds to the work stands apart."""
+        columns = fitted_columns(sample, self.name)
+        terms = {term: factor * columns[term] for term, factor in self.factors.items()}
         waste = 1 - 1 / sample.imbalance
-        terms["imbalance"] = waste * sum(terms.get(term, 0) for term in ("work", "memory", "threads"))
-        for term in ("work", "memory", "threads"):
-            if term in terms:
-                terms[term] *= 1 - waste
-        for term, seconds in given_terms(sample, self.name, platform).items():
-            terms[term] = terms.get(term, 0) + seconds
-        return terms
-
-
-def solve(samples, phase, platform, exponent):
-    """Coefficients and residual of one phase with a given exponent."""
-    rows = [fitted_columns(sample, phase, exponent) for sample in samples]
-    columns = {name: [row[name] for row in rows] for name in rows[0]}
-    if len({sample.threads for sample in samples}) == 1:
-        del columns["threads"]  # the same as the work
-    target = [sample.seconds.get(phase, 0.0) - sum(given_terms(sample, phase, platform).values()) for sample in samples]
-    return nonnegative(columns, target, np.array([1 / sample.total for sample in samples]))
+        terms["imbalance"] = waste * sum(terms.get(term, 0) for term in WORK)
+        terms |= {term: (1 - waste) * terms[term] for term in WORK if term in terms}
+        return terms | given_terms(sample, self.name, platform)
 
 
 def fit_phase(samples, phase, platform):
-    """The model of one phase; the smallest exponent that fits about as well as any."""
-    sizes = len({sample.points for sample in samples})
-    best = None
-    for exponent in EXPONENTS if sizes > 1 else EXPONENTS[:1]:
-        coefficients, residual = solve(samples, phase, platform, exponent)
-        if best is None or residual < CLEARLY * best[0]:
-            best = residual, PhaseModel(phase, coefficients, exponent)
-    return best[1]
+    """The model of one phase: terms are taken one after the other, the one that helps most first."""
+    rows = [fitted_columns(sample, phase) for sample in samples]
+    columns = {name: [row[name] for row in rows] for name in rows[0]}
+    if len({sample.threads for sample in samples}) == 1:
+        del columns["threads"]  # the same as the work
+    if len({sample.points for sample in samples}) == 1:
+        del columns["boundary"], columns["tables"]  # the same as `once`
+    target = [sample.seconds.get(phase, 0.0) - sum(given_terms(sample, phase, platform).values()) for sample in samples]
+    weights = np.array([1 / sample.total for sample in samples])
+    taken, best = [], ({}, math.inf)
+    while len(taken) < len(columns):
+        trials = [(nonnegative({term: columns[term] for term in [*taken, name]}, target, weights), name)
+                  for name in columns if name not in taken]
+        found, name = min(trials, key=lambda trial: trial[0][1])
+        if found[1] > best[1] - LEAST_GAIN * math.sqrt(len(samples)):
+            break
+        taken.append(name)
+        best = found
+    return PhaseModel(phase, best[0])
 
 
 @dataclasses.dataclass(frozen=True)

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The model beside what was measured, and what it says of 10^4 ranks, as Markdown.
 
-It is fitted twice: to some rows, to be checked on the others, which are held out, and to all rows, for predictions.
+Predictions come from the fit to all rows. How far it can be trusted is seen in two other fits: that to all rows but the one
+that is looked at, and that to the rows of few ranks, or of smaller sizes, beyond which all others are held out.
 """
 import math
 
@@ -14,7 +15,7 @@ from .traffic_model import fit_traffic
 PROBLEM = ("backend", "config", "method", "variant", "stop", "options")  # rows that one model describes
 HELD_RANKS = 2      # so many of the largest numbers of ranks are held out ...
 LEAST_RANKS = 3     # ... if as many others are left; else the largest size, if two others are left
-BARS = {"local": (0.20, "all rows"), "simulated": (0.25, "rows of 64 ranks and more")}
+BARS = {"local": (0.20, "all rows"), "simulated": (0.25, "rows of 64 ranks and more")}  # what the model must reach
 BAR_RANKS = {"local": 1, "simulated": 64}
 
 STRONG_POINTS = (10**6, 10**8, 10**10)
@@ -23,8 +24,12 @@ RANKS = (1, 4, 16, 64, 256, 1024, 4096, 10**4)
 FEWEST_POINTS = 100  # of a rank: below that no row is predicted
 
 TERMS = {"work": "work", "threads": "work that threads do not share", "memory": "memory shared by busy cores",
-         "replicated": "replicated work", "packing": "packing", "waiting": "waiting at collectives",
+         "once": "work of each rank", "boundary": "work of each rank on the boundary", "tables": "tables of the whole mesh",
+         "packing": "packing", "waiting": "waiting at collectives", "ranks": "data that grow with the ranks",
          "imbalance": "imbalance", "messages": "latency", "bytes": "bandwidth", "collectives": "steps of collectives"}
+UNITS = {"work": (1e9, "ns a point"), "threads": (1e9, "ns a point"), "memory": (1e9, "ns a point"), "once": (1e3, "ms"),
+         "boundary": (1e6, "us sqrt(N)"), "tables": (1e9, "ns N"), "packing": (1e9, "ns a byte"),
+         "waiting": (1e6, "us log2 P"), "ranks": (1e9, "ns P")}
 
 
 def held_out(rows):
@@ -39,41 +44,49 @@ def error_text(predicted, row):
     return f"{100 * (predicted / row['seconds'] - 1):+.0f} %"
 
 
+def left_out(samples, platform):
+    """Seconds of each sample by a model that is fitted to all others."""
+    return [fit(samples[:k] + samples[k + 1:], platform).seconds(samples[k]) for k in range(len(samples))]
+
+
 def check(rows, samples, platform):
     """Lines that compare model and rows, and the model of all rows."""
     held = held_out(rows)
-    seen = [sample for row, sample in zip(rows, samples) if row not in held]
-    first, last = fit(seen, platform), fit(samples, platform)
-    body, worst = [], 0.0
-    for row, sample in zip(rows, samples):
-        blind, full = first.seconds(sample), last.seconds(sample)
+    first = fit([sample for row, sample in zip(rows, samples) if row not in held], platform)
+    last, alone = fit(samples, platform), left_out(samples, platform)
+    body = []
+    for row, sample, other in zip(rows, samples, alone):
+        blind = error_text(first.seconds(sample), row) if held else ""
         body.append([f"{row['points']:,}", f"{row['ranks']} x {row['threads']}", f"{row['seconds']:.4g}",
-                     f"{blind:.4g}", error_text(blind, row), "held out" if row in held else "fitted",
-                     error_text(full, row)])
-        if row["ranks"] >= BAR_RANKS.get(platform.name, 1):
-            worst = max(worst, abs(blind / row["seconds"] - 1))
-    lines = markdown_table(["points", "ranks x threads", "measured s", "model s", "error", "this row",
-                            "error, all fitted"], body)
-    bar, which = BARS.get(platform.name, (None, ""))
-    if bar is not None:
-        lines += ["", f"Largest error of {which}, of the model that has not seen the rows held out: "
-                  f"{100 * worst:.0f} % (bar: {100 * bar:.0f} %)."]
-    if not held:
-        lines += ["", "Too few rows to hold any out: these errors are those of a fit, not of a prediction."]
-    return lines, last
+                     f"{last.seconds(sample):.4g}", error_text(last.seconds(sample), row), error_text(other, row), blind,
+                     "held out" if row in held else ""])
+    lines = markdown_table(["points", "ranks x threads", "measured s", "model s", "error", "fitted to all other rows",
+                            "fitted to rows not held out", "row"], body)
+    return lines + ["", *bar_text(rows, alone, platform)], last
+
+
+def bar_text(rows, predicted, platform):
+    """The largest error of the rows that count beside the bar."""
+    errors = [abs(seconds / row["seconds"] - 1) for row, seconds in zip(rows, predicted)
+              if row["ranks"] >= BAR_RANKS.get(platform.name, 1)]
+    if platform.name not in BARS or not errors:
+        return []
+    bar, which = BARS[platform.name]
+    return [f"Largest error of {which}, each by the model fitted to all other rows: {100 * max(errors):.0f} % "
+            f"(bar: {100 * bar:.0f} %)."]
+
+
+def factor_text(phase, term):
+    """The factor of a term with its unit."""
+    per, unit = UNITS[term]
+    return f"{per * phase.factors[term]:.3g} {unit}" if term in phase.factors else ""
 
 
 def coefficient_table(model):
-    """What was fitted, by phase."""
-    body = []
-    for phase in model.phases:
-        value = phase.coefficients.get
-        cells = [f"{1e9 * value(term, 0):.3g}" for term in ("work", "threads", "memory")]
-        replicated = f"{1e3 * value('replicated'):.3g} ms x N^{phase.exponent:g}" if value("replicated") else ""
-        body.append([phase.name, *cells, replicated, f"{1e9 * value('packing', 0):.3g}",
-                     f"{1e6 * value('waiting', 0):.3g}"])
-    return markdown_table(["phase", "work, ns a point", "not shared by threads, ns", "memory, ns", "replicated",
-                           "packing, ns a byte", "waiting, us a step"], body)
+    """What was fitted, by phase; terms that no phase has are left out."""
+    used = [term for term in UNITS if any(term in phase.factors for phase in model.phases)]
+    return markdown_table(["phase"] + [TERMS[term] for term in used],
+                          [[phase.name] + [factor_text(phase, term) for term in used] for phase in model.phases])
 
 
 def limit_text(terms, total):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rows as pictures, PNG and SVG: time and efficiency over cores with the ideal line, seconds by phase as bars."""
+"""Rows as pictures, PNG and SVG: time and efficiency over cores with the ideal line, shares of the phases as bars."""
 import itertools
 import re
 
@@ -14,7 +14,7 @@ from .tables import sort_key, title_of  # noqa: E402
 
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#f0e442", "#000000"]  # Okabe and Ito
 STYLES = {"ranks": ("-", "o"), "threads": ("--", "s"), "ranks and threads": (":", "^")}
-SMALL_SHARE = 0.02  # phases below this share of all bars are drawn together
+SMALL_SHARE = 2.0   # per cent: phases below it in all bars are drawn together
 SIZE = (6.4, 4.2)   # inches
 
 
@@ -108,29 +108,31 @@ def time_figure(rows, directory):
     return save(figure, directory, rows, "time")
 
 
-def phase_heights(rows):
-    """Heights of the bars by phase: core seconds for strong rows, so that ideal scaling shows as equal bars."""
-    factors = [row["cores"] if row["kind"] == "strong" else 1 for row in rows]
+def phase_shares(rows):
+    """Shares of the time by phase in per cent, a list over the rows for each; the small ones together."""
     names = list(dict.fromkeys(name for row in rows for name in row["phases"]))
-    heights = {name: [row["phases"].get(name, {"avg": 0.0})["avg"] * factor for row, factor in zip(rows, factors)]
-               for name in names}
-    tallest = max(map(sum, zip(*heights.values())))
-    small = [name for name in names if max(heights[name]) < SMALL_SHARE * tallest]
-    large = {name: heights[name] for name in names if name not in small}
-    return large | ({"the rest": [sum(column) for column in zip(*(heights[name] for name in small))]} if small else {})
+    totals = [sum(phase["avg"] for phase in row["phases"].values()) for row in rows]
+    shares = {name: [100 * row["phases"].get(name, {"avg": 0.0})["avg"] / total for row, total in zip(rows, totals)]
+              for name in names}
+    small = [name for name in names if max(shares[name]) < SMALL_SHARE]
+    large = {name: shares[name] for name in names if name not in small}
+    return large | ({"the rest": [sum(column) for column in zip(*(shares[name] for name in small))]} if small else {})
 
 
 def phase_figure(rows, directory):
-    """Seconds by phase of one method as bars."""
+    """Shares of the time by phase of one method as bars, the seconds above them."""
     rows = sorted(rows, key=sort_key)
     figure, axes = plt.subplots(figsize=SIZE, layout="constrained")
     floor = [0.0] * len(rows)
-    for colour, (name, heights) in zip(itertools.cycle(plt.get_cmap("tab20").colors), phase_heights(rows).items()):
-        axes.bar(range(len(rows)), heights, 0.65, bottom=floor, color=colour, label=name)
-        floor = [below + height for below, height in zip(floor, heights)]
+    for colour, (name, shares) in zip(itertools.cycle(plt.get_cmap("tab20").colors), phase_shares(rows).items()):
+        axes.bar(range(len(rows)), shares, 0.65, bottom=floor, color=colour, label=name)
+        floor = [below + share for below, share in zip(floor, shares)]
+    for place, row in enumerate(rows):
+        axes.text(place, 101, f"{row['total_s']:.3g} s", ha="center", va="bottom", fontsize=8)
+    axes.set_ylim(0, 108)
     axes.set_xticks(range(len(rows)), [f"{row['ranks']} x {row['threads']}" for row in rows])
     axes.set_xlabel("ranks x threads")
-    axes.set_ylabel("seconds x cores" if rows[0]["kind"] == "strong" else "seconds")
+    axes.set_ylabel("share of the time, %")
     axes.set_title(f"{rows[0]['method']}, {subtitle(rows)}", fontsize=10)
     handles, labels = axes.get_legend_handles_labels()
     axes.legend(handles[::-1], labels[::-1], fontsize=8, frameon=False, loc="center left", bbox_to_anchor=(1, 0.5))

@@ -29,10 +29,10 @@ class Model(unittest.TestCase):
     def test_known_terms_come_back(self):
         fitted = model.fit(self.samples(), self.PLATFORM)
         by_name = {phase.name: phase for phase in fitted.phases}
-        self.assertAlmostEqual(by_name["sweeps"].coefficients["work"], 30e-9, delta=1e-11)
-        self.assertAlmostEqual(by_name["sweeps"].coefficients["packing"], 1e-9, delta=2e-11)
-        self.assertEqual(by_name["boundary"].exponent, 0.5)
-        self.assertAlmostEqual(by_name["boundary"].coefficients["replicated"], 2e-6, delta=1e-8)
+        self.assertAlmostEqual(by_name["sweeps"].factors["work"], 30e-9, delta=1e-11)
+        self.assertAlmostEqual(by_name["sweeps"].factors["packing"], 1e-9, delta=2e-11)
+        self.assertEqual(list(by_name["boundary"].factors), ["boundary"])
+        self.assertAlmostEqual(by_name["boundary"].factors["boundary"], 2e-6, delta=1e-8)
 
     def test_ranks_that_it_has_not_seen(self):
         fitted = model.fit(self.samples(), self.PLATFORM)
@@ -58,7 +58,7 @@ class Model(unittest.TestCase):
         samples = [dataclasses.replace(self.sample(1e5, 1, threads), seconds={"sweeps": 1e-3 * (1 + 1 / threads)})
                    for threads in (1, 2, 4)]
         phase, = model.fit(samples, self.PLATFORM).phases
-        self.assertAlmostEqual(phase.coefficients["threads"], phase.coefficients["work"])
+        self.assertAlmostEqual(phase.factors["threads"], phase.factors["work"])
 
     def test_report_holds_rows_out_and_predicts(self):
         rows, _ = summary.rows_of([made_run(ranks, 1, 1 / ranks + 0.01, backend="simulated", points=100000)

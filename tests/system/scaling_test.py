@@ -9,7 +9,7 @@ import unittest.mock
 
 from made_runs import made_run
 from scaling import compare, measure, record, summary, sweep, tables
-from scaling.backends import simulated, slurm
+from scaling.backends import process, simulated, slurm
 from scaling.errors import RunError, UsageError
 from scaling.machine import slurm_cores
 from scripts_test import call
@@ -226,6 +226,13 @@ class Measuring(unittest.TestCase):
         self.assertEqual(machine, {"host": "h"})
         self.assertEqual(len(failures), 1)
         self.assertIn("2 x 1: exit code 1", failures[0])
+
+    def test_a_command_without_an_end(self):
+        with Workspace() as work:
+            script = "trap 'echo ended >ended; exit 1' TERM; sleep 60 & wait"
+            with self.assertRaisesRegex(RunError, "no end after 0.5 s"):
+                process.run_command(["bash", "-c", f"cd {work}; {script}"], work / "record.json", {}, 0.5)
+            self.assertTrue((work / "ended").exists())
 
     def test_jobs_of_slurm(self):
         plan = plan_of(SMALL, backend="slurm")

@@ -8,7 +8,18 @@ import time
 from ..errors import ROOT, RunError
 from ..record import read_record
 
+GRACE = 10          # seconds for a command to end by itself
 STOPPED_BY_CAP = 5  # exit code of trime_mpi: the mesh is made and marked
+
+
+def end(process):
+    """Ends a command and all that it has started."""
+    os.killpg(process.pid, signal.SIGTERM)
+    try:
+        process.communicate(timeout=GRACE)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
 
 
 def run_command(command, record, environment, limit):
@@ -22,11 +33,12 @@ def run_command(command, record, environment, limit):
                           text=True, errors="replace", start_new_session=True) as process:
         try:
             output, _ = process.communicate(timeout=limit)
-        except BaseException as error:  # the limit, or Ctrl-C
-            os.killpg(process.pid, signal.SIGTERM)
-            if not isinstance(error, subprocess.TimeoutExpired):
-                raise
+        except subprocess.TimeoutExpired as error:
+            end(process)
             raise RunError(f"no end after {limit} s: {' '.join(command)}") from error
+        except KeyboardInterrupt:
+            end(process)
+            raise
     wall = time.monotonic() - start
     if process.returncode not in (0, STOPPED_BY_CAP):
         raise RunError(f"exit code {process.returncode} from {' '.join(command)}\n{output.strip()}")
