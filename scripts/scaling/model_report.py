@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The model beside what was measured, and what it says of 10^4 ranks, as Markdown.
 
-Predictions come from the fit to all rows. How far it can be trusted is seen in two other fits: that to all rows but the one
-that is looked at, and that to the rows of few ranks, or of smaller sizes, beyond which all others are held out.
+Predictions come from the fit to all rows. How far it can be trusted is seen in two other fits: that to all rows but the
+one that is looked at, and that to the rows of few ranks, or of smaller sizes, where the others are held out.
 """
 import math
 
@@ -24,11 +24,11 @@ RANKS = (1, 4, 16, 64, 256, 1024, 4096, 10**4)
 FEWEST_POINTS = 100  # of a rank: below that no row is predicted
 
 TERMS = {"work": "work", "threads": "work that threads do not share", "memory": "memory shared by busy cores",
-         "once": "work of each rank", "boundary": "work of each rank on the boundary", "tables": "tables of the whole mesh",
-         "packing": "packing", "waiting": "waiting at collectives", "ranks": "data that grow with the ranks",
+         "once": "work of each rank", "boundary": "work of each rank on the boundary",
+         "tables": "tables of the whole mesh", "packing": "packing", "waiting": "waiting at collectives", "ranks": "data that grow with the ranks",
          "imbalance": "imbalance", "messages": "latency", "bytes": "bandwidth", "collectives": "steps of collectives"}
-UNITS = {"work": (1e9, "ns a point"), "threads": (1e9, "ns a point"), "memory": (1e9, "ns a point"), "once": (1e3, "ms"),
-         "boundary": (1e6, "us sqrt(N)"), "tables": (1e9, "ns N"), "packing": (1e9, "ns a byte"),
+UNITS = {"work": (1e9, "ns a point"), "threads": (1e9, "ns a point"), "memory": (1e9, "ns a point"),
+         "once": (1e3, "ms"), "boundary": (1e6, "us sqrt(N)"), "tables": (1e9, "ns N"), "packing": (1e9, "ns a byte"),
          "waiting": (1e6, "us log2 P"), "ranks": (1e9, "ns P")}
 
 
@@ -58,8 +58,8 @@ def check(rows, samples, platform):
     for row, sample, other in zip(rows, samples, alone):
         blind = error_text(first.seconds(sample), row) if held else ""
         body.append([f"{row['points']:,}", f"{row['ranks']} x {row['threads']}", f"{row['seconds']:.4g}",
-                     f"{last.seconds(sample):.4g}", error_text(last.seconds(sample), row), error_text(other, row), blind,
-                     "held out" if row in held else ""])
+                     f"{last.seconds(sample):.4g}", error_text(last.seconds(sample), row), error_text(other, row),
+                     blind, "held out" if row in held else ""])
     lines = markdown_table(["points", "ranks x threads", "measured s", "model s", "error", "fitted to all other rows",
                             "fitted to rows not held out", "row"], body)
     return lines + ["", *bar_text(rows, alone, platform)], last

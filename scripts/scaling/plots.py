@@ -73,11 +73,12 @@ def curve_figure(rows, value, label, ideal):
                       markersize=5, label=f"{line[0]['method']}, {way}")
         ideals[tuple(ideal(curve)(count) for count in cores)] = None
     for number, line in enumerate(ideals):
-        axes.plot(cores, line, color="0.4", linewidth=1, zorder=1, label="" if number else "ideal")
+        axes.plot(cores, line, color="0.3", linewidth=1, zorder=1, label="" if number else "ideal")
     cores_axis(axes, cores)
     axes.set_ylabel(label)
     axes.set_title(subtitle(rows), fontsize=10)
     axes.grid(color="0.9")
+    axes.set_axisbelow(True)
     axes.legend(fontsize=8, frameon=False)
     return figure, axes
 
