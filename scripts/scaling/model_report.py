@@ -13,6 +13,8 @@ from .tables import markdown_table
 from .traffic_model import fit_traffic
 
 PROBLEM = ("backend", "config", "method", "variant", "stop", "options")  # rows that one model describes
+LEAST_ROWS = 3      # for a model
+MANY_RANKS = 4      # that must have been measured for predictions
 HELD_RANKS = 2      # so many of the largest numbers of ranks are held out ...
 LEAST_RANKS = 3     # ... if as many others are left; else the largest size, if two others are left
 BARS = {"local": (0.20, "all rows"), "simulated": (0.25, "rows of 64 ranks and more")}  # what the model must reach
@@ -25,8 +27,9 @@ FEWEST_POINTS = 100  # of a rank: below that no row is predicted
 
 TERMS = {"work": "work", "threads": "work that threads do not share", "memory": "memory shared by busy cores",
          "once": "work of each rank", "boundary": "work of each rank on the boundary",
-         "tables": "tables of the whole mesh", "packing": "packing", "waiting": "waiting at collectives", "ranks": "data that grow with the ranks",
-         "imbalance": "imbalance", "messages": "latency", "bytes": "bandwidth", "collectives": "steps of collectives"}
+         "tables": "tables of the whole mesh", "packing": "packing", "waiting": "waiting at collectives",
+         "ranks": "data that grow with the ranks", "imbalance": "imbalance", "messages": "latency",
+         "bytes": "bandwidth", "collectives": "steps of collectives"}
 UNITS = {"work": (1e9, "ns a point"), "threads": (1e9, "ns a point"), "memory": (1e9, "ns a point"),
          "once": (1e3, "ms"), "boundary": (1e6, "us sqrt(N)"), "tables": (1e9, "ns N"), "packing": (1e9, "ns a byte"),
          "waiting": (1e6, "us log2 P"), "ranks": (1e9, "ns P")}
@@ -45,8 +48,11 @@ def error_text(predicted, row):
 
 
 def left_out(samples, platform):
-    """Seconds of each sample by a model that is fitted to all others."""
-    return [fit(samples[:k] + samples[k + 1:], platform).seconds(samples[k]) for k in range(len(samples))]
+    """Seconds of each sample by a model that is fitted to all others; a case may be in two sweeps."""
+    def others(one):
+        case = one.points, one.ranks, one.threads
+        return [sample for sample in samples if (sample.points, sample.ranks, sample.threads) != case]
+    return [fit(others(sample), platform).seconds(sample) if others(sample) else math.nan for sample in samples]
 
 
 def check(rows, samples, platform):
@@ -143,11 +149,11 @@ def problem_text(rows, machine_cores):
     samples = [sample_of(row, machine_cores) for row in rows]
     name = ", ".join(filter(None, (first["config"], first["method"], first["stop"], first["variant"])))
     lines = [f"## {name}: {platform.name}", ""]
-    if len(rows) < LEAST_RANKS:
+    if len(rows) < LEAST_ROWS:
         return lines + [f"{len(rows)} rows are too few for a model.", ""]
     checked, model = check(rows, samples, platform)
     lines += [*checked, "", "Fitted to all rows:", "", *coefficient_table(model), ""]
-    if max(sample.ranks for sample in samples) <= LEAST_RANKS:
+    if max(sample.ranks for sample in samples) < MANY_RANKS:
         return lines
     traffic = fit_traffic(samples)
     largest = max(samples, key=lambda sample: sample.points)

@@ -48,10 +48,16 @@ def times_of(row):
             str(row["iterations"])]
 
 
+def published_time(row, reference):
+    """Seconds of TriMe++ beside a row; nothing where they are not known, or are of another point scheme."""
+    variant, seconds = reference.get(key_of(row, ("reference", "points_asked", "method", "cores")), ("", ""))
+    return seconds if row["variant"] in ("", variant) else ""
+
+
 def efficiency_table(rows, reference):
     """A fixed number of sweeps (the machine) and the stop rule (the user) side by side, of one method.
 
-    `reference`: published seconds by (name, points, method, threads), see reference_times; a column if any fits.
+    `reference`: published times, see reference_times; a column if any fits.
     """
     stops = list(dict.fromkeys(row["stop"] for row in rows))
     head = ["points", "ranks x threads"]
@@ -63,8 +69,7 @@ def efficiency_table(rows, reference):
         cells = [f"{same[0]['points_asked']:,}", f"{same[0]['ranks']} x {same[0]['threads']}"]
         for stop in stops:
             cells += times_of(by_stop[stop]) if stop in by_stop else [""] * 5
-        published.append(reference.get((same[0]["reference"], same[0]["points_asked"], same[0]["method"],
-                                        same[0]["cores"]), ""))
+        published.append(published_time(same[0], reference))
         body.append(cells)
     if any(published):
         head.append("TriMe++: seconds")
@@ -142,10 +147,10 @@ def machine_text(machine):
 def report(rows, machine, reference, notes=()):
     """The whole Markdown text; `notes`: failures and other words that belong to the top."""
     repeats = sorted({row["repeats"] for row in rows})
-    few = " Fewer than five runs say little about the spread." if repeats and repeats[0] < 5 else ""
+    counts = " to ".join(str(count) for count in dict.fromkeys((repeats[0], repeats[-1])))
+    few = " Fewer than five say little about the spread." if repeats[0] < 5 else ""
     lines = ["# Scaling", "",
-             f"Medians of {' to '.join(map(str, dict.fromkeys((repeats[0], repeats[-1]))))} runs, after warm-ups that "
-             f"are dropped; the cases took turns.{few}", "",
+             f"Medians of the runs of each case ({counts}), after warm-ups that are dropped; the cases took turns.{few}", "",
              "* `fixed`: a fixed number of sweeps, so the work is the same in all rows: how the machine scales. "
              "`rule`: the stop rule of the method: what a user waits for.",
              "* seconds: from the start of the program to the finished mesh, without output. Set-up, output and the "
@@ -179,8 +184,8 @@ def write_csv(path, rows):
 
 
 def reference_times(path):
-    """Published times of TriMe++ from reference.csv: text of seconds by (name, points, method, threads)."""
+    """Published times of TriMe++ from reference.csv: variant and text of seconds by (name, points, method, threads)."""
     with path.open(encoding="utf-8") as stream:
         lines = (line for line in stream if not line.startswith("#"))
-        return {(row["name"], int(float(row["points"])), row["method"], int(row["threads"])): row["seconds"]
+        return {(row["name"], int(float(row["points"])), row["method"], int(row["threads"])): (row["variant"], row["seconds"])
                 for row in csv.DictReader(lines)}

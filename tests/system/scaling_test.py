@@ -152,6 +152,9 @@ class Rows(unittest.TestCase):
         text = tables.report(rows, {}, tables.reference_times(ROOT / "scripts" / "scaling" / "reference.csv"))
         self.assertIn("| TriMe++: seconds |", text)
         self.assertIn("| 1.0-1.2 |", text)
+        rows, _ = summary.rows_of([made_run(points=10000, method="hybrid", reference="square", variant="in stages")])
+        self.assertNotIn("TriMe++", tables.report(rows, {}, tables.reference_times(
+            ROOT / "scripts" / "scaling" / "reference.csv")), "that is of all points at once")
 
     def test_csv_holds_phases_and_counters(self):
         counters = {"run": {"points": {"sum": 4, "min": 1, "mean": 2.0, "max": 3}}}
