@@ -2,6 +2,7 @@
 """From runs to rows: medians, spread, speed-up, efficiency, serial fraction, and whether equal meshes are equal."""
 import statistics
 
+from .errors import RunError
 from .record import TRAFFIC
 
 CASE = ("backend", "sweep", "kind", "config", "method", "variant", "stop", "points_asked", "points_per_core",
@@ -110,9 +111,11 @@ def check_hashes(rows):
 
 
 def rows_of(runs):
-    """Rows with efficiencies from all runs, and messages about unequal hashes."""
-    rows = [summarise(group) for group in
-            group_by(runs, lambda run: key_of(run, CASE))]
+    """Rows with efficiencies from all runs, and messages about unequal hashes. Raises RunError for runs that lack some."""
+    try:
+        rows = [summarise(group) for group in group_by(runs, lambda run: key_of(run, CASE))]
+    except KeyError as error:
+        raise RunError(f"a run has no {error}; was it written by another version of scaling.py?") from error
     for curve in curves_of(rows):
         fill_scaling(curve)
     return rows, check_hashes(rows)

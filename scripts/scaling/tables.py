@@ -150,7 +150,8 @@ def report(rows, machine, reference, notes=()):
     counts = " to ".join(str(count) for count in dict.fromkeys((repeats[0], repeats[-1])))
     few = " Fewer than five say little about the spread." if repeats[0] < 5 else ""
     lines = ["# Scaling", "",
-             f"Medians of the runs of each case ({counts}), after warm-ups that are dropped; the cases took turns.{few}", "",
+             f"Medians of the runs of each case ({counts}) after warm-ups that are dropped. The cases took turns.{few}",
+             "",
              "* `fixed`: a fixed number of sweeps, so the work is the same in all rows: how the machine scales. "
              "`rule`: the stop rule of the method: what a user waits for.",
              "* seconds: from the start of the program to the finished mesh, without output. Set-up, output and the "
@@ -187,5 +188,5 @@ def reference_times(path):
     """Published times of TriMe++ from reference.csv: variant and text of seconds by (name, points, method, threads)."""
     with path.open(encoding="utf-8") as stream:
         lines = (line for line in stream if not line.startswith("#"))
-        return {(row["name"], int(float(row["points"])), row["method"], int(row["threads"])): (row["variant"], row["seconds"])
-                for row in csv.DictReader(lines)}
+        return {(row["name"], int(float(row["points"])), row["method"], int(row["threads"])):
+                (row["variant"], row["seconds"]) for row in csv.DictReader(lines)}

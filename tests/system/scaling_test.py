@@ -177,6 +177,12 @@ class Rows(unittest.TestCase):
                 with self.subTest(text=text), self.assertRaises(RunError):
                     record.read_runs([work / "r.jsonl"])
 
+    def test_runs_of_another_version(self):
+        run = made_run()
+        del run["iterations"]
+        with self.assertRaisesRegex(RunError, "has no 'iterations'; was it written by another version"):
+            summary.rows_of([run])
+
     def test_sweeps_over_coarse_meshes_count_with_their_points(self):
         self.assertEqual(record.point_sweeps([{"sweep": 1, "points": 10}, {"sweep": 3, "points": 10},
                                               {"sweep": 4, "points": 100}]), 130)
