@@ -111,7 +111,7 @@ def check_hashes(rows):
 
 
 def rows_of(runs):
-    """Rows with efficiencies from all runs, and messages about unequal hashes. Raises RunError for runs that lack some."""
+    """Rows with efficiencies from all runs, and messages about unequal hashes. Raises RunError for runs without all."""
     try:
         rows = [summarise(group) for group in group_by(runs, lambda run: key_of(run, CASE))]
     except KeyError as error:

@@ -12,10 +12,9 @@ SCRIPT = ROOT / "scripts" / "simulate_cluster.sh"
 class Simulated:
     """Simulated ranks of one thread each; seconds are those of the simulated cluster."""
     name = "simulated"
-    nodes = [1]  # of a word for cases: there is no end of simulated cores
 
     def __init__(self, cluster):
-        self.cluster = cluster
+        self.cluster = cluster and cluster.resolve()
         self.hashes = {}  # by arguments: that of the real run with which the script compares a first simulated one
         if not os.access(SCRIPT, os.X_OK):
             raise UsageError(f"there is no simulator: expected {SCRIPT}, found none")
