@@ -16,8 +16,8 @@ Each phase takes, on P ranks of t threads, a sum of some of these terms:
 
 N points, I the points of the fullest rank over the mean; M, B and C counted. Latency and bandwidth are those of the
 Platform, given and never fitted. The factors a >= 0 come from non-negative least squares, each phase for itself, with
-errors relative to the time of the whole run. A term is taken only if it lowers the error by LEAST_GAIN: what is lost in
-the noise must not be carried on to 10^4 ranks.
+errors relative to the time of the whole run. A term is taken only if it lowers the error by LEAST_GAIN, some by twice
+that (PRICES): noise must not be carried on to 10^4 ranks.
 """
 import dataclasses
 import math
@@ -28,6 +28,8 @@ from .least_squares import nonnegative
 from .record import OUTPUT, TRAFFIC
 
 LEAST_GAIN = 0.004  # of the time of a run, root mean square over the rows: about what medians of five runs are good for
+PRICES = {"tables": 2, "ranks": 2}  # so many gains where a term grows fast with N or P, and one for the others
+FAR = 1e9  # gains that no first term fails to bring
 WORK = ("work", "threads", "memory")  # terms that imbalance lengthens
 BY_SWEEPS = ("sweeps", "measure", "sort")  # phases that recur: their work and traffic go with the sweeps
 
@@ -156,12 +158,13 @@ def fit_phase(samples, phase, platform):
         del columns["boundary"], columns["tables"]  # the same as `once`
     target = [sample.seconds.get(phase, 0.0) - sum(given_terms(sample, phase, platform).values()) for sample in samples]
     weights = np.array([1 / sample.total for sample in samples])
-    taken, best = [], ({}, math.inf)
+    least_gain = LEAST_GAIN * math.sqrt(len(samples))
+    taken, best = [], ({}, FAR * least_gain)
     while len(taken) < len(columns):
         trials = [(nonnegative({term: columns[term] for term in [*taken, name]}, target, weights), name)
                   for name in columns if name not in taken]
-        found, name = min(trials, key=lambda trial: trial[0][1])
-        if found[1] > best[1] - LEAST_GAIN * math.sqrt(len(samples)):
+        found, name = min(trials, key=lambda trial: trial[0][1] + PRICES.get(trial[1], 1) * least_gain)
+        if found[1] > best[1] - PRICES.get(name, 1) * least_gain:
             break
         taken.append(name)
         best = found

@@ -3,6 +3,7 @@
 """The model of the time in the scaling harness: terms that are known come back from made-up rows."""
 import dataclasses
 import math
+import random
 import unittest
 
 from made_runs import made_run
@@ -39,6 +40,14 @@ class Model(unittest.TestCase):
         for points, ranks in ((1e6, 256), (1e8, 1024)):
             unseen = self.sample(points, ranks)
             self.assertAlmostEqual(fitted.seconds(unseen) / unseen.total, 1, delta=0.02)
+
+    def test_rows_left_out_of_noisy_ones(self):
+        noise = random.Random(1)
+        samples = [dataclasses.replace(sample, seconds={name: seconds * (1 + 0.03 * noise.gauss(0, 1))
+                                                        for name, seconds in sample.seconds.items()})
+                   for points in (1e5, 1e6) for ranks in (1, 4, 16, 64) for sample in [self.sample(points, ranks)]]
+        for seconds, sample in zip(model_report.left_out(samples, self.PLATFORM), samples):
+            self.assertAlmostEqual(seconds / sample.total, 1, delta=0.12)
 
     def test_counts_are_carried_on(self):
         found = traffic_model.fit_traffic(self.samples())
