@@ -78,7 +78,8 @@ def plan_of(options, nodes):
     """The cases that the command line asks for."""
     ini, overrides = split_arguments(options.arguments)
     changes = {key: getattr(options, key) for key in ("points", "cases", "methods", "stops", "sweeps", "repeats")}
-    changes["config"] = options.config and str(pathlib.Path(options.config).resolve())
+    if options.config:  # published times are those of the shape in the ini
+        changes |= {"config": str(pathlib.Path(options.config).resolve()), "reference": ""}
     return read_plan(ini, options.backend, nodes, changes, overrides, options.only, options.kind)
 
 
