@@ -177,6 +177,23 @@ class Rows(unittest.TestCase):
                 with self.subTest(text=text), self.assertRaises(RunError):
                     record.read_runs([work / "r.jsonl"])
 
+    def test_a_record(self):
+        names = ("points", "triangles", "iterations", "bytes_per_point", "peak_memory_bytes", "most_points_of_a_rank")
+        attributes = dict.fromkeys(names, 7) | {"mesh_hash_hex": "0a", "stop_reason": "stalled", "seconds_total": 3.0}
+        timers = {"name": ["shape", "sweeps", "output"], "avg": [0.5, 2.0, 0.25], "bytes": [0, 8, 0]}
+        counters = {"phase": ["run"], "name": ["ghosts"], "unit": ["sites"], "sum": [4], "min": [1], "mean": [2.0],
+                    "max": [3]}
+        groups = {"timers": {"attributes": {}, "columns": timers},
+                  "counters": {"attributes": {"limit": "waits"}, "columns": counters}}
+        with Workspace() as work:
+            (work / "r.json").write_text(json.dumps({"attributes": attributes, "groups": groups}), encoding="utf-8")
+            run = record.read_record(work / "r.json")
+        self.assertEqual([run[key] for key in ("total_s", "seconds", "set_up_s", "mesh_s", "output_s")],
+                         [3.0, 2.75, 0.5, 2.25, 0.25])
+        self.assertEqual(run["phases"]["sweeps"], {"avg": 2.0, "bytes": 8})
+        self.assertEqual(run["counters"], {"run": {"ghosts": {"sum": 4, "min": 1, "mean": 2.0, "max": 3}}})
+        self.assertEqual((run["limit"], run["mesh_hash"], run["build"]["compiler"]), ("waits", "0a", "unknown"))
+
     def test_runs_of_another_version(self):
         run = made_run()
         del run["iterations"]
