@@ -2,7 +2,7 @@
 # What all job scripts share; they source it, and it does nothing by itself. It sets
 #   program   the trime_mpi to run: TRIME_PROGRAM, else the one built in this tree, else the installed one
 #   threads   threads of each rank: --cpus-per-task of the job
-# and has functions to take the config from the arguments, to start the program, and to list cases for a scaling table.
+# and has functions to take the config from the arguments, to start the program, and to make a scaling table.
 # shellcheck shell=bash
 
 # On most clusters MPI and HDF5 come as modules. Load the same ones that you built the program with, here, once for all
@@ -65,36 +65,13 @@ job_hello() {
   git describe --always --dirty 2>/dev/null || true
 }
 
-# job_cases: all powers of two up to the cores of the job, and all cores, each as ranks only, as threads only (within one
-# node), and as half of the doublings each; as scripts/scaling.py takes them: 1x1,2x1,1x2,...
-job_cases() {
-  local cores=$SLURM_NTASKS cases=1x1 count threads half per_node
-  per_node=$((cores / SLURM_JOB_NUM_NODES))
-  local counts=()
-  for ((count = 2; count < cores; count *= 2)); do counts+=("$count"); done
-  [ "$cores" -lt 2 ] || counts+=("$cores")
-  for count in ${counts[@]+"${counts[@]}"}; do
-    half=1
-    while [ $((half * half)) -lt "$count" ]; do half=$((half * 2)); done
-    for threads in 1 "$half" "$count"; do
-      if [ $((count % threads)) -eq 0 ] && [ "$threads" -le "$per_node" ]; then
-        case ",$cases," in
-          *",$((count / threads))x$threads,"*) ;;
-          *) cases+=",$((count / threads))x$threads" ;;
-        esac
-      fi
-    done
-  done
-  echo "$cases"
-}
-
-# job_scaling NAME ARGUMENT...: scripts/scaling.py on the cases of the job, into the directory NAME-JOBID.
+# job_scaling NAME KIND ARGUMENT...: the strong or weak sweeps of scripts/scaling.py on 1, 2, 4, ... cores of the job, as
+# ranks, as threads and as both, into the directory NAME-JOBID.
 job_scaling() {
-  local name=$1 cases
-  shift
+  local name=$1 kind=$2
+  shift 2
   [ -r scripts/scaling.py ] || job_fail "Expected scripts/scaling.py in $PWD, found none. Submit from the top of the source tree."
-  cases=$(job_cases)
-  job_hello "cases $cases"
-  "${PYTHON:-/usr/bin/python3}" scripts/scaling.py --program "$program" --cases "$cases" \
+  job_hello "$kind scaling"
+  "${PYTHON:-/usr/bin/python3}" scripts/scaling.py --program "$program" --kind "$kind" --cases powers \
     --output "$name-$SLURM_JOB_ID" "$@"
 }
