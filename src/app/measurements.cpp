@@ -100,11 +100,7 @@ double Measurements::share(const std::string& phase) const {
   return found == phases.end() || total <= 0 ? 0 : found->mean / total;
 }
 
-<<<<<<< HEAD
-Measurements gather_measurements(TimerTable& timers, std::int64_t points, const comm::Communicator& comm) {
-=======
 Measurements gather_measurements(TimerTable& timers, const comm::Communicator& comm) {
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
   const std::vector<TimerTable::Section> sections = agreed_sections(timers, comm);
   Reduction reduction;
   CounterValues whole;
@@ -113,12 +109,7 @@ Measurements gather_measurements(TimerTable& timers, const comm::Communicator& c
     whole += section.counts;
   }
   add(whole, reduction);
-<<<<<<< HEAD
-  reduction.add_spread(points);
   reduction.add_spread(comm::is_simulated() ? peak_memory() / comm.size() : peak_memory()); // or of all ranks together
-=======
-  reduction.add_spread(peak_memory());
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
   reduction.reduce(comm);
   Measurements measured;
   measured.ranks = comm.size();
@@ -127,13 +118,7 @@ Measurements gather_measurements(TimerTable& timers, const comm::Communicator& c
     measured.total += measured.phases.back().mean;
   }
   measured.counters = read_counters(reduction);
-<<<<<<< HEAD
-  const Spread all_points = reduction.spread(), memory = reduction.spread();
-  measured.most_points = all_points.max;
-  measured.mean_points = std::max(1.0, static_cast<double>(all_points.sum) / comm.size());
-=======
   const Spread memory = reduction.spread();
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
   measured.peak_memory = memory.max;
   measured.memory_sum = memory.sum;
   return measured;

@@ -42,11 +42,6 @@ struct Measurements {
   CounterSpreads counters;   ///< of the whole run
   double total = 0;          ///< seconds, mean over ranks
   int ranks = 1;
-<<<<<<< HEAD
-  std::int64_t most_points = 0;                 ///< of a rank
-  double mean_points = 1;                       ///< over ranks
-=======
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
   std::int64_t peak_memory = 0, memory_sum = 0; ///< bytes: largest of a rank, and of all ranks together
 
   double mean(Counter counter) const { return static_cast<double>(counters[counter].sum) / ranks; }
@@ -58,13 +53,7 @@ struct Measurements {
   double share(const std::string& phase) const;
 };
 
-<<<<<<< HEAD
-/// @param points that this rank holds
-/// @note Collective: three calls, however many phases and counters.
-Measurements gather_measurements(TimerTable& timers, std::int64_t points, const comm::Communicator& comm);
-=======
 /// @note Collective: three calls, however many phases and counters there are.
 Measurements gather_measurements(TimerTable& timers, const comm::Communicator& comm);
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
 
 } // namespace trime::app

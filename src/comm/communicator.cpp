@@ -13,58 +13,6 @@
 namespace trime::comm {
 namespace {
 
-<<<<<<< HEAD
-=======
-/// The only place that looks at MPI return codes.
-void check(int code) {
-  if (code == MPI_SUCCESS)
-    return;
-  char text[MPI_MAX_ERROR_STRING];
-  int length = 0;
-  MPI_Error_string(code, text, &length);
-  fmt::print(stderr, "trime_mpi: MPI error: {}\n", std::string(text, static_cast<std::size_t>(length)));
-  MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitCode::internal_error));
-}
-
-enum Tag : int { tag_any = 101, tag_known = 102 };
-
-/// Largest piece of a message: MPI counts are int. Longer messages travel in several pieces, in order.
-constexpr std::size_t piece_bytes = std::size_t{1} << 30;
-
-/// The handle for a collective call, which is counted.
-MPI_Comm collective(const Communicator::Native& native) {
-  native.counters.add(Counter::collectives);
-  return native.comm;
-}
-
-/// What a rank sends to itself is no traffic.
-void count_message(const Communicator::Native& native, int to, std::size_t bytes) {
-  if (to != native.rank)
-    native.counters.add_message(to, static_cast<std::int64_t>(bytes));
-}
-
-/// A table with a value of each rank.
-template <class T>
-std::vector<T> table_of_ranks(const Communicator& comm) {
-  std::vector<T> table(static_cast<std::size_t>(comm.size()));
-  comm.counters().note(Counter::rank_bytes, static_cast<std::int64_t>(table.size() * sizeof(T)));
-  return table;
-}
-
-void post(const Message& message, bool send, int tag, const Communicator::Native& native,
-          std::vector<MPI_Request>& requests) {
-  for (std::size_t offset = 0; offset < message.data.size(); offset += piece_bytes) {
-    const int count = static_cast<int>(std::min(piece_bytes, message.data.size() - offset));
-    std::byte* start = const_cast<std::byte*>(message.data.data()) + offset; // MPI receives through the same path
-    requests.emplace_back();
-    if (send)
-      count_message(native, message.peer, static_cast<std::size_t>(count));
-    check(send ? MPI_Isend(start, count, MPI_BYTE, message.peer, tag, native.comm, &requests.back())
-               : MPI_Irecv(start, count, MPI_BYTE, message.peer, tag, native.comm, &requests.back()));
-  }
-}
-
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
 std::unique_ptr<Communicator::Native> duplicate(MPI_Comm comm) {
   auto native = std::make_unique<Communicator::Native>();
   check(MPI_Comm_dup(comm, &native->comm));
@@ -253,21 +201,9 @@ std::vector<double> Communicator::all_gather(double value) const {
 std::vector<std::byte> Communicator::all_gather(std::span<const std::byte> bytes) const {
   if (size_ == 1)
     return {bytes.begin(), bytes.end()};
-<<<<<<< HEAD
   const std::vector<std::int64_t> sizes = all_gather(std::ssize(bytes));
   const std::int64_t own_start = std::accumulate(sizes.begin(), sizes.begin() + rank_, std::int64_t{0});
   const std::int64_t total = std::accumulate(sizes.begin() + rank_, sizes.end(), own_start);
-=======
-  const std::vector<std::int64_t> sizes = all_gather(static_cast<std::int64_t>(bytes.size()));
-  std::vector<int> counts, starts;
-  std::int64_t total = 0;
-  for (const std::int64_t size : sizes) {
-    counts.push_back(static_cast<int>(size));
-    starts.push_back(static_cast<int>(total));
-    total += size;
-  }
-  TRIME_ASSERT(total <= std::numeric_limits<int>::max(), "{} bytes for every rank", total);
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
   std::vector<std::byte> all(static_cast<std::size_t>(total));
   std::vector<int> counts(sizes.size()), starts(sizes.size());
   for (std::int64_t window = 0; window < total; window += piece_bytes) { // MPI counts are int
@@ -312,83 +248,4 @@ std::vector<std::string> Communicator::gather(const std::string& text) const {
   return all;
 }
 
-<<<<<<< HEAD
-=======
-std::vector<Message> Communicator::exchange_any(const std::vector<Message>& outgoing) const {
-  // O(ranks) memory: one count per rank, reduced and scattered, tells how many messages to expect.
-  std::vector<int> counts = table_of_ranks<int>(*this);
-  std::vector<std::int64_t> sizes(outgoing.size());
-  std::vector<MPI_Request> requests;
-  for (std::size_t k = 0; k < outgoing.size(); ++k)
-    counts[static_cast<std::size_t>(outgoing[k].peer)] += 1;
-  int expected = 0;
-  check(MPI_Reduce_scatter_block(counts.data(), &expected, 1, MPI_INT, MPI_SUM, collective(*native_)));
-  for (std::size_t k = 0; k < outgoing.size(); ++k) {
-    sizes[k] = static_cast<std::int64_t>(outgoing[k].data.size());
-    requests.emplace_back();
-    count_message(*native_, outgoing[k].peer, sizeof sizes[k]);
-    check(MPI_Isend(&sizes[k], 1, MPI_INT64_T, outgoing[k].peer, tag_any, native_->comm, &requests.back()));
-  }
-  std::vector<Message> incoming;
-  for (int k = 0; k < expected; ++k) {
-    std::int64_t size = 0;
-    MPI_Status status;
-    check(MPI_Recv(&size, 1, MPI_INT64_T, MPI_ANY_SOURCE, tag_any, native_->comm, &status));
-    incoming.push_back({status.MPI_SOURCE, std::vector<std::byte>(static_cast<std::size_t>(size))});
-  }
-  std::sort(incoming.begin(), incoming.end(), [](const Message& a, const Message& b) { return a.peer < b.peer; });
-  check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
-  exchange_known(outgoing, incoming);
-  barrier(); // a second exchange_any must not meet the counts of this one
-  return incoming;
-}
-
-void Communicator::exchange_known(std::span<const Message> outgoing, std::span<Message> incoming) const {
-  std::vector<MPI_Request> requests;
-  for (const Message& message : incoming)
-    post(message, false, tag_known, *native_, requests);
-  for (const Message& message : outgoing)
-    post(message, true, tag_known, *native_, requests);
-  check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
-}
-
-struct Communicator::Exchange::Requests {
-  std::vector<MPI_Request> list;
-};
-
-Communicator::Exchange::Exchange() = default;
-Communicator::Exchange::Exchange(Exchange&&) noexcept = default;
-Communicator::Exchange& Communicator::Exchange::operator=(Exchange&& other) noexcept {
-  std::swap(requests_, other.requests_);
-  std::swap(outgoing_, other.outgoing_);
-  return *this;
-}
-Communicator::Exchange::~Exchange() {
-  wait(); // MPI must not write to memory that is gone
-}
-
-bool Communicator::Exchange::is_open() const {
-  return requests_ != nullptr;
-}
-
-void Communicator::Exchange::wait() {
-  if (!requests_)
-    return;
-  check(MPI_Waitall(static_cast<int>(requests_->list.size()), requests_->list.data(), MPI_STATUSES_IGNORE));
-  requests_.reset();
-  outgoing_.clear();
-}
-
-Communicator::Exchange Communicator::begin_exchange(std::vector<Message> outgoing, std::span<Message> incoming) const {
-  Exchange exchange;
-  exchange.requests_ = std::make_unique<Exchange::Requests>();
-  exchange.outgoing_ = std::move(outgoing);
-  for (const Message& message : incoming)
-    post(message, false, tag_known, *native_, exchange.requests_->list);
-  for (const Message& message : exchange.outgoing_)
-    post(message, true, tag_known, *native_, exchange.requests_->list);
-  return exchange;
-}
-
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
 } // namespace trime::comm

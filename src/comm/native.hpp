@@ -11,12 +11,8 @@ namespace trime::comm {
 struct Communicator::Native {
   MPI_Comm comm = MPI_COMM_NULL;
   int rank = 0;
-<<<<<<< HEAD
   mutable Counters counters{};           // of this rank
   mutable unsigned sparse_exchanges = 0; // calls of exchange_any
-=======
-  mutable Counters counters{}; // of this rank
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
 };
 
 inline MPI_Comm native_handle(const Communicator& communicator) {

@@ -9,11 +9,7 @@ using sweep::StopReason;
 
 MeshResult make_mesh(const comm::Communicator& comm, const shape::RegionShape& shape, const sizing::SizeField& size,
                      const MeshOptions& options, Log& log) {
-<<<<<<< HEAD
-  TimerTable timers(&comm.counters());
-=======
   TimerTable timers; // leaves the counters to the caller
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
   return Mesher(comm, shape.boundary(), size, options, log, timers).run();
 }
 

@@ -13,11 +13,7 @@ TEST(Measurements, TheTimesAddUpOverRanks) {
   timers.add("stars", 0.001 * (1 + comm.rank()));
   if (comm.rank() == 1)
     timers.add("known to rank 1 only", 0.001);
-<<<<<<< HEAD
-  const Measurements measured = gather_measurements(timers, 10 + comm.rank(), comm);
-=======
   const Measurements measured = gather_measurements(timers, comm);
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
   ASSERT_EQ(measured.phases.size(), 2u);
   EXPECT_EQ(measured.phases[1].name, "other");
   EXPECT_DOUBLE_EQ(measured.phases[0].min, 0.001);
@@ -28,11 +24,6 @@ TEST(Measurements, TheTimesAddUpOverRanks) {
   EXPECT_EQ(measured.share("no such phase"), 0);
   EXPECT_GE(measured.memory_sum, measured.peak_memory);
   EXPECT_GT(measured.peak_memory, 1 << 20);
-<<<<<<< HEAD
-  EXPECT_EQ(measured.most_points, 10 + comm.size() - 1);
-  EXPECT_DOUBLE_EQ(measured.mean_points, 10 + 0.5 * (comm.size() - 1));
-=======
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
 }
 
 TEST(Measurements, CountersAreToldByPhaseAndForTheWholeRun) {
@@ -51,11 +42,7 @@ TEST(Measurements, CountersAreToldByPhaseAndForTheWholeRun) {
     count(5, 20);
   }
   count(1, 15);
-<<<<<<< HEAD
-  const Measurements measured = gather_measurements(timers, 0, comm);
-=======
   const Measurements measured = gather_measurements(timers, comm);
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
   const std::int64_t n = comm.size();
   const Spread& swept = measured.phases[0].counters[Counter::sites_swept];
   EXPECT_EQ(swept.sum, 50 * n * (n + 1));
@@ -79,11 +66,7 @@ TEST(Measurements, TrafficIsWhatGoesToOtherRanks) {
     comm.exchange_any({{0, std::vector<std::byte>(static_cast<std::size_t>(100 * comm.rank()))}}); // rank 0 to itself
   }
   comm.barrier();
-<<<<<<< HEAD
-  const Measurements measured = gather_measurements(timers, 0, comm);
-=======
   const Measurements measured = gather_measurements(timers, comm);
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
   const CounterSpreads& talk = measured.phases[0].counters;
   const int others = comm.size() - 1;
   EXPECT_EQ(talk[Counter::messages].sum, 2 * others); // a size, and the bytes
@@ -102,11 +85,7 @@ TEST(Measurements, TakeAsManyCollectivesForManyPhasesAsForOne) {
     for (int k = 0; k < phases; ++k)
       timers.add("phase " + std::to_string(k), 1);
     comm.counters().take();
-<<<<<<< HEAD
-    EXPECT_EQ(std::ssize(gather_measurements(timers, 0, comm).phases), phases + 1);
-=======
     EXPECT_EQ(std::ssize(gather_measurements(timers, comm).phases), phases + 1);
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
     return comm.counters().take()[Counter::collectives];
   };
   EXPECT_EQ(collectives(40), collectives(1));

@@ -5,11 +5,8 @@
 
 #include <gtest/gtest.h>
 
-<<<<<<< HEAD
-=======
 #include <algorithm>
 
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
 namespace trime::meshing {
 namespace {
 
@@ -29,23 +26,12 @@ CountedRun run(const comm::Communicator& comm, MeshOptions options) {
   const sizing::UniformSize size;
   const shape::RegionShape shape = testing::disc_with_hole();
   CountedRun counted{Mesher(comm, shape.boundary(), size, options, log, timers).run(), {}};
-<<<<<<< HEAD
-  counted.measured = app::gather_measurements(timers, std::ssize(counted.result.mesh.points), comm);
-  return counted;
-}
-
-const app::CounterSpreads& phase(const CountedRun& run, const std::string& name) {
-  const auto found = std::ranges::find(run.measured.phases, name, &app::Phase::name);
-  EXPECT_NE(found, run.measured.phases.end()) << name;
-  return found->counters;
-=======
   counted.measured = app::gather_measurements(timers, comm);
   return counted;
 }
 
 bool has_phase(const CountedRun& run, const std::string& name) {
   return std::ranges::find(run.measured.phases, name, &app::Phase::name) != run.measured.phases.end();
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
 }
 
 TEST(Counters, EverySiteIsSweptOrAsleepInEveryPass) {
@@ -82,34 +68,21 @@ TEST(Counters, TheWorkOnSitesIsTheSameOnAnyRanks) {
 TEST(Counters, TellWhatRanksHoldOfEachOther) {
   const comm::Communicator world = comm::Communicator::world();
   const CountedRun counted = run(world, {});
-<<<<<<< HEAD
-  const app::CounterSpreads &all = counted.measured.counters, &sweeps = phase(counted, "sweeps");
-=======
   const app::CounterSpreads& all = counted.measured.counters;
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
   if (world.size() == 1) {
     for (const Counter counter : {Counter::messages, Counter::bytes, Counter::neighbours, Counter::ghosts,
                                   Counter::sites_migrated, Counter::fetch_rounds})
       EXPECT_EQ(all[counter].sum, 0) << name_of(counter).name;
     return;
   }
-<<<<<<< HEAD
-  EXPECT_GT(sweeps[Counter::ghosts].min, 0);
-  EXPECT_LT(sweeps[Counter::ghosts].max, counted.result.mesh.point_slab.total);
-  EXPECT_GE(sweeps[Counter::neighbours].min, 1);
-  EXPECT_LT(sweeps[Counter::neighbours].max, world.size());
-=======
   EXPECT_GT(all[Counter::ghosts].min, 0);
   EXPECT_LT(all[Counter::ghosts].max, counted.result.mesh.point_slab.total);
   EXPECT_GE(all[Counter::neighbours].min, 1);
   EXPECT_LT(all[Counter::neighbours].max, world.size());
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
   EXPECT_GE(all[Counter::bytes].sum, 8 * all[Counter::messages].sum / 2); // a size of 8 bytes, and what it announces
   EXPECT_EQ(all[Counter::fetch_rounds].min, all[Counter::fetch_rounds].max) << "ranks fetch together";
 }
 
-<<<<<<< HEAD
-=======
 /// app/run_limit.cpp goes by these names.
 TEST(Counters, ThePhasesHaveTheNamesThatTheReportGoesBy) {
   const CountedRun counted = run(comm::Communicator::world(), {});
@@ -117,7 +90,6 @@ TEST(Counters, ThePhasesHaveTheNamesThatTheReportGoesBy) {
     EXPECT_TRUE(has_phase(counted, name)) << name;
 }
 
->>>>>>> 1f86d479208924d1c532b48f8c86383ec46d8f79
 TEST(Counters, TellOfTablesThatEveryRankHolds) {
   const comm::Communicator world = comm::Communicator::world();
   const CountedRun counted = run(world, {});
