@@ -4,14 +4,14 @@
 # bridge. Open MPI starts one rank on each host in turn, and ranks share no memory, not even on one host.
 #   scripts/hosts_here.sh N COMMAND...    e.g.  scripts/hosts_here.sh 4 mpirun -np 4 build/release/trime_mpi my.ini
 # COMMAND runs on host1; `bash` gives a shell there. At its end each host's traffic is printed, and the hosts are gone.
-# Exit code: that of COMMAND, or 77 where namespaces may not be made. Needs util-linux and iproute2, and root or the right
-# to make user namespaces.
+# Exit code: that of COMMAND, or 77 where namespaces may not be made. Needs iproute2, and root or the right to make user
+# namespaces.
 set -euo pipefail
 self=$(readlink -f "${BASH_SOURCE[0]}")
 most=250         # hosts: one byte of the address
 network=10.213.0 # theirs alone: no other network is seen from them, nor they from others
-# Nobody outside sees this directory: in the namespaces of the hosts a file system of its own lies there. Processes and
-# mounts of the namespaces end with their first process, so that nothing is left, whatever ends it.
+# Where names and addresses of the hosts lie, in a file system that nobody outside sees. Mounts and processes of the
+# namespaces end with their first process, and that one with this script. So nothing is left, whatever ends it.
 state=/run
 
 usage() { sed -n '5,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2; exit 2; }
@@ -23,12 +23,14 @@ start() {
   local world=(unshare --net --mount --pid --fork --kill-child --mount-proc) reason child
   [ "$(id -u)" -eq 0 ] || world+=(--user --map-root-user)
   for tool in unshare nsenter ip; do
-    command -v "$tool" >/dev/null || fail "Missing $tool; as root: apt-get install -y --no-install-recommends util-linux iproute2"
+    command -v "$tool" >/dev/null || fail "Missing $tool (Debian: util-linux, iproute2)"
   done
-  reason=$("${world[@]}" ip link add type veth 2>&1) || fail "No namespaces may be made here, not with veth devices: $reason"
+  reason=$("${world[@]}" ip link add type veth 2>&1) ||
+    fail "No network namespaces with veth devices may be made here: $reason"
   setpriv --pdeathsig KILL "${world[@]}" "$self" inside "$@" <&0 &
   child=$!
-  trap 'kill -KILL "$child"' INT TERM # unshare listens to no other signal; its child ends with it, and all that it started
+  # unshare listens to no other signal; with it ends its child, and so all that this has started.
+  trap 'kill -KILL "$child"' INT TERM
   wait "$child"
 }
 

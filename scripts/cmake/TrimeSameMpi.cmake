@@ -13,17 +13,17 @@ foreach(library IN LISTS HDF5_C_LIBRARIES)
   if(NOT uses MATCHES "MPI_") # a static library has no dynamic symbols
     execute_process(COMMAND "${CMAKE_NM}" --undefined-only "${library}" OUTPUT_VARIABLE uses ERROR_QUIET)
   endif()
-  set(hdf5_mpi "not Open MPI")
-  set(our_mpi "not Open MPI")
-  if(uses MATCHES " ompi_")
-    set(hdf5_mpi "Open MPI")
-  endif()
+  set(expected "another than Open MPI")
+  set(found "another than Open MPI")
   if(TRIME_HAS_OPEN_MPI)
-    set(our_mpi "Open MPI")
+    set(expected "Open MPI")
   endif()
-  if(uses MATCHES " MPI_" AND NOT hdf5_mpi STREQUAL our_mpi)
-    message(FATAL_ERROR "Expected an HDF5 of the same MPI as ${MPI_CXX_COMPILER}, which is ${our_mpi}. Found ${library}, "
-      "whose MPI is ${hdf5_mpi}. Set HDF5_C_COMPILER_EXECUTABLE to the right h5pcc or HDF5_ROOT to the right place, in a "
-      "new build directory; or take the preset mpich for Debian's MPICH.")
+  if(uses MATCHES " ompi_")
+    set(found "Open MPI")
+  endif()
+  if(uses MATCHES " MPI_" AND NOT found STREQUAL expected)
+    message(FATAL_ERROR "HDF5 is of another MPI than ${MPI_CXX_COMPILER}: expected ${expected}, found ${found} in "
+      "${library}. Name the right HDF5 in a new build directory, by HDF5_C_COMPILER_EXECUTABLE (its h5pcc) or "
+      "HDF5_ROOT; for Debian's MPICH take the preset mpich.")
   endif()
 endforeach()

@@ -58,13 +58,14 @@ class Package(unittest.TestCase):
         for source in (PACKAGING / "modulefiles" / "trime_mpi").iterdir():
             copy = self.work / "modulefiles" / "trime_mpi" / source.name
             copy.parent.mkdir(parents=True, exist_ok=True)
-            text, changes = re.subn("^set prefix .*$", f"set prefix {self.work}/root/usr", source.read_text(encoding="utf-8"),
-                                    flags=re.MULTILINE)
+            text, changes = re.subn("(?m)^set prefix .*$", f"set prefix {self.work}/root/usr",
+                                    source.read_text(encoding="utf-8"))
             self.assertEqual(changes, 1)
             copy.write_text(text, encoding="utf-8")
         told = output("bash", "-c", f"source {MODULES}; unset MANPATH; module use {self.work}/modulefiles; "
-                      "module load trime_mpi; command -v trime_mpi; $TRIME_PROGRAM --version; ls $TRIME_JOBS/common.sh; "
-                      "echo MANPATH $MANPATH; module unload trime_mpi; echo left $TRIME_PROGRAM $TRIME_JOBS")
+                      "module load trime_mpi; command -v trime_mpi; $TRIME_PROGRAM --version; "
+                      "ls $TRIME_JOBS/common.sh; echo MANPATH $MANPATH; "
+                      "module unload trime_mpi; echo left $TRIME_PROGRAM $TRIME_JOBS")
         usr = self.work / "root" / "usr"
         self.assertEqual(told.splitlines()[0], str(usr / "bin" / "trime_mpi"))
         self.assertIn("trime_mpi 0.", told)
@@ -74,7 +75,7 @@ class Package(unittest.TestCase):
     def test_spack_recipe_names_options_of_cmake(self):
         text = (PACKAGING / "spack/packages/trime-mpi/package.py").read_text(encoding="utf-8")
         compile(text, "package.py", "exec")
-        known = re.findall(r"^option\((TRIME_\w+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE)
+        known = re.findall(r"\boption\((TRIME_\w+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))
         used = re.findall(r"TRIME_\w+", text)
         self.assertGreater(len(used), 2)
         self.assertEqual([name for name in used if name not in known], [])

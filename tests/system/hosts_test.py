@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Ranks on several hosts, which share no memory and talk over TCP (scripts/hosts_here.sh): the same file as on one rank.
-Skipped, with the reason, where no namespaces may be made, or the MPI is not Open MPI."""
+"""Ranks on several hosts, which share no memory and talk over TCP (scripts/hosts_here.sh): the same file as on one
+rank. Skipped, with the reason, where no namespaces may be made, or the MPI is not Open MPI."""
 import re
 import subprocess
 import unittest
@@ -24,8 +24,8 @@ def on_hosts(hosts, *command, timeout=120):
 class Hosts(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        version = subprocess.run([MPIEXEC, "--version"], env=environment(1), capture_output=True, text=True, check=False)
-        if "Open MPI" not in version.stdout:
+        version = subprocess.run([MPIEXEC, "--version"], capture_output=True, text=True, check=True).stdout
+        if "Open MPI" not in version:
             raise unittest.SkipTest(f"{MPIEXEC} is not Open MPI's, and hosts_here.sh steers no other")
         probe = on_hosts(2, "true")
         if probe.returncode == NO_NAMESPACES:
