@@ -94,6 +94,8 @@ case "${1:-}" in
   inside) shift; inside "$@" ;;
   enter) shift; host=$1; shift; on "$host" sh -c "$*" ;; # as ssh: the words make one command line
   *)
-    [[ ${1:-} =~ ^[1-9][0-9]{0,2}$ ]] && [ "$1" -le "$most" ] && [ "$#" -ge 2 ] || usage
+    if ! [[ ${1:-} =~ ^[1-9][0-9]{0,2}$ ]] || [ "$1" -gt "$most" ] || [ "$#" -lt 2 ]; then
+      usage
+    fi
     start "$@" ;;
 esac
