@@ -72,8 +72,9 @@ TEST(Machine, WarnsOfTheLauncherOfAnotherMpi) {
   const Variable four("OMPI_COMM_WORLD_SIZE", "4");
   const Placement fits = placement(1, 1, 1);
   EXPECT_NE(report(fits, alone).find("4 ranks were started, but this one is alone"), std::string::npos);
-  if (world.size() > 1)
+  if (world.size() > 1) {
     EXPECT_EQ(report(fits, world), "");
+  }
   const Variable one("OMPI_COMM_WORLD_SIZE", "1");
   EXPECT_EQ(report(fits, alone), "");
 }
