@@ -43,19 +43,24 @@ job_config() {
 }
 
 # job_run CONFIG [section.key=value ...]: starts the program on all ranks of the job; returns its exit code.
-# TRIME_LAUNCHER: mpirun (default), or srun with its options, e.g. "srun --mpi=pmix".
+# TRIME_LAUNCHER: mpirun (default), the mpiexec of another MPI, or srun, with options, e.g. "srun --mpi=pmix".
 # TRIME_CONTAINER: what to put before the program, e.g. "apptainer exec trime_mpi.sif".
 job_run() {
-  local launch=() container=()
+  local launch=() container=() kind
   read -ra launch <<<"${TRIME_LAUNCHER:-mpirun}"
   read -ra container <<<"${TRIME_CONTAINER:-}"
-  if [ "${launch[0]}" = mpirun ]; then
-    # A block of as many cores for each rank as it has threads. Without PE= Open MPI binds a rank to one core when there
-    # are one or two ranks, and all its threads would share that core. --report-bindings prints where each rank went.
-    launch+=(-np "$SLURM_NTASKS" --map-by "slot:PE=$threads" --bind-to core --report-bindings)
-  else
-    launch+=(--ntasks="$SLURM_NTASKS" --cpu-bind=cores --kill-on-bad-exit=1)
-  fi
+  # A block of as many cores for each rank as it has threads.
+  kind=${launch[0]##*/}
+  [ "$kind" = srun ] || kind=$("${launch[0]}" --version 2>&1 || true)
+  case "$kind" in
+    srun) launch+=(--ntasks="$SLURM_NTASKS" --cpu-bind=cores --kill-on-bad-exit=1) ;;
+    *"Open MPI"*)
+      # Without PE= Open MPI binds a rank to one core when there are one or two ranks, and all its threads would share
+      # that core. --report-bindings prints where each rank went.
+      launch+=(-n "$SLURM_NTASKS" --map-by "slot:PE=$threads" --bind-to core --report-bindings) ;;
+    *HYDRA*) launch+=(-n "$SLURM_NTASKS" -bind-to "core:$threads") ;; # of MPICH
+    *) launch+=(-n "$SLURM_NTASKS") ;; # another one: its options, if any, stand in TRIME_LAUNCHER
+  esac
   "${launch[@]}" ${container[@]+"${container[@]}"} "$program" "$@"
 }
 

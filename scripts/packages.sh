@@ -19,6 +19,9 @@ trime_test_packages=(
   python3-scipy gmsh                              # Poisson's equation, on meshes of Gmsh too, judge.py; benchmark.py --gmsh;
                                                   # scaling.py --model
   munge slurmctld slurmd slurm-client             # a SLURM of one node for the job scripts
+  environment-modules                             # loads the module file
+  iproute2                                        # hosts of one's own: network namespaces, for runs over TCP
+  mpich libhdf5-mpich-dev                         # the other MPI, beside Open MPI, which stays the default
   clang clang-format libomp-dev libclang-rt-14-dev # second compiler with its OpenMP and sanitizers, house style
 )
 

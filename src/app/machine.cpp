@@ -27,6 +27,15 @@ std::int64_t hash_text(const std::string& text) {
   return static_cast<std::int64_t>(hash >> 1);
 }
 
+/// How many ranks were started with this one, as its launcher says: mpirun of Open MPI, mpiexec of MPICH, srun; 0: none
+/// says so. The variable of srun comes last: Open MPI lets it start its daemons.
+int ranks_started() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"})
+    if (const char* value = std::getenv(name); value != nullptr)
+      return std::atoi(value);
+  return 0;
+}
+
 } // namespace
 
 Placement place_threads(int setup_threads, int mesh_threads, const comm::Communicator& comm) {
@@ -69,6 +78,11 @@ void report_placement(const Placement& placement, const comm::Communicator& comm
   log.info("{} rank{} x {} thread{}{} on {} node{}", placement.ranks, placement.ranks == 1 ? "" : "s",
            fewest == most ? std::to_string(most) : fmt::format("{} to {}", fewest, most), most == 1 ? "" : "s", setup,
            placement.nodes, placement.nodes == 1 ? "" : "s");
+  if (const int started = ranks_started(); comm.size() == 1 && started > 1)
+    log.warning(
+        "{} ranks were started, but this one is alone, and makes the whole mesh: the launcher is not that of {}; "
+        "start with the mpiexec of that MPI, or see jobs/README.md for srun",
+        started, comm::library_version());
   if (comm::is_simulated())
     return; // its cores are not those of this machine
   if (crowded > 0 && node_cores > 0 && most_used > node_cores)
