@@ -8,11 +8,11 @@
 namespace trime::comm {
 namespace {
 
-/// Of two calls of exchange_any in a row the tags differ, see there: the second is one more.
-enum Tag : int { tag_known = 101, tag_any = 102 };
+enum Tag : int { tag_known = 101, tag_size = 102, tag_parcel = 103 };
 
-/// [bytes] A message up to this size travels whole in the first letter; what MPI libraries send without asking.
-constexpr std::size_t letter_bytes = 4096;
+/// [bytes] A message up to this size travels in the parcels of exchange_any, passed on from rank to rank; of a longer
+/// one only the size. So nothing long travels more than once.
+constexpr std::size_t most_passed_on = 4096;
 
 void post(const Message& message, bool send, int tag, const Communicator::Native& native,
           std::vector<MPI_Request>& requests) {
@@ -27,116 +27,125 @@ void post(const Message& message, bool send, int tag, const Communicator::Native
   }
 }
 
-/// @brief The first word of a sender to somebody who does not expect it: the size of the message, and the message
-/// itself if it is short.
-std::vector<std::byte> letter_of(const Message& message) {
-  const auto size = static_cast<std::int64_t>(message.data.size());
-  std::vector<std::byte> letter = to_bytes(std::span(&size, 1));
-  if (message.data.size() <= letter_bytes)
-    letter.insert(letter.end(), message.data.begin(), message.data.end());
-  return letter;
-}
-
-/// The message as far as its letter tells it; the data of a long one are still to come.
-Message opened(int peer, std::span<const std::byte> letter) {
-  const std::size_t head = sizeof(std::int64_t);
-  const auto size = static_cast<std::size_t>(from_bytes<std::int64_t>(letter.first(head))[0]);
-  Message message{peer, {}};
-  if (size <= letter_bytes)
-    message.data.assign(letter.begin() + head, letter.end());
-  else
-    message.data.resize(size);
-  return message;
-}
-
-/// The letters of one call of exchange_any.
-class Letters {
-public:
-  Letters(const Communicator::Native& native, int tag, const std::vector<Message>& outgoing)
-      : native_(native), tag_(tag), room_(sizeof(std::int64_t) + letter_bytes), open_(outgoing.size()),
-        requests_(first_letter + outgoing.size(), MPI_REQUEST_NULL) {
-    receive();
-    for (const Message& message : outgoing) {
-      const std::vector<std::byte>& letter = letters_.emplace_back(letter_of(message));
-      count_message(native_, message.peer, letter.size());
-      check(MPI_Issend(letter.data(), static_cast<int>(letter.size()), MPI_BYTE, message.peer, tag_, native_.comm,
-                       &requests_[first_letter + letters_.size() - 1]));
-    }
-    enter_barrier();
+/// What stands before each message in a parcel.
+struct Envelope {
+  std::int32_t from, to;
+  std::int64_t size; // of the message; its bytes follow if they are passed on
+  std::size_t bytes_inside() const {
+    return size <= static_cast<std::int64_t>(most_passed_on) ? static_cast<std::size_t>(size) : 0;
   }
+};
 
-  std::vector<Message> exchange() {
-    for (bool all_received = false; !all_received;) {
-      int index = 0;
-      MPI_Status status;
-      check(MPI_Waitany(static_cast<int>(requests_.size()), requests_.data(), &index, &status));
-      if (index == arrival) {
-        take(status);
-        receive();
-      } else if (index == barrier) {
-        all_received = true;
-      } else {
-        --open_;
-        enter_barrier();
-      }
+using Parcel = std::vector<std::byte>; // envelopes, each with its bytes
+
+void add(Parcel& parcel, const Envelope& envelope, std::span<const std::byte> inside) {
+  const auto head = std::as_bytes(std::span(&envelope, 1));
+  parcel.insert(parcel.end(), head.begin(), head.end());
+  parcel.insert(parcel.end(), inside.begin(), inside.end());
+}
+
+/// Calls visit(envelope, bytes inside) for each message.
+template <class Visit>
+void for_each_message(std::span<const std::byte> parcel, const Visit& visit) {
+  while (!parcel.empty()) {
+    const Envelope envelope = from_bytes<Envelope>(parcel.first(sizeof(Envelope)))[0];
+    visit(envelope, parcel.subspan(sizeof(Envelope), envelope.bytes_inside()));
+    parcel = parcel.subspan(sizeof(Envelope) + envelope.bytes_inside());
+  }
+}
+
+/// Passes parcels on until each message is where it belongs.
+class Router {
+public:
+  Router(const Communicator& comm, Parcel parcel) : comm_(comm), native_(comm.native()), parcel_(std::move(parcel)) {}
+
+  Parcel route() {
+    for (int first = 0, count = comm_.size(); count > 1;) { // ranks among which the own parcel must arrive
+      const int lower = (count + 1) / 2, upper = count - lower, middle = first + lower, rank = comm_.rank();
+      const bool is_lower = rank < middle;
+      const bool is_odd_one = rank - first >= upper; // the last of the lower half, if that is one longer
+      Parcel away = take_away(middle, is_lower);
+      std::vector<int> sources;
+      int target = is_lower ? rank + lower : rank - lower;
+      if (is_lower && is_odd_one)
+        target = first + count - 1; // who has a partner of its own, too
+      else
+        sources.push_back(target);
+      if (lower > upper && rank == first + count - 1)
+        sources.push_back(middle - 1);
+      swap(target, away, sources);
+      first = is_lower ? first : middle;
+      count = is_lower ? lower : upper;
     }
-    end_receiving();
-    return std::move(incoming_);
+    return std::move(parcel_);
   }
 
 private:
-  enum Index : int { arrival, barrier, first_letter }; // in requests_
-
-  void receive() {
-    check(MPI_Irecv(room_.data(), static_cast<int>(room_.size()), MPI_BYTE, MPI_ANY_SOURCE, tag_, native_.comm,
-                    &requests_[arrival]));
-  }
-  void take(const MPI_Status& status) {
-    int bytes = 0;
-    check(MPI_Get_count(&status, MPI_BYTE, &bytes));
-    incoming_.push_back(opened(status.MPI_SOURCE, std::span(room_).first(static_cast<std::size_t>(bytes))));
-  }
-  void enter_barrier() {
-    if (open_ == 0)
-      check(MPI_Ibarrier(collective(native_), &requests_[barrier]));
-  }
-  /// All letters of all ranks have found their receivers: the last receiver has the last letter, or waits in vain.
-  void end_receiving() {
-    MPI_Status status;
-    int in_vain = 0;
-    check(MPI_Cancel(&requests_[arrival]));
-    check(MPI_Wait(&requests_[arrival], &status));
-    check(MPI_Test_cancelled(&status, &in_vain));
-    if (!in_vain)
-      take(status);
+  /// Takes what belongs to the other half out of the parcel.
+  Parcel take_away(int middle, bool is_lower) {
+    Parcel away, kept;
+    for_each_message(parcel_, [&](const Envelope& envelope, std::span<const std::byte> inside) {
+      add((envelope.to < middle) == is_lower ? kept : away, envelope, inside);
+    });
+    parcel_ = std::move(kept);
+    return away;
   }
 
+  void swap(int target, const Parcel& away, const std::vector<int>& sources) {
+    const auto own_size = static_cast<std::int64_t>(away.size());
+    std::vector<std::int64_t> sizes(sources.size());
+    std::vector<MPI_Request> requests(sources.size() + 1);
+    for (std::size_t k = 0; k < sources.size(); ++k)
+      check(MPI_Irecv(&sizes[k], 1, MPI_INT64_T, sources[k], tag_size, native_.comm, &requests[k]));
+    count_message(native_, target, sizeof own_size);
+    check(MPI_Isend(&own_size, 1, MPI_INT64_T, target, tag_size, native_.comm, &requests.back()));
+    check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
+    std::vector<Message> incoming;
+    for (std::size_t k = 0; k < sources.size(); ++k)
+      incoming.push_back({sources[k], Parcel(static_cast<std::size_t>(sizes[k]))});
+    requests.clear();
+    for (const Message& message : incoming)
+      post(message, false, tag_parcel, native_, requests);
+    const Message outgoing{target, away};
+    post(outgoing, true, tag_parcel, native_, requests);
+    check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
+    for (const Message& message : incoming)
+      parcel_.insert(parcel_.end(), message.data.begin(), message.data.end());
+  }
+
+  const Communicator& comm_;
   const Communicator::Native& native_;
-  int tag_;
-  std::vector<std::byte> room_; // for one letter
-  std::size_t open_;            // own letters that are not received yet
-  std::vector<MPI_Request> requests_;
-  std::vector<std::vector<std::byte>> letters_;
-  std::vector<Message> incoming_;
+  Parcel parcel_;
 };
 
 } // namespace
 
-// NBX of Hoefler, Siebert and Lumsdaine (PPoPP 2010): letters by synchronous sends, and a barrier that a rank enters
-// when its own have been received. No rank ends a call before all have entered its barrier, so letters of two calls in
-// a row may meet, those of three may not: two tags keep them apart.
+// The crystal router of Fox et al. (Solving Problems on Concurrent Processors, 1988): the ranks are halved again and
+// again, and each sends what belongs to the other half to a partner there. log2(ranks) steps, no table of ranks,
+// nothing that depends on who comes first.
 std::vector<Message> Communicator::exchange_any(const std::vector<Message>& outgoing) const {
   if (size_ == 1)
     return outgoing;
-  const int tag = tag_any + (native_->sparse_exchanges++ & 1);
-  std::vector<Message> incoming = Letters(*native_, tag, outgoing).exchange();
+  collective(*native_);
+  Parcel parcel;
+  for (const Message& message : outgoing) {
+    const Envelope envelope{rank_, message.peer, std::ssize(message.data)};
+    add(parcel, envelope, std::span(message.data).first(envelope.bytes_inside()));
+  }
+  std::vector<Message> incoming;
+  for_each_message(Router(*this, std::move(parcel)).route(),
+                   [&](const Envelope& envelope, std::span<const std::byte> inside) {
+                     incoming.push_back({envelope.from, {inside.begin(), inside.end()}});
+                     incoming.back().data.resize(static_cast<std::size_t>(envelope.size));
+                   });
   std::sort(incoming.begin(), incoming.end(), [](const Message& a, const Message& b) { return a.peer < b.peer; });
+  const auto is_long = [](const Message& message) { return message.data.size() > most_passed_on; };
   std::vector<MPI_Request> requests;
   for (const Message& message : incoming)
-    if (message.data.size() > letter_bytes)
+    if (is_long(message))
       post(message, false, tag_known, *native_, requests);
   for (const Message& message : outgoing)
-    if (message.data.size() > letter_bytes)
+    if (is_long(message))
       post(message, true, tag_known, *native_, requests);
   check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
   return incoming;

@@ -11,8 +11,7 @@ namespace trime::comm {
 struct Communicator::Native {
   MPI_Comm comm = MPI_COMM_NULL;
   int rank = 0;
-  mutable Counters counters{};           // of this rank
-  mutable unsigned sparse_exchanges = 0; // calls of exchange_any
+  mutable Counters counters{}; // of this rank
 };
 
 inline MPI_Comm native_handle(const Communicator& communicator) {

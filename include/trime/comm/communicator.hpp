@@ -91,7 +91,7 @@ public:
   std::vector<std::string> gather(const std::string& text) const;
 
   /// @brief Sends each message to its peer and returns what arrived, ordered by peer. Peers need not know each other
-  /// beforehand (a barrier that nobody waits in tells when all are there). At most one message per peer. Collective.
+  /// beforehand. At most one message per peer. O(log(ranks)) steps. Collective.
   std::vector<Message> exchange_any(const std::vector<Message>& outgoing) const;
   /// @brief Exchange between ranks that know each other: `incoming[k].data` must have the size that its peer sends.
   /// Non-blocking sends and receives; empty messages are not sent. Only the ranks named take part.
