@@ -86,7 +86,7 @@ public:
   /// @brief Sends each message to its peer and returns what arrived, ordered by peer. Peers need not know each other
   /// beforehand (one reduction counts the incoming messages). At most one message per peer. Collective.
   std::vector<Message> exchange_any(const std::vector<Message>& outgoing) const;
-  /// @brief Exchange between ranks that know each other: `incoming[k].data` must have room for what its peer sends.
+  /// @brief Exchange between ranks that know each other: `incoming[k].data` must have the size that its peer sends.
   /// Non-blocking sends and receives; empty messages are not sent. Only the ranks named take part.
   void exchange_known(std::span<const Message> outgoing, std::span<Message> incoming) const;
 
