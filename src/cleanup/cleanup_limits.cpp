@@ -31,7 +31,7 @@ void limit(const comm::Communicator& comm, int sign, GlobalId most, std::span<co
   const std::uint64_t threshold = selection_threshold(comm, keys, std::max<GlobalId>(0, most));
   for (std::size_t k = 0; k < results.size(); ++k)
     if (sign * gain_of(results[k].edits) > 0 && !(chosen[k].contender.order < threshold))
-      results[k] = {.put_off = true};
+      results[k] = {{}, {}, {}, true};
 }
 
 } // namespace

@@ -107,8 +107,6 @@ CleanupRounds::Outcome CleanupRounds::round(std::span<const Contender> contender
   take(exchange_news(attempt));
   settle_failures(attempt);
   ++round_;
-  comm_.counters().add(Counter::cleanup_rounds);
-  comm_.counters().add(Counter::patches, std::ssize(attempt.results));
   return Outcome::done;
 }
 
@@ -174,6 +172,8 @@ void CleanupRounds::make_canonical(PatchResult& result) const {
 
 /// What the own patches have come to, and their edits on the boundary.
 void CleanupRounds::count(const Attempt& attempt) {
+  comm_.counters().add(Counter::cleanup_rounds);
+  comm_.counters().add(Counter::patches, std::ssize(attempt.results));
   counts_.patches += std::ssize(attempt.results);
   for (const PatchResult& result : attempt.results) {
     counts_.better += !result.edits.empty();

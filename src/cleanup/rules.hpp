@@ -187,7 +187,8 @@ struct CleanupRules {
   /// [passes] That choose the patches of a round. Measured: fewer than 5 of 600 places are left out that had room.
   static constexpr int passes = 6;
   /// [1] Factor on the separation: ranks with tiles within it are neighbours from the first, so that candidates in the
-  /// cell of a contender, and in its patch, reach to none but neighbours. What does not hold is found and mended.
+  /// cell of a contender, and in its patch, reach to none but neighbours. Where that is too little, a round is done
+  /// again with more neighbours. Not measured.
   static constexpr double foresight = 2;
   /// [log2] Width of the cells of which the worst site contends, over once to twice its h: fewer contenders to compare.
   static constexpr int contender_cell = 2;
@@ -196,8 +197,9 @@ struct CleanupRules {
   /// [1] Share of the sites kept until the last stage, for places where only smaller triangles help. Measured: North
   /// America, largest alpha 1.61 to 1.38 with 17000 points against a smaller share.
   static constexpr double reserved = 0.006;
-  /// [sites] A patch may add or take this many, but for most_refined, as long as the limits leave them: so a round need
-  /// not know how many patches share them. No patch of the shipped configs comes to it.
+  /// [sites] A patch may add or take this many as long as the limits leave them; smaller triangles may be most_refined
+  /// more. It does not depend on how many patches share what is left, so that a round need not count them before.
+  /// Measured: with 20000 points all shipped configs give the meshes that equal shares of the rest gave.
   static constexpr GlobalId patch_budget = 10;
   /// [1] Share of the sites: with less room, or so many fewer than wanted, the handicaps apply.
   static constexpr double scarcity = 0.001;

@@ -28,7 +28,8 @@ TEST(CleanupLimits, EditsBeyondTheLimitAreTakenBack) {
   const comm::Communicator world = comm::Communicator::world();
   const GlobalId ranks = world.size();
   CleanupLimits limits(sites, sites + 3 * ranks + 2);
-  const SiteEdit insertion{.kind = polygon::EditKind::insert};
+  SiteEdit insertion;
+  insertion.kind = polygon::EditKind::insert;
   std::vector<PatchResult> results(2);
   results[0].edits.assign(4, insertion);
   results[1].edits.assign(3, insertion);

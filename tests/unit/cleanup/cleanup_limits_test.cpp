@@ -11,10 +11,12 @@ constexpr GlobalId sites = 100000;
 constexpr int last_stage = CleanupRules::stages;
 
 TEST(CleanupLimits, APatchMayTakeLittleOfTheRoomAndLeavesAReserve) {
-  const GlobalId reserve = 1 + static_cast<GlobalId>(CleanupRules::reserved * (sites + 2000));
   EXPECT_EQ(CleanupLimits(sites, sites + 2000).budget(1, 1.1).may_insert, CleanupRules::patch_budget);
-  const CleanupLimits narrow(sites, sites + reserve + 3); // with a little more of a reserve
-  EXPECT_LE(narrow.budget(1, 1.1).may_insert, 3);
+  constexpr GlobalId more = 607;
+  const GlobalId reserve = 1 + static_cast<GlobalId>(CleanupRules::reserved * (sites + more));
+  const CleanupLimits narrow(sites, sites + more);
+  EXPECT_EQ(narrow.budget(1, 1.1).may_insert, more - reserve);
+  EXPECT_LT(more - reserve, CleanupRules::patch_budget);
   EXPECT_EQ(narrow.budget(last_stage, 1.1).may_insert, CleanupRules::patch_budget) << "no reserve is left";
   EXPECT_EQ(narrow.budget(1, 1.1).may_refine, CleanupRules::most_refined);
   EXPECT_EQ(narrow.budget(1, 1.1).may_delete, CleanupRules::patch_budget);
