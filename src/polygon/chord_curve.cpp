@@ -139,16 +139,16 @@ void assert_same_loops(const geometry::Boundary& boundary, const BoundarySites& 
 
 } // namespace
 
-std::vector<ChordCurve> compare_chords(const geometry::Boundary& boundary, const BoundarySites& sites) {
+std::vector<ChordCurve> compare_chords(const geometry::Boundary& boundary, const BoundarySites& sites, LocalIndex first,
+                                       LocalIndex last) {
   assert_same_loops(boundary, sites);
-  std::vector<ChordCurve> chords(sites.sites.size());
-  for (std::size_t loop = 0; loop < boundary.loops.size(); ++loop) {
-    const LocalIndex first = sites.loop_start[loop];
-    thread_loop(sites.loop_start[loop + 1] - first, 256, [&](std::ptrdiff_t item, int) {
-      const LocalIndex k = first + static_cast<LocalIndex>(item);
-      chords[static_cast<std::size_t>(k)] = compare(boundary.loops[loop], sites, k);
-    });
-  }
+  std::vector<ChordCurve> chords(static_cast<std::size_t>(last - first));
+  thread_loop(last - first, 256, [&](std::ptrdiff_t item, int) {
+    const LocalIndex k = first + static_cast<LocalIndex>(item);
+    const auto after = std::upper_bound(sites.loop_start.begin(), sites.loop_start.end(), k);
+    const Loop& loop = boundary.loops[static_cast<std::size_t>(after - sites.loop_start.begin()) - 1];
+    chords[static_cast<std::size_t>(item)] = compare(loop, sites, k);
+  });
   return chords;
 }
 
