@@ -182,6 +182,10 @@ double area_of_loops(const geometry::Boundary& boundary) {
 std::vector<LoopSummary> summarize_loops(const geometry::Boundary& boundary, const BoundarySites& sites) {
   assert_same_loops(boundary, sites);
   std::vector<LoopSummary> loops;
+  std::int32_t parts = 0;
+  for (const BoundarySite& site : sites.sites)
+    parts = std::max(parts, site.part + 1);
+  std::vector<std::size_t> listed(static_cast<std::size_t>(parts), boundary.loops.size()); // the last loop that has it
   for (std::size_t index = 0; index < boundary.loops.size(); ++index) {
     const Loop& loop = boundary.loops[index];
     LoopSummary summary{loop.tag,
@@ -195,8 +199,10 @@ std::vector<LoopSummary> summarize_loops(const geometry::Boundary& boundary, con
       const Segment chord = sites.chord(k);
       const std::int32_t part = sites.sites[k].part;
       summary.length += geometry::length(chord.b - chord.a);
-      if (std::find(summary.parts.begin(), summary.parts.end(), part) == summary.parts.end())
+      if (std::size_t& last = listed[static_cast<std::size_t>(part)]; last != index) {
         summary.parts.push_back(part);
+        last = index;
+      }
     }
     loops.push_back(std::move(summary));
   }

@@ -33,7 +33,7 @@ void name_parts(const geometry::Boundary& boundary, BoundarySites& sites);
 /// whole areas of it: from 0, below one. O(pieces)
 double area_of_loops(const geometry::Boundary& boundary);
 
-/// The loops as the mesh has them, in the order of the boundary. @pre as for compare_chords
+/// The loops as the mesh has them, in the order of the boundary. O(sites + parts). @pre as for compare_chords
 std::vector<LoopSummary> summarize_loops(const geometry::Boundary& boundary, const BoundarySites& sites);
 
 } // namespace trime::polygon
