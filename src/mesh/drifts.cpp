@@ -6,8 +6,6 @@
 namespace trime::mesh {
 
 void Drifts::forget(LocalIndex tiles) {
-  if (largest_ == 0 && !of_tile_.empty())
-    return;
   of_tile_.assign(static_cast<std::size_t>(tiles), 0);
   largest_ = 0;
 }
@@ -23,8 +21,8 @@ double Drifts::margin(geometry::Vec2 center, double reach, const KnownBins& bins
   double most = 0;
   for (int y = std::max(0, row - 1); y <= std::min(grid.tiles_y() - 1, row + 1); ++y)
     for (int x = std::max(0, column - 1); x <= std::min(grid.tiles_x() - 1, column + 1); ++x) {
-      const LocalIndex tile = grid.tile_at(x, y);
-      most = std::max(most, bins.knows_tile(tile) ? of(tile) : largest_);
+      const LocalIndex tile = bins.known_tile(grid.tile_at(x, y));
+      most = std::max(most, tile >= 0 ? of(tile) : largest_);
     }
   return most;
 }

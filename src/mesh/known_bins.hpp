@@ -7,8 +7,10 @@
 #include "trime/core/types.hpp"
 #include "trime/geometry/vec2.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace trime::mesh {
@@ -18,8 +20,9 @@ struct SiteRange {
   LocalIndex begin, end;
 };
 
-/// @brief For each known bin the range of local indices of its sites. It holds no sites. O(tiles of the container and
-/// known bins) memory.
+/// @brief For each known bin the range of local indices of its sites. It holds no sites. A tile with a known bin has a
+/// number: the owned tiles come first, in their order, then the others in the order in which they became known. O(known
+/// bins) memory.
 class KnownBins {
 public:
   /// @pre `grid` outlives this object
@@ -46,14 +49,17 @@ public:
 
   /// The sites of a bin; none if it is unknown.
   SiteRange range(BinRef bin) const {
-    const LocalIndex block = tile_block_[slot(bin.tile, bin.image)];
+    const LocalIndex block = block_of(bin.tile, bin.image);
     if (block < 0)
       return {0, 0};
     const std::size_t at = blocks_[static_cast<std::size_t>(block)].first_bin + static_cast<std::size_t>(bin.bin);
     return {begin_[at], end_[at]};
   }
-  /// Is any bin of the tile itself known?
-  bool knows_tile(LocalIndex tile) const { return tile_block_[slot(tile, 0)] >= 0; }
+  /// The number of a tile of which a bin is known, or -1.
+  LocalIndex known_tile(LocalIndex tile) const { return block_of(tile, 0); }
+  LocalIndex owned_tiles() const { return owned_blocks_; }
+  /// All numbers are below it.
+  LocalIndex known_tiles() const { return static_cast<LocalIndex>(blocks_.size()); }
 
   /// See BinnedPoints::for_each_near; sites are where they were when the bins were filled.
   template <class Visit, class Missing>
@@ -67,14 +73,29 @@ private:
   };
   template <class Visit, class Missing>
   void visit_row(BinRef first_bin, int bx0, int bx1, const Visit& visit, const Missing& missing) const;
-  std::size_t slot(LocalIndex tile, std::int32_t image) const {
-    return static_cast<std::size_t>(tile) * static_cast<std::size_t>(images_) + static_cast<std::size_t>(image);
+  /// A tile that is not owned, or an image of any.
+  struct Foreign {
+    LocalIndex tile;
+    std::int32_t image;
+    LocalIndex block;
+    auto key() const { return std::pair(tile, image); }
+  };
+  /// Index into blocks_, -1 if unknown. O(1) for owned tiles, else O(log(known tiles)).
+  LocalIndex block_of(LocalIndex tile, std::int32_t image) const {
+    if (image == 0 && tile >= first_tile_ && tile - first_tile_ < owned_blocks_)
+      return tile - first_tile_;
+    const auto found = foreign_at(tile, image);
+    return found != foreign_.end() && found->key() == std::pair(tile, image) ? found->block : -1;
+  }
+  std::vector<Foreign>::const_iterator foreign_at(LocalIndex tile, std::int32_t image) const {
+    return std::lower_bound(foreign_.begin(), foreign_.end(), std::pair(tile, image),
+                            [](const Foreign& a, const auto& key) { return a.key() < key; });
   }
 
   const TileGrid* grid_;
-  int images_;                         // of a tile
-  std::vector<LocalIndex> tile_block_; // by tile and image: index into blocks_, -1 unknown; O(tiles of the container)
-  std::vector<Block> blocks_;          // of the owned tiles first
+  LocalIndex first_tile_ = 0;
+  std::vector<Foreign> foreign_; // ascending
+  std::vector<Block> blocks_;    // of the owned tiles first
   std::vector<LocalIndex> begin_, end_;
   std::vector<std::uint8_t> known_;
   LocalIndex owned_blocks_ = 0;
@@ -89,7 +110,7 @@ void KnownBins::for_each_near(geometry::Vec2 center, double reach, const Visit& 
   const int tx0 = grid.tile_of(x0), tx1 = grid.tile_of(x1), ty0 = grid.tile_of(y0), ty1 = grid.tile_of(y1);
   if (tx0 == tx1 && ty0 == ty1) { // most squares lie in one tile
     const TileGrid::TileImage at = grid.tile_image_at(tx0, ty0);
-    const LocalIndex block = tile_block_[slot(at.tile, at.image)];
+    const LocalIndex block = block_of(at.tile, at.image);
     if (block >= 0 && blocks_[static_cast<std::size_t>(block)].complete) {
       const Block& b = blocks_[static_cast<std::size_t>(block)];
       const LocalIndex* begin = begin_.data() + b.first_bin + grid.bin_of(x0, b.bits);
@@ -114,7 +135,7 @@ void KnownBins::for_each_near(geometry::Vec2 center, double reach, const Visit& 
 /// Bins first_bin.bin + bx0 .. first_bin.bin + bx1 of one row of one tile.
 template <class Visit, class Missing>
 void KnownBins::visit_row(BinRef first_bin, int bx0, int bx1, const Visit& visit, const Missing& missing) const {
-  const LocalIndex block = tile_block_[slot(first_bin.tile, first_bin.image)];
+  const LocalIndex block = block_of(first_bin.tile, first_bin.image);
   if (block < 0) {
     for (int bx = bx0; bx <= bx1; ++bx)
       missing(BinRef{first_bin.tile, first_bin.bin | bx, first_bin.image});

@@ -245,17 +245,8 @@ delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder
 }
 
 void SiteState::fetch(std::span<const mesh::BinRef> missing, const sizing::SizeField& size) {
-  halo_.subscribe(missing);
-  halo_.refresh(points_);
-  if (!size.is_uniform()) { // h of a site that has moved may be older than its place: all must see that of its owner
-    std::vector<double>& values = sizes_.values();
-    values.resize(static_cast<std::size_t>(points_.owned()));
-    const std::vector<double> ghosts = halo_.exchange(points_, std::span<const double>(values));
-    values.insert(values.end(), ghosts.begin(), ghosts.end());
-  }
-  stars_.renumber_ghosts(points_.owned(), halo_.ghost_renumbering());
-  if (points_.drifts().largest() > 0)
-    halo_.refresh_drifts(points_);
+  // h of a site that has moved may be older than its place: all must see that of its owner.
+  halo_.extend(points_, {missing.begin(), missing.end()}, size.is_uniform() ? nullptr : &sizes_.values());
 }
 
 void SiteState::release_work_space() {

@@ -59,7 +59,7 @@ public:
   /// @param new_sizes evaluates h at the new places; else sites keep theirs
   void begin_advance(const sizing::SizeField& size, double drift, bool new_sizes);
   void finish_advance(const sizing::SizeField& size);
-  /// Adds bins to those that this rank knows; local indices of ghosts may change. Collective.
+  /// Adds bins to those that this rank knows; their ghosts come behind the others. Collective.
   void fetch(std::span<const mesh::BinRef> missing, const sizing::SizeField& size);
 
   const mesh::TileGrid& grid() const { return grid_; }

@@ -93,12 +93,12 @@ void Sweeper::sweep_tile(const SweepTask& task, std::size_t t, TileLeftovers& mi
 void Sweeper::run_kernel(const UpdateRule& rule, TilePlace which) {
   SweepTask task = make_sweep_task(state_, builder_, context_, certifier_.classes());
   task.rule = rule.parameters();
-  const std::span<const TilePlace> places = certifier_.classes().places();
-  activity_.wake(task.rule, which, places);
+  const TilesAround& around = certifier_.classes().around();
+  activity_.wake(task.rule, which, around);
   PerThread<TileLeftovers> of_thread;
-  thread_loop(static_cast<std::ptrdiff_t>(places.size()), 1, [&](std::ptrdiff_t item, int thread) {
+  thread_loop(static_cast<std::ptrdiff_t>(around.size()), 1, [&](std::ptrdiff_t item, int thread) {
     const std::size_t t = static_cast<std::size_t>(item);
-    if (places[t] != which)
+    if (around.place(t) != which)
       return;
     if (activity_.is_awake(t))
       sweep_tile(task, t, of_thread[thread]);

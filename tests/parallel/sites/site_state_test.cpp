@@ -106,7 +106,7 @@ TEST(SiteState, AFetchKeepsTheDriftThatTheOwnersKnow) {
   const auto drift_of = [](LocalIndex tile) { return tile % 3 == 0 ? 0 : 1e-4 * (1 + tile % 5); };
   prepare_to_stay(points);
   for (LocalIndex tile = points.first_tile(); tile < points.last_tile(); ++tile)
-    points.drifts().set(tile, drift_of(tile));
+    points.drifts().set(points.known_tile(tile), drift_of(tile));
   state.begin_advance(size, 1e-3, false);
   state.finish_advance(size);
   std::vector<mesh::BinRef> missing;
@@ -119,7 +119,7 @@ TEST(SiteState, AFetchKeepsTheDriftThatTheOwnersKnow) {
   state.fetch(missing, size);
   for (LocalIndex ghost = points.owned(); ghost < points.size(); ++ghost) {
     const LocalIndex tile = points.grid().tile_at(points.position(ghost));
-    EXPECT_EQ(points.drifts().of(tile), drift_of(tile));
+    EXPECT_EQ(points.drifts().of(points.known_tile(tile)), drift_of(tile));
   }
   EXPECT_EQ(points.size() > points.owned(), world.size() > 1);
 }
