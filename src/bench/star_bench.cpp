@@ -16,7 +16,7 @@ enum PointSet : std::int64_t { relaxed, random_set, graded_set };
 /// Points in tiles and a builder for them.
 struct Stage {
   explicit Stage(const benchmark::State& state)
-      : n(state.range(0)), grid(unit_square, {{}, {}, spacing_of(n), state.range(1) == graded_set}), points(grid),
+      : n(state.range(0)), grid(unit_square, {{}, {}, spacing_of(n)}), points(grid),
         lattice(unit_square), builder(lattice, 2.5, 1.0) {
     sites = state.range(1) == relaxed      ? jittered_lattice(n, 0.15)
             : state.range(1) == random_set ? random_points(n)

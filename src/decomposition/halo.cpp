@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "decomposition/halo.hpp"
 
-#include "core/hilbert.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -142,33 +141,26 @@ void Halo::reset(const Partition& partition, int margin) {
 
 /// Bins of foreign tiles, and of images of any, within `margin` bins of a tile: its own bins, or those of the other
 /// tile where they are smaller.
-void Halo::list_bins_around(LocalIndex tile, int margin, std::vector<BinRef>& wanted) const {
-  const int shift = grid_->tile_shift();
-  const std::int64_t side = std::int64_t{1} << shift;
-  const auto bin_side = [&](LocalIndex of) { return side >> grid_->bin_bits(of); };
-  const GridPosition at = grid_->tile_position(tile);
-  const std::int64_t x0 = std::int64_t{at.x} << shift, y0 = std::int64_t{at.y} << shift;
-  const int tiles = static_cast<int>((margin * bin_side(tile) + side - 1) >> shift); // that the margin reaches
-  const int column = static_cast<int>(at.x), row = static_cast<int>(at.y);
-  // Along periodic axes the images beside the container belong to it.
-  const int x_images = grid_->periods().x > 0 ? grid_->tiles_x() : 0,
-            y_images = grid_->periods().y > 0 ? grid_->tiles_y() : 0;
-  const int last_x = std::min(grid_->tiles_x() + x_images - 1, column + tiles);
-  const int last_y = std::min(grid_->tiles_y() + y_images - 1, row + tiles);
-  for (int ty = std::max(-y_images, row - tiles); ty <= last_y; ++ty)
-    for (int tx = std::max(-x_images, column - tiles); tx <= last_x; ++tx) {
-      const auto [other, image] = grid_->tile_image_at(tx, ty);
-      if (image == 0 && partition_.owner(other) == comm_->rank())
-        continue;
-      const std::int64_t width = bin_side(other), reach = margin * std::min(bin_side(tile), width);
-      const std::int64_t left = tx * side, low = ty * side;
-      const std::int64_t bx0 = std::max<std::int64_t>(0, x0 - reach - left) / width;
-      const std::int64_t by0 = std::max<std::int64_t>(0, y0 - reach - low) / width;
-      const std::int64_t bx1 = std::min(side, x0 + side + reach - left), by1 = std::min(side, y0 + side + reach - low);
-      for (std::int64_t by = by0; by * width < by1; ++by)
-        for (std::int64_t bx = bx0; bx * width < bx1; ++bx)
-          wanted.push_back({other, static_cast<std::int32_t>((by << grid_->bin_bits(other)) | bx), image});
-    }
+void Halo::list_bins_around(LocalIndex tile, int margin, std::vector<mesh::BinRef>& wanted) const {
+  const auto reach_of = [&](const mesh::Tile& of) { return std::int64_t{margin} << of.bin_shift(); };
+  const mesh::FixedRect own = mesh::common_part(rect_of(grid_->tile(tile)), grid_->limits());
+  mesh::FixedRect around = own.grown(reach_of(grid_->tile(tile)));
+  if (grid_->periods().x == 0)
+    around = {std::max(around.x0, grid_->limits().x0), around.y0, std::min(around.x1, grid_->limits().x1), around.y1};
+  if (grid_->periods().y == 0)
+    around = {around.x0, std::max(around.y0, grid_->limits().y0), around.x1, std::min(around.y1, grid_->limits().y1)};
+  grid_->for_each_in(around, [&](LocalIndex number, int image, const mesh::FixedRect& part) {
+    if (image == 0 && partition_.owner(number) == comm_->rank())
+      return;
+    const mesh::Tile& other = grid_->tile(number);
+    const mesh::FixedRect near = mesh::common_part(
+        part, own.moved(-grid_->fixed_shift_x(image), -grid_->fixed_shift_y(image)).grown(reach_of(other)));
+    if (near.is_empty())
+      return;
+    for (int row = other.first_row(near.y0); row <= other.last_row(near.y1); ++row)
+      for (int column = other.first_column(near.x0); column <= other.last_column(near.x1); ++column)
+        wanted.push_back({number, (row << other.bits) | column, image});
+  });
 }
 
 /// Whom to ask for which bins; ascending, each once.

@@ -85,11 +85,12 @@ int SiteOrder::suitable_bin_bits(const TileGrid& grid, std::span<const Site> sit
   const LocalIndex begin = tile_start_[t], end = tile_start_[t + 1];
   const std::int64_t n = end - begin;
   int bits = 0;
-  while (bits < grid.most_bin_bits() && std::int64_t{4} << (2 * bits) <= MeshRules::bins_per_site * n)
+  const LocalIndex tile = first_tile_ + static_cast<LocalIndex>(t);
+  while (bits < grid.most_bin_bits(tile) && std::int64_t{4} << (2 * bits) <= MeshRules::bins_per_site * n)
     ++bits;
   std::vector<std::int64_t> count(std::size_t{1} << (2 * bits), 0);
   for (LocalIndex k = begin; k < end; ++k)
-    ++count[static_cast<std::size_t>(grid.bin_at(sites[at(order_[at(k)])].position, bits))];
+    ++count[static_cast<std::size_t>(grid.bin_at(sites[at(order_[at(k)])].position, tile, bits))];
   int suitable = bits; // the smallest that will do, coming from the largest
   for (; bits >= 0; --bits) {
     std::int64_t pairs = 0;
@@ -144,7 +145,7 @@ LocalIndex SiteOrder::sort_tile(const Sites& sites, const TileGrid& grid, LocalI
   work.bin.resize(at(end - begin));
   work.sorted.resize(at(end - begin));
   for (LocalIndex k = begin; k < end; ++k) {
-    const int bin = grid.bin_at(sites.position(order_[at(k)]), bins.bits);
+    const int bin = grid.bin_at(sites.position(order_[at(k)]), first_tile_ + t, bins.bits);
     work.bin[at(k - begin)] = bin;
     ++bin_end[bin];
   }

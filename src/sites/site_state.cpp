@@ -53,9 +53,14 @@ void SiteState::wrap(mesh::SiteList& sites) const {
       site.position = periods.wrap(site.position);
 }
 
+void SiteState::share_out(std::vector<mesh::Tile> tiles, std::span<const std::int64_t> weights) {
+  grid_.set_tiles(std::move(tiles));
+  partition_ = decomposition::Partition(weights, comm_.size());
+}
+
 void SiteState::distribute(mesh::SiteList sites) {
   wrap(sites);
-  const std::vector<std::int64_t> weights = decomposition::tile_weights(comm_, grid_, sites);
+  const std::vector<std::int64_t> weights = decomposition::fit_tiles(comm_, grid_, sites);
   partition_ = decomposition::Partition(weights, comm_.size());
   check_counts(weights, partition_);
   decomposition::migrate(comm_, grid_, partition_, sites);
@@ -72,10 +77,7 @@ void SiteState::distribute(mesh::SiteList sites) {
 void SiteState::choose_bins(std::span<const mesh::Site> sites) {
   const LocalIndex first = partition_.first_tile(comm_.rank()), last = partition_.last_tile(comm_.rank());
   const std::vector<std::uint8_t> own = points_.suitable_bin_bits(sites, first, last);
-  std::vector<std::int64_t> bits(static_cast<std::size_t>(grid_.tile_count()), 0);
-  std::copy(own.begin(), own.end(), bits.begin() + first);
-  comm_.sum(bits);
-  grid_.set_bin_bits({bits.begin(), bits.end()});
+  grid_.set_bin_bits(comm::from_bytes<std::uint8_t>(comm_.all_gather(std::as_bytes(std::span(own)))));
 }
 
 void SiteState::move_sites(std::vector<std::uint8_t> gone, mesh::SiteList more) {

@@ -33,7 +33,10 @@ public:
   /// Collective.
   explicit SiteState(const SiteState& other);
 
-  /// First sites, from any ranks: partitions the tiles by their counts. Collective.
+  /// @brief Other tiles, and who is to fill them with sites: ranks get about equal weights. Before there are sites. The
+  /// arguments are the same on all ranks.
+  void share_out(std::vector<mesh::Tile> tiles, std::span<const std::int64_t> weights);
+  /// First sites, from any ranks: fits the tiles to them and partitions these by their counts. Collective.
   /// @throws ConfigError on all ranks if one would own more sites than a local index can count
   void distribute(mesh::SiteList sites);
   /// @brief The owned sites go to BinnedPoints::next, but for those that are gone (by local index; empty:

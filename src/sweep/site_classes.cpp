@@ -87,10 +87,10 @@ bool SiteClasses::is_chord_within_reach(LocalIndex from, LocalIndex to, LocalInd
   if (chord.a != a || chord.b != b)
     return false;
   const geometry::Box box = state_.grid().tile_box(tile);
-  const double margin = SweepRules::drift_in_tiles * std::min(box.width(), box.height()),
-               radius = 0.5 * geometry::length(b - a);
-  const double x = box.width() - margin - radius, y = box.height() - margin - radius;
-  return middle.x > box.min.x - x && middle.x < box.max.x + x && middle.y > box.min.y - y && middle.y < box.max.y + y;
+  const double reach = (1 - SweepRules::drift_in_tiles) * around_.narrowest(at(tile - points.first_tile())) -
+                       0.5 * geometry::length(b - a);
+  return middle.x > box.min.x - reach && middle.x < box.max.x + reach && middle.y > box.min.y - reach &&
+         middle.y < box.max.y + reach;
 }
 
 void SiteClasses::find_encroached_tiles() {

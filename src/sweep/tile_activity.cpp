@@ -8,11 +8,18 @@
 
 namespace trime::sweep {
 
-void TileActivity::reset() {
+namespace {
+
+double drift_after(const mesh::BinnedPoints& points, std::size_t t, const SweepTally& tally) {
+  return points.drifts().of(static_cast<LocalIndex>(t)) +
+         std::sqrt(tally.squared_distance) * SweepRules::drift_rounding;
+}
+
+} // namespace
+
+void TileActivity::reset(const TilesAround& around) {
   const mesh::BinnedPoints& points = state_.points();
   const LocalIndex first_tile = points.first_tile(), tiles = points.last_tile() - first_tile;
-  const geometry::Box box = state_.grid().tile_box(0);
-  const double side = std::min(box.width(), box.height());
   const double largest_cap = std::min(builder_.cap(), delaunay::StarBuilder::largest_cap(state_.grid().periods()));
   wide_.assign(static_cast<std::size_t>(tiles), 0);
   thread_loop(tiles, 4, [&](std::ptrdiff_t t, int) { // edges are shorter than two caps, sites drift by a part of a tile
@@ -21,7 +28,8 @@ void TileActivity::reset() {
     for (LocalIndex i = begin; i < end; ++i)
       largest = std::max(largest, state_.sizes()[i]);
     wide_[static_cast<std::size_t>(t)] =
-        2 * std::min(largest_cap, builder_.cap(largest)) > (1 - 2 * SweepRules::drift_in_tiles) * side;
+        2 * std::min(largest_cap, builder_.cap(largest)) >
+        (1 - 2 * SweepRules::drift_in_tiles) * around.narrowest(static_cast<std::size_t>(t));
   });
   copied_.assign(static_cast<std::size_t>(tiles), 0);
   awake_.assign(static_cast<std::size_t>(tiles), 1);
@@ -47,12 +55,18 @@ void TileActivity::wake(const RuleParameters& rule, TilePlace which, const Tiles
   }
 }
 
+double TileActivity::largest_drift(const mesh::BinnedPoints& points, const TilesAround& around,
+                                   std::span<const SweepTally> tallies) {
+  double largest = 0;
+  for (std::size_t t = 0; t < tallies.size(); ++t)
+    largest = std::max(largest, drift_after(points, t, tallies[t]) / around.narrowest(t));
+  return largest;
+}
+
 void TileActivity::begin_move(mesh::BinnedPoints& points, std::span<const SweepTally> tallies) {
   for (std::size_t t = 0; t < tallies.size(); ++t) {
-    const LocalIndex tile = static_cast<LocalIndex>(t);
-    const double squared = tallies[t].squared_distance;
-    points.drifts().set(tile, points.drifts().of(tile) + std::sqrt(squared) * SweepRules::drift_rounding);
-    active_[t] = squared > 0;
+    points.drifts().set(static_cast<LocalIndex>(t), drift_after(points, t, tallies[t]));
+    active_[t] = tallies[t].squared_distance > 0;
   }
   const std::span<const double> foreign = points.drifts().of_tiles().subspan(tallies.size());
   drifts_before_.assign(foreign.begin(), foreign.end());

@@ -22,7 +22,7 @@ public:
       : state_(state), builder_(builder) {}
 
   /// All tiles wake; to be called after sites were sorted.
-  void reset();
+  void reset(const TilesAround& around);
   /// All tiles wake in the next sweep.
   void wake_all() { all_awake_ = true; }
   /// Decides which of the tiles that lie so take part in this sweep: first for the inner ones, then for the others.
@@ -40,6 +40,9 @@ public:
   /// Sites of this tile have got next places of their own. May be called concurrently.
   void note_moves(std::size_t t) { std::atomic_ref(copied_[t]).store(0, std::memory_order_relaxed); }
 
+  /// How far sites will have come with their next move: the largest share of the narrowest() of their tile.
+  static double largest_drift(const mesh::BinnedPoints& points, const TilesAround& around,
+                              std::span<const SweepTally> tallies);
   /// Notes that the sites of the owned tiles are going as far as their tallies say.
   void begin_move(mesh::BinnedPoints& points, std::span<const SweepTally> tallies);
   /// Notes which tiles of other ranks had moves, once their drifts are here.

@@ -97,7 +97,7 @@ TEST(DistributedStars, EqualThoseOfOneRankWhereTheDensityVariesAThousandfold) {
   const StarBuilder builder(unit_lattice(), 2.5, 1.0);
   expect_equal_stars(testing::graded_sites(1500, 5), 0.03, builder, 0.002, GrowingSize());
   const comm::Communicator world = comm::Communicator::world();
-  SiteState state(world, square, {{}, {}, 0.03, true});
+  SiteState state(world, square, {{}, {}, 0.03});
   state.distribute(testing::dealt(world, testing::graded_sites(1500, 5)));
   int least = 99, most = 0;
   for (LocalIndex tile = 0; tile < state.grid().tile_count(); ++tile) {
