@@ -27,6 +27,8 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
                "the same, say how the work is shared out, what of the shape is simplified, and how many "
                "points keep everything");
   app.add_flag("--print-config", flags.print_config, "print the config with all defaults, as a complete file");
+  app.add_option("--record", line.record,
+                 "write the numbers of the run, those of /trime_mpi in the mesh file, as JSON");
   app.add_option("--threads", flags.threads, "threads per rank: parallel.setup_threads and mesh_threads");
   app.add_option("--log-level", flags.level, "debug, info, warning, error, silent: log.level");
   app.add_flag("--quiet", flags.quiet, "print only warnings and errors");
@@ -56,6 +58,8 @@ void refuse_what_is_missing(const CommandLine& line, const Flags& flags) {
       line.action != Action::version && line.action != Action::help_config && line.action != Action::help;
   if (needs_config && line.config.empty())
     throw ConfigError("no config file is given; usage: trime_mpi CONFIG [section.key=value ...], see --help");
+  if (!line.record.empty() && line.action != Action::mesh)
+    throw ConfigError("'--record' is for runs that make a mesh; leave it out here");
   if (flags.quiet && flags.level)
     throw ConfigError("'--quiet' and '--log-level' contradict each other; give one of them");
 }

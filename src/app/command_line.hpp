@@ -14,6 +14,7 @@ struct CommandLine {
   Action action = Action::mesh;
   std::string config;                 ///< path; empty only where none is needed
   std::vector<std::string> overrides; ///< section.key=value, those that options stand for included
+  std::string record;                 ///< where the numbers of the run go as JSON; empty: nowhere
   std::string help;                   ///< text of --help
   std::string as_given;               ///< the whole line, for the records
 };

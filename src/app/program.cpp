@@ -12,6 +12,7 @@
 #include "boundary/fixed_points.hpp"
 #include "core/free_memory.hpp"
 #include "core/thread_loop.hpp"
+#include "io/run_record.hpp"
 #include "start/points_of_length.hpp"
 #include "trime/io/mesh_series.hpp"
 #include "trime/meshing/mesher.hpp"
@@ -137,6 +138,8 @@ ExitCode make_mesh(const Job& job) {
   if (const double points = expected_points(options, boundary); options.write)
     for (const std::string& warning : is_run ? series.check(points) : series.look(points))
       log.warning("{}", warning);
+  if (!job.line.record.empty())
+    io::check_record(job.line.record, comm);
   const BuiltSize size = [&] {
     const auto timing = timers.scope("size field");
     return build_size(options, boundary, comm);
@@ -168,8 +171,10 @@ ExitCode make_mesh(const Job& job) {
     const auto timing = timers.scope("output");
     files = series.write_final({final_retriangulation(result), result.mesh, result.quality, metadata});
   }
-  log.info("{}", run_report(result, sizes, gather_measurements(timers, std::ssize(result.mesh.points), comm), files,
-                            input.normalized));
+  const Measurements measured = gather_measurements(timers, std::ssize(result.mesh.points), comm);
+  if (!job.line.record.empty())
+    io::write_record(job.line.record, describe_run(provenance, result, sizes, measured), comm);
+  log.info("{}", run_report(result, sizes, measured, files, input.normalized));
   if (!is_complete(result))
     log.warning("{}", incompleteness(result, options.write));
   return exit_code(result);

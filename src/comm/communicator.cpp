@@ -74,12 +74,18 @@ void abort_job(int exit_code) {
   std::_Exit(exit_code);
 }
 
+#ifdef SMPI_H // SimGrid's MPI knows no threads: all ranks take turns in one
+constexpr int needed_thread_level = MPI_THREAD_SINGLE;
+#else
+constexpr int needed_thread_level = MPI_THREAD_FUNNELED;
+#endif
+
 Environment::Environment(int& argc, char**& argv) {
   setenv("OMPI_MCA_fcoll", "^vulcan", 0); // stays if the user has chosen a writer
   int provided = MPI_THREAD_SINGLE;
-  check(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided));
+  check(MPI_Init_thread(&argc, &argv, needed_thread_level, &provided));
   set_wall_clock(MPI_Wtime);
-  if (provided < MPI_THREAD_FUNNELED) {
+  if (provided < needed_thread_level) {
     fmt::print(stderr, "trime_mpi: this MPI gives thread level {}, at least MPI_THREAD_FUNNELED is needed\n", provided);
     MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitCode::internal_error));
   }
@@ -220,6 +226,8 @@ std::vector<double> Communicator::all_gather(double value) const {
 }
 
 std::vector<std::byte> Communicator::all_gather(std::span<const std::byte> bytes) const {
+  if (size_ == 1)
+    return {bytes.begin(), bytes.end()};
   const std::vector<std::int64_t> sizes = all_gather(static_cast<std::int64_t>(bytes.size()));
   std::vector<int> counts, starts;
   std::int64_t total = 0;

@@ -1,0 +1,86 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Runs the program on a simulated cluster: SimGrid's SMPI makes all ranks take turns on one core of this machine, times
+# what they compute, and simulates what they send over the network that a platform file describes.
+#   scripts/simulate_cluster.sh --ranks P [options] config.ini [section.key=value ...]
+#     --record FILE    the numbers of the run as JSON; its seconds are simulated
+#     --cluster FILE   the platform: nodes named node0, node1, ... (scripts/cluster/fat_tree.xml)
+#     --cores N        ranks on a node (64)
+#     --hash HEX       the mesh_hash that must come out; without it a real run finds it first
+#     --program FILE   the simulated program (build/simulated/trime_mpi, built if it is not given)
+#     --build-only     builds it, and stops
+# One thread a rank, no output of meshes. Exit codes: those of the program; 2 bad use; 4 no simulator, or another mesh.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+source "$root/scripts/packages.sh"
+
+fail() { # CODE MESSAGE
+  echo "simulate_cluster.sh: $2" >&2
+  exit "$1"
+}
+usage() { sed -n '5,11s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
+
+ranks='' cluster="$root/scripts/cluster/fat_tree.xml" cores=64 record='' hash='' program='' build_only=no rest=()
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --ranks | --cluster | --cores | --record | --hash | --program)
+      [ $# -ge 2 ] || fail 2 "$1 needs a value; see --help"
+      declare "${1#--}=$2"
+      shift ;;
+    --build-only) build_only=yes ;;
+    --help | -h) usage; exit 0 ;;
+    -*) fail 2 "unknown option $1; see --help" ;;
+    *) rest+=("$1") ;;
+  esac
+  shift
+done
+
+command -v smpirun >/dev/null || fail 4 "no simulator here; as root: apt-get install -y --no-install-recommends libsimgrid-dev"
+if [ -z "$program" ]; then
+  program="$root/build/simulated/trime_mpi"
+  [ -x "$program" ] || echo "Building into $root/build/simulated; the first time takes some minutes." >&2
+  [ -f "$root/build/simulated/build.ninja" ] || (cd "$root" && trime_quietly configure cmake --preset simulated)
+  trime_quietly build cmake --build "$root/build/simulated" --target trime_mpi
+fi
+[ "$build_only" = no ] || exit 0
+
+[[ $ranks =~ ^[1-9][0-9]{0,5}$ ]] || fail 2 "--ranks '$ranks': expected a number of ranks, 1 or more, such as --ranks 64"
+[[ $cores =~ ^[1-9][0-9]{0,3}$ ]] || fail 2 "--cores '$cores': expected the number of ranks on a node, such as --cores 64"
+[ -f "$cluster" ] || fail 2 "there is no platform file $cluster"
+[ -f "$program" ] || fail 2 "there is no program $program"
+[ "${#rest[@]}" -gt 0 ] || fail 2 "no config file is given; see --help"
+
+work=$(mktemp -d "${TMPDIR:-/tmp}/trime-simulation-XXXXXX")
+trap 'rm -rf "$work"' EXIT
+for ((rank = 0; rank < ranks; ++rank)); do # one line a rank
+  echo "node$((rank / cores))"
+done >"$work/hosts"
+
+# hash_of FILE: the mesh_hash in a record, empty if there is none.
+hash_of() { sed -n 's/.*"mesh_hash_hex": *"\([0-9a-f]*\)".*/\1/p' "$1" 2>/dev/null | head -n 1; }
+
+if [ -z "$hash" ]; then
+  real="$root/build/release/trime_mpi"
+  [ -x "$real" ] || fail 2 "no real run to compare with: build $real (scripts/run.sh does), or give the mesh_hash with --hash"
+  trime_mpi_environment
+  status=0
+  "$real" "${rest[@]}" output.interval=0 --quiet --record "$work/real.json" || status=$?
+  [ "$status" -eq 0 ] || [ "$status" -eq 5 ] || fail "$status" "the real run, with which this one is compared, failed"
+  hash=$(hash_of "$work/real.json")
+fi
+
+# Factors of 1: the network of the platform file as it stands, not corrected for the Ethernet that SMPI was first
+# calibrated on. os, or, ois: what a core spends on a message (LogGP's o), 0.2 us. ompi: collectives as Open MPI does them.
+simulation=(
+  --cfg=network/bandwidth-factor:1 --cfg=network/latency-factor:1
+  --cfg=smpi/os:0:2e-7:0 --cfg=smpi/or:0:2e-7:0 --cfg=smpi/ois:0:2e-7:0
+  --cfg=smpi/coll-selector:ompi --cfg=smpi/host-speed:10Gf --log=root.thres:warning
+)
+status=0
+TMPDIR=$work OMP_NUM_THREADS=1 smpirun -quiet -np "$ranks" -platform "$cluster" -hostfile "$work/hosts" "${simulation[@]}" \
+  "$program" "${rest[@]}" output.interval=0 --threads 1 --record "$work/record.json" || status=$?
+[ -s "$work/record.json" ] || fail $((status > 0 ? status : 4)) "the simulated run left no record"
+[ -z "$record" ] || cp "$work/record.json" "$record"
+found=$(hash_of "$work/record.json")
+[ "$found" = "$hash" ] || fail 4 "mesh_hash $found on $ranks simulated ranks, $hash on a real one; please report this with the config"
+exit "$status"

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/run_record.hpp"
+
+#include "comm/agree.hpp"
+#include "io/temporary_file.hpp"
+
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include <filesystem>
+
+namespace trime::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class... T>
+Json json_of(const std::variant<T...>& value) {
+  return std::visit([](const auto& held) { return Json(held); }, value);
+}
+
+Json json_of(const std::vector<Attribute>& attributes) {
+  Json object = Json::object();
+  for (const Attribute& attribute : attributes)
+    object[attribute.name] = json_of(attribute.value);
+  return object;
+}
+
+Json json_of(const MetadataGroup& group) {
+  Json columns = Json::object();
+  for (const Column& column : group.columns)
+    columns[column.name] = json_of(column.values);
+  return {{"attributes", json_of(group.attributes)}, {"columns", std::move(columns)}};
+}
+
+} // namespace
+
+std::string record_text(const Metadata& metadata) {
+  Json groups = Json::object();
+  for (const MetadataGroup& group : metadata.groups)
+    groups[group.name] = json_of(group);
+  const Json record{{"attributes", json_of(metadata.attributes)}, {"groups", std::move(groups)}};
+  return record.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void check_record(const std::string& path, const comm::Communicator& comm) {
+  comm::run_agreed(comm, [&] {
+    if (!comm.is_root())
+      return;
+    if (std::filesystem::is_directory(path))
+      throw FileError(fmt::format("the record {} is a directory; name a file", path));
+    const std::filesystem::path parent = std::filesystem::path(path).parent_path();
+    const std::string directory = parent.empty() ? "." : parent.string();
+    if (access(directory.c_str(), W_OK | X_OK) != 0)
+      throw FileError(fmt::format("the record {} cannot be written: {}: {}", path, directory, system_error()));
+  });
+}
+
+void write_record(const std::string& path, const Metadata& metadata, const comm::Communicator& comm) {
+  comm::run_agreed(comm, [&] {
+    if (comm.is_root())
+      write_text_file(path, record_text(metadata), nullptr);
+  });
+}
+
+} // namespace trime::io
