@@ -29,7 +29,7 @@ std::vector<Contender> contenders() {
 }
 
 std::set<std::pair<double, double>> chosen_on(const comm::Communicator& comm, const geometry::Periods& periods) {
-  SiteState state(comm, {{0, 0}, {1, 1}}, {{}, {}, 0.03, false, periods});
+  SiteState state(comm, {{0, 0}, {1, 1}}, {{}, {}, 0.03, periods});
   state.distribute(testing::dealt(comm, testing::random_sites(1200, 3)));
   const sizing::UniformSize size(0.03);
   const CleanupSites sites(comm, state, size);

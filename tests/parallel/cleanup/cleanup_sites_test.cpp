@@ -35,7 +35,7 @@ bool is_less(const PatchSite& a, const PatchSite& b) {
 
 /// Around some places, asked for by whichever rank owns them.
 std::map<std::uint64_t, Surroundings> surroundings(const comm::Communicator& comm, const geometry::Periods& periods) {
-  SiteState state(comm, {{0, 0}, {1, 1}}, {{}, {}, 0.02, false, periods});
+  SiteState state(comm, {{0, 0}, {1, 1}}, {{}, {}, 0.02, periods});
   state.distribute(testing::dealt(comm, crowded_sites()));
   const sizing::UniformSize size(0.02);
   state.refresh(size);

@@ -60,7 +60,7 @@ void shake(SiteState& state, double step, std::uint64_t round) {
 void expect_equal_stars(const SiteList& sites, double spacing, const StarBuilder& builder, double step,
                         const sizing::SizeField& size = sizing::UniformSize()) {
   const comm::Communicator world = comm::Communicator::world(), self = comm::Communicator::self();
-  const mesh::GridOptions options{{}, {}, spacing, !size.is_uniform()};
+  const mesh::GridOptions options{{}, {}, spacing};
   SiteState distributed(world, square, options), serial(self, square, options);
   distributed.distribute(testing::dealt(world, sites));
   serial.distribute(sites);
@@ -101,8 +101,8 @@ TEST(DistributedStars, EqualThoseOfOneRankWhereTheDensityVariesAThousandfold) {
   state.distribute(testing::dealt(world, testing::graded_sites(1500, 5)));
   int least = 99, most = 0;
   for (LocalIndex tile = 0; tile < state.grid().tile_count(); ++tile) {
-    least = std::min(least, state.grid().bin_bits(tile));
-    most = std::max(most, state.grid().bin_bits(tile));
+    least = std::min(least, state.grid().tile(tile).bin_shift());
+    most = std::max(most, state.grid().tile(tile).bin_shift());
   }
   EXPECT_GE(most - least, 3);
 }

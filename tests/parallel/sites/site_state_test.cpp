@@ -62,7 +62,7 @@ void reveal(SiteState& state, const std::vector<Disc>& discs, const sizing::Size
 
 void expect_revealed(const geometry::Periods& periods) {
   const comm::Communicator world = comm::Communicator::world(), self = comm::Communicator::self();
-  const mesh::GridOptions options{{}, {}, 0.03, false, periods};
+  const mesh::GridOptions options{{}, {}, 0.03, periods};
   const SiteList sites = testing::random_sites(1200, 3);
   SiteState distributed(world, square, options), serial(self, square, options);
   distributed.distribute(testing::dealt(world, sites));

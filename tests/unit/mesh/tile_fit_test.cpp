@@ -79,9 +79,9 @@ TEST(TileFit, PointsAtOnePlaceAreNotDividedForEver) {
 
 TEST(TileFit, SmallMeshesHaveSmallTilesAndLargeOnesLargeTiles) {
   EXPECT_EQ(most_per_tile(10), 80);
-  EXPECT_EQ(most_per_tile(5e4), 195);
-  EXPECT_EQ(most_per_tile(1e6), 400);
-  EXPECT_EQ(most_per_tile(2e6), 500);
+  EXPECT_EQ(most_per_tile(5e4), 250);
+  EXPECT_EQ(most_per_tile(1e6), 512);
+  EXPECT_EQ(most_per_tile(3e6), 750);
   EXPECT_EQ(most_per_tile(1e9), 1000);
 }
 
