@@ -67,6 +67,7 @@ void SiteState::distribute(mesh::SiteList sites) {
   choose_bins(sites);
   points_.assign_owned(sites, partition_.first_tile(comm_.rank()), partition_.last_tile(comm_.rank()));
   release(sites);
+  ghosts_are_here_ = false;
   sizes_.forget();
   carried_.clear();
   stars_.reset(points_.owned());
@@ -90,6 +91,7 @@ void SiteState::move_sites(std::vector<std::uint8_t> gone, mesh::SiteList more) 
   std::vector<LocalIndex> new_index;
   points_.sort_moved(gone, more, new_index);
   new_index.resize(before);
+  ghosts_are_here_ = false;
   sizes_.forget();
   carry_sizes(new_index);
   stars_.renumber(new_index, points_.owned());
@@ -160,7 +162,9 @@ void SiteState::carry_sizes(std::span<const LocalIndex> new_index) {
 
 /// Fetches the ghosts and evaluates h where it is not known.
 void SiteState::refresh(const sizing::SizeField& size) {
-  halo_.refresh(points_);
+  if (!ghosts_are_here_)
+    halo_.refresh(points_);
+  ghosts_are_here_ = true;
   evaluate_agreed(size, points_.size());
 }
 

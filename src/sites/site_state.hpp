@@ -52,7 +52,8 @@ public:
   /// The same for some stars: `wanted` by local index of the owned sites.
   delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size,
                                    std::span<const delaunay::StarWish> wanted);
-  /// @brief Fetches the ghosts and evaluates h at sites that moved; part of compute_stars. Collective.
+  /// @brief Fetches the ghosts after a change of sites and evaluates h at sites that moved; part of compute_stars.
+  /// Collective.
   void refresh(const sizing::SizeField& size);
   /// h is evaluated anew at the next move, also of sites that stay: theirs may be older than their place.
   void forget_sizes() { sizes_.forget(); }
@@ -97,6 +98,7 @@ private:
   mesh::LocalSizes sizes_;
   std::vector<delaunay::StarWish> wanted_;
   bool ghosts_need_sizes_ = false;
+  bool ghosts_are_here_ = false; // since sites were sorted: rings name them by their local indices
   std::vector<double> carried_; // h of owned sites from before a move, 0 where they moved
 };
 

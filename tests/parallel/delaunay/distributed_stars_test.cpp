@@ -70,6 +70,8 @@ void expect_equal_stars(const SiteList& sites, double spacing, const StarBuilder
     for (LocalIndex i = 0; i < distributed.points().owned(); ++i)
       EXPECT_TRUE(distributed.stars().certain(i));
     EXPECT_EQ(rings(world, distributed), rings(self, serial)) << "round " << round;
+    EXPECT_EQ(distributed.compute_stars(builder, size, Wanted::all_sites).rebuilt, 0) << "ghosts keep their indices";
+    EXPECT_EQ(rings(world, distributed), rings(self, serial)) << "round " << round << ", asked again";
     shake(distributed, step, round);
     shake(serial, step, round);
   }
