@@ -2,6 +2,7 @@
 // Stars against CGAL's Delaunay triangulation of the same points in the same run. Arguments: number of points; 0 like a
 // relaxed mesh, 1 random, 2 random with density ratio 900.
 #include "bench/bench_points.hpp"
+#include "decomposition/migration.hpp"
 #include "delaunay/star_builder.hpp"
 
 #include <CGAL/Delaunay_triangulation_2.h>
@@ -16,11 +17,12 @@ enum PointSet : std::int64_t { relaxed, random_set, graded_set };
 /// Points in tiles and a builder for them.
 struct Stage {
   explicit Stage(const benchmark::State& state)
-      : n(state.range(0)), grid(unit_square, {{}, {}, spacing_of(n), state.range(1) == graded_set}), points(grid),
-        lattice(unit_square), builder(lattice, 2.5, 1.0) {
+      : n(state.range(0)), grid(unit_square, {{}, {}, spacing_of(n)}), points(grid), lattice(unit_square),
+        builder(lattice, 2.5, 1.0) {
     sites = state.range(1) == relaxed      ? jittered_lattice(n, 0.15)
             : state.range(1) == random_set ? random_points(n)
                                            : graded_points(n);
+    decomposition::fit_tiles(comm::Communicator::self(), grid, sites);
     grid.set_bin_bits(points.suitable_bin_bits(sites, 0, grid.tile_count()));
     points.assign_owned(sites, 0, grid.tile_count());
     factor = state.range(1) == graded_set ? graded_factor(n) : 0;

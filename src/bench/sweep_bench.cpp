@@ -3,6 +3,7 @@
 // for each kind of processor. Arguments: number of points; rule (0 bars, 1 cells, 2 triangles).
 #include "bench/bench_points.hpp"
 #include "core/simd_level.hpp"
+#include "decomposition/migration.hpp"
 #include "delaunay/star_builder.hpp"
 #include "sweep/sweep_kernel.hpp"
 
@@ -23,6 +24,7 @@ struct Stage {
       : n(state.range(0)), grid(unit_square, {{}, {}, spacing_of(n)}), points(grid), lattice(unit_square),
         sizes(spacing_of(n)) {
     const mesh::SiteList sites = jittered_lattice(n, 0.15);
+    decomposition::fit_tiles(comm::Communicator::self(), grid, sites);
     grid.set_bin_bits(points.suitable_bin_bits(sites, 0, grid.tile_count()));
     points.assign_owned(sites, 0, grid.tile_count());
     stars.reset(points.owned());

@@ -35,7 +35,8 @@ std::uint64_t CleanupCandidates::cell_key(Vec2 p, double h) const {
   std::frexp(h, &exponent);
   const Vec2 cell{std::floor(std::ldexp(p.x, -CleanupRules::contender_cell - exponent)),
                   std::floor(std::ldexp(p.y, -CleanupRules::contender_cell - exponent))};
-  return mix_bits(hash_of(cell, exponent) + static_cast<std::uint64_t>(grid_.place(p).tile));
+  const mesh::Tile& tile = grid_.tile(grid_.tile_at(p));
+  return mix_bits(hash_of(cell, exponent) + (std::uint64_t{tile.x} << 32 | tile.y));
 }
 
 void CleanupCandidates::set(const Candidate& candidate) {

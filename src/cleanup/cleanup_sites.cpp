@@ -44,11 +44,8 @@ CleanupSites::CleanupSites(const SiteState& state, CleanupBoundary& boundary)
 template <class Visit>
 void CleanupSites::for_each_tile(const Disc& disc, const Visit& visit) const {
   const mesh::TileGrid& grid = state_.grid();
-  const Vec2 reach{disc.radius, disc.radius}, low = disc.center - reach, high = disc.center + reach;
-  const int x1 = grid.tile_of(grid.x_axis().unrolled(high.x)), y1 = grid.tile_of(grid.y_axis().unrolled(high.y));
-  for (int y = grid.tile_of(grid.y_axis().unrolled(low.y)); y <= y1; ++y)
-    for (int x = grid.tile_of(grid.x_axis().unrolled(low.x)); x <= x1; ++x)
-      visit(grid.tile_image_at(x, y).tile);
+  grid.for_each_in(grid.rect_around(disc.center, disc.radius),
+                   [&](LocalIndex tile, int, const mesh::FixedRect&) { visit(tile); });
 }
 
 std::vector<int> CleanupSites::ranks_near(const Disc& disc) const {

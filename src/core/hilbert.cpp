@@ -48,9 +48,30 @@ constexpr FourSteps make_four_steps() {
 }
 constexpr FourSteps four_steps = make_four_steps();
 
+/// Where the k-th quarter of a turned square lies: bit 1 to the right, bit 0 above; and how it is turned.
+constexpr std::array<std::array<CurveStep, 4>, 4> make_quarters() {
+  std::array<std::array<CurveStep, 4>, 4> quarters{};
+  for (unsigned turn = 0; turn < 4; ++turn)
+    for (unsigned at = 0; at < 4; ++at) {
+      const CurveStep step = curve_step(at >> 1, at & 1, turn);
+      quarters[turn][step.key] = {static_cast<std::uint8_t>(at), step.turn};
+    }
+  return quarters;
+}
+constexpr std::array<std::array<CurveStep, 4>, 4> quarters = make_quarters();
+
 } // namespace
 
+CurveSquare CurveSquare::quarter(unsigned k) const {
+  const CurveStep step = quarters[turn][k];
+  return {2 * x + (step.key >> 1), 2 * y + (step.key & 1U), level + 1, 4 * key + k, step.turn};
+}
+
 std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y, int level) {
+  return curve_square(x, y, level).key;
+}
+
+CurveSquare curve_square(std::uint32_t x, std::uint32_t y, int level) {
   std::uint64_t key = 0;
   unsigned turn = 0;
   int bit = level;
@@ -64,7 +85,7 @@ std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y, int level) {
     key = (key << 8) | step.key;
     turn = step.turn;
   }
-  return key;
+  return {x, y, level, key, static_cast<std::uint8_t>(turn)};
 }
 
 GridPosition hilbert_position(std::uint64_t key, int level) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "decomposition/halo.hpp"
 
-#include "core/hilbert.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
+#include <cstring>
+#include <numeric>
 
 namespace trime::decomposition {
 namespace {
@@ -17,7 +18,6 @@ using mesh::Ghost;
 void merge_into(std::vector<BinRef>& list, std::span<const BinRef> more) {
   const std::ptrdiff_t middle = static_cast<std::ptrdiff_t>(list.size());
   list.insert(list.end(), more.begin(), more.end());
-  std::sort(list.begin() + middle, list.end());
   std::inplace_merge(list.begin(), list.begin() + middle, list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
@@ -31,12 +31,40 @@ auto& entry(Peers& peers, int rank) {
   return *at;
 }
 
-/// Appends the bytes of a value.
+/// Appends the bytes of values.
+template <class T>
+void append(std::vector<std::byte>& bytes, std::span<const T> values) {
+  const auto more = std::as_bytes(values);
+  bytes.insert(bytes.end(), more.begin(), more.end());
+}
 template <class T>
 void append(std::vector<std::byte>& bytes, const T& value) {
-  const std::size_t at = bytes.size();
-  bytes.resize(at + sizeof(T));
-  std::memcpy(bytes.data() + at, &value, sizeof(T));
+  append(bytes, std::span<const T>(&value, 1));
+}
+
+/// Takes values from the front of a message.
+class Reader {
+public:
+  explicit Reader(std::span<const std::byte> bytes) : left_(bytes) {}
+  template <class T>
+  void take(std::span<T> values) {
+    if (!values.empty())
+      std::memcpy(values.data(), left_.data(), values.size_bytes());
+    left_ = left_.subspan(values.size_bytes());
+  }
+  template <class T>
+  std::vector<T> take(std::size_t n) {
+    std::vector<T> values(n);
+    take(std::span<T>(values));
+    return values;
+  }
+
+private:
+  std::span<const std::byte> left_;
+};
+
+std::size_t sum_of(std::span<const std::int32_t> counts) {
+  return static_cast<std::size_t>(std::accumulate(counts.begin(), counts.end(), std::int64_t{0}));
 }
 
 /// Values of all messages, one after the other.
@@ -52,6 +80,50 @@ std::vector<T> concatenate(std::span<const Message> messages) {
   return all;
 }
 
+/// The owned sites of a bin, whatever image of it was asked for.
+mesh::SiteRange sites_of(const mesh::BinnedPoints& points, const BinRef& bin) {
+  return points.bin_range({bin.tile, bin.bin});
+}
+
+void append_ghosts(const mesh::BinnedPoints& points, const BinRef& bin, std::vector<std::byte>& bytes) {
+  const auto [begin, end] = sites_of(points, bin);
+  for (LocalIndex i = begin; i < end; ++i)
+    append(bytes, Ghost{points.position(i), points.boundary(i)});
+}
+
+/// What Halo::extend sends of some bins: sites in each, drifts of their tiles, the sites, and h of these.
+std::vector<std::byte> describe(const mesh::BinnedPoints& points, std::span<const BinRef> bins,
+                                const std::vector<double>* sizes) {
+  std::vector<std::byte> bytes;
+  for (const BinRef& bin : bins)
+    append(bytes, sites_of(points, bin).end - sites_of(points, bin).begin);
+  for (const BinRef& bin : bins)
+    append(bytes, points.drifts().of(points.known_tile(bin.tile)));
+  for (const BinRef& bin : bins)
+    append_ghosts(points, bin, bytes);
+  for (const BinRef& bin : bins)
+    if (const auto [begin, end] = sites_of(points, bin); sizes)
+      append(bytes, std::span<const double>(*sizes).subspan(at(begin), at(end - begin)));
+  return bytes;
+}
+
+/// Adds what describe() has told of some bins.
+void add_described(std::span<const std::byte> bytes, std::span<const BinRef> bins, mesh::BinnedPoints& points,
+                   std::vector<double>* sizes) {
+  Reader reader(bytes);
+  const auto counts = reader.take<std::int32_t>(bins.size());
+  const auto drifts = reader.take<double>(bins.size());
+  const auto ghosts = reader.take<Ghost>(sum_of(counts));
+  points.add_ghosts(bins, counts, ghosts);
+  for (std::size_t k = 0; k < bins.size(); ++k)
+    if (bins[k].image == 0)
+      points.drifts().set(points.known_tile(bins[k].tile), drifts[k]);
+  if (sizes) {
+    sizes->resize(at(points.size()));
+    reader.take(std::span(*sizes).last(ghosts.size()));
+  }
+}
+
 } // namespace
 
 Halo::Halo(const comm::Communicator& comm, const mesh::TileGrid& grid)
@@ -61,64 +133,74 @@ void Halo::reset(const Partition& partition, int margin) {
   partition_ = partition;
   imports_.clear();
   exports_.clear();
-  imported_.clear();
-  refreshed_.clear();
-  counts_.clear();
   std::vector<BinRef> wanted;
   for (LocalIndex tile = partition.first_tile(comm_->rank()); tile < partition.last_tile(comm_->rank()); ++tile)
     list_bins_around(tile, margin, wanted);
-  std::sort(wanted.begin(), wanted.end());
-  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-  subscribe(wanted);
+  subscribe(by_owner(std::move(wanted)));
 }
 
 /// Bins of foreign tiles, and of images of any, within `margin` bins of a tile: its own bins, or those of the other
 /// tile where they are smaller.
-void Halo::list_bins_around(LocalIndex tile, int margin, std::vector<BinRef>& wanted) const {
-  const int shift = grid_->tile_shift();
-  const std::int64_t side = std::int64_t{1} << shift;
-  const auto bin_side = [&](LocalIndex of) { return side >> grid_->bin_bits(of); };
-  const GridPosition at = grid_->tile_position(tile);
-  const std::int64_t x0 = std::int64_t{at.x} << shift, y0 = std::int64_t{at.y} << shift;
-  const int tiles = static_cast<int>((margin * bin_side(tile) + side - 1) >> shift); // that the margin reaches
-  const int column = static_cast<int>(at.x), row = static_cast<int>(at.y);
-  // Along periodic axes the images beside the container belong to it.
-  const int x_images = grid_->periods().x > 0 ? grid_->tiles_x() : 0,
-            y_images = grid_->periods().y > 0 ? grid_->tiles_y() : 0;
-  const int last_x = std::min(grid_->tiles_x() + x_images - 1, column + tiles);
-  const int last_y = std::min(grid_->tiles_y() + y_images - 1, row + tiles);
-  for (int ty = std::max(-y_images, row - tiles); ty <= last_y; ++ty)
-    for (int tx = std::max(-x_images, column - tiles); tx <= last_x; ++tx) {
-      const auto [other, image] = grid_->tile_image_at(tx, ty);
-      if (image == 0 && partition_.owner(other) == comm_->rank())
-        continue;
-      const std::int64_t width = bin_side(other), reach = margin * std::min(bin_side(tile), width);
-      const std::int64_t left = tx * side, low = ty * side;
-      const std::int64_t bx0 = std::max<std::int64_t>(0, x0 - reach - left) / width;
-      const std::int64_t by0 = std::max<std::int64_t>(0, y0 - reach - low) / width;
-      const std::int64_t bx1 = std::min(side, x0 + side + reach - left), by1 = std::min(side, y0 + side + reach - low);
-      for (std::int64_t by = by0; by * width < by1; ++by)
-        for (std::int64_t bx = bx0; bx * width < bx1; ++bx)
-          wanted.push_back({other, static_cast<std::int32_t>((by << grid_->bin_bits(other)) | bx), image});
-    }
+void Halo::list_bins_around(LocalIndex tile, int margin, std::vector<mesh::BinRef>& wanted) const {
+  const auto reach_of = [&](const mesh::Tile& of) { return std::int64_t{margin} << of.bin_shift(); };
+  const mesh::FixedRect own = mesh::common_part(rect_of(grid_->tile(tile)), grid_->limits());
+  mesh::FixedRect around = own.grown(reach_of(grid_->tile(tile)));
+  if (grid_->periods().x == 0)
+    around = {std::max(around.x0, grid_->limits().x0), around.y0, std::min(around.x1, grid_->limits().x1), around.y1};
+  if (grid_->periods().y == 0)
+    around = {around.x0, std::max(around.y0, grid_->limits().y0), around.x1, std::min(around.y1, grid_->limits().y1)};
+  grid_->for_each_in(around, [&](LocalIndex number, int image, const mesh::FixedRect& part) {
+    if (image == 0 && partition_.owner(number) == comm_->rank())
+      return;
+    const mesh::Tile& other = grid_->tile(number);
+    const mesh::FixedRect near = mesh::common_part(
+        part, own.moved(-grid_->fixed_shift_x(image), -grid_->fixed_shift_y(image)).grown(reach_of(other)));
+    if (near.is_empty())
+      return;
+    for (int row = other.first_row(near.y0); row <= other.last_row(near.y1); ++row)
+      for (int column = other.first_column(near.x0); column <= other.last_column(near.x1); ++column)
+        wanted.push_back({number, (row << other.bits) | column, image});
+  });
 }
 
-void Halo::subscribe(std::span<const BinRef> bins) {
-  std::vector<Peer> requests;
-  for (const BinRef& bin : bins)
-    entry(requests, partition_.owner(bin.tile)).bins.push_back(bin);
+/// Whom to ask for which bins; ascending, each once.
+std::vector<Halo::Peer> Halo::by_owner(std::vector<BinRef> bins) const {
+  std::sort(bins.begin(), bins.end());
+  bins.erase(std::unique(bins.begin(), bins.end()), bins.end());
+  std::vector<Peer> peers;
+  for (const BinRef& bin : bins) {
+    const int owner = partition_.owner(bin.tile);
+    TRIME_ASSERT(owner != comm_->rank() || bin.image != 0, "rank {} asks for its own bins", owner);
+    if (peers.empty() || peers.back().rank != owner)
+      peers.push_back({owner, {}});
+    peers.back().bins.push_back(bin);
+  }
+  return peers;
+}
+
+/// Asks for bins; returns what others have asked of this rank.
+std::vector<Halo::Peer> Halo::subscribe(const std::vector<Peer>& requests) {
   std::vector<Message> outgoing;
   for (const Peer& request : requests) {
-    for (const BinRef& bin : request.bins)
-      TRIME_ASSERT(request.rank != comm_->rank() || bin.image != 0, "rank {} asks for its own bins", request.rank);
     merge_into(entry(imports_, request.rank).bins, request.bins);
     outgoing.push_back({request.rank, comm::to_bytes(std::span<const BinRef>(request.bins))});
   }
-  for (const Message& message : comm_->exchange_any(outgoing))
-    merge_into(entry(exports_, message.peer).bins, comm::from_bytes<BinRef>(message.data));
-  imported_.clear();
-  for (const Peer& peer : imports_)
-    imported_.insert(imported_.end(), peer.bins.begin(), peer.bins.end());
+  std::vector<Peer> asked;
+  for (const Message& message : comm_->exchange_any(outgoing)) {
+    asked.push_back({message.peer, comm::from_bytes<BinRef>(message.data)});
+    merge_into(entry(exports_, message.peer).bins, asked.back().bins);
+  }
+  return asked;
+}
+
+void Halo::extend(mesh::BinnedPoints& points, std::vector<BinRef> missing, std::vector<double>* sizes) {
+  const std::vector<Peer> requests = by_owner(std::move(missing));
+  std::vector<Message> replies;
+  for (const Peer& peer : subscribe(requests))
+    replies.push_back({peer.rank, describe(points, peer.bins, sizes)});
+  const std::vector<Message> arrived = comm_->exchange_any(replies); // as many as were asked, in the same order
+  for (std::size_t k = 0; k < requests.size(); ++k)
+    add_described(arrived[k].data, requests[k].bins, points, sizes);
 }
 
 void Halo::refresh(mesh::BinnedPoints& points) {
@@ -127,43 +209,22 @@ void Halo::refresh(mesh::BinnedPoints& points) {
     counts_out.push_back({peer.rank, {}});
     sites_out.push_back({peer.rank, {}});
     for (const BinRef& bin : peer.bins) {
-      const auto [begin, end] = points.bin_range({bin.tile, bin.bin}); // whatever image of it was asked for
-      append(counts_out.back().data, static_cast<std::int32_t>(end - begin));
-      for (LocalIndex i = begin; i < end; ++i)
-        append(sites_out.back().data, Ghost{points.position(i), points.boundary(i)});
+      append(counts_out.back().data, sites_of(points, bin).end - sites_of(points, bin).begin);
+      append_ghosts(points, bin, sites_out.back().data);
     }
   }
-  for (const Peer& peer : imports_)
+  std::vector<BinRef> imported; // ascending, because ranks own ascending tiles
+  for (const Peer& peer : imports_) {
     counts_in.push_back({peer.rank, std::vector<std::byte>(peer.bins.size() * sizeof(std::int32_t))});
+    imported.insert(imported.end(), peer.bins.begin(), peer.bins.end());
+  }
   comm_->exchange_known(counts_out, counts_in);
-  for (const Message& message : counts_in) {
-    std::size_t sites = 0;
-    for (const std::int32_t count : comm::from_bytes<std::int32_t>(message.data))
-      sites += static_cast<std::size_t>(count);
-    sites_in.push_back({message.peer, std::vector<std::byte>(sites * sizeof(Ghost))});
-  }
+  for (const Message& message : counts_in)
+    sites_in.push_back(
+        {message.peer, std::vector<std::byte>(sum_of(comm::from_bytes<std::int32_t>(message.data)) * sizeof(Ghost))});
   comm_->exchange_known(sites_out, sites_in);
-  const std::vector<std::int32_t> counts = concatenate<std::int32_t>(counts_in);
-  note_renumbering(points.owned(), counts);
-  points.assign_ghosts(imported_, counts, concatenate<Ghost>(sites_in));
+  points.assign_ghosts(imported, concatenate<std::int32_t>(counts_in), concatenate<Ghost>(sites_in));
   comm_->counters().note(Counter::ghosts, points.size() - points.owned());
-  counts_ = counts;
-  refreshed_ = imported_;
-}
-
-/// Bins that were imported before keep their sites, only at other indices.
-void Halo::note_renumbering(LocalIndex owned, std::span<const std::int32_t> new_counts) {
-  ghost_renumbering_.clear();
-  LocalIndex next = owned;
-  std::size_t old = 0;
-  for (std::size_t k = 0; k < imported_.size(); ++k) {
-    if (old < refreshed_.size() && refreshed_[old] == imported_[k]) {
-      for (std::int32_t s = 0; s < std::min(counts_[old], new_counts[k]); ++s)
-        ghost_renumbering_.push_back(next + s);
-      ++old;
-    }
-    next += new_counts[k];
-  }
 }
 
 /// Ghosts that come from a peer.
@@ -182,15 +243,22 @@ std::vector<T> Halo::exchange_values(const mesh::BinnedPoints& points, std::span
   for (const Peer& peer : exports_) {
     outgoing.push_back({peer.rank, {}});
     for (const BinRef& bin : peer.bins) {
-      const auto [begin, end] = points.bin_range({bin.tile, bin.bin});
-      for (LocalIndex i = begin; i < end; ++i)
-        append(outgoing.back().data, owned_values[static_cast<std::size_t>(i)]);
+      const auto [begin, end] = sites_of(points, bin);
+      append(outgoing.back().data, owned_values.subspan(at(begin), at(end - begin)));
     }
   }
   for (const Peer& peer : imports_)
     incoming.push_back({peer.rank, std::vector<std::byte>(ghosts_of(points, peer) * sizeof(T))});
   comm_->exchange_known(outgoing, incoming);
-  return concatenate<T>(incoming);
+  std::vector<T> values(at(points.size() - points.owned()));
+  for (std::size_t m = 0; m < incoming.size(); ++m) {
+    Reader reader(incoming[m].data);
+    for (const BinRef& bin : imports_[m].bins) {
+      const auto [begin, end] = points.bin_range(bin);
+      reader.take(std::span(values).subspan(at(begin - points.owned()), at(end - begin)));
+    }
+  }
+  return values;
 }
 
 std::vector<GlobalId> Halo::exchange(const mesh::BinnedPoints& points, std::span<const GlobalId> owned_values) const {
@@ -205,29 +273,6 @@ bool Halo::begins_tile(const Peer& peer, std::size_t k) {
   return k == 0 || peer.bins[k].tile != peer.bins[k - 1].tile;
 }
 
-void Halo::refresh_drifts(mesh::BinnedPoints& points) const {
-  TRIME_ASSERT(!grid_->periods().any());
-  std::vector<Message> outgoing, incoming;
-  for (const Peer& peer : exports_) {
-    outgoing.push_back({peer.rank, {}});
-    for (std::size_t k = 0; k < peer.bins.size(); ++k)
-      if (begins_tile(peer, k))
-        append(outgoing.back().data, points.drifts().of(peer.bins[k].tile));
-  }
-  std::vector<LocalIndex> tiles;
-  for (const Peer& peer : imports_) {
-    const std::size_t before = tiles.size();
-    for (std::size_t k = 0; k < peer.bins.size(); ++k)
-      if (begins_tile(peer, k))
-        tiles.push_back(peer.bins[k].tile);
-    incoming.push_back({peer.rank, std::vector<std::byte>((tiles.size() - before) * sizeof(double))});
-  }
-  comm_->exchange_known(outgoing, incoming);
-  const std::vector<double> drifts = concatenate<double>(incoming);
-  for (std::size_t k = 0; k < tiles.size(); ++k)
-    points.drifts().set(tiles[k], drifts[k]);
-}
-
 /// For each tile of a peer its drift, then the positions of its sites.
 void Halo::begin_positions(const mesh::BinnedPoints& points) {
   TRIME_ASSERT(!grid_->periods().any() && !exchange_.is_open());
@@ -237,11 +282,9 @@ void Halo::begin_positions(const mesh::BinnedPoints& points) {
     std::vector<std::byte>& data = outgoing.back().data;
     for (std::size_t k = 0; k < peer.bins.size(); ++k) {
       if (begins_tile(peer, k))
-        append(data, points.drifts().of(peer.bins[k].tile));
-      const auto [begin, end] = points.bin_range({peer.bins[k].tile, peer.bins[k].bin});
-      const auto bytes = std::as_bytes(
-          points.positions().subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)));
-      data.insert(data.end(), bytes.begin(), bytes.end());
+        append(data, points.drifts().of(points.known_tile(peer.bins[k].tile)));
+      const auto [begin, end] = sites_of(points, peer.bins[k]);
+      append(data, points.positions().subspan(at(begin), at(end - begin)));
     }
   }
   positions_.clear();
@@ -259,24 +302,14 @@ void Halo::finish_positions(mesh::BinnedPoints& points) {
   exchange_.wait();
   const std::span<geometry::Vec2> ghosts = points.ghost_positions();
   comm_->counters().note(Counter::ghosts, std::ssize(ghosts));
-  for (std::size_t next = 0, m = 0; m < positions_.size(); ++m) {
-    const std::byte* from = positions_[m].data.data();
-    const auto take = [&from](void* to, std::size_t size) {
-      if (size > 0)
-        std::memcpy(to, from, size);
-      from += size;
-    };
+  for (std::size_t m = 0; m < positions_.size(); ++m) {
+    Reader reader(positions_[m].data);
     for (std::size_t k = 0; k < imports_[m].bins.size(); ++k) {
       const BinRef& bin = imports_[m].bins[k];
-      if (begins_tile(imports_[m], k)) {
-        double drift = 0;
-        take(&drift, sizeof drift);
-        points.drifts().set(bin.tile, drift);
-      }
+      if (begins_tile(imports_[m], k))
+        points.drifts().set(points.known_tile(bin.tile), reader.take<double>(1).front());
       const auto [begin, end] = points.bin_range(bin);
-      const std::size_t sites = static_cast<std::size_t>(end - begin);
-      take(ghosts.data() + next, sites * sizeof(geometry::Vec2));
-      next += sites;
+      reader.take(ghosts.subspan(at(begin - points.owned()), at(end - begin)));
     }
   }
   positions_.clear();

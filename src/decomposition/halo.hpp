@@ -24,27 +24,21 @@ public:
   /// tile. Collective.
   void reset(const Partition& partition, int margin);
 
-  /// @brief Adds `bins` (of foreign tiles or of images) to the subscriptions of this rank. Collective; ranks may ask
-  /// for nothing.
-  void subscribe(std::span<const mesh::BinRef> bins);
-
   /// @brief Fetches the sites of all subscribed bins and puts them into `points` as ghosts. Collective among neighbours
   /// only. Two messages per neighbour: site counts per bin, then the sites (24 bytes each).
   void refresh(mesh::BinnedPoints& points);
+
+  /// @brief Subscribes to more bins, fetches their sites with what moves and sizes have made of them, and adds them
+  /// behind the other ghosts. Data go between those who ask and those whom they ask. Collective.
+  /// @param missing bins of foreign tiles or of images that are not known; the same one may be in the list twice
+  /// @param sizes null, or h by local index, which grows with the ghosts
+  void extend(mesh::BinnedPoints& points, std::vector<mesh::BinRef> missing, std::vector<double>* sizes);
 
   /// @brief Fetches the positions of the ghosts anew, after their owners moved them without sorting, and the drift
   /// of their tiles (see BinnedPoints). One message per neighbour, 16 bytes a ghost and 8 a tile. In two parts: between
   /// them ghosts must not be looked at. Collective among neighbours only. @pre no periods
   void begin_positions(const mesh::BinnedPoints& points);
   void finish_positions(mesh::BinnedPoints& points);
-
-  /// @brief Fetches the drift of the tiles with imported bins from their owners, after a growth of the subscriptions.
-  /// One message per neighbour. Collective among neighbours only. @pre no periods
-  void refresh_drifts(mesh::BinnedPoints& points) const;
-
-  /// @brief New local index by old index - owned for the ghosts of the last refresh, after a growth of the
-  /// subscriptions with unchanged sites. Valid until the next refresh.
-  std::span<const LocalIndex> ghost_renumbering() const { return ghost_renumbering_; }
 
   /// @brief The values of all ghosts, in ghost order, from the values of the owned sites. @pre refresh was called and
   /// no site has changed since. Collective among neighbours only.
@@ -61,16 +55,13 @@ private:
   std::size_t ghosts_of(const mesh::BinnedPoints& points, const Peer& peer) const;
   static bool begins_tile(const Peer& peer, std::size_t k);
   void list_bins_around(LocalIndex tile, int margin, std::vector<mesh::BinRef>& wanted) const;
-  void note_renumbering(LocalIndex owned, std::span<const std::int32_t> new_counts);
+  std::vector<Peer> by_owner(std::vector<mesh::BinRef> bins) const;
+  std::vector<Peer> subscribe(const std::vector<Peer>& requests);
 
   const comm::Communicator* comm_;
   const mesh::TileGrid* grid_;
   Partition partition_;
-  std::vector<Peer> imports_, exports_; // ascending by rank
-  std::vector<mesh::BinRef> imported_;  // all of imports_: ascending, because ranks own ascending tiles
-  std::vector<std::int32_t> counts_;    // ghosts per imported bin at the last refresh
-  std::vector<mesh::BinRef> refreshed_; // imported bins at the last refresh
-  std::vector<LocalIndex> ghost_renumbering_;
+  std::vector<Peer> imports_, exports_;  // ascending by rank
   std::vector<comm::Message> positions_; // on their way, one message per import
   comm::Communicator::Exchange exchange_;
 };

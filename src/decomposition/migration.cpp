@@ -2,10 +2,12 @@
 #include "decomposition/migration.hpp"
 
 #include "core/thread_loop.hpp"
+#include "mesh/tile_fit.hpp"
 
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <numeric>
 
 namespace trime::decomposition {
 namespace {
@@ -24,7 +26,7 @@ bool all_stay(const mesh::TileGrid& grid, LocalIndex first, LocalIndex last, std
   std::vector<std::uint8_t> stay(static_cast<std::size_t>(parts), 1);
   thread_loop(parts, 1, [&](std::ptrdiff_t part, int) {
     for (std::ptrdiff_t i = n * part / parts; i < n * (part + 1) / parts; ++i)
-      if (const LocalIndex tile = grid.place(sites[static_cast<std::size_t>(i)].position).tile;
+      if (const LocalIndex tile = grid.tile_at(sites[static_cast<std::size_t>(i)].position);
           tile < first || tile >= last) {
         stay[static_cast<std::size_t>(part)] = 0;
         return;
@@ -44,13 +46,25 @@ std::vector<std::int64_t> tile_weights(const comm::Communicator& comm, const mes
     std::vector<std::int64_t>& weights = of_part[static_cast<std::size_t>(part)];
     weights.assign(static_cast<std::size_t>(grid.tile_count()), 0);
     for (std::ptrdiff_t i = n * part / parts; i < n * (part + 1) / parts; ++i)
-      ++weights[static_cast<std::size_t>(grid.place(sites[static_cast<std::size_t>(i)].position).tile)];
+      ++weights[static_cast<std::size_t>(grid.tile_at(sites[static_cast<std::size_t>(i)].position))];
   });
   std::vector<std::int64_t> weights = std::move(of_part.front());
   for (std::size_t part = 1; part < of_part.size(); ++part)
     std::transform(weights.begin(), weights.end(), of_part[part].begin(), weights.begin(), std::plus<>());
   comm.sum(weights);
   return weights;
+}
+
+std::vector<std::int64_t> fit_tiles(const comm::Communicator& comm, mesh::TileGrid& grid,
+                                    std::span<const mesh::Site> sites) {
+  for (;;) { // every division goes a level deeper, and levels are bounded
+    const std::vector<std::int64_t> weights = tile_weights(comm, grid, sites);
+    const std::int64_t all = std::accumulate(weights.begin(), weights.end(), std::int64_t{0});
+    mesh::WeightedTiles fit = mesh::fit_tiles(grid, weights, mesh::most_per_tile(static_cast<double>(all)));
+    grid.set_tiles(std::move(fit.tiles));
+    if (!fit.divided)
+      return fit.weights;
+  }
 }
 
 void migrate(const comm::Communicator& comm, const mesh::TileGrid& grid, const Partition& partition,
@@ -60,7 +74,7 @@ void migrate(const comm::Communicator& comm, const mesh::TileGrid& grid, const P
   const bool none_leaves = all_stay(grid, first, last, sites);
   std::size_t kept = none_leaves ? sites.size() : 0;
   for (std::size_t i = kept; i < sites.size(); ++i) {
-    const LocalIndex tile = grid.place(sites[i].position).tile;
+    const LocalIndex tile = grid.tile_at(sites[i].position);
     if (tile < first || tile >= last) {
       leaving[partition.owner(tile)].push_back(sites[i]);
       continue;

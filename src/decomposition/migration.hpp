@@ -14,6 +14,11 @@ namespace trime::decomposition {
 std::vector<std::int64_t> tile_weights(const comm::Communicator& comm, const mesh::TileGrid& grid,
                                        std::span<const mesh::Site> sites);
 
+/// @brief Fits the tiles of a grid to sites on any ranks: see mesh::fit_tiles. O(tiles) memory. Collective.
+/// @return the weights of the tiles
+std::vector<std::int64_t> fit_tiles(const comm::Communicator& comm, mesh::TileGrid& grid,
+                                    std::span<const mesh::Site> sites);
+
 /// @brief Gives every site to the owner of its tile. Sites that stay keep their order and position in the list's front;
 /// arrivals follow, ordered by sending rank. Collective.
 void migrate(const comm::Communicator& comm, const mesh::TileGrid& grid, const Partition& partition,

@@ -36,15 +36,15 @@ public:
 private:
   /// The bins along the curve: the key of a bin leads those of its points.
   void list_bins(LocalIndex tile, int bits) {
-    const GridPosition corner = grid_.curve_position(tile);
-    const int level = 32 - grid_.tile_shift() + bits;
+    const mesh::Tile& square = grid_.tile(tile);
+    const std::uint32_t column = square.x >> square.bin_shift(), row = square.y >> square.bin_shift();
+    const int level = square.level() + bits;
     const std::uint32_t side = std::uint32_t{1} << bits;
     const std::uint64_t mask = (std::uint64_t{1} << (2 * bits)) - 1;
     bins_.resize(std::size_t{1} << (2 * bits));
     for (std::uint32_t y = 0; y < side; ++y)
       for (std::uint32_t x = 0; x < side; ++x)
-        bins_[hilbert_key((corner.x << bits) | x, (corner.y << bits) | y, level) & mask] =
-            static_cast<std::int32_t>((y << bits) | x);
+        bins_[hilbert_key(column | x, row | y, level) & mask] = static_cast<std::int32_t>((y << bits) | x);
   }
 
   struct Keyed {

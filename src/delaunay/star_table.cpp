@@ -131,18 +131,4 @@ void StarTable::renumber(std::span<const LocalIndex> new_index, LocalIndex new_s
   free_overflow_.clear();
 }
 
-void StarTable::renumber_ghosts(LocalIndex first, std::span<const LocalIndex> new_index) {
-  const auto map = [&](LocalIndex& neighbour) {
-    if (neighbour >= first)
-      neighbour = new_index[static_cast<std::size_t>(neighbour - first)];
-  };
-  for (std::size_t i = 0; i < rings_.size(); ++i)
-    if (degree_[i] != overflowing) {
-      std::for_each_n(rings_[i].begin(), degree_[i], map);
-      repeat(rings_[i], degree_[i]);
-    }
-  for (std::vector<LocalIndex>& ring : overflow_)
-    std::for_each(ring.begin(), ring.end(), map);
-}
-
 } // namespace trime::delaunay

@@ -72,8 +72,6 @@ public:
   /// as it takes. O(n); threads.
   /// @param new_index by old index of an owned site: its new index or -1
   void renumber(std::span<const LocalIndex> new_index, LocalIndex new_size);
-  /// Renumbers ghosts in place: old local index i >= first becomes new_index[i - first].
-  void renumber_ghosts(LocalIndex first, std::span<const LocalIndex> new_index);
 
 private:
   static constexpr std::uint8_t is_certain = 1, gapped = 2;

@@ -219,19 +219,16 @@ void TileWrapper::collect(Vec2 half) {
 /// Where a bin lies; bins at the rim of the container hold all that lies beyond.
 geometry::Box TileWrapper::box_of(mesh::BinRef bin) const {
   const mesh::TileGrid& grid = points_.grid();
-  const geometry::Box tile = grid.tile_box(bin.tile);
-  const GridPosition at = grid.tile_position(bin.tile);
-  const int bits = grid.bin_bits(bin.tile), side = 1 << bits;
-  const auto range = [side](double low, double size, int place, bool first, bool last) {
-    const double width = size / side, slack = 1e-3 * width;
-    return std::pair{first && place == 0 ? -INFINITY : low + place * width - slack,
-                     last && place + 1 == side ? INFINITY : low + (place + 1) * width + slack};
+  const mesh::Tile& tile = grid.tile(bin.tile);
+  const std::int64_t side = std::int64_t{1} << tile.bin_shift();
+  const std::int64_t x = tile.x + (bin.bin & ((1 << tile.bits) - 1)) * side, y = tile.y + (bin.bin >> tile.bits) * side;
+  const auto range = [side](const mesh::FixedAxis& axis, std::int64_t first) {
+    const double low = axis.coordinate(first), high = axis.coordinate(first + side), slack = 1e-3 * (high - low);
+    return std::pair{!axis.is_periodic() && first <= axis.first() ? -INFINITY : low - slack,
+                     !axis.is_periodic() && first + side > axis.last() ? INFINITY : high + slack};
   };
-  const bool open_x = grid.periods().x == 0, open_y = grid.periods().y == 0;
-  const auto [x0, x1] = range(tile.min.x, tile.width(), bin.bin & (side - 1), open_x && at.x == 0,
-                              open_x && static_cast<int>(at.x) + 1 == grid.tiles_x());
-  const auto [y0, y1] = range(tile.min.y, tile.height(), bin.bin >> bits, open_y && at.y == 0,
-                              open_y && static_cast<int>(at.y) + 1 == grid.tiles_y());
+  const auto [x0, x1] = range(grid.x_axis(), x);
+  const auto [y0, y1] = range(grid.y_axis(), y);
   const Vec2 shift = grid.shift(bin.image);
   return {Vec2{x0, y0} + shift, Vec2{x1, y1} + shift};
 }

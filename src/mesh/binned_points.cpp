@@ -99,7 +99,7 @@ void BinnedPoints::sort_moved(std::span<const std::uint8_t> gone, std::span<cons
 template <class Sites>
 LocalIndex BinnedPoints::sort(const Sites& sites) {
   bins_.own(first_tile(), last_tile());
-  drifts_.forget(grid().tile_count());
+  drifts_.forget(bins_.owned_tiles());
   state_ = State::sorted;
   const LocalIndex dropped = order_.sort(sites, bins_);
   owned_ = order_.size();
@@ -109,24 +109,32 @@ LocalIndex BinnedPoints::sort(const Sites& sites) {
 void BinnedPoints::assign_ghosts(std::span<const BinRef> bins, std::span<const std::int32_t> counts,
                                  std::span<const Ghost> sites) {
   TRIME_ASSERT(state_ == State::sorted || state_ == State::prepared, "ghosts before owned sites, or after their end");
+  bins_.forget_foreign();
+  drifts_.make_room(bins_.owned_tiles());
+  positions_.resize(at(owned_));
+  boundary_.resize(positions_.size());
+  add_ghosts(bins, counts, sites);
+}
+
+void BinnedPoints::add_ghosts(std::span<const BinRef> bins, std::span<const std::int32_t> counts,
+                              std::span<const Ghost> sites) {
   const std::int64_t announced = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
   TRIME_ASSERT(announced == static_cast<std::int64_t>(sites.size()), "{} ghosts announced, {} received", announced,
                sites.size());
-  bins_.forget_foreign();
-  positions_.resize(at(owned_));
-  boundary_.resize(positions_.size());
   positions_.reserve(positions_.size() + sites.size());
   boundary_.reserve(positions_.capacity());
-  LocalIndex next = owned_;
+  const LocalIndex first = size();
+  LocalIndex next = first;
   for (std::size_t k = 0; k < bins.size(); ++k) {
     const geometry::Vec2 shift = grid().shift(bins[k].image);
-    for (const Ghost& ghost : sites.subspan(at(next - owned_), at(counts[k]))) {
+    for (const Ghost& ghost : sites.subspan(at(next - first), at(counts[k]))) {
       positions_.push_back(ghost.position + shift);
       boundary_.push_back(ghost.boundary);
     }
     bins_.add_foreign(bins[k], {next, next + counts[k]});
     next += counts[k];
   }
+  drifts_.make_room(bins_.known_tiles());
 }
 
 void BinnedPoints::prepare_advance() {

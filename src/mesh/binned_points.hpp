@@ -36,9 +36,6 @@ public:
 
   const TileGrid& grid() const { return bins_.grid(); }
 
-  /// Of tables that are as long as the container has tiles.
-  std::size_t grid_table_bytes() const { return bins_.grid_table_bytes() + drifts_.grid_table_bytes(); }
-
   /// @brief Replaces the owned sites: those of tiles [first_tile, last_tile). Sorts them by tile and bin and drops
   /// all but one of interior sites at equal coordinates (a boundary site stays, the larger push count is kept).
   /// Forgets the ghosts.
@@ -51,6 +48,8 @@ public:
   /// hold counts[k] sites each, concatenated in `sites` at their canonical positions; here they are moved to their
   /// images.
   void assign_ghosts(std::span<const BinRef> bins, std::span<const std::int32_t> counts, std::span<const Ghost> sites);
+  /// Adds ghosts behind those that there are, which keep their local indices. @pre none of these bins is known
+  void add_ghosts(std::span<const BinRef> bins, std::span<const std::int32_t> counts, std::span<const Ghost> sites);
 
   LocalIndex owned() const { return owned_; }
   LocalIndex size() const { return static_cast<LocalIndex>(positions_.size()); }
@@ -68,6 +67,9 @@ public:
   LocalIndex last_tile() const { return order_.last_tile(); }
   /// Owned sites of an owned tile.
   SiteRange tile_range(LocalIndex tile) const { return order_.of_tile(tile); }
+  /// The number of a tile of which a bin is known, or -1: see KnownBins. Drifts go by it.
+  LocalIndex known_tile(LocalIndex tile) const { return bins_.known_tile(tile); }
+  LocalIndex known_tiles() const { return bins_.known_tiles(); }
   /// Sites of a bin of an owned or partly known tile; empty if unknown.
   SiteRange bin_range(BinRef bin) const { return bins_.range(bin); }
 

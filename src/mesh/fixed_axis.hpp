@@ -7,30 +7,42 @@
 
 namespace trime::mesh {
 
-/// @brief Fixed-point positions along one axis: the side of a tile is 2^tile_shift of them, the first tile starts at 0.
-/// They never fall where the coordinate rises.
+/// @brief Fixed-point positions along one axis of the square of the curve, whose side is 2^32 of them. The container
+/// takes the positions first() to last(), in units of 2^unit_shift. They never fall where the coordinate rises.
 class FixedAxis {
 public:
   FixedAxis() = default;
-  /// @param start coordinate of the first tile @pre tile_side > 0, tiles * 2^tile_shift at most 2^32
-  FixedAxis(double start, double tile_side, int tiles, int tile_shift, bool periodic)
-      : start_(start), scale_(std::ldexp(1.0, tile_shift) / tile_side),
-        limit_(static_cast<std::uint32_t>((static_cast<std::uint64_t>(tiles) << tile_shift) - 1)), periodic_(periodic) {
-  }
+  /// @param start coordinate where the container begins @param unit length of a unit
+  /// @param first_unit, units the container's part of the square @pre unit > 0, (first_unit + units) * 2^unit_shift at
+  /// most 2^32
+  FixedAxis(double start, double unit, std::uint32_t first_unit, std::uint32_t units, int unit_shift, bool periodic)
+      : start_(start), unit_(unit), scale_(std::ldexp(1.0, unit_shift) / unit),
+        limit_(static_cast<std::uint32_t>((std::uint64_t{units} << unit_shift) - 1)), first_(first_unit << unit_shift),
+        unit_shift_(unit_shift), periodic_(periodic) {}
 
-  /// Clamped to the tiles.
+  /// Clamped to the container.
   std::uint32_t fixed(double at) const {
     const double v = (at - start_) * scale_;
-    return v <= 0 ? 0 : v >= static_cast<double>(limit_) ? limit_ : static_cast<std::uint32_t>(v);
+    return first_ + (v <= 0 ? 0 : v >= static_cast<double>(limit_) ? limit_ : static_cast<std::uint32_t>(v));
   }
   /// Not clamped if the axis is periodic: images of the container follow each other.
   std::int64_t unrolled(double at) const {
-    return periodic_ ? static_cast<std::int64_t>(std::floor((at - start_) * scale_)) : fixed(at);
+    return periodic_ ? std::int64_t{first_} + static_cast<std::int64_t>(std::floor((at - start_) * scale_)) : fixed(at);
   }
+  /// The coordinate where a position begins.
+  double coordinate(std::int64_t fixed) const {
+    return start_ + std::ldexp(static_cast<double>(fixed - std::int64_t{first_}), -unit_shift_) * unit_;
+  }
+  std::int64_t first() const { return first_; }
+  std::int64_t last() const { return std::int64_t{first_} + limit_; }
+  /// Positions of the container.
+  std::int64_t length() const { return std::int64_t{limit_} + 1; }
+  bool is_periodic() const { return periodic_; }
 
 private:
-  double start_ = 0, scale_ = 1;
-  std::uint32_t limit_ = 0;
+  double start_ = 0, unit_ = 1, scale_ = 1;
+  std::uint32_t limit_ = 0, first_ = 0;
+  int unit_shift_ = 0;
   bool periodic_ = false;
 };
 

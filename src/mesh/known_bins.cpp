@@ -7,16 +7,14 @@
 
 namespace trime::mesh {
 
-KnownBins::KnownBins(const TileGrid& grid)
-    : grid_(&grid), images_(grid.images()),
-      tile_block_(static_cast<std::size_t>(grid.tile_count()) * static_cast<std::size_t>(images_), -1) {}
+KnownBins::KnownBins(const TileGrid& grid) : grid_(&grid) {}
 
 void KnownBins::own(LocalIndex first_tile, LocalIndex last_tile) {
-  std::fill(tile_block_.begin(), tile_block_.end(), -1);
+  first_tile_ = first_tile;
+  foreign_.clear();
   blocks_.clear();
   std::size_t bins = 0;
   for (LocalIndex tile = first_tile; tile < last_tile; ++tile) {
-    tile_block_[slot(tile, 0)] = static_cast<LocalIndex>(blocks_.size());
     blocks_.push_back({bins, grid_->bin_bits(tile), true});
     bins += static_cast<std::size_t>(grid_->bins_per_tile(tile));
   }
@@ -29,17 +27,19 @@ void KnownBins::own(LocalIndex first_tile, LocalIndex last_tile) {
 
 void KnownBins::forget_foreign() {
   blocks_.resize(static_cast<std::size_t>(owned_blocks_));
-  for (LocalIndex& block : tile_block_)
-    block = block >= owned_blocks_ ? -1 : block;
+  foreign_.clear();
   begin_.resize(owned_bins_);
   end_.resize(owned_bins_);
   known_.resize(owned_bins_);
 }
 
 void KnownBins::add_foreign(BinRef bin, SiteRange sites) {
-  LocalIndex& block = tile_block_[slot(bin.tile, bin.image)];
-  if (block < 0) {
-    block = static_cast<LocalIndex>(blocks_.size());
+  const auto found = foreign_at(bin.tile, bin.image);
+  LocalIndex block = static_cast<LocalIndex>(blocks_.size());
+  if (found != foreign_.end() && found->key() == std::pair(bin.tile, bin.image)) {
+    block = found->block;
+  } else {
+    foreign_.insert(found, {bin.tile, bin.image, block});
     blocks_.push_back({begin_.size(), grid_->bin_bits(bin.tile), false});
     begin_.resize(begin_.size() + static_cast<std::size_t>(grid_->bins_per_tile(bin.tile)), 0);
     end_.resize(begin_.size(), 0);

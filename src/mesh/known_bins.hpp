@@ -7,8 +7,10 @@
 #include "trime/core/types.hpp"
 #include "trime/geometry/vec2.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace trime::mesh {
@@ -18,17 +20,15 @@ struct SiteRange {
   LocalIndex begin, end;
 };
 
-/// @brief For each known bin the range of local indices of its sites. It holds no sites. O(tiles of the container and
-/// known bins) memory.
+/// @brief For each known bin the range of local indices of its sites. It holds no sites. A tile with a known bin has a
+/// number: the owned tiles come first, in their order, then the others in the order in which they became known. O(known
+/// bins) memory.
 class KnownBins {
 public:
   /// @pre `grid` outlives this object
   explicit KnownBins(const TileGrid& grid);
 
   const TileGrid& grid() const { return *grid_; }
-
-  /// Of the table that is as long as the container has tiles.
-  std::size_t grid_table_bytes() const { return tile_block_.capacity() * sizeof(LocalIndex); }
 
   /// All bins of tiles [first_tile, last_tile) are known from now on, and no others; their ranges are to be set.
   void own(LocalIndex first_tile, LocalIndex last_tile);
@@ -49,14 +49,17 @@ public:
 
   /// The sites of a bin; none if it is unknown.
   SiteRange range(BinRef bin) const {
-    const LocalIndex block = tile_block_[slot(bin.tile, bin.image)];
+    const LocalIndex block = block_of(bin.tile, bin.image);
     if (block < 0)
       return {0, 0};
     const std::size_t at = blocks_[static_cast<std::size_t>(block)].first_bin + static_cast<std::size_t>(bin.bin);
     return {begin_[at], end_[at]};
   }
-  /// Is any bin of the tile itself known?
-  bool knows_tile(LocalIndex tile) const { return tile_block_[slot(tile, 0)] >= 0; }
+  /// The number of a tile of which a bin is known, or -1.
+  LocalIndex known_tile(LocalIndex tile) const { return block_of(tile, 0); }
+  LocalIndex owned_tiles() const { return owned_blocks_; }
+  /// All numbers are below it.
+  LocalIndex known_tiles() const { return static_cast<LocalIndex>(blocks_.size()); }
 
   /// See BinnedPoints::for_each_near; sites are where they were when the bins were filled.
   template <class Visit, class Missing>
@@ -68,16 +71,33 @@ private:
     int bits;              // 2^bits x 2^bits bins
     bool complete;         // every bin known
   };
+  template <class Visit>
+  void visit_complete(const Block& block, const Tile& tile, const FixedRect& part, const Visit& visit) const;
   template <class Visit, class Missing>
   void visit_row(BinRef first_bin, int bx0, int bx1, const Visit& visit, const Missing& missing) const;
-  std::size_t slot(LocalIndex tile, std::int32_t image) const {
-    return static_cast<std::size_t>(tile) * static_cast<std::size_t>(images_) + static_cast<std::size_t>(image);
+  /// A tile that is not owned, or an image of any.
+  struct Foreign {
+    LocalIndex tile;
+    std::int32_t image;
+    LocalIndex block;
+    auto key() const { return std::pair(tile, image); }
+  };
+  /// Index into blocks_, -1 if unknown. O(1) for owned tiles, else O(log(known tiles)).
+  LocalIndex block_of(LocalIndex tile, std::int32_t image) const {
+    if (image == 0 && tile >= first_tile_ && tile - first_tile_ < owned_blocks_)
+      return tile - first_tile_;
+    const auto found = foreign_at(tile, image);
+    return found != foreign_.end() && found->key() == std::pair(tile, image) ? found->block : -1;
+  }
+  std::vector<Foreign>::const_iterator foreign_at(LocalIndex tile, std::int32_t image) const {
+    return std::lower_bound(foreign_.begin(), foreign_.end(), std::pair(tile, image),
+                            [](const Foreign& a, const auto& key) { return a.key() < key; });
   }
 
   const TileGrid* grid_;
-  int images_;                         // of a tile
-  std::vector<LocalIndex> tile_block_; // by tile and image: index into blocks_, -1 unknown; O(tiles of the container)
-  std::vector<Block> blocks_;          // of the owned tiles first
+  LocalIndex first_tile_ = 0;
+  std::vector<Foreign> foreign_; // ascending
+  std::vector<Block> blocks_;    // of the owned tiles first
   std::vector<LocalIndex> begin_, end_;
   std::vector<std::uint8_t> known_;
   LocalIndex owned_blocks_ = 0;
@@ -86,49 +106,47 @@ private:
 
 template <class Visit, class Missing>
 void KnownBins::for_each_near(geometry::Vec2 center, double reach, const Visit& visit, const Missing& missing) const {
-  const TileGrid& grid = *grid_;
-  const std::int64_t x0 = grid.x_axis().unrolled(center.x - reach), x1 = grid.x_axis().unrolled(center.x + reach);
-  const std::int64_t y0 = grid.y_axis().unrolled(center.y - reach), y1 = grid.y_axis().unrolled(center.y + reach);
-  const int tx0 = grid.tile_of(x0), tx1 = grid.tile_of(x1), ty0 = grid.tile_of(y0), ty1 = grid.tile_of(y1);
-  if (tx0 == tx1 && ty0 == ty1) { // most squares lie in one tile
-    const TileGrid::TileImage at = grid.tile_image_at(tx0, ty0);
-    const LocalIndex block = tile_block_[slot(at.tile, at.image)];
-    if (block >= 0 && blocks_[static_cast<std::size_t>(block)].complete) {
-      const Block& b = blocks_[static_cast<std::size_t>(block)];
-      const LocalIndex* begin = begin_.data() + b.first_bin + grid.bin_of(x0, b.bits);
-      const LocalIndex* end = end_.data() + b.first_bin + grid.bin_of(x1, b.bits);
-      const int last_row = grid.bin_of(y1, b.bits) << b.bits;
-      for (int row = grid.bin_of(y0, b.bits) << b.bits; row <= last_row; row += 1 << b.bits)
-        visit(begin[row], end[row]); // the bins of a row are contiguous in memory
-      return;
+  const FixedRect rect = grid_->rect_around(center, reach);
+  if (grid_->limits().contains(rect)) { // most squares lie in one tile
+    const LocalIndex number = grid_->tile_at(rect.x0, rect.y0);
+    const Tile& tile = grid_->tile(number);
+    if (rect_of(tile).contains(rect)) {
+      const LocalIndex block = block_of(number, 0);
+      if (block >= 0 && blocks_[static_cast<std::size_t>(block)].complete)
+        return visit_complete(blocks_[static_cast<std::size_t>(block)], tile, rect, visit);
     }
   }
-  for (int ty = ty0; ty <= ty1; ++ty)
-    for (int tx = tx0; tx <= tx1; ++tx) {
-      const TileGrid::TileImage at = grid.tile_image_at(tx, ty);
-      const int bits = grid.bin_bits(at.tile), last = (1 << bits) - 1;
-      const int bx0 = tx == tx0 ? grid.bin_of(x0, bits) : 0, bx1 = tx == tx1 ? grid.bin_of(x1, bits) : last;
-      const int by0 = ty == ty0 ? grid.bin_of(y0, bits) : 0, by1 = ty == ty1 ? grid.bin_of(y1, bits) : last;
-      for (int by = by0; by <= by1; ++by)
-        visit_row({at.tile, by << bits, at.image}, bx0, bx1, visit, missing);
-    }
+  grid_->for_each_in(rect, [&](LocalIndex number, int image, const FixedRect& part) {
+    const Tile& tile = grid_->tile(number);
+    const LocalIndex block = block_of(number, image);
+    if (block >= 0 && blocks_[static_cast<std::size_t>(block)].complete)
+      return visit_complete(blocks_[static_cast<std::size_t>(block)], tile, part, visit);
+    const int bx0 = tile.first_column(part.x0), bx1 = tile.last_column(part.x1);
+    for (int by = tile.first_row(part.y0); by <= tile.last_row(part.y1); ++by)
+      visit_row({number, by << tile.bits, image}, bx0, bx1, visit, missing);
+  });
 }
 
-/// Bins first_bin.bin + bx0 .. first_bin.bin + bx1 of one row of one tile.
+template <class Visit>
+void KnownBins::visit_complete(const Block& block, const Tile& tile, const FixedRect& part, const Visit& visit) const {
+  const LocalIndex* begin = begin_.data() + block.first_bin + tile.first_column(part.x0);
+  const LocalIndex* end = end_.data() + block.first_bin + tile.last_column(part.x1);
+  const int last_row = tile.last_row(part.y1) << tile.bits;
+  for (int row = tile.first_row(part.y0) << tile.bits; row <= last_row; row += 1 << tile.bits)
+    visit(begin[row], end[row]); // the bins of a row are contiguous in memory
+}
+
+/// Bins first_bin.bin + bx0 .. first_bin.bin + bx1 of one row of a tile that is not wholly known.
 template <class Visit, class Missing>
 void KnownBins::visit_row(BinRef first_bin, int bx0, int bx1, const Visit& visit, const Missing& missing) const {
-  const LocalIndex block = tile_block_[slot(first_bin.tile, first_bin.image)];
+  const LocalIndex block = block_of(first_bin.tile, first_bin.image);
   if (block < 0) {
     for (int bx = bx0; bx <= bx1; ++bx)
       missing(BinRef{first_bin.tile, first_bin.bin | bx, first_bin.image});
     return;
   }
-  const Block& b = blocks_[static_cast<std::size_t>(block)];
-  const std::size_t first = b.first_bin + static_cast<std::size_t>(first_bin.bin);
-  if (b.complete) {
-    visit(begin_[first + bx0], end_[first + bx1]);
-    return;
-  }
+  const std::size_t first =
+      blocks_[static_cast<std::size_t>(block)].first_bin + static_cast<std::size_t>(first_bin.bin);
   for (int bx = bx0; bx <= bx1; ++bx) {
     if (known_[first + bx])
       visit(begin_[first + bx], end_[first + bx]);

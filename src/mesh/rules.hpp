@@ -8,22 +8,37 @@ namespace trime::mesh {
 struct MeshRules {
   /// [points] A cell of the container grid, and a bin, hold about so many.
   static constexpr double points_per_cell = 3.3;
-  /// [points] A tile holds about as many as 16 x 16 cells, a unit of work for one thread.
-  static constexpr double points_per_tile = 845;
-  /// [points] A tile holds no fewer than 4 x 4 cells, where there are few points to share out.
-  static constexpr double fewest_per_tile = 53;
-  /// [1] A tile may hold so many times the wanted points before its side is halved: between 1 and 2, so that the mean
-  /// over all container sizes is about what is wanted.
-  static constexpr double fullest_tile = 1.5;
-  /// [tiles] There are about so many at least, so that ranks and threads get equal shares.
-  static constexpr double wanted_tiles = 256;
-  /// [tiles] The same where the density varies: the densest tiles hold up to a hundred times the mean.
-  static constexpr double wanted_tiles_graded = 16384;
+  /// [points] A tile holds so many at most, a unit of work for one thread. Its quarter, the least that uniform tiles
+  /// hold, is wide enough to sleep. The shares of ranks differ by up to as many. Not measured.
+  static constexpr double points_per_tile = 512;
+  /// [points] A tile of a small mesh may hold so many all the same. Not measured.
+  static constexpr double fewest_per_tile = 80;
+  /// [tiles] There are about so many at least, so that ranks and threads get equal shares, down to fewest_per_tile. Not
+  /// measured.
+  static constexpr double wanted_tiles = 200;
+  /// [points] A tile of a large mesh holds so many at most. Not measured.
+  static constexpr double most_per_tile = 1000;
+  /// [tiles] From so many on tiles grow with the mesh, up to most_per_tile. Not measured.
+  static constexpr double many_tiles = 4000;
+  /// [units] The shorter side of the container has so many at least, so that they are nearly square. Not
+  /// measured.
+  static constexpr double units_across = 32;
+  /// [levels] Units are no smaller than that, however slender the container is. Not measured.
+  static constexpr int finest_unit_level = 20;
+  /// [levels] Tiles of the typical density are no smaller than that. Not measured.
+  static constexpr int finest_typical_level = 20;
+  /// [levels] Nor is any tile: its bins need some levels more. Not measured.
+  static constexpr int finest_tile_level = 26;
   /// [points] Mean number of sites in the bin of a site at most: the bins of a tile, halved as often as needed, then
   /// hold 1.7 to 7 sites, mostly 3.3.
   static constexpr double most_in_bin = 7;
-  /// [bins] A tile has so many bins for each site at most, however its sites are clustered: it bounds the memory.
+  /// [bins] A tile has so many bins for each site at most, unless a bin is too full.
   static constexpr int bins_per_site = 4;
+  /// [points] A bin with more is too full, and those of its tile are halved again. Not measured.
+  static constexpr int fullest_bin = 16;
+  /// [bins] A tile has so many bins for each site at most, however its sites are clustered: it bounds the memory. Not
+  /// measured.
+  static constexpr int most_bins_per_site = 64;
   /// [1] A tile has 2^k x 2^k bins with k at most this: 2^24 bins, whose numbers and counts fit into 32 bits.
   static constexpr int finest_bin_bits = 12;
 };

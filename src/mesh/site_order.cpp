@@ -80,22 +80,34 @@ std::vector<std::uint8_t> SiteOrder::suitable_bin_bits(const TileGrid& grid, std
   return bits;
 }
 
+/// Of the t-th tile, if it has 2^bits x 2^bits bins.
+std::vector<std::int64_t> SiteOrder::count_in_bins(const TileGrid& grid, std::span<const Site> sites, std::size_t t,
+                                                   int bits) const {
+  std::vector<std::int64_t> count(std::size_t{1} << (2 * bits), 0);
+  for (LocalIndex k = tile_start_[t]; k < tile_start_[t + 1]; ++k)
+    ++count[static_cast<std::size_t>(
+        grid.bin_at(sites[at(order_[at(k)])].position, first_tile_ + static_cast<LocalIndex>(t), bits))];
+  return count;
+}
+
 /// For the t-th tile.
 int SiteOrder::suitable_bin_bits(const TileGrid& grid, std::span<const Site> sites, std::size_t t) const {
-  const LocalIndex begin = tile_start_[t], end = tile_start_[t + 1];
-  const std::int64_t n = end - begin;
+  const std::int64_t n = tile_start_[t + 1] - tile_start_[t];
   int bits = 0;
-  while (bits < grid.most_bin_bits() && std::int64_t{4} << (2 * bits) <= MeshRules::bins_per_site * n)
+  const LocalIndex tile = first_tile_ + static_cast<LocalIndex>(t);
+  while (bits < grid.most_bin_bits(tile) && std::int64_t{4} << (2 * bits) <= MeshRules::bins_per_site * n)
     ++bits;
-  std::vector<std::int64_t> count(std::size_t{1} << (2 * bits), 0);
-  for (LocalIndex k = begin; k < end; ++k)
-    ++count[static_cast<std::size_t>(grid.bin_at(sites[at(order_[at(k)])].position, bits))];
+  std::vector<std::int64_t> count = count_in_bins(grid, sites, t, bits);
+  while (bits < grid.most_bin_bits(tile) && std::int64_t{4} << (2 * bits) <= MeshRules::most_bins_per_site * n &&
+         *std::max_element(count.begin(), count.end()) > MeshRules::fullest_bin)
+    count = count_in_bins(grid, sites, t, ++bits);
   int suitable = bits; // the smallest that will do, coming from the largest
   for (; bits >= 0; --bits) {
     std::int64_t pairs = 0;
     for (const std::int64_t c : count)
       pairs += c * c;
-    if (static_cast<double>(pairs) > MeshRules::most_in_bin * static_cast<double>(n))
+    if (static_cast<double>(pairs) > MeshRules::most_in_bin * static_cast<double>(n) ||
+        *std::max_element(count.begin(), count.end()) > MeshRules::fullest_bin)
       break;
     suitable = bits;
     if (bits > 0) { // four bins become one
@@ -144,7 +156,7 @@ LocalIndex SiteOrder::sort_tile(const Sites& sites, const TileGrid& grid, LocalI
   work.bin.resize(at(end - begin));
   work.sorted.resize(at(end - begin));
   for (LocalIndex k = begin; k < end; ++k) {
-    const int bin = grid.bin_at(sites.position(order_[at(k)]), bins.bits);
+    const int bin = grid.bin_at(sites.position(order_[at(k)]), first_tile_ + t, bins.bits);
     work.bin[at(k - begin)] = bin;
     ++bin_end[bin];
   }

@@ -57,6 +57,8 @@ private:
     std::vector<int> bin;
     std::vector<LocalIndex> sorted;
   };
+  std::vector<std::int64_t> count_in_bins(const TileGrid& grid, std::span<const Site> sites, std::size_t t,
+                                          int bits) const;
   int suitable_bin_bits(const TileGrid& grid, std::span<const Site> sites, std::size_t t) const;
   template <class Sites>
   LocalIndex sort_tile(const Sites& sites, const TileGrid& grid, LocalIndex t, KnownBins::TileBins bins,

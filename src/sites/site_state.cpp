@@ -55,7 +55,7 @@ void SiteState::count_sites() const {
   Counters& counters = comm_.counters();
   counters.note(Counter::points, points_.owned());
   counters.note(Counter::densest_tile, densest);
-  counters.note(Counter::grid_bytes, static_cast<std::int64_t>(grid_.memory_bytes() + points_.grid_table_bytes()));
+  counters.note(Counter::grid_bytes, static_cast<std::int64_t>(grid_.memory_bytes()));
   counters.note(Counter::rank_bytes, static_cast<std::int64_t>(partition_.memory_bytes()));
 }
 
@@ -67,15 +67,21 @@ void SiteState::wrap(mesh::SiteList& sites) const {
       site.position = periods.wrap(site.position);
 }
 
+void SiteState::share_out(std::vector<mesh::Tile> tiles, std::span<const std::int64_t> weights) {
+  grid_.set_tiles(std::move(tiles));
+  partition_ = decomposition::Partition(weights, comm_.size());
+}
+
 void SiteState::distribute(mesh::SiteList sites) {
   wrap(sites);
-  const std::vector<std::int64_t> weights = decomposition::tile_weights(comm_, grid_, sites);
+  const std::vector<std::int64_t> weights = decomposition::fit_tiles(comm_, grid_, sites);
   partition_ = decomposition::Partition(weights, comm_.size());
   check_counts(weights, partition_);
   decomposition::migrate(comm_, grid_, partition_, sites);
   choose_bins(sites);
   points_.assign_owned(sites, partition_.first_tile(comm_.rank()), partition_.last_tile(comm_.rank()));
   release(sites);
+  ghosts_are_here_ = false;
   sizes_.forget();
   carried_.clear();
   stars_.reset(points_.owned());
@@ -88,10 +94,7 @@ void SiteState::distribute(mesh::SiteList sites) {
 void SiteState::choose_bins(std::span<const mesh::Site> sites) {
   const LocalIndex first = partition_.first_tile(comm_.rank()), last = partition_.last_tile(comm_.rank());
   const std::vector<std::uint8_t> own = points_.suitable_bin_bits(sites, first, last);
-  std::vector<std::int64_t> bits(static_cast<std::size_t>(grid_.tile_count()), 0);
-  std::copy(own.begin(), own.end(), bits.begin() + first);
-  comm_.sum(bits);
-  grid_.set_bin_bits({bits.begin(), bits.end()});
+  grid_.set_bin_bits(comm::from_bytes<std::uint8_t>(comm_.all_gather(std::as_bytes(std::span(own)))));
 }
 
 void SiteState::move_sites(std::vector<std::uint8_t> gone, mesh::SiteList more) {
@@ -104,6 +107,7 @@ void SiteState::move_sites(std::vector<std::uint8_t> gone, mesh::SiteList more) 
   std::vector<LocalIndex> new_index;
   points_.sort_moved(gone, more, new_index);
   new_index.resize(before);
+  ghosts_are_here_ = false;
   sizes_.forget();
   carry_sizes(new_index);
   stars_.renumber(new_index, points_.owned());
@@ -175,7 +179,9 @@ void SiteState::carry_sizes(std::span<const LocalIndex> new_index) {
 
 /// Fetches the ghosts and evaluates h where it is not known.
 void SiteState::refresh(const sizing::SizeField& size) {
-  halo_.refresh(points_);
+  if (!ghosts_are_here_)
+    halo_.refresh(points_);
+  ghosts_are_here_ = true;
   evaluate_agreed(size, points_.size());
 }
 
@@ -265,17 +271,8 @@ delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder
 
 void SiteState::fetch(std::span<const mesh::BinRef> missing, const sizing::SizeField& size) {
   comm_.counters().add(Counter::fetch_rounds);
-  halo_.subscribe(missing);
-  halo_.refresh(points_);
-  if (!size.is_uniform()) { // h of a site that has moved may be older than its place: all must see that of its owner
-    std::vector<double>& values = sizes_.values();
-    values.resize(static_cast<std::size_t>(points_.owned()));
-    const std::vector<double> ghosts = halo_.exchange(points_, std::span<const double>(values));
-    values.insert(values.end(), ghosts.begin(), ghosts.end());
-  }
-  stars_.renumber_ghosts(points_.owned(), halo_.ghost_renumbering());
-  if (points_.drifts().largest() > 0)
-    halo_.refresh_drifts(points_);
+  // h of a site that has moved may be older than its place: all must see that of its owner.
+  halo_.extend(points_, {missing.begin(), missing.end()}, size.is_uniform() ? nullptr : &sizes_.values());
 }
 
 void SiteState::release_work_space() {

@@ -33,7 +33,10 @@ public:
   /// Collective.
   explicit SiteState(const SiteState& other);
 
-  /// First sites, from any ranks: partitions the tiles by their counts. Collective.
+  /// @brief Other tiles, and who is to fill them with sites: ranks get about equal weights. Before there are sites. The
+  /// arguments are the same on all ranks.
+  void share_out(std::vector<mesh::Tile> tiles, std::span<const std::int64_t> weights);
+  /// First sites, from any ranks: fits the tiles to them and partitions these by their counts. Collective.
   /// @throws ConfigError on all ranks if one would own more sites than a local index can count
   void distribute(mesh::SiteList sites);
   /// @brief The owned sites go to BinnedPoints::next, but for those that are gone (by local index; empty:
@@ -49,7 +52,8 @@ public:
   /// The same for some stars: `wanted` by local index of the owned sites.
   delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size,
                                    std::span<const delaunay::StarWish> wanted);
-  /// @brief Fetches the ghosts and evaluates h at sites that moved; part of compute_stars. Collective.
+  /// @brief Fetches the ghosts after a change of sites and evaluates h at sites that moved; part of compute_stars.
+  /// Collective.
   void refresh(const sizing::SizeField& size);
   /// h is evaluated anew at the next move, also of sites that stay: theirs may be older than their place.
   void forget_sizes() { sizes_.forget(); }
@@ -59,7 +63,7 @@ public:
   /// @param new_sizes evaluates h at the new places; else sites keep theirs
   void begin_advance(const sizing::SizeField& size, double drift, bool new_sizes);
   void finish_advance(const sizing::SizeField& size);
-  /// Adds bins to those that this rank knows; local indices of ghosts may change. Collective.
+  /// Adds bins to those that this rank knows; their ghosts come behind the others. Collective.
   void fetch(std::span<const mesh::BinRef> missing, const sizing::SizeField& size);
 
   const mesh::TileGrid& grid() const { return grid_; }
@@ -95,6 +99,7 @@ private:
   mesh::LocalSizes sizes_;
   std::vector<delaunay::StarWish> wanted_;
   bool ghosts_need_sizes_ = false;
+  bool ghosts_are_here_ = false; // since sites were sorted: rings name them by their local indices
   std::vector<double> carried_; // h of owned sites from before a move, 0 where they moved
 };
 

@@ -7,6 +7,7 @@
 #include "start/density_integral.hpp"
 #include "start/density_sampler.hpp"
 #include "start/rules.hpp"
+#include "start/work_share.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -104,7 +105,7 @@ CountEstimate::CountEstimate(const LayoutContext& context, double points, double
     reference_ = lay_reference(context, std::move(polygon), points, coarsening);
 }
 
-std::optional<double> CountEstimate::points(double factor) const {
+std::optional<double> CountEstimate::points(double factor) {
   if (!reference_.guard)
     return std::nullopt;
   const sizing::ScaledSize size = scaled(factor);
@@ -115,7 +116,8 @@ std::optional<double> CountEstimate::points(double factor) const {
   const double placed = *on_boundary + static_cast<double>(context_.fixed.inside().size());
   if (*on_boundary > FitRules::far_too_many * points_)
     return placed;
-  const mesh::TileRange tiles = even_share(reference_, context_.comm);
+  share_by_density(reference_, size, context_.lattice, coarsening_);
+  const mesh::TileRange tiles = own_share(reference_);
   return placed + integrate_density(context_.comm, tiles,
                                     DensitySampler(tiles.grid, *reference_.guard, size, context_.lattice, coarsening_))
                       .sites;

@@ -21,7 +21,7 @@ public:
   /// Nothing if the size at some place of the boundary is no size (the layout tells where), or if the shape is smaller
   /// than the spacing. Collective.
   /// @throws GeometryError as integrate_density
-  std::optional<double> points(double factor) const;
+  std::optional<double> points(double factor);
 
   /// @brief By how much the factor should rather be larger, a guess: where a good part of the boundary sites are
   /// corners, the size is lowered around many of them. Collective.

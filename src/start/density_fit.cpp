@@ -43,8 +43,8 @@ private:
   /// points, so no round costs more than the last.
   double estimated_factor(double uniform, double factor) {
     const auto time = context_.timers.scope("start");
-    const CountEstimate estimate(context_, points_, FitRules::reference_spacing * uniform,
-                                 std::fmax(rough_, FitRules::reference_coarsening));
+    CountEstimate estimate(context_, points_, FitRules::reference_spacing * uniform,
+                           std::fmax(rough_, FitRules::reference_coarsening));
     search_.expect(FitRules::uncrowded_power);
     for (int round = 0; round < FitRules::estimate_rounds; ++round) {
       const std::optional<double> points = estimate.points(factor);

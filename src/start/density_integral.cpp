@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "start/density_integral.hpp"
 
+#include "start/work_share.hpp"
+
 #include "trime/core/sum.hpp"
 
 #include <array>
@@ -39,7 +41,7 @@ DensityTotals integrate_density(const comm::Communicator& comm, const mesh::Tile
 
 DensityTotals wanted_inside(const LayoutContext& context, const Stage& stage, double coarsening) {
   const auto time = context.timers.scope("start");
-  const mesh::TileRange tiles = even_share(stage, context.comm);
+  const mesh::TileRange tiles = own_share(stage);
   return integrate_density(context.comm, tiles,
                            DensitySampler(tiles.grid, *stage.guard, *stage.size, context.lattice, coarsening));
 }

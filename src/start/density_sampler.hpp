@@ -23,7 +23,8 @@ namespace trime::start {
 
 /// @brief Divides a tile into cells in Hilbert order: into quarters while a cell wants more than a quarter of a site,
 /// or a sixteenth where the boundary is near; cells clear of the shape are left out whole. For a mere integral the
-/// cells may be larger, `coarsening` times as wide. Immutable, thread-safe.
+/// cells may be larger, `coarsening` times as wide. Cells are squares of the grid's quadtree, the same in whichever
+/// tiles they lie, as long as no tile is smaller than a cell. Immutable, thread-safe.
 class DensitySampler {
 public:
   static constexpr double weight_unit = 0x1p20; ///< integer weight of one site
@@ -34,36 +35,36 @@ public:
         most_inside_(StartRules::sites_in_cell * coarsening * coarsening),
         most_near_(StartRules::sites_in_cell_near * coarsening * coarsening) {}
 
-  /// A leaf with a weight; `key` and `level` name it within its tile.
+  /// A leaf with a weight.
   struct Cell {
     geometry::Box box;
-    std::uint64_t key;
+    std::uint64_t key; ///< with the level it names the cell
     int level;
     double size;         ///< h in its middle
     std::int64_t weight; ///< sites that belong into it, in units of 2^-20
   };
-  /// Tiles are looked into by parts, 4^part_levels() of each: there may be fewer tiles than threads.
-  int parts_per_tile() const { return 1 << (2 * part_levels()); }
+  /// Tiles are looked into by parts: there may be fewer tiles than threads.
+  static constexpr int parts_per_tile() { return 1 << (2 * part_levels); }
   /// Calls visit(cell) for all cells of a part of the tile with a weight, in Hilbert order; so are the parts.
   /// @throws GeometryError on this rank alone: at a place in the shape the size is not positive and finite, or so small
   /// that the part would get more than 2^27 cells
   template <class Visit>
   void for_each_cell(LocalIndex tile, int part, const Visit& visit) const {
-    geometry::Box box = grid_.tile_box(tile);
-    std::uint64_t key = 0;
-    for (int level = 0; level < part_levels(); ++level) {
-      const std::uint64_t quarter = static_cast<std::uint64_t>(part) >> (2 * (part_levels() - level - 1)) & 3;
-      box = quarter_of(box, key, level, quarter);
-      key = 4 * key + quarter;
-    }
+    CurveSquare square = grid_.tile(tile).on_curve();
+    for (int level = part_levels - 1; level >= 0; --level)
+      square = square.quarter(static_cast<unsigned>(part) >> (2 * level) & 3U);
     Work work;
-    divide({box, key, part_levels(), false, {}}, visit, work);
+    divide({square, grid_.box_of(square), false, {}}, visit, work);
   }
 
 private:
-  /// Every bin is looked into, wherever its tile's middle lies: sizes may jump.
-  int least_levels() const { return grid_.typical_bin_bits() + 1; }
-  int part_levels() const { return std::min(2, least_levels()); }
+  static constexpr int part_levels = 1; // so many below a tile
+  /// Every bin of the typical density is looked into, wherever its tile's middle lies: sizes may jump. No cell lies
+  /// half in the container.
+  int least_level() const {
+    return std::max({grid_.unit_level(), grid_.typical_level() + grid_.typical_bin_bits() + 1,
+                     grid_.typical_level() + part_levels});
+  }
 
   /// The chords near a part, as a range of Work::chords: all that are nearer to it than `reach`; none are known if that
   /// is negative.
@@ -72,9 +73,8 @@ private:
     double reach = -1;
   };
   struct Part {
+    CurveSquare square;
     geometry::Box box;
-    std::uint64_t key;
-    int level;
     bool clear;      ///< a larger part around it is clear of the boundary and its StartRules::density_strip, and inside
     NearChords near; ///< of the part that it is a quarter of
   };
@@ -154,34 +154,27 @@ private:
     }
     const double sites = valid ? box.width() * box.height() / (row_height * h * h) : 0;
     if (++work.cells > StartRules::most_density_cells ||
-        (part.level == StartRules::deepest_cell && sites > StartRules::most_in_deepest))
+        (part.square.level == StartRules::deepest_cell && sites > StartRules::most_in_deepest))
       fail_for_small_size(p, h);
-    if (part.level < StartRules::deepest_cell &&
-        (part.level < least_levels() || sites > (clear ? most_inside_ : most_near_))) {
-      for (std::uint64_t quarter = 0; quarter < 4; ++quarter)
-        divide(
-            {quarter_of(box, part.key, part.level, quarter), 4 * part.key + quarter, part.level + 1, clear, part.near},
-            visit, work);
+    if (part.square.level < StartRules::deepest_cell &&
+        (part.square.level < least_level() || sites > (clear ? most_inside_ : most_near_))) {
+      for (unsigned k = 0; k < 4; ++k) {
+        const CurveSquare quarter = part.square.quarter(k);
+        divide({quarter, grid_.box_of(quarter), clear, part.near}, visit, work);
+      }
       return work.chords.resize(chords_before);
     }
     work.chords.resize(chords_before);
     if (!clear && (to_boundary < free || !inside))
       return;
     if (grid_.container().contains(p))
-      visit(Cell{box, part.key, part.level, h, std::llround(weight_unit * sites)});
+      visit(Cell{box, part.square.key, part.square.level, h, std::llround(weight_unit * sites)});
   }
 
   [[noreturn]] static void fail_for_small_size(geometry::Vec2 p, double h) {
     throw GeometryError(fmt::format("the size near ({}, {}) is {}: so small a size asks for far more points than there "
                                     "can be; give the size field a larger least value, or set min_size",
                                     p.x, p.y, h));
-  }
-
-  static geometry::Box quarter_of(const geometry::Box& box, std::uint64_t key, int level, std::uint64_t quarter) {
-    const GridPosition at = hilbert_position(4 * key + quarter, level + 1);
-    const geometry::Vec2 middle = 0.5 * (box.min + box.max);
-    return {{at.x & 1 ? middle.x : box.min.x, at.y & 1 ? middle.y : box.min.y},
-            {at.x & 1 ? box.max.x : middle.x, at.y & 1 ? box.max.y : middle.y}};
   }
 
   const mesh::TileGrid& grid_;

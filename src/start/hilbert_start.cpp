@@ -61,10 +61,9 @@ public:
     const std::int64_t first_site = sites_before(first_);
     mesh::SiteList all(static_cast<std::size_t>(sites_before(first_ + before_.back()) - first_site));
     agreed_loop(comm_, std::ssize(before_) - 1, [&](std::ptrdiff_t part) {
-      const LocalIndex tile = parts_.tile(part);
       std::int64_t running = first_ + before_[static_cast<std::size_t>(part)], j = sites_before(running);
       const auto visit = [&](const DensitySampler::Cell& cell) {
-        const std::uint64_t stream = mix_bits(static_cast<std::uint64_t>(tile) * 64 + cell.level) + cell.key;
+        const std::uint64_t stream = mix_bits(static_cast<std::uint64_t>(cell.level)) + cell.key;
         running += cell.weight;
         for (std::uint64_t slot = 0; j < n && (Int128{2} * j + 1) * total_ < Int128{2} * running * n; ++j, slot += 2) {
           const Vec2 p{

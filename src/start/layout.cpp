@@ -6,6 +6,7 @@
 #include "comm/agree.hpp"
 #include "core/angle.hpp"
 #include "start/rules.hpp"
+#include "start/work_share.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +59,7 @@ std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Bounda
   return std::make_unique<SiteState>(context.comm, box,
                                      mesh::GridOptions{cells(options.cells_x, box.width() / container.width()),
                                                        cells(options.cells_y, box.height() / container.height()), h,
-                                                       !context.relative_size.is_uniform(), periods});
+                                                       periods});
 }
 
 /// The sizes of a stage from what `fitted` says and its coarsening.
@@ -212,6 +213,7 @@ Stage lay_again(const LayoutContext& context, Stage stage, double expected) {
   if (!stage.asked_size->is_uniform())
     stage.typical_size = typical_size(context, expected);
   stage.state = make_state(context, stage.polygon, stage.typical_size);
+  share_by_density(stage, *stage.size, context.lattice, 1);
   return stage;
 }
 
@@ -264,6 +266,7 @@ void complete(const LayoutContext& context, Stage& trial, double grid_coarsening
     context.fixed.check_inside(*trial.guard);
   });
   trial.state = make_state(context, trial.polygon, grid_coarsening * trial.typical_size);
+  share_by_density(trial, *trial.size, context.lattice, grid_coarsening);
 }
 
 void rescale(const LayoutContext& context, FittedStage& laid, double scale) {
@@ -274,14 +277,8 @@ void rescale(const LayoutContext& context, FittedStage& laid, double scale) {
   set_sizes(context, laid.fitted, laid.stage);
 }
 
-mesh::TileRange even_share(const Stage& stage, const comm::Communicator& comm) {
-  const mesh::TileGrid& grid = stage.state->grid();
-  const decomposition::Partition even(grid.tile_count(), comm.size());
-  return {grid, even.first_tile(comm.rank()), even.last_tile(comm.rank())};
-}
-
 void place_sites(const LayoutContext& context, Stage& stage, mesh::SiteList inner) {
-  const mesh::TileRange tiles = even_share(stage, context.comm);
+  const mesh::TileRange tiles = own_share(stage);
   if (context.given_boundary.periods.any())
     for (mesh::Site& site : inner)
       site.position = context.given_boundary.periods.wrap(site.position);

@@ -5,7 +5,6 @@
 #include "boundary/boundary_sizes.hpp"
 #include "boundary/fixed_points.hpp"
 #include "generalise/generalise.hpp"
-#include "mesh/tile_range.hpp"
 #include "sites/stage.hpp"
 #include "sizing/lowered_size.hpp"
 #include "start/start_options.hpp"
@@ -104,9 +103,6 @@ void complete(const LayoutContext& context, sites::Stage& trial, double grid_coa
 
 /// @brief Another size of the same stage, so little larger or smaller that its sites may stay. Local.
 void rescale(const LayoutContext& context, FittedStage& laid, double scale);
-
-/// The tiles that this rank fills with sites: an even share, before anything is known of their number.
-mesh::TileRange even_share(const sites::Stage& stage, const comm::Communicator& comm);
 
 /// Adds the boundary sites and the fixed ones to the inner ones, which may lie on any rank, takes out those too near to
 /// a fixed one, and distributes all. Collective.

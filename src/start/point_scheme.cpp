@@ -5,6 +5,7 @@
 #include "start/refinement.hpp"
 #include "start/rules.hpp"
 #include "start/size_fit.hpp"
+#include "start/work_share.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -112,8 +113,7 @@ Stage PointScheme::first_of_lattice() {
   const auto time = context_->timers.scope("start");
   place_sites(*context_, fit.stage,
               LatticeStart(context_->given_boundary, *fit.stage.guard, context_->lattice)
-                  .sites(even_share(fit.stage, context_->comm), fit.spacing,
-                         static_cast<std::size_t>(fit.stage.placed_first())));
+                  .sites(own_share(fit.stage), fit.spacing, static_cast<std::size_t>(fit.stage.placed_first())));
   return std::move(fit.stage);
 }
 
@@ -190,8 +190,8 @@ Stage PointScheme::lay_division(Stage& last, double expected) {
 std::unique_ptr<const HilbertStart> PointScheme::along_curve(const Stage& stage, double expected,
                                                              double coarsening) const {
   const auto time = context_->timers.scope("start");
-  return std::make_unique<const HilbertStart>(context_->comm, even_share(stage, context_->comm), *stage.guard,
-                                              *stage.size, context_->lattice, expected, coarsening);
+  return std::make_unique<const HilbertStart>(context_->comm, own_share(stage), *stage.guard, *stage.size,
+                                              context_->lattice, expected, coarsening);
 }
 
 void PointScheme::place_along_curve(Stage& stage, double inner, const HilbertStart& start) const {

@@ -81,9 +81,9 @@ struct StartRules {
   static constexpr double sites_in_cell = 0.25;
   /// [sites] The same near the boundary, where a cell may lie half in the strip.
   static constexpr double sites_in_cell_near = 0.0625;
-  /// [levels] Cells of the density are divided so often within a tile at most: a bound for sizes that are far too
-  /// small.
-  static constexpr int deepest_cell = 24;
+  /// [levels] Cells of the density are divided down to this one at most: a bound for sizes that are far too small. Not
+  /// measured.
+  static constexpr int deepest_cell = 32;
   /// [sites] If a cell of the deepest level wants more, the size is far too small, and an error says so.
   static constexpr double most_in_deepest = 64;
   /// [cells] If a part of a tile takes more cells of the density, the size is far too small, and an error says so.

@@ -7,6 +7,7 @@
 #include "start/few_points.hpp"
 #include "start/rules.hpp"
 #include "start/start.hpp"
+#include "start/work_share.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -44,7 +45,7 @@ double fitting_spacing(const LayoutContext& context, const Stage& stage) {
   const auto time = context.timers.scope("start");
   const double h = stage.size->size({});
   const LatticeStart start(context.given_boundary, *stage.guard, context.lattice);
-  const mesh::TileRange tiles = even_share(stage, context.comm);
+  const mesh::TileRange tiles = own_share(stage);
   const GlobalId wanted = *context.options.points - stage.placed_first();
   const geometry::Box& container = context.options.container;
   const double none = 4 * (container.width() + container.height()); // no site fits at all

@@ -56,8 +56,8 @@ struct SweepRules {
   static constexpr int sweeps_of_a_sort = 8;
   /// [h] Sites are sorted again when one may have come so far since: searches become long.
   static constexpr double drift_in_sizes = 4;
-  /// [tile sides] Sites are sorted again when one may have come so far since: what lies around a tile is found in the
-  /// tiles beside it.
+  /// [sides of the narrowest tile around] Sites are sorted again when one may have come so far since: what lies around
+  /// a tile is found in the tiles beside it.
   static constexpr double drift_in_tiles = 0.25;
   /// [1] All tiles wake when a scale of the rule (of the lengths of bars) has changed by this share.
   static constexpr double scale_change = 1e-3;

@@ -15,8 +15,8 @@ using geometry::Vec2;
 void SiteClasses::reset() {
   const mesh::BinnedPoints& points = state_.points();
   classes_.resize(at(points.owned()));
-  places_ = places_of_tiles(points);
-  thread_loop(static_cast<std::ptrdiff_t>(places_.size()), 4, [&](std::ptrdiff_t t, int) {
+  around_ = TilesAround(points);
+  thread_loop(static_cast<std::ptrdiff_t>(around_.size()), 4, [&](std::ptrdiff_t t, int) {
     const LocalIndex tile = points.first_tile() + static_cast<LocalIndex>(t);
     const auto [begin, end] = points.tile_range(tile);
     for (LocalIndex i = begin; i < end; ++i)
@@ -67,7 +67,7 @@ SiteClass SiteClasses::class_of(LocalIndex i, LocalIndex tile) const {
 bool SiteClasses::may_be_bordered(LocalIndex i, LocalIndex tile) const {
   const mesh::BinnedPoints& points = state_.points();
   if (reach_ != LemmaReach::up_to_chords || state_.grid().periods().any() ||
-      places_[at(tile - points.first_tile())] != TilePlace::inner)
+      around_.place(at(tile - points.first_tile())) != TilePlace::inner)
     return false;
   const std::span<const LocalIndex> ring = state_.stars().ring(i);
   for (std::size_t k = 0; k < ring.size(); ++k) {
@@ -87,15 +87,15 @@ bool SiteClasses::is_chord_within_reach(LocalIndex from, LocalIndex to, LocalInd
   if (chord.a != a || chord.b != b)
     return false;
   const geometry::Box box = state_.grid().tile_box(tile);
-  const double margin = SweepRules::drift_in_tiles * std::min(box.width(), box.height()),
-               radius = 0.5 * geometry::length(b - a);
-  const double x = box.width() - margin - radius, y = box.height() - margin - radius;
-  return middle.x > box.min.x - x && middle.x < box.max.x + x && middle.y > box.min.y - y && middle.y < box.max.y + y;
+  const double reach = (1 - SweepRules::drift_in_tiles) * around_.narrowest(at(tile - points.first_tile())) -
+                       0.5 * geometry::length(b - a);
+  return middle.x > box.min.x - reach && middle.x < box.max.x + reach && middle.y > box.min.y - reach &&
+         middle.y < box.max.y + reach;
 }
 
 void SiteClasses::find_encroached_tiles() {
   const mesh::BinnedPoints& points = state_.points();
-  encroached_.assign(places_.size(), 0);
+  encroached_.assign(around_.size(), 0);
   if (reach_ != LemmaReach::up_to_chords)
     return;
   thread_loop(static_cast<std::ptrdiff_t>(encroached_.size()), 4, [&](std::ptrdiff_t t, int) {
@@ -109,12 +109,12 @@ void SiteClasses::find_encroached_tiles() {
 /// Sites beside chords may be certified where no owned site near the tile is in the disc of a chord, nor any other
 /// site: that is known of inner tiles only.
 SiteClass SiteClasses::least_certified(LocalIndex tile) const {
-  const LocalIndex first_tile = state_.points().first_tile();
-  if (places_[at(tile - first_tile)] != TilePlace::inner)
+  const std::size_t t = at(tile - state_.points().first_tile());
+  if (around_.place(t) != TilePlace::inner)
     return SiteClass::local;
-  bool trusts = true;
-  for_tiles_around(state_.grid(), tile,
-                   [&](LocalIndex other) { trusts = trusts && !encroached_[at(other - first_tile)]; });
+  const std::span<const LocalIndex> tiles = around_.of(t);
+  const bool trusts =
+      std::none_of(tiles.begin(), tiles.end(), [&](LocalIndex other) { return encroached_[at(other)]; });
   return trusts ? SiteClass::bordered : SiteClass::local;
 }
 

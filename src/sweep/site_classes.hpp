@@ -31,8 +31,8 @@ public:
   /// The star of site i may have changed: finds its class anew. Different sites may be classified concurrently.
   SiteClass update(LocalIndex i, LocalIndex tile);
 
-  /// Of the owned tiles, in order.
-  std::span<const TilePlace> places() const { return places_; }
+  /// What lies around the owned tiles.
+  const TilesAround& around() const { return around_; }
   /// The lowest class for which the lemma does in a tile of the container.
   SiteClass least_certified(LocalIndex tile) const;
   /// Some site of owned tile t may be in the disc of a chord, or none is.
@@ -48,8 +48,8 @@ private:
   const sites::SiteState& state_;
   const MoveContext context_;
   const LemmaReach reach_;
-  std::vector<SiteClass> classes_;       // by owned site
-  std::vector<TilePlace> places_;        // by owned tile
+  std::vector<SiteClass> classes_; // by owned site
+  TilesAround around_;
   std::vector<std::uint8_t> encroached_; // by owned tile: some site of it may be in the disc of a chord
 };
 

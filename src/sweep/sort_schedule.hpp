@@ -12,14 +12,16 @@ namespace trime::sweep {
 class SortSchedule {
 public:
   /// @param distance, ratio bounds on the move of any site, and on its move over h
-  void add_move(double distance, double ratio) {
+  /// @param drift_in_tiles how far any site has come with it, over the narrowest tile around its own
+  void add_move(double distance, double ratio, double drift_in_tiles) {
     drift_ += distance * SweepRules::drift_rounding;
     drift_in_sizes_ += ratio;
+    drift_in_tiles_ = drift_in_tiles;
     ++moves_since_sort_;
   }
-  /// Have sites come too far for their bins? @param tile_side the shorter one
-  bool is_sort_due(double tile_side) const {
-    return drift_in_sizes_ > SweepRules::drift_in_sizes || drift_ > SweepRules::drift_in_tiles * tile_side;
+  /// Have sites come too far for their bins?
+  bool is_sort_due() const {
+    return drift_in_sizes_ > SweepRules::drift_in_sizes || drift_in_tiles_ > SweepRules::drift_in_tiles;
   }
   /// Have sites that are to be deleted waited long enough?
   bool may_sort_to_delete() const { return moves_since_sort_ >= SweepRules::sweeps_of_a_sort; }
@@ -36,7 +38,7 @@ public:
   void reset() { *this = {}; }
 
 private:
-  double drift_ = 0, drift_in_sizes_ = 0;
+  double drift_ = 0, drift_in_sizes_ = 0, drift_in_tiles_ = 0;
   int age_of_sizes_ = 0, moves_since_sort_ = 0; // in sweeps
 };
 

@@ -30,14 +30,14 @@ struct Sweeper::TileLeftovers {
 Sweeper::Sweeper(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context, LemmaReach reach)
     : state_(state), builder_(builder), context_(context), certifier_(state, builder, context, reach),
       activity_(state, builder), outcomes_(state, certifier_.classes()) {
-  activity_.reset();
+  activity_.reset(certifier_.classes().around());
   outcomes_.reset();
 }
 
 /// Begins anew after sites were sorted.
 void Sweeper::reset() {
   certifier_.reset();
-  activity_.reset();
+  activity_.reset(certifier_.classes().around());
   outcomes_.reset();
   measures_.reset();
   schedule_.reset();
@@ -93,12 +93,12 @@ void Sweeper::sweep_tile(const SweepTask& task, std::size_t t, TileLeftovers& mi
 void Sweeper::run_kernel(const UpdateRule& rule, TilePlace which) {
   SweepTask task = make_sweep_task(state_, builder_, context_, certifier_.classes());
   task.rule = rule.parameters();
-  const std::span<const TilePlace> places = certifier_.classes().places();
-  activity_.wake(task.rule, which, places);
+  const TilesAround& around = certifier_.classes().around();
+  activity_.wake(task.rule, which, around);
   PerThread<TileLeftovers> of_thread;
-  thread_loop(static_cast<std::ptrdiff_t>(places.size()), 1, [&](std::ptrdiff_t item, int thread) {
+  thread_loop(static_cast<std::ptrdiff_t>(around.size()), 1, [&](std::ptrdiff_t item, int thread) {
     const std::size_t t = static_cast<std::size_t>(item);
-    if (places[t] != which)
+    if (around.place(t) != which)
       return;
     if (activity_.is_awake(t))
       sweep_tile(task, t, of_thread[thread]);
@@ -174,7 +174,9 @@ std::int64_t Sweeper::sum_over_ranks() {
   moving_ = mine.moving;
   std::array<std::int64_t, 7> sums{certifier_.uncertain(), certifier_.rebuilt(),    mine.moving,     mine.pushed,
                                    mine.deleted,           mine.power & 0xffffffff, mine.power >> 32};
-  std::array<double, 2> largest{mine.squared_ratio, mine.squared_distance};
+  std::array<double, 3> largest{
+      mine.squared_ratio, mine.squared_distance,
+      TileActivity::largest_drift(state_.points(), certifier_.classes().around(), outcomes_.tallies())};
   state_.comm().sum_and_max(sums, largest);
   counts_ = {};
   counts_.rebuilt = sums[1];
@@ -184,6 +186,7 @@ std::int64_t Sweeper::sum_over_ranks() {
   counts_.power = FixedSum::join({sums[5], sums[6]});
   counts_.max_move = std::sqrt(largest[0]);
   largest_distance_ = std::sqrt(largest[1]);
+  drift_in_tiles_ = largest[2];
   return sums[0];
 }
 
@@ -221,16 +224,15 @@ void Sweeper::note_pushes() {
 }
 
 bool Sweeper::must_sort() const {
-  const geometry::Box tile = state_.grid().tile_box(0);
   return (counts_.deleted > 0 && schedule_.may_sort_to_delete()) || state_.grid().periods().any() ||
-         schedule_.is_sort_due(std::min(tile.width(), tile.height()));
+         schedule_.is_sort_due();
 }
 
 Sweeper::Counts Sweeper::commit() {
   TRIME_ASSERT(prepared_);
   prepared_ = false;
   state_.comm().counters().add(Counter::sites_moved, moving_);
-  schedule_.add_move(largest_distance_, counts_.max_move);
+  schedule_.add_move(largest_distance_, counts_.max_move, drift_in_tiles_);
   ++moves_;
   if (must_sort()) {
     std::vector<std::uint8_t> deleted = outcomes_.deletions(moves_);

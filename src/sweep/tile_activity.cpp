@@ -8,11 +8,18 @@
 
 namespace trime::sweep {
 
-void TileActivity::reset() {
+namespace {
+
+double drift_after(const mesh::BinnedPoints& points, std::size_t t, const SweepTally& tally) {
+  return points.drifts().of(static_cast<LocalIndex>(t)) +
+         std::sqrt(tally.squared_distance) * SweepRules::drift_rounding;
+}
+
+} // namespace
+
+void TileActivity::reset(const TilesAround& around) {
   const mesh::BinnedPoints& points = state_.points();
   const LocalIndex first_tile = points.first_tile(), tiles = points.last_tile() - first_tile;
-  const geometry::Box box = state_.grid().tile_box(0);
-  const double side = std::min(box.width(), box.height());
   const double largest_cap = std::min(builder_.cap(), delaunay::StarBuilder::largest_cap(state_.grid().periods()));
   wide_.assign(static_cast<std::size_t>(tiles), 0);
   thread_loop(tiles, 4, [&](std::ptrdiff_t t, int) { // edges are shorter than two caps, sites drift by a part of a tile
@@ -21,15 +28,16 @@ void TileActivity::reset() {
     for (LocalIndex i = begin; i < end; ++i)
       largest = std::max(largest, state_.sizes()[i]);
     wide_[static_cast<std::size_t>(t)] =
-        2 * std::min(largest_cap, builder_.cap(largest)) > (1 - 2 * SweepRules::drift_in_tiles) * side;
+        2 * std::min(largest_cap, builder_.cap(largest)) >
+        (1 - 2 * SweepRules::drift_in_tiles) * around.narrowest(static_cast<std::size_t>(t));
   });
   copied_.assign(static_cast<std::size_t>(tiles), 0);
   awake_.assign(static_cast<std::size_t>(tiles), 1);
-  active_.assign(static_cast<std::size_t>(state_.grid().tile_count()), 1);
+  active_.assign(static_cast<std::size_t>(points.known_tiles()), 1);
   all_awake_ = true;
 }
 
-void TileActivity::wake(const RuleParameters& rule, TilePlace which, std::span<const TilePlace> places) {
+void TileActivity::wake(const RuleParameters& rule, TilePlace which, const TilesAround& around) {
   const auto changed = [](double a, double b) { return std::fabs(a - b) > SweepRules::scale_change * b; };
   if (which == TilePlace::inner) {
     all_awake_ = all_awake_ || rule.mover != waking_rule_.mover ||
@@ -39,29 +47,36 @@ void TileActivity::wake(const RuleParameters& rule, TilePlace which, std::span<c
       waking_rule_ = rule;
   }
   for (std::size_t t = 0; t < awake_.size(); ++t) {
-    if (places[t] != which)
+    if (around.place(t) != which)
       continue;
-    bool awake = all_awake_ || wide_[t];
-    for_tiles_around(state_.grid(), state_.points().first_tile() + static_cast<LocalIndex>(t),
-                     [&](LocalIndex other) { awake = awake || active_[static_cast<std::size_t>(other)]; });
-    awake_[t] = awake;
+    const std::span<const LocalIndex> tiles = around.of(t);
+    awake_[t] = all_awake_ || wide_[t] ||
+                std::any_of(tiles.begin(), tiles.end(), [&](LocalIndex tile) { return active_[at(tile)]; });
   }
+}
+
+double TileActivity::largest_drift(const mesh::BinnedPoints& points, const TilesAround& around,
+                                   std::span<const SweepTally> tallies) {
+  double largest = 0;
+  for (std::size_t t = 0; t < tallies.size(); ++t)
+    largest = std::max(largest, drift_after(points, t, tallies[t]) / around.narrowest(t));
+  return largest;
 }
 
 void TileActivity::begin_move(mesh::BinnedPoints& points, std::span<const SweepTally> tallies) {
-  drifts_before_ = points.drifts().of_tiles();
-  for (LocalIndex tile = points.first_tile(); tile < points.last_tile(); ++tile) {
-    const double squared = tallies[static_cast<std::size_t>(tile - points.first_tile())].squared_distance;
-    points.drifts().set(tile, points.drifts().of(tile) + std::sqrt(squared) * SweepRules::drift_rounding);
-    active_[static_cast<std::size_t>(tile)] = squared > 0;
+  for (std::size_t t = 0; t < tallies.size(); ++t) {
+    points.drifts().set(static_cast<LocalIndex>(t), drift_after(points, t, tallies[t]));
+    active_[t] = tallies[t].squared_distance > 0;
   }
+  const std::span<const double> foreign = points.drifts().of_tiles().subspan(tallies.size());
+  drifts_before_.assign(foreign.begin(), foreign.end());
 }
 
 void TileActivity::finish_move() {
-  const mesh::BinnedPoints& points = state_.points();
-  for (std::size_t k = 0; k < active_.size(); ++k)
-    if (const LocalIndex tile = static_cast<LocalIndex>(k); tile < points.first_tile() || tile >= points.last_tile())
-      active_[k] = points.drifts().of_tiles()[k] > drifts_before_[k];
+  const std::span<const double> foreign = state_.points().drifts().of_tiles().subspan(awake_.size());
+  active_.resize(awake_.size() + foreign.size());
+  for (std::size_t k = 0; k < foreign.size(); ++k)
+    active_[awake_.size() + k] = foreign[k] > drifts_before_[k];
 }
 
 } // namespace trime::sweep

@@ -13,8 +13,8 @@
 namespace trime::sweep {
 
 /// @brief A tile sleeps while no site of it and of the tiles around it has moved in the last sweep, and the rule stays
-/// as it is. Tiles are the same on any ranks, so that no result depends on which of them sleep. Owned tiles are counted
-/// from 0 here (`t`), tiles of the container as the grid does.
+/// as it is. Tiles are the same on any ranks, so that no result depends on which of them sleep. Tiles
+/// have the numbers of KnownBins here: owned ones (`t`) first, then those of which ghosts are known.
 class TileActivity {
 public:
   /// Both arguments outlive this object.
@@ -22,12 +22,11 @@ public:
       : state_(state), builder_(builder) {}
 
   /// All tiles wake; to be called after sites were sorted.
-  void reset();
+  void reset(const TilesAround& around);
   /// All tiles wake in the next sweep.
   void wake_all() { all_awake_ = true; }
   /// Decides which of the tiles that lie so take part in this sweep: first for the inner ones, then for the others.
-  /// @param places of the owned tiles
-  void wake(const RuleParameters& rule, TilePlace which, std::span<const TilePlace> places);
+  void wake(const RuleParameters& rule, TilePlace which, const TilesAround& around);
   /// All tiles have been asked: from now on they may fall asleep.
   void end_waking() { all_awake_ = false; }
   bool is_awake(std::size_t t) const { return awake_[t]; }
@@ -41,6 +40,9 @@ public:
   /// Sites of this tile have got next places of their own. May be called concurrently.
   void note_moves(std::size_t t) { std::atomic_ref(copied_[t]).store(0, std::memory_order_relaxed); }
 
+  /// How far sites will have come with their next move: the largest share of the narrowest() of their tile.
+  static double largest_drift(const mesh::BinnedPoints& points, const TilesAround& around,
+                              std::span<const SweepTally> tallies);
   /// Notes that the sites of the owned tiles are going as far as their tallies say.
   void begin_move(mesh::BinnedPoints& points, std::span<const SweepTally> tallies);
   /// Notes which tiles of other ranks had moves, once their drifts are here.
@@ -52,8 +54,8 @@ private:
   std::vector<std::uint8_t> awake_;   // by owned tile
   std::vector<std::uint8_t> copied_;  // by owned tile: its sites have the same places now and next
   std::vector<std::uint8_t> wide_;    // by owned tile: triangles may reach beyond the tiles around it
-  std::vector<std::uint8_t> active_;  // by tile of the container: sites were moved by the last sweep
-  std::vector<double> drifts_before_; // by tile of the container: before the last move
+  std::vector<std::uint8_t> active_;  // by known tile: sites were moved by the last sweep
+  std::vector<double> drifts_before_; // by tile with ghosts: before the last move
   RuleParameters waking_rule_;        // of the last sweep with all tiles awake
   bool all_awake_ = true;             // in the next sweep
 };

@@ -20,6 +20,10 @@ using mesh::SiteList;
 
 const geometry::Box square{{0, 0}, {1, 1}};
 
+double size_of(Vec2 p) {
+  return p.x + 7 * p.y;
+}
+
 /// Sites of the whole square, distributed; and all of them on this rank as the truth.
 struct Stage {
   explicit Stage(SiteList sites, double spacing = 0.03)
@@ -46,19 +50,24 @@ struct Stage {
 
   /// Each of them holds the sites of the truth, in the same order, and there are no other ghosts.
   void expect_true_ghosts() const {
-    LocalIndex next = points.owned();
+    std::vector<LocalIndex> begins;
+    LocalIndex ghosts = 0;
     for (const BinRef& bin : foreign_bins()) {
       const auto [begin, end] = points.bin_range(bin);
       const auto [first, last] = truth.bin_range(bin);
-      ASSERT_EQ(begin, next);
       ASSERT_EQ(end - begin, last - first);
+      ASSERT_GE(begin, points.owned());
       for (LocalIndex i = 0; i < end - begin; ++i) {
         EXPECT_EQ(points.position(begin + i), truth.position(first + i));
         EXPECT_EQ(points.boundary(begin + i), truth.boundary(first + i));
       }
-      next = end;
+      ghosts += end - begin;
+      if (end > begin)
+        begins.push_back(begin);
     }
-    EXPECT_EQ(next, points.size());
+    EXPECT_EQ(points.owned() + ghosts, points.size());
+    std::sort(begins.begin(), begins.end());
+    EXPECT_TRUE(std::adjacent_find(begins.begin(), begins.end()) == begins.end()) << "bins have sites of their own";
   }
 
   comm::Communicator comm = comm::Communicator::world();
@@ -92,20 +101,29 @@ TEST(Halo, SubscriptionsGrowAndOldGhostsKeepTheirIdentity) {
     std::vector<Vec2> old;
     for (LocalIndex i = stage.points.owned(); i < stage.points.size(); ++i)
       old.push_back(stage.points.position(i));
-    std::vector<BinRef> more; // every seventh foreign bin, on some ranks only; some are known already
+    const std::vector<BinRef> known = stage.foreign_bins();
+    std::vector<BinRef> more; // every seventh foreign bin that is not known, twice, on some ranks only
     if (comm::Communicator::world().rank() % 2 == round % 2)
       for (LocalIndex tile = 0; tile < stage.grid.tile_count(); ++tile)
         for (int bin = round; bin < stage.grid.bins_per_tile(tile); bin += 7)
-          if (stage.partition.owner(tile) != stage.comm.rank())
-            more.push_back({tile, bin});
-    stage.halo.subscribe(more);
-    stage.halo.refresh(stage.points);
+          if (stage.partition.owner(tile) != stage.comm.rank() &&
+              !std::binary_search(known.begin(), known.end(), BinRef{tile, bin}))
+            more.insert(more.end(), 2, {tile, bin});
+    std::vector<double> sizes;
+    for (LocalIndex i = 0; i < stage.points.size(); ++i)
+      sizes.push_back(size_of(stage.points.position(i)));
+    stage.halo.extend(stage.points, more, round == 0 ? nullptr : &sizes);
     stage.expect_true_ghosts();
-    const std::span<const LocalIndex> renumbering = stage.halo.ghost_renumbering();
-    ASSERT_EQ(renumbering.size(), old.size());
+    ASSERT_LE(static_cast<LocalIndex>(old.size()), stage.points.size() - stage.points.owned());
     for (std::size_t k = 0; k < old.size(); ++k)
-      EXPECT_EQ(stage.points.position(renumbering[k]), old[k]);
+      EXPECT_EQ(stage.points.position(stage.points.owned() + static_cast<LocalIndex>(k)), old[k]);
+    for (LocalIndex i = 0; i < stage.points.size() && round > 0; ++i)
+      EXPECT_EQ(sizes[static_cast<std::size_t>(i)], size_of(stage.points.position(i)));
   }
+  const std::vector<BinRef> before = stage.foreign_bins();
+  stage.halo.refresh(stage.points); // subscriptions stay
+  EXPECT_EQ(stage.foreign_bins(), before);
+  stage.expect_true_ghosts();
 }
 
 TEST(Halo, ExchangeBringsTheValuesOfTheOwners) {

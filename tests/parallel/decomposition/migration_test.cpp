@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sites travel to the owner of their tile; nobody is lost.
+#include "core/angle.hpp"
 #include "decomposition/migration.hpp"
 #include "support/distributed.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace trime::decomposition {
@@ -33,6 +35,34 @@ TEST(TileWeights, CountTheSitesOfAllRanks) {
   const std::vector<std::int64_t> weights = tile_weights(comm, grid, testing::dealt(comm, sites));
   EXPECT_EQ(std::accumulate(weights.begin(), weights.end(), std::int64_t{0}), 500);
   EXPECT_EQ(weights, tile_weights(comm::Communicator::self(), grid, sites));
+}
+
+/// Around the middle, one over the square of the distance: densities differ by a factor of 10^6.
+SiteList crowded_sites(std::size_t n) {
+  SiteList sites;
+  for (std::size_t k = 0; k < n; ++k) {
+    const geometry::Vec2 u = testing::random_vec2(3, k);
+    const double r = 4e-4 * std::exp(7 * u.x);
+    sites.push_back({{0.5 + r * std::cos(2 * pi * u.y), 0.5 + r * std::sin(2 * pi * u.y)}});
+  }
+  return sites;
+}
+
+TEST(FitTiles, RanksGetEqualSharesHoweverTheDensityVaries) {
+  const comm::Communicator comm = comm::Communicator::world();
+  constexpr std::size_t n = 300'000;
+  constexpr int ranks = 64;
+  const SiteList sites = crowded_sites(n);
+  mesh::TileGrid grid(square, {{}, {}, 0.002}), serial(square, {{}, {}, 0.01});
+  const std::vector<std::int64_t> weights = fit_tiles(comm, grid, testing::dealt(comm, sites));
+  EXPECT_EQ(weights, fit_tiles(comm::Communicator::self(), serial, sites)) << "neither ranks nor tiles at first matter";
+  EXPECT_EQ(grid.tile_count(), serial.tile_count());
+  const Partition partition(weights, ranks);
+  std::int64_t most = 0;
+  for (int rank = 0; rank < ranks; ++rank)
+    most = std::max(most, std::accumulate(weights.begin() + partition.first_tile(rank),
+                                          weights.begin() + partition.last_tile(rank), std::int64_t{0}));
+  EXPECT_LT(static_cast<double>(most), 1.1 * n / ranks);
 }
 
 TEST(Migration, EverySiteArrivesAtItsOwnerWithAllThatBelongsToIt) {

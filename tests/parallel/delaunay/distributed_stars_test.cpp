@@ -60,7 +60,7 @@ void shake(SiteState& state, double step, std::uint64_t round) {
 void expect_equal_stars(const SiteList& sites, double spacing, const StarBuilder& builder, double step,
                         const sizing::SizeField& size = sizing::UniformSize()) {
   const comm::Communicator world = comm::Communicator::world(), self = comm::Communicator::self();
-  const mesh::GridOptions options{{}, {}, spacing, !size.is_uniform()};
+  const mesh::GridOptions options{{}, {}, spacing};
   SiteState distributed(world, square, options), serial(self, square, options);
   distributed.distribute(testing::dealt(world, sites));
   serial.distribute(sites);
@@ -70,6 +70,8 @@ void expect_equal_stars(const SiteList& sites, double spacing, const StarBuilder
     for (LocalIndex i = 0; i < distributed.points().owned(); ++i)
       EXPECT_TRUE(distributed.stars().certain(i));
     EXPECT_EQ(rings(world, distributed), rings(self, serial)) << "round " << round;
+    EXPECT_EQ(distributed.compute_stars(builder, size, Wanted::all_sites).rebuilt, 0) << "ghosts keep their indices";
+    EXPECT_EQ(rings(world, distributed), rings(self, serial)) << "round " << round << ", asked again";
     shake(distributed, step, round);
     shake(serial, step, round);
   }
@@ -97,12 +99,12 @@ TEST(DistributedStars, EqualThoseOfOneRankWhereTheDensityVariesAThousandfold) {
   const StarBuilder builder(unit_lattice(), 2.5, 1.0);
   expect_equal_stars(testing::graded_sites(1500, 5), 0.03, builder, 0.002, GrowingSize());
   const comm::Communicator world = comm::Communicator::world();
-  SiteState state(world, square, {{}, {}, 0.03, true});
+  SiteState state(world, square, {{}, {}, 0.03});
   state.distribute(testing::dealt(world, testing::graded_sites(1500, 5)));
   int least = 99, most = 0;
   for (LocalIndex tile = 0; tile < state.grid().tile_count(); ++tile) {
-    least = std::min(least, state.grid().bin_bits(tile));
-    most = std::max(most, state.grid().bin_bits(tile));
+    least = std::min(least, state.grid().tile(tile).bin_shift());
+    most = std::max(most, state.grid().tile(tile).bin_shift());
   }
   EXPECT_GE(most - least, 3);
 }

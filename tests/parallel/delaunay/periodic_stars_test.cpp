@@ -59,7 +59,7 @@ struct Rings {
 
 std::unique_ptr<SiteState> state_of(const comm::Communicator& comm, const SiteList& sites, const Periods& periods,
                                     double spacing) {
-  auto state = std::make_unique<SiteState>(comm, square, mesh::GridOptions{{}, {}, spacing, false, periods});
+  auto state = std::make_unique<SiteState>(comm, square, mesh::GridOptions{{}, {}, spacing, periods});
   state->distribute(testing::dealt(comm, sites));
   state->compute_stars(StarBuilder(unit_lattice(), cap), sizing::UniformSize(), Wanted::all_sites);
   return state;

@@ -62,7 +62,7 @@ void reveal(SiteState& state, const std::vector<Disc>& discs, const sizing::Size
 
 void expect_revealed(const geometry::Periods& periods) {
   const comm::Communicator world = comm::Communicator::world(), self = comm::Communicator::self();
-  const mesh::GridOptions options{{}, {}, 0.03, false, periods};
+  const mesh::GridOptions options{{}, {}, 0.03, periods};
   const SiteList sites = testing::random_sites(1200, 3);
   SiteState distributed(world, square, options), serial(self, square, options);
   distributed.distribute(testing::dealt(world, sites));
@@ -106,7 +106,7 @@ TEST(SiteState, AFetchKeepsTheDriftThatTheOwnersKnow) {
   const auto drift_of = [](LocalIndex tile) { return tile % 3 == 0 ? 0 : 1e-4 * (1 + tile % 5); };
   prepare_to_stay(points);
   for (LocalIndex tile = points.first_tile(); tile < points.last_tile(); ++tile)
-    points.drifts().set(tile, drift_of(tile));
+    points.drifts().set(points.known_tile(tile), drift_of(tile));
   state.begin_advance(size, 1e-3, false);
   state.finish_advance(size);
   std::vector<mesh::BinRef> missing;
@@ -119,7 +119,7 @@ TEST(SiteState, AFetchKeepsTheDriftThatTheOwnersKnow) {
   state.fetch(missing, size);
   for (LocalIndex ghost = points.owned(); ghost < points.size(); ++ghost) {
     const LocalIndex tile = points.grid().tile_at(points.position(ghost));
-    EXPECT_EQ(points.drifts().of(tile), drift_of(tile));
+    EXPECT_EQ(points.drifts().of(points.known_tile(tile)), drift_of(tile));
   }
   EXPECT_EQ(points.size() > points.owned(), world.size() > 1);
 }

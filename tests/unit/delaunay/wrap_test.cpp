@@ -119,7 +119,7 @@ TEST(Wrap, StarsAreTheSameOnEveryLevelAndOneByOne) {
 /// A star whose discs meet a bin that is not known is not certain, even if all its neighbours are known.
 TEST(Wrap, OnlyStarsWithoutUnknownBinsInTheirDiscsAreCertain) {
   const SiteList sites = testing::random_sites(6000, 14);
-  const mesh::TileGrid grid(geometry::Box{{0, 0}, {1, 1}}, {{}, {}, 0.0138, true});
+  const mesh::TileGrid grid(geometry::Box{{0, 0}, {1, 1}}, {{}, {}, 0.0138});
   mesh::BinnedPoints whole(grid), part(grid);
   whole.assign_owned(sites, 0, grid.tile_count());
   const LocalIndex half = grid.tile_count() / 2;

@@ -34,8 +34,8 @@ std::vector<TileGrid> grids() {
   all.emplace_back(Box{{0, 0}, {1, 1}}, GridOptions{1, 1, 0.01});
   all.emplace_back(Box{{1e6, 1e6}, {1e6 + 1, 1e6 + 1}}, GridOptions{{}, {}, 0.03});
   all.emplace_back(Box{{0, 0}, {1e-9, 1e-9}}, GridOptions{{}, {}, 2e-11});
-  all.emplace_back(Box{{0, 0}, {1, 2}}, GridOptions{{}, {}, 0.005, false, {1, 2, {}}});
-  all.emplace_back(Box{{0, 0}, {1, 1}}, GridOptions{{}, {}, 0.0068, false, {1, 0, {}}});
+  all.emplace_back(Box{{0, 0}, {1, 2}}, GridOptions{{}, {}, 0.005, {1, 2, {}}});
+  all.emplace_back(Box{{0, 0}, {1, 1}}, GridOptions{{}, {}, 0.0068, {1, 0, {}}});
   return all;
 }
 
@@ -69,55 +69,54 @@ TEST(TileGrid, EveryPointHasAPlaceInItsTileBox) {
 
 TEST(TileGrid, TilesCoverTheContainerOnce) {
   for (const TileGrid& grid : grids()) {
-    ASSERT_EQ(grid.tile_count(), grid.tiles_x() * grid.tiles_y());
-    std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
+    const FixedRect limits = grid.limits();
+    std::int64_t area = 0;
     for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile) {
-      const GridPosition at = grid.tile_position(tile);
-      EXPECT_EQ(grid.tile_at(static_cast<int>(at.x), static_cast<int>(at.y)), tile);
-      EXPECT_TRUE(seen.emplace(at.x, at.y).second);
+      const FixedRect part = common_part(rect_of(grid.tile(tile)), limits);
+      ASSERT_FALSE(part.is_empty());
+      area += ((part.x1 - part.x0 + 1) >> 8) * ((part.y1 - part.y0 + 1) >> 8);
+      for (const auto& [x, y] : {std::pair{part.x0, part.y0}, std::pair{part.x1, part.y1}})
+        EXPECT_EQ(grid.tile_at(x, y), tile);
     }
-    const Vec2 corner = grid.tile_box(grid.tile_at(grid.tiles_x() - 1, grid.tiles_y() - 1)).max;
-    EXPECT_GE(corner.x, grid.container().max.x - 1e-12 * grid.container().width());
-    EXPECT_GE(corner.y, grid.container().max.y - 1e-12 * grid.container().height());
+    EXPECT_EQ(area, (grid.x_axis().length() >> 8) * (grid.y_axis().length() >> 8));
+    const double slack = 1e-12 * std::max(grid.container().width(), grid.container().height());
+    const Box box = grid.box_of(limits);
+    EXPECT_NEAR(box.max.x, grid.container().max.x, slack + 1e-15 * std::fabs(box.max.x));
+    EXPECT_NEAR(box.max.y, grid.container().max.y, slack + 1e-15 * std::fabs(box.max.y));
   }
 }
 
-TEST(TileGrid, TilesDivideTheContainer) {
+TEST(TileGrid, TilesAreNearlySquare) {
   for (const TileGrid& grid : grids()) {
-    const Box& container = grid.container();
-    for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile) {
-      const Box box = grid.tile_box(tile);
-      EXPECT_NEAR(box.width(), container.width() / grid.tiles_x(), 1e-9 * box.width() + 1e-15 * container.max.x);
-      EXPECT_NEAR(box.height(), container.height() / grid.tiles_y(), 1e-9 * box.height() + 1e-15 * container.max.y);
-    }
+    const Box box = grid.tile_box(0);
+    EXPECT_NEAR(box.width() / box.height(), 1, 1.0 / 32);
   }
 }
 
-/// The halves of the tiles in the order of the curve, as a partition for two ranks has them.
+/// The halves of a container of equal tiles in the order of the curve, as a partition for two ranks has them.
 struct Halves {
   int cut = 0;              ///< neighbouring tiles in different halves
   std::array<int, 2> rim{}; ///< tiles of each at the border of the container
 };
 
 Halves halves_of(const TileGrid& grid) {
-  const auto half_of = [&](int x, int y) { return 2 * grid.tile_at(x, y) >= grid.tile_count() ? 1 : 0; };
+  const auto half_of = [&](LocalIndex tile) { return 2 * tile >= grid.tile_count() ? 1 : 0; };
   Halves halves;
-  for (int y = 0; y < grid.tiles_y(); ++y)
-    for (int x = 0; x < grid.tiles_x(); ++x) {
-      const int half = half_of(x, y);
-      halves.cut += x + 1 < grid.tiles_x() && half_of(x + 1, y) != half;
-      halves.cut += y + 1 < grid.tiles_y() && half_of(x, y + 1) != half;
-      halves.rim[static_cast<std::size_t>(half)] +=
-          x == 0 || y == 0 || x + 1 == grid.tiles_x() || y + 1 == grid.tiles_y();
-    }
+  for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile) {
+    const FixedRect around = rect_of(grid.tile(tile)).grown(1);
+    halves.rim[static_cast<std::size_t>(half_of(tile))] += !grid.limits().contains(around);
+    grid.for_each_in(common_part(around, grid.limits()), [&](LocalIndex other, int, const FixedRect&) {
+      const bool beside = grid.tile(other).x == grid.tile(tile).x || grid.tile(other).y == grid.tile(tile).y;
+      halves.cut += other > tile && beside && half_of(other) != half_of(tile);
+    });
+  }
   return halves;
 }
 
 TEST(TileGrid, HalvesOfASquareAreCompactAndHaveHalfOfItsBorder) {
-  for (const double spacing : {0.03, 0.01, 0.0068, 0.0034, 0.002, 0.0011, 0.0009, 0.0007}) {
+  for (const double spacing : {0.03, 0.01, 0.0034, 0.0011}) {
     const TileGrid grid(Box{{0, 0}, {1, 1}}, GridOptions{{}, {}, spacing});
-    const int n = grid.tiles_x();
-    ASSERT_EQ(grid.tiles_y(), n);
+    const int n = static_cast<int>(std::lround(std::sqrt(grid.tile_count())));
     const Halves halves = halves_of(grid);
     EXPECT_LT(halves.cut, 2 * n) << n;
     EXPECT_NEAR(halves.rim[0], halves.rim[1], 0.1 * 4 * n + 2) << n;
@@ -126,22 +125,59 @@ TEST(TileGrid, HalvesOfASquareAreCompactAndHaveHalfOfItsBorder) {
 
 TEST(TileGrid, SlendersAreCutAcross) {
   const TileGrid grid(Box{{0, 0}, {64, 3}}, GridOptions{{}, {}, 0.03});
-  ASSERT_GT(grid.tiles_x(), 8 * grid.tiles_y());
-  EXPECT_LE(halves_of(grid).cut, 2 * grid.tiles_y() + 2);
+  const double across = 3 / grid.tile_box(0).height();
+  ASSERT_GT(across, 2);
+  EXPECT_LE(halves_of(grid).cut, 2 * across + 4);
 }
 
 TEST(TileGrid, PointsOutsideAreClampedToTheRim) {
   for (const TileGrid& grid : grids()) {
     const Box& box = grid.container();
+    const FixedRect limits = grid.limits();
     const double far = 1000 * std::max(box.width(), box.height());
-    EXPECT_EQ(grid.place({box.min.x - far, box.min.y - far}).tile, grid.tile_at(0, 0));
-    EXPECT_EQ(grid.place({box.max.x + far, box.max.y + far}).tile,
-              grid.tile_at(grid.tiles_x() - 1, grid.tiles_y() - 1));
-    EXPECT_EQ(grid.place({box.max.x + far, box.max.y + far}).bin, grid.bins_per_tile(grid.tile_count() - 1) - 1);
-    EXPECT_EQ(grid.place({box.min.x - far, box.min.y - far}).bin, 0);
+    EXPECT_EQ(grid.tile_at({box.min.x - far, box.min.y - far}), grid.tile_at(limits.x0, limits.y0));
+    EXPECT_EQ(grid.tile_at({box.max.x + far, box.max.y + far}), grid.tile_at(limits.x1, limits.y1));
     const Vec2 infinite{INFINITY, -INFINITY};
-    EXPECT_EQ(grid.place(infinite).tile, grid.tile_at(grid.tiles_x() - 1, 0));
+    EXPECT_EQ(grid.tile_at(infinite), grid.tile_at(limits.x1, limits.y0));
   }
+}
+
+TEST(TileGrid, ImagesOfTilesLieOnePeriodAway) {
+  const TileGrid grid(Box{{0, 0}, {1, 2}}, GridOptions{{}, {}, 0.02, {1, 2, {}}});
+  int images = 0;
+  grid.for_each_in(grid.rect_around({0.001, 1.999}, 0.01), [&](LocalIndex tile, int image, const FixedRect& part) {
+    EXPECT_TRUE(grid.limits().contains(part));
+    EXPECT_TRUE(rect_of(grid.tile(tile)).meets(part));
+    const Vec2 place = grid.box_of(part).min + grid.shift(image);
+    EXPECT_LT(std::max(std::fabs(place.x), std::fabs(place.y - 2)), 0.02);
+    images |= 1 << image;
+  });
+  EXPECT_EQ(images, 1 << 0 | 1 << 2 | 1 << 3 | 1 << 5); // left of it, above it, and both
+}
+
+/// Tiles of all sizes: a tile is divided if it holds the point.
+TEST(TileGrid, SquaresMeetTheTilesOfAnyLevelOnce) {
+  TileGrid grid(Box{{0, 0}, {1, 0.7}}, GridOptions{{}, {}, 0.03});
+  const Vec2 dense{0.371, 0.222};
+  for (int level = 0; level < 9; ++level) {
+    std::vector<Tile> tiles;
+    for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile)
+      if (tile != grid.tile_at(dense))
+        tiles.push_back(grid.tile(tile));
+      else
+        for (const CurveSquare& quarter : grid.quarters(grid.tile(tile).on_curve()))
+          tiles.push_back(tile_of(quarter, 2));
+    grid.set_tiles(std::move(tiles));
+  }
+  for (const double reach : {0.0, 1e-4, 0.01, 0.2})
+    for (std::uint64_t k = 0; k < 50; ++k) {
+      const Vec2 center = k % 2 ? random_point(grid.container(), k) : dense;
+      const FixedRect rect = grid.rect_around(center, reach);
+      std::set<LocalIndex> met;
+      grid.for_each_in(rect, [&](LocalIndex tile, int, const FixedRect&) { EXPECT_TRUE(met.insert(tile).second); });
+      for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile)
+        ASSERT_EQ(met.contains(tile), rect_of(grid.tile(tile)).meets(rect));
+    }
 }
 
 TEST(TileGrid, FixedPositionsAreMonotone) {

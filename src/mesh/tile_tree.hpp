@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The tiles of a container: squares of a quadtree, numbered along a Hilbert curve.
+#pragma once
+
+#include "core/hilbert.hpp"
+#include "trime/core/types.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace trime::mesh {
+
+/// A square of the quadtree, in fixed-point positions of the curve's square (2^32 a side), with its bins.
+struct Tile {
+  std::uint32_t x, y; ///< its first positions, multiples of its side
+  std::uint8_t shift; ///< its side is 2^shift, at most 2^31
+  std::uint8_t bits;  ///< it has 2^bits x 2^bits bins
+
+  std::int64_t side() const { return std::int64_t{1} << shift; }
+  int level() const { return 32 - shift; }
+  /// The side of a bin is 2^bin_shift().
+  int bin_shift() const { return shift - bits; }
+  int bins() const { return 1 << (2 * bits); }
+  /// First column of bins that may meet positions from x0 on, and the last one up to x1; rows likewise.
+  int first_column(std::int64_t x0) const { return static_cast<int>(std::max<std::int64_t>(0, x0 - x) >> bin_shift()); }
+  int last_column(std::int64_t x1) const { return static_cast<int>(std::min(side() - 1, x1 - x) >> bin_shift()); }
+  int first_row(std::int64_t y0) const { return static_cast<int>(std::max<std::int64_t>(0, y0 - y) >> bin_shift()); }
+  int last_row(std::int64_t y1) const { return static_cast<int>(std::min(side() - 1, y1 - y) >> bin_shift()); }
+  CurveSquare on_curve() const { return curve_square(x >> shift, y >> shift, level()); }
+};
+
+inline Tile tile_of(const CurveSquare& square, int bits) {
+  const int shift = 32 - square.level;
+  return {square.x << shift, square.y << shift, static_cast<std::uint8_t>(shift), static_cast<std::uint8_t>(bits)};
+}
+
+/// Positions x0 .. x1, y0 .. y1, both ends included.
+struct FixedRect {
+  std::int64_t x0, y0, x1, y1;
+
+  bool is_empty() const { return x0 > x1 || y0 > y1; }
+  bool contains(const FixedRect& r) const { return x0 <= r.x0 && y0 <= r.y0 && r.x1 <= x1 && r.y1 <= y1; }
+  bool meets(const FixedRect& r) const { return x0 <= r.x1 && r.x0 <= x1 && y0 <= r.y1 && r.y0 <= y1; }
+  FixedRect grown(std::int64_t by) const { return {x0 - by, y0 - by, x1 + by, y1 + by}; }
+  FixedRect moved(std::int64_t x, std::int64_t y) const { return {x0 + x, y0 + y, x1 + x, y1 + y}; }
+};
+
+inline FixedRect common_part(const FixedRect& a, const FixedRect& b) {
+  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
+inline FixedRect rect_of(const Tile& tile) {
+  return {tile.x, tile.y, tile.x + tile.side() - 1, tile.y + tile.side() - 1};
+}
+
+/// @brief Which tile is where: squares that cover a rectangle without overlap, in the order of the curve. A directory
+/// of equal cells leads to a tile, or to a tree where tiles are smaller than a cell. 12 bytes a tile and 4 to 16 of
+/// the directory.
+class TileTree {
+public:
+  TileTree() = default;
+  /// @param limits that the tiles cover; each meets it @param tiles in the order of the curve
+  TileTree(const FixedRect& limits, std::vector<Tile> tiles);
+
+  LocalIndex size() const { return static_cast<LocalIndex>(tiles_.size()); }
+  const std::vector<Tile>& tiles() const { return tiles_; }
+  const Tile& operator[](LocalIndex tile) const { return tiles_[static_cast<std::size_t>(tile)]; }
+  void set_bits(LocalIndex tile, std::uint8_t bits) { tiles_[static_cast<std::size_t>(tile)].bits = bits; }
+
+  /// The tile at a position. @pre within the limits
+  LocalIndex find(std::uint32_t x, std::uint32_t y) const {
+    std::int32_t entry = directory_[cell(x >> cell_shift_, y >> cell_shift_)];
+    for (int shift = cell_shift_ - 1; entry < 0; --shift)
+      entry = children_[child(entry, x >> shift & 1, y >> shift & 1)];
+    return entry;
+  }
+  /// Calls visit(tile) for all tiles that meet a rectangle, each once. @pre the rectangle is within the limits
+  template <class Visit>
+  void for_each_in(const FixedRect& rect, const Visit& visit) const;
+
+private:
+  std::size_t cell(std::uint32_t column, std::uint32_t row) const {
+    return static_cast<std::size_t>(row - first_row_) * columns_ + (column - first_column_);
+  }
+  static std::size_t child(std::int32_t entry, std::uint32_t right, std::uint32_t upper) {
+    return 4 * static_cast<std::size_t>(~entry) + 2 * upper + right;
+  }
+  template <class Visit>
+  void visit_children(std::int32_t entry, std::int64_t x, std::int64_t y, int shift, const FixedRect& rect,
+                      const Visit& visit) const;
+  void choose_cells(const FixedRect& limits);
+  void enter(LocalIndex number);
+
+  std::vector<Tile> tiles_;
+  int cell_shift_ = 31;
+  std::uint32_t first_column_ = 0, first_row_ = 0;
+  std::size_t columns_ = 0, rows_ = 0;
+  std::vector<std::int32_t> directory_; // by cell: a tile, or ~(index of four children)
+  std::vector<std::int32_t> children_;  // likewise; four of each square that is divided
+};
+
+template <class Visit>
+void TileTree::for_each_in(const FixedRect& rect, const Visit& visit) const {
+  const auto column_of = [&](std::int64_t x) { return static_cast<std::uint32_t>(x >> cell_shift_); };
+  for (std::uint32_t row = column_of(rect.y0); row <= column_of(rect.y1); ++row)
+    for (std::uint32_t column = column_of(rect.x0); column <= column_of(rect.x1); ++column) {
+      const std::int32_t entry = directory_[cell(column, row)];
+      if (entry < 0) {
+        visit_children(entry, std::int64_t{column} << cell_shift_, std::int64_t{row} << cell_shift_, cell_shift_ - 1,
+                       rect, visit);
+        continue;
+      }
+      const Tile& tile = tiles_[static_cast<std::size_t>(entry)]; // in its first cell of the rectangle
+      if (column == column_of(std::max<std::int64_t>(rect.x0, tile.x)) &&
+          row == column_of(std::max<std::int64_t>(rect.y0, tile.y)))
+        visit(entry);
+    }
+}
+
+template <class Visit>
+void TileTree::visit_children(std::int32_t entry, std::int64_t x, std::int64_t y, int shift, const FixedRect& rect,
+                              const Visit& visit) const {
+  const std::int64_t side = std::int64_t{1} << shift;
+  for (std::uint32_t upper = 0; upper < 2; ++upper)
+    for (std::uint32_t right = 0; right < 2; ++right) {
+      const std::int64_t x0 = x + right * side, y0 = y + upper * side;
+      if (x0 > rect.x1 || x0 + side <= rect.x0 || y0 > rect.y1 || y0 + side <= rect.y0)
+        continue;
+      const std::int32_t next = children_[child(entry, right, upper)];
+      if (next < 0)
+        visit_children(next, x0, y0, shift - 1, rect, visit);
+      else
+        visit(next);
+    }
+}
+
+} // namespace trime::mesh
