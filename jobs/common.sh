@@ -2,7 +2,7 @@
 # What all job scripts share; they source it, and it does nothing by itself. It sets
 #   program   the trime_mpi to run: TRIME_PROGRAM, else the one built in this tree, else the installed one
 #   threads   threads of each rank: --cpus-per-task of the job
-# and has functions to take the config from the arguments, to start the program, and to list cases for a scaling table.
+# and has functions to take the config from the arguments, to start the program, and to make a scaling table.
 # shellcheck shell=bash
 
 # On most clusters MPI and HDF5 come as modules. Load the same ones that you built the program with, here, once for all
@@ -43,19 +43,24 @@ job_config() {
 }
 
 # job_run CONFIG [section.key=value ...]: starts the program on all ranks of the job; returns its exit code.
-# TRIME_LAUNCHER: mpirun (default), or srun with its options, e.g. "srun --mpi=pmix".
+# TRIME_LAUNCHER: mpirun (default), the mpiexec of another MPI, or srun, with options, e.g. "srun --mpi=pmix".
 # TRIME_CONTAINER: what to put before the program, e.g. "apptainer exec trime_mpi.sif".
 job_run() {
-  local launch=() container=()
+  local launch=() container=() kind
   read -ra launch <<<"${TRIME_LAUNCHER:-mpirun}"
   read -ra container <<<"${TRIME_CONTAINER:-}"
-  if [ "${launch[0]}" = mpirun ]; then
-    # A block of as many cores for each rank as it has threads. Without PE= Open MPI binds a rank to one core when there
-    # are one or two ranks, and all its threads would share that core. --report-bindings prints where each rank went.
-    launch+=(-np "$SLURM_NTASKS" --map-by "slot:PE=$threads" --bind-to core --report-bindings)
-  else
-    launch+=(--ntasks="$SLURM_NTASKS" --cpu-bind=cores --kill-on-bad-exit=1)
-  fi
+  # A block of as many cores for each rank as it has threads.
+  kind=${launch[0]##*/}
+  [ "$kind" = srun ] || kind=$("${launch[0]}" --version 2>&1 || true)
+  case "$kind" in
+    srun) launch+=(--ntasks="$SLURM_NTASKS" --cpu-bind=cores --kill-on-bad-exit=1) ;;
+    *"Open MPI"*)
+      # Without PE= Open MPI binds a rank to one core when there are one or two ranks, and all its threads would share
+      # that core. --report-bindings prints where each rank went.
+      launch+=(-n "$SLURM_NTASKS" --map-by "slot:PE=$threads" --bind-to core --report-bindings) ;;
+    *HYDRA*) launch+=(-n "$SLURM_NTASKS" -bind-to "core:$threads") ;; # of MPICH
+    *) launch+=(-n "$SLURM_NTASKS") ;; # another one: its options, if any, stand in TRIME_LAUNCHER
+  esac
   "${launch[@]}" ${container[@]+"${container[@]}"} "$program" "$@"
 }
 
@@ -65,36 +70,13 @@ job_hello() {
   git describe --always --dirty 2>/dev/null || true
 }
 
-# job_cases: all powers of two up to the cores of the job, and all cores, each as ranks only, as threads only (within one
-# node), and as half of the doublings each; as scripts/scaling.py takes them: 1x1,2x1,1x2,...
-job_cases() {
-  local cores=$SLURM_NTASKS cases=1x1 count threads half per_node
-  per_node=$((cores / SLURM_JOB_NUM_NODES))
-  local counts=()
-  for ((count = 2; count < cores; count *= 2)); do counts+=("$count"); done
-  [ "$cores" -lt 2 ] || counts+=("$cores")
-  for count in ${counts[@]+"${counts[@]}"}; do
-    half=1
-    while [ $((half * half)) -lt "$count" ]; do half=$((half * 2)); done
-    for threads in 1 "$half" "$count"; do
-      if [ $((count % threads)) -eq 0 ] && [ "$threads" -le "$per_node" ]; then
-        case ",$cases," in
-          *",$((count / threads))x$threads,"*) ;;
-          *) cases+=",$((count / threads))x$threads" ;;
-        esac
-      fi
-    done
-  done
-  echo "$cases"
-}
-
-# job_scaling NAME ARGUMENT...: scripts/scaling.py on the cases of the job, into the directory NAME-JOBID.
+# job_scaling NAME KIND ARGUMENT...: the strong or weak sweeps of scripts/scaling.py on 1, 2, 4, ... cores of the job, as
+# ranks, as threads and as both, into the directory NAME-JOBID.
 job_scaling() {
-  local name=$1 cases
-  shift
+  local name=$1 kind=$2
+  shift 2
   [ -r scripts/scaling.py ] || job_fail "Expected scripts/scaling.py in $PWD, found none. Submit from the top of the source tree."
-  cases=$(job_cases)
-  job_hello "cases $cases"
-  "${PYTHON:-/usr/bin/python3}" scripts/scaling.py --program "$program" --cases "$cases" \
+  job_hello "$kind scaling"
+  "${PYTHON:-/usr/bin/python3}" scripts/scaling.py --program "$program" --kind "$kind" --cases powers \
     --output "$name-$SLURM_JOB_ID" "$@"
 }

@@ -16,8 +16,12 @@ trime_test_packages=(
   libgtest-dev libbenchmark-dev                   # unit tests, benchmarks
   libcgal-dev libboost-dev                        # their oracles: CGAL, big integers of Boost
   hdf5-tools python3-vtk9 python3-meshio          # h5diff, and two foreign readers of the mesh file
-  python3-scipy gmsh                              # Poisson's equation, on meshes of Gmsh too, judge.py; benchmark.py --gmsh
+  python3-scipy gmsh                              # Poisson's equation, on meshes of Gmsh too, judge.py; benchmark.py --gmsh;
+                                                  # scaling.py --model
   munge slurmctld slurmd slurm-client             # a SLURM of one node for the job scripts
+  environment-modules                             # loads the module file
+  iproute2                                        # hosts of one's own: network namespaces, for runs over TCP
+  mpich libhdf5-mpich-dev                         # the other MPI, beside Open MPI, which stays the default
   clang clang-format libomp-dev libclang-rt-14-dev # second compiler with its OpenMP and sanitizers, house style
 )
 

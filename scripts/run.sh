@@ -55,13 +55,14 @@ mesh="$directory/$name.h5"
 identity() { stat -L -c '%d %i %s %y' "$mesh" 2>/dev/null || true; } # changes when the file is written anew
 earlier=$(identity)
 
-# Run. All cores are shared out among the ranks; binding is left to the system, which suits a laptop.
+# Run, by the launcher of the MPI that the program was built with. All cores are shared out among the ranks; binding is
+# left to the system, which suits a laptop, and there may be more ranks than cores.
 cores=$(nproc)
 export OMP_NUM_THREADS=${OMP_NUM_THREADS:-$((cores > ranks ? cores / ranks : 1))}
-placement=(--bind-to none)
-[ "$cores" -ge "$ranks" ] || placement+=(--oversubscribe)
+export OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_rmaps_base_oversubscribe=1 # Open MPI; others do so by themselves
+mpiexec=$(sed -n 's/^MPIEXEC_EXECUTABLE:[A-Z]*=//p' "$build/CMakeCache.txt")
 status=0
-mpirun -np "$ranks" "${placement[@]}" "$program" "$config" ${extra[@]+"${extra[@]}"} "$@" || status=$?
+"$mpiexec" -n "$ranks" "$program" "$config" ${extra[@]+"${extra[@]}"} "$@" || status=$?
 [ "$status" -eq 0 ] || [ "$status" -eq 5 ] || exit "$status" # 5: the mesh is there, but marked
 if [ "$(identity)" = "$earlier" ]; then                      # --validate and the like; no mesh of an earlier run is shown
   [ -z "$earlier" ] || echo "This run wrote no mesh; $mesh is that of an earlier run."

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs every test: installs what is missing (Debian 12), then format, layers, a release build with all its tests, and the
-# serial tests under sanitizers; the thread sanitizer's build is that of all code with a second compiler, clang.
-#   scripts/test.sh [--quick]      --quick: without sanitizers and second compiler
+# Runs every test: installs what is missing (Debian 12), then format, layers, a release build with all its tests, the
+# parallel tests with a second MPI, MPICH, and the serial tests under sanitizers; the thread sanitizer's build is that of
+# all code with a second compiler, clang.
+#   scripts/test.sh [--quick]      --quick: without second MPI, sanitizers and second compiler
 # The last line says how many tests passed and failed. Environment: TRIME_JOBS (cores), TRIME_NO_INSTALL=1,
 # TRIME_FULL_TABLE=1 (equal meshes on 1 to 16 ranks in all combinations), TRIME_SIMD (see src/README.md).
 set -euo pipefail
@@ -14,7 +15,7 @@ quick=no
 case "${1:-}" in
   --quick) quick=yes ;;
   '') ;;
-  *) sed -n '3,7s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 2 ;;
+  *) sed -n '3,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 2 ;;
 esac
 
 trime_need_packages "${trime_run_packages[@]}" "${trime_test_packages[@]}"
@@ -114,7 +115,7 @@ if [ "$quick" = no ]; then
   # The one file of which sanitizers leave out a part: without them, by the second compiler.
   stage second_compiler clang++ -std=c++20 -fsyntax-only -Wall -Wextra -Wpedantic -Wshadow -Wconversion \
     -Wno-sign-conversion -Werror -Iinclude -Isrc src/app/large_arrays.cpp || true
-  for preset in asan tsan; do
+  for preset in mpich asan tsan; do
     if build "$preset"; then
       tests "$preset" -j "$jobs"
     fi

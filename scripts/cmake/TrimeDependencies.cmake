@@ -12,7 +12,7 @@ if(TRIME_SIMULATE)
   set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 else()
   set(MPI_CXX_SKIP_MPICXX ON) # the C++ bindings of old MPI headers warn, and nobody uses them
-  find_package(MPI REQUIRED COMPONENTS CXX)
+  find_package(MPI REQUIRED COMPONENTS CXX) # which one: MPI_CXX_COMPILER, see src/README.md
 endif()
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(fmt REQUIRED)
@@ -33,6 +33,7 @@ if(NOT TRIME_SIMULATE) # which writes no mesh files
   if(NOT HDF5_IS_PARALLEL)
     message(FATAL_ERROR "This HDF5 has no MPI support; install the parallel one (Debian: libhdf5-openmpi-dev).")
   endif()
+  include(TrimeSameMpi)
   target_include_directories(trime_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
   target_compile_definitions(trime_hdf5 INTERFACE ${HDF5_C_DEFINITIONS})
   target_link_libraries(trime_hdf5 INTERFACE ${HDF5_C_LIBRARIES} MPI::MPI_CXX)

@@ -34,10 +34,17 @@ set(CPACK_RESOURCE_FILE_LICENSE "${CMAKE_CURRENT_SOURCE_DIR}/LICENSE")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)             # the shared libraries, as dpkg-shlibdeps finds them
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "openmpi-bin, python3") # mpirun, plot_mesh.py
+if(TRIME_HAS_OPEN_MPI)
+  set(trime_launcher openmpi-bin)
+  set(trime_mpi_headers "libopenmpi-dev, libhdf5-openmpi-dev")
+else()
+  set(trime_launcher mpich)
+  set(trime_mpi_headers "libmpich-dev, libhdf5-mpich-dev")
+endif()
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "${trime_launcher}, python3") # mpirun, plot_mesh.py
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-h5py, python3-numpy, python3-matplotlib") # plot_mesh.py, too
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS                  # to build with the library
-    "g++, cmake, libopenmpi-dev, libhdf5-openmpi-dev, libfmt-dev, libmuparser-dev")
+    "g++, cmake, ${trime_mpi_headers}, libfmt-dev, libmuparser-dev")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION               # behind the line of the project; CPack indents it
 "trime_mpi reads a shape and an element size from a config file, and writes one
 HDF5 file that ParaView, VTK, FEniCS, PETSc and meshio open. It runs with MPI

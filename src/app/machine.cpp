@@ -12,10 +12,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
-#include <set>
 
 namespace trime::app {
 namespace {
@@ -27,23 +27,32 @@ std::int64_t hash_text(const std::string& text) {
   return static_cast<std::int64_t>(hash >> 1);
 }
 
+/// How many ranks were started with this one, as its launcher says: mpirun of Open MPI, mpiexec of MPICH, srun; 0: none
+/// says so. The variable of srun comes last: Open MPI lets it start its daemons.
+int ranks_started() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"})
+    if (const char* value = std::getenv(name); value != nullptr)
+      return std::atoi(value);
+  return 0;
+}
+
 } // namespace
 
 Placement place_threads(int setup_threads, int mesh_threads, const comm::Communicator& comm) {
   const std::vector<int> processors = usable_processors();
-  const std::vector<std::int64_t> hosts = comm.all_gather(hash_text(host_name()));
-  const std::int64_t mine = hash_text(fmt::format("{} {}", host_name(), fmt::join(processors, " ")));
-  const std::vector<std::int64_t> places = comm.all_gather(mine);
+  const comm::Communicator node = comm.node();
+  const std::int64_t mine = hash_text(fmt::format("{}", fmt::join(processors, " ")));
+  const std::vector<std::int64_t> places = node.all_gather(mine);
   Placement placement;
   placement.ranks = comm.size();
-  placement.nodes = static_cast<int>(std::set<std::int64_t>(hosts.begin(), hosts.end()).size());
+  placement.nodes = static_cast<int>(comm.sum(std::int64_t{node.is_root()}));
   placement.cores = static_cast<int>(processors.size());
   placement.sharing = static_cast<int>(std::count(places.begin(), places.end(), mine));
   const char* given = std::getenv("OMP_NUM_THREADS");
   const int all = given && *given ? thread_count() : std::max(1, placement.cores / placement.sharing);
   placement.threads = mesh_threads > 0 ? mesh_threads : all;
   placement.setup_threads = setup_threads > 0 ? setup_threads : all;
-  placement.before = static_cast<int>(std::count(places.begin(), places.begin() + comm.rank(), mine));
+  placement.before = static_cast<int>(std::count(places.begin(), places.begin() + node.rank(), mine));
   return placement;
 }
 
@@ -54,19 +63,28 @@ void use_threads(const Placement& placement, int threads) {
 }
 
 void report_placement(const Placement& placement, const comm::Communicator& comm, Log& log) {
-  const std::int64_t fewest = comm.min(std::int64_t{placement.threads}),
-                     most = comm.max(std::int64_t{placement.threads});
+  const int used = std::max(placement.threads, placement.setup_threads);
+  std::array<std::int64_t, 2> sums{used > placement.cores, used * placement.sharing > placement.cores};
+  std::array<double, 5> largest{static_cast<double>(placement.threads), static_cast<double>(-placement.threads),
+                                static_cast<double>(used), -static_cast<double>(placement.cores / placement.sharing),
+                                -static_cast<double>(sysconf(_SC_NPROCESSORS_ONLN))};
+  comm.sum_and_max(sums, largest);
+  const auto [crowded, shared] = sums;
+  const int most = static_cast<int>(largest[0]), fewest = static_cast<int>(-largest[1]),
+            most_used = static_cast<int>(largest[2]), fitting = static_cast<int>(-largest[3]), // threads on every rank
+      node_cores = static_cast<int>(-largest[4]);                                              // of the smallest node
   const std::string setup =
       placement.setup_threads == placement.threads ? "" : fmt::format(" ({} for the set-up)", placement.setup_threads);
   log.info("{} rank{} x {} thread{}{} on {} node{}", placement.ranks, placement.ranks == 1 ? "" : "s",
            fewest == most ? std::to_string(most) : fmt::format("{} to {}", fewest, most), most == 1 ? "" : "s", setup,
            placement.nodes, placement.nodes == 1 ? "" : "s");
-  const int used = std::max(placement.threads, placement.setup_threads);
-  const std::int64_t crowded = comm.sum(std::int64_t{used > placement.cores}),
-                     shared = comm.sum(std::int64_t{used * placement.sharing > placement.cores}),
-                     most_used = comm.max(std::int64_t{used}),
-                     fitting = comm.min(std::int64_t{placement.cores / placement.sharing}); // threads on every rank
-  const std::int64_t node_cores = comm.min(std::int64_t{sysconf(_SC_NPROCESSORS_ONLN)});    // of the smallest node
+  if (const int started = ranks_started(); comm.size() == 1 && started > 1)
+    log.warning(
+        "{} ranks were started, but this one is alone, and makes the whole mesh: the launcher is not that of {}; "
+        "start with the mpiexec of that MPI, or see jobs/README.md for srun",
+        started, comm::library_version());
+  if (comm::is_simulated())
+    return; // its cores are not those of this machine
   if (crowded > 0 && node_cores > 0 && most_used > node_cores)
     log.warning("{} of {} ranks have more threads than cores they may use (rank 0: {} threads, {} cores); the node has "
                 "{} core{}: set --threads {} instead",

@@ -27,7 +27,8 @@ Placement place_threads(int setup_threads, int mesh_threads, const comm::Communi
 /// Sets how many threads all later loops use, and starts them on processors of their own where there are enough.
 void use_threads(const Placement& placement, int threads);
 
-/// Says ranks x threads, and warns where threads outnumber processors. @note Collective.
+/// Says ranks x threads, and warns where threads outnumber processors, or the launcher is that of another MPI.
+/// @note Collective.
 void report_placement(const Placement& placement, const comm::Communicator& comm, Log& log);
 
 /// Peak resident memory of this process in bytes; 0 if unknown.

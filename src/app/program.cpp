@@ -166,12 +166,11 @@ ExitCode make_mesh(const Job& job) {
   const SizeSummary sizes = summarize_size(size.description, result.mesh, comm);
   io::WrittenFiles files;
   if (options.write) {
-    const io::Metadata metadata =
-        describe_run(provenance, result, sizes, gather_measurements(timers, std::ssize(result.mesh.points), comm));
+    const io::Metadata metadata = describe_run(provenance, result, sizes, gather_measurements(timers, comm));
     const auto timing = timers.scope("output");
     files = series.write_final({final_retriangulation(result), result.mesh, result.quality, metadata});
   }
-  const Measurements measured = gather_measurements(timers, std::ssize(result.mesh.points), comm);
+  const Measurements measured = gather_measurements(timers, comm);
   if (!job.line.record.empty())
     io::write_record(job.line.record, describe_run(provenance, result, sizes, measured), comm);
   log.info("{}", run_report(result, sizes, measured, files, input.normalized));
@@ -184,7 +183,7 @@ ExitCode make_mesh(const Job& job) {
 
 ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm, io::RunFiles* files,
                      UserPlaces& places) {
-  TimerTable timers(&comm.traffic());
+  TimerTable timers(&comm.counters());
   const CommandLine line = parse_command_line(argc, argv);
   if (line.action == Action::help || line.action == Action::help_config || line.action == Action::version) {
     print(comm, line.action == Action::help      ? line.help

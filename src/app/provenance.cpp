@@ -2,6 +2,7 @@
 #include "app/provenance.hpp"
 
 #include "app/config.hpp"
+#include "app/run_limit.hpp"
 #include "trime/io/describe.hpp"
 
 #include <algorithm>
@@ -95,7 +96,7 @@ Attributes result_attributes(const meshing::MeshResult& result, const SizeSummar
           {"coarseness", result.features.coarseness},
           {"lost_share", result.features.lost_share},
           {"added_share", result.features.added_share},
-          {"most_points_of_a_rank", measured.most_points},
+          {"most_points_of_a_rank", measured.counters[Counter::sites_extracted].max},
           {"seconds_total", measured.total}, // up to the writing of this file
           {"peak_memory_bytes", measured.peak_memory},
           {"bytes_per_point", static_cast<double>(measured.memory_sum) / points},
@@ -152,14 +153,44 @@ io::MetadataGroup history_group(const std::vector<sweep::SweepRecord>& history) 
        column<double>("seconds", history, &Record::seconds)}};
 }
 
-io::MetadataGroup timers_group(const std::vector<TimeRow>& times) {
+io::MetadataGroup timers_group(const std::vector<Phase>& phases) {
+  const auto sum = [](Counter counter) { return [=](const Phase& phase) { return phase.counters[counter].sum; }; };
   return {"timers",
           {},
-          {column<std::string>("name", times, &TimeRow::section), column<std::int64_t>("calls", times, &TimeRow::calls),
-           column<double>("min", times, &TimeRow::min), column<double>("avg", times, &TimeRow::mean),
-           column<double>("max", times, &TimeRow::max), column<std::int64_t>("messages", times, &TimeRow::messages),
-           column<std::int64_t>("bytes", times, &TimeRow::bytes),
-           column<std::int64_t>("collectives", times, &TimeRow::collectives)}};
+          {column<std::string>("name", phases, &Phase::name), column<std::int64_t>("calls", phases, &Phase::calls),
+           column<double>("min", phases, &Phase::min), column<double>("avg", phases, &Phase::mean),
+           column<double>("max", phases, &Phase::max), column<std::int64_t>("messages", phases, sum(Counter::messages)),
+           column<std::int64_t>("bytes", phases, sum(Counter::bytes)),
+           column<std::int64_t>("collectives", phases,
+                                [](const Phase& phase) { return phase.counters[Counter::collectives].max; })}};
+}
+
+/// A row for each counter of each phase that has counted anything, then those of the whole run.
+io::MetadataGroup counters_group(const Measurements& measured) {
+  struct Row {
+    std::string phase;
+    Counter counter;
+    Spread values;
+  };
+  std::vector<Row> rows;
+  const auto add = [&](const std::string& phase, const CounterSpreads& counters) {
+    for (std::size_t k = 0; k < counter_count; ++k)
+      if (const auto counter = static_cast<Counter>(k); counters[counter].sum > 0)
+        rows.push_back({phase, counter, counters[counter]});
+  };
+  for (const Phase& phase : measured.phases)
+    add(phase.name, phase.counters);
+  add("run", measured.counters);
+  return {"counters",
+          {{"limit", run_limit(measured)}},
+          {column<std::string>("phase", rows, &Row::phase),
+           column<std::string>("name", rows, [](const Row& row) { return name_of(row.counter).name; }),
+           column<std::string>("unit", rows, [](const Row& row) { return name_of(row.counter).unit; }),
+           column<std::int64_t>("sum", rows, [](const Row& row) { return row.values.sum; }),
+           column<std::int64_t>("min", rows, [](const Row& row) { return row.values.min; }),
+           column<double>("mean", rows,
+                          [&](const Row& row) { return static_cast<double>(row.values.sum) / measured.ranks; }),
+           column<std::int64_t>("max", rows, [](const Row& row) { return row.values.max; })}};
 }
 
 /// Names of the parts along a loop, in order, each once: "square" or "square+disc".
@@ -243,7 +274,7 @@ io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result
                  result_attributes(result, size, measured)),
           texts(p),
           {history_group(result.history), io::quality_group(result.quality), io::checks_group(result.checks),
-           io::bad_triangles_group(result.quality), timers_group(measured.times),
+           io::bad_triangles_group(result.quality), timers_group(measured.phases), counters_group(measured),
            tags_group(p.boundary, result.loops, p.options.region), sharp_corners_group(result.features.sharp_corners),
            rings_group(p, result.features.loops), normalization_group(p.normalized)}};
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/run_report.hpp"
 
-#include "app/machine.hpp"
+#include "app/run_limit.hpp"
 #include "core/thread_loop.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -17,20 +16,6 @@ namespace {
 std::string value_text(double value) {
   return value == std::floor(value) && std::fabs(value) < 1e15 ? fmt::format("{:.0f}", value)
                                                                : fmt::format("{:.6g}", value);
-}
-
-constexpr double microsecond = 1e-6;
-
-TimeRow reduce_time(const TimerTable::Section& own, const comm::Communicator& comm) {
-  std::array<std::int64_t, 3> sums{std::llround(own.seconds / microsecond), own.traffic.messages, own.traffic.bytes};
-  comm.sum(sums);
-  std::array<double, 4> largest{static_cast<double>(own.calls), own.seconds, -own.seconds,
-                                static_cast<double>(own.traffic.collectives)};
-  comm.max(largest);
-  return {own.name,    std::llround(largest[0]),
-          -largest[2], static_cast<double>(sums[0]) * microsecond / comm.size(),
-          largest[1],  sums[1],
-          sums[2],     std::llround(largest[3])};
 }
 
 /// Four decimals as long as that takes nine characters at most, so that columns stand.
@@ -143,61 +128,49 @@ std::string checks_text(const mesh::Checks& checks) {
   return text;
 }
 
+std::string traffic_line(const std::string& name, const CounterSpreads& counters, int ranks) {
+  return fmt::format("  {:<18}{:>18.1f}{:>12.1f}{:>15}{:>13}\n", name,
+                     static_cast<double>(counters[Counter::messages].sum) / ranks,
+                     static_cast<double>(counters[Counter::bytes].sum) / 0x1p10 / ranks,
+                     counters[Counter::collectives].max, counters[Counter::neighbours].max);
+}
+
 /// What the ranks sent each other, by phase; nothing for one rank.
 std::string traffic_text(const Measurements& measured) {
   if (measured.ranks == 1)
     return {};
-  std::string text = "Traffic                  messages/rank    KiB/rank    collectives\n";
-  for (const TimeRow& row : measured.times)
-    if (row.messages > 0 || row.collectives > 0)
-      text += fmt::format("  {:<18}{:>18.1f}{:>12.1f}{:>15}\n", row.section,
-                          static_cast<double>(row.messages) / measured.ranks,
-                          static_cast<double>(row.bytes) / 0x1p10 / measured.ranks, row.collectives);
-  return text + fmt::format("Imbalance: the rank with most points has {:.2f} times the mean, {} of {:.0f}\n",
-                            static_cast<double>(measured.most_points) / measured.mean_points, measured.most_points,
-                            measured.mean_points);
+  std::string text = "Traffic                  messages/rank    KiB/rank    collectives   neighbours\n";
+  for (const Phase& phase : measured.phases)
+    if (phase.counters[Counter::messages].sum > 0 || phase.counters[Counter::collectives].sum > 0)
+      text += traffic_line(phase.name, phase.counters, measured.ranks);
+  return text + traffic_line("total", measured.counters, measured.ranks);
+}
+
+/// The other counters of the whole run.
+std::string counters_text(const Measurements& measured) {
+  const bool several = measured.ranks > 1;
+  std::string text =
+      several ? "Counters                     all       min          mean       max  of a rank\n" : "Counters\n";
+  for (std::size_t k = 0; k < counter_count; ++k) {
+    const auto counter = static_cast<Counter>(k);
+    const Spread& values = measured.counters[counter];
+    if (is_traffic(counter) || values.sum == 0)
+      continue;
+    text += fmt::format("  {:<18}{:>12}", name_of(counter).name, values.sum);
+    text += several ? fmt::format("{:>10}{:>14.1f}{:>10}\n", values.min, measured.mean(counter), values.max) : "\n";
+  }
+  return text;
 }
 
 std::string times_text(const Measurements& measured) {
   std::string text = "Time [s]                 min      mean       max    share\n";
-  const double whole = std::max(measured.total, 1e-9);
-  for (const TimeRow& row : measured.times)
-    text += fmt::format("  {:<18}{:>8.3f}{:>10.3f}{:>10.3f}{:>7.1f} %\n", row.section, row.min, row.mean, row.max,
-                        100 * row.mean / whole);
-  return text + fmt::format("  {:<18}{:>18.3f}{:>17.1f} %\n", "total", measured.total, 100.0) + traffic_text(measured);
+  for (const Phase& phase : measured.phases)
+    text += fmt::format("  {:<18}{:>8.3f}{:>10.3f}{:>10.3f}{:>7.1f} %\n", phase.name, phase.min, phase.mean, phase.max,
+                        100 * phase.mean / std::max(measured.total, 1e-9));
+  return text + fmt::format("  {:<18}{:>18.3f}{:>17.1f} %\n", "total", measured.total, 100.0);
 }
 
 } // namespace
-
-Measurements gather_measurements(const TimerTable& timers, std::int64_t points, const comm::Communicator& comm) {
-  // Rank 0 names the sections; what another rank alone has timed counts as "other".
-  std::string names;
-  for (const TimerTable::Section& section : timers.sections())
-    names += section.name + "\n";
-  names = comm.broadcast(std::move(names));
-  TimerTable::Section rest{"other", timers.total(), 1, timers.traffic()};
-  Measurements measured;
-  for (std::size_t at = 0; at < names.size();) {
-    const std::size_t end = names.find('\n', at);
-    TimerTable::Section own{names.substr(at, end - at)};
-    at = end + 1;
-    for (const TimerTable::Section& section : timers.sections())
-      if (section.name == own.name)
-        own = section;
-    rest.seconds -= own.seconds;
-    rest.traffic = rest.traffic - own.traffic;
-    measured.times.push_back(reduce_time(own, comm));
-  }
-  measured.times.push_back(reduce_time(rest, comm));
-  for (const TimeRow& row : measured.times)
-    measured.total += row.mean;
-  measured.ranks = comm.size();
-  measured.most_points = comm.max(points);
-  measured.mean_points = std::max(1.0, static_cast<double>(comm.sum(points)) / comm.size());
-  measured.peak_memory = comm.max(peak_memory());
-  measured.memory_sum = comm.sum(peak_memory());
-  return measured;
-}
 
 SizeSummary summarize_size(std::string description, const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
   constexpr std::size_t part = 1 << 14;
@@ -237,7 +210,8 @@ std::string run_report(const meshing::MeshResult& result, const SizeSummary& siz
                       sweep::to_string(result.stop_reason));
   text += normalization_text(normalized) + boundary_text(result) + area_text(result) + cleanup_text(result.cleanup);
   text += quality_text(result.quality) + bad_triangles_text(result.quality) + "\n" + checks_text(result.checks) + "\n" +
-          times_text(measured);
+          times_text(measured) + traffic_text(measured) + counters_text(measured);
+  text += "Limit: " + run_limit(measured) + "\n";
   text += fmt::format("  {:.0f} points per second\n\n", points / std::max(measured.total, 1e-9));
   text += fmt::format("Memory     at most {:.1f} MiB per rank, {:.0f} bytes per point over all ranks\n",
                       static_cast<double>(measured.peak_memory) / 0x1p20,

@@ -79,6 +79,8 @@ CleanupCounts CleanupRounds::round(std::span<const Contender> contenders) {
   take_edits(edits);
   take_verdicts(chosen, results);
   ++round_;
+  comm_.counters().add(Counter::cleanup_rounds);
+  comm_.counters().add(Counter::patches, std::ssize(chosen));
   counts = sum_over_ranks(counts);
   limits_.add(counts.inserted - counts.deleted);
   return counts;

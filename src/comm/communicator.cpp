@@ -1,58 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/comm/communicator.hpp"
 
-#include "comm/native.hpp"
-#include "trime/core/error.hpp"
+#include "comm/mpi_call.hpp"
 #include "trime/core/timer.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
 #include <exception>
-#include <limits>
+#include <numeric>
 
 namespace trime::comm {
 namespace {
-
-/// The only place that looks at MPI return codes.
-void check(int code) {
-  if (code == MPI_SUCCESS)
-    return;
-  char text[MPI_MAX_ERROR_STRING];
-  int length = 0;
-  MPI_Error_string(code, text, &length);
-  fmt::print(stderr, "trime_mpi: MPI error: {}\n", std::string(text, static_cast<std::size_t>(length)));
-  MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitCode::internal_error));
-}
-
-enum Tag : int { tag_any = 101, tag_known = 102 };
-
-/// Largest piece of a message: MPI counts are int. Longer messages travel in several pieces, in order.
-constexpr std::size_t piece_bytes = std::size_t{1} << 30;
-
-/// The handle for a collective call, which is counted.
-MPI_Comm collective(const Communicator::Native& native) {
-  ++native.traffic.collectives;
-  return native.comm;
-}
-
-void count_message(const Communicator::Native& native, std::size_t bytes) {
-  ++native.traffic.messages;
-  native.traffic.bytes += static_cast<std::int64_t>(bytes);
-}
-
-void post(const Message& message, bool send, int tag, const Communicator::Native& native,
-          std::vector<MPI_Request>& requests) {
-  for (std::size_t offset = 0; offset < message.data.size(); offset += piece_bytes) {
-    const int count = static_cast<int>(std::min(piece_bytes, message.data.size() - offset));
-    std::byte* start = const_cast<std::byte*>(message.data.data()) + offset; // MPI receives through the same path
-    requests.emplace_back();
-    if (send)
-      count_message(native, static_cast<std::size_t>(count));
-    check(send ? MPI_Isend(start, count, MPI_BYTE, message.peer, tag, native.comm, &requests.back())
-               : MPI_Irecv(start, count, MPI_BYTE, message.peer, tag, native.comm, &requests.back()));
-  }
-}
 
 std::unique_ptr<Communicator::Native> duplicate(MPI_Comm comm) {
   auto native = std::make_unique<Communicator::Native>();
@@ -74,9 +33,15 @@ void abort_job(int exit_code) {
   std::_Exit(exit_code);
 }
 
-#ifdef SMPI_H // SimGrid's MPI knows no threads: all ranks take turns in one
+#ifdef SMPI_H // SimGrid's MPI, which knows no threads
+bool is_simulated() {
+  return true;
+}
 constexpr int needed_thread_level = MPI_THREAD_SINGLE;
 #else
+bool is_simulated() {
+  return false;
+}
 constexpr int needed_thread_level = MPI_THREAD_FUNNELED;
 #endif
 
@@ -115,8 +80,16 @@ Communicator Communicator::self() {
   return Communicator(duplicate(MPI_COMM_SELF));
 }
 
+Communicator Communicator::node() const {
+  auto native = std::make_unique<Native>();
+  check(MPI_Comm_split_type(collective(*native_), MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &native->comm));
+  check(MPI_Comm_set_errhandler(native->comm, MPI_ERRORS_RETURN));
+  return Communicator(std::move(native));
+}
+
 Communicator::Communicator(std::unique_ptr<Native> native) : native_(std::move(native)) {
   check(MPI_Comm_rank(native_->comm, &rank_));
+  native_->rank = rank_;
   check(MPI_Comm_size(native_->comm, &size_));
 }
 Communicator::Communicator(Communicator&&) noexcept = default;
@@ -131,8 +104,8 @@ Communicator::~Communicator() {
     MPI_Comm_free(&native_->comm);
 }
 
-const Traffic& Communicator::traffic() const {
-  return native_->traffic;
+Counters& Communicator::counters() const {
+  return native_->counters;
 }
 
 void Communicator::barrier() const {
@@ -215,12 +188,12 @@ std::int64_t Communicator::exclusive_scan(std::int64_t value) const {
 }
 
 std::vector<std::int64_t> Communicator::all_gather(std::int64_t value) const {
-  std::vector<std::int64_t> all(static_cast<std::size_t>(size_));
+  std::vector<std::int64_t> all = table_of_ranks<std::int64_t>(*this);
   check(MPI_Allgather(&value, 1, MPI_INT64_T, all.data(), 1, MPI_INT64_T, collective(*native_)));
   return all;
 }
 std::vector<double> Communicator::all_gather(double value) const {
-  std::vector<double> all(static_cast<std::size_t>(size_));
+  std::vector<double> all = table_of_ranks<double>(*this);
   check(MPI_Allgather(&value, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, collective(*native_)));
   return all;
 }
@@ -228,18 +201,24 @@ std::vector<double> Communicator::all_gather(double value) const {
 std::vector<std::byte> Communicator::all_gather(std::span<const std::byte> bytes) const {
   if (size_ == 1)
     return {bytes.begin(), bytes.end()};
-  const std::vector<std::int64_t> sizes = all_gather(static_cast<std::int64_t>(bytes.size()));
-  std::vector<int> counts, starts;
-  std::int64_t total = 0;
-  for (const std::int64_t size : sizes) {
-    counts.push_back(static_cast<int>(size));
-    starts.push_back(static_cast<int>(total));
-    total += size;
-  }
-  TRIME_ASSERT(total <= std::numeric_limits<int>::max(), "{} bytes for every rank", total);
+  const std::vector<std::int64_t> sizes = all_gather(std::ssize(bytes));
+  const std::int64_t own_start = std::accumulate(sizes.begin(), sizes.begin() + rank_, std::int64_t{0});
+  const std::int64_t total = std::accumulate(sizes.begin() + rank_, sizes.end(), own_start);
   std::vector<std::byte> all(static_cast<std::size_t>(total));
-  check(MPI_Allgatherv(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, all.data(), counts.data(), starts.data(),
-                       MPI_BYTE, collective(*native_)));
+  std::vector<int> counts(sizes.size()), starts(sizes.size());
+  for (std::int64_t window = 0; window < total; window += piece_bytes) { // MPI counts are int
+    const auto within = [&](std::int64_t offset) {
+      return std::clamp(offset - window, std::int64_t{0}, std::int64_t{piece_bytes});
+    };
+    std::int64_t start = 0;
+    for (std::size_t rank = 0; rank < sizes.size(); start += sizes[rank++]) {
+      starts[rank] = static_cast<int>(within(start));
+      counts[rank] = static_cast<int>(within(start + sizes[rank]) - within(start));
+    }
+    const std::int64_t sent = std::clamp(window - own_start, std::int64_t{0}, std::ssize(bytes)); // in earlier windows
+    check(MPI_Allgatherv(bytes.data() + sent, counts[static_cast<std::size_t>(rank_)], MPI_BYTE, all.data() + window,
+                         counts.data(), starts.data(), MPI_BYTE, collective(*native_)));
+  }
   return all;
 }
 
@@ -267,82 +246,6 @@ std::vector<std::string> Communicator::gather(const std::string& text) const {
                                                          message.data.size());
   }
   return all;
-}
-
-std::vector<Message> Communicator::exchange_any(const std::vector<Message>& outgoing) const {
-  // O(ranks) memory: one count per rank, reduced and scattered, tells how many messages to expect.
-  std::vector<int> counts(static_cast<std::size_t>(size_), 0);
-  std::vector<std::int64_t> sizes(outgoing.size());
-  std::vector<MPI_Request> requests;
-  for (std::size_t k = 0; k < outgoing.size(); ++k)
-    counts[static_cast<std::size_t>(outgoing[k].peer)] += 1;
-  int expected = 0;
-  check(MPI_Reduce_scatter_block(counts.data(), &expected, 1, MPI_INT, MPI_SUM, collective(*native_)));
-  for (std::size_t k = 0; k < outgoing.size(); ++k) {
-    sizes[k] = static_cast<std::int64_t>(outgoing[k].data.size());
-    requests.emplace_back();
-    count_message(*native_, sizeof sizes[k]);
-    check(MPI_Isend(&sizes[k], 1, MPI_INT64_T, outgoing[k].peer, tag_any, native_->comm, &requests.back()));
-  }
-  std::vector<Message> incoming;
-  for (int k = 0; k < expected; ++k) {
-    std::int64_t size = 0;
-    MPI_Status status;
-    check(MPI_Recv(&size, 1, MPI_INT64_T, MPI_ANY_SOURCE, tag_any, native_->comm, &status));
-    incoming.push_back({status.MPI_SOURCE, std::vector<std::byte>(static_cast<std::size_t>(size))});
-  }
-  std::sort(incoming.begin(), incoming.end(), [](const Message& a, const Message& b) { return a.peer < b.peer; });
-  check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
-  exchange_known(outgoing, incoming);
-  barrier(); // a second exchange_any must not meet the counts of this one
-  return incoming;
-}
-
-void Communicator::exchange_known(std::span<const Message> outgoing, std::span<Message> incoming) const {
-  std::vector<MPI_Request> requests;
-  for (const Message& message : incoming)
-    post(message, false, tag_known, *native_, requests);
-  for (const Message& message : outgoing)
-    post(message, true, tag_known, *native_, requests);
-  check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
-}
-
-struct Communicator::Exchange::Requests {
-  std::vector<MPI_Request> list;
-};
-
-Communicator::Exchange::Exchange() = default;
-Communicator::Exchange::Exchange(Exchange&&) noexcept = default;
-Communicator::Exchange& Communicator::Exchange::operator=(Exchange&& other) noexcept {
-  std::swap(requests_, other.requests_);
-  std::swap(outgoing_, other.outgoing_);
-  return *this;
-}
-Communicator::Exchange::~Exchange() {
-  wait(); // MPI must not write to memory that is gone
-}
-
-bool Communicator::Exchange::is_open() const {
-  return requests_ != nullptr;
-}
-
-void Communicator::Exchange::wait() {
-  if (!requests_)
-    return;
-  check(MPI_Waitall(static_cast<int>(requests_->list.size()), requests_->list.data(), MPI_STATUSES_IGNORE));
-  requests_.reset();
-  outgoing_.clear();
-}
-
-Communicator::Exchange Communicator::begin_exchange(std::vector<Message> outgoing, std::span<Message> incoming) const {
-  Exchange exchange;
-  exchange.requests_ = std::make_unique<Exchange::Requests>();
-  exchange.outgoing_ = std::move(outgoing);
-  for (const Message& message : incoming)
-    post(message, false, tag_known, *native_, exchange.requests_->list);
-  for (const Message& message : exchange.outgoing_)
-    post(message, true, tag_known, *native_, exchange.requests_->list);
-  return exchange;
 }
 
 } // namespace trime::comm

@@ -10,7 +10,8 @@ namespace trime::comm {
 
 struct Communicator::Native {
   MPI_Comm comm = MPI_COMM_NULL;
-  mutable Traffic traffic{};
+  int rank = 0;
+  mutable Counters counters{}; // of this rank
 };
 
 inline MPI_Comm native_handle(const Communicator& communicator) {

@@ -7,7 +7,7 @@
 #include "trime/comm/communicator.hpp"
 
 #include <algorithm>
-#include <string>
+#include <span>
 #include <vector>
 
 namespace trime::comm {
@@ -17,11 +17,7 @@ template <class T>
 std::vector<T> gather_everywhere(const Communicator& comm, std::vector<T> mine) {
   if (comm.size() == 1)
     return mine;
-  std::string all;
-  for (const std::string& part :
-       comm.gather(std::string(reinterpret_cast<const char*>(mine.data()), mine.size() * sizeof(T))))
-    all += part;
-  return from_bytes<T>(std::as_bytes(std::span<const char>(comm.broadcast(std::move(all)))));
+  return from_bytes<T>(comm.all_gather(std::as_bytes(std::span<const T>(mine))));
 }
 
 /// @brief n results of type T on every rank: work(first, last, results) for runs of `run` results, so that what one of

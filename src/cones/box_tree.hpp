@@ -34,6 +34,12 @@ public:
 
   /// The pointers in it stay valid when the tree is moved.
   const BoxLevels& levels() const { return pointers_; }
+  std::size_t memory_bytes() const {
+    std::size_t nodes = 0;
+    for (const std::vector<BoxNode>& level : levels_)
+      nodes += level.capacity();
+    return nodes * sizeof(BoxNode);
+  }
 
   /// visit(k) for all items, in their order, but for those in boxes with skip(box, number).
   template <class Skip, class Visit>

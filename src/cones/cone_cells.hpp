@@ -42,6 +42,10 @@ public:
     return leaf.is_bilinear() ? tree_.value(p, bound)
                               : lowest_cone(&numbers_[leaf.first], leaf.pairs(), p, slope_, bound);
   }
+  std::size_t memory_bytes() const {
+    return roots_.capacity() * sizeof(CellNode) + quarters_.capacity() * sizeof(Quarters) +
+           numbers_.capacity() * sizeof(double);
+  }
 
 private:
   static constexpr int most_levels = 8; ///< below a block

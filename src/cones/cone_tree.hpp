@@ -47,6 +47,9 @@ public:
 
   /// In the order of the tree.
   std::span<const Cone> cones() const { return cones_; }
+  std::size_t memory_bytes() const {
+    return cones_.capacity() * sizeof(Cone) + leaves_.capacity() * sizeof(ConeLeaf) + tree_.memory_bytes();
+  }
 
 private:
   LowestCone find(geometry::Vec2 p, double bound, double slack) const;

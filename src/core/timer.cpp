@@ -23,15 +23,15 @@ void set_wall_clock(double (*seconds)()) {
   clock_in_use = seconds ? seconds : steady_seconds;
 }
 
-void TimerTable::add(const std::string& name, double seconds, const Traffic& traffic) {
+void TimerTable::add(const std::string& name, double seconds, const CounterValues& counts) {
   for (Section& section : sections_)
     if (section.name == name) {
       section.seconds += seconds;
       ++section.calls;
-      section.traffic += traffic;
+      section.counts += counts;
       return;
     }
-  sections_.push_back({name, seconds, 1, traffic});
+  sections_.push_back({name, seconds, 1, counts});
 }
 
 } // namespace trime

@@ -201,6 +201,7 @@ void Halo::extend(mesh::BinnedPoints& points, std::vector<BinRef> missing, std::
   const std::vector<Message> arrived = comm_->exchange_any(replies); // as many as were asked, in the same order
   for (std::size_t k = 0; k < requests.size(); ++k)
     add_described(arrived[k].data, requests[k].bins, points, sizes);
+  comm_->counters().note(Counter::ghosts, points.size() - points.owned());
 }
 
 void Halo::refresh(mesh::BinnedPoints& points) {
@@ -224,6 +225,7 @@ void Halo::refresh(mesh::BinnedPoints& points) {
         {message.peer, std::vector<std::byte>(sum_of(comm::from_bytes<std::int32_t>(message.data)) * sizeof(Ghost))});
   comm_->exchange_known(sites_out, sites_in);
   points.assign_ghosts(imported, concatenate<std::int32_t>(counts_in), concatenate<Ghost>(sites_in));
+  comm_->counters().note(Counter::ghosts, points.size() - points.owned());
 }
 
 /// Ghosts that come from a peer.
@@ -300,6 +302,7 @@ void Halo::begin_positions(const mesh::BinnedPoints& points) {
 void Halo::finish_positions(mesh::BinnedPoints& points) {
   exchange_.wait();
   const std::span<geometry::Vec2> ghosts = points.ghost_positions();
+  comm_->counters().note(Counter::ghosts, std::ssize(ghosts));
   for (std::size_t m = 0; m < positions_.size(); ++m) {
     Reader reader(positions_[m].data);
     for (std::size_t k = 0; k < imports_[m].bins.size(); ++k) {

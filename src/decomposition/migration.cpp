@@ -90,6 +90,7 @@ void migrate(const comm::Communicator& comm, const mesh::TileGrid& grid, const P
   for (const comm::Message& message : comm.exchange_any(outgoing)) {
     const std::vector<mesh::Site> arrived = comm::from_bytes<mesh::Site>(message.data);
     sites.insert(sites.end(), arrived.begin(), arrived.end());
+    comm.counters().add(Counter::sites_migrated, std::ssize(arrived));
   }
 }
 

@@ -23,6 +23,7 @@ public:
   LocalIndex last_tile(int rank) const { return starts_[static_cast<std::size_t>(rank) + 1]; }
   /// O(log ranks).
   int owner(LocalIndex tile) const;
+  std::size_t memory_bytes() const { return starts_.capacity() * sizeof(LocalIndex); }
   int ranks() const { return static_cast<int>(starts_.size()) - 1; }
 
 private:

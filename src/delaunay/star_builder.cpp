@@ -247,6 +247,7 @@ template <class Worker>
 StarPass collect(const PerThread<Worker>& workers, std::vector<mesh::BinRef>& missing) {
   StarPass pass;
   for (const Worker& worker : workers) {
+    pass.computed += worker.pass().computed;
     pass.rebuilt += worker.pass().rebuilt;
     pass.uncertain += worker.pass().uncertain;
     missing.insert(missing.end(), worker.missing().begin(), worker.missing().end());
@@ -300,6 +301,7 @@ public:
         stars_.set_certain(i, false); // to be computed once it is wanted
       caps_[static_cast<std::size_t>(i - begin)] = wish == StarWish::compute && !stars_.certain(i) ? cap(i) : 0;
     }
+    computed_ += std::ssize(caps_) - std::count(caps_.begin(), caps_.end(), 0.0);
     if (points_.drifts().largest() == 0) // it trusts the bins
       rebuilt_ += wrapper_.compute(tile, caps_);
     for (LocalIndex i = begin; i < end; ++i)
@@ -307,7 +309,7 @@ public:
         star_.compute(i, limit);
   }
 
-  StarPass pass() const { return {star_.pass().rebuilt + rebuilt_, star_.pass().uncertain}; }
+  StarPass pass() const { return {computed_, star_.pass().rebuilt + rebuilt_, star_.pass().uncertain}; }
   const std::vector<mesh::BinRef>& missing() const { return star_.missing(); }
 
 private:
@@ -316,7 +318,7 @@ private:
   StarWorker star_;
   TileWrapper wrapper_;
   std::vector<double> caps_;
-  std::int64_t rebuilt_ = 0;
+  std::int64_t computed_ = 0, rebuilt_ = 0;
 };
 
 } // namespace
@@ -362,7 +364,9 @@ StarPass StarBuilder::certify(const mesh::BinnedPoints& points, StarTable& stars
   });
   for (const Rings& r : rings)
     affected.insert(affected.end(), r.affected.begin(), r.affected.end());
-  return collect(workers, missing);
+  StarPass pass = collect(workers, missing);
+  pass.computed = std::ssize(sites);
+  return pass;
 }
 
 } // namespace trime::delaunay

@@ -20,6 +20,7 @@ enum class StarWish : std::uint8_t { none, compute, leave };
 
 /// Counts of one pass.
 struct StarPass {
+  std::int64_t computed = 0;  ///< stars that were not certain, or not asked whether they are
   std::int64_t rebuilt = 0;   ///< certain stars whose last ring was not right any more
   std::int64_t uncertain = 0; ///< stars that miss a bin
 };

@@ -9,7 +9,7 @@ using sweep::StopReason;
 
 MeshResult make_mesh(const comm::Communicator& comm, const shape::RegionShape& shape, const sizing::SizeField& size,
                      const MeshOptions& options, Log& log) {
-  TimerTable timers(&comm.traffic());
+  TimerTable timers; // leaves the counters to the caller
   return Mesher(comm, shape.boundary(), size, options, log, timers).run();
 }
 

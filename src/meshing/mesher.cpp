@@ -49,6 +49,7 @@ private:
   void start_first_stage();
   void start_next_stage();
   void begin(Stage stage);
+  void count_replicated() const;
   void report_boundary();
   void empty_discs();
   bool clean_up();
@@ -86,6 +87,7 @@ void Run::begin(Stage stage) {
   boundary_.follow(stage_.curves, stage_.polygon.dropped);
   placed_ = run_.comm.sum(std::int64_t{stage_.state->points().owned()});
   stars_.begin_stage(placed_);
+  count_replicated();
   const int components = boundary_.curves().components(), holes = boundary_.curves().holes();
   run_.log.info("boundary: {} component{}, {} hole{}, {} sites, {} corners", components, components == 1 ? "" : "s",
                 holes, holes == 1 ? "" : "s", stage_.polygon.sites.size(), stage_.polygon.corners);
@@ -94,6 +96,17 @@ void Run::begin(Stage stage) {
                 grid.cells().x, grid.cells().y, stage_.typical_size);
   if (scheme_.is_last())
     report_boundary();
+}
+
+/// What every rank holds as a whole: the boundary and the size.
+void Run::count_replicated() const {
+  const std::size_t boundary =
+      static_cast<std::size_t>(polygon::piece_count(boundary_.curves())) * sizeof(geometry::Piece) +
+      stage_.polygon.sites.capacity() * sizeof(polygon::BoundarySite) + stage_.guard->memory_bytes();
+  const std::size_t size =
+      run_.relative_size.memory_bytes() + (stage_.lowered_size ? stage_.lowered_size->memory_bytes() : 0);
+  run_.comm.counters().note(Counter::boundary_bytes, static_cast<std::int64_t>(boundary));
+  run_.comm.counters().note(Counter::size_bytes, static_cast<std::int64_t>(size));
 }
 
 /// What was done about small features, and what the user may want to change. Collective.
@@ -140,6 +153,7 @@ MeshResult Run::extract() {
   const sites::StageView view = stage_.view(run_.lattice, boundary_.fixed().all());
   const decomposition::Numbering numbering =
       decomposition::canonical_numbering(run_.comm, stage_.state->points(), stage_.state->halo());
+  run_.comm.counters().add(Counter::sites_extracted, numbering.owned());
   stage_.state->release_work_space();
   MeshResult result;
   result.components = boundary_.curves().components();

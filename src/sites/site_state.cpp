@@ -45,6 +45,20 @@ SiteState::SiteState(const SiteState& other)
   distribute(std::move(sites));
 }
 
+/// After each sorting.
+void SiteState::count_sites() const {
+  LocalIndex densest = 0;
+  for (LocalIndex tile = points_.first_tile(); tile < points_.last_tile(); ++tile) {
+    const auto [begin, end] = points_.tile_range(tile);
+    densest = std::max(densest, end - begin);
+  }
+  Counters& counters = comm_.counters();
+  counters.note(Counter::points, points_.owned());
+  counters.note(Counter::densest_tile, densest);
+  counters.note(Counter::grid_bytes, static_cast<std::int64_t>(grid_.memory_bytes()));
+  counters.note(Counter::rank_bytes, static_cast<std::int64_t>(partition_.memory_bytes()));
+}
+
 /// Into the container, where it is periodic.
 void SiteState::wrap(mesh::SiteList& sites) const {
   const geometry::Periods& periods = grid_.periods();
@@ -72,6 +86,8 @@ void SiteState::distribute(mesh::SiteList sites) {
   carried_.clear();
   stars_.reset(points_.owned());
   halo_.reset(partition_, SiteRules::halo_margin);
+  comm_.counters().add(Counter::sites_started, points_.owned());
+  count_sites();
 }
 
 /// Each owner finds what suits its tiles; then all know.
@@ -95,6 +111,7 @@ void SiteState::move_sites(std::vector<std::uint8_t> gone, mesh::SiteList more) 
   sizes_.forget();
   carry_sizes(new_index);
   stars_.renumber(new_index, points_.owned());
+  count_sites();
 }
 
 /// Into the container, where it is periodic.
@@ -243,6 +260,8 @@ delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder
     missing.clear();
     const delaunay::StarPass pass = builder.update(points_, stars_, sizes_, wanted, missing);
     all.rebuilt += pass.rebuilt;
+    comm_.counters().add(Counter::stars_by_emptiness, pass.computed);
+    comm_.counters().add(Counter::stars_rebuilt, pass.rebuilt);
     if (comm_.sum(pass.uncertain) == 0)
       return all;
     fetch(missing, size);
@@ -251,6 +270,7 @@ delaunay::StarPass SiteState::compute_stars(const delaunay::StarBuilder& builder
 }
 
 void SiteState::fetch(std::span<const mesh::BinRef> missing, const sizing::SizeField& size) {
+  comm_.counters().add(Counter::fetch_rounds);
   // h of a site that has moved may be older than its place: all must see that of its owner.
   halo_.extend(points_, {missing.begin(), missing.end()}, size.is_uniform() ? nullptr : &sizes_.values());
 }

@@ -80,6 +80,7 @@ public:
   void release_work_space();
 
 private:
+  void count_sites() const;
   void wrap(mesh::SiteList& sites) const;
   void wrap_next();
   void list_leaving(std::vector<std::uint8_t>& gone, mesh::SiteList& leaving) const;

@@ -35,6 +35,10 @@ double LoweredSize::size(geometry::Vec2 p) const {
   return is_valid_size(size) ? lowered(p, size) : size;
 }
 
+std::size_t LoweredSize::memory_bytes() const {
+  return cones_->memory_bytes() + cells_->memory_bytes();
+}
+
 double LoweredSize::lowered(geometry::Vec2 p, double field_size) const {
   return cells_->value(periods_.wrap(p), field_size);
 }

@@ -33,6 +33,7 @@ public:
   /// The same where the field is known to have a valid value.
   double lowered(geometry::Vec2 p, double field_size) const;
   bool is_uniform() const override { return false; }
+  std::size_t memory_bytes() const override;
 
 private:
   const SizeField& field_;

@@ -46,8 +46,11 @@ std::vector<LocalIndex> StarCertifier::certify_suspects() {
   missing_.clear();
   while (!suspects_.empty()) { // every site is looked at once at most
     affected.clear();
-    rebuilt_ +=
-        builder_.certify(state_.points(), state_.stars(), state_.sizes(), suspects_, affected, missing_).rebuilt;
+    const delaunay::StarPass pass =
+        builder_.certify(state_.points(), state_.stars(), state_.sizes(), suspects_, affected, missing_);
+    rebuilt_ += pass.rebuilt;
+    state_.comm().counters().add(Counter::stars_by_emptiness, pass.computed);
+    state_.comm().counters().add(Counter::stars_rebuilt, pass.rebuilt);
     for (const LocalIndex i : suspects_)
       (state_.stars().certain(i) ? certified : uncertain).push_back(i);
     checked_.insert(checked_.end(), suspects_.begin(), suspects_.end());

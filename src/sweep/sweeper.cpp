@@ -111,6 +111,19 @@ void Sweeper::run_kernel(const UpdateRule& rule, TilePlace which) {
   }
 }
 
+/// Those of the awake tiles that lie so, and of the sleeping ones.
+void Sweeper::count_sites(TilePlace which) const {
+  const TilesAround& around = certifier_.classes().around();
+  std::array<std::int64_t, 2> sites{}; // asleep, awake
+  for (std::size_t t = 0; t < around.size(); ++t)
+    if (around.place(t) == which) {
+      const auto [begin, end] = state_.points().tile_range(state_.points().first_tile() + static_cast<LocalIndex>(t));
+      sites[activity_.is_awake(t)] += end - begin;
+    }
+  state_.comm().counters().add(Counter::sites_slept, sites[0]);
+  state_.comm().counters().add(Counter::sites_swept, sites[1]);
+}
+
 /// Pushes those that the kernel has moved into a disc; true if there are any.
 bool Sweeper::treat_guarded(std::span<const LocalIndex> sites) {
   const mesh::BinnedPoints& points = state_.points();
@@ -158,6 +171,7 @@ void Sweeper::move_others(const UpdateRule& rule) {
 /// Counts what all ranks have done in this sweep, in one packed reduction; returns how many stars are uncertain.
 std::int64_t Sweeper::sum_over_ranks() {
   const SweepTally mine = outcomes_.sum();
+  moving_ = mine.moving;
   std::array<std::int64_t, 7> sums{certifier_.uncertain(), certifier_.rebuilt(),    mine.moving,     mine.pushed,
                                    mine.deleted,           mine.power & 0xffffffff, mine.power >> 32};
   std::array<double, 3> largest{
@@ -182,6 +196,7 @@ void Sweeper::prepare(const UpdateRule& rule) {
   irregular_.clear();
   for (const TilePlace which : {TilePlace::inner, TilePlace::at_border}) {
     run_kernel(rule, which);
+    count_sites(which);
     finish_move(); // the ghosts have been on their way
   }
   activity_.end_waking();
@@ -194,6 +209,7 @@ void Sweeper::prepare(const UpdateRule& rule) {
   }
   certifier_.end_sweep();
   prepared_ = true;
+  state_.comm().counters().add(Counter::passes);
 }
 
 // --- commit --------------------------------------------------------------------------------------------------------
@@ -215,6 +231,7 @@ bool Sweeper::must_sort() const {
 Sweeper::Counts Sweeper::commit() {
   TRIME_ASSERT(prepared_);
   prepared_ = false;
+  state_.comm().counters().add(Counter::sites_moved, moving_);
   schedule_.add_move(largest_distance_, counts_.max_move, drift_in_tiles_);
   ++moves_;
   if (must_sort()) {

@@ -59,6 +59,7 @@ public:
 private:
   void reset();
   void run_kernel(const UpdateRule& rule, TilePlace which);
+  void count_sites(TilePlace which) const;
   struct TileLeftovers;
   void sweep_tile(const SweepTask& task, std::size_t t, TileLeftovers& mine);
   void stay(const SweepTask& task, std::size_t t);
@@ -83,6 +84,7 @@ private:
   Counts counts_;
   double largest_distance_ = 0; // of this sweep, over all ranks
   double drift_in_tiles_ = 0;   // with it, over all ranks
+  std::int64_t moving_ = 0;     // of this sweep and rank
   int moves_ = 0;
   bool sorted_ = true, prepared_ = false, under_way_ = false;
 };

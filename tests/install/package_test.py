@@ -13,6 +13,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PACKAGING = ROOT / "scripts" / "packaging"
+MODULES = pathlib.Path("/usr/share/modules/init/bash")
 BUILD = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else ROOT / "build" / "ci")
 
 
@@ -50,6 +51,34 @@ class Package(unittest.TestCase):
 
     def test_program_runs_from_the_package(self):
         self.assertIn("trime_mpi 0.", output(self.work / "root" / "usr" / "bin" / "trime_mpi", "--version"))
+
+    @unittest.skipUnless(MODULES.exists(), "no Environment Modules here")
+    def test_module_file(self):
+        """Loaded for an installation elsewhere: program and job scripts are found, and man still finds all else."""
+        for source in (PACKAGING / "modulefiles" / "trime_mpi").iterdir():
+            copy = self.work / "modulefiles" / "trime_mpi" / source.name
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            text, changes = re.subn("(?m)^set prefix .*$", f"set prefix {self.work}/root/usr",
+                                    source.read_text(encoding="utf-8"))
+            self.assertEqual(changes, 1)
+            copy.write_text(text, encoding="utf-8")
+        told = output("bash", "-c", f"source {MODULES}; unset MANPATH; module use {self.work}/modulefiles; "
+                      "module load trime_mpi; command -v trime_mpi; $TRIME_PROGRAM --version; "
+                      "ls $TRIME_JOBS/common.sh; echo MANPATH $MANPATH; "
+                      "module unload trime_mpi; echo left $TRIME_PROGRAM $TRIME_JOBS")
+        usr = self.work / "root" / "usr"
+        self.assertEqual(told.splitlines()[0], str(usr / "bin" / "trime_mpi"))
+        self.assertIn("trime_mpi 0.", told)
+        self.assertIn(f"MANPATH {usr}/share/man:\n", told)
+        self.assertTrue(told.endswith("\nleft\n"), told)
+
+    def test_spack_recipe_names_options_of_cmake(self):
+        text = (PACKAGING / "spack/packages/trime-mpi/package.py").read_text(encoding="utf-8")
+        compile(text, "package.py", "exec")
+        known = re.findall(r"\boption\((TRIME_\w+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))
+        used = re.findall(r"TRIME_\w+", text)
+        self.assertGreater(len(used), 2)
+        self.assertEqual([name for name in used if name not in known], [])
 
     def test_man_page_has_every_key(self):
         text = gzip.decompress((self.work / "root/usr/share/man/man1/trime_mpi.1.gz").read_bytes()).decode()

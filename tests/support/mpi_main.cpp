@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <cstdlib>
 
 namespace {
 
@@ -43,12 +44,24 @@ void prepare_rank(const trime::comm::Communicator& comm) {
   listeners.Append(new FailurePrinter(comm.rank())); // owned by GoogleTest
 }
 
+/// Are there as many ranks as ctest asked for? The mpiexec of another MPI starts programs that believe to be alone.
+bool is_complete(const trime::comm::Communicator& comm) {
+  const char* asked = std::getenv("TRIME_TEST_RANKS");
+  if (asked == nullptr || std::atoi(asked) == comm.size())
+    return true;
+  std::fprintf(stderr, "Expected %s ranks, found %d. Does this mpiexec belong to the MPI of this program?\n", asked,
+               comm.size());
+  return false;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
   trime::comm::Environment environment(argc, argv);
   ::testing::InitGoogleTest(&argc, argv);
   const trime::comm::Communicator comm = trime::comm::Communicator::world();
+  if (!is_complete(comm))
+    return 1;
   prepare_rank(comm);
   const int here = RUN_ALL_TESTS();
   const auto anywhere = static_cast<int>(comm.max(std::int64_t{here}));

@@ -153,6 +153,20 @@ class FileContract(unittest.TestCase):
         self.assertEqual(len({len(timers[name]) for name in ("name", "calls", "min", "avg", "max")}), 1)
         self.assertTrue((timers["min"][:] <= timers["max"][:]).all())
 
+    def test_counters_add_up(self):
+        counters = self.file["trime_mpi/counters"]
+        self.assertTrue(counters.attrs["limit"])
+        columns = ("phase", "name", "unit", "sum", "min", "mean", "max")
+        self.assertEqual(len({len(counters[name]) for name in columns}), 1)
+        self.assertTrue((counters["min"][:] <= counters["mean"][:]).all())
+        self.assertTrue((counters["mean"][:] <= counters["max"][:]).all())
+        phases, names = counters["phase"].asstr()[:], counters["name"].asstr()[:]
+        run = {name: counters["sum"][k] for k, name in enumerate(names) if phases[k] == "run"}
+        self.assertEqual(run["sites_extracted"], len(self.xy))
+        for name in ("messages", "sites_swept", "stars_by_emptiness"):
+            self.assertEqual(counters["sum"][(phases != "run") & (names == name)].sum(), run[name], name)
+        self.assertEqual(counters["max"][(phases == "run") & (names == "neighbours")].tolist(), [1])
+
     def test_a_very_long_command_line_is_kept(self):
         """Longer than HDF5 lets an attribute be."""
         overrides = ["meshing.corner_angle=30"] * 5000 + ["meshing.points=300", "output.name=long"]

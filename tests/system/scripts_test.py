@@ -1,13 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The scripts around the program: picture, scaling table, and what the first command does where it may not install."""
-import csv
-import json
+"""The scripts around the program: picture, and what the first command does where it may not install."""
 import os
 import subprocess
 import unittest
 
-from trime_run import PROGRAM, ROOT, Workspace, environment, run
+from trime_run import ROOT, Workspace, environment, run
 
 SCRIPTS = ROOT / "scripts"
 
@@ -47,45 +45,6 @@ class Scripts(unittest.TestCase):
             done = call(SCRIPTS / "plot_mesh.py", work / "m.h5", MPLCONFIGDIR=str(work))
             self.assertEqual(done.returncode, 1)
             self.assertIn(f"there is no {work / 'm.h5'}", done.stderr)
-
-    def test_scaling_of_a_config_with_an_edge_length(self):
-        with Workspace() as work:
-            text = (ROOT / "configs" / "square.ini").read_text(encoding="utf-8")
-            (work / "length.ini").write_text(text.replace("points = 5000", "edge_length = 0.02"), encoding="utf-8")
-            arguments = ["--config", work / "length.ini", "--cases", "1x1", "--points", "1e3", "--repeats", "1",
-                         "--program", PROGRAM, "--output", work / "out"]
-            done = call(SCRIPTS / "scaling.py", *arguments)
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            done = call(SCRIPTS / "scaling.py", *arguments, "meshing.seed=x")
-            self.assertEqual(done.returncode, 1)
-            self.assertFalse((work / "out" / "work").exists(), "left behind by a failure")
-
-    def test_scaling_table(self):
-        with Workspace() as work:
-            done = call(SCRIPTS / "scaling.py", "--cases", "1x1,2x1,1x64", "--points", "2e3", "--repeats", "2",
-                        "--program", PROGRAM, "--output", work)
-            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            with (work / "scaling.csv").open(encoding="utf-8") as stream:
-                rows = list(csv.DictReader(stream))
-            self.assertEqual([(row["ranks"], row["threads"]) for row in rows], [("1", "1"), ("2", "1"), ("1", "64")])
-            self.assertEqual({row["same_mesh"] for row in rows}, {"OK"})
-            self.assertEqual(len({row["mesh_hash"] for row in rows}), 1)
-            self.assertEqual(float(rows[0]["efficiency"]), 1)
-            if os.cpu_count() < 64:
-                self.assertEqual(rows[2]["efficiency"], "", "more threads than cores: no efficiency")
-            runs = [json.loads(line) for line in (work / "runs.jsonl").read_text(encoding="utf-8").splitlines()]
-            self.assertEqual(len(runs), 6, "the warm-up is dropped")
-            for record in runs:
-                parts = sum(phase["avg"] for phase in record["phases"].values())
-                self.assertLessEqual(abs(parts - record["seconds"]), 0.1 * record["seconds"] + 0.02)
-            self.assertIn("| 2,000 | 1 x 1 |", (work / "scaling.md").read_text(encoding="utf-8"))
-
-    def test_scaling_refuses_nonsense(self):
-        for arguments in (["--cases", "2"], ["--cases", "0x1"], ["--points", "many"], ["--program", "/nowhere"]):
-            with self.subTest(arguments=arguments):
-                done = call(SCRIPTS / "scaling.py", *arguments)
-                self.assertEqual(done.returncode, 2)
-                self.assertNotIn("Traceback", done.stderr)
 
     def test_the_page_of_the_configs_holds_the_table_of_keys(self):
         table = run("--help-config").stdout.strip()

@@ -3,7 +3,7 @@
 // Callers need no mpi.h. Every MPI error ends the job with its text: there is no recovery from a broken network.
 #pragma once
 
-#include "trime/core/traffic.hpp"
+#include "trime/core/counters.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -31,6 +31,9 @@ public:
 /// Name and version of the MPI library, one line.
 std::string library_version();
 
+/// Whether the ranks are those of a simulated cluster (TRIME_SIMULATE): they take turns in one process.
+bool is_simulated();
+
 /// Ends all processes of the job at once, with this exit code: for an error that one rank has alone.
 [[noreturn]] void abort_job(int exit_code);
 
@@ -47,6 +50,8 @@ public:
   static Communicator world();
   /// This process alone.
   static Communicator self();
+  /// Those ranks of this communicator that share the memory of this node, in the same order. Collective.
+  Communicator node() const;
   Communicator(Communicator&&) noexcept;
   Communicator& operator=(Communicator&&) noexcept;
   ~Communicator();
@@ -54,8 +59,10 @@ public:
   int rank() const { return rank_; }
   int size() const { return size_; }
   bool is_root() const { return rank_ == 0; }
-  /// What this rank has sent and waited for so far; what io does is not in it. Valid as long as the communicator.
-  const Traffic& traffic() const;
+  /// @brief The counters of this rank, which go wherever ranks work together: messages, bytes and collectives are
+  /// counted here, the rest by the modules that do the work. What HDF5 sends is not in them. Valid as long as the
+  /// communicator.
+  Counters& counters() const;
 
   /// Collective.
   void barrier() const;
@@ -76,7 +83,7 @@ public:
   /// The value of each rank, by rank. O(ranks) memory. Collective.
   std::vector<std::int64_t> all_gather(std::int64_t value) const;
   std::vector<double> all_gather(double value) const;
-  /// The bytes of all ranks on every rank, by rank. O(all bytes) memory; at most 2 GiB together. Collective.
+  /// The bytes of all ranks on every rank, by rank. O(all bytes) memory. Collective.
   std::vector<std::byte> all_gather(std::span<const std::byte> bytes) const;
   /// The text of `root` on every rank. Collective.
   std::string broadcast(std::string text, int root = 0) const;
@@ -84,7 +91,7 @@ public:
   std::vector<std::string> gather(const std::string& text) const;
 
   /// @brief Sends each message to its peer and returns what arrived, ordered by peer. Peers need not know each other
-  /// beforehand (one reduction counts the incoming messages). At most one message per peer. Collective.
+  /// beforehand. At most one message per peer. O(log(ranks)) steps. Collective.
   std::vector<Message> exchange_any(const std::vector<Message>& outgoing) const;
   /// @brief Exchange between ranks that know each other: `incoming[k].data` must have the size that its peer sends.
   /// Non-blocking sends and receives; empty messages are not sent. Only the ranks named take part.

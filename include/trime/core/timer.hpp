@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wall-clock sections of a run, and what was sent in them. Sections do not nest: the table must add up to the whole.
+// Wall-clock sections of a run, and what was counted in them. Sections do not nest: the table must add up to the whole.
 // Times are reported, never used to steer anything.
 #pragma once
 
-#include "trime/core/traffic.hpp"
+#include "trime/core/counters.hpp"
 
 #include <string>
 #include <vector>
@@ -17,22 +17,23 @@ double wall_seconds();
 /// steady clock again. Not while others read it.
 void set_wall_clock(double (*seconds)());
 
-/// Accumulated seconds, calls and traffic per named section, in order of first use.
+/// Accumulated seconds, calls and counters per named section, in order of first use.
 class TimerTable {
 public:
   struct Section {
     std::string name;
     double seconds = 0;
     long calls = 0;
-    Traffic traffic{};
+    CounterValues counts{};
   };
 
-  /// Adds the time from construction to destruction to one section, and the traffic.
+  /// Adds the time from construction to destruction to one section, and what was counted.
   class Scope {
   public:
-    Scope(TimerTable& table, const std::string& name)
-        : table_(table), name_(name), start_(wall_seconds()), before_(table.traffic()) {}
-    ~Scope() { table_.add(name_, wall_seconds() - start_, table_.traffic() - before_); }
+    Scope(TimerTable& table, const std::string& name) : table_(table), name_(name), start_(wall_seconds()) {
+      table_.outside(); // the section begins with nothing
+    }
+    ~Scope() { table_.add(name_, wall_seconds() - start_, table_.take()); }
     Scope(const Scope&) = delete;
     Scope& operator=(const Scope&) = delete;
 
@@ -40,22 +41,24 @@ public:
     TimerTable& table_;
     std::string name_;
     double start_;
-    Traffic before_;
   };
 
-  /// @param counted what is sent; null: nothing is. It must outlive the table.
-  explicit TimerTable(const Traffic* counted = nullptr) : counted_(counted), start_(wall_seconds()) {}
+  /// @param counters of this rank, which the table takes; null: nothing is counted. They must outlive the table.
+  explicit TimerTable(Counters* counters = nullptr) : counters_(counters), start_(wall_seconds()) {}
   [[nodiscard]] Scope scope(const std::string& name) { return Scope(*this, name); }
-  void add(const std::string& name, double seconds, const Traffic& traffic = {});
+  void add(const std::string& name, double seconds, const CounterValues& counts = {});
   const std::vector<Section>& sections() const { return sections_; }
   /// Seconds since construction.
   double total() const { return wall_seconds() - start_; }
-  /// All of it so far.
-  Traffic traffic() const { return counted_ ? *counted_ : Traffic{}; }
+  /// What was counted between the sections so far. @pre outside of any
+  const CounterValues& outside() { return outside_ += take(); }
 
 private:
+  CounterValues take() { return counters_ ? counters_->take() : CounterValues{}; }
+
   std::vector<Section> sections_;
-  const Traffic* counted_;
+  Counters* counters_;
+  CounterValues outside_;
   double start_;
 };
 

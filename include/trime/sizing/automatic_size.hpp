@@ -54,7 +54,7 @@ public:
   double size(geometry::Vec2 p) const override;
   double least() const;   ///< no value of the field is smaller
   double largest() const; ///< no value of the field is larger
-  std::size_t memory_bytes() const;
+  std::size_t memory_bytes() const override;
 
 private:
   std::unique_ptr<const Images> images_;

@@ -4,6 +4,7 @@
 
 #include "trime/geometry/vec2.hpp"
 
+#include <cstddef>
 #include <limits>
 
 namespace trime::sizing {
@@ -18,6 +19,8 @@ public:
   virtual double size(geometry::Vec2 p) const = 0;
   /// True if the size is the same everywhere (allows the lattice start).
   virtual bool is_uniform() const { return false; }
+  /// Of tables of its own, for the report.
+  virtual std::size_t memory_bytes() const { return 0; }
 };
 
 /// What the mesher expects of a size.

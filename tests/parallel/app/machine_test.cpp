@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The warnings of too many threads: the advice is one that helps.
+// The warnings of too many threads, with advice that helps, and of the launcher of another MPI.
 #include "app/machine.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 
 namespace trime::app {
@@ -42,6 +43,40 @@ TEST(Machine, AdvisesFewerThreadsOnlyWhereThatHelps) {
   EXPECT_NE(threads.find("set --threads 2 or start fewer ranks"), std::string::npos) << threads;
   EXPECT_NE(ranks.find("; start fewer ranks"), std::string::npos) << ranks;
   EXPECT_EQ(ranks.find("--threads"), std::string::npos) << ranks;
+}
+
+/// Sets a variable of the environment until its end.
+class Variable {
+public:
+  Variable(const char* name, const char* value) : name_(name) {
+    if (const char* before = std::getenv(name))
+      before_ = before;
+    setenv(name, value, 1);
+  }
+  ~Variable() {
+    if (before_)
+      setenv(name_, before_->c_str(), 1);
+    else
+      unsetenv(name_);
+  }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
+TEST(Machine, WarnsOfTheLauncherOfAnotherMpi) {
+  const comm::Communicator world = comm::Communicator::world(), alone = comm::Communicator::self();
+  const Variable four("OMPI_COMM_WORLD_SIZE", "4");
+  const Placement fits = placement(1, 1, 1);
+  EXPECT_NE(report(fits, alone).find("4 ranks were started, but this one is alone"), std::string::npos);
+  if (world.size() > 1) {
+    EXPECT_EQ(report(fits, world), "");
+  }
+  const Variable one("OMPI_COMM_WORLD_SIZE", "1");
+  EXPECT_EQ(report(fits, alone), "");
 }
 
 } // namespace

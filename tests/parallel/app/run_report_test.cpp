@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The report: its time table adds up, and a mesh that failed is never told as if it were good.
+// The report and what the file says of the run: a mesh that failed is never told as if it were good.
 #include "app/run_report.hpp"
 
 #include "app/provenance.hpp"
@@ -19,46 +19,70 @@ meshing::MeshResult good_result() {
   return result;
 }
 
-TEST(RunReport, TheTimeTableAddsUpOverRanks) {
-  const comm::Communicator comm = comm::Communicator::world();
-  TimerTable timers;
-  timers.add("stars", 0.001 * (1 + comm.rank()));
-  if (comm.rank() == 1)
-    timers.add("known to rank 1 only", 0.001);
-  const Measurements measured = gather_measurements(timers, 10 + comm.rank(), comm);
-  ASSERT_EQ(measured.times.size(), 2u);
-  EXPECT_EQ(measured.times[1].section, "other");
-  EXPECT_DOUBLE_EQ(measured.times[0].min, 0.001);
-  EXPECT_DOUBLE_EQ(measured.times[0].max, 0.001 * comm.size());
-  EXPECT_NEAR(measured.times[0].mean, 0.0005 * (1 + comm.size()), 1e-6);
-  EXPECT_DOUBLE_EQ(measured.times[0].mean + measured.times[1].mean, measured.total);
-  EXPECT_GE(measured.memory_sum, measured.peak_memory);
-  EXPECT_GT(measured.peak_memory, 1 << 20);
+/// Value of an attribute of the file.
+std::int64_t number(const io::Metadata& metadata, const std::string& name) {
+  for (const io::Attribute& attribute : metadata.attributes)
+    if (attribute.name == name)
+      return std::get<std::int64_t>(attribute.value);
+  ADD_FAILURE() << "no attribute " << name;
+  return -1;
 }
 
-TEST(RunReport, TellsTheTrafficOfEachSection) {
-  const comm::Communicator comm = comm::Communicator::world();
-  TimerTable timers(&comm.traffic());
-  {
-    const auto time = timers.scope("talk");
-    std::vector<comm::Message> outgoing;
-    if (comm.rank() > 0)
-      outgoing.push_back({0, std::vector<std::byte>(static_cast<std::size_t>(100 * comm.rank()))});
-    comm.exchange_any(outgoing);
-  }
-  comm.barrier();
-  const Measurements measured = gather_measurements(timers, 10 + comm.rank(), comm);
-  const int others = comm.size() - 1;
-  ASSERT_EQ(measured.times.size(), 2u);
-  EXPECT_EQ(measured.times[0].messages, 2 * others); // a size, and the bytes
-  EXPECT_EQ(measured.times[0].bytes, 8 * others + 50 * others * comm.size());
-  EXPECT_EQ(measured.times[0].collectives, 2); // the counts, and a barrier
-  EXPECT_GE(measured.times[1].collectives, 1);
-  EXPECT_EQ(measured.most_points, 10 + others);
-  EXPECT_DOUBLE_EQ(measured.mean_points, 10 + 0.5 * others);
-  const std::string report = run_report(good_result(), {}, measured, {});
-  EXPECT_EQ(report.find("Traffic") != std::string::npos, comm.size() > 1);
-  EXPECT_EQ(report.find("Imbalance: the rank with most points has") != std::string::npos, comm.size() > 1);
+template <class T>
+std::vector<T> column(const io::Metadata& metadata, const std::string& group, const std::string& name) {
+  for (const io::MetadataGroup& g : metadata.groups)
+    for (const io::Column& c : g.columns)
+      if (g.name == group && c.name == name)
+        return std::get<std::vector<T>>(c.values);
+  ADD_FAILURE() << "no column " << group << "/" << name;
+  return {};
+}
+
+TEST(RunReport, TellsWhatWasCounted) {
+  Measurements measured;
+  measured.phases = {{"sweeps", 7, 1, 2, 3}};
+  measured.total = 2;
+  measured.counters[Counter::sites_swept] = {1200, 500, 700};
+  measured.counters[Counter::messages] = {10, 5, 5};
+  const std::string alone = run_report(good_result(), {}, measured, {});
+  EXPECT_NE(alone.find("  sites_swept               1200\n"), std::string::npos) << alone;
+  EXPECT_EQ(alone.find("Traffic"), std::string::npos) << alone;
+  EXPECT_EQ(alone.find("patches  "), std::string::npos) << "nothing is said of what did not happen: " << alone;
+  measured.ranks = 2;
+  measured.phases[0].counters = measured.counters;
+  const std::string together = run_report(good_result(), {}, measured, {});
+  EXPECT_NE(together.find("  sites_swept               1200       500         600.0       700\n"), std::string::npos)
+      << together;
+  EXPECT_NE(together.find("Traffic"), std::string::npos) << together;
+  EXPECT_NE(together.find("  sweeps                           5.0 "), std::string::npos) << together;
+  EXPECT_NE(together.find("Limit: imbalance 1.17"), std::string::npos) << together;
+}
+
+TEST(RunReport, TheFileHasARowForEachCounterOfAPhase) {
+  const CommandLine line;
+  const RunOptions options;
+  const std::string text;
+  const Placement placement;
+  const geometry::Boundary boundary;
+  const Provenance provenance{line, options, text, placement, boundary, {}, {}};
+  Measurements measured;
+  measured.ranks = 2;
+  measured.phases = {{"stars"}, {"sweeps"}};
+  measured.phases[0].counters[Counter::ghosts] = {10, 4, 6};
+  measured.phases[1].counters[Counter::ghosts] = {7, 3, 4};
+  measured.phases[1].counters[Counter::messages] = {20, 10, 10};
+  measured.counters[Counter::ghosts] = {10, 4, 6};
+  const io::Metadata metadata = describe_run(provenance, good_result(), {}, measured);
+  using Names = std::vector<std::string>;
+  using Numbers = std::vector<std::int64_t>;
+  EXPECT_EQ(column<std::string>(metadata, "counters", "phase"), (Names{"stars", "sweeps", "sweeps", "run"}));
+  EXPECT_EQ(column<std::string>(metadata, "counters", "name"), (Names{"ghosts", "messages", "ghosts", "ghosts"}));
+  EXPECT_EQ(column<std::string>(metadata, "counters", "unit"), (Names{"sites", "messages", "sites", "sites"}));
+  EXPECT_EQ(column<std::int64_t>(metadata, "counters", "sum"), (Numbers{10, 20, 7, 10}));
+  EXPECT_EQ(column<std::int64_t>(metadata, "counters", "min"), (Numbers{4, 10, 3, 4}));
+  EXPECT_EQ(column<double>(metadata, "counters", "mean"), (std::vector<double>{5, 10, 3.5, 5}));
+  EXPECT_EQ(column<std::int64_t>(metadata, "counters", "max"), (Numbers{6, 10, 4, 6}));
+  EXPECT_EQ(column<std::int64_t>(metadata, "timers", "messages"), (Numbers{0, 20}));
 }
 
 TEST(RunReport, MarksWhatIsNotComplete) {
@@ -77,25 +101,6 @@ TEST(RunReport, MarksWhatIsNotComplete) {
   result.stop_reason = sweep::StopReason::sweep_cap;
   EXPECT_FALSE(is_complete(result));
   EXPECT_NE(incompleteness(result, true).find("sweep cap"), std::string::npos);
-}
-
-/// Value of an attribute of the file.
-std::int64_t number(const io::Metadata& metadata, const std::string& name) {
-  for (const io::Attribute& attribute : metadata.attributes)
-    if (attribute.name == name)
-      return std::get<std::int64_t>(attribute.value);
-  ADD_FAILURE() << "no attribute " << name;
-  return -1;
-}
-
-template <class T>
-std::vector<T> column(const io::Metadata& metadata, const std::string& group, const std::string& name) {
-  for (const io::MetadataGroup& g : metadata.groups)
-    for (const io::Column& c : g.columns)
-      if (g.name == group && c.name == name)
-        return std::get<std::vector<T>>(c.values);
-  ADD_FAILURE() << "no column " << group << "/" << name;
-  return {};
 }
 
 TEST(RunReport, AFailedCheckMarksTheFile) {

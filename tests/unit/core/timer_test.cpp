@@ -11,14 +11,16 @@ double told_clock() {
   return now;
 }
 
-TEST(TimerTable, GoesByTheClockThatItIsGivenAndCountsTraffic) {
+TEST(TimerTable, GoesByTheClockThatItIsGivenAndTakesTheCounters) {
   set_wall_clock(told_clock);
-  Traffic sent{1, 10, 5};
-  TimerTable timers(&sent);
+  Counters counters;
+  TimerTable timers(&counters);
   for (int call = 0; call < 3; ++call) {
+    counters.add(Counter::messages, 10); // outside
     const auto time = timers.scope("work");
     now += 2;
-    sent += {1, 100, 0};
+    counters.add(Counter::messages);
+    counters.note(Counter::ghosts, 7 - call);
   }
   now += 1;
   EXPECT_EQ(timers.total(), 7);
@@ -26,10 +28,13 @@ TEST(TimerTable, GoesByTheClockThatItIsGivenAndCountsTraffic) {
   const TimerTable::Section& section = timers.sections()[0];
   EXPECT_EQ(section.seconds, 6);
   EXPECT_EQ(section.calls, 3);
-  EXPECT_EQ(section.traffic.messages, 3);
-  EXPECT_EQ(section.traffic.bytes, 300);
-  EXPECT_EQ(section.traffic.collectives, 0);
-  EXPECT_EQ(timers.traffic().bytes, 310);
+  EXPECT_EQ(section.counts[Counter::messages], 3);
+  EXPECT_EQ(section.counts[Counter::ghosts], 7);
+  EXPECT_EQ(section.counts[Counter::collectives], 0);
+  counters.add(Counter::messages, 5);
+  EXPECT_EQ(timers.outside()[Counter::messages], 35);
+  EXPECT_EQ(timers.outside()[Counter::messages], 35) << "nothing is counted twice";
+  EXPECT_EQ(timers.outside()[Counter::ghosts], 0);
   set_wall_clock(nullptr);
   const double before = wall_seconds();
   EXPECT_GE(wall_seconds(), before);

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What keeps a run from being faster on its ranks, told in a sentence.
+#pragma once
+
+#include "app/measurements.hpp"
+
+#include <string>
+
+namespace trime::app {
+
+/// Numbers by which that is judged.
+struct LimitRules {
+  /// [1] Smaller shares of time or memory are not worth a sentence.
+  static constexpr double worth_telling = 0.05;
+  /// [s] That a message takes besides its bytes, and a collective for each doubling of the ranks: that of a cluster's
+  /// network. Between hosts with TCP it is twenty times as long.
+  static constexpr double latency = 2e-6;
+  /// [1] So many fetch rounds a sweep are named: most sweeps need none.
+  static constexpr double many_fetch_rounds = 0.5;
+};
+
+/// @brief One sentence on what limits a run: of some causes that with the largest share of the time that more ranks
+/// would not win back, or of a rank's memory. On one rank: the phase that takes longest. It is an estimate: of counters
+/// and the times of phases, not of waiting.
+std::string run_limit(const Measurements& measured);
+
+} // namespace trime::app

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Messages between ranks: with peers that are known, and with peers of which only the sender knows.
+#include "comm/mpi_call.hpp"
+#include "trime/comm/communicator.hpp"
+
+#include <algorithm>
+
+namespace trime::comm {
+namespace {
+
+enum Tag : int { tag_known = 101, tag_size = 102, tag_parcel = 103 };
+
+/// [bytes] A message up to this size travels in the parcels of exchange_any, passed on from rank to rank; of a longer
+/// one only the size. So nothing long travels more than once.
+constexpr std::size_t most_passed_on = 4096;
+
+void post(const Message& message, bool send, int tag, const Communicator::Native& native,
+          std::vector<MPI_Request>& requests) {
+  for (std::size_t offset = 0; offset < message.data.size(); offset += piece_bytes) {
+    const int count = static_cast<int>(std::min(piece_bytes, message.data.size() - offset));
+    std::byte* start = const_cast<std::byte*>(message.data.data()) + offset; // MPI receives through the same path
+    requests.emplace_back();
+    if (send)
+      count_message(native, message.peer, static_cast<std::size_t>(count));
+    check(send ? MPI_Isend(start, count, MPI_BYTE, message.peer, tag, native.comm, &requests.back())
+               : MPI_Irecv(start, count, MPI_BYTE, message.peer, tag, native.comm, &requests.back()));
+  }
+}
+
+/// What stands before each message in a parcel.
+struct Envelope {
+  std::int32_t from, to;
+  std::int64_t size; // of the message; its bytes follow if they are passed on
+  std::size_t bytes_inside() const {
+    return size <= static_cast<std::int64_t>(most_passed_on) ? static_cast<std::size_t>(size) : 0;
+  }
+};
+
+using Parcel = std::vector<std::byte>; // envelopes, each with its bytes
+
+void add(Parcel& parcel, const Envelope& envelope, std::span<const std::byte> inside) {
+  const auto head = std::as_bytes(std::span(&envelope, 1));
+  parcel.insert(parcel.end(), head.begin(), head.end());
+  parcel.insert(parcel.end(), inside.begin(), inside.end());
+}
+
+/// Calls visit(envelope, bytes inside) for each message.
+template <class Visit>
+void for_each_message(std::span<const std::byte> parcel, const Visit& visit) {
+  while (!parcel.empty()) {
+    const Envelope envelope = from_bytes<Envelope>(parcel.first(sizeof(Envelope)))[0];
+    visit(envelope, parcel.subspan(sizeof(Envelope), envelope.bytes_inside()));
+    parcel = parcel.subspan(sizeof(Envelope) + envelope.bytes_inside());
+  }
+}
+
+/// Passes parcels on until each message is where it belongs.
+class Router {
+public:
+  Router(const Communicator& comm, Parcel parcel) : comm_(comm), native_(comm.native()), parcel_(std::move(parcel)) {}
+
+  Parcel route() {
+    for (int first = 0, count = comm_.size(); count > 1;) { // ranks among which the own parcel must arrive
+      const int lower = (count + 1) / 2, upper = count - lower, middle = first + lower, rank = comm_.rank();
+      const bool is_lower = rank < middle;
+      const bool is_odd_one = rank - first >= upper; // the last of the lower half, if that is one longer
+      Parcel away = take_away(middle, is_lower);
+      std::vector<int> sources;
+      int target = is_lower ? rank + lower : rank - lower;
+      if (is_lower && is_odd_one)
+        target = first + count - 1; // who has a partner of its own, too
+      else
+        sources.push_back(target);
+      if (lower > upper && rank == first + count - 1)
+        sources.push_back(middle - 1);
+      swap(target, away, sources);
+      first = is_lower ? first : middle;
+      count = is_lower ? lower : upper;
+    }
+    return std::move(parcel_);
+  }
+
+private:
+  /// Takes what belongs to the other half out of the parcel.
+  Parcel take_away(int middle, bool is_lower) {
+    Parcel away, kept;
+    for_each_message(parcel_, [&](const Envelope& envelope, std::span<const std::byte> inside) {
+      add((envelope.to < middle) == is_lower ? kept : away, envelope, inside);
+    });
+    parcel_ = std::move(kept);
+    return away;
+  }
+
+  void swap(int target, const Parcel& away, const std::vector<int>& sources) {
+    const auto own_size = static_cast<std::int64_t>(away.size());
+    std::vector<std::int64_t> sizes(sources.size());
+    std::vector<MPI_Request> requests(sources.size() + 1);
+    for (std::size_t k = 0; k < sources.size(); ++k)
+      check(MPI_Irecv(&sizes[k], 1, MPI_INT64_T, sources[k], tag_size, native_.comm, &requests[k]));
+    count_message(native_, target, sizeof own_size);
+    check(MPI_Isend(&own_size, 1, MPI_INT64_T, target, tag_size, native_.comm, &requests.back()));
+    check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
+    std::vector<Message> incoming;
+    for (std::size_t k = 0; k < sources.size(); ++k)
+      incoming.push_back({sources[k], Parcel(static_cast<std::size_t>(sizes[k]))});
+    requests.clear();
+    for (const Message& message : incoming)
+      post(message, false, tag_parcel, native_, requests);
+    const Message outgoing{target, away};
+    post(outgoing, true, tag_parcel, native_, requests);
+    check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
+    for (const Message& message : incoming)
+      parcel_.insert(parcel_.end(), message.data.begin(), message.data.end());
+  }
+
+  const Communicator& comm_;
+  const Communicator::Native& native_;
+  Parcel parcel_;
+};
+
+} // namespace
+
+// The crystal router of Fox et al. (Solving Problems on Concurrent Processors, 1988): the ranks are halved again and
+// again, and each sends what belongs to the other half to a partner there. log2(ranks) steps, no table of ranks,
+// nothing that depends on who comes first.
+std::vector<Message> Communicator::exchange_any(const std::vector<Message>& outgoing) const {
+  if (size_ == 1)
+    return outgoing;
+  collective(*native_);
+  Parcel parcel;
+  for (const Message& message : outgoing) {
+    const Envelope envelope{rank_, message.peer, std::ssize(message.data)};
+    add(parcel, envelope, std::span(message.data).first(envelope.bytes_inside()));
+  }
+  std::vector<Message> incoming;
+  for_each_message(Router(*this, std::move(parcel)).route(),
+                   [&](const Envelope& envelope, std::span<const std::byte> inside) {
+                     incoming.push_back({envelope.from, {inside.begin(), inside.end()}});
+                     incoming.back().data.resize(static_cast<std::size_t>(envelope.size));
+                   });
+  std::sort(incoming.begin(), incoming.end(), [](const Message& a, const Message& b) { return a.peer < b.peer; });
+  const auto is_long = [](const Message& message) { return message.data.size() > most_passed_on; };
+  std::vector<MPI_Request> requests;
+  for (const Message& message : incoming)
+    if (is_long(message))
+      post(message, false, tag_known, *native_, requests);
+  for (const Message& message : outgoing)
+    if (is_long(message))
+      post(message, true, tag_known, *native_, requests);
+  check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
+  return incoming;
+}
+
+void Communicator::exchange_known(std::span<const Message> outgoing, std::span<Message> incoming) const {
+  std::vector<MPI_Request> requests;
+  for (const Message& message : incoming)
+    post(message, false, tag_known, *native_, requests);
+  for (const Message& message : outgoing)
+    post(message, true, tag_known, *native_, requests);
+  check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
+}
+
+struct Communicator::Exchange::Requests {
+  std::vector<MPI_Request> list;
+};
+
+Communicator::Exchange::Exchange() = default;
+Communicator::Exchange::Exchange(Exchange&&) noexcept = default;
+Communicator::Exchange& Communicator::Exchange::operator=(Exchange&& other) noexcept {
+  std::swap(requests_, other.requests_);
+  std::swap(outgoing_, other.outgoing_);
+  return *this;
+}
+Communicator::Exchange::~Exchange() {
+  wait(); // MPI must not write to memory that is gone
+}
+
+bool Communicator::Exchange::is_open() const {
+  return requests_ != nullptr;
+}
+
+void Communicator::Exchange::wait() {
+  if (!requests_)
+    return;
+  check(MPI_Waitall(static_cast<int>(requests_->list.size()), requests_->list.data(), MPI_STATUSES_IGNORE));
+  requests_.reset();
+  outgoing_.clear();
+}
+
+Communicator::Exchange Communicator::begin_exchange(std::vector<Message> outgoing, std::span<Message> incoming) const {
+  Exchange exchange;
+  exchange.requests_ = std::make_unique<Exchange::Requests>();
+  exchange.outgoing_ = std::move(outgoing);
+  for (const Message& message : incoming)
+    post(message, false, tag_known, *native_, exchange.requests_->list);
+  for (const Message& message : exchange.outgoing_)
+    post(message, true, tag_known, *native_, exchange.requests_->list);
+  return exchange;
+}
+
+} // namespace trime::comm

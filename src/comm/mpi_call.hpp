@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What every call of MPI in this module needs: its return code looked at, what it sends counted.
+#pragma once
+
+#include "comm/native.hpp"
+#include "trime/core/error.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace trime::comm {
+
+/// The only place that looks at MPI return codes.
+inline void check(int code) {
+  if (code == MPI_SUCCESS)
+    return;
+  char text[MPI_MAX_ERROR_STRING];
+  int length = 0;
+  MPI_Error_string(code, text, &length);
+  fmt::print(stderr, "trime_mpi: MPI error: {}\n", std::string(text, static_cast<std::size_t>(length)));
+  MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitCode::internal_error));
+}
+
+/// Largest piece of a message: MPI counts are int. Longer messages travel in several pieces, in order.
+inline constexpr std::size_t piece_bytes = std::size_t{1} << 30;
+
+/// The handle for a collective call, which is counted.
+inline MPI_Comm collective(const Communicator::Native& native) {
+  native.counters.add(Counter::collectives);
+  return native.comm;
+}
+
+/// What a rank sends to itself is no traffic.
+inline void count_message(const Communicator::Native& native, int to, std::size_t bytes) {
+  if (to != native.rank)
+    native.counters.add_message(to, static_cast<std::int64_t>(bytes));
+}
+
+/// A table with a value of each rank.
+template <class T>
+std::vector<T> table_of_ranks(const Communicator& comm) {
+  std::vector<T> table(static_cast<std::size_t>(comm.size()));
+  comm.counters().note(Counter::rank_bytes, static_cast<std::int64_t>(table.size() * sizeof(T)));
+  return table;
+}
+
+} // namespace trime::comm
