@@ -2,21 +2,9 @@
 #include "core/hilbert.hpp"
 
 #include <array>
-#include <utility>
 
 namespace trime {
 namespace {
-
-/// One step of the curve: the quadrant order is turned and mirrored so that pieces join end to end.
-void rotate(std::uint32_t side, std::uint32_t& x, std::uint32_t& y, bool right, bool upper) {
-  if (upper)
-    return;
-  if (right) {
-    x = side - 1 - x;
-    y = side - 1 - y;
-  }
-  std::swap(x, y);
-}
 
 /// Quadrants of the curve, and how the pieces in the last of them are turned: 1 stands for x and y exchanged, 2 for
 /// both mirrored.
@@ -86,19 +74,6 @@ CurveSquare curve_square(std::uint32_t x, std::uint32_t y, int level) {
     turn = step.turn;
   }
   return {x, y, level, key, static_cast<std::uint8_t>(turn)};
-}
-
-GridPosition hilbert_position(std::uint64_t key, int level) {
-  std::uint32_t x = 0, y = 0;
-  for (int bit = 0; bit < level; ++bit) {
-    const unsigned quadrant = static_cast<unsigned>(key >> (2 * bit)) & 3;
-    const bool right = quadrant >= 2, upper = quadrant == 1 || quadrant == 2;
-    if (bit > 0)
-      rotate(std::uint32_t{1} << bit, x, y, right, upper);
-    x |= static_cast<std::uint32_t>(right) << bit;
-    y |= static_cast<std::uint32_t>(upper) << bit;
-  }
-  return {x, y};
 }
 
 } // namespace trime

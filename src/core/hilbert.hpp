@@ -30,7 +30,4 @@ CurveSquare curve_square(std::uint32_t x, std::uint32_t y, int level);
 /// @pre level at most 32
 std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y, int level);
 
-/// Inverse of hilbert_key. O(level).
-GridPosition hilbert_position(std::uint64_t key, int level);
-
 } // namespace trime

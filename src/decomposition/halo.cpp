@@ -201,6 +201,7 @@ void Halo::extend(mesh::BinnedPoints& points, std::vector<BinRef> missing, std::
   const std::vector<Message> arrived = comm_->exchange_any(replies); // as many as were asked, in the same order
   for (std::size_t k = 0; k < requests.size(); ++k)
     add_described(arrived[k].data, requests[k].bins, points, sizes);
+  comm_->counters().note(Counter::ghosts, points.size() - points.owned());
 }
 
 void Halo::refresh(mesh::BinnedPoints& points) {

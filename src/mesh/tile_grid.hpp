@@ -47,7 +47,7 @@ public:
   TileGrid(const geometry::Box& container, const GridOptions& options);
 
   const geometry::Box& container() const { return container_; }
-  std::size_t memory_bytes() const { return tiles().capacity() * sizeof(Tile); }
+  std::size_t memory_bytes() const { return tree_.memory_bytes(); }
   /// Cells of the container grid along each axis.
   GridPosition cells() const { return {static_cast<std::uint32_t>(cells_x_), static_cast<std::uint32_t>(cells_y_)}; }
   /// About so many points are expected, at the typical density all over the container.

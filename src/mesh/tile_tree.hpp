@@ -62,6 +62,9 @@ public:
   /// @param limits that the tiles cover; each meets it @param tiles in the order of the curve
   TileTree(const FixedRect& limits, std::vector<Tile> tiles);
 
+  std::size_t memory_bytes() const {
+    return tiles_.capacity() * sizeof(Tile) + (directory_.capacity() + children_.capacity()) * sizeof(std::int32_t);
+  }
   LocalIndex size() const { return static_cast<LocalIndex>(tiles_.size()); }
   const std::vector<Tile>& tiles() const { return tiles_; }
   const Tile& operator[](LocalIndex tile) const { return tiles_[static_cast<std::size_t>(tile)]; }

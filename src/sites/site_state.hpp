@@ -100,7 +100,7 @@ private:
   std::vector<delaunay::StarWish> wanted_;
   bool ghosts_need_sizes_ = false;
   bool ghosts_are_here_ = false; // since sites were sorted: rings name them by their local indices
-  std::vector<double> carried_; // h of owned sites from before a move, 0 where they moved
+  std::vector<double> carried_;  // h of owned sites from before a move, 0 where they moved
 };
 
 /// Points, stars and sizes, as an update rule sees them. @param size the field of the last compute_stars

@@ -113,10 +113,10 @@ void Sweeper::run_kernel(const UpdateRule& rule, TilePlace which) {
 
 /// Those of the awake tiles that lie so, and of the sleeping ones.
 void Sweeper::count_sites(TilePlace which) const {
-  const std::span<const TilePlace> places = certifier_.classes().places();
+  const TilesAround& around = certifier_.classes().around();
   std::array<std::int64_t, 2> sites{}; // asleep, awake
-  for (std::size_t t = 0; t < places.size(); ++t)
-    if (places[t] == which) {
+  for (std::size_t t = 0; t < around.size(); ++t)
+    if (around.place(t) == which) {
       const auto [begin, end] = state_.points().tile_range(state_.points().first_tile() + static_cast<LocalIndex>(t));
       sites[activity_.is_awake(t)] += end - begin;
     }

@@ -83,8 +83,8 @@ private:
   std::vector<LocalIndex> irregular_; // stars are right, but the kernel has not made the move
   Counts counts_;
   double largest_distance_ = 0; // of this sweep, over all ranks
-  std::int64_t moving_ = 0;     // of this sweep and rank
   double drift_in_tiles_ = 0;   // with it, over all ranks
+  std::int64_t moving_ = 0;     // of this sweep and rank
   int moves_ = 0;
   bool sorted_ = true, prepared_ = false, under_way_ = false;
 };

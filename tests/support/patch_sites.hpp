@@ -11,7 +11,7 @@ namespace trime::testing {
 struct PatchSites {
   PatchSites(const comm::Communicator& comm, const mesh::SiteList& all, const sizing::SizeField& size, double spacing,
              const geometry::Periods& periods)
-      : state(comm, {{0, 0}, {1, 1}}, {{}, {}, spacing, false, periods}), boundary(comm, no_curves, no_sites, size, 0) {
+      : state(comm, {{0, 0}, {1, 1}}, {{}, {}, spacing, periods}), boundary(comm, no_curves, no_sites, size, 0) {
     state.distribute(dealt(comm, all));
     state.refresh(size);
     sites.emplace(state, boundary);
