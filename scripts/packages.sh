@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The one list of the Debian packages that this project needs, and a function that installs those that are missing.
-# To be sourced by run.sh and test.sh; does nothing by itself.
+# To be sourced by run.sh, test.sh and simulate_cluster.sh; does nothing by itself.
 # shellcheck shell=bash disable=SC2034
 
 # To build and run the program, and to draw its mesh.
@@ -23,6 +23,11 @@ trime_test_packages=(
   iproute2                                        # hosts of one's own: network namespaces, for runs over TCP
   mpich libhdf5-mpich-dev                         # the other MPI, beside Open MPI, which stays the default
   clang clang-format libomp-dev libclang-rt-14-dev # second compiler with its OpenMP and sanitizers, house style
+)
+
+# To run the program on a simulated cluster, beside the first list: scripts/simulate_cluster.sh.
+trime_simulation_packages=(
+  libsimgrid-dev                                  # SimGrid: MPI, cores and network, simulated in one process
 )
 
 # Prints those of its arguments that are not installed.

@@ -35,7 +35,8 @@ while [ $# -gt 0 ]; do
   shift
 done
 
-command -v smpirun >/dev/null || fail 4 "no simulator here; as root: apt-get install -y --no-install-recommends libsimgrid-dev"
+command -v smpirun >/dev/null || trime_need_packages "${trime_simulation_packages[@]}" || fail 4 "no simulator here"
+command -v smpirun >/dev/null || fail 4 "no simulator here: SimGrid's smpirun is not on the PATH"
 if [ -z "$program" ]; then
   program="$root/build/simulated/trime_mpi"
   [ -x "$program" ] || echo "Building into $root/build/simulated; the first time takes some minutes." >&2
