@@ -87,10 +87,11 @@ def median_of(runs):
 def row(name, who, result, threads, note=""):
     share = {key: 100 * value / result["seconds"] for key, value in result["phases"].items()}
     setup = sum(share.get(key, 0.0) for key in ("shape", "size field", "boundary", "start"))
+    arrays = share.get("extract", 0.0) + share.get("certificate", 0.0)
     per_sweep = 1e9 * threads * result["sweeping"] / result["points"] / max(1, result["sweeps"])
     print(f"| {name} | {who} | {result['points']} | {result['seconds']:.3f} | {result['command']:.3f} "
           f"| {result['points'] / result['seconds']:.3g} | {result['sweeps']} | {per_sweep:.0f} | {setup:.0f} % "
-          f"| {share.get('clean-up', 0.0):.0f} % | {share.get('extract', 0.0):.0f} % | {share.get('output', 0.0):.0f} % "
+          f"| {share.get('clean-up', 0.0):.0f} % | {arrays:.0f} % | {share.get('output', 0.0):.0f} % "
           f"| {result['bytes']:.0f} | {result['mean']:.4f} | {result['worst']:.3f} | {note} |", flush=True)
 
 

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "certificate/boundary_proof.hpp"
 
+#include "certificate/exact_area.hpp"
+#include "certificate/facet_cycles.hpp"
 #include "certificate/rules.hpp"
+#include "comm/agree.hpp"
 #include "core/thread_loop.hpp"
 #include "polygon/chord_curve.hpp"
 #include "trime/geometry/piece_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <set>
+#include <vector>
 
 namespace trime::certificate {
 namespace {
@@ -17,80 +21,147 @@ using geometry::Vec2;
 using polygon::area_of_loops;
 using polygon::BoundarySite;
 using polygon::ChordCurve;
-using polygon::compare_chords;
 
-/// Largest distance of a boundary vertex from the curve: of those written, from the nearest piece of it; of those laid
-/// out, from their places on it. Collective.
-double vertex_distance(const BoundaryTruth& truth, const std::vector<ChordCurve>& chords,
-                       const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
-  const geometry::PieceTree pieces(truth.meshed);
-  PerThread<double> of_thread(0);
-  thread_loop(static_cast<std::ptrdiff_t>(mesh.points.size()), 4096, [&](std::ptrdiff_t item, int thread) {
-    const auto k = static_cast<std::size_t>(item);
-    double& largest = of_thread[thread];
-    if (mesh.boundary[k] > 0)
-      largest = std::max(largest, pieces.distance(mesh.points[k]));
-  });
-  double largest = 0;
-  for (const double one : of_thread)
-    largest = std::max(largest, one);
-  for (const ChordCurve& chord : chords)
-    largest = std::max(largest, chord.offset);
-  return comm.max(largest);
-}
+/// Items begin .. end-1 of those that all ranks share out.
+struct Share {
+  std::size_t begin, end;
 
-/// Largest distance of the curves that were meshed from the shape, over the h for which they were simplified.
-double generalisation(const BoundaryTruth& truth) {
-  const geometry::PieceTree given(truth.shape);
-  PerThread<double> of_thread(0);
-  for (const geometry::Loop& loop : truth.meshed.loops)
-    thread_loop(std::ssize(loop.pieces), 256, [&](std::ptrdiff_t k, int thread) {
-      const geometry::Piece& piece = loop.pieces[static_cast<std::size_t>(k)];
-      for (const Vec2 p : {piece.start, piece.point(0.5 * piece.length())})
-        of_thread[thread] =
-            std::max(of_thread[thread], given.distance(p) / truth.asked.size(truth.meshed.periods.wrap(p)));
-    });
-  double largest = 0;
-  for (const double one : of_thread)
-    largest = std::max(largest, one);
-  return largest / truth.coarseness;
-}
-
-/// Corner sites that are a vertex of the shape, bit for bit.
-std::int64_t corners_in_place(const BoundaryTruth& truth) {
-  std::int64_t count = 0;
-  for (std::size_t loop = 0; loop < truth.meshed.loops.size(); ++loop)
-    for (LocalIndex k = truth.sites.loop_start[loop]; k < truth.sites.loop_start[loop + 1]; ++k) {
-      const BoundarySite& site = truth.sites.sites[at(k)];
-      const Vec2 vertex = truth.meshed.loops[loop].pieces[at(site.piece)].start;
-      count += site.corner && site.along == 0 && site.position == truth.meshed.periods.wrap(vertex);
-    }
-  return count;
-}
-
-/// The chords against their curves.
-struct ChordExtremes {
-  double deviation = 0; ///< largest, over the h that was asked for
-  double of_arcs = 0;   ///< largest of a chord of a circle, over what a good one has
-  double area = 0;      ///< that all chords take from the shape
+  Share(std::size_t n, const comm::Communicator& comm)
+      : begin(n * static_cast<std::size_t>(comm.rank()) / static_cast<std::size_t>(comm.size())),
+        end(n * static_cast<std::size_t>(comm.rank() + 1) / static_cast<std::size_t>(comm.size())) {}
 };
 
-ChordExtremes extremes_of(const BoundaryTruth& truth, const std::vector<ChordCurve>& chords) {
-  ChordExtremes extremes;
-  for (LocalIndex k = 0; k < std::ssize(truth.sites.sites); ++k) {
-    const ChordCurve& curve = chords[at(k)];
-    const geometry::Segment chord = truth.sites.chord(k);
-    const BoundarySite& next = truth.sites.sites[at(truth.sites.sites[at(k)].next)];
-    const double h = 0.5 * (truth.size.size(chord.a) + truth.size.size(next.position));
-    const double sagitta = squared_length(chord.b - chord.a) * curve.curvature / 8;
-    const double asked = 0.5 * (truth.asked.size(chord.a) + truth.asked.size(next.position));
-    extremes.deviation = std::max(extremes.deviation, curve.deviation / asked);
-    if (curve.curvature > 0)
-      extremes.of_arcs = std::max(extremes.of_arcs, curve.deviation / (CertificateRules::arc_tolerance * sagitta +
-                                                                       CertificateRules::arc_slack * h));
-    extremes.area += curve.area;
+/// What the share of a rank shows; mergeable in any order.
+struct Findings {
+  std::int64_t corners = 0; ///< that are a vertex of the shape, bit for bit
+  ExactArea area;           ///< that chords take from the shape
+  double distance = 0;      ///< largest of a boundary vertex from the curve
+  double moved = 0;         ///< largest distance of the curves that were meshed from the shape, over h
+  double deviation = 0;     ///< largest of a chord from its curve, over the h that was asked for
+  double of_arcs = 0;       ///< largest of a chord of a circle, over what a good one has
+
+  void add(const Findings& other) {
+    corners += other.corners;
+    area.add(other.area);
+    distance = std::max(distance, other.distance);
+    moved = std::max(moved, other.moved);
+    deviation = std::max(deviation, other.deviation);
+    of_arcs = std::max(of_arcs, other.of_arcs);
   }
-  return extremes;
+};
+
+/// Looks at what one rank has to prove.
+class Prover {
+public:
+  Prover(const BoundaryTruth& truth, const mesh::DistributedMesh& mesh, const comm::Communicator& comm)
+      : truth_(truth), mesh_(mesh), comm_(comm) {}
+
+  Findings prove() {
+    compare_vertices();
+    compare_curves();
+    compare_sites();
+    Findings all;
+    for (const Findings& one : of_thread_)
+      all.add(one);
+    return all;
+  }
+
+private:
+  /// Boundary vertices that are written, with the nearest piece of the curves that were meshed.
+  void compare_vertices() {
+    const geometry::PieceTree pieces(truth_.meshed);
+    thread_loop(static_cast<std::ptrdiff_t>(mesh_.points.size()), 4096, [&](std::ptrdiff_t item, int thread) {
+      const auto k = static_cast<std::size_t>(item);
+      double& largest = of_thread_[thread].distance;
+      if (mesh_.boundary[k] > 0)
+        largest = std::max(largest, pieces.distance(mesh_.points[k]));
+    });
+  }
+
+  /// The curves that were meshed with those of the shape.
+  void compare_curves() {
+    const geometry::PieceTree given(truth_.shape);
+    std::size_t pieces = 0, before = 0;
+    for (const geometry::Loop& loop : truth_.meshed.loops)
+      pieces += loop.pieces.size();
+    const Share share(pieces, comm_);
+    for (const geometry::Loop& loop : truth_.meshed.loops) {
+      const std::size_t n = loop.pieces.size();
+      const std::size_t first = std::clamp(share.begin, before, before + n) - before;
+      const std::size_t last = std::clamp(share.end, before, before + n) - before;
+      thread_loop(static_cast<std::ptrdiff_t>(last - first), 256, [&](std::ptrdiff_t k, int thread) {
+        const geometry::Piece& piece = loop.pieces[first + static_cast<std::size_t>(k)];
+        double& largest = of_thread_[thread].moved;
+        for (const Vec2 p : {piece.start, piece.point(0.5 * piece.length())})
+          largest = std::max(largest, given.distance(p) / truth_.asked.size(truth_.meshed.periods.wrap(p)));
+      });
+      before += n;
+    }
+  }
+
+  /// Sites with their places, and the chords to their next ones with the curves.
+  void compare_sites() {
+    const Share share(truth_.sites.sites.size(), comm_);
+    const auto first = static_cast<LocalIndex>(share.begin), last = static_cast<LocalIndex>(share.end);
+    const std::vector<ChordCurve> chords = polygon::compare_chords(truth_.meshed, truth_.sites, first, last);
+    thread_loop(last - first, 256, [&](std::ptrdiff_t k, int thread) {
+      const LocalIndex site = first + static_cast<LocalIndex>(k);
+      Findings& found = of_thread_[thread];
+      found.corners += is_vertex(truth_.sites.sites[at(site)], loop_of(site));
+      add_chord(site, chords[static_cast<std::size_t>(k)], found);
+    });
+  }
+
+  const geometry::Loop& loop_of(LocalIndex site) const {
+    const std::vector<LocalIndex>& start = truth_.sites.loop_start;
+    const auto after = std::upper_bound(start.begin(), start.end(), site);
+    return truth_.meshed.loops[static_cast<std::size_t>(after - start.begin()) - 1];
+  }
+
+  bool is_vertex(const BoundarySite& site, const geometry::Loop& loop) const {
+    return site.corner && site.along == 0 &&
+           site.position == truth_.meshed.periods.wrap(loop.pieces[at(site.piece)].start);
+  }
+
+  void add_chord(LocalIndex site, const ChordCurve& curve, Findings& found) const {
+    const geometry::Segment chord = truth_.sites.chord(site);
+    const BoundarySite& next = truth_.sites.sites[at(truth_.sites.sites[at(site)].next)];
+    const double h = 0.5 * (truth_.size.size(chord.a) + truth_.size.size(next.position));
+    const double sagitta = squared_length(chord.b - chord.a) * curve.curvature / 8;
+    const double asked = 0.5 * (truth_.asked.size(chord.a) + truth_.asked.size(next.position));
+    found.distance = std::max(found.distance, curve.offset);
+    found.deviation = std::max(found.deviation, curve.deviation / asked);
+    if (curve.curvature > 0)
+      found.of_arcs = std::max(found.of_arcs, curve.deviation / (CertificateRules::arc_tolerance * sagitta +
+                                                                 CertificateRules::arc_slack * h));
+    found.area.add(curve.area, truth_.lattice);
+  }
+
+  const BoundaryTruth& truth_;
+  const mesh::DistributedMesh& mesh_;
+  const comm::Communicator& comm_;
+  PerThread<Findings> of_thread_;
+};
+
+/// Those of all ranks. Collective.
+void reduce(const comm::Communicator& comm, Findings& found, CycleCounts& cycles) {
+  const std::array<std::int64_t, 3> area = found.area.split();
+  constexpr int half = 32; // of the sum of hashes, so that sums over ranks do not overflow
+  constexpr std::uint64_t low = (std::uint64_t{1} << half) - 1;
+  std::array<std::int64_t, 9> sums{cycles.irregular,
+                                   cycles.cycles,
+                                   cycles.changes,
+                                   static_cast<std::int64_t>(cycles.tags & low),
+                                   static_cast<std::int64_t>(cycles.tags >> half),
+                                   found.corners,
+                                   area[0],
+                                   area[1],
+                                   area[2]};
+  std::array<double, 4> largest{found.distance, found.moved, found.deviation, found.of_arcs};
+  comm.sum_and_max(sums, largest);
+  cycles = {sums[0], sums[1], sums[2],
+            static_cast<std::uint64_t>(sums[3]) + (static_cast<std::uint64_t>(sums[4]) << half)};
+  found = {sums[5], ExactArea::join({sums[6], sums[7], sums[8]}), largest[0], largest[1], largest[2], largest[3]};
 }
 
 /// @brief Area of the mesh, with what its chords take from the shape, against that of the shape: over the latter.
@@ -103,20 +174,20 @@ double area_residual(const BoundaryTruth& truth, double chord_area, double shape
   return std::fabs(residual) / shape_area;
 }
 
-/// Over all ranks. Collective.
+/// What this rank counts. Collective.
 CycleCounts cycles_of(const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
   std::vector<TaggedFacet> facets;
   for (std::size_t k = 0; k < mesh.facets.size(); ++k)
     facets.push_back({mesh.facets[k][0], mesh.facets[k][1], mesh.facet_tags[k]});
-  std::vector<TaggedFacet> all;
-  for (const comm::Message& message : comm.exchange_any({{0, comm::to_bytes<TaggedFacet>(facets)}})) {
-    const auto part = comm::from_bytes<TaggedFacet>(message.data);
-    all.insert(all.end(), part.begin(), part.end());
-  }
-  const CycleCounts counts = count_cycles(std::move(all)); // nothing but on rank 0
-  std::array<std::int64_t, 3> packed{counts.irregular, counts.cycles, counts.foreign};
-  comm.sum(packed);
-  return {packed[0], packed[1], packed[2]};
+  return count_cycles(facets, mesh.point_slab.total, comm);
+}
+
+/// Of the cycles of a mesh, one for each loop.
+std::uint64_t tags_of(const std::vector<geometry::Loop>& loops) {
+  std::uint64_t tags = 0;
+  for (const geometry::Loop& loop : loops)
+    tags += tag_hash(loop.tag);
+  return tags;
 }
 
 mesh::Check count_check(const char* name, std::int64_t expected, std::int64_t found, const char* meaning) {
@@ -128,53 +199,14 @@ mesh::Check limit_check(const char* name, double limit, double found, const char
 
 } // namespace
 
-CycleCounts count_cycles(std::vector<TaggedFacet> facets) {
-  CycleCounts counts;
-  std::sort(facets.begin(), facets.end(), [](const TaggedFacet& a, const TaggedFacet& b) { return a.first < b.first; });
-  std::vector<GlobalId> starts, ends, irregular;
-  for (const TaggedFacet& facet : facets) {
-    starts.push_back(facet.first);
-    ends.push_back(facet.second);
-  }
-  std::sort(ends.begin(), ends.end());
-  for (const std::vector<GlobalId>* ids : {&starts, &ends}) // those that come more than once
-    for (std::size_t k = 1; k < ids->size(); ++k)
-      if ((*ids)[k] == (*ids)[k - 1])
-        irregular.push_back((*ids)[k]);
-  std::set_symmetric_difference(starts.begin(), starts.end(), ends.begin(), ends.end(), std::back_inserter(irregular));
-  std::sort(irregular.begin(), irregular.end());
-  irregular.erase(std::unique(irregular.begin(), irregular.end()), irregular.end());
-  counts.irregular = std::ssize(irregular);
-
-  std::vector<bool> seen(facets.size(), false);
-  std::set<std::int64_t> tags;
-  for (std::size_t first = 0; first < facets.size(); ++first) {
-    if (seen[first])
-      continue;
-    std::int64_t length = 0, foreign = 0;
-    bool closed = false;
-    for (std::size_t k = first; !seen[k] && !closed; ++length) {
-      seen[k] = true;
-      foreign += facets[k].tag != facets[first].tag;
-      closed = facets[k].second == facets[first].first;
-      const auto next = std::lower_bound(starts.begin(), starts.end(), facets[k].second);
-      if (next == starts.end() || *next != facets[k].second)
-        break;
-      if (!closed)
-        k = static_cast<std::size_t>(next - starts.begin());
-    }
-    counts.cycles += closed;
-    counts.foreign += tags.insert(facets[first].tag).second ? foreign : length;
-  }
-  return counts;
-}
-
 mesh::Checks prove_boundary(const BoundaryTruth& truth, const mesh::DistributedMesh& mesh,
                             const comm::Communicator& comm) {
-  const std::vector<ChordCurve> chords = compare_chords(truth.meshed, truth.sites);
-  const ChordExtremes extremes = extremes_of(truth, chords);
-  const CycleCounts cycles = cycles_of(mesh, comm);
-  const double distance = vertex_distance(truth, chords, mesh, comm) / truth.side;
+  CycleCounts cycles = cycles_of(mesh, comm);
+  Findings found;
+  comm::run_agreed(comm, [&] { found = Prover(truth, mesh, comm).prove(); }); // sizes may be the user's
+  reduce(comm, found, cycles);
+  const std::int64_t loops = std::ssize(truth.meshed.loops);
+  const bool exchanged = cycles.cycles == loops && cycles.tags != tags_of(truth.meshed.loops);
   const double shape_area = truth.meshed.loops.empty() ? truth.meshed.area : area_of_loops(truth.meshed);
   // Vertices lie on the lattice: in a container far larger than the shape, or far from the origin, its step is what
   // limits them, and with them the area.
@@ -182,23 +214,23 @@ mesh::Checks prove_boundary(const BoundaryTruth& truth, const mesh::DistributedM
   return {
       count_check("irregular_boundary_points", 0, cycles.irregular,
                   "boundary points without exactly one facet in and one out"),
-      count_check("boundary_cycles", std::ssize(truth.meshed.loops), cycles.cycles,
-                  "loops of the shape; closed cycles of facets"),
-      count_check("foreign_tags", 0, cycles.foreign, "facets with another tag than their cycle"),
-      count_check("corner_places", truth.sites.corners, corners_in_place(truth),
+      count_check("boundary_cycles", loops, cycles.cycles, "loops of the shape; closed cycles of facets"),
+      count_check("foreign_tags", 0, cycles.changes + exchanged,
+                  "points where facets change their tag, and 1 if the tags of the cycles are not those of the loops"),
+      count_check("corner_places", truth.sites.corners, found.corners,
                   "corners that are vertices of the shape, bit for bit"),
       limit_check(
-          "vertex_distance", std::max(CertificateRules::vertex_limit, step / truth.side), distance,
+          "vertex_distance", std::max(CertificateRules::vertex_limit, step / truth.side), found.distance / truth.side,
           "boundary vertices from the curves that were meshed, over the longer side of the container (at most)"),
       limit_check(
-          "generalisation", std::max(truth.within, CertificateRules::least_within), generalisation(truth),
+          "generalisation", std::max(truth.within, CertificateRules::least_within), found.moved / truth.coarseness,
           "the curves that were meshed from the shape's boundary, over the h for which they were simplified (at most)"),
-      limit_check("chord_deviation", CertificateRules::chord_limit, extremes.deviation,
+      limit_check("chord_deviation", CertificateRules::chord_limit, found.deviation,
                   "the shape's boundary from the facets, over h as it was asked for (at most)"),
-      limit_check("arc_deviation", 1, extremes.of_arcs,
+      limit_check("arc_deviation", 1, found.of_arcs,
                   "arcs of circles from their facets, over 1.08 l^2/8R + h/1000, facet l, radius R (at most)"),
       limit_check("area_residual", CertificateRules::area_limit + step * truth.meshed.length() / shape_area,
-                  area_residual(truth, extremes.area, shape_area),
+                  area_residual(truth, found.area.value(truth.lattice), shape_area),
                   "mesh, with what lies between facets and curve, from the shape, over the shape's area (at most)")};
 }
 

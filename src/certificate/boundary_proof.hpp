@@ -11,10 +11,6 @@
 #include "trime/mesh/validity.hpp"
 #include "trime/sizing/size_field.hpp"
 
-#include <array>
-#include <cstdint>
-#include <span>
-
 namespace trime::certificate {
 
 /// What the boundary of a mesh is held against. All of it is replicated.
@@ -32,24 +28,10 @@ struct BoundaryTruth {
 };
 
 /// @brief Nine checks, all from the arrays of the mesh that will be written, the shape, and what it was laid out as.
-/// O((sites + pieces) log(pieces)) on each rank; rank 0 holds all facets, 24 bytes each. @note Collective.
+/// Each rank proves its share of the sites and of the pieces. Trees over all pieces, 60 bytes each, are on every rank:
+/// O(pieces + (sites + points of the rank) log(pieces) / ranks). Facets: see count_cycles. @note Collective.
+/// @throws what a size field of the user throws, on all ranks together
 mesh::Checks prove_boundary(const BoundaryTruth& truth, const mesh::DistributedMesh& mesh,
                             const comm::Communicator& comm);
-
-/// A facet with its tag.
-struct TaggedFacet {
-  GlobalId first, second;
-  std::int64_t tag;
-};
-
-/// What facets make when each is followed to the one that starts where it ends.
-struct CycleCounts {
-  std::int64_t irregular = 0; ///< ends of facets that are not the start of exactly one and the end of exactly one
-  std::int64_t cycles = 0;    ///< closed ones
-  std::int64_t foreign =
-      0; ///< facets with another tag than the first facet of their cycle, or in a second one of a tag
-};
-/// Serial, O(facets log facets).
-CycleCounts count_cycles(std::vector<TaggedFacet> facets);
 
 } // namespace trime::certificate

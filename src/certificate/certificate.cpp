@@ -4,6 +4,7 @@
 #include "certificate/certificate.hpp"
 
 #include "certificate/boundary_proof.hpp"
+#include "certificate/exact_area.hpp"
 #include "core/random.hpp"
 #include "core/thread_loop.hpp"
 #include "geometry/predicates.hpp"
@@ -19,29 +20,6 @@ using polygon::BoundarySite;
 using polygon::BoundarySites;
 using sites::FlatFan;
 using sites::StageView;
-__extension__ using Int128 = __int128;
-
-/// Twice an area in squared lattice steps: exact, also over ranks (in three parts of 40 bits and the rest).
-struct ExactArea {
-  Int128 twice = 0;
-
-  void add_triangle(Vec2 p, Vec2 q, Vec2 r, const geometry::Lattice& lattice) {
-    const Int128 ux = lattice.steps(q.x - p.x), uy = lattice.steps(q.y - p.y);
-    const Int128 vx = lattice.steps(r.x - p.x), vy = lattice.steps(r.y - p.y);
-    twice += ux * vy - uy * vx;
-  }
-  std::array<std::int64_t, 3> split() const {
-    constexpr Int128 mask = (Int128{1} << 40) - 1;
-    return {static_cast<std::int64_t>(twice & mask), static_cast<std::int64_t>((twice >> 40) & mask),
-            static_cast<std::int64_t>(twice >> 80)};
-  }
-  static ExactArea join(const std::array<std::int64_t, 3>& parts) {
-    return {(Int128{parts[2]} << 80) + (Int128{parts[1]} << 40) + parts[0]};
-  }
-  double value(const geometry::Lattice& lattice) const {
-    return 0.5 * static_cast<double>(twice) * lattice.step() * lattice.step();
-  }
-};
 
 /// Everything that is counted, mergeable.
 struct Counts {

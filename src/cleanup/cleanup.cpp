@@ -56,9 +56,9 @@ std::vector<Candidate> find_candidates(Stage& stage, const geometry::Lattice& la
 CleanupCounts mend(Stage& stage, const geometry::Boundary& meshed, const geometry::Lattice& lattice,
                    const delaunay::StarBuilder& builder, const CleanupOptions& options) {
   CleanupRounds rounds(stage, meshed, lattice, options, find_candidates(stage, lattice, builder));
-  CleanupCounts all;
   for (int k = 1; k <= CleanupRules::stages; ++k)
-    all.add(rounds.run_stage(k));
+    rounds.run_stage(k);
+  const CleanupCounts all = rounds.counts();
   if (all.better > 0)
     rounds.finish(stage);
   return all;

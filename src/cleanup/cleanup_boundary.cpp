@@ -4,12 +4,13 @@
 #include "comm/agree.hpp"
 #include "core/thread_loop.hpp"
 
+#include <algorithm>
 #include <map>
-#include <numeric>
 
 namespace trime::cleanup {
 namespace {
 
+using polygon::BoundaryChain;
 using polygon::BoundaryEdit;
 using polygon::BoundarySites;
 using polygon::EditKind;
@@ -18,41 +19,86 @@ constexpr int sites_in_a_row = 256; // by one thread
 
 } // namespace
 
-CleanupBoundary::CleanupBoundary(const comm::Communicator& comm, const geometry::Boundary& boundary,
+CleanupBoundary::CleanupBoundary(const comm::Communicator& comm, const geometry::Boundary& curves,
                                  const BoundarySites& sites, const sizing::SizeField& size, double tolerance)
-    : comm_(comm), size_(size), tolerance_(tolerance), curve_(boundary), chain_(sites, curve_) {
-  std::vector<LocalIndex> all(sites.sites.size());
-  std::iota(all.begin(), all.end(), 0);
-  find_tolerances(all);
-}
-
-void CleanupBoundary::find_tolerances(std::span<const LocalIndex> sites) {
-  tolerances_.resize(chain_.sites().sites.size(), 0);
-  if (!(tolerance_ > 0))
-    return;
-  comm::run_agreed(comm_, [&] {
-    thread_loop(std::ssize(sites), sites_in_a_row, [&](std::ptrdiff_t k, int) {
-      const auto site = static_cast<std::size_t>(sites[static_cast<std::size_t>(k)]);
-      tolerances_[site] = tolerance_ * size_.size(chain_.sites().sites[site].position);
+    : comm_(comm), sites_(sites), size_(size), tolerance_(tolerance), curve_(curves) {
+  for (std::size_t loop = 0; loop + 1 < sites.loop_start.size(); ++loop)
+    loops_.resize(at(sites.loop_start[loop + 1]), static_cast<LocalIndex>(loop));
+  tolerances_.resize(sites.sites.size(), 0);
+  if (tolerance > 0)
+    comm::run_agreed(comm, [&] {
+      thread_loop(std::ssize(tolerances_), sites_in_a_row, [&](std::ptrdiff_t item, int) {
+        const auto k = static_cast<std::size_t>(item);
+        tolerances_[k] = this->tolerance(sites.sites[k].position);
+      });
     });
-  });
 }
 
-void CleanupBoundary::apply(std::vector<SiteEdit>& edits) {
-  std::vector<BoundaryEdit> own;
+BoundaryPlace CleanupBoundary::place(BoundaryName site) const {
+  if (const auto known = known_.find(site); known != known_.end())
+    return known->second;
+  const auto k = static_cast<std::size_t>(site);
+  TRIME_ASSERT(k < sites_.sites.size(), "nothing is known of the boundary site {}", site);
+  const polygon::BoundarySite& its = sites_.sites[k];
+  return {loops_[k], its.corner, curve_.arc(loops_[k], its), tolerances_[k], its.next};
+}
+
+/// The arc is that of the piece and the way along it, as BoundaryChain holds them.
+void CleanupBoundary::set_place(BoundaryName site, const SiteEdit& edit) {
+  const polygon::BoundaryCurve::CurvePlace on = curve_.place(edit.loop, edit.arc);
+  polygon::BoundarySite there{};
+  there.piece = on.piece;
+  there.along = on.along;
+  known_[site] = {edit.loop, false, curve_.arc(edit.loop, there), edit.tolerance, -1};
+}
+
+void CleanupBoundary::set_next(BoundaryName site, BoundaryName next) {
+  known_.try_emplace(site, place(site)).first->second.next = next;
+}
+
+void CleanupBoundary::note(std::span<const SiteEdit> edits, int round) {
   for (const SiteEdit& edit : edits)
     if (edit.boundary >= 0)
-      own.push_back({edit.boundary, edit.kind, edit.arc, edit.to, edit.patch});
-  const std::size_t before = chain_.sites().sites.size();
-  const std::vector<LocalIndex> changed =
-      chain_.apply(comm::from_bytes<BoundaryEdit>(comm_.all_gather(std::as_bytes(std::span<const BoundaryEdit>(own)))));
-  find_tolerances(changed);
-  std::map<std::pair<double, double>, LocalIndex> index_at;
-  for (std::size_t k = before; k < chain_.sites().sites.size(); ++k)
-    index_at[{chain_.sites().sites[k].position.x, chain_.sites().sites[k].position.y}] = static_cast<LocalIndex>(k);
-  for (SiteEdit& edit : edits)
-    if (edit.boundary >= 0 && edit.kind == EditKind::insert)
-      edit.boundary = index_at.at({edit.to.x, edit.to.y});
+      edits_.push_back({round, edit.kind, edit.boundary, edit.made, edit.arc, edit.to, edit.patch});
+}
+
+/// The edits of a round.
+void CleanupBoundary::carry_out(std::span<const Edit> edits, BoundaryChain& chain) {
+  const auto index_of = [&](BoundaryName site) {
+    const auto made = made_.find(site);
+    return made != made_.end() ? made->second : static_cast<LocalIndex>(site);
+  };
+  std::vector<BoundaryEdit> list;
+  std::map<std::pair<double, double>, BoundaryName> made_at;
+  for (const Edit& edit : edits) {
+    list.push_back({index_of(edit.site), edit.kind, edit.arc, edit.position, edit.patch});
+    if (edit.kind == EditKind::insert)
+      made_at[{edit.position.x, edit.position.y}] = edit.made;
+  }
+  std::size_t next = chain.sites().sites.size();
+  chain.apply(std::move(list));
+  for (; next < chain.sites().sites.size(); ++next) {
+    const geometry::Vec2 p = chain.sites().sites[next].position;
+    made_[made_at.at({p.x, p.y})] = static_cast<LocalIndex>(next);
+  }
+}
+
+BoundarySites CleanupBoundary::finish() {
+  std::vector<Edit> all = comm::from_bytes<Edit>(comm_.all_gather(std::as_bytes(std::span<const Edit>(edits_))));
+  std::stable_sort(all.begin(), all.end(), [](const Edit& a, const Edit& b) { return a.round < b.round; });
+  BoundaryChain chain(sites_, curve_);
+  for (auto begin = all.begin(); begin != all.end();) {
+    const auto end = std::find_if(begin, all.end(), [&](const Edit& edit) { return edit.round != begin->round; });
+    carry_out({begin, end}, chain);
+    begin = end;
+  }
+  new_index_ = chain.renumber();
+  return chain.sites();
+}
+
+LocalIndex CleanupBoundary::index(BoundaryName site) const {
+  const auto made = made_.find(site);
+  return new_index_[at(made != made_.end() ? made->second : static_cast<LocalIndex>(site))];
 }
 
 } // namespace trime::cleanup

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sites on the boundary during the clean-up, of which each rank has a copy.
+// The boundary during the clean-up: each rank knows the places of its own sites, and all learn of the edits at the end.
 #pragma once
 
 #include "cleanup/patch_data.hpp"
@@ -8,37 +8,64 @@
 #include "trime/sizing/size_field.hpp"
 
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 namespace trime::cleanup {
 
-/// @brief A BoundaryChain that is the same on all ranks, and how far new chords may pass from its curves.
+/// @brief The sites on the boundary as they were at the beginning, the same on all ranks, and what has become of those
+/// that this rank owns. What it does not own it may know by an older place.
 class CleanupBoundary {
 public:
-  /// @brief Collective. References must outlive the object.
+  /// @brief Collective, throws on all ranks together if the size field does. References must outlive the object.
   /// @param tolerance in `size`: how far chords may pass from corners that they leave out; 0: they may leave out none
-  CleanupBoundary(const comm::Communicator& comm, const geometry::Boundary& boundary,
-                  const polygon::BoundarySites& sites, const sizing::SizeField& size, double tolerance);
+  CleanupBoundary(const comm::Communicator& comm, const geometry::Boundary& curves, const polygon::BoundarySites& sites,
+                  const sizing::SizeField& size, double tolerance);
 
-  const polygon::BoundaryChain& chain() const { return chain_; }
-  /// Of a site of the chain.
-  double tolerance(LocalIndex site) const { return tolerances_[static_cast<std::size_t>(site)]; }
+  const polygon::BoundarySites& sites_at_first() const { return sites_; }
+  const polygon::BoundaryCurve& curve() const { return curve_; }
 
-  /// @brief All ranks learn what happens on the boundary; new sites get their indices in the edits. Collective.
-  void apply(std::vector<SiteEdit>& edits);
+  /// Of an owned site.
+  BoundaryPlace place(BoundaryName site) const;
+  /// BoundaryPlace::tolerance at a place. Throws if the size field does.
+  double tolerance(geometry::Vec2 p) const { return tolerance_ > 0 ? tolerance_ * size_.size(p) : 0; }
 
-  /// See BoundaryChain::renumber.
-  std::vector<LocalIndex> renumber() { return chain_.renumber(); }
+  /// An owned site has come to a new place on its loop. @pre a link of it follows
+  void set_place(BoundaryName site, const SiteEdit& edit);
+  void set_next(BoundaryName site, BoundaryName next);
+  /// The site has gone, or another rank owns it now.
+  void forget(BoundaryName site) { known_.erase(site); }
+
+  /// Notes edits of the own patches of a round (0, 1, ...), for `finish`.
+  void note(std::span<const SiteEdit> edits, int round);
+  /// @brief All ranks learn of all edits. @return the sites on the boundary after them. Collective: O(edits on the
+  /// boundary of all ranks).
+  polygon::BoundarySites finish();
+  /// The index of a site in the result of `finish`. @pre it is still there
+  LocalIndex index(BoundaryName site) const;
 
 private:
-  void find_tolerances(std::span<const LocalIndex> sites);
+  struct Edit { // of the boundary
+    std::int32_t round;
+    polygon::EditKind kind;
+    BoundaryName site, made; // see SiteEdit
+    double arc;
+    geometry::Vec2 position;
+    std::uint64_t patch;
+  };
+  void carry_out(std::span<const Edit> edits, polygon::BoundaryChain& chain);
 
   const comm::Communicator& comm_;
+  const polygon::BoundarySites& sites_;
   const sizing::SizeField& size_;
   double tolerance_;
   polygon::BoundaryCurve curve_;
-  polygon::BoundaryChain chain_;
-  std::vector<double> tolerances_; // by index in the chain
+  std::vector<LocalIndex> loops_;                         // by index at the beginning
+  std::vector<double> tolerances_;                        // likewise
+  std::unordered_map<BoundaryName, BoundaryPlace> known_; // of sites that are new or not as they were
+  std::vector<Edit> edits_;                               // of the own patches, by round
+  std::unordered_map<BoundaryName, LocalIndex> made_;     // index in the chain of sites that are new
+  std::vector<LocalIndex> new_index_;                     // by index in the chain
 };
 
 } // namespace trime::cleanup

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cleanup/cleanup_sites.hpp"
+#include "comm/neighbours.hpp"
 
 #include <cstdint>
 #include <span>
@@ -17,11 +18,26 @@ struct Contender {
   std::uint64_t order;  ///< the lower one comes first; then the place decides
 };
 
+/// A contender that was chosen, by its number among those of its rank.
+struct ChosenContender {
+  Contender contender;
+  std::int32_t rank, number;
+};
+
+/// What a rank knows of a choice.
+struct Choice {
+  std::vector<ChosenContender> own;  ///< by number
+  std::vector<ChosenContender> near; ///< of other ranks, whose separation reaches to tiles of this one; by rank, number
+  std::vector<int> partners; ///< ranks that `near` comes from or `own` reaches to: they are each other's partners
+  bool is_whole =
+      true; ///< false: an own contender reaches to a rank that is no neighbour, and the choice is worth nothing
+};
+
 /// @brief Of the contenders of all ranks a set of which no two lie within the larger of their separations, as large as
 /// a few passes make it (Luby 1986): in each pass a contender that is the first of its surroundings is chosen, and
-/// those near it are excluded. Collective.
-/// @return indices of the own ones that are chosen, ascending
-std::vector<std::size_t> choose_apart(const comm::Communicator& comm, const CleanupSites& sites,
-                                      const geometry::Periods& periods, std::span<const Contender> contenders);
+/// those near it are excluded. All ranks take part; each exchanges one message with its neighbours, and more only where
+/// contenders reach to each other's tiles.
+Choice choose_apart(const comm::Communicator& comm, const comm::Neighbours& neighbours, const CleanupSites& sites,
+                    const geometry::Periods& periods, std::span<const Contender> contenders);
 
 } // namespace trime::cleanup

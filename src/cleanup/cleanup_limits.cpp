@@ -4,7 +4,6 @@
 #include "decomposition/selection.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 
 namespace trime::cleanup {
@@ -23,15 +22,16 @@ int gain_of(const std::vector<SiteEdit>& edits) {
 }
 
 /// Takes back what gains sites (sign 1), or loses them (sign -1), beyond the first `most` of them.
-void limit(const comm::Communicator& comm, int sign, GlobalId most, std::span<const Contender> chosen,
+void limit(const comm::Communicator& comm, int sign, GlobalId most, std::span<const ChosenContender> chosen,
            std::vector<PatchResult>& results) {
   std::vector<std::uint64_t> keys;
   for (std::size_t k = 0; k < results.size(); ++k) // as often as it counts
-    keys.insert(keys.end(), static_cast<std::size_t>(std::max(0, sign * gain_of(results[k].edits))), chosen[k].order);
+    keys.insert(keys.end(), static_cast<std::size_t>(std::max(0, sign * gain_of(results[k].edits))),
+                chosen[k].contender.order);
   const std::uint64_t threshold = selection_threshold(comm, keys, std::max<GlobalId>(0, most));
   for (std::size_t k = 0; k < results.size(); ++k)
-    if (sign * gain_of(results[k].edits) > 0 && !(chosen[k].order < threshold))
-      results[k] = {{}, {}, true};
+    if (sign * gain_of(results[k].edits) > 0 && !(chosen[k].contender.order < threshold))
+      results[k] = {{}, {}, {}, true};
 }
 
 } // namespace
@@ -49,10 +49,8 @@ GlobalId CleanupLimits::room(int stage) const {
   return most_points_ - sites_ - reserve;
 }
 
-PatchBudget CleanupLimits::budget(GlobalId patches, int stage, double again_alpha) const {
-  const auto share = [&](GlobalId of) {
-    return std::min(std::max<GlobalId>(of, 0), std::max(Rules::least_budget, of / std::max<GlobalId>(1, patches)));
-  };
+PatchBudget CleanupLimits::budget(int stage, double again_alpha) const {
+  const auto share = [&](GlobalId of) { return std::clamp<GlobalId>(of, 0, Rules::patch_budget); };
   const double most = static_cast<double>(most_points_), wanted = static_cast<double>(wanted_sites_);
   const bool crowded = static_cast<double>(room(stage)) < Rules::scarcity * most;
   const bool scarce = static_cast<double>(sites_) < (1 - Rules::scarcity) * wanted;
@@ -66,18 +64,28 @@ PatchBudget CleanupLimits::budget(GlobalId patches, int stage, double again_alph
   return budget;
 }
 
-void CleanupLimits::keep_within(const comm::Communicator& comm, std::span<const Contender> chosen,
-                                std::vector<PatchResult>& results) const {
-  std::array<std::int64_t, 2> gains{}; // of those that add, and those that take
+CleanupLimits::Gains CleanupLimits::gains_of(std::span<const PatchResult> results) {
+  Gains gains;
   for (const PatchResult& result : results) {
     const int gain = gain_of(result.edits);
-    gains[gain < 0] += std::abs(gain);
+    (gain < 0 ? gains.taken : gains.added) += std::abs(gain);
   }
-  comm.sum(gains);
-  if (const GlobalId most = std::max<GlobalId>(0, most_points_ - sites_); gains[0] - gains[1] > most)
-    limit(comm, 1, most + gains[1], chosen, results);
-  else if (gains[1] - gains[0] > sites_ - least_sites_)
-    limit(comm, -1, sites_ - least_sites_ + gains[0], chosen, results);
+  return gains;
+}
+
+void CleanupLimits::count(const comm::Communicator& comm, const Gains& all, std::span<const ChosenContender> chosen,
+                          std::vector<PatchResult>& results) {
+  const GlobalId gain = all.added - all.taken, most = std::max<GlobalId>(0, most_points_ - sites_);
+  if (gain > most)
+    limit(comm, 1, most + all.taken, chosen, results);
+  else if (-gain > sites_ - least_sites_)
+    limit(comm, -1, sites_ - least_sites_ + all.added, chosen, results);
+  else {
+    sites_ += gain;
+    return;
+  }
+  const Gains left = gains_of(results);
+  sites_ += comm.sum(left.added - left.taken);
 }
 
 } // namespace trime::cleanup

@@ -18,18 +18,21 @@ public:
   /// @param sites over all ranks @param most_points 0: CleanupRules::largest_loss above `sites`
   CleanupLimits(GlobalId sites, GlobalId most_points);
 
-  /// The number of sites has changed.
-  void add(GlobalId gain) { sites_ += gain; }
+  /// What each patch of a round may do, as far as the limits leave it.
+  PatchBudget budget(int stage, double again_alpha) const;
 
-  /// @brief What each patch of a round may do: a share of what the limits leave.
-  /// @param patches of the round, over all ranks
-  PatchBudget budget(GlobalId patches, int stage, double again_alpha) const;
+  /// @brief Sites that patches add and take: of those that gain sites, and of those that lose some.
+  struct Gains {
+    std::int64_t added = 0, taken = 0;
+  };
+  static Gains gains_of(std::span<const PatchResult> results);
 
-  /// @brief Takes the edits back where the patches of a round would leave the limits together: the worst places come
-  /// first, and a patch that adds may where another one takes. Those that are put off may try again. Collective.
-  /// @param chosen the own patches, with their results
-  void keep_within(const comm::Communicator& comm, std::span<const Contender> chosen,
-                   std::vector<PatchResult>& results) const;
+  /// @brief Counts the sites of a round. Takes the edits back where the patches would leave the limits together: the
+  /// worst places come first, and a patch that adds may where another one takes. Those that are put off may try again.
+  /// Collective only where edits are taken back.
+  /// @param all gains over all ranks @param chosen the own patches, with their results
+  void count(const comm::Communicator& comm, const Gains& all, std::span<const ChosenContender> chosen,
+             std::vector<PatchResult>& results);
 
 private:
   GlobalId room(int stage) const;

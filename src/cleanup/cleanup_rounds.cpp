@@ -2,11 +2,11 @@
 #include "cleanup/cleanup_rounds.hpp"
 
 #include "comm/agree.hpp"
+#include "comm/parcel.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 namespace trime::cleanup {
 namespace {
@@ -19,38 +19,50 @@ using Rules = CleanupRules;
 
 /// [h] Two patches keep so far apart that none reads what the other one changes.
 constexpr double separation = 2 * Rules::reach - Rules::free_depth;
+/// [1] Share of the separation that a patch reads.
+constexpr double share_read = Rules::reach / separation;
+
+void join(auto& all, const auto& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
 
 } // namespace
 
 CleanupRounds::CleanupRounds(const sites::Stage& stage, const geometry::Boundary& meshed,
                              const geometry::Lattice& lattice, const CleanupOptions& options,
                              std::span<const Candidate> candidates)
-    : comm_(stage.state->comm()), periods_(stage.state->grid().periods()), lattice_(lattice),
+    : comm_(stage.state->comm()), periods_(stage.state->grid().periods()), lattice_(lattice), size_(*stage.size),
       limits_(comm_.sum(std::int64_t{stage.state->points().owned()}), options.most_points),
-      boundary_(comm_, meshed, stage.polygon, *stage.asked_size, options.tolerance),
-      sites_(comm_, *stage.state, *stage.size), candidates_(stage.state->grid()) {
+      boundary_(comm_, meshed, stage.polygon, *stage.asked_size, options.tolerance), sites_(*stage.state, boundary_),
+      candidates_(stage.state->grid()), neighbours_(comm_) {
   for (std::unique_ptr<PatchOptimizer>& optimizer : optimizers_)
-    optimizer = std::make_unique<PatchOptimizer>(boundary_.chain(), lattice, PatchOptions{});
+    optimizer = std::make_unique<PatchOptimizer>(stage.polygon, boundary_.curve(), lattice, PatchOptions{});
   for (const Candidate& candidate : candidates)
     candidates_.set(candidate);
+  meet_neighbours(list_contenders());
 }
 
-CleanupCounts CleanupRounds::run_stage(int stage) {
+void CleanupRounds::run_stage(int stage) {
   stage_ = stage;
   again_alpha_ = find_again_alpha();
-  CleanupCounts all;
   for (int k = 0; k < Rules::most_rounds; ++k) {
     const std::vector<Contender> contenders = list_contenders();
-    if (comm_.sum(static_cast<std::int64_t>(contenders.size())) == 0)
-      break;
-    all.add(round(contenders));
+    Outcome outcome = round(contenders);
+    if (outcome == Outcome::neighbours_missing) { // nothing has changed
+      meet_neighbours(contenders);
+      outcome = round(contenders);
+    }
+    if (outcome == Outcome::nothing_left)
+      return;
+    if (outcome == Outcome::neighbours_missing)
+      throw InternalError("a patch of the clean-up reaches to a rank that was made a neighbour, and is none");
   }
-  return all;
 }
 
 void CleanupRounds::finish(sites::Stage& stage) {
-  sites_.finish(*stage.state, boundary_.renumber());
-  stage.polygon = boundary_.chain().sites();
+  polygon::BoundarySites polygon = boundary_.finish();
+  sites_.finish(*stage.state);
+  stage.polygon = std::move(polygon);
   *stage.guard = BoundaryGuard(stage.polygon, lattice_);
 }
 
@@ -67,134 +79,174 @@ std::vector<Contender> CleanupRounds::list_contenders() {
       {stage_, stage_ == 1 ? 0 : again_alpha_, separation, Rules::largest_share_of_period * shorter_period, round_});
 }
 
-CleanupCounts CleanupRounds::round(std::span<const Contender> contenders) {
-  std::vector<Contender> chosen;
-  for (const std::size_t k : choose_apart(comm_, sites_, periods_, contenders))
-    chosen.push_back(contenders[k]);
-  std::vector<PatchResult> results = try_patches(chosen);
-  limits_.keep_within(comm_, chosen, results);
-  CleanupCounts counts;
-  std::vector<SiteEdit> edits = collect(chosen, results, counts);
-  boundary_.apply(edits);
-  take_edits(edits);
-  take_verdicts(chosen, results);
+/// The owners of all tiles to which contenders reach, and others that may contend later.
+void CleanupRounds::meet_neighbours(std::span<const Contender> contenders) {
+  std::vector<int> ranks;
+  for (const Contender& contender : contenders)
+    join(ranks, sites_.ranks_near({contender.place, Rules::foresight * contender.separation}));
+  std::sort(ranks.begin(), ranks.end());
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  neighbours_.add(ranks);
+}
+
+CleanupRounds::Outcome CleanupRounds::round(std::span<const Contender> contenders) {
+  Attempt attempt = try_patches(choose_apart(comm_, neighbours_, sites_, periods_, contenders));
+  const CleanupLimits::Gains gains = CleanupLimits::gains_of(attempt.results);
+  std::array<std::int64_t, 5> sums{std::ssize(attempt.results), !attempt.choice.is_whole, attempt.error.has_value(),
+                                   gains.added, gains.taken};
+  comm_.sum(sums);
+  const auto [patches, incomplete, failing, added, taken] = sums;
+  if (failing > 0)
+    comm::agree(comm_, attempt.error);
+  if (incomplete > 0)
+    return Outcome::neighbours_missing;
+  if (patches == 0)
+    return Outcome::nothing_left;
+  limits_.count(comm_, {added, taken}, attempt.choice.own, attempt.results);
+  count(attempt);
+  take(exchange_news(attempt));
+  settle_failures(attempt);
   ++round_;
-  comm_.counters().add(Counter::cleanup_rounds);
-  comm_.counters().add(Counter::patches, std::ssize(chosen));
-  counts = sum_over_ranks(counts);
-  limits_.add(counts.inserted - counts.deleted);
-  return counts;
+  return Outcome::done;
 }
 
-/// What is read around each place.
-std::vector<Disc> CleanupRounds::discs_of(std::span<const Contender> chosen) const {
-  constexpr double share = Rules::reach / separation;
-  std::vector<Disc> discs;
-  for (const Contender& contender : chosen)
-    discs.push_back({contender.place, share * contender.separation});
-  return discs;
+/// What is read around each place, tried by its owner.
+CleanupRounds::Attempt CleanupRounds::try_patches(Choice choice) {
+  const auto discs_of = [](std::span<const ChosenContender> list) {
+    std::vector<PatchDisc> discs;
+    for (const auto& [contender, rank, number] : list)
+      discs.push_back({{contender.place, share_read * contender.separation}, rank, number});
+    return discs;
+  };
+  const std::vector<PatchDisc> discs = discs_of(choice.own);
+  std::vector<Surroundings> around = sites_.around(discs, discs_of(choice.near), choice.partners, Rules::most_in_patch);
+  Attempt attempt{std::move(choice), std::vector<PatchResult>(discs.size()), {}, {}};
+  for (std::size_t k = 0; k < discs.size(); ++k)
+    if (around[k].is_crowded()) {
+      const double radius = Surroundings::radius(discs[k].disc.radius, Rules::most_narrowings);
+      attempt.crowds.push_back({discs[k].disc.center, Rules::given_up_share * radius});
+    }
+  const PatchBudget budget = limits_.budget(stage_, again_alpha_);
+  attempt.error = comm::error_of([&] {
+    thread_loop(std::ssize(discs), 1, [&](std::ptrdiff_t item, int thread) {
+      const auto k = static_cast<std::size_t>(item);
+      if (!around[k].is_crowded())
+        improve(attempt.choice.own[k], around[k], budget, thread, attempt.results[k]);
+    });
+  });
+  return attempt;
 }
 
-/// As PatchOptimizer takes them. In later stages all may be tried once more.
-void CleanupRounds::prepare(std::vector<PatchSite>& sites) const {
-  std::sort(sites.begin(), sites.end(), [](const PatchSite& a, const PatchSite& b) {
+/// In later stages all may be tried once more.
+void CleanupRounds::improve(const ChosenContender& chosen, Surroundings& around, const PatchBudget& budget, int thread,
+                            PatchResult& result) {
+  std::sort(around.sites.begin(), around.sites.end(), [](const PatchSite& a, const PatchSite& b) {
     return geometry::lexicographically_less(a.position, b.position);
   });
-  for (PatchSite& site : sites) {
-    if (site.boundary >= 0)
-      site.tolerance = boundary_.tolerance(site.boundary);
-    if (stage_ > 1)
+  if (stage_ > 1)
+    for (PatchSite& site : around.sites)
       site.rests = 0;
+  const Contender& contender = chosen.contender;
+  const double size = Surroundings::radius(share_read * contender.separation, around.narrowings) / Rules::reach;
+  result =
+      optimizers_[thread]->improve(contender.place, size, around.sites, budget, hash_of(contender.place, 1 + round_));
+  make_canonical(result);
+}
+
+/// Sizes are asked for here, before all ranks agree on errors.
+void CleanupRounds::make_canonical(PatchResult& result) const {
+  for (SiteEdit& edit : result.edits) {
+    edit.from = periods_.wrap(edit.from);
+    edit.to = periods_.wrap(edit.to);
+    if (edit.kind == EditKind::remove)
+      continue;
+    edit.size = sizing::checked_size(size_, edit.to);
+    if (edit.boundary >= 0)
+      edit.tolerance = boundary_.tolerance(edit.to);
+  }
+  for (BoundaryLink& link : result.links)
+    link.position = periods_.wrap(link.position);
+  for (SiteVerdict& verdict : result.verdicts)
+    verdict.position = periods_.wrap(verdict.position);
+}
+
+/// What the own patches have come to, and their edits on the boundary.
+void CleanupRounds::count(const Attempt& attempt) {
+  comm_.counters().add(Counter::cleanup_rounds);
+  comm_.counters().add(Counter::patches, std::ssize(attempt.results));
+  counts_.patches += std::ssize(attempt.results);
+  for (const PatchResult& result : attempt.results) {
+    counts_.better += !result.edits.empty();
+    counts_.left += result.edits.empty() && !result.put_off;
+    for (const SiteEdit& edit : result.edits) {
+      counts_.moved += edit.kind == EditKind::move;
+      counts_.inserted += edit.kind == EditKind::insert;
+      counts_.deleted += edit.kind == EditKind::remove;
+      counts_.on_boundary += edit.boundary >= 0;
+    }
+    boundary_.note(result.edits, round_);
   }
 }
 
-std::vector<PatchResult> CleanupRounds::try_patches(std::span<const Contender> chosen) {
-  const std::vector<Disc> discs = discs_of(chosen);
-  std::vector<Surroundings> around = sites_.around(discs, Rules::most_in_patch);
-  std::vector<PatchResult> results(chosen.size());
-  std::array<std::int64_t, 2> sums{std::ssize(chosen), std::ranges::count_if(around, &Surroundings::is_crowded)};
-  comm_.sum(sums);
-  if (sums[1] > 0)
-    give_up_crowds(discs, around);
-  const PatchBudget budget = limits_.budget(sums[0], stage_, again_alpha_);
-  comm::run_agreed(comm_, [&] {
-    thread_loop(std::ssize(chosen), 1, [&](std::ptrdiff_t item, int thread) {
-      const auto k = static_cast<std::size_t>(item);
-      if (around[k].is_crowded())
-        return;
-      prepare(around[k].sites);
-      const double size = Surroundings::radius(discs[k].radius, around[k].narrowings) / Rules::reach;
-      results[k] = optimizers_[thread]->improve(chosen[k].place, size, around[k].sites, budget);
-    });
-  });
-  return results;
+/// For each rank what concerns its sites. Edits go to the owners of the old places and of the new ones.
+std::map<int, CleanupRounds::News> CleanupRounds::list_news(const Attempt& attempt) const {
+  std::map<int, News> news;
+  for (const PatchResult& result : attempt.results) {
+    for (const SiteEdit& edit : result.edits) {
+      const int from = sites_.owner(edit.from), to = sites_.owner(edit.to);
+      news[from].edits.push_back(edit);
+      if (to != from)
+        news[to].edits.push_back(edit);
+    }
+    for (const BoundaryLink& link : result.links)
+      news[sites_.owner(link.position)].links.push_back(link);
+    for (const SiteVerdict& verdict : result.verdicts)
+      news[sites_.owner(verdict.position)].verdicts.push_back(verdict);
+  }
+  for (const Disc& crowd : attempt.crowds) {
+    news[comm_.rank()].crowds.push_back(crowd);
+    for (const int rank : sites_.ranks_near(crowd))
+      news[rank].crowds.push_back(crowd);
+  }
+  return news;
 }
 
-/// Where sites crowd so much that no patch can hold them, nothing is tried. The sites around are not to ask for it one
-/// after the other: their owners let all of them rest.
-void CleanupRounds::give_up_crowds(std::span<const Disc> discs, std::span<const Surroundings> around) {
-  std::map<int, std::vector<Disc>> by_rank;
-  for (std::size_t k = 0; k < discs.size(); ++k)
-    if (around[k].is_crowded()) {
-      const double radius = Surroundings::radius(discs[k].radius, Rules::most_narrowings);
-      const Disc crowd{discs[k].center, Rules::given_up_share * radius};
-      by_rank[comm_.rank()].push_back(crowd);
-      for (const int rank : sites_.ranks_near(crowd))
-        by_rank[rank].push_back(crowd);
+/// @return what concerns the own sites, of the own patches first
+CleanupRounds::News CleanupRounds::exchange_news(const Attempt& attempt) const {
+  std::map<int, News> by_rank = list_news(attempt);
+  News all = std::move(by_rank[comm_.rank()]);
+  std::vector<comm::Message> outgoing;
+  for (const auto& [rank, news] : by_rank)
+    if (rank != comm_.rank()) {
+      comm::Parcel parcel;
+      parcel.add(news.edits);
+      parcel.add(news.links);
+      parcel.add(news.verdicts);
+      parcel.add(news.crowds);
+      outgoing.push_back({rank, parcel.release()});
     }
-  for (const Disc& crowd : send(comm_, by_rank))
-    for (const geometry::Vec2 place : sites_.let_rest(crowd))
-      candidates_.give_up(place, stage_);
-}
-
-/// All edits of this rank, with canonical places, counted.
-std::vector<SiteEdit> CleanupRounds::collect(std::span<const Contender> chosen, std::span<const PatchResult> results,
-                                             CleanupCounts& counts) const {
-  std::vector<SiteEdit> all;
-  counts.patches = static_cast<std::int64_t>(chosen.size());
-  for (std::size_t k = 0; k < chosen.size(); ++k) {
-    const PatchResult& result = results[k];
-    counts.better += !result.edits.empty();
-    counts.left += result.edits.empty() && !result.put_off;
-    for (SiteEdit edit : result.edits) {
-      edit.from = periods_.wrap(edit.from);
-      edit.to = periods_.wrap(edit.to);
-      edit.patch = hash_of(chosen[k].place, 0);
-      counts.moved += edit.kind == EditKind::move;
-      counts.inserted += edit.kind == EditKind::insert;
-      counts.deleted += edit.kind == EditKind::remove;
-      counts.on_boundary += edit.boundary >= 0;
-      all.push_back(edit);
-    }
+  for (comm::Message& message : comm::exchange_among(comm_, attempt.choice.partners, outgoing)) {
+    comm::Parcel parcel(std::move(message.data));
+    join(all.edits, parcel.take<SiteEdit>());
+    join(all.links, parcel.take<BoundaryLink>());
+    join(all.verdicts, parcel.take<SiteVerdict>());
+    join(all.crowds, parcel.take<Disc>());
   }
   return all;
 }
 
-/// Edits go to the owners of the old places and of the new ones, who carry them out.
-void CleanupRounds::take_edits(std::span<const SiteEdit> edits) {
-  std::map<int, std::vector<SiteEdit>> by_rank;
-  for (const SiteEdit& edit : edits) {
-    const int from = sites_.owner(edit.from), to = sites_.owner(edit.to);
-    by_rank[from].push_back(edit);
-    if (to != from)
-      by_rank[to].push_back(edit);
-  }
-  const std::vector<SiteEdit> own = send(comm_, by_rank);
-  sites_.apply(own);
-  for (const SiteEdit& edit : own)
+/// Carries out the edits; then the owners know what the triangles of their sites are like, and where nothing helped.
+/// Where sites crowd so much that no patch can hold them, nothing was tried. The sites around are not to ask for it one
+/// after the other: their owners let all of them rest.
+void CleanupRounds::take(const News& news) {
+  for (const Disc& crowd : news.crowds)
+    for (const geometry::Vec2 place : sites_.let_rest(crowd))
+      candidates_.give_up(place, stage_);
+  sites_.apply(news.edits, news.links);
+  for (const SiteEdit& edit : news.edits)
     if (edit.kind != EditKind::insert)
       candidates_.drop(edit.from);
-}
-
-/// The owners learn what the triangles of their sites are like, and where nothing helped.
-void CleanupRounds::take_verdicts(std::span<const Contender> chosen, std::span<const PatchResult> results) {
-  std::map<int, std::vector<SiteVerdict>> by_rank;
-  for (const PatchResult& result : results)
-    for (SiteVerdict verdict : result.verdicts) {
-      verdict.position = periods_.wrap(verdict.position);
-      by_rank[sites_.owner(verdict.position)].push_back(verdict);
-    }
-  for (const SiteVerdict& verdict : send(comm_, by_rank)) {
+  for (const SiteVerdict& verdict : news.verdicts) {
     sites_.set_rest(verdict.position, verdict.rests != 0);
     if (!(verdict.alpha > 0)) {
       candidates_.drop(verdict.position);
@@ -204,14 +256,17 @@ void CleanupRounds::take_verdicts(std::span<const Contender> chosen, std::span<c
     if (verdict.rests)
       candidates_.settle(verdict.position, stage_);
   }
-  for (std::size_t k = 0; k < chosen.size(); ++k)
-    if (results[k].edits.empty() && !results[k].put_off)
-      candidates_.settle(chosen[k].place, stage_);
 }
 
-CleanupCounts CleanupRounds::sum_over_ranks(const CleanupCounts& own) const {
-  std::array<std::int64_t, 7> all{own.patches, own.better,      own.moved, own.inserted,
-                                  own.deleted, own.on_boundary, own.left};
+void CleanupRounds::settle_failures(const Attempt& attempt) {
+  for (std::size_t k = 0; k < attempt.results.size(); ++k)
+    if (attempt.results[k].edits.empty() && !attempt.results[k].put_off)
+      candidates_.settle(attempt.choice.own[k].contender.place, stage_);
+}
+
+CleanupCounts CleanupRounds::counts() const {
+  std::array<std::int64_t, 7> all{counts_.patches, counts_.better,      counts_.moved, counts_.inserted,
+                                  counts_.deleted, counts_.on_boundary, counts_.left};
   comm_.sum(all);
   return {all[0], all[1], all[2], all[3], all[4], all[5], all[6]};
 }

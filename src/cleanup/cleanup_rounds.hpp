@@ -8,9 +8,13 @@
 #include "cleanup/cleanup_limits.hpp"
 #include "cleanup/cleanup_sites.hpp"
 #include "cleanup/patch_optimizer.hpp"
+#include "comm/neighbours.hpp"
 #include "core/thread_loop.hpp"
+#include "trime/core/error.hpp"
 
+#include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +22,10 @@ namespace trime::cleanup {
 
 /// @brief Chooses patches, has them tried, and tells all owners of sites what came of it. The state stays as it is
 /// until finish. All calls are collective.
+///
+/// In a round ranks talk to their neighbours, of whom those with patches near each other's tiles exchange more; one
+/// reduction tells all of them how many sites have come and whether any rank has met an error. An error waits for it:
+/// until then its rank takes part in all messages.
 class CleanupRounds {
 public:
   /// @brief References must outlive the object.
@@ -26,32 +34,54 @@ public:
                 const CleanupOptions& options, std::span<const Candidate> candidates);
 
   /// Rounds until no candidate is left for this stage (1, 2, ...), at most CleanupRules::most_rounds.
-  CleanupCounts run_stage(int stage);
+  void run_stage(int stage);
+  /// Of all rounds until now.
+  CleanupCounts counts() const;
   /// Carries all edits over to the state, the polygon and the guard of the stage.
   void finish(sites::Stage& stage);
 
 private:
+  /// The own patches of a round.
+  struct Attempt {
+    Choice choice;
+    std::vector<PatchResult> results; // of the own ones that were chosen
+    std::vector<sites::Disc> crowds;  // around own ones that hold too many sites
+    std::optional<Error> error;
+  };
+  enum class Outcome { done, nothing_left, neighbours_missing };
+  /// What one rank tells another one about patches.
+  struct News {
+    std::vector<SiteEdit> edits;
+    std::vector<BoundaryLink> links;
+    std::vector<SiteVerdict> verdicts;
+    std::vector<sites::Disc> crowds;
+  };
+
   double find_again_alpha() const;
   std::vector<Contender> list_contenders();
-  CleanupCounts round(std::span<const Contender> contenders);
-  std::vector<sites::Disc> discs_of(std::span<const Contender> chosen) const;
-  void prepare(std::vector<PatchSite>& sites) const;
-  void give_up_crowds(std::span<const sites::Disc> discs, std::span<const Surroundings> around);
-  std::vector<PatchResult> try_patches(std::span<const Contender> chosen);
-  std::vector<SiteEdit> collect(std::span<const Contender> chosen, std::span<const PatchResult> results,
-                                CleanupCounts& counts) const;
-  void take_edits(std::span<const SiteEdit> edits);
-  void take_verdicts(std::span<const Contender> chosen, std::span<const PatchResult> results);
-  CleanupCounts sum_over_ranks(const CleanupCounts& own) const;
+  void meet_neighbours(std::span<const Contender> contenders);
+  Outcome round(std::span<const Contender> contenders);
+  Attempt try_patches(Choice choice);
+  void improve(const ChosenContender& chosen, Surroundings& around, const PatchBudget& budget, int thread,
+               PatchResult& result);
+  void make_canonical(PatchResult& result) const;
+  void count(const Attempt& attempt);
+  std::map<int, News> list_news(const Attempt& attempt) const;
+  News exchange_news(const Attempt& attempt) const;
+  void take(const News& news);
+  void settle_failures(const Attempt& attempt);
 
   const comm::Communicator& comm_;
   const geometry::Periods& periods_;
   const geometry::Lattice& lattice_;
+  const sizing::SizeField& size_;
   CleanupLimits limits_;
   CleanupBoundary boundary_;
   CleanupSites sites_;
   CleanupCandidates candidates_; // owned sites
+  comm::Neighbours neighbours_;
   PerThread<std::unique_ptr<PatchOptimizer>> optimizers_;
+  CleanupCounts counts_; // of the own patches
   int round_ = 0;
   int stage_ = 1;          // above the first, places that are bad for this mesh are tried once more
   double again_alpha_ = 0; // that is above this

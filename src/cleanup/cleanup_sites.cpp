@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cleanup/cleanup_sites.hpp"
 
-#include "comm/agree.hpp"
+#include "comm/neighbours.hpp"
+#include "comm/parcel.hpp"
 #include "core/thread_loop.hpp"
 #include "trime/core/error.hpp"
 
@@ -17,18 +18,12 @@ using sites::Disc;
 using sites::SiteState;
 
 // What one thread takes at a time.
-constexpr int discs_in_a_row = 16, edits_in_a_row = 64, sites_in_a_row = 4096;
+constexpr int discs_in_a_row = 16, sites_in_a_row = 4096;
 
-/// Asks another rank which sites it has in a disc. The rank that asks may have narrowed the disc already.
-struct DiscRequest {
-  Disc widest;
-  std::int32_t rank, index; // of the disc at the rank that asks
-  std::int64_t narrowings;
-};
-/// Says how often the disc had to be narrowed; the sites follow in another list.
+/// Says how often a disc had to be narrowed; the sites follow in another list.
 struct DiscReply {
-  std::int32_t rank, index;
-  std::int32_t narrowings, sites;
+  std::int32_t number, narrowings;
+  std::int64_t sites;
 };
 
 bool lies_in(const Disc& disc, Vec2 p) {
@@ -41,8 +36,8 @@ Disc narrowed(const Disc& widest, int narrowings) {
 
 } // namespace
 
-CleanupSites::CleanupSites(const comm::Communicator& comm, const SiteState& state, const sizing::SizeField& size)
-    : comm_(comm), state_(state), size_(size), status_(at(state.points().owned()), SiteStatus::in_place),
+CleanupSites::CleanupSites(const SiteState& state, CleanupBoundary& boundary)
+    : state_(state), boundary_(boundary), status_(at(state.points().owned()), SiteStatus::in_place),
       added_(at(state.points().last_tile() - state.points().first_tile())) {}
 
 /// Calls visit(tile) for the tiles that meet the square around a disc.
@@ -55,12 +50,12 @@ void CleanupSites::for_each_tile(const Disc& disc, const Visit& visit) const {
 
 std::vector<int> CleanupSites::ranks_near(const Disc& disc) const {
   std::vector<int> ranks;
-  if (comm_.size() == 1)
+  if (state_.comm().size() == 1)
     return ranks;
   for_each_tile(disc, [&](LocalIndex tile) { ranks.push_back(state_.partition().owner(tile)); });
   std::sort(ranks.begin(), ranks.end());
   ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
-  std::erase(ranks, comm_.rank());
+  std::erase(ranks, state_.comm().rank());
   return ranks;
 }
 
@@ -69,10 +64,10 @@ void CleanupSites::list_sites(const Disc& disc, std::size_t most, std::vector<Pa
   const mesh::BinnedPoints& points = state_.points();
   const geometry::Periods& periods = state_.grid().periods();
   sites.clear();
-  const auto add = [&](Vec2 canonical, double size, std::int32_t boundary, bool rests) {
+  const auto add = [&](Vec2 canonical, double size, BoundaryName boundary, bool rests) {
     const Vec2 p = periods.nearest_image(canonical, disc.center);
     if (lies_in(disc, p))
-      sites.push_back({p, size, boundary, rests});
+      sites.push_back({p, size, boundary, rests, boundary >= 0 ? boundary_.place(boundary) : BoundaryPlace{}});
   };
   const auto add_range = [&](LocalIndex begin, LocalIndex end) {
     for (LocalIndex j = begin; j < std::min(end, points.owned()) && sites.size() <= most; ++j)
@@ -122,36 +117,45 @@ void CleanupSites::merge(Surroundings& all, const Disc& widest, std::size_t most
   all.sites.clear();
 }
 
-std::vector<Surroundings> CleanupSites::around(std::span<const Disc> discs, std::size_t most) const {
-  std::vector<Surroundings> all(discs.size());
-  thread_loop(static_cast<std::ptrdiff_t>(discs.size()), discs_in_a_row, [&](std::ptrdiff_t item, int) {
-    const auto k = static_cast<std::size_t>(item);
-    narrow_down(discs[k], most, all[k]);
-  });
-  if (comm_.size() == 1)
-    return all;
-  std::map<int, std::vector<DiscRequest>> requests;
-  for (std::size_t k = 0; k < discs.size(); ++k)
-    for (const int rank : ranks_near(discs[k]))
-      requests[rank].push_back({discs[k], comm_.rank(), static_cast<std::int32_t>(k), all[k].narrowings});
-  std::map<int, std::vector<DiscReply>> replies;
-  std::map<int, std::vector<PatchSite>> sites;
-  Surroundings own;
-  for (const DiscRequest& request : send(comm_, requests)) {
-    own.narrowings = static_cast<int>(request.narrowings);
-    narrow_down(request.widest, most, own);
-    replies[request.rank].push_back(
-        {comm_.rank(), request.index, own.narrowings, static_cast<std::int32_t>(own.sites.size())});
-    std::vector<PatchSite>& list = sites[request.rank];
-    list.insert(list.end(), own.sites.begin(), own.sites.end());
+std::vector<Surroundings> CleanupSites::around(std::span<const PatchDisc> own, std::span<const PatchDisc> near,
+                                               std::span<const int> partners, std::size_t most) const {
+  const auto list = [&](std::span<const PatchDisc> discs) {
+    std::vector<Surroundings> found(discs.size());
+    thread_loop(std::ssize(found), discs_in_a_row, [&](std::ptrdiff_t item, int) {
+      const auto k = static_cast<std::size_t>(item);
+      narrow_down(discs[k].disc, most, found[k]);
+    });
+    return found;
+  };
+  std::vector<Surroundings> all = list(own);
+  const std::vector<Surroundings> theirs = list(near);
+  std::vector<comm::Message> outgoing;
+  for (const int rank : partners) {
+    std::vector<DiscReply> replies;
+    std::vector<PatchSite> sites;
+    for (std::size_t k = 0; k < near.size(); ++k)
+      if (near[k].rank == rank) {
+        replies.push_back({near[k].number, theirs[k].narrowings, std::ssize(theirs[k].sites)});
+        sites.insert(sites.end(), theirs[k].sites.begin(), theirs[k].sites.end());
+      }
+    comm::Parcel parcel;
+    parcel.add(replies);
+    parcel.add(sites);
+    outgoing.push_back({rank, parcel.release()});
   }
-  const std::vector<DiscReply> heads = send(comm_, replies);
-  const std::vector<PatchSite> bodies = send(comm_, sites); // from the same ranks, in the same order
-  std::size_t next = 0;
-  for (const DiscReply& reply : heads) {
-    const auto k = static_cast<std::size_t>(reply.index), count = static_cast<std::size_t>(reply.sites);
-    merge(all[k], discs[k], most, std::span(bodies).subspan(next, count), reply.narrowings);
-    next += count;
+  for (comm::Message& message : comm::exchange_among(state_.comm(), partners, outgoing)) {
+    comm::Parcel parcel(std::move(message.data));
+    const auto replies = parcel.take<DiscReply>();
+    const auto sites = parcel.take<PatchSite>();
+    std::size_t next = 0;
+    for (const DiscReply& reply : replies) {
+      const auto disc = std::lower_bound(own.begin(), own.end(), reply.number,
+                                         [](const PatchDisc& a, std::int32_t number) { return a.number < number; });
+      const auto count = static_cast<std::size_t>(reply.sites);
+      merge(all[static_cast<std::size_t>(disc - own.begin())], disc->disc, most, std::span(sites).subspan(next, count),
+            reply.narrowings);
+      next += count;
+    }
   }
   return all;
 }
@@ -210,28 +214,34 @@ std::vector<Vec2> CleanupSites::let_rest(const Disc& disc) {
   return places;
 }
 
-void CleanupSites::apply(std::span<const SiteEdit> edits) {
+void CleanupSites::apply(std::span<const SiteEdit> edits, std::span<const BoundaryLink> links) {
   std::vector<LocalIndex> origins(edits.size(), -1);
-  for (std::size_t k = 0; k < edits.size(); ++k) // first all that go: one may come where another was
-    if (edits[k].kind != EditKind::insert && owner(edits[k].from) == comm_.rank())
-      origins[k] = take_out(edits[k].from);
-  std::vector<double> sizes(edits.size(), 0);
-  comm::run_agreed(comm_, [&] {
-    thread_loop(static_cast<std::ptrdiff_t>(edits.size()), edits_in_a_row, [&](std::ptrdiff_t item, int) {
-      const SiteEdit& edit = edits[static_cast<std::size_t>(item)];
-      if (edit.kind != EditKind::remove && owner(edit.to) == comm_.rank())
-        sizes[static_cast<std::size_t>(item)] = sizing::checked_size(size_, edit.to);
-    });
-  });
-  for (std::size_t k = 0; k < edits.size(); ++k)
-    if (sizes[k] > 0)
-      added_in(state_.grid().place(edits[k].to).tile).push_back({edits[k].to, sizes[k], edits[k].boundary, origins[k]});
+  for (std::size_t k = 0; k < edits.size(); ++k) { // first all that go: one may come where another was
+    const SiteEdit& edit = edits[k];
+    if (edit.kind == EditKind::insert || !owns(edit.from))
+      continue;
+    origins[k] = take_out(edit.from);
+    if (edit.boundary >= 0)
+      boundary_.forget(edit.boundary);
+  }
+  for (std::size_t k = 0; k < edits.size(); ++k) {
+    const SiteEdit& edit = edits[k];
+    if (edit.kind == EditKind::remove || !owns(edit.to))
+      continue;
+    const BoundaryName name = edit.kind == EditKind::insert ? edit.made : edit.boundary;
+    added_in(state_.grid().place(edit.to).tile).push_back({edit.to, edit.size, name, origins[k]});
+    if (name >= 0)
+      boundary_.set_place(name, edit);
+  }
+  for (const BoundaryLink& link : links)
+    if (owns(link.position))
+      boundary_.set_next(link.site, link.next);
 }
 
-void CleanupSites::finish(SiteState& state, std::span<const LocalIndex> new_index) const {
+void CleanupSites::finish(SiteState& state) const {
   mesh::BinnedPoints& points = state.points();
-  const auto renumbered = [&](std::int32_t boundary) {
-    return boundary >= 0 ? new_index[static_cast<std::size_t>(boundary)] : boundary;
+  const auto renumbered = [&](BoundaryName boundary) {
+    return boundary >= 0 ? boundary_.index(boundary) : static_cast<std::int32_t>(boundary);
   };
   prepare_to_stay(points);
   std::vector<std::uint8_t> deleted(at(points.owned()), 0);

@@ -2,34 +2,15 @@
 // The sites while the clean-up edits some: those of the state, and what has become of them since.
 #pragma once
 
+#include "cleanup/cleanup_boundary.hpp"
 #include "cleanup/patch_data.hpp"
 #include "sites/site_state.hpp"
 
 #include <cstdint>
-#include <map>
 #include <span>
 #include <vector>
 
 namespace trime::cleanup {
-
-/// Sends each rank its list. @return what arrives, own items first. Collective.
-template <class T>
-std::vector<T> send(const comm::Communicator& comm, const std::map<int, std::vector<T>>& by_rank) {
-  std::vector<comm::Message> outgoing;
-  std::vector<T> all;
-  for (const auto& [rank, list] : by_rank)
-    if (rank == comm.rank())
-      all = list;
-    else
-      outgoing.push_back({rank, comm::to_bytes(std::span<const T>(list))});
-  if (comm.size() == 1)
-    return all;
-  for (const comm::Message& message : comm.exchange_any(outgoing)) {
-    const std::vector<T> arrived = comm::from_bytes<T>(message.data);
-    all.insert(all.end(), arrived.begin(), arrived.end());
-  }
-  return all;
-}
 
 /// What is read of the sites in a disc: all of them, or all in a narrower disc around the same place.
 struct Surroundings {
@@ -45,24 +26,33 @@ struct Surroundings {
   bool is_crowded() const { return narrowings > CleanupRules::most_narrowings; }
 };
 
+/// What a patch reads, by its number among those of its rank.
+struct PatchDisc {
+  sites::Disc disc;
+  std::int32_t rank, number;
+};
+
 /// @brief Owned sites of a state that stays as it is: which are still in place, and those that have come since. Edits
 /// cost what they touch; the state learns of them at the end. Sites belong to the owner of the tile they lie in.
 class CleanupSites {
 public:
   /// References must outlive the object. @pre sizes of the owned sites are known
-  CleanupSites(const comm::Communicator& comm, const sites::SiteState& state, const sizing::SizeField& size);
+  CleanupSites(const sites::SiteState& state, CleanupBoundary& boundary);
 
   /// The other ranks with tiles that a disc meets, ascending. @pre in a periodic container: the radius below the period
   std::vector<int> ranks_near(const sites::Disc& disc) const;
   int owner(geometry::Vec2 p) const { return state_.partition().owner(state_.grid().place(p).tile); }
 
   /// @brief All sites in each disc or, where these are more than `most`, in the largest of its narrowings that holds no
-  /// more: the same on any number of ranks. Each rank looks at O(most) sites a disc. Collective.
-  std::vector<Surroundings> around(std::span<const sites::Disc> discs, std::size_t most) const;
+  /// more: the same on any number of ranks. Each rank looks at O(most) sites a disc. The partners exchange a message.
+  /// @param own by number @param near of other ranks: those that meet tiles of this one
+  /// @param partners ranks that `near` comes from, and all those with tiles that own discs meet; these have this rank
+  ///        among their partners, too
+  std::vector<Surroundings> around(std::span<const PatchDisc> own, std::span<const PatchDisc> near,
+                                   std::span<const int> partners, std::size_t most) const;
 
-  /// Carries out edits in canonical places, with the boundary's indices as they are now: what concerns the owned
-  /// sites. Collective, throws on all ranks together if the size field does.
-  void apply(std::span<const SiteEdit> edits);
+  /// Carries out edits in canonical places: what concerns the owned sites. Then the links.
+  void apply(std::span<const SiteEdit> edits, std::span<const BoundaryLink> links);
 
   /// Whether nothing helps at an owned site.
   void set_rest(geometry::Vec2 p, bool rests);
@@ -71,14 +61,14 @@ public:
   /// @return their canonical places
   std::vector<geometry::Vec2> let_rest(const sites::Disc& disc);
 
-  /// Carries all edits over to the state. @param new_index of the boundary's sites. Collective.
-  void finish(sites::SiteState& state, std::span<const LocalIndex> new_index) const;
+  /// Carries all edits over to the state. @pre CleanupBoundary::finish. Collective.
+  void finish(sites::SiteState& state) const;
 
 private:
   struct Added {
     geometry::Vec2 position;
     double size;
-    std::int32_t boundary;
+    BoundaryName boundary;
     LocalIndex origin; // index of the owned site that it was, -1 if new here
     bool rests = false;
   };
@@ -99,9 +89,10 @@ private:
     return added_[static_cast<std::size_t>(tile - state_.points().first_tile())];
   }
 
-  const comm::Communicator& comm_;
+  bool owns(geometry::Vec2 p) const { return owner(p) == state_.comm().rank(); }
+
   const sites::SiteState& state_;
-  const sizing::SizeField& size_;
+  CleanupBoundary& boundary_;
   std::vector<SiteStatus> status_;        // by owned site
   std::vector<std::vector<Added>> added_; // by owned tile
 };

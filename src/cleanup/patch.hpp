@@ -2,9 +2,9 @@
 // The triangulation around a bad triangle, what is known of its vertices, and how good its triangles are.
 #pragma once
 
+#include "cleanup/patch_data.hpp"
 #include "cleanup/patch_mesh.hpp"
 #include "cleanup/rules.hpp"
-#include "mesh/binned_points.hpp"
 #include "trime/geometry/segment.hpp"
 
 #include <algorithm>
@@ -24,11 +24,11 @@ enum class VertexRole : std::uint8_t { gone, held, scored, free };
 
 /// A vertex on the boundary: its place there, and its neighbours along the loop.
 struct BoundaryVertex {
-  std::int32_t site = mesh::free_site; ///< its index; of a new one, that of the last old one before it; -1: inside
+  BoundaryName site = mesh::free_site; ///< its name; of a new one, that of the last old one before it; -1: inside
   LocalIndex previous = -1, next = -1; ///< -1 beyond the patch
   LocalIndex loop = -1;
   double arc = 0;
-  double tolerance = 0; ///< see PatchSite
+  double tolerance = 0; ///< see BoundaryPlace
   bool changed = false; ///< the chord to the next is not what it was
 };
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cleanup/rules.hpp"
-#include "mesh/binned_points.hpp"
+#include "mesh/site.hpp"
 #include "polygon/boundary_chain.hpp"
 #include "trime/geometry/vec2.hpp"
 
@@ -12,22 +12,44 @@
 
 namespace trime::cleanup {
 
+/// @brief What a site on the boundary is called while the clean-up goes on, the same on every rank: those of the
+/// beginning by their index, new ones by a hash. Below 0 it is inside, see mesh::Site.
+using BoundaryName = std::int64_t;
+
+/// The place of a site on the boundary.
+struct BoundaryPlace {
+  LocalIndex loop = -1;
+  bool corner = false;
+  double arc = 0;         ///< from the start of the loop
+  double tolerance = 0;   ///< how far a new chord may pass from a curve with corners between
+  BoundaryName next = -1; ///< the next site along the loop
+};
+
 /// A site near a bad triangle, at that image of it which lies there.
 struct PatchSite {
   geometry::Vec2 position;
-  double size;            ///< h there
-  std::int32_t boundary;  ///< see mesh::Site
-  std::int32_t rests = 0; ///< nothing helped here the last time
-  double tolerance = 0;   ///< on the boundary: how far a new chord may pass from a curve with corners between
+  double size;                             ///< h there
+  BoundaryName boundary = mesh::free_site; ///< its name
+  std::int32_t rests = 0;                  ///< nothing helped here the last time
+  BoundaryPlace on_boundary{};             ///< if it is on the boundary
 };
 
 /// A change of one site: it moves, it goes, or it is new (`from` says nothing then).
 struct SiteEdit {
   geometry::Vec2 from, to;
   polygon::EditKind kind = polygon::EditKind::move;
-  std::int32_t boundary = mesh::free_site; ///< index of the boundary site; for a new one, of the site before it
+  LocalIndex loop = -1;                    ///< of a site on the boundary
+  BoundaryName boundary = mesh::free_site; ///< name of the site; for a new one on the boundary, of the site before it
+  BoundaryName made = mesh::free_site;     ///< of a new site: its name
   double arc = 0;                          ///< of the new place on the boundary
-  std::uint64_t patch = 0;                 ///< which patch wants it; CleanupRounds sets it
+  std::uint64_t patch = 0;                 ///< which patch wants it
+  double size = 0, tolerance = 0; ///< h, and BoundaryPlace::tolerance, at the new place; CleanupRounds sets them
+};
+
+/// A site on the boundary has got another next one.
+struct BoundaryLink {
+  geometry::Vec2 position; ///< after the patch
+  BoundaryName site, next;
 };
 
 /// What is known of a site after a patch has been tried.
@@ -41,6 +63,7 @@ struct SiteVerdict {
 /// What comes of a patch.
 struct PatchResult {
   std::vector<SiteEdit> edits;       ///< empty if nothing was better
+  std::vector<BoundaryLink> links;   ///< of the sites on the boundary that move, are new, or have new next ones
   std::vector<SiteVerdict> verdicts; ///< of the sites that have or had bad triangles, where something has changed
   bool put_off = false;              ///< the edits were dropped to keep the number of sites; CleanupLimits sets it
 };

@@ -38,9 +38,7 @@ bool PatchEditor::insert(Patch& trial, Vec2 place, double size) const {
 bool PatchEditor::remove(Patch& trial, LocalIndex v) const {
   const BoundaryVertex& own = trial.boundary[at(v)];
   if (trial.on_boundary(v)) {
-    const std::vector<LocalIndex>& loop_start = start_.boundary().loop_start;
-    if (own.previous < 0 || own.next < 0 ||
-        loop_start[at(own.loop) + 1] - loop_start[at(own.loop)] < CleanupRules::least_in_loop)
+    if (own.previous < 0 || own.next < 0 || start_.sites_of_loop(own.loop) < CleanupRules::least_in_loop)
       return false;
     trial.boundary[at(own.previous)].next = own.next;
     trial.boundary[at(own.previous)].changed = true;
@@ -66,8 +64,8 @@ bool PatchEditor::divide(Patch& trial, LocalIndex before) const {
   const BoundaryCurve::Strayed strayed = curve.strayed(own.loop, own.arc, end, trial.chord(before));
   if (strayed.bent && std::fabs(strayed.farthest - made.arc) < CleanupRules::most_off_middle * (end - own.arc))
     made.arc = strayed.farthest; // a corner that was left out
-  const Vec2 p = start_.boundary().periods.nearest_image(start_.lattice().snap(curve.place(own.loop, made.arc).point),
-                                                         start_.center());
+  const Vec2 p =
+      start_.periods().nearest_image(start_.lattice().snap(curve.place(own.loop, made.arc).point), start_.center());
   if (made.arc >= curve.length(own.loop))
     made.arc -= curve.length(own.loop);
   const double h = 0.5 * (trial.size[at(before)] + trial.size[at(after)]);

@@ -127,8 +127,7 @@ void PatchMover::slide(Patch& patch, LocalIndex v) {
     if (std::fabs(step) < Rules::shortest_move * h)
       return;
     const double arc = own.arc + step;
-    const Vec2 to =
-        start_.boundary().periods.nearest_image(start_.lattice().snap(curve.place(own.loop, arc).point), from);
+    const Vec2 to = start_.periods().nearest_image(start_.lattice().snap(curve.place(own.loop, arc).point), from);
     BoundaryVertex moved = own;
     moved.arc = arc >= length ? arc - length : arc < 0 ? arc + length : arc;
     if (!(star_energy(to, around_, false, model.value) < model.value) || !may_slide(patch, v, moved, to))

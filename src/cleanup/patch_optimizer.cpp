@@ -14,7 +14,7 @@ constexpr std::uint8_t of_bad_triangle = 2, beside_one = 1; // marks of vertices
 } // namespace
 
 PatchResult PatchOptimizer::improve(Vec2 center, double size, std::span<const PatchSite> sites,
-                                    const PatchBudget& budget) {
+                                    const PatchBudget& budget, std::uint64_t patch) {
   if (!start_.build(center, size, sites))
     return give_up(sites);
   now_ = start_.patch();
@@ -25,7 +25,7 @@ PatchResult PatchOptimizer::improve(Vec2 center, double size, std::span<const Pa
   rests_.wake_moved(start_.patch(), now_);
   operate(budget);
   let_failures_rest();
-  return {report_.edits(now_), report_.verdicts(now_, options_.bad_alpha)};
+  return {report_.edits(now_, patch), report_.links(now_, patch), report_.verdicts(now_, options_.bad_alpha)};
 }
 
 /// Nothing can be done here: the sites around the middle are not to ask for it again.

@@ -22,11 +22,12 @@ namespace trime::cleanup {
 /// result is a pure function of the sites.
 class PatchOptimizer {
 public:
-  /// The chain must outlive the object.
-  PatchOptimizer(const polygon::BoundaryChain& chain, const geometry::Lattice& lattice, const PatchOptions& options)
-      : options_(options), start_(chain, lattice), chords_(start_), mover_(start_, chords_), worst_(start_, rests_),
-        contest_(start_, chords_, mover_, options), report_(start_, rests_), now_(start_.patch()),
-        best_(start_.patch()) {}
+  /// See PatchStart.
+  PatchOptimizer(const polygon::BoundarySites& boundary, const polygon::BoundaryCurve& curve,
+                 const geometry::Lattice& lattice, const PatchOptions& options)
+      : options_(options), start_(boundary, curve, lattice), chords_(start_), mover_(start_, chords_),
+        worst_(start_, rests_), contest_(start_, chords_, mover_, options), report_(start_, rests_),
+        now_(start_.patch()), best_(start_.patch()) {}
   PatchOptimizer(const PatchOptimizer&) = delete; // its parts refer to each other
   PatchOptimizer& operator=(const PatchOptimizer&) = delete;
 
@@ -34,7 +35,9 @@ public:
   /// @param size h at the center
   /// @param sites in lexicographic order, all different; all that lie within CleanupRules::reach times `size` of
   ///        `center`
-  PatchResult improve(geometry::Vec2 center, double size, std::span<const PatchSite> sites, const PatchBudget& budget);
+  /// @param patch a number that no other patch has: new sites on the boundary are called after it
+  PatchResult improve(geometry::Vec2 center, double size, std::span<const PatchSite> sites, const PatchBudget& budget,
+                      std::uint64_t patch = 0);
 
 private:
   PatchResult give_up(std::span<const PatchSite> sites) const;

@@ -15,15 +15,19 @@ public:
   /// References must outlive the object.
   PatchReport(const PatchStart& start, const PatchRests& rests) : start_(start), rests_(rests) {}
 
-  /// The difference between the sites and what they have become.
-  std::vector<SiteEdit> edits(const Patch& now) const;
+  /// The difference between the sites and what they have become. @param patch see PatchOptimizer::improve
+  std::vector<SiteEdit> edits(const Patch& now, std::uint64_t patch) const;
+  /// Which sites on the boundary have other next ones than before, or another place.
+  std::vector<BoundaryLink> links(const Patch& now, std::uint64_t patch) const;
   /// Of all sites whose triangles are all known, if the patch has changed anything about them.
   std::vector<SiteVerdict> verdicts(const Patch& now, double bad_alpha);
 
 private:
   static void find_worst(const Patch& patch, double bad_alpha, std::vector<double>& worst);
   bool is_news(const Patch& now, LocalIndex v) const;
-  static std::int32_t site_before(const Patch& now, LocalIndex v, LocalIndex first_new);
+  bool is_new(LocalIndex v) const { return v >= start_.vertices(); }
+  BoundaryName site_before(const Patch& now, LocalIndex v) const;
+  BoundaryName name(const Patch& now, LocalIndex v, std::uint64_t patch) const;
 
   const PatchStart& start_;
   const PatchRests& rests_;

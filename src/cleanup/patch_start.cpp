@@ -17,8 +17,12 @@ bool PatchStart::build(Vec2 center, double size, std::span<const PatchSite> site
   patch_.start(center,
                std::min(lattice_.snap(CleanupRules::frame_share * reach), CleanupRules::widest_frame * lattice_.step()),
                size);
-  for (const PatchSite& site : sites)
+  next_.clear();
+  for (const PatchSite& site : sites) {
     patch_.append(patch_.mesh.append(site.position), site.size, on_boundary(site), role_of(site));
+    if (site.boundary >= 0)
+      next_.push_back(site.on_boundary.next);
+  }
   patch_.mesh.connect_all();
   patch_.gain = 0;
   link_boundary();
@@ -35,7 +39,7 @@ bool PatchStart::is_deep(const PatchSite& site) const {
 VertexRole PatchStart::role_of(const PatchSite& site) const {
   const double away = distance(site.position), reach = CleanupRules::reach * size_;
   const double coarser = std::fmax(site.size, size_);
-  const bool is_corner = site.boundary >= 0 && boundary().sites[at(site.boundary)].corner;
+  const bool is_corner = site.boundary >= 0 && site.on_boundary.corner;
   VertexRole role = VertexRole::held;
   if (is_deep(site))
     role = VertexRole::free;
@@ -44,26 +48,27 @@ VertexRole PatchStart::role_of(const PatchSite& site) const {
   return is_corner ? std::min(role, VertexRole::scored) : role;
 }
 
-BoundaryVertex PatchStart::on_boundary(const PatchSite& site) const {
+BoundaryVertex PatchStart::on_boundary(const PatchSite& site) {
   BoundaryVertex vertex;
   if (site.boundary < 0)
     return vertex;
   vertex.site = site.boundary;
-  vertex.tolerance = site.tolerance;
-  vertex.loop = chain_.loop(site.boundary);
-  vertex.arc = curve().arc(vertex.loop, boundary().sites[at(site.boundary)]);
+  vertex.tolerance = site.on_boundary.tolerance;
+  vertex.loop = site.on_boundary.loop;
+  vertex.arc = site.on_boundary.arc;
   return vertex;
 }
 
-/// Joins neighbours along the boundary. A site whose neighbour there is beyond the patch is held.
+/// Joins neighbours along the boundary: the image of the next site that is near. A site whose neighbour there is beyond
+/// the patch is held.
 void PatchStart::link_boundary() {
-  for (const LocalIndex v : patch_.rim) {
-    BoundaryVertex& own = patch_.boundary[at(v)];
-    const geometry::Segment chord = boundary().chord(own.site);
-    const Vec2 end = patch_.mesh.position(v) + (chord.b - chord.a);
+  for (std::size_t k = 0; k < patch_.rim.size(); ++k) {
+    const LocalIndex v = patch_.rim[k];
+    const Vec2 p = patch_.mesh.position(v);
     for (const LocalIndex u : patch_.rim)
-      if (patch_.boundary[at(u)].site == boundary().sites[at(own.site)].next && patch_.mesh.position(u) == end) {
-        own.next = u;
+      if (const Vec2 q = patch_.mesh.position(u);
+          patch_.boundary[at(u)].site == next_[k] && periods().nearest_image(q, p) == q) {
+        patch_.boundary[at(v)].next = u;
         patch_.boundary[at(u)].previous = v;
       }
   }

@@ -4,7 +4,7 @@
 
 #include "cleanup/patch.hpp"
 #include "cleanup/patch_data.hpp"
-#include "polygon/boundary_chain.hpp"
+#include "polygon/boundary_curve.hpp"
 #include "trime/geometry/lattice.hpp"
 
 #include <span>
@@ -15,9 +15,10 @@ namespace trime::cleanup {
 /// against it. One object serves one patch after the other.
 class PatchStart {
 public:
-  /// The chain must outlive the object.
-  PatchStart(const polygon::BoundaryChain& chain, const geometry::Lattice& lattice)
-      : chain_(chain), lattice_(lattice), patch_(lattice, chain.sites().periods) {}
+  /// References must outlive the object. @param boundary the sites of the beginning: loops and periods are asked for
+  PatchStart(const polygon::BoundarySites& boundary, const polygon::BoundaryCurve& curve,
+             const geometry::Lattice& lattice)
+      : boundary_(boundary), curve_(curve), lattice_(lattice), patch_(lattice, boundary.periods) {}
 
   /// @brief Triangulates the sites. @return false if nothing can be done: there are too many sites, or all are near the
   /// rim
@@ -27,8 +28,12 @@ public:
   const Patch& patch() const { return patch_; }
   LocalIndex vertices() const { return patch_.mesh.vertices(); }
   LocalIndex missing_chords() const { return missing_chords_; }
-  const polygon::BoundarySites& boundary() const { return chain_.sites(); }
-  const polygon::BoundaryCurve& curve() const { return chain_.curve(); }
+  const geometry::Periods& periods() const { return boundary_.periods; }
+  const polygon::BoundaryCurve& curve() const { return curve_; }
+  /// Sites of a loop at the beginning of the clean-up.
+  LocalIndex sites_of_loop(LocalIndex loop) const {
+    return boundary_.loop_start[at(loop) + 1] - boundary_.loop_start[at(loop)];
+  }
   const geometry::Lattice& lattice() const { return lattice_; }
   geometry::Vec2 center() const { return center_; }
   double size() const { return size_; }
@@ -54,12 +59,14 @@ public:
 private:
   bool is_deep(const PatchSite& site) const;
   VertexRole role_of(const PatchSite& site) const;
-  BoundaryVertex on_boundary(const PatchSite& site) const;
+  static BoundaryVertex on_boundary(const PatchSite& site);
   void link_boundary();
 
-  const polygon::BoundaryChain& chain_;
+  const polygon::BoundarySites& boundary_;
+  const polygon::BoundaryCurve& curve_;
   geometry::Lattice lattice_;
   Patch patch_;
+  std::vector<BoundaryName> next_; // of each vertex of the rim
   geometry::Vec2 center_;
   double size_ = 1;
   LocalIndex missing_chords_ = 0;

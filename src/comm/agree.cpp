@@ -38,18 +38,21 @@ void agree(const Communicator& comm, const std::optional<Error>& error) {
   throw_error(static_cast<ExitCode>(text[0]), text.substr(1) + suffix);
 }
 
-void run_agreed(const Communicator& comm, const std::function<void()>& work) {
-  std::optional<Error> error;
+std::optional<Error> error_of(const std::function<void()>& work) {
   try {
     work();
   } catch (const Error& e) {
-    error = e;
+    return e;
   } catch (const std::bad_alloc&) {
-    error = Error(ExitCode::out_of_memory, out_of_memory_text());
+    return Error(ExitCode::out_of_memory, out_of_memory_text());
   } catch (const std::exception& e) {
-    error = InternalError(e.what());
+    return InternalError(e.what());
   }
-  agree(comm, error);
+  return std::nullopt;
+}
+
+void run_agreed(const Communicator& comm, const std::function<void()>& work) {
+  agree(comm, error_of(work));
 }
 
 } // namespace trime::comm

@@ -14,8 +14,11 @@ namespace trime::comm {
 /// unless it is rank 0 or the only one. Collective; one integer reduction in the normal case.
 void agree(const Communicator& comm, const std::optional<Error>& error);
 
-/// @brief Runs `work` (which must not communicate) and agrees on what it threw. Anything that is not an Error becomes
-/// one: std::bad_alloc exit code 6, other exceptions exit code 1. Collective.
+/// @brief Runs `work`. @return what it threw. Anything that is not an Error becomes one: std::bad_alloc exit code 6,
+/// other exceptions exit code 1.
+std::optional<Error> error_of(const std::function<void()>& work);
+
+/// @brief Runs `work` (which must not communicate) and agrees on what it threw, see error_of. Collective.
 void run_agreed(const Communicator& comm, const std::function<void()>& work);
 
 } // namespace trime::comm

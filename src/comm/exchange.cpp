@@ -8,9 +8,9 @@
 namespace trime::comm {
 namespace {
 
-enum Tag : int { tag_known = 101, tag_size = 102, tag_parcel = 103 };
+enum Tag : int { tag_known = 101, tag_size = 102, tag_bundle = 103 };
 
-/// [bytes] A message up to this size travels in the parcels of exchange_any, passed on from rank to rank; of a longer
+/// [bytes] A message up to this size travels in the bundles of exchange_any, passed on from rank to rank; of a longer
 /// one only the size. So nothing long travels more than once.
 constexpr std::size_t most_passed_on = 4096;
 
@@ -27,7 +27,7 @@ void post(const Message& message, bool send, int tag, const Communicator::Native
   }
 }
 
-/// What stands before each message in a parcel.
+/// What stands before each message in a bundle.
 struct Envelope {
   std::int32_t from, to;
   std::int64_t size; // of the message; its bytes follow if they are passed on
@@ -36,35 +36,35 @@ struct Envelope {
   }
 };
 
-using Parcel = std::vector<std::byte>; // envelopes, each with its bytes
+using Bundle = std::vector<std::byte>; // envelopes, each with its bytes
 
-void add(Parcel& parcel, const Envelope& envelope, std::span<const std::byte> inside) {
+void add(Bundle& bundle, const Envelope& envelope, std::span<const std::byte> inside) {
   const auto head = std::as_bytes(std::span(&envelope, 1));
-  parcel.insert(parcel.end(), head.begin(), head.end());
-  parcel.insert(parcel.end(), inside.begin(), inside.end());
+  bundle.insert(bundle.end(), head.begin(), head.end());
+  bundle.insert(bundle.end(), inside.begin(), inside.end());
 }
 
 /// Calls visit(envelope, bytes inside) for each message.
 template <class Visit>
-void for_each_message(std::span<const std::byte> parcel, const Visit& visit) {
-  while (!parcel.empty()) {
-    const Envelope envelope = from_bytes<Envelope>(parcel.first(sizeof(Envelope)))[0];
-    visit(envelope, parcel.subspan(sizeof(Envelope), envelope.bytes_inside()));
-    parcel = parcel.subspan(sizeof(Envelope) + envelope.bytes_inside());
+void for_each_message(std::span<const std::byte> bundle, const Visit& visit) {
+  while (!bundle.empty()) {
+    const Envelope envelope = from_bytes<Envelope>(bundle.first(sizeof(Envelope)))[0];
+    visit(envelope, bundle.subspan(sizeof(Envelope), envelope.bytes_inside()));
+    bundle = bundle.subspan(sizeof(Envelope) + envelope.bytes_inside());
   }
 }
 
-/// Passes parcels on until each message is where it belongs.
+/// Passes bundles on until each message is where it belongs.
 class Router {
 public:
-  Router(const Communicator& comm, Parcel parcel) : comm_(comm), native_(comm.native()), parcel_(std::move(parcel)) {}
+  Router(const Communicator& comm, Bundle bundle) : comm_(comm), native_(comm.native()), bundle_(std::move(bundle)) {}
 
-  Parcel route() {
-    for (int first = 0, count = comm_.size(); count > 1;) { // ranks among which the own parcel must arrive
+  Bundle route() {
+    for (int first = 0, count = comm_.size(); count > 1;) { // ranks among which the own bundle must arrive
       const int lower = (count + 1) / 2, upper = count - lower, middle = first + lower, rank = comm_.rank();
       const bool is_lower = rank < middle;
       const bool is_odd_one = rank - first >= upper; // the last of the lower half, if that is one longer
-      Parcel away = take_away(middle, is_lower);
+      Bundle away = take_away(middle, is_lower);
       std::vector<int> sources;
       int target = is_lower ? rank + lower : rank - lower;
       if (is_lower && is_odd_one)
@@ -77,21 +77,21 @@ public:
       first = is_lower ? first : middle;
       count = is_lower ? lower : upper;
     }
-    return std::move(parcel_);
+    return std::move(bundle_);
   }
 
 private:
-  /// Takes what belongs to the other half out of the parcel.
-  Parcel take_away(int middle, bool is_lower) {
-    Parcel away, kept;
-    for_each_message(parcel_, [&](const Envelope& envelope, std::span<const std::byte> inside) {
+  /// Takes what belongs to the other half out of the bundle.
+  Bundle take_away(int middle, bool is_lower) {
+    Bundle away, kept;
+    for_each_message(bundle_, [&](const Envelope& envelope, std::span<const std::byte> inside) {
       add((envelope.to < middle) == is_lower ? kept : away, envelope, inside);
     });
-    parcel_ = std::move(kept);
+    bundle_ = std::move(kept);
     return away;
   }
 
-  void swap(int target, const Parcel& away, const std::vector<int>& sources) {
+  void swap(int target, const Bundle& away, const std::vector<int>& sources) {
     const auto own_size = static_cast<std::int64_t>(away.size());
     std::vector<std::int64_t> sizes(sources.size());
     std::vector<MPI_Request> requests(sources.size() + 1);
@@ -102,20 +102,20 @@ private:
     check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
     std::vector<Message> incoming;
     for (std::size_t k = 0; k < sources.size(); ++k)
-      incoming.push_back({sources[k], Parcel(static_cast<std::size_t>(sizes[k]))});
+      incoming.push_back({sources[k], Bundle(static_cast<std::size_t>(sizes[k]))});
     requests.clear();
     for (const Message& message : incoming)
-      post(message, false, tag_parcel, native_, requests);
+      post(message, false, tag_bundle, native_, requests);
     const Message outgoing{target, away};
-    post(outgoing, true, tag_parcel, native_, requests);
+    post(outgoing, true, tag_bundle, native_, requests);
     check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
     for (const Message& message : incoming)
-      parcel_.insert(parcel_.end(), message.data.begin(), message.data.end());
+      bundle_.insert(bundle_.end(), message.data.begin(), message.data.end());
   }
 
   const Communicator& comm_;
   const Communicator::Native& native_;
-  Parcel parcel_;
+  Bundle bundle_;
 };
 
 } // namespace
@@ -127,13 +127,13 @@ std::vector<Message> Communicator::exchange_any(const std::vector<Message>& outg
   if (size_ == 1)
     return outgoing;
   collective(*native_);
-  Parcel parcel;
+  Bundle bundle;
   for (const Message& message : outgoing) {
     const Envelope envelope{rank_, message.peer, std::ssize(message.data)};
-    add(parcel, envelope, std::span(message.data).first(envelope.bytes_inside()));
+    add(bundle, envelope, std::span(message.data).first(envelope.bytes_inside()));
   }
   std::vector<Message> incoming;
-  for_each_message(Router(*this, std::move(parcel)).route(),
+  for_each_message(Router(*this, std::move(bundle)).route(),
                    [&](const Envelope& envelope, std::span<const std::byte> inside) {
                      incoming.push_back({envelope.from, {inside.begin(), inside.end()}});
                      incoming.back().data.resize(static_cast<std::size_t>(envelope.size));

@@ -18,7 +18,7 @@ std::string out_of_memory_text() {
 }
 
 void return_free_memory() {
-#ifdef __GLIBC__
+#if defined(__GLIBC__) && !defined(TRIME_SHARED_HEAP)
   malloc_trim(0);
 #endif
 }

@@ -16,7 +16,7 @@ inline constexpr double bytes_per_process = 32 * 0x1p20;
 std::string out_of_memory_text();
 
 /// @brief Returns freed memory, for the end of a stage whose arrays the next does not need. A few ms; does nothing
-/// where the C library has no such call.
+/// where the C library has no such call, and where simulated ranks share one heap.
 void return_free_memory();
 
 } // namespace trime

@@ -83,22 +83,17 @@ void BadTriangles::merge(const BadTriangles& other) {
   count_ = count;
 }
 
-void BadTriangles::reduce(const comm::Communicator& comm) {
+void BadTriangles::gather(const comm::Communicator& comm, std::int64_t count) {
+  if (count == 0)
+    return;
   std::vector<BadTriangle> sent = worst_;
-  sent.push_back(away_); // the last of each rank
-  const std::vector<std::int64_t> sizes = comm.all_gather(std::ssize(sent));
-  const std::vector<BadTriangle> all =
-      comm::from_bytes<BadTriangle>(comm.all_gather(comm::to_bytes<BadTriangle>(sent)));
-  const std::int64_t count = comm.sum(count_);
+  const bool is_listed = std::ranges::any_of(
+      worst_, [&](const BadTriangle& one) { return one.alpha == away_.alpha && one.place == away_.place; });
+  if (away_.alpha > 0 && !is_listed)
+    sent.push_back(away_);
   *this = {};
-  std::size_t k = 0;
-  for (const std::int64_t size : sizes) {
-    BadTriangles one;
-    for (std::int64_t j = 0; j + 1 < size; ++j)
-      one.add(all[k++]);
-    one.away_ = all[k++];
-    merge(one);
-  }
+  for (const BadTriangle& triangle : comm::from_bytes<BadTriangle>(comm.all_gather(comm::to_bytes<BadTriangle>(sent))))
+    add(triangle);
   count_ = count;
 }
 

@@ -36,8 +36,11 @@ public:
   /// @pre alpha is above ExtractionRules::listed_alpha
   void add(const mesh::BadTriangle& triangle);
   void merge(const BadTriangles& other);
-  /// The same on every rank; each sends its list, no more. Collective.
-  void reduce(const comm::Communicator& comm);
+  /// Of this rank so far.
+  std::int64_t count() const { return count_; }
+  /// @brief The same on every rank; each sends its list, no more. @param count over all ranks, who send nothing if it
+  /// is 0. Collective.
+  void gather(const comm::Communicator& comm, std::int64_t count);
   /// Writes count, list, and the worst away from corners into the summary.
   void tell(mesh::QualitySummary& quality) const;
 

@@ -6,6 +6,7 @@
 #include "extraction/mesh_quality.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace trime::extraction {
@@ -44,10 +45,11 @@ public:
                   meters[thread], made.mesh);
       });
     });
-    QualitySums sums;
-    for (const QualityMeter& meter : meters)
-      sums.add(meter.sums());
-    made.quality = summarize(view_.state.comm(), std::move(sums));
+    auto meter = meters.begin();
+    QualitySums& sums = (*meter).sums();
+    while ((++meter) != meters.end())
+      sums.add((*meter).sums());
+    made.quality = summarize(view_.state.comm(), sums);
     return made;
   }
 
@@ -174,9 +176,17 @@ private:
   const mesh::BinnedPoints& points_;
 };
 
-mesh::Slab slab_of(const comm::Communicator& comm, std::size_t count) {
-  const std::int64_t n = static_cast<std::int64_t>(count);
-  return {comm.exclusive_scan(n), comm.sum(n)};
+/// Where the triangles and facets of this rank stand among those of all, and the hash, which goes by the former.
+/// Collective.
+void place_among_all(const comm::Communicator& comm, DistributedMesh& mesh) {
+  const std::int64_t triangles = std::ssize(mesh.triangles), facets = std::ssize(mesh.facets);
+  mesh.triangle_slab.first = comm.exclusive_scan(triangles);
+  mesh.facet_slab.first = comm.exclusive_scan(facets);
+  std::array<std::int64_t, 3> sums{triangles, facets, static_cast<std::int64_t>(partial_hash(mesh))};
+  comm.sum(sums);
+  mesh.triangle_slab.total = sums[0];
+  mesh.facet_slab.total = sums[1];
+  mesh.hash = static_cast<std::uint64_t>(sums[2]);
 }
 
 } // namespace
@@ -189,12 +199,8 @@ mesh::Check worst_alpha_check(const mesh::QualitySummary& quality, double most) 
 
 Extraction extract_mesh(const StageView& view, const decomposition::Numbering& numbering,
                         const sizing::SizeField& asked) {
-  const comm::Communicator& comm = view.state.comm();
   Extraction made = Extractor(view, numbering, asked).run();
-  mesh::DistributedMesh& mesh = made.mesh;
-  mesh.triangle_slab = slab_of(comm, mesh.triangles.size());
-  mesh.facet_slab = slab_of(comm, mesh.facets.size());
-  mesh.hash = static_cast<std::uint64_t>(comm.sum(static_cast<std::int64_t>(partial_hash(mesh))));
+  place_among_all(view.state.comm(), made.mesh);
   return made;
 }
 

@@ -4,6 +4,7 @@
 #include "extraction/rules.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace trime::extraction {
@@ -14,27 +15,36 @@ using geometry::Vec2;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double most_over_size = 500; // keeps the square within the reach of FixedSum
 
-/// The sums of all ranks, on every rank. Collective.
-void reduce(const comm::Communicator& comm, QualitySums& sums) {
-  for (mesh::RatioStatistics* statistics : {&sums.alpha, &sums.beta}) {
-    std::vector<std::int64_t> packed = statistics->pack();
-    comm.sum(packed);
-    statistics->unpack(packed, comm.max(statistics->max()));
-  }
-  const auto ratio = sums.ratio.split(), squared = sums.squared_ratio.split();
-  std::array<std::int64_t, 5> packed{ratio.low, ratio.high, squared.low, squared.high, sums.edges};
-  comm.sum(packed);
-  sums.ratio = FixedSum::join({packed[0], packed[1]});
-  sums.squared_ratio = FixedSum::join({packed[2], packed[3]});
-  sums.edges = packed[4];
-  sums.least_sine = comm.min(sums.least_sine);
-  const double worst = comm.max(sums.worst_alpha);
+using mesh::RatioStatistics;
+using mesh::RatioTotals;
+
+/// What ranks sum first: all but the bins that hold the medians.
+struct FirstSums {
+  std::array<std::int64_t, RatioStatistics::packed_size> alpha, beta;
+  FixedSum::Parts ratio, squared_ratio;
+  std::int64_t edges, bad;
+};
+constexpr std::size_t first_words = sizeof(FirstSums) / sizeof(std::int64_t);
+
+/// The medians, and where the worst triangle is: what can only be asked for once the sums are known.
+struct Detail {
+  mesh::RatioSummary alpha, beta;
+  Vec2 worst_place;
+};
+
+/// @param worst largest alpha on any rank. Collective.
+Detail look_closer(const comm::Communicator& comm, const QualitySums& sums, const RatioTotals& alpha,
+                   const RatioTotals& beta, double worst) {
+  constexpr std::size_t n = RatioStatistics::run_length;
+  std::array<std::int64_t, 2 * n> bins;
+  std::ranges::copy(sums.alpha.bins(alpha.median_run()), bins.begin());
+  std::ranges::copy(sums.beta.bins(beta.median_run()), bins.begin() + n);
+  // The first place in lexicographic order of those that are equally bad.
   const bool here = sums.worst_alpha == worst;
-  const double x = comm.min(here ? sums.worst_place.x : infinity);
-  const double y = comm.min(here && sums.worst_place.x == x ? sums.worst_place.y : infinity);
-  sums.worst_alpha = worst;
-  sums.worst_place = {x, y};
-  sums.bad.reduce(comm);
+  std::array<double, 1> least{here ? -sums.worst_place.x : -infinity};
+  comm.sum_and_max(bins, least);
+  const double x = -least[0], y = comm.min(here && sums.worst_place.x == x ? sums.worst_place.y : infinity);
+  return {alpha.summary(std::span(bins).first(n)), beta.summary(std::span(bins).last(n)), {x, y}};
 }
 
 } // namespace
@@ -132,17 +142,27 @@ void QualityMeter::measure_edges() {
   edges_ = 0;
 }
 
-mesh::QualitySummary summarize(const comm::Communicator& comm, QualitySums sums) {
-  reduce(comm, sums);
+mesh::QualitySummary summarize(const comm::Communicator& comm, QualitySums& sums) {
+  const FirstSums mine{sums.alpha.pack(),          sums.beta.pack(), sums.ratio.split(),
+                       sums.squared_ratio.split(), sums.edges,       sums.bad.count()};
+  auto words = std::bit_cast<std::array<std::int64_t, first_words>>(mine);
+  std::array<double, 4> largest{sums.alpha.max(), sums.beta.max(), -sums.least_sine, sums.worst_alpha};
+  comm.sum_and_max(words, largest);
+  const auto first = std::bit_cast<FirstSums>(words);
+  const RatioTotals alpha(first.alpha, largest[0]), beta(first.beta, largest[1]);
+  const Detail detail = look_closer(comm, sums, alpha, beta, largest[3]);
+
   mesh::QualitySummary quality;
-  quality.alpha = sums.alpha.summary();
-  quality.beta = sums.beta.summary();
-  quality.alpha_histogram = sums.alpha.histogram();
-  quality.min_angle_degrees = std::min(60.0, std::asin(std::min(1.0, sums.least_sine)) * (180 / pi));
-  quality.worst_place = sums.worst_place;
+  quality.alpha = detail.alpha;
+  quality.beta = detail.beta;
+  quality.alpha_histogram = alpha.histogram();
+  quality.min_angle_degrees = std::min(60.0, std::asin(std::min(1.0, -largest[2])) * (180 / pi));
+  quality.worst_place = detail.worst_place;
+  sums.bad.gather(comm, first.bad);
   sums.bad.tell(quality);
-  const double edges = static_cast<double>(std::max<std::int64_t>(1, sums.edges));
-  const double mean = sums.ratio.value() / edges, square = sums.squared_ratio.value() / edges;
+  const double edges = static_cast<double>(std::max<std::int64_t>(1, first.edges));
+  const double mean = FixedSum::join(first.ratio).value() / edges;
+  const double square = FixedSum::join(first.squared_ratio).value() / edges;
   quality.size_mean = mean;
   quality.size_std = mean > 0 ? std::sqrt(std::max(0.0, square / (mean * mean) - 1)) : 0;
   return quality;

@@ -29,8 +29,9 @@ struct QualitySums {
   void add(const QualitySums& other);
 };
 
-/// The summary over all ranks. Collective.
-mesh::QualitySummary summarize(const comm::Communicator& comm, QualitySums sums);
+/// @brief The summary over all ranks, in three reductions; two gathers more if there are bad triangles. Afterwards
+/// sums.bad is that of all ranks. Collective.
+mesh::QualitySummary summarize(const comm::Communicator& comm, QualitySums& sums);
 
 /// What one thread measures.
 class QualityMeter {
@@ -49,7 +50,7 @@ public:
   void add_edge(geometry::Vec2 p, geometry::Vec2 q);
   /// Measures what still waits.
   void finish();
-  const QualitySums& sums() const { return sums_; }
+  QualitySums& sums() { return sums_; }
 
 private:
   static constexpr std::size_t block = 128;

@@ -8,6 +8,8 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <ranges>
 
 namespace trime::mesh {
 namespace {
@@ -25,7 +27,35 @@ constexpr double octaves_from = 8;
 constexpr std::size_t first_octave_bin = 20700, octave_bins = 64 * 13 + 1;
 constexpr int octave_shift = 52 - 6; // six bits of the fraction
 constexpr std::size_t all_bins = first_octave_bin + octave_bins;
+constexpr std::size_t padded_bins = RatioStatistics::runs * RatioStatistics::run_length;
+static_assert(all_bins <= padded_bins && all_bins + RatioStatistics::run_length > padded_bins);
 constexpr double sum_cap = 65536;
+
+std::size_t bin_of(double ratio) {
+  if (!(ratio > 1))
+    return 0;
+  for (const Section& section : sections)
+    if (ratio < section.from + section.width * static_cast<double>(section.count))
+      return section.first +
+             std::min(section.count - 1, static_cast<std::size_t>(std::max(0.0, ratio - section.from) / section.width));
+  const std::uint64_t above = std::bit_cast<std::uint64_t>(ratio) - std::bit_cast<std::uint64_t>(octaves_from);
+  return first_octave_bin + std::min(octave_bins - 1, static_cast<std::size_t>(above >> octave_shift));
+}
+
+double bin_middle(std::size_t bin) {
+  for (const Section& section : sections)
+    if (bin < section.first + section.count)
+      return section.from + (static_cast<double>(bin - section.first) + 0.5) * section.width;
+  const std::uint64_t above =
+      (std::uint64_t{bin - first_octave_bin} << octave_shift) + (std::uint64_t{1} << (octave_shift - 1));
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(octaves_from) + above);
+}
+
+/// The first bin whose middle is not below.
+std::size_t first_bin_from(double ratio) {
+  const auto bins = std::views::iota(std::size_t{0}, all_bins);
+  return *std::ranges::partition_point(bins, [&](std::size_t bin) { return bin_middle(bin) < ratio; });
+}
 
 } // namespace
 
@@ -41,27 +71,7 @@ double min_angle_degrees(Vec2 p, Vec2 q, Vec2 r) {
   return std::asin(std::min(1.0, measure_triangle(p, q, r).least_sine)) * degrees_per_radian;
 }
 
-RatioStatistics::RatioStatistics() : bins_(all_bins, 0) {}
-
-std::size_t RatioStatistics::bin(double ratio) {
-  if (!(ratio > 1))
-    return 0;
-  for (const Section& section : sections)
-    if (ratio < section.from + section.width * static_cast<double>(section.count))
-      return section.first +
-             std::min(section.count - 1, static_cast<std::size_t>(std::max(0.0, ratio - section.from) / section.width));
-  const std::uint64_t above = std::bit_cast<std::uint64_t>(ratio) - std::bit_cast<std::uint64_t>(octaves_from);
-  return first_octave_bin + std::min(octave_bins - 1, static_cast<std::size_t>(above >> octave_shift));
-}
-
-double RatioStatistics::bin_middle(std::size_t bin) {
-  for (const Section& section : sections)
-    if (bin < section.first + section.count)
-      return section.from + (static_cast<double>(bin - section.first) + 0.5) * section.width;
-  const std::uint64_t above =
-      (std::uint64_t{bin - first_octave_bin} << octave_shift) + (std::uint64_t{1} << (octave_shift - 1));
-  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(octaves_from) + above);
-}
+RatioStatistics::RatioStatistics() : bins_(padded_bins, 0) {}
 
 void RatioStatistics::add(double ratio) {
   add(std::span(&ratio, 1));
@@ -79,8 +89,7 @@ void RatioStatistics::add(std::span<const double> ratios) {
     largest = largest < ratio ? ratio : largest;
   }
   for (const double ratio : ratios)
-    ++bins_[bin(ratio < sum_cap ? ratio : sum_cap)];
-  count_ += std::ssize(ratios);
+    ++bins_[bin_of(ratio < sum_cap ? ratio : sum_cap)];
   sum_.add_units(sum);
   sum_of_roots_.add_units(roots);
   sum_of_squares_.add_units(squares);
@@ -88,7 +97,6 @@ void RatioStatistics::add(std::span<const double> ratios) {
 }
 
 void RatioStatistics::merge(const RatioStatistics& other) {
-  count_ += other.count_;
   sum_.add(other.sum_);
   sum_of_roots_.add(other.sum_of_roots_);
   sum_of_squares_.add(other.sum_of_squares_);
@@ -97,54 +105,59 @@ void RatioStatistics::merge(const RatioStatistics& other) {
     bins_[k] += other.bins_[k];
 }
 
-RatioSummary RatioStatistics::summary() const {
-  RatioSummary s;
-  if (count_ == 0)
-    return s;
-  const double n = static_cast<double>(count_);
-  s.mean = sum_.value() / n;
-  s.half_mean = (sum_of_roots_.value() / n) * (sum_of_roots_.value() / n);
-  s.std = std::sqrt(std::max(0.0, sum_of_squares_.value() / n - (s.mean - 1) * (s.mean - 1)));
-  s.max = max_;
-  std::int64_t below = 0;
-  for (std::size_t k = 0; k < bins_.size(); ++k) {
-    below += bins_[k];
-    if (2 * below > count_) {
-      s.median = bin_middle(k);
-      break;
-    }
-  }
-  return s;
-}
-
-std::vector<std::int64_t> RatioStatistics::pack() const {
-  std::vector<std::int64_t> packed(bins_);
-  packed.push_back(count_);
+std::array<std::int64_t, RatioStatistics::packed_size> RatioStatistics::pack() const {
+  std::array<std::int64_t, packed_size> packed{};
+  auto next = packed.begin();
   for (const FixedSum& sum : {sum_, sum_of_roots_, sum_of_squares_}) {
-    packed.push_back(sum.split().low);
-    packed.push_back(sum.split().high);
+    *next++ = sum.split().low;
+    *next++ = sum.split().high;
+  }
+  for (std::size_t k = 0; k < classes; ++k) {
+    const auto from = bins_.begin() + static_cast<std::ptrdiff_t>(first_bin_from(histogram_edges[k]));
+    const auto to = k + 1 == classes
+                        ? bins_.end()
+                        : bins_.begin() + static_cast<std::ptrdiff_t>(first_bin_from(histogram_edges[k + 1]));
+    *next++ = std::accumulate(from, to, std::int64_t{0});
+  }
+  for (std::size_t run = 0; run < runs; ++run) {
+    const std::span<const std::int64_t> counts = bins(run);
+    *next++ = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
   }
   return packed;
 }
 
-void RatioStatistics::unpack(const std::vector<std::int64_t>& packed, double max) {
-  std::copy_n(packed.begin(), bins_.size(), bins_.begin());
-  const std::int64_t* rest = packed.data() + bins_.size();
-  count_ = rest[0];
-  sum_ = FixedSum::join({rest[1], rest[2]});
-  sum_of_roots_ = FixedSum::join({rest[3], rest[4]});
-  sum_of_squares_ = FixedSum::join({rest[5], rest[6]});
+std::span<const std::int64_t> RatioStatistics::bins(std::size_t run) const {
+  return std::span(bins_).subspan(run * run_length, run_length);
+}
+
+RatioTotals::RatioTotals(std::span<const std::int64_t, RatioStatistics::packed_size> packed, double max) {
+  const auto classes = packed.subspan<6, RatioStatistics::classes>();
+  const auto runs = packed.last<RatioStatistics::runs>();
+  std::copy(classes.begin(), classes.end(), histogram_.begin());
+  count_ = std::accumulate(runs.begin(), runs.end(), std::int64_t{0});
+  if (count_ == 0)
+    return;
+  while (2 * (below_ + runs[median_run_]) <= count_)
+    below_ += runs[median_run_++];
+  const double n = static_cast<double>(count_);
+  const auto mean = [&](std::size_t k) { return FixedSum::join({packed[k], packed[k + 1]}).value() / n; };
+  mean_ = mean(0);
+  half_mean_ = mean(2) * mean(2);
+  std_ = std::sqrt(std::max(0.0, mean(4) - (mean_ - 1) * (mean_ - 1)));
   max_ = max;
 }
 
-std::array<std::int64_t, 9> RatioStatistics::histogram() const {
-  std::array<std::int64_t, 9> counts{};
-  for (std::size_t k = 0; k < bins_.size(); ++k) {
-    const double middle = bin_middle(k);
-    const auto next = std::upper_bound(histogram_edges.begin(), histogram_edges.end(), middle);
-    counts[static_cast<std::size_t>(next - histogram_edges.begin()) - 1] += bins_[k];
+RatioSummary RatioTotals::summary(std::span<const std::int64_t> bins) const {
+  RatioSummary summary{1, mean_, max_, half_mean_, std_};
+  std::int64_t below = below_;
+  for (std::size_t k = 0; k < bins.size(); ++k) {
+    below += bins[k];
+    if (2 * below > count_) {
+      summary.median = bin_middle(median_run_ * RatioStatistics::run_length + k);
+      break;
+    }
   }
-  return counts;
+  return summary;
 }
 
 } // namespace trime::mesh

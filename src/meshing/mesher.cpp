@@ -54,6 +54,7 @@ private:
   void empty_discs();
   bool clean_up();
   MeshResult extract();
+  void tell_of_run(MeshResult& result);
   void tell_of_start(MeshResult& result) const;
   std::string count_reason(GlobalId points) const;
 
@@ -148,25 +149,37 @@ bool Run::clean_up() {
   return cleanup_.better > 0;
 }
 
+/// The arrays that are written, with their quality and the certificate.
 MeshResult Run::extract() {
-  const auto time = run_.timers.scope("extract");
   const sites::StageView view = stage_.view(run_.lattice, boundary_.fixed().all());
-  const decomposition::Numbering numbering =
-      decomposition::canonical_numbering(run_.comm, stage_.state->points(), stage_.state->halo());
-  run_.comm.counters().add(Counter::sites_extracted, numbering.owned());
-  stage_.state->release_work_space();
   MeshResult result;
+  decomposition::Numbering numbering;
+  {
+    const auto time = run_.timers.scope("extract");
+    numbering = decomposition::canonical_numbering(run_.comm, stage_.state->points(), stage_.state->halo());
+    run_.comm.counters().add(Counter::sites_extracted, numbering.owned());
+    stage_.state->release_work_space();
+    result.loops = boundary_.loops(stage_.polygon);
+    extraction::Extraction made = extraction::extract_mesh(view, numbering, *stage_.asked_size);
+    result.quality = std::move(made.quality);
+    result.mesh = std::move(made.mesh);
+  }
+  {
+    const auto time = run_.timers.scope("certificate");
+    result.checks = certificate::certify(view, numbering,
+                                         {run_.given_boundary, boundary_.curves(), *stage_.asked_size, run_.side(),
+                                          stage_.simplified.coarseness, run_.options.features.within},
+                                         result.mesh);
+  }
+  result.checks.push_back(extraction::worst_alpha_check(result.quality, run_.options.worst_alpha));
+  tell_of_run(result);
+  return result;
+}
+
+/// What else the report says of the mesh. @pre the mesh is in the result
+void Run::tell_of_run(MeshResult& result) {
   result.components = boundary_.curves().components();
   result.holes = boundary_.curves().holes();
-  result.loops = boundary_.loops(stage_.polygon);
-  extraction::Extraction made = extraction::extract_mesh(view, numbering, *stage_.asked_size);
-  result.quality = std::move(made.quality);
-  result.mesh = std::move(made.mesh);
-  result.checks = certificate::certify(view, numbering,
-                                       {run_.given_boundary, boundary_.curves(), *stage_.asked_size, run_.side(),
-                                        stage_.simplified.coarseness, run_.options.features.within},
-                                       result.mesh);
-  result.checks.push_back(extraction::worst_alpha_check(result.quality, run_.options.worst_alpha));
   result.history = relaxation_.take_history();
   result.triangulations = snapshots_.triangulations();
   result.stop_reason = relaxation_.stop_reason();
@@ -175,7 +188,6 @@ MeshResult Run::extract() {
   result.shape_area = boundary_.curves().area;
   result.features = std::move(features_);
   tell_of_start(result);
-  return result;
 }
 
 /// What was asked for and how the start met it. @pre the mesh is in the result

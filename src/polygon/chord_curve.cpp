@@ -139,16 +139,16 @@ void assert_same_loops(const geometry::Boundary& boundary, const BoundarySites& 
 
 } // namespace
 
-std::vector<ChordCurve> compare_chords(const geometry::Boundary& boundary, const BoundarySites& sites) {
+std::vector<ChordCurve> compare_chords(const geometry::Boundary& boundary, const BoundarySites& sites, LocalIndex first,
+                                       LocalIndex last) {
   assert_same_loops(boundary, sites);
-  std::vector<ChordCurve> chords(sites.sites.size());
-  for (std::size_t loop = 0; loop < boundary.loops.size(); ++loop) {
-    const LocalIndex first = sites.loop_start[loop];
-    thread_loop(sites.loop_start[loop + 1] - first, 256, [&](std::ptrdiff_t item, int) {
-      const LocalIndex k = first + static_cast<LocalIndex>(item);
-      chords[static_cast<std::size_t>(k)] = compare(boundary.loops[loop], sites, k);
-    });
-  }
+  std::vector<ChordCurve> chords(static_cast<std::size_t>(last - first));
+  thread_loop(last - first, 256, [&](std::ptrdiff_t item, int) {
+    const LocalIndex k = first + static_cast<LocalIndex>(item);
+    const auto after = std::upper_bound(sites.loop_start.begin(), sites.loop_start.end(), k);
+    const Loop& loop = boundary.loops[static_cast<std::size_t>(after - sites.loop_start.begin()) - 1];
+    chords[static_cast<std::size_t>(item)] = compare(loop, sites, k);
+  });
   return chords;
 }
 
@@ -182,6 +182,10 @@ double area_of_loops(const geometry::Boundary& boundary) {
 std::vector<LoopSummary> summarize_loops(const geometry::Boundary& boundary, const BoundarySites& sites) {
   assert_same_loops(boundary, sites);
   std::vector<LoopSummary> loops;
+  std::int32_t parts = 0;
+  for (const BoundarySite& site : sites.sites)
+    parts = std::max(parts, site.part + 1);
+  std::vector<std::size_t> listed(static_cast<std::size_t>(parts), boundary.loops.size()); // the last loop that has it
   for (std::size_t index = 0; index < boundary.loops.size(); ++index) {
     const Loop& loop = boundary.loops[index];
     LoopSummary summary{loop.tag,
@@ -195,8 +199,10 @@ std::vector<LoopSummary> summarize_loops(const geometry::Boundary& boundary, con
       const Segment chord = sites.chord(k);
       const std::int32_t part = sites.sites[k].part;
       summary.length += geometry::length(chord.b - chord.a);
-      if (std::find(summary.parts.begin(), summary.parts.end(), part) == summary.parts.end())
+      if (std::size_t& last = listed[static_cast<std::size_t>(part)]; last != index) {
         summary.parts.push_back(part);
+        last = index;
+      }
     }
     loops.push_back(std::move(summary));
   }

@@ -19,10 +19,11 @@ struct ChordCurve {
   double curvature = 0; ///< of the circle of which the curve is a part; 0 if it is anything else
 };
 
-/// @brief One for each site, for the chord to its next. Exact but for rounding; serial order of operations in each, so
-/// the same bits on any threads and ranks. O(sites + pieces), by all threads.
-/// @pre the loops of `sites` are those of `boundary`, in the same order
-std::vector<ChordCurve> compare_chords(const geometry::Boundary& boundary, const BoundarySites& sites);
+/// @brief One for each of the sites first .. last-1, for the chord to its next. Exact but for rounding; serial order of
+/// operations in each, so the same bits on any threads and ranks. O(these sites and the pieces beside them, log of the
+/// loops), by all threads. @pre the loops of `sites` are those of `boundary`, in the same order
+std::vector<ChordCurve> compare_chords(const geometry::Boundary& boundary, const BoundarySites& sites, LocalIndex first,
+                                       LocalIndex last);
 
 /// @brief Sets BoundarySite::part: that of the piece in the middle of the curve between the site and its next.
 /// O(sites + pieces). @pre as for compare_chords
@@ -32,7 +33,7 @@ void name_parts(const geometry::Boundary& boundary, BoundarySites& sites);
 /// whole areas of it: from 0, below one. O(pieces)
 double area_of_loops(const geometry::Boundary& boundary);
 
-/// The loops as the mesh has them, in the order of the boundary. @pre as for compare_chords
+/// The loops as the mesh has them, in the order of the boundary. O(sites + parts). @pre as for compare_chords
 std::vector<LoopSummary> summarize_loops(const geometry::Boundary& boundary, const BoundarySites& sites);
 
 } // namespace trime::polygon

@@ -19,7 +19,6 @@ namespace trime::cleanup::testing_patch {
 using boundary::make_boundary_sites;
 using geometry::Boundary;
 using geometry::Vec2;
-using polygon::BoundaryChain;
 using polygon::BoundaryCurve;
 using polygon::BoundaryEdit;
 using polygon::BoundaryGuard;
@@ -51,7 +50,13 @@ struct Stage {
   void add(Vec2 p, std::int32_t kind = mesh::free_site) { sites.push_back({unit_lattice().snap(p), h, kind}); }
   void add_boundary() {
     for (std::size_t k = 0; k < sites_on.sites.size(); ++k)
-      sites.push_back({sites_on.sites[k].position, h, static_cast<std::int32_t>(k)});
+      sites.push_back(
+          {sites_on.sites[k].position, h, static_cast<BoundaryName>(k), 0, place(static_cast<LocalIndex>(k))});
+  }
+  BoundaryPlace place(LocalIndex k) const {
+    const BoundarySite& site = sites_on.sites[static_cast<std::size_t>(k)];
+    const LocalIndex loop = loop_of(sites_on, k);
+    return {loop, site.corner, curve.arc(loop, site), 0, site.next};
   }
   /// What edits make of the boundary.
   BoundarySites edited_boundary(const std::vector<BoundaryEdit>& edits) const {
@@ -79,8 +84,7 @@ struct Stage {
       if (geometry::length(site.position - center) < CleanupRules::reach * h)
         near.push_back(site);
     sort_for_a_patch(near);
-    const BoundaryChain chain(sites_on, curve);
-    PatchOptimizer optimizer(chain, unit_lattice(), options);
+    PatchOptimizer optimizer(sites_on, curve, unit_lattice(), options);
     const std::vector<SiteEdit> edits = optimizer.improve(center, h, near, budget).edits;
     optimizer.improve(near.front().position, h, near, budget); // something else in between
     EXPECT_TRUE(equal(edits, optimizer.improve(center, h, near, budget).edits)) << "not a function of the sites";
@@ -106,14 +110,14 @@ struct Stage {
       if (edit.kind != Kind::insert) {
         ASSERT_NE(site, sites.end());
         EXPECT_NE(site->boundary, mesh::fixed_site);
-        EXPECT_EQ(std::max(site->boundary, -1), std::max(edit.boundary, -1));
+        EXPECT_EQ(std::max<BoundaryName>(site->boundary, -1), std::max<BoundaryName>(edit.boundary, -1));
         if (site->boundary >= 0) {
           EXPECT_FALSE(sites_on.sites[static_cast<std::size_t>(site->boundary)].corner);
         }
       }
       if (edit.boundary >= 0 && edit.kind != Kind::remove) {
         EXPECT_GE(edit.arc, 0);
-        EXPECT_LT(geometry::length(curve.place(loop_of(sites_on, edit.boundary), edit.arc).point - edit.to), 1e-12);
+        EXPECT_LT(geometry::length(curve.place(edit.loop, edit.arc).point - edit.to), 1e-12);
       }
       if (edit.boundary < 0 && edit.kind != Kind::remove) {
         EXPECT_TRUE(guard.inside(edit.to));

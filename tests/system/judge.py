@@ -103,7 +103,7 @@ def judge_file(path, rings):
         checks = dict(zip(file["trime_mpi/checks/name"][:].astype(str), file["trime_mpi/checks/passed"][:]))
         whole = float(file["trime_mpi"].attrs["seconds_total"])
     area = even_odd_area(places)
-    other = ("clean-up", "output", "extract", "other")
+    other = ("clean-up", "output", "extract", "certificate", "other")
     return {**measures.columns(), "coarse": coarseness, "area": 100 * (measures.area / area - 1), "shape_area": area, "rings": len(rings),
             "cleanup": 100 * timers.get("clean-up", 0.0) / whole,
             "sweeps": 100 * sum(t for name, t in timers.items() if name not in other) / whole,

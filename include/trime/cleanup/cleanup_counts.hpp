@@ -13,16 +13,6 @@ struct CleanupCounts {
   std::int64_t moved = 0, inserted = 0, deleted = 0; ///< sites in what was kept; a site may move more than once
   std::int64_t on_boundary = 0;                      ///< of these sites, those on the boundary
   std::int64_t left = 0;                             ///< bad places where nothing helped
-
-  void add(const CleanupCounts& other) {
-    patches += other.patches;
-    better += other.better;
-    moved += other.moved;
-    inserted += other.inserted;
-    deleted += other.deleted;
-    on_boundary += other.on_boundary;
-    left += other.left;
-  }
 };
 
 } // namespace trime::cleanup

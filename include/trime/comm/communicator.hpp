@@ -93,7 +93,7 @@ public:
   /// @brief Sends each message to its peer and returns what arrived, ordered by peer. Peers need not know each other
   /// beforehand. At most one message per peer. O(log(ranks)) steps. Collective.
   std::vector<Message> exchange_any(const std::vector<Message>& outgoing) const;
-  /// @brief Exchange between ranks that know each other: `incoming[k].data` must have the size that its peer sends.
+  /// @brief Exchange between ranks that know each other: `incoming[k].data` must have room for what its peer sends.
   /// Non-blocking sends and receives; empty messages are not sent. Only the ranks named take part.
   void exchange_known(std::span<const Message> outgoing, std::span<Message> incoming) const;
 

@@ -60,7 +60,8 @@ struct RatioSummary {
 };
 
 /// @brief Mergeable statistics of a ratio >= 1. Values are capped at 2^16 in the sums and exact in the maximum. The
-/// median comes from bins: of 1e-6 up to 1.01, of 1e-4 up to 2, of 1e-2 up to 10, and of 1.6 % beyond.
+/// median comes from bins: of 1e-6 up to 1.01, of 1e-4 up to 2, of 1e-2 up to 10, and of 1.6 % beyond. There are many,
+/// so ranks do not sum all of them: `pack` first, then the one run of bins that holds the median. See RatioTotals.
 class RatioStatistics {
 public:
   RatioStatistics();
@@ -68,24 +69,41 @@ public:
   /// The same as one after the other; at most 4096 of them.
   void add(std::span<const double> ratios);
   void merge(const RatioStatistics& other);
-  RatioSummary summary() const;
-  std::int64_t count() const { return count_; }
   double max() const { return max_; }
 
-  /// For sums over ranks: all integers packed, and back. The maximum travels apart.
-  std::vector<std::int64_t> pack() const;
-  void unpack(const std::vector<std::int64_t>& packed, double max);
-  /// Counts in bins [1,1.01), [1.01,1.02), [1.02,1.05), [1.05,1.1), [1.1,1.2), [1.2,1.5), [1.5,2), [2,5), [5,inf).
-  std::array<std::int64_t, 9> histogram() const;
-  static constexpr std::array<double, 9> histogram_edges{1, 1.01, 1.02, 1.05, 1.1, 1.2, 1.5, 2, 5};
+  static constexpr std::size_t classes = 9;
+  /// Classes [1,1.01), [1.01,1.02), [1.02,1.05), [1.05,1.1), [1.1,1.2), [1.2,1.5), [1.5,2), [2,5), [5,inf).
+  static constexpr std::array<double, classes> histogram_edges{1, 1.01, 1.02, 1.05, 1.1, 1.2, 1.5, 2, 5};
+  static constexpr std::size_t run_length = 128; ///< bins
+  /// Three sums, of two words each; counts in classes and in runs of bins.
+  static constexpr std::size_t runs = 169, packed_size = 6 + classes + runs;
+  std::array<std::int64_t, packed_size> pack() const;
+  /// The counts in the bins of a run: run_length of them.
+  std::span<const std::int64_t> bins(std::size_t run) const;
 
 private:
-  static std::size_t bin(double ratio);
-  static double bin_middle(std::size_t bin);
-  std::int64_t count_ = 0;
   FixedSum sum_, sum_of_roots_, sum_of_squares_;
   double max_ = 1;
   std::vector<std::int64_t> bins_;
+};
+
+/// The statistics of all ranks together.
+class RatioTotals {
+public:
+  /// @param packed sums over all ranks of what RatioStatistics::pack gives
+  RatioTotals(std::span<const std::int64_t, RatioStatistics::packed_size> packed, double max);
+  /// The run of bins that holds the median.
+  std::size_t median_run() const { return median_run_; }
+  /// @param bins of the run with the median, summed over all ranks
+  RatioSummary summary(std::span<const std::int64_t> bins) const;
+  /// Counts in the classes.
+  const std::array<std::int64_t, RatioStatistics::classes>& histogram() const { return histogram_; }
+
+private:
+  std::int64_t count_ = 0, below_ = 0; // below_: in the runs before that of the median
+  std::size_t median_run_ = 0;
+  double mean_ = 1, half_mean_ = 1, std_ = 0, max_ = 1;
+  std::array<std::int64_t, RatioStatistics::classes> histogram_{};
 };
 
 /// One of the worst triangles, and the sharp corner of the shape that excuses it.
@@ -102,7 +120,7 @@ struct QualitySummary {
   double min_angle_degrees = 60;
   geometry::Vec2 worst_place;         ///< centre of the triangle with the largest alpha
   double size_mean = 1, size_std = 0; ///< L / (s h(mid)) over edges; s is chosen so that the mean is 1
-  std::array<std::int64_t, 9> alpha_histogram{};
+  std::array<std::int64_t, RatioStatistics::classes> alpha_histogram{};
   std::int64_t bad_triangles = 0;           ///< of an alpha above 2
   std::vector<BadTriangle> worst_triangles; ///< of these, the worst first; at most 10
   BadTriangle worst_away;                   ///< the worst of these that no corner excuses; alpha 0: there is none

@@ -23,37 +23,6 @@ using polygon::BoundarySites;
 using shape::Part;
 using shape::RegionShape;
 
-TEST(CountCycles, FollowsEdgesRound) {
-  const std::vector<TaggedFacet> two{{1, 7, 1}, {7, 4, 1}, {4, 1, 1}, {9, 2, 2}, {2, 3, 2}, {3, 9, 2}};
-  const auto expect = [](std::vector<TaggedFacet> edges, CycleCounts expected, const char* what) {
-    const CycleCounts found = count_cycles(std::move(edges));
-    EXPECT_EQ(found.irregular, expected.irregular) << what;
-    EXPECT_EQ(found.cycles, expected.cycles) << what;
-    EXPECT_EQ(found.foreign, expected.foreign) << what;
-  };
-  expect({}, {0, 0, 0}, "the whole torus");
-  expect(two, {0, 2, 0}, "two loops");
-  auto edges = two;
-  edges[5].tag = 1;
-  expect(edges, {0, 2, 1}, "one tag wrong");
-  edges = two;
-  for (std::size_t k = 3; k < 6; ++k)
-    edges[k].tag = 1;
-  expect(edges, {0, 2, 3}, "two loops of one tag");
-  edges = two;
-  edges.pop_back();
-  expect(edges, {2, 1, 1}, "one edge missing: what is left of its loop is two chains");
-  edges = two;
-  std::swap(edges[1].first, edges[1].second);
-  EXPECT_EQ(count_cycles(edges).irregular, 2) << "one edge turned round";
-  edges = two;
-  edges[3].first = edges[5].second = 1;
-  EXPECT_EQ(count_cycles(edges).irregular, 1) << "loops that touch in a point";
-  edges = two;
-  std::swap(edges[0].second, edges[3].second);
-  expect(edges, {0, 1, 3}, "two loops joined to one");
-}
-
 /// A disc with a hole and its boundary edges, point k being site k; shared out over the ranks.
 class BoundaryProof : public ::testing::Test {
 protected:
@@ -135,6 +104,17 @@ TEST_F(BoundaryProof, FindsWrongEdges) {
   const auto hole = static_cast<GlobalId>(sites.loop_start[1]);
   std::erase_if(mesh.facets, [&](const auto& facet) { return facet[0] >= hole; });
   EXPECT_EQ(failures(truth(), mesh), Names{"boundary_cycles"}) << "a hole that the mesh does not have";
+}
+
+TEST_F(BoundaryProof, FindsLoopsThatExchangeTheirTags) {
+  mesh::DistributedMesh mesh = mesh_of_sites();
+  for (std::int32_t& tag : mesh.facet_tags)
+    tag = 1 - tag + 2 * boundary.loops.front().tag; // of the other loop, if the tags follow on each other
+  ASSERT_EQ(boundary.loops[1].tag, boundary.loops[0].tag + 1);
+  EXPECT_EQ(failures(truth(), mesh), Names{}) << "the same tags, each on a loop of its own";
+  for (std::int32_t& tag : mesh.facet_tags)
+    tag = boundary.loops.front().tag;
+  EXPECT_EQ(failures(truth(), mesh), Names{"foreign_tags"}) << "both loops have one tag";
 }
 
 TEST_F(BoundaryProof, FindsVerticesBesideTheCurve) {

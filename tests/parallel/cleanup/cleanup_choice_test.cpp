@@ -2,7 +2,7 @@
 // Which contenders are chosen: none within the separation of another one, and the same ones on any ranks.
 #include "cleanup/cleanup_choice.hpp"
 
-#include "support/distributed.hpp"
+#include "support/patch_sites.hpp"
 #include "support/periodic_shapes.hpp"
 #include "support/point_sets.hpp"
 
@@ -15,7 +15,6 @@ namespace trime::cleanup {
 namespace {
 
 using geometry::Vec2;
-using sites::SiteState;
 
 /// Of widths from 0.02 to 0.1; some share their x, some their separation.
 std::vector<Contender> contenders() {
@@ -28,20 +27,43 @@ std::vector<Contender> contenders() {
   return all;
 }
 
-std::set<std::pair<double, double>> chosen_on(const comm::Communicator& comm, const geometry::Periods& periods) {
-  SiteState state(comm, {{0, 0}, {1, 1}}, {{}, {}, 0.03, periods});
-  state.distribute(testing::dealt(comm, testing::random_sites(1200, 3)));
-  const sizing::UniformSize size(0.03);
-  const CleanupSites sites(comm, state, size);
+/// The choice of the contenders on the tiles of this rank, and who its neighbours are.
+struct Choosing {
+  Choosing(const comm::Communicator& of, const geometry::Periods& its_periods)
+      : comm(of), periods(its_periods), on(of, testing::random_sites(1200, 3), size, 0.03, its_periods),
+        neighbours(of) {
+    for (const Contender& one : contenders())
+      if (on.sites->owner(one.place) == comm.rank())
+        own.push_back(one);
+  }
+  void meet() {
+    std::vector<int> ranks;
+    for (const Contender& one : own)
+      for (const int rank : on.sites->ranks_near({one.place, one.separation}))
+        ranks.push_back(rank);
+    neighbours.add(ranks);
+  }
+  Choice choose() const { return choose_apart(comm, neighbours, *on.sites, periods, own); }
+
+  const comm::Communicator& comm;
+  const geometry::Periods& periods;
+  sizing::UniformSize size{0.03};
+  testing::PatchSites on;
+  comm::Neighbours neighbours;
   std::vector<Contender> own;
-  for (const Contender& one : contenders())
-    if (sites.owner(one.place) == comm.rank())
-      own.push_back(one);
-  const std::vector<std::size_t> chosen = choose_apart(comm, sites, periods, own);
-  EXPECT_TRUE(std::is_sorted(chosen.begin(), chosen.end()));
+};
+
+std::set<std::pair<double, double>> chosen_on(const comm::Communicator& comm, const geometry::Periods& periods) {
+  Choosing choosing(comm, periods);
+  choosing.meet();
+  const Choice choice = choosing.choose();
+  EXPECT_TRUE(choice.is_whole);
   std::vector<Vec2> places;
-  for (const std::size_t k : chosen)
-    places.push_back(own[k].place);
+  for (const ChosenContender& one : choice.own) {
+    EXPECT_EQ(one.contender.place, choosing.own[static_cast<std::size_t>(one.number)].place);
+    EXPECT_TRUE(places.empty() || one.number > choice.own[places.size() - 1].number);
+    places.push_back(one.contender.place);
+  }
   std::set<std::pair<double, double>> all;
   for (const Vec2 p : comm::from_bytes<Vec2>(comm.all_gather(std::as_bytes(std::span<const Vec2>(places)))))
     all.insert({p.x, p.y});
@@ -68,6 +90,47 @@ void expect_apart(const geometry::Periods& periods) {
   }
   EXPECT_GT(count, 80u);
   EXPECT_LT(left, 5u) << "with room for them: a few passes nearly find all";
+}
+
+/// Each rank is told of all patches that reach to its tiles, by their numbers, and of no others.
+TEST(ChooseApart, PatchesAreKnownWhereTheyReach) {
+  const comm::Communicator world = comm::Communicator::world();
+  const geometry::Periods none;
+  Choosing choosing(world, none);
+  choosing.meet();
+  const Choice choice = choosing.choose();
+  struct Reach {
+    std::int32_t to, from, number;
+  };
+  std::vector<Reach> own;
+  std::set<int> partners;
+  for (const ChosenContender& one : choice.own)
+    for (const int rank : choosing.on.sites->ranks_near({one.contender.place, one.contender.separation})) {
+      own.push_back({rank, one.rank, one.number});
+      partners.insert(rank);
+    }
+  std::vector<std::pair<std::int32_t, std::int32_t>> expected, found;
+  for (const Reach& reach : testing::gather_all(world, own))
+    if (reach.to == world.rank()) {
+      expected.push_back({reach.from, reach.number});
+      partners.insert(reach.from);
+    }
+  for (const ChosenContender& one : choice.near)
+    found.push_back({one.rank, one.number});
+  EXPECT_EQ(found, expected);
+  EXPECT_EQ(choice.partners, std::vector<int>(partners.begin(), partners.end()));
+}
+
+/// Ranks that are no neighbours cannot be told of a contender. All ranks come through, and one of them says so.
+TEST(ChooseApart, AMissingNeighbourIsFoundAndNobodyWaits) {
+  const comm::Communicator world = comm::Communicator::world();
+  const geometry::Periods none;
+  Choosing choosing(world, none);
+  const Choice without = choosing.choose();
+  EXPECT_EQ(world.sum(std::int64_t{!without.is_whole}) > 0, world.size() > 1);
+  EXPECT_TRUE(without.partners.empty());
+  choosing.meet();
+  EXPECT_TRUE(choosing.choose().is_whole);
 }
 
 TEST(ChooseApart, NoTwoAreNearEachOther) {

@@ -2,7 +2,7 @@
 // What the clean-up reads around a place: the same on any ranks, and whole, however the sites crowd.
 #include "cleanup/cleanup_sites.hpp"
 
-#include "support/distributed.hpp"
+#include "support/patch_sites.hpp"
 #include "support/periodic_shapes.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,6 @@ namespace {
 
 using geometry::Vec2;
 using sites::Disc;
-using sites::SiteState;
 
 constexpr std::size_t most = 60;
 
@@ -33,23 +32,36 @@ bool is_less(const PatchSite& a, const PatchSite& b) {
   return geometry::lexicographically_less(a.position, b.position);
 }
 
+/// All ranks know all discs here, and are each other's partners.
+std::vector<Surroundings> around(const comm::Communicator& comm, const CleanupSites& sites,
+                                 const std::vector<Disc>& discs, std::size_t limit) {
+  std::vector<PatchDisc> own, near;
+  for (std::size_t k = 0; k < discs.size(); ++k)
+    own.push_back({discs[k], comm.rank(), static_cast<std::int32_t>(3 * k)}); // others were not chosen
+  for (const PatchDisc& disc : testing::gather_all(comm, own))
+    if (disc.rank != comm.rank())
+      near.push_back(disc);
+  std::vector<int> partners;
+  for (int rank = 0; rank < comm.size(); ++rank)
+    if (rank != comm.rank())
+      partners.push_back(rank);
+  return sites.around(own, near, partners, limit);
+}
+
 /// Around some places, asked for by whichever rank owns them.
 std::map<std::uint64_t, Surroundings> surroundings(const comm::Communicator& comm, const geometry::Periods& periods) {
-  SiteState state(comm, {{0, 0}, {1, 1}}, {{}, {}, 0.02, periods});
-  state.distribute(testing::dealt(comm, crowded_sites()));
   const sizing::UniformSize size(0.02);
-  state.refresh(size);
-  const CleanupSites sites(comm, state, size);
+  const testing::PatchSites on(comm, crowded_sites(), size, 0.02, periods);
   std::vector<Disc> discs;
   std::vector<std::uint64_t> keys;
   for (std::uint64_t k = 0; k < 80; ++k) {
     const Vec2 p = testing::random_vec2(17, k);
-    if (sites.owner(p) == comm.rank()) {
+    if (on.sites->owner(p) == comm.rank()) {
       discs.push_back({p, 0.02 + 0.2 * testing::random_vec2(18, k).x});
       keys.push_back(k);
     }
   }
-  std::vector<Surroundings> found = sites.around(discs, most);
+  std::vector<Surroundings> found = around(comm, *on.sites, discs, most);
   std::map<std::uint64_t, Surroundings> all;
   for (std::size_t k = 0; k < keys.size(); ++k) {
     std::sort(found[k].sites.begin(), found[k].sites.end(), is_less);
@@ -97,11 +109,9 @@ void expect_whole(const geometry::Periods& periods) {
 /// A crowd is given up as a whole: all its sites rest, whoever owns them.
 TEST(CleanupSites, AllSitesOfACrowdRest) {
   const comm::Communicator world = comm::Communicator::world();
-  SiteState state(world, {{0, 0}, {1, 1}}, {{}, {}, 0.02});
-  state.distribute(testing::dealt(world, crowded_sites()));
   const sizing::UniformSize size(0.02);
-  state.refresh(size);
-  CleanupSites sites(world, state, size);
+  testing::PatchSites on(world, crowded_sites(), size, 0.02, {});
+  CleanupSites& sites = *on.sites;
   const Disc crowd{{0.05, 0.5}, 0.1};
   const auto is_in_crowd = [&](Vec2 p) {
     return geometry::squared_length(p - crowd.center) < crowd.radius * crowd.radius;
@@ -112,8 +122,9 @@ TEST(CleanupSites, AllSitesOfACrowdRest) {
     expected += is_in_crowd(site.position);
   EXPECT_EQ(world.sum(std::ssize(own)), expected);
   EXPECT_GT(expected, 500);
-  const std::vector<Surroundings> around = sites.around(std::vector<Disc>{{{0.1, 0.5}, 0.12}}, 10000);
-  for (const PatchSite& site : around[0].sites)
+  const std::vector<Surroundings> read = around(world, sites, {{{0.1, 0.5}, 0.12}}, 10000);
+  EXPECT_GT(read[0].sites.size(), 500u);
+  for (const PatchSite& site : read[0].sites)
     EXPECT_EQ(site.rests != 0, is_in_crowd(site.position));
 }
 

@@ -28,7 +28,7 @@ TEST(BadTriangles, AreTheSameHoweverTheyAreSharedOut) {
       (k % 2 == 0 ? shared : other_thread).add(triangle(count - 1 - k));
   }
   shared.merge(other_thread);
-  shared.reduce(comm);
+  shared.gather(comm, comm.sum(shared.count()));
   mesh::QualitySummary expected, found;
   alone.tell(expected);
   shared.tell(found);
@@ -46,7 +46,7 @@ TEST(BadTriangles, AreTheSameHoweverTheyAreSharedOut) {
 TEST(BadTriangles, NoneIsNoneOnEveryRank) {
   mesh::QualitySummary quality;
   BadTriangles none;
-  none.reduce(comm::Communicator::world());
+  none.gather(comm::Communicator::world(), 0);
   none.tell(quality);
   EXPECT_EQ(quality.bad_triangles, 0);
   EXPECT_TRUE(quality.worst_triangles.empty());

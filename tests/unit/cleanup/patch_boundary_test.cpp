@@ -107,14 +107,14 @@ TEST(PatchOptimizer, PatchesThatKeepApartShareNoChord) {
       if (std::abs(i) <= 14 - (j & 1))
         stage.add(middle + h * Vec2{i + 0.5 * (j & 1), std::sqrt(0.75) * j});
   const double half = 0.5 * (2 * CleanupRules::reach - CleanupRules::free_depth) * h;
-  std::vector<LocalIndex> left, right;
+  std::vector<BoundaryName> left, right;
   for (const auto& [list, side] : {std::pair{&left, -half}, {&right, half}})
     for (const SiteEdit& edit : stage.improve(unit_lattice().snap(middle + Vec2{side, 0})))
       if (edit.boundary >= 0)
         list->push_back(edit.boundary);
   EXPECT_FALSE(left.empty());
   EXPECT_FALSE(right.empty());
-  for (const LocalIndex site : left)
+  for (const BoundaryName site : left)
     EXPECT_EQ(std::count(right.begin(), right.end(), site), 0);
 }
 
@@ -149,7 +149,7 @@ BoundarySites edited_boundary(const Stage& stage, const std::vector<SiteEdit>& e
   std::vector<BoundaryEdit> on_boundary;
   for (const SiteEdit& edit : edits)
     if (edit.boundary >= 0)
-      on_boundary.push_back({edit.boundary, edit.kind, edit.arc, edit.to});
+      on_boundary.push_back({static_cast<LocalIndex>(edit.boundary), edit.kind, edit.arc, edit.to});
   return stage.edited_boundary(on_boundary);
 }
 
@@ -201,7 +201,7 @@ TEST(PatchOptimizer, SmallerTrianglesFollowARaggedBoundary) {
   ASSERT_EQ(zigzag.size(), 2u);
   stage.add_boundary_with(zigzag);
   for (PatchSite& site : stage.sites)
-    site.tolerance = 1.1 * stray * edge;
+    site.on_boundary.tolerance = 1.1 * stray * edge;
   add_upper_lattice(stage);
   EXPECT_GT(worst_alpha(stage, {}, middle, 3 * h), 1.5);
   stage.budget.may_insert = stage.budget.may_delete = 0;

@@ -17,8 +17,8 @@ namespace {
 using boundary::make_boundary_sites;
 using geometry::Boundary;
 using geometry::Vec2;
-using polygon::BoundaryChain;
 using polygon::BoundaryCurve;
+using polygon::BoundarySites;
 using sizing::UniformSize;
 using testing::boundary_of;
 using testing::polygon_loop;
@@ -163,7 +163,7 @@ TEST(PatchOptimizer, FixedSitesStayWhereTheyAre) {
 TEST(PatchOptimizer, WhatStaysAsItIsMakesNoNews) {
   const shape::RegionShape torus = testing::whole_torus();
   const BoundaryCurve curve(torus.boundary());
-  const BoundaryChain none(make_boundary_sites(torus.boundary(), UniformSize(h), unit_lattice(), 30), curve);
+  const BoundarySites none = make_boundary_sites(torus.boundary(), UniformSize(h), unit_lattice(), 30);
   const auto improve = [&](double displaced_at) {
     std::vector<PatchSite> sites;
     for (int j = -12; j <= 12; ++j)
@@ -175,7 +175,7 @@ TEST(PatchOptimizer, WhatStaysAsItIsMakesNoNews) {
           sites.push_back({unit_lattice().snap(middle + offset), h, mesh::free_site});
       }
     sort_for_a_patch(sites);
-    return PatchOptimizer(none, unit_lattice(), {}).improve(middle, h, sites, PatchBudget{});
+    return PatchOptimizer(none, curve, unit_lattice(), {}).improve(middle, h, sites, PatchBudget{});
   };
   const PatchResult at_the_rim = improve(6), inside = improve(1);
   EXPECT_TRUE(at_the_rim.edits.empty());
@@ -188,7 +188,7 @@ TEST(PatchOptimizer, WhatStaysAsItIsMakesNoNews) {
 TEST(PatchOptimizer, NearestImagesMakeAPatchOnATorus) {
   const shape::RegionShape torus = testing::whole_torus();
   const BoundaryCurve curve(torus.boundary());
-  const BoundaryChain none(make_boundary_sites(torus.boundary(), UniformSize(h), unit_lattice(), 30), curve);
+  const BoundarySites none = make_boundary_sites(torus.boundary(), UniformSize(h), unit_lattice(), 30);
   const auto edits_at = [&](Vec2 center) {
     std::vector<PatchSite> sites;
     for (int j = -12; j <= 12; ++j)
@@ -198,7 +198,7 @@ TEST(PatchOptimizer, NearestImagesMakeAPatchOnATorus) {
           sites.push_back({center + unit_lattice().snap(offset), h, mesh::free_site});
       }
     sort_for_a_patch(sites);
-    return PatchOptimizer(none, unit_lattice(), {}).improve(center, h, sites, PatchBudget{}).edits;
+    return PatchOptimizer(none, curve, unit_lattice(), {}).improve(center, h, sites, PatchBudget{}).edits;
   };
   const std::vector<SiteEdit> inside = edits_at(middle), across = edits_at({0, 0});
   ASSERT_FALSE(inside.empty());
