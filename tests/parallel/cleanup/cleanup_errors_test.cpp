@@ -46,7 +46,7 @@ Stage torus_stage(const comm::Communicator& comm, const shape::RegionShape& toru
   stage.polygon = boundary::make_boundary_sites(torus.boundary(), sizing::UniformSize(h), unit_lattice(), 30);
   stage.guard = std::make_unique<polygon::BoundaryGuard>(stage.polygon, unit_lattice());
   stage.state = std::make_unique<sites::SiteState>(comm, geometry::Box{{0, 0}, {1, 1}},
-                                                   mesh::GridOptions{{}, {}, h, false, torus.boundary().periods});
+                                                   mesh::GridOptions{{}, {}, h, torus.boundary().periods});
   stage.state->distribute(testing::dealt(comm, testing::random_sites(1200, 5)));
   return stage;
 }
