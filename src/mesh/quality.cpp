@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <ranges>
 
 namespace trime::mesh {
 namespace {
@@ -53,8 +52,13 @@ double bin_middle(std::size_t bin) {
 
 /// The first bin whose middle is not below.
 std::size_t first_bin_from(double ratio) {
-  const auto bins = std::views::iota(std::size_t{0}, all_bins);
-  return *std::ranges::partition_point(bins, [&](std::size_t bin) { return bin_middle(bin) < ratio; });
+  std::size_t first = 0, last = all_bins;
+  while (first < last)
+    if (const std::size_t middle = first + (last - first) / 2; bin_middle(middle) < ratio)
+      first = middle + 1;
+    else
+      last = middle;
+  return first;
 }
 
 } // namespace
