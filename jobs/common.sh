@@ -54,7 +54,7 @@ job_run() {
   [ "$kind" = srun ] || kind=$("${launch[0]}" --version 2>&1 || true)
   case "$kind" in
     srun) launch+=(--ntasks="$SLURM_NTASKS" --cpu-bind=cores --kill-on-bad-exit=1) ;;
-    *"Open MPI"*)
+    *"Open MPI"* | *OpenRTE*)
       # Without PE= Open MPI binds a rank to one core when there are one or two ranks, and all its threads would share
       # that core. --report-bindings prints where each rank went.
       launch+=(-n "$SLURM_NTASKS" --map-by "slot:PE=$threads" --bind-to core --report-bindings) ;;
