@@ -18,7 +18,7 @@ fail() { # CODE MESSAGE
   echo "simulate_cluster.sh: $2" >&2
   exit "$1"
 }
-usage() { sed -n '5,11s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
+usage() { sed -n '5,12s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
 
 ranks='' cluster="$root/scripts/cluster/fat_tree.xml" cores=64 record='' hash='' program='' build_only=no rest=()
 while [ $# -gt 0 ]; do
