@@ -302,7 +302,7 @@ public:
       caps_[static_cast<std::size_t>(i - begin)] = wish == StarWish::compute && !stars_.certain(i) ? cap(i) : 0;
     }
     computed_ += std::ssize(caps_) - std::count(caps_.begin(), caps_.end(), 0.0);
-    if (points_.drifts().largest() == 0) // it trusts the bins
+    if (points_.drifts().largest().distance == 0) // it trusts the bins
       rebuilt_ += wrapper_.compute(tile, caps_);
     for (LocalIndex i = begin; i < end; ++i)
       if (const double limit = caps_[static_cast<std::size_t>(i - begin)]; limit > 0)

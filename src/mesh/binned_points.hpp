@@ -78,7 +78,7 @@ public:
   /// @pre in a periodic container: `center` canonical, reach below the period
   template <class Visit, class Missing>
   void for_each_near(geometry::Vec2 center, double reach, const Visit& visit, const Missing& missing) const {
-    if (drifts_.largest() > 0)
+    if (drifts_.largest().distance > 0)
       reach += drifts_.margin(center, reach, bins_);
     bins_.for_each_near(center, reach, visit, missing);
   }

@@ -7,18 +7,24 @@ namespace trime::mesh {
 
 void Drifts::forget(LocalIndex tiles) {
   of_tile_.assign(static_cast<std::size_t>(tiles), 0);
-  largest_ = 0;
+  largest_ = {};
 }
 
-/// Sites near `center` were sorted into a tile that lies as near, but for the drift.
+/// A site has come less far than the sides of its tile and of those beside it. So the tile where it is now is its own
+/// or one beside that, and the side of this one bounds how far it has come. Tiles that the search meets thus bound the
+/// drift of all sites that are to be found, and the tiles within this bound hold them.
 double Drifts::margin(geometry::Vec2 center, double reach, const KnownBins& bins) const {
+  const TileGrid& grid = bins.grid();
+  double widest = 0;
+  grid.for_each_in(grid.rect_around(center, reach),
+                   [&](LocalIndex number, int, const FixedRect&) { widest = std::max(widest, grid.side_of(number)); });
+  const double bound = std::min(largest_.distance, largest_.in_sides * widest);
   double most = 0;
-  bins.grid().for_each_in(bins.grid().rect_around(center, reach + largest_),
-                          [&](LocalIndex number, int, const FixedRect&) {
-                            const LocalIndex tile = bins.known_tile(number);
-                            most = std::max(most, tile >= 0 ? of(tile) : largest_);
-                          });
-  return most;
+  grid.for_each_in(grid.rect_around(center, reach + bound), [&](LocalIndex number, int, const FixedRect&) {
+    const LocalIndex tile = bins.known_tile(number);
+    most = std::max(most, tile >= 0 ? of(tile) : largest_.in_sides * grid.side_of(number));
+  });
+  return std::min(most, bound);
 }
 
 } // namespace trime::mesh

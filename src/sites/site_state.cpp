@@ -185,7 +185,7 @@ void SiteState::refresh(const sizing::SizeField& size) {
   evaluate_agreed(size, points_.size());
 }
 
-void SiteState::begin_advance(const sizing::SizeField& size, double drift, bool new_sizes) {
+void SiteState::begin_advance(const sizing::SizeField& size, const mesh::DriftBound& drift, bool new_sizes) {
   points_.advance();
   halo_.begin_positions(points_);
   points_.drifts().set_largest(drift);

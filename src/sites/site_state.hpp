@@ -59,9 +59,9 @@ public:
   void forget_sizes() { sizes_.forget(); }
   /// @brief Moves the owned sites to BinnedPoints::next, without sorting. The ghosts follow on their way:
   /// nothing about them may be asked until finish_advance. Collective. @pre no periods
-  /// @param drift bound on how far any site of any rank has come since sites were sorted
+  /// @param drift of any site of any rank, with this move
   /// @param new_sizes evaluates h at the new places; else sites keep theirs
-  void begin_advance(const sizing::SizeField& size, double drift, bool new_sizes);
+  void begin_advance(const sizing::SizeField& size, const mesh::DriftBound& drift, bool new_sizes);
   void finish_advance(const sizing::SizeField& size);
   /// Adds bins to those that this rank knows; their ghosts come behind the others. Collective.
   void fetch(std::span<const mesh::BinRef> missing, const sizing::SizeField& size);

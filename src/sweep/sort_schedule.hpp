@@ -2,6 +2,7 @@
 // When the sweeps sort their sites, and when they evaluate h anew.
 #pragma once
 
+#include "mesh/drifts.hpp"
 #include "sweep/rules.hpp"
 
 namespace trime::sweep {
@@ -14,19 +15,19 @@ public:
   /// @param distance, ratio bounds on the move of any site, and on its move over h
   /// @param drift_in_tiles how far any site has come with it, over the narrowest tile around its own
   void add_move(double distance, double ratio, double drift_in_tiles) {
-    drift_ += distance * SweepRules::drift_rounding;
+    drift_.distance += distance * SweepRules::drift_rounding;
+    drift_.in_sides = drift_in_tiles * SweepRules::drift_rounding;
     drift_in_sizes_ += ratio;
-    drift_in_tiles_ = drift_in_tiles;
     ++moves_since_sort_;
   }
   /// Have sites come too far for their bins?
   bool is_sort_due() const {
-    return drift_in_sizes_ > SweepRules::drift_in_sizes || drift_in_tiles_ > SweepRules::drift_in_tiles;
+    return drift_in_sizes_ > SweepRules::drift_in_sizes || drift_.in_sides > SweepRules::drift_in_tiles;
   }
   /// Have sites that are to be deleted waited long enough?
   bool may_sort_to_delete() const { return moves_since_sort_ >= SweepRules::sweeps_of_a_sort; }
   /// How far any site may have come since the last sorting.
-  double drift() const { return drift_; }
+  const mesh::DriftBound& drift() const { return drift_; }
   /// The sites have been moved without sorting; is h to be evaluated at the new places?
   bool advance() {
     if (++age_of_sizes_ < SweepRules::sweeps_of_a_size)
@@ -38,7 +39,8 @@ public:
   void reset() { *this = {}; }
 
 private:
-  double drift_ = 0, drift_in_sizes_ = 0, drift_in_tiles_ = 0;
+  mesh::DriftBound drift_;
+  double drift_in_sizes_ = 0;
   int age_of_sizes_ = 0, moves_since_sort_ = 0; // in sweeps
 };
 

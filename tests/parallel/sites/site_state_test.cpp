@@ -107,7 +107,7 @@ TEST(SiteState, AFetchKeepsTheDriftThatTheOwnersKnow) {
   prepare_to_stay(points);
   for (LocalIndex tile = points.first_tile(); tile < points.last_tile(); ++tile)
     points.drifts().set(points.known_tile(tile), drift_of(tile));
-  state.begin_advance(size, 1e-3, false);
+  state.begin_advance(size, {1e-3, 0.25}, false);
   state.finish_advance(size);
   std::vector<mesh::BinRef> missing;
   if (world.rank() == 0) // the others fetch nothing

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace trime::mesh {
@@ -174,6 +175,71 @@ TEST(BinnedPoints, SearchFindsAllSitesNearEvenBeyondTheRim) {
       EXPECT_TRUE(geometry::length(points.position(i) - center) > reach || found.count(i))
           << "site " << i << " is lost";
   }
+}
+
+/// The shortest side of a tile and of those beside it.
+double narrowest_around(const TileGrid& grid, LocalIndex tile) {
+  double narrowest = grid.side_of(tile);
+  grid.for_each_in(
+      common_part(rect_of(grid.tile(tile)).grown(1), grid.limits()),
+      [&](LocalIndex other, int, const FixedRect&) { narrowest = std::min(narrowest, grid.side_of(other)); });
+  return narrowest;
+}
+
+/// All sites come as far as they may without being sorted: far where tiles are large. A search among small tiles must
+/// find what has come near, and look no farther than such tiles let sites go. Else ranks with small tiles would ask for
+/// halos as wide as the moves of the coarsest place.
+TEST(BinnedPoints, SearchGoesAsFarAsSitesMayHaveComeThere) {
+  constexpr double share = 0.25;
+  TileGrid grid(square, {{}, {}, 0.02});
+  const SiteList sites = testing::graded_sites(6000, 3);
+  fit_to(grid, sites);
+  BinnedPoints points(grid);
+  points.assign_owned(sites, 0, grid.tile_count());
+  prepare_to_stay(points);
+  DriftBound bound{0, share};
+  LocalIndex densest = 0;
+  for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile) {
+    const double drift = share * narrowest_around(grid, tile);
+    const auto [begin, end] = points.tile_range(tile);
+    for (LocalIndex i = begin; i < end; ++i) {
+      const double angle = 6.28 * testing::random_vec2(7, at(i)).x;
+      points.next().positions()[at(i)] =
+          points.position(i) + (drift * (1 - 1e-12)) * Vec2{std::cos(angle), std::sin(angle)};
+    }
+    bound.distance = std::max(bound.distance, drift);
+    if (grid.side_of(tile) < grid.side_of(densest))
+      densest = tile;
+  }
+  points.advance();
+  for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile)
+    points.drifts().set(tile, share * narrowest_around(grid, tile));
+  points.drifts().set_largest(bound);
+  ASSERT_GT(bound.distance, 2 * grid.side_of(densest)) << "sizes do not differ enough to tell anything";
+  for (LocalIndex i = 0; i < points.owned(); i += 7) {
+    const Vec2 center = points.position(i);
+    const double reach = 0.3 * grid.side_of(grid.tile_at(center));
+    std::set<LocalIndex> found;
+    points.for_each_near(
+        center, reach,
+        [&](LocalIndex begin, LocalIndex end) {
+          for (LocalIndex j = begin; j < end; ++j)
+            found.insert(j);
+        },
+        [](BinRef) { ADD_FAILURE() << "all bins are known"; });
+    for (LocalIndex j = 0; j < points.owned(); ++j)
+      EXPECT_TRUE(geometry::length(points.position(j) - center) > reach || found.count(j))
+          << "site " << j << " is lost";
+  }
+  BinnedPoints other(grid); // a rank that knows the densest tile only
+  other.assign_owned(in_tiles(grid, sites, densest, densest + 1), densest, densest + 1);
+  other.drifts().set_largest(bound);
+  const geometry::Box box = grid.tile_box(densest);
+  const double side = grid.side_of(densest);
+  int missing = 0;
+  other.for_each_near(
+      0.5 * (box.min + box.max), 0.2 * side, [](LocalIndex, LocalIndex) {}, [&](BinRef) { ++missing; });
+  EXPECT_EQ(missing, 0) << "a quarter of its side beyond 0.2 sides from its middle is still the same tile";
 }
 
 TEST(BinnedPoints, UnknownBinsAreReportedUntilTheirSitesArrive) {

@@ -303,7 +303,7 @@ TEST(SweepKernel, FindsTheStarsThatAreNotRightAnyMore) {
   cloud.points.advance();
   for (LocalIndex tile = 0; tile < cloud.grid.tile_count(); ++tile)
     cloud.points.drifts().set(tile, 0.3 * spacing);
-  cloud.points.drifts().set_largest(0.3 * spacing);
+  cloud.points.drifts().set_largest({0.3 * spacing, 0.25});
   SweepTask task = cloud.task();
   for (const SweepKernels* kernel : kernels()) {
     Pass pass(cloud.points.owned());
