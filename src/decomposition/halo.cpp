@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "decomposition/halo.hpp"
 
+#include "comm/neighbours.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -268,6 +269,45 @@ std::vector<GlobalId> Halo::exchange(const mesh::BinnedPoints& points, std::span
 
 std::vector<double> Halo::exchange(const mesh::BinnedPoints& points, std::span<const double> owned_values) const {
   return exchange_values(points, owned_values);
+}
+
+/// The other ranks that own ghosts of this one or have ghosts of it, ascending.
+std::vector<int> Halo::peers() const {
+  std::vector<int> ranks;
+  for (const std::vector<Peer>* list : {&imports_, &exports_})
+    for (const Peer& peer : *list)
+      if (peer.rank != comm_->rank())
+        ranks.push_back(peer.rank);
+  std::sort(ranks.begin(), ranks.end());
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  return ranks;
+}
+
+std::vector<GhostNews> Halo::tell_owners(const mesh::BinnedPoints& points, std::span<const LocalIndex> ghosts,
+                                         std::span<const GhostNews> news) const {
+  struct Source {
+    LocalIndex first; // ghost of a bin
+    int rank;
+  };
+  std::vector<Source> sources; // ascending
+  if (!ghosts.empty())
+    for (const Peer& peer : imports_)
+      for (const BinRef& bin : peer.bins)
+        if (const auto [begin, end] = points.bin_range(bin); begin < end)
+          sources.push_back({begin, peer.rank});
+  std::sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) { return a.first < b.first; });
+  std::vector<Message> outgoing;
+  for (std::size_t k = 0; k < ghosts.size(); ++k) {
+    const auto source = std::upper_bound(sources.begin(), sources.end(), ghosts[k],
+                                         [](LocalIndex ghost, const Source& s) { return ghost < s.first; });
+    TRIME_ASSERT(source != sources.begin(), "site {} of {} is no ghost", ghosts[k], points.size());
+    const int rank = (source - 1)->rank;
+    auto message = std::find_if(outgoing.begin(), outgoing.end(), [&](const Message& m) { return m.peer == rank; });
+    if (message == outgoing.end())
+      message = outgoing.insert(outgoing.end(), {rank, {}});
+    append(message->data, news[k]);
+  }
+  return concatenate<GhostNews>(comm::exchange_among(*comm_, peers(), outgoing));
 }
 
 bool Halo::begins_tile(const Peer& peer, std::size_t k) {

@@ -15,6 +15,11 @@
 
 namespace trime::decomposition {
 
+/// What the owner of a ghost is told about it: both by their present places.
+struct GhostNews {
+  geometry::Vec2 ghost, cause;
+};
+
 class Halo {
 public:
   /// @pre both outlive this object
@@ -45,6 +50,13 @@ public:
   std::vector<GlobalId> exchange(const mesh::BinnedPoints& points, std::span<const GlobalId> owned_values) const;
   std::vector<double> exchange(const mesh::BinnedPoints& points, std::span<const double> owned_values) const;
 
+  /// @brief Tells the owners of ghosts about them. Ranks of which one has ghosts of the other exchange a message.
+  /// Collective among neighbours only.
+  /// @param ghosts local index of the ghost for each of `news`
+  /// @return what other ranks tell of sites of this one
+  std::vector<GhostNews> tell_owners(const mesh::BinnedPoints& points, std::span<const LocalIndex> ghosts,
+                                     std::span<const GhostNews> news) const;
+
 private:
   struct Peer {
     int rank;
@@ -56,6 +68,7 @@ private:
   static bool begins_tile(const Peer& peer, std::size_t k);
   void list_bins_around(LocalIndex tile, int margin, std::vector<mesh::BinRef>& wanted) const;
   std::vector<Peer> by_owner(std::vector<mesh::BinRef> bins) const;
+  std::vector<int> peers() const;
   std::vector<Peer> subscribe(const std::vector<Peer>& requests);
 
   const comm::Communicator* comm_;

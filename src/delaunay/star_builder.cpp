@@ -261,9 +261,9 @@ void copy_ring(std::span<const LocalIndex> from, std::vector<LocalIndex>& to) {
   to.assign(from.begin(), from.end());
 }
 
-/// The owned members of two rings of a site that have other triangles with it in the one than in the other.
-void list_affected(std::span<const LocalIndex> before, std::span<const LocalIndex> after, LocalIndex owned,
-                   std::vector<LocalIndex>& affected) {
+/// The members of two rings of a site that have other triangles with it in the one than in the other.
+void list_affected(LocalIndex site, std::span<const LocalIndex> before, std::span<const LocalIndex> after,
+                   std::vector<AffectedStar>& affected) {
   if (std::equal(before.begin(), before.end(), after.begin(), after.end()))
     return;
   const auto around = [](std::span<const LocalIndex> ring, std::size_t k) {
@@ -271,12 +271,12 @@ void list_affected(std::span<const LocalIndex> before, std::span<const LocalInde
   };
   const auto list = [&](std::span<const LocalIndex> ring, std::span<const LocalIndex> other, bool changed_too) {
     for (std::size_t k = 0; k < ring.size(); ++k) {
-      if (ring[k] < 0 || ring[k] >= owned)
+      if (ring[k] == gap)
         continue;
       const auto found = std::find(other.begin(), other.end(), ring[k]);
       if (found == other.end() ||
           (changed_too && around(ring, k) != around(other, static_cast<std::size_t>(found - other.begin()))))
-        affected.push_back(ring[k]);
+        affected.push_back({ring[k], site});
     }
   };
   list(before, after, true);
@@ -346,10 +346,11 @@ StarPass StarBuilder::update(const mesh::BinnedPoints& points, StarTable& stars,
 }
 
 StarPass StarBuilder::certify(const mesh::BinnedPoints& points, StarTable& stars, const mesh::LocalSizes& sizes,
-                              std::span<const LocalIndex> sites, std::vector<LocalIndex>& affected,
+                              std::span<const LocalIndex> sites, std::vector<AffectedStar>& affected,
                               std::vector<mesh::BinRef>& missing) const {
   struct Rings {
-    std::vector<LocalIndex> before, after, room, affected;
+    std::vector<LocalIndex> before, after, room;
+    std::vector<AffectedStar> affected;
   };
   PerThread<StarWorker> workers(points, stars, lattice_);
   PerThread<Rings> rings;
@@ -360,7 +361,7 @@ StarPass StarBuilder::certify(const mesh::BinnedPoints& points, StarTable& stars
     copy_ring(stars.load(i, r.room), r.before);
     workers[thread].compute(i, cap_at(sizes, i, limit));
     copy_ring(stars.load(i, r.room), r.after);
-    list_affected(r.before, r.after, points.owned(), r.affected);
+    list_affected(i, r.before, r.after, r.affected);
   });
   for (const Rings& r : rings)
     affected.insert(affected.end(), r.affected.begin(), r.affected.end());

@@ -25,6 +25,11 @@ struct StarPass {
   std::int64_t uncertain = 0; ///< stars that miss a bin
 };
 
+/// A site whose star must be looked at again, since that of another one has changed beside it.
+struct AffectedStar {
+  LocalIndex site, cause;
+};
+
 /// @brief The star of a site p is its Voronoi cell, kept as the ring of Delaunay neighbours with the circumcentres
 /// between them. It starts as the last ring, or as the square of half-width cap around p (four virtual neighbours at
 /// 2 cap). Every site within the security radius 2 R_max then cuts it (Rycroft 2009 for the cell; Shewchuk 2005 for
@@ -73,11 +78,10 @@ public:
                   std::span<const StarWish> wanted, std::vector<mesh::BinRef>& missing) const;
 
   /// @brief Computes the stars of these owned sites, certain or not, each named once. Threads.
-  /// @param affected receives owned sites whose own stars must be looked at again, since a star here has changed beside
-  /// them; some of them more than once
+  /// @param affected receives owned sites and ghosts beside which a star here has changed; some of them more than once
   /// @param missing as in update
   StarPass certify(const mesh::BinnedPoints& points, StarTable& stars, const mesh::LocalSizes& sizes,
-                   std::span<const LocalIndex> sites, std::vector<LocalIndex>& affected,
+                   std::span<const LocalIndex> sites, std::vector<AffectedStar>& affected,
                    std::vector<mesh::BinRef>& missing) const;
 
   /// @brief True if the triangle a, b, c (any order) counts: circumradius below `cap`, computed in canonical order

@@ -42,7 +42,22 @@ bool SiteClasses::vouches_for(LocalIndex neighbour, LocalIndex i) const {
          *(found + 1 == ring.end() ? ring.begin() : found + 1) != delaunay::gap;
 }
 
-/// Does the lemma do for the star of site i?
+/// The same of a ghost, whose star its owner keeps: it holds the triangles that count there.
+bool SiteClasses::owner_vouches_for(LocalIndex ghost, LocalIndex i) const {
+  const mesh::BinnedPoints& points = state_.points();
+  const std::span<const LocalIndex> ring = state_.stars().ring(i);
+  const auto found = std::find(ring.begin(), ring.end(), ghost);
+  const LocalIndex before = *(found == ring.begin() ? ring.end() - 1 : found - 1),
+                   after = *(found + 1 == ring.end() ? ring.begin() : found + 1);
+  const double cap = builder_.cap(state_.sizes()[ghost]);
+  const Vec2 p = points.position(i), q = points.position(ghost);
+  const auto counts = [&](LocalIndex corner) {
+    return corner != delaunay::gap && delaunay::StarBuilder::counts(p, q, points.position(corner), cap);
+  };
+  return counts(before) && counts(after);
+}
+
+/// Does the lemma do for the star of site i? Ghosts hold still only while the tiles at the border are swept.
 SiteClass SiteClasses::class_of(LocalIndex i, LocalIndex tile) const {
   const mesh::BinnedPoints& points = state_.points();
   if (const std::int32_t boundary = points.boundary(i); boundary != mesh::free_site)
@@ -50,13 +65,16 @@ SiteClass SiteClasses::class_of(LocalIndex i, LocalIndex tile) const {
   const std::span<const LocalIndex> ring = state_.stars().ring(i);
   if (reach_ == LemmaReach::nowhere || ring.size() < 3 || ring.size() > delaunay::StarTable::slots)
     return SiteClass::exact;
+  const bool may_see_ghosts =
+      around_.place(at(tile - points.first_tile())) == TilePlace::at_border && !state_.grid().periods().any();
   bool beside_boundary = false;
   for (const LocalIndex neighbour : ring) {
-    if (neighbour < 0 || neighbour >= points.owned())
+    const bool is_ghost = neighbour >= points.owned();
+    if (neighbour == delaunay::gap || (is_ghost && !may_see_ghosts))
       return SiteClass::exact;
     if (points.boundary(neighbour) >= 0)
       beside_boundary = true;
-    else if (!vouches_for(neighbour, i))
+    else if (is_ghost ? !owner_vouches_for(neighbour, i) : !vouches_for(neighbour, i))
       return SiteClass::exact;
   }
   return !beside_boundary ? SiteClass::local : may_be_bordered(i, tile) ? SiteClass::bordered : SiteClass::exact;

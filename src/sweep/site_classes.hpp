@@ -20,9 +20,10 @@ enum class LemmaReach { nowhere, inside, up_to_chords };
 /// boundary may be trusted. See StarCertifier for the reasons.
 class SiteClasses {
 public:
-  /// The state and all of the context outlive this object.
-  SiteClasses(const sites::SiteState& state, const MoveContext& context, LemmaReach reach)
-      : state_(state), context_(context), reach_(reach) {}
+  /// The state, the builder of its stars and all of the context outlive this object.
+  SiteClasses(const sites::SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context,
+              LemmaReach reach)
+      : state_(state), builder_(builder), context_(context), reach_(reach) {}
 
   /// Classifies all sites; to be called after sites were sorted.
   void reset();
@@ -41,11 +42,13 @@ public:
 private:
   SiteClass class_of(LocalIndex i, LocalIndex tile) const;
   bool vouches_for(LocalIndex neighbour, LocalIndex i) const;
+  bool owner_vouches_for(LocalIndex ghost, LocalIndex i) const;
   bool may_be_bordered(LocalIndex i, LocalIndex tile) const;
   bool is_chord_within_reach(LocalIndex from, LocalIndex to, LocalIndex tile) const;
   void find_encroached_tiles();
 
   const sites::SiteState& state_;
+  const delaunay::StarBuilder& builder_;
   const MoveContext context_;
   const LemmaReach reach_;
   std::vector<SiteClass> classes_; // by owned site

@@ -7,17 +7,19 @@
 #include "trime/core/error.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace trime::sweep {
 namespace {
 
+using geometry::Vec2;
 using sites::SiteState;
 
 } // namespace
 
 StarCertifier::StarCertifier(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context,
                              LemmaReach reach)
-    : state_(state), builder_(builder), context_(context), classes_(state, context, reach) {
+    : state_(state), builder_(builder), context_(context), classes_(state, builder, context, reach) {
   reset();
 }
 
@@ -30,6 +32,8 @@ void StarCertifier::begin_sweep() {
   rebuilt_ = 0;
   checked_.clear();
   suspects_.clear();
+  told_ghosts_.clear();
+  heard_of_.clear();
 }
 
 /// Adds those of `sites` to the list that have stars and are not marked yet, and marks them.
@@ -41,11 +45,13 @@ void StarCertifier::mark(std::span<const LocalIndex> sites, std::vector<LocalInd
     }
 }
 
-std::vector<LocalIndex> StarCertifier::certify_suspects() {
-  std::vector<LocalIndex> affected, uncertain, certified;
-  missing_.clear();
+/// Suspects and what they affect on this rank, until nothing changes.
+void StarCertifier::settle(std::vector<LocalIndex>& certified, std::vector<LocalIndex>& uncertain) {
+  std::vector<delaunay::AffectedStar> affected;
+  std::vector<LocalIndex> beside;
   while (!suspects_.empty()) { // every site is looked at once at most
     affected.clear();
+    beside.clear();
     const delaunay::StarPass pass =
         builder_.certify(state_.points(), state_.stars(), state_.sizes(), suspects_, affected, missing_);
     rebuilt_ += pass.rebuilt;
@@ -55,7 +61,64 @@ std::vector<LocalIndex> StarCertifier::certify_suspects() {
       (state_.stars().certain(i) ? certified : uncertain).push_back(i);
     checked_.insert(checked_.end(), suspects_.begin(), suspects_.end());
     suspects_.clear();
-    mark(affected, suspects_);
+    for (const delaunay::AffectedStar& star : affected)
+      if (star.site < state_.points().owned())
+        beside.push_back(star.site);
+      else
+        note_ghost(star);
+    mark(beside, suspects_);
+  }
+}
+
+/// Its owner is to hear of it once, unless this rank has heard that the owner has looked at it. In a periodic
+/// container all stars beside ghosts are certified by emptiness in every sweep, and nobody need be told.
+void StarCertifier::note_ghost(const delaunay::AffectedStar& affected) {
+  const mesh::BinnedPoints& points = state_.points();
+  const Vec2 place = points.position(affected.site);
+  if (points.boundary(affected.site) >= 0 || state_.grid().periods().any() || heard_of_.contains(place) ||
+      !told_ghosts_.insert(affected.site).second)
+    return;
+  affected_ghosts_.push_back(affected.site);
+  news_.push_back({place, points.position(affected.cause)});
+}
+
+LocalIndex StarCertifier::find_owned(Vec2 p) const {
+  const mesh::BinnedPoints& points = state_.points();
+  LocalIndex found = -1;
+  points.for_each_near(
+      p, 0,
+      [&](LocalIndex begin, LocalIndex end) {
+        for (LocalIndex j = begin; j < std::min(end, points.owned()); ++j)
+          if (points.position(j) == p)
+            found = j;
+      },
+      [](mesh::BinRef) {});
+  return found;
+}
+
+/// Tells the owners of ghosts, and makes suspects of what others tell.
+void StarCertifier::exchange_news() {
+  const std::vector<decomposition::GhostNews> heard =
+      state_.halo().tell_owners(state_.points(), affected_ghosts_, news_);
+  affected_ghosts_.clear();
+  news_.clear();
+  std::vector<LocalIndex> sites;
+  for (const decomposition::GhostNews& news : heard) {
+    heard_of_.insert(news.cause);
+    sites.push_back(find_owned(news.ghost));
+    TRIME_ASSERT(sites.back() >= 0, "no site at ({}, {}), which another rank has as a ghost", news.ghost.x,
+                 news.ghost.y);
+  }
+  mark(sites, suspects_);
+}
+
+std::vector<LocalIndex> StarCertifier::certify_suspects() {
+  std::vector<LocalIndex> uncertain, certified;
+  missing_.clear();
+  settle(certified, uncertain);
+  if (state_.comm().size() > 1) {
+    exchange_news();
+    settle(certified, uncertain);
   }
   suspects_ = std::move(uncertain);
   std::sort(missing_.begin(), missing_.end());
@@ -63,10 +126,11 @@ std::vector<LocalIndex> StarCertifier::certify_suspects() {
   return certified;
 }
 
-void StarCertifier::fetch_missing(int round) {
+void StarCertifier::go_on(const Open& all, int round) {
   if (round == sites::SiteRules::most_halo_rounds)
     throw InternalError(fmt::format("the halo still grows after {} rounds", round));
-  state_.fetch(missing_, context_.size);
+  if (all.uncertain > 0)
+    state_.fetch(missing_, context_.size);
 }
 
 void StarCertifier::end_sweep() {
@@ -98,11 +162,14 @@ void StarCertifier::certify_all() {
   state_.points().release_leads();
   begin_sweep();
   find_suspects();
-  for (int round = 0;; ++round) { // fetch_missing ends it
+  for (int round = 0;; ++round) { // go_on ends it
     certify_suspects();
-    if (state_.comm().sum(uncertain()) == 0)
+    std::array<std::int64_t, 2> sums{open().uncertain, open().untold};
+    state_.comm().sum(sums);
+    const Open all{sums[0], sums[1]};
+    if (!all.any())
       break;
-    fetch_missing(round);
+    go_on(all, round);
   }
   end_sweep();
   thread_loop(state_.points().owned(), 4096, [&](std::ptrdiff_t item, int) {
@@ -116,7 +183,8 @@ void StarCertifier::verify() const {
   const mesh::BinnedPoints& points = state_.points();
   delaunay::StarTable all;
   all.reset(points.owned());
-  std::vector<LocalIndex> sites, affected;
+  std::vector<LocalIndex> sites;
+  std::vector<delaunay::AffectedStar> affected;
   for (LocalIndex i = 0; i < points.owned(); ++i)
     if (classes_[i] != SiteClass::held)
       sites.push_back(i);

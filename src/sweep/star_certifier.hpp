@@ -4,7 +4,9 @@
 
 #include "sweep/site_classes.hpp"
 
+#include <set>
 #include <span>
+#include <unordered_set>
 #include <vector>
 
 namespace trime::sweep {
@@ -12,9 +14,9 @@ namespace trime::sweep {
 /// @brief Certifies the stars of the inner owned sites. The lemma (sweep_kernel.hpp) does for most of them, and the
 /// kernels apply it while they move the sites; whatever fails there is a suspect, and is certified here.
 ///
-/// The lemma needs the stars of all neighbours, so those beside ghosts are certified by emptiness instead; so are those
-/// that fail, and whatever changes beside them, until all rings agree. Both certificates say the same: no result
-/// depends on which was used, nor on ranks and threads.
+/// Those that fail are certified by emptiness, and so is whatever changes beside them, until all rings agree. Beside a
+/// ghost its owner keeps the other star: ranks tell each other which stars a change affects. Both certificates say the
+/// same: no result depends on which was used, nor on ranks and threads.
 ///
 /// Why that is enough: a star that was not looked at again is locally convex, and its triangles are those of its
 /// neighbours (else one of them had changed, and this one been looked at). The region of all such stars is bounded by
@@ -44,15 +46,22 @@ public:
   void begin_sweep();
   /// These stars are to be certified by emptiness, unless they have been in this sweep.
   void suspect(std::span<const LocalIndex> sites) { mark(sites, suspects_); }
-  /// @brief Certifies the suspects, then what they have changed beside them, until nothing changes. Those that miss a
-  /// bin stay suspects. Local.
+  /// @brief Certifies the suspects, then what they have changed beside them, until nothing changes on this rank. Then
+  /// ranks tell each other what that affects, and certify it likewise. Those that miss a bin stay suspects. Collective
+  /// among neighbours.
   /// @return the sites whose stars were certified in this call
   std::vector<LocalIndex> certify_suspects();
-  /// Number of stars that still miss a bin.
-  std::int64_t uncertain() const { return static_cast<std::int64_t>(suspects_.size()); }
+  /// What is left to be done, on this rank or summed over all.
+  struct Open {
+    std::int64_t uncertain = 0; ///< stars that still miss a bin
+    std::int64_t untold = 0;    ///< ghosts whose owners are to hear of a change
+    bool any() const { return uncertain + untold > 0; }
+  };
+  Open open() const { return {std::ssize(suspects_), std::ssize(news_)}; }
   /// Fetches the bins that are missing on any rank; `round` counts these calls in a sweep. Collective.
+  /// @param all the sums over all ranks
   /// @throws InternalError on all ranks after SiteRules::most_halo_rounds
-  void fetch_missing(int round);
+  void go_on(const Open& all, int round);
   /// Was the star of site i looked at in this sweep?
   bool was_checked(LocalIndex i) const { return marked_[static_cast<std::size_t>(i)]; }
   /// Stars of this sweep that were not right any more, and those beside borders that were lost; on this rank.
@@ -64,16 +73,25 @@ public:
 
 private:
   void find_suspects();
+  void settle(std::vector<LocalIndex>& certified, std::vector<LocalIndex>& uncertain);
+  void note_ghost(const delaunay::AffectedStar& affected);
+  void exchange_news();
+  LocalIndex find_owned(geometry::Vec2 p) const;
   void mark(std::span<const LocalIndex> sites, std::vector<LocalIndex>& list);
 
   sites::SiteState& state_;
   const delaunay::StarBuilder& builder_;
   const MoveContext context_;
   SiteClasses classes_;
-  std::vector<std::uint8_t> marked_;  // by site: its star has been looked at in this sweep
-  std::vector<LocalIndex> suspects_;  // to be certified by emptiness
-  std::vector<LocalIndex> checked_;   // all that were suspects in this sweep
-  std::vector<mesh::BinRef> missing_; // bins that suspects miss, ascending
+  std::vector<std::uint8_t> marked_;           // by site: its star has been looked at in this sweep
+  std::vector<LocalIndex> suspects_;           // to be certified by emptiness
+  std::vector<LocalIndex> checked_;            // all that were suspects in this sweep
+  std::vector<mesh::BinRef> missing_;          // bins that suspects miss, ascending
+  std::vector<LocalIndex> affected_ghosts_;    // whose owners are to hear it
+  std::vector<decomposition::GhostNews> news_; // of the affected ghosts
+  std::unordered_set<LocalIndex> told_ghosts_; // whose owners have heard it in this sweep, or will
+  /// Places of ghosts that their owners have looked at in this sweep, as far as these have told.
+  std::set<geometry::Vec2, decltype(&geometry::lexicographically_less)> heard_of_{geometry::lexicographically_less};
   std::int64_t rebuilt_ = 0;
 };
 

@@ -168,12 +168,13 @@ void Sweeper::move_others(const UpdateRule& rule) {
   move_one_by_one(rule, to_move);
 }
 
-/// Counts what all ranks have done in this sweep, in one packed reduction; returns how many stars are uncertain.
-std::int64_t Sweeper::sum_over_ranks() {
+/// Counts what all ranks have done in this sweep, in one packed reduction; returns what is left to be done.
+StarCertifier::Open Sweeper::sum_over_ranks() {
   const SweepTally mine = outcomes_.sum();
   moving_ = mine.moving;
-  std::array<std::int64_t, 7> sums{certifier_.uncertain(), certifier_.rebuilt(),    mine.moving,     mine.pushed,
-                                   mine.deleted,           mine.power & 0xffffffff, mine.power >> 32};
+  const StarCertifier::Open open = certifier_.open();
+  std::array<std::int64_t, 8> sums{open.uncertain, certifier_.rebuilt(),    mine.moving,      mine.pushed,
+                                   mine.deleted,   mine.power & 0xffffffff, mine.power >> 32, open.untold};
   std::array<double, 3> largest{
       mine.squared_ratio, mine.squared_distance,
       TileActivity::largest_drift(state_.points(), certifier_.classes().around(), outcomes_.tallies())};
@@ -187,7 +188,7 @@ std::int64_t Sweeper::sum_over_ranks() {
   counts_.max_move = std::sqrt(largest[0]);
   largest_distance_ = std::sqrt(largest[1]);
   drift_in_tiles_ = largest[2];
-  return sums[0];
+  return {sums[0], sums[7]};
 }
 
 void Sweeper::prepare(const UpdateRule& rule) {
@@ -200,11 +201,12 @@ void Sweeper::prepare(const UpdateRule& rule) {
     finish_move(); // the ghosts have been on their way
   }
   activity_.end_waking();
-  for (int round = 0;; ++round) { // fetch_missing ends it
+  for (int round = 0;; ++round) { // go_on ends it
     move_others(rule);
-    if (sum_over_ranks() == 0)
+    const StarCertifier::Open all = sum_over_ranks();
+    if (!all.any())
       break;
-    certifier_.fetch_missing(round);
+    certifier_.go_on(all, round);
     state_.points().prepare_advance();
   }
   certifier_.end_sweep();

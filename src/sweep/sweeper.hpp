@@ -66,7 +66,7 @@ private:
   bool treat_guarded(std::span<const LocalIndex> sites);
   void move_others(const UpdateRule& rule);
   void move_one_by_one(const UpdateRule& rule, std::span<const LocalIndex> sites);
-  std::int64_t sum_over_ranks();
+  StarCertifier::Open sum_over_ranks();
   bool must_sort() const;
   void finish_move();
   void note_pushes();

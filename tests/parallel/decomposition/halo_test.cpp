@@ -142,6 +142,35 @@ TEST(Halo, ExchangeBringsTheValuesOfTheOwners) {
     EXPECT_EQ(ghosts[k], value_of(stage.points.position(stage.points.owned() + static_cast<LocalIndex>(k))));
 }
 
+/// Every third ghost, also those that were fetched later; the cause is the first site of this rank.
+TEST(Halo, NewsReachTheOwnersOfGhosts) {
+  Stage stage(testing::random_sites(1000, 6));
+  stage.halo.reset(stage.partition, 1);
+  stage.halo.refresh(stage.points);
+  std::vector<BinRef> more;
+  if (stage.comm.rank() == 0)
+    for (LocalIndex tile = 0; tile < stage.grid.tile_count(); tile += 5)
+      if (stage.partition.owner(tile) != 0 && std::ranges::count(stage.foreign_bins(), BinRef{tile, 0}) == 0)
+        more.push_back({tile, 0});
+  stage.halo.extend(stage.points, more, nullptr);
+  std::vector<LocalIndex> ghosts;
+  std::vector<GhostNews> news;
+  for (LocalIndex i = stage.points.owned(); i < stage.points.size(); i += 3) {
+    ghosts.push_back(i);
+    news.push_back({stage.points.position(i), stage.points.position(0)});
+  }
+  const std::vector<GhostNews> heard = stage.halo.tell_owners(stage.points, ghosts, news);
+  EXPECT_EQ(stage.comm.sum(std::ssize(heard)), stage.comm.sum(std::ssize(news)));
+  std::vector<Vec2> own;
+  for (LocalIndex i = 0; i < stage.points.owned(); ++i)
+    own.push_back(stage.points.position(i));
+  for (const GhostNews& of : heard) {
+    EXPECT_EQ(std::ranges::count(own, of.ghost), 1);
+    EXPECT_EQ(std::ranges::count(own, of.cause), 0);
+  }
+  EXPECT_TRUE(stage.halo.tell_owners(stage.points, {}, {}).empty());
+}
+
 TEST(Halo, WorksForRanksWithoutTilesAndWithoutSites) {
   Stage few(testing::random_sites(3, 4), 5.0); // one tile
   few.halo.reset(few.partition, 3);
