@@ -19,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double most_points = 4e9;
 constexpr double shortest_side = 1e-30,
                  longest_side = 1e30; // products of four lengths must neither vanish nor overflow
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/option_table.hpp"
 
+#include "app/options.hpp"
+
 #include <algorithm>
 
 namespace trime::app {
@@ -128,7 +130,7 @@ constexpr Option table[] = {
     {.section = "meshing",
      .key = "points",
      .kind = OptionKind::integer,
-     .range = {3, 4e9},
+     .range = {3, most_points},
      .meaning = "total number of points; exactly one of `points` and `edge_length`"},
     {.section = "meshing",
      .key = "edge_length",

@@ -13,6 +13,9 @@
 
 namespace trime::app {
 
+/// That a mesh may have. Ids have 64 bits, and the start counts weights of 2^20 per point in them: 8e12 would fit.
+inline constexpr double most_points = 1e11;
+
 /// One section [shape.NAME]; the fields of other types keep their defaults.
 struct PartOptions {
   std::string name;

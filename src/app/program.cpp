@@ -13,11 +13,13 @@
 #include "core/free_memory.hpp"
 #include "core/thread_loop.hpp"
 #include "io/run_record.hpp"
+#include "sites/rules.hpp"
 #include "start/points_of_length.hpp"
 #include "trime/io/mesh_series.hpp"
 #include "trime/meshing/mesher.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace trime::app {
@@ -41,6 +43,20 @@ double expected_points(const RunOptions& options, const geometry::Boundary& boun
                              : start::points_of_length(boundary, options.mesh.edge_length.value_or(1));
 }
 
+/// Each rank takes about an equal share of the points.
+void check_share(double points, int ranks) {
+  constexpr auto most = static_cast<double>(sites::SiteRules::most_owned);
+  if (points / ranks > most)
+    throw ConfigError(
+        fmt::format("about {:.3g} points are too many for {} rank{}: a rank owns {:.3g} at most; start {:.0f} or more",
+                    points, ranks, ranks == 1 ? "" : "s", most, std::ceil(points / most)));
+}
+
+/// Of one rank, at its peak.
+double bytes_of_rank(double points, int ranks) {
+  return points / ranks * bytes_per_point + points * bytes_per_point_on_each_rank + bytes_per_process;
+}
+
 /// What --validate and --dry-run say in place of a mesh.
 std::string estimate(const RunOptions& options, const geometry::Boundary& boundary, const Placement& placement,
                      bool with_decomposition) {
@@ -48,8 +64,9 @@ std::string estimate(const RunOptions& options, const geometry::Boundary& bounda
   std::string text = fmt::format(
       "shape: area {:.6g}, boundary length {:.6g}, {} component{}, {} hole{}\n", boundary.area, boundary.length(),
       boundary.components(), boundary.components() == 1 ? "" : "s", boundary.holes(), boundary.holes() == 1 ? "" : "s");
-  text += fmt::format("about {:.0f} points, {:.0f} triangles, {:.1f} MiB of memory over all ranks\n", points,
-                      2 * points, (points * bytes_per_point + placement.ranks * bytes_per_process) / 0x1p20);
+  const double mebibytes = bytes_of_rank(points, placement.ranks) / 0x1p20;
+  text += fmt::format("about {:.0f} points, {:.0f} triangles, {:.1f} MiB of memory over all ranks, {:.1f} per rank\n",
+                      points, 2 * points, placement.ranks * mebibytes, mebibytes);
   if (with_decomposition)
     text += fmt::format("{} rank{} x {} threads: about {:.0f} points per rank, {:.0f} per thread\n", placement.ranks,
                         placement.ranks == 1 ? "" : "s", placement.threads, points / placement.ranks,
@@ -146,10 +163,13 @@ ExitCode make_mesh(const Job& job) {
   }();
   if (placement.threads != placement.setup_threads)
     use_threads(placement, placement.threads);
+  const bool is_dry_run = job.line.action == Action::dry_run;
   if (!is_run) {
     check_fixed_points(mesh_options, input.shape, log);
-    const bool is_dry_run = job.line.action == Action::dry_run;
     print(comm, estimate(options, boundary, placement, is_dry_run));
+  }
+  check_share(expected_points(options, boundary), placement.ranks);
+  if (!is_run) {
     Log quiet(LogLevel::error, comm.is_root());         // what it warns of was told before
     if (is_dry_run || mesh_options.features.keep_all) { // where nothing gives way the layout may fail
       const std::string text =

@@ -8,7 +8,6 @@
 #include "trime/core/error.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 namespace trime::sites {
@@ -17,16 +16,14 @@ namespace {
 constexpr double unknown_size = 0;
 constexpr int size_chunk = 1024; // sites whose size one thread evaluates in a row
 
-/// Owned sites and ghosts are counted by LocalIndex; one in eight is left for ghosts and growth. Weights are
-/// replicated, so all ranks find the same.
+/// Weights are replicated, so all ranks find the same.
 void check_counts(const std::vector<std::int64_t>& weights, const decomposition::Partition& partition) {
-  constexpr std::int64_t most = std::numeric_limits<LocalIndex>::max() / 8 * 7;
   for (int rank = 0; rank < partition.ranks(); ++rank) {
     const std::int64_t sites = std::accumulate(weights.begin() + partition.first_tile(rank),
                                                weights.begin() + partition.last_tile(rank), std::int64_t{0});
-    if (sites > most)
+    if (sites > SiteRules::most_owned)
       throw ConfigError(
-          fmt::format("rank {} would own {} points, at most {} are possible; start more ranks", rank, sites, most));
+          fmt::format("rank {} would own {} points, at most {} are possible; start more ranks", rank, sites, SiteRules::most_owned));
   }
 }
 

@@ -130,6 +130,11 @@ class BadInput(unittest.TestCase):
                 text = GOOD.replace("points = 500", f"edge_length = {value}")
                 self.refused(text, USAGE, [r"case\.ini.*edge_length"])
 
+    def test_more_points_than_these_ranks_can_own(self):
+        text = GOOD.replace("points = 500", "points = 1e10")
+        self.refused(text, USAGE, [r"1e\+10 points are too many for 1 rank: .* start 6 or more"])
+        self.refused(text, USAGE, [r"1e\+10 points are too many for 3 ranks: .* start 6 or more"], ranks_tried=(3,))
+
     def test_container_without_inside(self):
         self.refused(GOOD.replace("x_min = 0\n", "x_min = 2\n"), USAGE, [r"case\.ini.*x_m(in|ax)"])
 

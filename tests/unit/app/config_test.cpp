@@ -175,14 +175,14 @@ TEST(Config, TellsAllMistakesAtOnceInTheOrderOfTheFile) {
             "dir/c.ini:12: 'center = 0.5' in [shape.hole]: expected two numbers X Y separated by a blank\n"
             "dir/c.ini:13: unknown key 'radus' in [shape.hole]; did you mean 'radius'?\n"
             "dir/c.ini:15: 'method = cdv' in [meshing]: expected one of distmesh, cvd, hybrid; did you mean 'cvd'?\n"
-            "dir/c.ini:16: 'points = 0' in [meshing]: expected an integer from 3 to 4000000000\n"
+            "dir/c.ini:16: 'points = 0' in [meshing]: expected an integer from 3 to 100000000000\n"
             "command line: unknown key 'levle' in [log]; did you mean 'level'?");
 }
 
 TEST(Config, RefusesValuesThatMakeNoSense) {
-  expect_refused("meshing.points=-5", "expected an integer from 3 to 4000000000");
+  expect_refused("meshing.points=-5", "expected an integer from 3 to 100000000000");
   expect_refused("meshing.points=2", "expected an integer from 3");
-  expect_refused("meshing.points=5e9", "expected an integer from 3");
+  expect_refused("meshing.points=2e11", "expected an integer from 3");
   expect_refused("meshing.points=5000.5", "expected an integer");
   expect_refused("meshing.points=many", "expected an integer");
   expect_refused("domain.x_min=nan", "expected a number");
@@ -247,7 +247,7 @@ TEST(Config, TheHelpSaysWhichValuesThisVersionRefuses) {
 TEST(Config, TakesTheDefaultsWhenTheyAreSpeltOut) {
   for (const char* text : {"domain.periodic_x=false", "domain.periodic_y=true", "sizing.gradation=0.1",
                            "sizing.gradation=0.0", "parallel.setup_threads=2", "meshing.initial_fraction=1",
-                           "output.interval=0", "checkpoint.keep=2", "parallel.setup_threads=0", "meshing.points=4e9"})
+                           "output.interval=0", "checkpoint.keep=2", "parallel.setup_threads=0", "meshing.points=1e11"})
     EXPECT_EQ(errors_of(good, {text}), "") << text;
 }
 
