@@ -31,7 +31,8 @@ ARROWS = {
     "certificate": ["sites"],
     "meshing": ["start", "sweep", "cleanup", "extraction", "certificate", "shape"],
     "io": ["mesh", "comm"],
-    "app": ["meshing", "io"],
+    "formats": ["io"],
+    "app": ["meshing", "formats"],
 }
 # Foreign headers that only some modules may see, as (pattern, name, modules).
 FOREIGN = [

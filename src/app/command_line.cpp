@@ -6,12 +6,14 @@
 #include <CLI/CLI.hpp>
 
 #include <optional>
+#include <utility>
 
 namespace trime::app {
 namespace {
 
 struct Flags {
-  bool help_config = false, version = false, validate = false, dry_run = false, print_config = false, quiet = false;
+  bool help_config = false, version = false, validate = false, dry_run = false, print_config = false, quiet = false,
+       overwrite = false;
   std::optional<std::string> threads, level, restart, time_limit;
 };
 
@@ -27,6 +29,7 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
                "the same, say how the work is shared out, what of the shape is simplified, and how many "
                "points keep everything");
   app.add_flag("--print-config", flags.print_config, "print the config with all defaults, as a complete file");
+  app.add_flag("--overwrite", flags.overwrite, "convert: replace OUT");
   app.add_option("--record", line.record,
                  "write the numbers of the run, those of /trime_mpi in the mesh file, as JSON");
   app.add_option("--threads", flags.threads, "threads per rank: parallel.setup_threads and mesh_threads");
@@ -40,13 +43,32 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
              "says whether the final mesh is there.");
 }
 
-Action action_of(const Flags& flags) {
-  return flags.version        ? Action::version
-         : flags.help_config  ? Action::help_config
-         : flags.print_config ? Action::print_config
-         : flags.validate     ? Action::validate
-         : flags.dry_run      ? Action::dry_run
-                              : Action::mesh;
+/// The words that stand in the place of a config and have files behind them. A config of such a name is ./convert.
+Action action_of(const CommandLine& line, const Flags& flags) {
+  return line.config == "convert" ? Action::convert
+         : line.config == "info"  ? Action::info
+         : flags.version          ? Action::version
+         : flags.help_config      ? Action::help_config
+         : flags.print_config     ? Action::print_config
+         : flags.validate         ? Action::validate
+         : flags.dry_run          ? Action::dry_run
+                                  : Action::mesh;
+}
+
+/// The files of convert and info are what a run takes for overrides.
+void take_files(CommandLine& line, const Flags& flags) {
+  const bool converts = line.action == Action::convert;
+  line.overwrite = flags.overwrite;
+  if (flags.overwrite && !converts)
+    throw ConfigError("'--overwrite' is for 'trime_mpi convert'; a run takes output.overwrite=true");
+  if (!converts && line.action != Action::info)
+    return;
+  line.files = std::exchange(line.overrides, {});
+  if (line.files.size() != (converts ? 2U : 1U))
+    throw ConfigError(fmt::format("'trime_mpi {}' needs {}, found {} file{}; usage: trime_mpi {}", line.config,
+                                  converts ? "two files" : "one file", line.files.size(),
+                                  line.files.size() == 1 ? "" : "s",
+                                  converts ? "convert IN.h5 OUT.ENDING [--overwrite]" : "info FILE.h5"));
 }
 
 void refuse_what_is_missing(const CommandLine& line, const Flags& flags) {
@@ -70,20 +92,24 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   CommandLine line;
   Flags flags;
   CLI::App app("Distributed generator of large 2D triangle meshes.\n"
-               "[mpirun -np RANKS] trime_mpi CONFIG [section.key=value ...] [OPTIONS]",
+               "[mpirun -np RANKS] trime_mpi CONFIG [section.key=value ...] [OPTIONS]\n"
+               "[mpirun -np RANKS] trime_mpi convert IN.h5 OUT.ENDING   a mesh in the format of another program:\n"
+               "                   .msh .msh2 .mesh .freefem .node .vtu .2dm .14, see configs/README.md\n"
+               "trime_mpi info FILE.h5   what is in a mesh file",
                "trime_mpi");
   declare(app, line, flags);
   for (int k = 0; k < argc; ++k)
     line.as_given += (k > 0 ? " " : "") + std::string(argv[k]);
   try {
     app.parse(argc, argv);
-    line.action = action_of(flags);
+    line.action = action_of(line, flags);
   } catch (const CLI::CallForHelp&) {
     line.action = Action::help;
     line.help = app.help();
   } catch (const CLI::ParseError& error) {
     throw ConfigError(fmt::format("command line: {}; see --help", error.what()));
   }
+  take_files(line, flags);
   refuse_what_is_missing(line, flags);
   if (flags.threads)
     for (const char* key : {"parallel.setup_threads=", "parallel.mesh_threads="})

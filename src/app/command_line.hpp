@@ -8,12 +8,14 @@
 namespace trime::app {
 
 /// What the program shall do.
-enum class Action { mesh, validate, dry_run, print_config, help, help_config, version };
+enum class Action { mesh, validate, dry_run, print_config, help, help_config, version, convert, info };
 
 struct CommandLine {
   Action action = Action::mesh;
   std::string config;                 ///< path; empty only where none is needed
   std::vector<std::string> overrides; ///< section.key=value, those that options stand for included
+  std::vector<std::string> files;     ///< of convert and info
+  bool overwrite = false;             ///< convert: the file may be there
   std::string record;                 ///< where the numbers of the run go as JSON; empty: nowhere
   std::string help;                   ///< text of --help
   std::string as_given;               ///< the whole line, for the records

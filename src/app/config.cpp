@@ -229,6 +229,8 @@ void read_output(const Settings& settings, RunOptions& options, Diagnostics& pro
   file.directory = settings.text("output", "directory");
   file.name = settings.text("output", "name");
   file.overwrite = settings.boolean("output", "overwrite");
+  const std::int64_t interval = settings.integer("output", "interval");
+  options.write = interval != 0;
   const std::vector<std::string> formats = split_words(settings.text("output", "formats"));
   const auto is_wanted = [&](const char* format) {
     return std::find(formats.begin(), formats.end(), format) != formats.end();
@@ -236,8 +238,14 @@ void read_output(const Settings& settings, RunOptions& options, Diagnostics& pro
   file.vtkhdf = is_wanted("vtkhdf");
   file.xdmf = is_wanted("xdmf");
   options.output.text = is_wanted("text");
-  const std::int64_t interval = settings.integer("output", "interval");
-  options.write = interval != 0;
+  for (const std::string& word : formats)
+    if (const auto format = formats::format_of_word(word); format && options.write)
+      options.exchange.push_back(*format);
+  if (!options.exchange.empty() && (options.periodic_x || options.periodic_y))
+    problems.add(settings.line("output", "formats"),
+                 fmt::format("'formats = {}' in [output]: a periodic container can be written as vtkhdf, xdmf and text "
+                             "only",
+                             settings.text("output", "formats")));
   options.mesh.snapshot_interval = interval == -1 ? 0 : static_cast<int>(interval);
   options.output.steps = options.mesh.snapshot_interval != 0;
   if (file.name.find('/') != std::string::npos || file.name == "." || file.name == "..")

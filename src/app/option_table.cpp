@@ -259,10 +259,11 @@ constexpr Option table[] = {
      .key = "formats",
      .kind = OptionKind::words,
      .fallback = "vtkhdf xdmf",
-     .choices = "vtkhdf xdmf gmsh triangle medit text vtu",
-     .supported = "vtkhdf xdmf text",
-     .meaning = "`vtkhdf`: for ParaView and VTK; `xdmf`: for ParaView, FEniCS, PETSc; both lie in one file NAME.h5. "
-                "`text`: the files of TriMe++, in the folder NAME"},
+     .choices = "vtkhdf xdmf text gmsh gmsh2 medit freefem triangle vtu 2dm fort14",
+     .meaning =
+         "`vtkhdf`: for ParaView and VTK; `xdmf`: for ParaView, FEniCS, PETSc; both lie in one file NAME.h5. "
+         "`text`: the files of TriMe++, in the folder NAME. The others are for other programs and hold the final "
+         "mesh with the names of its boundary"},
     {.section = "output",
      .key = "interval",
      .kind = OptionKind::integer,

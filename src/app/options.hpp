@@ -3,6 +3,7 @@
 #pragma once
 
 #include "trime/core/log.hpp"
+#include "trime/formats/exchange.hpp"
 #include "trime/geometry/vec2.hpp"
 #include "trime/io/mesh_series.hpp"
 #include "trime/meshing/options.hpp"
@@ -52,10 +53,11 @@ struct RunOptions {
   meshing::MeshOptions mesh;                   ///< without the fixed points, which are read when the shape is
   FixedPointsFile fixed_points;
   SizingOptions sizing;
-  int setup_threads = 0;    ///< per rank, while shape and size field are made; 0: chosen from the machine
-  int mesh_threads = 0;     ///< per rank, from then on; 0: chosen from the machine
-  io::SeriesOptions output; ///< without the period, which the boundary of the shape knows
-  bool write = true;        ///< false: nothing is written
+  int setup_threads = 0;                 ///< per rank, while shape and size field are made; 0: chosen from the machine
+  int mesh_threads = 0;                  ///< per rank, from then on; 0: chosen from the machine
+  io::SeriesOptions output;              ///< without the period, which the boundary of the shape knows
+  std::vector<formats::Format> exchange; ///< formats of other programs in which the final mesh is written, too
+  bool write = true;                     ///< false: nothing is written
   LogLevel log_level = LogLevel::info;
   int log_interval = 0;
   std::string resolved;              ///< the whole config with all defaults, as a complete ini

@@ -3,6 +3,7 @@
 
 #include "app/command_line.hpp"
 #include "app/config.hpp"
+#include "app/exchange.hpp"
 #include "app/machine.hpp"
 #include "app/option_table.hpp"
 #include "app/provenance.hpp"
@@ -155,6 +156,7 @@ ExitCode make_mesh(const Job& job) {
   if (const double points = expected_points(options, boundary); options.write)
     for (const std::string& warning : is_run ? series.check(points) : series.look(points))
       log.warning("{}", warning);
+  check_exchange(options, comm);
   if (!job.line.record.empty())
     io::check_record(job.line.record, comm);
   const BuiltSize size = [&] {
@@ -189,6 +191,9 @@ ExitCode make_mesh(const Job& job) {
     const io::Metadata metadata = describe_run(provenance, result, sizes, gather_measurements(timers, comm));
     const auto timing = timers.scope("output");
     files = series.write_final({final_retriangulation(result), result.mesh, result.quality, metadata});
+    const formats::Names names{boundary.part_names, {options.region}, {boundary.periods.x, boundary.periods.y}};
+    for (const std::string& path : write_exchange(options, result.mesh, names, job.files, comm))
+      files.paths.push_back(path);
   }
   const Measurements measured = gather_measurements(timers, comm);
   if (!job.line.record.empty())
@@ -209,6 +214,15 @@ ExitCode run_program(int argc, const char* const* argv, const comm::Communicator
     print(comm, line.action == Action::help      ? line.help
                 : line.action == Action::version ? version_text()
                                                  : help_config());
+    return ExitCode::done;
+  }
+  if (line.action == Action::info) {
+    print(comm, info(line.files[0], comm));
+    return ExitCode::done;
+  }
+  if (line.action == Action::convert) {
+    Log log(LogLevel::info, comm.is_root());
+    convert(line, files, comm, log);
     return ExitCode::done;
   }
   const std::string config_text = read_shared(line.config, comm);

@@ -134,4 +134,36 @@ Metadata broadcast(const Metadata& metadata, const comm::Communicator& comm) {
   return result;
 }
 
+const MetadataGroup* find_group(const Metadata& metadata, const std::string& name) {
+  for (const MetadataGroup& group : metadata.groups)
+    if (group.name == name)
+      return &group;
+  return nullptr;
+}
+
+template <class T>
+const T& attribute_of(const Metadata& metadata, const std::string& name) {
+  for (const Attribute& attribute : metadata.attributes)
+    if (attribute.name == name && std::holds_alternative<T>(attribute.value))
+      return std::get<T>(attribute.value);
+  throw FileError(fmt::format("the mesh file has no attribute /trime_mpi/{} of the expected type", name));
+}
+template const std::int64_t& attribute_of(const Metadata&, const std::string&);
+template const std::uint64_t& attribute_of(const Metadata&, const std::string&);
+template const double& attribute_of(const Metadata&, const std::string&);
+template const std::string& attribute_of(const Metadata&, const std::string&);
+
+template <class T>
+const std::vector<T>& column_of(const Metadata& metadata, const std::string& group, const std::string& name) {
+  if (const MetadataGroup* found = find_group(metadata, group))
+    for (const Column& column : found->columns)
+      if (column.name == name && std::holds_alternative<std::vector<T>>(column.values))
+        return std::get<std::vector<T>>(column.values);
+  throw FileError(fmt::format("the mesh file has no column /trime_mpi/{}/{} of the expected type", group, name));
+}
+template const std::vector<std::int32_t>& column_of(const Metadata&, const std::string&, const std::string&);
+template const std::vector<std::int64_t>& column_of(const Metadata&, const std::string&, const std::string&);
+template const std::vector<double>& column_of(const Metadata&, const std::string&, const std::string&);
+template const std::vector<std::string>& column_of(const Metadata&, const std::string&, const std::string&);
+
 } // namespace trime::io

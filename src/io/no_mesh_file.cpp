@@ -3,6 +3,7 @@
 // built for one MPI library, and the simulated one is another.
 #include "comm/agree.hpp"
 #include "trime/io/mesh_file.hpp"
+#include "trime/io/stored_mesh.hpp"
 
 namespace trime::io {
 
@@ -15,6 +16,15 @@ WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedM
   comm::agree(comm, FileError(fmt::format("{} is not written: this program is built for a simulated cluster "
                                           "(TRIME_SIMULATE) and has no HDF5; set output.interval = 0",
                                           options.path(".h5"))));
+  return {};
+}
+
+Metadata read_metadata(const std::string& path, const comm::Communicator&) {
+  throw FileError(fmt::format("{} is not read: this program is built for a simulated cluster and has no HDF5", path));
+}
+
+mesh::DistributedMesh read_mesh(const std::string& path, const Metadata&, const comm::Communicator& comm) {
+  read_metadata(path, comm);
   return {};
 }
 

@@ -55,4 +55,12 @@ struct Metadata {
 /// @note Collective.
 Metadata broadcast(const Metadata& metadata, const comm::Communicator& comm);
 
+/// The values of metadata by name. @throws FileError if there is none of this name and type
+template <class T>
+const T& attribute_of(const Metadata& metadata, const std::string& name);
+template <class T>
+const std::vector<T>& column_of(const Metadata& metadata, const std::string& group, const std::string& name);
+/// Null if there is none of this name.
+const MetadataGroup* find_group(const Metadata& metadata, const std::string& name);
+
 } // namespace trime::io

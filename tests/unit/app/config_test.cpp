@@ -230,7 +230,6 @@ TEST(Config, AChangedTypeShowsTheKeysThatNoLongerBelong) {
 
 TEST(Config, RefusesByNameWhatThisVersionCannotDo) {
   expect_refused("meshing.fixed_points_normalize_with=box", "means nothing without 'fixed_points'");
-  expect_refused("output.formats=vtkhdf gmsh", "not supported yet; use vtkhdf, xdmf, text");
   expect_refused("checkpoint.interval=60", "not supported yet; leave it 0");
   expect_refused("checkpoint.keep=3", "not supported yet; leave it 2");
 }
@@ -238,8 +237,7 @@ TEST(Config, RefusesByNameWhatThisVersionCannotDo) {
 TEST(Config, TheHelpSaysWhichValuesThisVersionRefuses) {
   const std::string help = help_config();
   for (const char* values :
-       {"a list of vtkhdf, xdmf, text, separated by blanks; refused by this version: gmsh, triangle",
-        "| `[checkpoint] interval` | 0; others are refused by this version (0) |",
+       {"| `[checkpoint] interval` | 0; others are refused by this version (0) |",
         "| `[checkpoint] keep` | 2; others are refused by this version (2) |"})
     EXPECT_NE(help.find(values), std::string::npos) << values;
 }
@@ -249,6 +247,19 @@ TEST(Config, TakesTheDefaultsWhenTheyAreSpeltOut) {
                            "sizing.gradation=0.0", "parallel.setup_threads=2", "meshing.initial_fraction=1",
                            "output.interval=0", "checkpoint.keep=2", "parallel.setup_threads=0", "meshing.points=1e11"})
     EXPECT_EQ(errors_of(good, {text}), "") << text;
+}
+
+TEST(Config, TakesFormatsOfOtherProgramsButNotForPeriodicContainers) {
+  using formats::Format;
+  EXPECT_TRUE(parse_config(good, "c.ini", {}).exchange.empty());
+  EXPECT_EQ(parse_config(good, "c.ini", {"output.formats=vtkhdf gmsh fort14"}).exchange,
+            (std::vector{Format::gmsh, Format::adcirc}));
+  EXPECT_TRUE(parse_config(good, "c.ini", {"output.formats=gmsh", "output.interval=0"}).exchange.empty());
+  EXPECT_NE(errors_of(good, {"output.formats=xdmf vtu", "domain.periodic_y=true"})
+                .find("'formats = xdmf vtu' in [output]: a periodic container"),
+            std::string::npos);
+  for (const formats::FormatName& name : formats::all_formats())
+    EXPECT_EQ(formats::format_of_path(std::string("a/b") + name.ending), formats::format_of_word(name.word));
 }
 
 TEST(Config, TakesMethodsAndPointSchemes) {

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/exchange.hpp"
+
+#include "comm/agree.hpp"
+#include "trime/io/stored_mesh.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+namespace trime::app {
+namespace {
+
+using io::Metadata;
+
+std::string path_of(formats::Format format, const io::MeshFileOptions& file) {
+  for (const formats::FormatName& name : formats::all_formats())
+    if (name.format == format)
+      return file.path(name.ending);
+  return {};
+}
+
+/// On rank 0, for all.
+void refuse_to_replace(const std::vector<std::string>& paths, const char* advice, const comm::Communicator& comm) {
+  comm::run_agreed(comm, [&] {
+    for (const std::string& path : paths)
+      if (comm.is_root() && std::filesystem::exists(path))
+        throw FileError(fmt::format("{} exists; {}", path, advice));
+  });
+}
+
+formats::Names names_of(const Metadata& metadata) {
+  formats::Names names{
+      io::column_of<std::string>(metadata, "tags", "part_name"),
+      io::column_of<std::string>(metadata, "tags", "region_name"),
+      {io::attribute_of<double>(metadata, "period_x"), io::attribute_of<double>(metadata, "period_y")}};
+  return names;
+}
+
+formats::Format format_of_output(const std::string& path) {
+  if (const auto format = formats::format_of_path(path))
+    return *format;
+  std::string endings;
+  for (const formats::FormatName& name : formats::all_formats())
+    endings += fmt::format("{}{} ({})", endings.empty() ? "" : ", ", name.ending, name.word);
+  throw ConfigError(fmt::format("'{}' has none of the endings that tell the format: expected {}", path, endings));
+}
+
+bool is_marked(const Metadata& metadata) {
+  return io::attribute_of<std::int64_t>(metadata, "complete") == 0;
+}
+
+/// A value as words, or nothing if the file has none.
+std::string value_text(const Metadata& metadata, const std::string& name) {
+  for (const io::Attribute& attribute : metadata.attributes)
+    if (attribute.name == name)
+      return std::visit([](const auto& value) { return fmt::format("{}", value); }, attribute.value);
+  return {};
+}
+
+std::string made_text(const Metadata& metadata) {
+  std::string text;
+  for (const auto& [what, name] : {std::pair{"made", "created_utc"},
+                                   {"by trime_mpi", "program_version"},
+                                   {"command", "command_line"},
+                                   {"method", "method"},
+                                   {"stopped", "stop_reason"}})
+    if (const std::string value = value_text(metadata, name); !value.empty())
+      text += fmt::format("{:<13} {}\n", what, value);
+  return text;
+}
+
+template <class T>
+const std::vector<T>& tags(const Metadata& metadata, const char* name) {
+  return io::column_of<T>(metadata, "tags", name);
+}
+
+/// The loops of each name together: a coast may have thousands of islands.
+std::string boundary_text(const Metadata& metadata) {
+  struct Loops {
+    std::int64_t count = 0, edges = 0;
+    double length = 0;
+  };
+  std::map<std::pair<std::string, std::string>, Loops> named;
+  const auto &names = tags<std::string>(metadata, "edge_name"), &kinds = tags<std::string>(metadata, "edge_kind");
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    Loops& loops = named[{names[k], kinds.at(k)}];
+    ++loops.count;
+    loops.edges += tags<std::int64_t>(metadata, "edge_count").at(k);
+    loops.length += tags<double>(metadata, "edge_length_sum").at(k);
+  }
+  std::string text = "\nboundary      kind    loops      edges  length\n";
+  for (const auto& [name, loops] : named)
+    text += fmt::format("{:<13} {:<7} {:>5} {:>10}  {:.6g}\n", name.first, name.second, loops.count, loops.edges,
+                        loops.length);
+  text += "labels of boundary edges in other formats:";
+  for (std::size_t k = 0; k < tags<std::string>(metadata, "part_name").size(); ++k)
+    text += fmt::format("{} {} {}", k == 0 ? "" : ",", k + 1, tags<std::string>(metadata, "part_name")[k]);
+  return text + "\n";
+}
+
+std::string checks_text(const Metadata& metadata) {
+  if (!io::find_group(metadata, "checks"))
+    return "\nno checks: a step of a run\n";
+  const auto& names = io::column_of<std::string>(metadata, "checks", "name");
+  const auto& passed = io::column_of<std::int32_t>(metadata, "checks", "passed");
+  std::string failed;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (passed.at(k) == 0)
+      failed += " " + names[k];
+  return failed.empty() ? fmt::format("\nall {} checks passed\n", names.size())
+                        : fmt::format("\nof {} checks these FAILED:{}\n", names.size(), failed);
+}
+
+std::string quality_text(const Metadata& metadata) {
+  const io::MetadataGroup* quality = io::find_group(metadata, "quality");
+  if (!quality)
+    return {};
+  std::string text = "\n";
+  for (const auto& [what, name] : {std::pair{"alpha median", "alpha_median"},
+                                   {"alpha mean", "alpha_mean"},
+                                   {"alpha max", "alpha_max"},
+                                   {"smallest angle", "min_angle_degrees"},
+                                   {"size error mean", "size_mean"}})
+    for (const io::Attribute& attribute : quality->attributes)
+      if (attribute.name == name && std::holds_alternative<double>(attribute.value))
+        text += fmt::format("{:<15} {:.5g}\n", what, std::get<double>(attribute.value));
+  return text;
+}
+
+} // namespace
+
+void check_exchange(const RunOptions& options, const comm::Communicator& comm) {
+  std::vector<std::string> paths;
+  for (const formats::Format format : options.exchange)
+    for (const std::string& path : formats::paths_of(format, path_of(format, options.output.file)))
+      paths.push_back(path);
+  if (!options.output.file.overwrite)
+    refuse_to_replace(paths, "set output.overwrite = true to replace it, or another output.name", comm);
+}
+
+std::vector<std::string> write_exchange(const RunOptions& options, const mesh::DistributedMesh& mesh,
+                                        const formats::Names& names, io::RunFiles* files,
+                                        const comm::Communicator& comm) {
+  std::vector<std::string> paths;
+  for (const formats::Format format : options.exchange)
+    for (const std::string& path :
+         formats::write(format, path_of(format, options.output.file), mesh, names, files, comm))
+      paths.push_back(path);
+  return paths;
+}
+
+void convert(const CommandLine& line, io::RunFiles* files, const comm::Communicator& comm, Log& log) {
+  const std::string &from = line.files[0], &to = line.files[1];
+  const formats::Format format = format_of_output(to);
+  if (!line.overwrite)
+    refuse_to_replace(formats::paths_of(format, to), "add --overwrite to replace it", comm);
+  const Metadata metadata = io::read_metadata(from, comm);
+  const formats::Names names = names_of(metadata);
+  const mesh::DistributedMesh mesh = io::read_mesh(from, metadata, comm);
+  if (is_marked(metadata))
+    log.warning("{} holds a mesh that is NOT complete, see 'trime_mpi info {}'", from, from);
+  for (const std::string& path : formats::write(format, to, mesh, names, files, comm))
+    log.info("{}: {} points, {} triangles, {} boundary edges", path, mesh.point_slab.total, mesh.triangle_slab.total,
+             mesh.facet_slab.total);
+}
+
+std::string info(const std::string& path, const comm::Communicator& comm) {
+  const Metadata metadata = io::read_metadata(path, comm);
+  std::string text = fmt::format("{}: {} points, {} triangles{}\n", path, value_text(metadata, "points"),
+                                 value_text(metadata, "triangles"), is_marked(metadata) ? "; NOT complete" : "");
+  text += made_text(metadata);
+  if (const formats::Names names = names_of(metadata); names.period.x != 0 || names.period.y != 0)
+    text += fmt::format("periodic      with sides of {:.9g} and {:.9g} (0: not periodic)\n", names.period.x,
+                        names.period.y);
+  text += boundary_text(metadata) + checks_text(metadata) + quality_text(metadata);
+  return text + fmt::format("\nmesh hash     {}\n", value_text(metadata, "mesh_hash_hex"));
+}
+
+} // namespace trime::app

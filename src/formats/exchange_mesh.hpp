@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A distributed mesh as the writers of foreign formats see it: rows of points, triangles and boundary edges by labels.
+#pragma once
+
+#include "io/text_rows.hpp"
+#include "trime/comm/communicator.hpp"
+#include "trime/formats/exchange.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace trime::formats {
+
+/// A file, as rows that all ranks write together.
+struct FilePlan {
+  std::string path;
+  std::vector<io::TextRows> rows;
+};
+
+/// Appends the bytes of a value as they lie in memory.
+template <class T>
+void append_bytes(std::string& text, const T& value) {
+  text.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+/// Appends numbers with a blank between them, and a line end.
+template <class... T>
+void append_line(std::string& text, T... values) {
+  ((io::append_number(text, values), text += ' '), ...);
+  text.back() = '\n';
+}
+
+class ExchangeMesh {
+public:
+  /// All arguments outlive this object and the rows that it makes. Collective.
+  ExchangeMesh(const mesh::DistributedMesh& mesh, const Names& names, const comm::Communicator& comm);
+
+  const mesh::DistributedMesh& mesh() const { return mesh_; }
+  const Names& names() const { return names_; }
+  const comm::Communicator& comm() const { return comm_; }
+  GlobalId points() const { return mesh_.point_slab.total; }
+  GlobalId triangles() const { return mesh_.triangle_slab.total; }
+  GlobalId facets() const { return mesh_.facet_slab.total; }
+  /// Boundary edges of a part, triangles of a region; over all ranks.
+  GlobalId facets_of_part(std::size_t part) const { return facets_of_part_[part]; }
+  GlobalId triangles_of_region(std::size_t region) const { return triangles_of_region_[region]; }
+  geometry::Vec2 lower() const { return lower_; }
+  geometry::Vec2 upper() const { return upper_; }
+
+  /// Label of a boundary edge; region of a triangle; label of a point, 0 inside. All by row of this rank.
+  std::int64_t facet_label(std::int64_t row) const { return mesh_.facet_parts[static_cast<std::size_t>(row)] + 1; }
+  std::int64_t region(std::int64_t row) const {
+    return mesh_.region.empty() ? 1 : mesh_.region[static_cast<std::size_t>(row)];
+  }
+  std::int64_t point_label(std::int64_t row) const { return point_labels_[static_cast<std::size_t>(row)]; }
+
+  /// The same text whoever has which rows, once.
+  io::TextRows once(std::string text) const;
+  /// append(row, global number, value, text) for each row of this rank.
+  template <class Append>
+  io::TextRows point_rows(const Append& append) const {
+    return {std::ssize(mesh_.points), [this, append](std::int64_t row, std::string& text) {
+              append(row, mesh_.point_slab.first + row, mesh_.points[static_cast<std::size_t>(row)], text);
+            }};
+  }
+  template <class Append>
+  io::TextRows triangle_rows(const Append& append) const {
+    return {std::ssize(mesh_.triangles), [this, append](std::int64_t row, std::string& text) {
+              append(row, mesh_.triangle_slab.first + row, mesh_.triangle_ids(static_cast<std::size_t>(row)), text);
+            }};
+  }
+  template <class Append>
+  io::TextRows facet_rows(const Append& append) const {
+    return {std::ssize(mesh_.facets), [this, append](std::int64_t row, std::string& text) {
+              append(row, mesh_.facet_slab.first + row, mesh_.facets[static_cast<std::size_t>(row)], text);
+            }};
+  }
+
+private:
+  void count();
+  void label_points();
+
+  const mesh::DistributedMesh& mesh_;
+  const Names& names_;
+  const comm::Communicator& comm_;
+  std::vector<std::int64_t> facets_of_part_, triangles_of_region_;
+  std::vector<std::int32_t> point_labels_; // by point of the slab
+  geometry::Vec2 lower_, upper_;
+};
+
+// The writers; each plans the files whose first is `path`. Collective.
+std::vector<FilePlan> plan_gmsh(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_gmsh2(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_medit(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_freefem(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_triangle(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_vtu(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_sms(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_adcirc(const ExchangeMesh& mesh, const std::string& path);
+
+} // namespace trime::formats

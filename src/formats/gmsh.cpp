@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// MSH 4.1 and 2.2 of Gmsh (reference manual, "MSH file format" and "Legacy formats"), binary: boundary parts and
+// regions are physical groups. Each part is a curve and each region a surface, since all elements of one entity lie in
+// the same groups.
+#include "formats/exchange_mesh.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+
+#include <fmt/format.h>
+
+namespace trime::formats {
+namespace {
+
+constexpr std::int32_t line_type = 1, triangle_type = 2; // of elements
+constexpr int curve = 1, surface = 2;                    // dimensions of entities
+
+/// Names end at a quotation mark.
+std::string quoted(std::string name) {
+  std::replace(name.begin(), name.end(), '"', '\'');
+  return '"' + name + '"';
+}
+
+std::string physical_names(const Names& names) {
+  std::string text = fmt::format("$PhysicalNames\n{}\n", names.parts.size() + names.regions.size());
+  for (std::size_t k = 0; k < names.parts.size(); ++k)
+    text += fmt::format("{} {} {}\n", curve, k + 1, quoted(names.parts[k]));
+  for (std::size_t k = 0; k < names.regions.size(); ++k)
+    text += fmt::format("{} {} {}\n", surface, k + 1, quoted(names.regions[k]));
+  return text + "$EndPhysicalNames\n";
+}
+
+/// With the number 1 as this machine stores it.
+std::string header(const char* version) {
+  std::string text = fmt::format("$MeshFormat\n{} 1 8\n", version);
+  append_bytes(text, std::int32_t{1});
+  return text + "\n$EndMeshFormat\n";
+}
+
+/// One entity of 4.1 with one physical group of the same number. Its box is that of the whole mesh.
+void append_entity(std::string& text, const ExchangeMesh& mesh, std::size_t number, std::size_t bounding) {
+  const auto tag = static_cast<std::int32_t>(number);
+  append_bytes(text, tag);
+  for (const double side : {mesh.lower().x, mesh.lower().y, 0.0, mesh.upper().x, mesh.upper().y, 0.0})
+    append_bytes(text, side);
+  append_bytes(text, std::uint64_t{1});
+  append_bytes(text, tag);
+  append_bytes(text, static_cast<std::uint64_t>(bounding));
+}
+
+std::string entities(const ExchangeMesh& mesh) {
+  const std::size_t curves = mesh.names().parts.size(), surfaces = mesh.names().regions.size();
+  std::string text = "$Entities\n";
+  for (const std::size_t count : {std::size_t{0}, curves, surfaces, std::size_t{0}})
+    append_bytes(text, static_cast<std::uint64_t>(count));
+  for (std::size_t k = 1; k <= curves; ++k)
+    append_entity(text, mesh, k, 0);
+  for (std::size_t k = 1; k <= surfaces; ++k) {
+    append_entity(text, mesh, k, curves);
+    for (std::size_t bound = 1; bound <= curves; ++bound)
+      append_bytes(text, static_cast<std::int32_t>(bound));
+  }
+  return text + "\n$EndEntities\n";
+}
+
+/// Numbers that begin a section, or a block in it.
+void append_counts(std::string& text, std::initializer_list<std::int64_t> counts) {
+  for (const std::int64_t count : counts)
+    append_bytes(text, count);
+}
+std::string block(int dimension, std::size_t entity, std::int32_t type, GlobalId count) {
+  std::string text;
+  append_bytes(text, static_cast<std::int32_t>(dimension));
+  append_bytes(text, static_cast<std::int32_t>(entity));
+  append_bytes(text, type);
+  append_bytes(text, count);
+  return text;
+}
+
+void append_place(std::string& text, geometry::Vec2 p) {
+  for (const double coordinate : {p.x, p.y, 0.0})
+    append_bytes(text, coordinate);
+}
+
+/// All points are said to lie inside the first surface: readers go by the elements.
+void add_nodes(const ExchangeMesh& mesh, std::vector<io::TextRows>& rows) {
+  const GlobalId points = mesh.points();
+  std::string text = "$Nodes\n";
+  append_counts(text, {1, points, 1, points});
+  rows.push_back(mesh.once(text + block(surface, 1, 0, points)));
+  rows.push_back(
+      mesh.point_rows([](std::int64_t, GlobalId id, geometry::Vec2, std::string& to) { append_bytes(to, id + 1); }));
+  rows.push_back(
+      mesh.point_rows([](std::int64_t, GlobalId, geometry::Vec2 p, std::string& to) { append_place(to, p); }));
+  rows.push_back(mesh.once("\n$EndNodes\n"));
+}
+
+/// Edges come first and keep their numbers in the mesh; so do the triangles after them.
+void add_elements(const ExchangeMesh& mesh, std::vector<io::TextRows>& rows) {
+  const GlobalId facets = mesh.facets(), elements = facets + mesh.triangles();
+  const std::size_t curves = mesh.names().parts.size(), surfaces = mesh.names().regions.size();
+  std::string text = "$Elements\n";
+  append_counts(text, {static_cast<std::int64_t>(curves + surfaces), elements, 1, elements});
+  rows.push_back(mesh.once(text));
+  for (std::size_t part = 0; part < curves; ++part) {
+    rows.push_back(mesh.once(block(curve, part + 1, line_type, mesh.facets_of_part(part))));
+    const auto label = static_cast<std::int64_t>(part) + 1;
+    rows.push_back(mesh.facet_rows(
+        [&mesh, label](std::int64_t row, GlobalId id, const std::array<GlobalId, 2>& ends, std::string& to) {
+          if (mesh.facet_label(row) == label)
+            append_counts(to, {id + 1, ends[0] + 1, ends[1] + 1});
+        }));
+  }
+  for (std::size_t region = 1; region <= surfaces; ++region) {
+    rows.push_back(mesh.once(block(surface, region, triangle_type, mesh.triangles_of_region(region - 1))));
+    rows.push_back(mesh.triangle_rows([&mesh, facets, region](std::int64_t row, GlobalId id,
+                                                              const std::array<GlobalId, 3>& corners, std::string& to) {
+      if (mesh.region(row) == static_cast<std::int64_t>(region))
+        append_counts(to, {facets + id + 1, corners[0] + 1, corners[1] + 1, corners[2] + 1});
+    }));
+  }
+  rows.push_back(mesh.once("\n$EndElements\n"));
+}
+
+void append_numbers(std::string& text, std::initializer_list<std::int64_t> numbers) {
+  for (const std::int64_t number : numbers)
+    append_bytes(text, static_cast<std::int32_t>(number));
+}
+
+} // namespace
+
+std::vector<FilePlan> plan_gmsh(const ExchangeMesh& mesh, const std::string& path) {
+  std::vector<io::TextRows> rows{mesh.once(header("4.1") + physical_names(mesh.names()) + entities(mesh))};
+  add_nodes(mesh, rows);
+  add_elements(mesh, rows);
+  return {{path, rows}};
+}
+
+std::vector<FilePlan> plan_gmsh2(const ExchangeMesh& mesh, const std::string& path) {
+  constexpr std::int64_t tags = 2; // physical, elementary
+  const GlobalId facets = mesh.facets();
+  std::string lines = fmt::format("\n$EndNodes\n$Elements\n{}\n", facets + mesh.triangles()), triangles;
+  append_numbers(lines, {line_type, facets, tags});
+  append_numbers(triangles, {triangle_type, mesh.triangles(), tags});
+  return {
+      {path,
+       {mesh.once(header("2.2") + physical_names(mesh.names()) + fmt::format("$Nodes\n{}\n", mesh.points())),
+        mesh.point_rows([](std::int64_t, GlobalId id, geometry::Vec2 p, std::string& to) {
+          append_numbers(to, {id + 1});
+          append_place(to, p);
+        }),
+        mesh.once(lines),
+        mesh.facet_rows([&mesh](std::int64_t row, GlobalId id, const std::array<GlobalId, 2>& ends, std::string& to) {
+          append_numbers(to, {id + 1, mesh.facet_label(row), mesh.facet_label(row), ends[0] + 1, ends[1] + 1});
+        }),
+        mesh.once(triangles),
+        mesh.triangle_rows(
+            [&mesh, facets](std::int64_t row, GlobalId id, const std::array<GlobalId, 3>& corners, std::string& to) {
+              append_numbers(to, {facets + id + 1, mesh.region(row), mesh.region(row), corners[0] + 1, corners[1] + 1,
+                                  corners[2] + 1});
+            }),
+        mesh.once("\n$EndElements\n")}}};
+}
+
+} // namespace trime::formats

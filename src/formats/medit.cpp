@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Medit's ASCII mesh (Frey, INRIA RT-0253), which Mmg and other remeshers read. The format has no names: comments
+// tell them.
+#include "formats/exchange_mesh.hpp"
+
+#include <fmt/format.h>
+
+namespace trime::formats {
+namespace {
+
+std::string comments(const Names& names) {
+  std::string text;
+  for (std::size_t k = 0; k < names.parts.size(); ++k)
+    text += fmt::format("# edges {}: {}\n", k + 1, names.parts[k]);
+  for (std::size_t k = 0; k < names.regions.size(); ++k)
+    text += fmt::format("# triangles {}: {}\n", k + 1, names.regions[k]);
+  return text;
+}
+
+} // namespace
+
+std::vector<FilePlan> plan_medit(const ExchangeMesh& mesh, const std::string& path) {
+  return {{path,
+           {mesh.once(fmt::format("MeshVersionFormatted 2\n{}\nDimension 2\n\nVertices\n{}\n", comments(mesh.names()),
+                                  mesh.points())),
+            mesh.point_rows([&mesh](std::int64_t row, GlobalId, geometry::Vec2 p, std::string& to) {
+              append_line(to, p.x, p.y, mesh.point_label(row));
+            }),
+            mesh.once(fmt::format("\nEdges\n{}\n", mesh.facets())),
+            mesh.facet_rows([&mesh](std::int64_t row, GlobalId, const std::array<GlobalId, 2>& ends, std::string& to) {
+              append_line(to, ends[0] + 1, ends[1] + 1, mesh.facet_label(row));
+            }),
+            mesh.once(fmt::format("\nTriangles\n{}\n", mesh.triangles())),
+            mesh.triangle_rows(
+                [&mesh](std::int64_t row, GlobalId, const std::array<GlobalId, 3>& corners, std::string& to) {
+                  append_line(to, corners[0] + 1, corners[1] + 1, corners[2] + 1, mesh.region(row));
+                }),
+            mesh.once("\nEnd\n")}}};
+}
+
+} // namespace trime::formats

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "formats/node_strings.hpp"
+
+#include "comm/agree.hpp"
+#include "io/point_lookup.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace trime::formats {
+namespace {
+
+struct Edge {
+  GlobalId first, second;
+  std::int64_t loop, label;
+  geometry::Vec2 place; // of the first point
+};
+
+std::vector<Edge> gather_edges(const ExchangeMesh& exchange) {
+  const mesh::DistributedMesh& mesh = exchange.mesh();
+  const comm::Communicator& comm = exchange.comm();
+  std::vector<GlobalId> firsts;
+  for (const auto& facet : mesh.facets)
+    firsts.push_back(facet[0]);
+  const io::PointLookup points(mesh, firsts, comm);
+  std::string bytes;
+  for (std::size_t k = 0; k < mesh.facets.size(); ++k)
+    append_bytes(bytes, Edge{mesh.facets[k][0], mesh.facets[k][1], mesh.facet_tags[k],
+                             exchange.facet_label(static_cast<std::int64_t>(k)), points[mesh.facets[k][0]].position});
+  std::vector<Edge> edges;
+  for (const std::string& part : comm.gather(bytes)) {
+    const std::size_t before = edges.size();
+    edges.resize(before + part.size() / sizeof(Edge));
+    std::memcpy(static_cast<void*>(edges.data() + before), part.data(), part.size());
+  }
+  return edges;
+}
+
+bool comes_before(const Edge& a, const Edge& b) {
+  return a.first != b.first ? a.first < b.first : a.second < b.second;
+}
+
+/// Edges one after the other; where a loop touches itself it may fall into several.
+std::vector<std::vector<Edge>> loops_of(std::vector<Edge> edges) {
+  std::sort(edges.begin(), edges.end(), comes_before);
+  std::vector<bool> used(edges.size());
+  std::vector<std::vector<Edge>> loops;
+  for (std::size_t start = 0; start < edges.size(); ++start) {
+    if (used[start])
+      continue;
+    std::vector<Edge>& loop = loops.emplace_back();
+    for (std::size_t k = start; k < edges.size();) {
+      used[k] = true;
+      loop.push_back(edges[k]);
+      const GlobalId next = edges[k].second;
+      for (k = static_cast<std::size_t>(
+               std::lower_bound(edges.begin(), edges.end(), Edge{next, -1, 0, 0, {}}, comes_before) - edges.begin());
+           k < edges.size() && edges[k].first == next && (used[k] || edges[k].loop != loop[0].loop);)
+        ++k;
+      if (k < edges.size() && edges[k].first != next)
+        k = edges.size();
+    }
+  }
+  return loops;
+}
+
+/// Twice the area to the left of a loop: negative around a hole.
+double signed_area(const std::vector<Edge>& loop) {
+  double area = 0;
+  for (std::size_t k = 0; k < loop.size(); ++k)
+    area += geometry::cross(loop[k].place - loop[0].place, loop[(k + 1) % loop.size()].place - loop[0].place);
+  return area;
+}
+
+void append_strings(std::vector<Edge> loop, std::vector<NodeString>& strings) {
+  const bool is_island = signed_area(loop) < 0;
+  std::size_t turn = 0; // the first edge whose label is not that of the edge before it
+  while (turn < loop.size() && loop[turn].label == loop[turn == 0 ? loop.size() - 1 : turn - 1].label)
+    ++turn;
+  const bool is_closed = turn == loop.size();
+  if (!is_closed)
+    std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(turn), loop.end());
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    if (k == 0 || loop[k].label != loop[k - 1].label)
+      strings.push_back({loop[k].label, is_closed, is_island, {loop[k].first}});
+    if (!is_closed || k + 1 < loop.size())
+      strings.back().points.push_back(loop[k].second);
+  }
+}
+
+} // namespace
+
+std::vector<NodeString> node_strings(const ExchangeMesh& mesh) {
+  const std::vector<Edge> edges = gather_edges(mesh);
+  std::vector<NodeString> strings;
+  comm::run_agreed(mesh.comm(), [&] {
+    for (std::vector<Edge>& loop : loops_of(edges))
+      append_strings(std::move(loop), strings);
+  });
+  return strings;
+}
+
+} // namespace trime::formats

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/hdf5_input.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace trime::io {
+namespace {
+
+/// Opened for reading; file systems without locks do not matter.
+Hdf5File open_file(const std::string& path) {
+  silence_hdf5();
+  const Hdf5Properties access(H5Pcreate(H5P_FILE_ACCESS), "make properties of HDF5");
+  checked(H5Pset_file_locking(access, true, true), "set the locks of HDF5");
+  return Hdf5File(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), "open " + path);
+}
+
+std::vector<hsize_t> shape_of(hid_t space) {
+  std::vector<hsize_t> shape(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
+  H5Sget_simple_extent_dims(space, shape.data(), nullptr);
+  return shape;
+}
+
+std::string without_padding(const std::string& text) {
+  return text.substr(0, text.find('\0'));
+}
+
+/// Values of a type that metadata have, read by `fetch`(memory type, to); nothing for other types.
+template <class Fetch>
+std::optional<Column> small_values(const std::string& name, hid_t type, std::size_t count, const Fetch& fetch) {
+  const auto numbers = [&]<class T>(hid_t memory, T) -> Column {
+    std::vector<T> values(count);
+    fetch(memory, values.data());
+    return {name, std::move(values)};
+  };
+  const std::size_t bytes = H5Tget_size(type);
+  switch (H5Tget_class(type)) {
+  case H5T_INTEGER:
+    return bytes == sizeof(std::int32_t) ? numbers(H5T_NATIVE_INT32, std::int32_t{})
+                                         : numbers(H5T_NATIVE_INT64, std::int64_t{});
+  case H5T_FLOAT:
+    return numbers(H5T_NATIVE_DOUBLE, double{});
+  case H5T_STRING: {
+    if (H5Tis_variable_str(type) > 0)
+      return {};
+    std::string all(count * bytes, '\0');
+    fetch(type, all.data());
+    std::vector<std::string> words;
+    for (std::size_t k = 0; k < count; ++k)
+      words.push_back(without_padding(all.substr(k * bytes, bytes)));
+    return Column{name, std::move(words)};
+  }
+  default:
+    return {};
+  }
+}
+
+} // namespace
+
+Hdf5Input::Hdf5Input(const std::string& path) : path_(path), file_(open_file(path)) {}
+
+bool Hdf5Input::has(const std::string& object) const {
+  for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
+    if (H5Lexists(file_, object.substr(0, end).c_str(), H5P_DEFAULT) <= 0)
+      return false;
+    if (end == std::string::npos)
+      return true;
+  }
+}
+
+std::vector<Attribute> Hdf5Input::attributes(const std::string& group) const {
+  const std::string action = "read the attributes of " + group + " in " + path_;
+  H5O_info_t info;
+  checked(H5Oget_info_by_name2(file_, group.c_str(), &info, H5O_INFO_NUM_ATTRS, H5P_DEFAULT), action);
+  std::vector<Attribute> found;
+  for (hsize_t k = 0; k < info.num_attrs; ++k) {
+    const Hdf5Attribute attribute(
+        H5Aopen_by_idx(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, k, H5P_DEFAULT, H5P_DEFAULT), action);
+    std::string name(static_cast<std::size_t>(checked(H5Aget_name(attribute, 0, nullptr), action)), '\0');
+    H5Aget_name(attribute, name.size() + 1, name.data());
+    const Hdf5Type type(H5Aget_type(attribute), action);
+    const Hdf5Space space(H5Aget_space(attribute), action);
+    if (H5Sget_simple_extent_npoints(space) != 1)
+      continue;
+    const auto values =
+        small_values(name, type, 1, [&](hid_t memory, void* to) { checked(H5Aread(attribute, memory, to), action); });
+    if (!values)
+      continue;
+    const bool is_unsigned = H5Tget_class(type) == H5T_INTEGER && H5Tget_sign(type) == H5T_SGN_NONE;
+    std::visit(
+        [&]<class T>(const std::vector<T>& value) {
+          if constexpr (std::is_integral_v<T>) {
+            if (is_unsigned) {
+              std::uint64_t number = 0;
+              checked(H5Aread(attribute, H5T_NATIVE_UINT64, &number), action);
+              found.push_back({name, number});
+            } else
+              found.push_back({name, static_cast<std::int64_t>(value[0])});
+          } else
+            found.push_back({name, value[0]});
+        },
+        values->values);
+  }
+  return found;
+}
+
+std::vector<Column> Hdf5Input::columns(const std::string& group) const {
+  std::vector<Column> found;
+  for (const std::string& name : members(group, H5O_TYPE_DATASET)) {
+    const std::string path = group + "/" + name;
+    const Hdf5Dataset dataset = open_dataset(path);
+    const Hdf5Type type(H5Dget_type(dataset), "read " + path);
+    const Hdf5Space space(H5Dget_space(dataset), "read " + path);
+    if (H5Sget_simple_extent_ndims(space) != 1)
+      continue;
+    auto values = small_values(
+        name, type, static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)), [&](hid_t memory, void* to) {
+          checked(H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, to), "read " + path + " in " + path_);
+        });
+    if (values)
+      found.push_back(std::move(*values));
+  }
+  return found;
+}
+
+std::vector<Text> Hdf5Input::texts(const std::string& group) const {
+  std::vector<Text> found;
+  for (const std::string& name : members(group, H5O_TYPE_DATASET)) {
+    const std::string path = group + "/" + name;
+    const Hdf5Dataset dataset = open_dataset(path);
+    const Hdf5Type type(H5Dget_type(dataset), "read " + path);
+    const Hdf5Space space(H5Dget_space(dataset), "read " + path);
+    if (H5Sget_simple_extent_ndims(space) != 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0)
+      continue;
+    std::string text(H5Tget_size(type), '\0');
+    checked(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), "read " + path + " in " + path_);
+    found.push_back({name, without_padding(text)});
+  }
+  return found;
+}
+
+std::vector<std::string> Hdf5Input::groups(const std::string& group) const {
+  return members(group, H5O_TYPE_GROUP);
+}
+
+std::int64_t Hdf5Input::rows(const std::string& dataset) const {
+  const Hdf5Dataset opened = open_dataset(dataset);
+  const Hdf5Space space(H5Dget_space(opened), "read " + dataset);
+  const std::vector<hsize_t> shape = shape_of(space);
+  return shape.empty() ? 1 : static_cast<std::int64_t>(shape[0]);
+}
+
+void Hdf5Input::read(const std::string& dataset, hid_t type, hsize_t columns, std::int64_t first, std::int64_t count,
+                     void* out) const {
+  const Hdf5Dataset opened = open_dataset(dataset);
+  const Hdf5Space space(H5Dget_space(opened), "read " + dataset);
+  const std::vector<hsize_t> shape = shape_of(space);
+  const auto begin = static_cast<hsize_t>(first), rows = static_cast<hsize_t>(count);
+  if (shape.size() != (columns == 0 ? 1U : 2U) || (columns > 0 && shape[1] != columns) || shape[0] < begin + rows)
+    throw FileError(fmt::format("{}: {} has another shape than a mesh file of trime_mpi: expected at least {} rows of "
+                                "{}, found [{}]",
+                                path_, dataset, begin + rows, columns == 0 ? 1 : columns, fmt::join(shape, ", ")));
+  if (count == 0)
+    return;
+  const hsize_t start[2] = {begin, 0}, block[2] = {rows, columns};
+  const Hdf5Space memory(H5Screate_simple(columns == 0 ? 1 : 2, block, nullptr), "read " + dataset);
+  checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, block, nullptr), "read " + dataset);
+  checked(H5Dread(opened, type, memory, space, H5P_DEFAULT, out), "read " + dataset + " in " + path_);
+}
+
+Hdf5Dataset Hdf5Input::open_dataset(const std::string& dataset) const {
+  if (!has(dataset))
+    throw FileError(fmt::format("{} has no {}: expected a mesh file of trime_mpi", path_, dataset));
+  return Hdf5Dataset(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), "open " + dataset + " in " + path_);
+}
+
+std::vector<std::string> Hdf5Input::members(const std::string& group, H5O_type_t kind) const {
+  const std::string action = "list " + group + " in " + path_;
+  const Hdf5Group opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), action);
+  H5G_info_t info;
+  checked(H5Gget_info(opened, &info), action);
+  std::vector<std::string> names;
+  for (hsize_t k = 0; k < info.nlinks; ++k) {
+    const ssize_t length = H5Lget_name_by_idx(opened, ".", H5_INDEX_NAME, H5_ITER_INC, k, nullptr, 0, H5P_DEFAULT);
+    checked(length < 0 ? -1 : 0, action);
+    std::string name(static_cast<std::size_t>(length), '\0');
+    H5Lget_name_by_idx(opened, ".", H5_INDEX_NAME, H5_ITER_INC, k, name.data(), name.size() + 1, H5P_DEFAULT);
+    H5O_info_t object;
+    checked(H5Oget_info_by_name2(opened, name.c_str(), &object, H5O_INFO_BASIC, H5P_DEFAULT), action);
+    if (object.type == kind)
+      names.push_back(name);
+  }
+  return names;
+}
+
+} // namespace trime::io

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A finished HDF5 file, read by one rank for itself. Every error names the file and the object.
+#pragma once
+
+#include "io/hdf5_handle.hpp"
+#include "trime/core/error.hpp"
+#include "trime/io/metadata.hpp"
+
+#include <string>
+#include <vector>
+
+namespace trime::io {
+
+class Hdf5Input {
+public:
+  /// @throws FileError
+  explicit Hdf5Input(const std::string& path);
+
+  bool has(const std::string& object) const;
+  /// Attributes and columns of a group; the groups and texts in it.
+  std::vector<Attribute> attributes(const std::string& group) const;
+  std::vector<Column> columns(const std::string& group) const;
+  std::vector<Text> texts(const std::string& group) const;
+  std::vector<std::string> groups(const std::string& group) const;
+
+  /// Rows of a dataset over the whole file.
+  std::int64_t rows(const std::string& dataset) const;
+  /// @brief Reads rows [first, first + count) into `out`, which has room for them.
+  /// @param columns as the dataset must have them; 0: one-dimensional
+  void read(const std::string& dataset, hid_t type, hsize_t columns, std::int64_t first, std::int64_t count,
+            void* out) const;
+
+private:
+  Hdf5Dataset open_dataset(const std::string& dataset) const;
+  std::vector<std::string> members(const std::string& group, H5O_type_t kind) const;
+
+  std::string path_;
+  Hdf5File file_;
+};
+
+} // namespace trime::io
