@@ -22,11 +22,15 @@ namespace fs = std::filesystem;
 constexpr double shortest_side = 1e-30,
                  longest_side = 1e30; // products of four lengths must neither vanish nor overflow
 
-/// `low < high`, unless one of them was refused already.
+/// `low < high`, unless one of them was refused already. @param instead what holds where they are not given, if any
 void check_interval(const Settings& settings, const std::string& section, const std::string& axis,
-                    Diagnostics& problems) {
+                    Diagnostics& problems, std::optional<std::pair<double, double>> instead = {}) {
   const std::string low = axis + "_min", high = axis + "_max";
-  const auto from = settings.optional_number(section, low), to = settings.optional_number(section, high);
+  auto from = settings.optional_number(section, low), to = settings.optional_number(section, high);
+  if (instead) {
+    from = from.value_or(instead->first);
+    to = to.value_or(instead->second);
+  }
   if (settings.was_refused(section, low) || settings.was_refused(section, high) || !from || !to || *from < *to)
     return;
   problems.add(settings.later_line(section, low, high),
@@ -36,7 +40,8 @@ void check_interval(const Settings& settings, const std::string& section, const 
 /// Sides for which the predicates are exact, unless an end of them was refused already.
 void check_side(const Settings& settings, const std::string& axis, Diagnostics& problems) {
   const std::string low = axis + "_min", high = axis + "_max";
-  const double side = settings.number("domain", high) - settings.number("domain", low);
+  const double side =
+      settings.optional_number("domain", high).value_or(1) - settings.optional_number("domain", low).value_or(0);
   if (settings.was_refused("domain", low) || settings.was_refused("domain", high))
     return;
   if (side > 0 && (side < shortest_side || side > longest_side))
@@ -119,13 +124,22 @@ void read_shape(const Settings& settings, const fs::path& directory, RunOptions&
 
 void read_domain(const Settings& settings, RunOptions& options, Diagnostics& problems) {
   meshing::MeshOptions& mesh = options.mesh;
-  check_interval(settings, "domain", "x", problems);
-  check_interval(settings, "domain", "y", problems);
+  check_interval(settings, "domain", "x", problems, std::pair{unit_square.min.x, unit_square.max.x});
+  check_interval(settings, "domain", "y", problems, std::pair{unit_square.min.y, unit_square.max.y});
   check_side(settings, "x", problems);
   check_side(settings, "y", problems);
-  mesh.container = box_of(settings, "domain");
   options.periodic_x = settings.boolean("domain", "periodic_x");
   options.periodic_y = settings.boolean("domain", "periodic_y");
+  mesh.container = unit_square;
+  options.container_is_automatic = !options.periodic_x && !options.periodic_y;
+  for (const auto& [key, side] : {std::pair<const char*, double*>{"x_min", &mesh.container.min.x},
+                                  {"x_max", &mesh.container.max.x},
+                                  {"y_min", &mesh.container.min.y},
+                                  {"y_max", &mesh.container.max.y}})
+    if (const auto given = settings.optional_number("domain", key)) {
+      *side = *given;
+      options.container_is_automatic = false;
+    }
   if (const auto cells = settings.optional_integer("domain", "cells_x"))
     mesh.cells_x = static_cast<int>(*cells);
   if (const auto cells = settings.optional_integer("domain", "cells_y"))

@@ -46,10 +46,14 @@ struct FixedPointsFile {
   std::string normalize_with; ///< name of the contour whose normalisation they undergo; empty: none
 };
 
+/// The container where the config gives no sides.
+inline constexpr geometry::Box unit_square{{0, 0}, {1, 1}};
+
 struct RunOptions {
   std::vector<PartOptions> parts;
   std::string region;
   bool periodic_x = false, periodic_y = false; ///< sides of the container, for the frame in which the shape is made
+  bool container_is_automatic = false;         ///< no side is given: the one of `mesh` may become one around the shape
   meshing::MeshOptions mesh;                   ///< without the fixed points, which are read when the shape is
   FixedPointsFile fixed_points;
   SizingOptions sizing;

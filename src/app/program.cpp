@@ -134,7 +134,7 @@ io::SeriesOptions series_options(const Job& job, const geometry::Boundary& bound
 
 ExitCode make_mesh(const Job& job) {
   const comm::Communicator& comm = job.comm;
-  const RunOptions& options = job.options;
+  RunOptions options = job.options;
   const bool is_run = job.line.action == Action::mesh;
   Log& log = job.log;
   TimerTable& timers = job.timers;
@@ -148,6 +148,10 @@ ExitCode make_mesh(const Job& job) {
     const auto timing = timers.scope("shape");
     return read_shape(options, comm, log, job.places);
   }();
+  if (const geometry::Box& box = input.container; options.container_is_automatic && box.max != unit_square.max)
+    log.info("container: x from {:.9g} to {:.9g}, y from {:.9g} to {:.9g}, around the shape: [domain] gives no sides",
+             box.min.x, box.max.x, box.min.y, box.max.y);
+  options.mesh.container = input.container;
   log.set_rewriter([&places = job.places](const std::string& message) { return places.explain(message); });
   const geometry::Boundary& boundary = input.shape.boundary();
   meshing::MeshOptions mesh_options = options.mesh;

@@ -4,7 +4,11 @@
 #include "comm/agree.hpp"
 #include "core/read_file.hpp"
 #include "trime/shape/expression_shape.hpp"
+#include "trime/shape/region.hpp"
 #include "trime/shape/trace.hpp"
+
+#include <cmath>
+#include <span>
 
 namespace trime::app {
 namespace {
@@ -20,9 +24,53 @@ std::string read_text(const std::string& file, bool is_relative, const comm::Com
   return comm.broadcast(std::move(text));
 }
 
-/// @param place becomes what the vertices of a contour undergo @param places gets the contour, on rank 0
-shape::Part build_part(const PartOptions& part, const geometry::Frame& frame, const comm::Communicator& comm,
-                       shape::Normalization& place, UserPlaces& places) {
+/// The rings of parts that are contours, by part. Collective.
+std::vector<shape::Contour> read_contours(const RunOptions& options, const comm::Communicator& comm) {
+  std::vector<shape::Contour> contours(options.parts.size());
+  for (std::size_t k = 0; k < contours.size(); ++k)
+    if (const PartOptions& part = options.parts[k]; part.type == "contour")
+      contours[k] = shape::parse_xy(read_text(part.file, part.file_is_relative, comm), part.file);
+  return contours;
+}
+
+geometry::Box box_of(const PartOptions& part, const shape::Contour& contour) {
+  const geometry::Vec2 radius{part.radius, part.radius};
+  geometry::Box box;
+  if (part.type == "rectangle")
+    box = part.box;
+  else if (part.type == "circle")
+    box = {part.center - radius, part.center + radius};
+  else if (part.type == "triangle")
+    for (const geometry::Vec2 corner : part.corners)
+      box.include(corner);
+  for (const shape::ContourRing& ring : contour.rings)
+    for (const geometry::Vec2 p : ring.points)
+      box.include(p);
+  return box;
+}
+
+/// The unit square, if the shape lies in it or is made of what needs a container: the domain itself, formulas, contours
+/// that are normalised into it. Else a box around the shape.
+geometry::Box automatic_container(const RunOptions& options, std::span<const shape::Contour> contours) {
+  constexpr double margin = 0.05; // of the longer side: as much as users leave who write the sides by hand
+  std::vector<std::string> names;
+  std::vector<geometry::Box> boxes;
+  for (std::size_t k = 0; k < options.parts.size(); ++k) {
+    const PartOptions& part = options.parts[k];
+    names.push_back(part.name);
+    boxes.push_back(part.type == "expression" || part.normalize ? unit_square : box_of(part, contours[k]));
+  }
+  boxes.push_back(unit_square); // the domain
+  const geometry::Box box = shape::Region::parse(options.region, names).box(boxes);
+  if (!(box.width() > 0 && box.height() > 0) || (unit_square.contains(box.min) && unit_square.contains(box.max)))
+    return unit_square;
+  const double side = margin * std::fmax(box.width(), box.height());
+  return {box.min - geometry::Vec2{side, side}, box.max + geometry::Vec2{side, side}};
+}
+
+/// @param contour of a part that is one @param place becomes what its vertices undergo @param places gets it, on rank 0
+shape::Part build_part(const PartOptions& part, const shape::Contour& contour, const geometry::Frame& frame,
+                       const comm::Communicator& comm, shape::Normalization& place, UserPlaces& places) {
   if (part.type == "rectangle")
     return shape::Part::rectangle(part.name, part.box, frame);
   if (part.type == "circle")
@@ -33,7 +81,6 @@ shape::Part build_part(const PartOptions& part, const geometry::Frame& frame, co
     const Formula sdf(part.sdf, fmt::format("'sdf' in [shape.{}]", part.name));
     return shape::traced_part(part.name, shape::ExpressionShape(sdf), frame);
   }
-  const shape::Contour contour = shape::parse_xy(read_text(part.file, part.file_is_relative, comm), part.file);
   if (part.normalize)
     place = shape::fit_to_container(contour, frame.container());
   shape::Part made = shape::Part::contour(part.name, contour, place, frame);
@@ -55,14 +102,18 @@ std::string read_shared(const std::string& path, const comm::Communicator& comm)
 
 /// All ranks build the same shape from the same numbers, so they throw the same errors without asking each other.
 ShapeInput read_shape(const RunOptions& options, const comm::Communicator& comm, Log& log, UserPlaces& places) {
-  const geometry::Frame frame(options.mesh.container, options.periodic_x, options.periodic_y);
+  const std::vector<shape::Contour> contours = read_contours(options, comm);
+  const geometry::Box container =
+      options.container_is_automatic ? automatic_container(options, contours) : options.mesh.container;
+  const geometry::Frame frame(container, options.periodic_x, options.periodic_y);
   std::vector<shape::Part> parts;
   shape::Normalization fixed_points_place;
   std::vector<NormalizedPart> normalized;
   UserPlaces found; // messages of the parts below speak of their files already
-  for (const PartOptions& part : options.parts) {
+  for (std::size_t k = 0; k < options.parts.size(); ++k) {
+    const PartOptions& part = options.parts[k];
     shape::Normalization place;
-    parts.push_back(build_part(part, frame, comm, place, found));
+    parts.push_back(build_part(part, contours[k], frame, comm, place, found));
     if (part.name == options.fixed_points.normalize_with)
       fixed_points_place = place;
     if (part.normalize)
@@ -71,7 +122,8 @@ ShapeInput read_shape(const RunOptions& options, const comm::Communicator& comm,
       log.warning("{}", warning);
   }
   places = std::move(found);
-  return {shape::RegionShape(std::move(parts), options.region, frame), fixed_points_place, std::move(normalized)};
+  return {shape::RegionShape(std::move(parts), options.region, frame), container, fixed_points_place,
+          std::move(normalized)};
 }
 
 std::vector<boundary::FixedPoint> read_fixed_points(const RunOptions& options, const shape::Normalization& place,

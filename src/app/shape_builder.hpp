@@ -18,6 +18,7 @@ std::string read_shared(const std::string& path, const comm::Communicator& comm)
 /// What the shape sections of a config and their files say.
 struct ShapeInput {
   shape::RegionShape shape;
+  geometry::Box container;                 ///< that of the options, or around the shape if that is automatic
   shape::Normalization fixed_points_place; ///< what fixed points undergo: that of the contour they are normalised with
   std::vector<NormalizedPart> normalized;  ///< in the order of the parts
 };

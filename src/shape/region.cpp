@@ -129,4 +129,16 @@ Region Region::parse(std::string_view text, std::span<const std::string> part_na
   return region;
 }
 
+geometry::Box Region::box_of(std::size_t node, std::span<const geometry::Box> boxes) const {
+  const Node& n = nodes_[node];
+  if (n.operation == Operation::part)
+    return boxes[static_cast<std::size_t>(n.part)];
+  geometry::Box box = box_of(static_cast<std::size_t>(n.operands[0]), boxes);
+  for (std::size_t k = 1; k < n.operands.size() && n.operation != Operation::subtract; ++k) {
+    const geometry::Box other = box_of(static_cast<std::size_t>(n.operands[k]), boxes);
+    box = n.operation == Operation::unite ? geometry::united(box, other) : geometry::intersected(box, other);
+  }
+  return box;
+}
+
 } // namespace trime::shape

@@ -50,6 +50,32 @@ class UserCoordinates(unittest.TestCase):
             self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
             self.assertRegex(done.stderr, r"too narrow near \(0\.1\S*, 0\.\S+\) \[.*coast\.xy:2: \(4500000\S*, 5400000\S*\)\]")
 
+    def test_without_a_container_coordinates_stay(self):
+        """A contour in metres and no [domain]: the file has its coordinates; the printed config gives the same mesh."""
+        with Workspace() as directory:
+            (directory / "coast.xy").write_text("".join(f"{x!r} {y!r}\n" for x, y in SQUARE))
+            config = directory / "job.ini"
+            config.write_text(CONFIG.replace("normalize = true\n", ""))
+            hashes = set()
+            for ranks, name in ((1, "one"), (3, "three")):
+                done = run(config, f"output.directory={directory}", f"output.name={name}", ranks=ranks)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                self.assertIn("container: x from 4490000 to 4710000, y from 5390000 to 5610000, around the shape",
+                              done.stdout)
+                with h5py.File(directory / f"{name}.h5", "r") as file:
+                    hashes.add(int(file["trime_mpi"].attrs["mesh_hash"]))
+                    points = file["Mesh/mesh/geometry"][:]
+                for corner in SQUARE:  # to the lattice of the container
+                    self.assertLess(numpy.abs(points - corner).max(axis=1).min(), 1e-9 * SIDE)
+            config.write_text(run(config, "--print-config").stdout)
+            done = run(config, f"output.directory={directory}", "output.name=again")
+            with h5py.File(directory / "again.h5", "r") as file:
+                hashes.add(int(file["trime_mpi"].attrs["mesh_hash"]))
+            self.assertEqual(len(hashes), 1)
+            done = run(config, "domain.x_min=0")  # a side that is given is obeyed, and the others are 0 and 1
+            self.assertEqual(done.returncode, 3, done.stdout)
+            self.assertRegex(done.stderr, "coast.xy.* container")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -58,4 +58,14 @@ struct Box {
   }
 };
 
+/// The least box that holds both; what both have in common, with min > max where that is nothing.
+inline Box united(const Box& a, const Box& b) {
+  return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y)},
+          {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y)}};
+}
+inline Box intersected(const Box& a, const Box& b) {
+  return {{std::max(a.min.x, b.min.x), std::max(a.min.y, b.min.y)},
+          {std::min(a.max.x, b.max.x), std::min(a.max.y, b.max.y)}};
+}
+
 } // namespace trime::geometry

@@ -3,6 +3,8 @@
 //   expression = name | union(e, e, ...) | intersection(e, e, ...) | difference(e, e, ...)
 #pragma once
 
+#include "trime/geometry/vec2.hpp"
+
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,6 +34,9 @@ public:
     return value(0, inside);
   }
 
+  /// A box around the shape, from those of all parts and, behind them, of the domain.
+  geometry::Box box(std::span<const geometry::Box> boxes) const { return box_of(0, boxes); }
+
 private:
   enum class Operation { part, unite, intersect, subtract };
   struct Node {
@@ -55,6 +60,8 @@ private:
     }
     return !decides;
   }
+
+  geometry::Box box_of(std::size_t node, std::span<const geometry::Box> boxes) const;
 
   std::string text_;
   std::vector<Node> nodes_; // the root first

@@ -185,7 +185,7 @@ TEST(Config, RefusesValuesThatMakeNoSense) {
   expect_refused("meshing.points=2e11", "expected an integer from 3");
   expect_refused("meshing.points=5000.5", "expected an integer");
   expect_refused("meshing.points=many", "expected an integer");
-  expect_refused("domain.x_min=nan", "expected a number");
+  expect_refused("domain.x_min=nan", "expected auto or a number");
   expect_refused("domain.x_min=1", "needs x_min < x_max, found 1 and 1");
   expect_refused("domain.y_max=-1", "needs y_min < y_max");
   expect_refused("domain.cells_x=0", "auto or an integer from 1");
@@ -211,8 +211,8 @@ TEST(Config, RefusesValuesThatMakeNoSense) {
 }
 
 TEST(Config, TheContainerStaysWithinTheRangeOfThePredicates) {
-  expect_refused("domain.x_max=1e31", "'x_max = 1e31' in [domain]: expected a number from -1e+30 to 1e+30");
-  expect_refused("domain.y_min=-1e300", "'y_min = -1e300' in [domain]: expected a number from -1e+30 to 1e+30");
+  expect_refused("domain.x_max=1e31", "'x_max = 1e31' in [domain]: expected auto or a number from -1e+30 to 1e+30");
+  expect_refused("domain.y_min=-1e300", "'y_min = -1e300' in [domain]: expected auto or a number from -1e+30 to 1e+30");
   expect_refused("domain.x_max=1e-31", "[domain] needs x_max - x_min from 1e-30 to 1e+30, found 1e-31; use");
   expect_refused("domain.y_max=1e-300", "[domain] needs y_max - y_min from 1e-30 to 1e+30, found 1e-300; use");
   EXPECT_NE(errors_of(good, {"domain.x_min=-1e30", "domain.x_max=1e30"}).find("found 2e+30"), std::string::npos);
@@ -247,6 +247,16 @@ TEST(Config, TakesTheDefaultsWhenTheyAreSpeltOut) {
                            "sizing.gradation=0.0", "parallel.setup_threads=2", "meshing.initial_fraction=1",
                            "output.interval=0", "checkpoint.keep=2", "parallel.setup_threads=0", "meshing.points=1e11"})
     EXPECT_EQ(errors_of(good, {text}), "") << text;
+}
+
+TEST(Config, TheContainerIsAutomaticWhereNoSideIsGiven) {
+  EXPECT_TRUE(parse_config(good, "c.ini", {}).container_is_automatic);
+  EXPECT_TRUE(parse_config(good, "c.ini", {"domain.x_min=auto"}).container_is_automatic);
+  EXPECT_FALSE(parse_config(good, "c.ini", {"domain.periodic_x=true"}).container_is_automatic);
+  const RunOptions one_side = parse_config(good, "c.ini", {"domain.x_max=3"});
+  EXPECT_FALSE(one_side.container_is_automatic);
+  EXPECT_EQ(one_side.mesh.container.min, (geometry::Vec2{0, 0}));
+  EXPECT_EQ(one_side.mesh.container.max, (geometry::Vec2{3, 1}));
 }
 
 TEST(Config, TakesFormatsOfOtherProgramsButNotForPeriodicContainers) {

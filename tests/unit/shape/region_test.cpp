@@ -26,6 +26,20 @@ TEST(Region, ValuesOfAllCombinations) {
   }
 }
 
+TEST(Region, TheBoxHoldsTheShape) {
+  const std::vector<geometry::Box> boxes{{{0, 0}, {4, 3}}, {{2, 1}, {9, 2}}, {{-1, -1}, {1, 1}}, {{0, 0}, {1, 1}}};
+  const auto expect_box = [&](const char* text, geometry::Vec2 min, geometry::Vec2 max) {
+    const geometry::Box box = Region::parse(text, names).box(boxes);
+    EXPECT_EQ(box.min, min) << text;
+    EXPECT_EQ(box.max, max) << text;
+  };
+  expect_box("spade", {0, 0}, {4, 3});
+  expect_box("union(spade, hole, slot)", {-1, -1}, {9, 3});
+  expect_box("intersection(spade, hole)", {2, 1}, {4, 2});
+  expect_box("difference(spade, hole, slot)", {0, 0}, {4, 3});
+  expect_box("union(domain, intersection(hole, spade))", {0, 0}, {4, 2});
+}
+
 TEST(Region, UnknownPartNamesTheNearest) {
   const std::string message = error_of("difference(spade, hule)");
   EXPECT_NE(message.find("'hule'"), std::string::npos) << message;
