@@ -100,8 +100,7 @@ class BadInput(unittest.TestCase):
             rf"case\.ini:{line_of(text, 'siizing')}:.*siizing.*sizing"], ranks_tried=ON_THREE_TOO)
 
     def test_keys_of_later_versions_are_refused_by_name(self):
-        for key, extra in (("keep", "checkpoint.keep=3"), ("formats", "output.formats=gmsh"),
-                           ("interval", "checkpoint.interval=60")):
+        for key, extra in (("keep", "checkpoint.keep=3"), ("interval", "checkpoint.interval=60")):
             with self.subTest(key=key):
                 self.refused(GOOD, USAGE, [rf"command line: .*{key}"], extra=[extra])
 
