@@ -8,7 +8,7 @@ trime_run_packages=(
   g++ cmake ninja-build                           # tool chain
   openmpi-bin libopenmpi-dev libhdf5-openmpi-dev  # MPI, and HDF5 with MPI
   libfmt-dev libcli11-dev libmuparser-dev         # text, command line, formulas
-  nlohmann-json3-dev                              # the file by which ParaView plays steps
+  nlohmann-json3-dev                              # GeoJSON; the file by which ParaView plays steps
   python3 python3-h5py python3-numpy python3-matplotlib # scripts/plot_mesh.py, scripts/scaling.py
 )
 # To run the tests, beside the above.

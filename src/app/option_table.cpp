@@ -94,7 +94,8 @@ constexpr Option table[] = {
      .part_type = "contour",
      .kind = OptionKind::path,
      .meaning =
-         "rings: `.xy`, one `x y` a line, a blank line or `>` ends a ring, `#` comments; holes by even-odd nesting"},
+         "rings: `.xy`, one `x y` a line, a blank line or `>` ends a ring, `#` comments; or the polygons of a "
+         "`.geojson`; holes by even-odd nesting"},
     {.section = "shape.NAME",
      .key = "normalize",
      .part_type = "contour",

@@ -29,7 +29,7 @@ std::vector<shape::Contour> read_contours(const RunOptions& options, const comm:
   std::vector<shape::Contour> contours(options.parts.size());
   for (std::size_t k = 0; k < contours.size(); ++k)
     if (const PartOptions& part = options.parts[k]; part.type == "contour")
-      contours[k] = shape::parse_xy(read_text(part.file, part.file_is_relative, comm), part.file);
+      contours[k] = shape::parse_contour(read_text(part.file, part.file_is_relative, comm), part.file);
   return contours;
 }
 

@@ -3,6 +3,7 @@
 
 #include "contour_text.hpp"
 #include "core/read_file.hpp"
+#include "shape/ring_builder.hpp"
 #include "shape/rules.hpp"
 #include "trime/core/error.hpp"
 
@@ -16,8 +17,6 @@ namespace {
 using geometry::Box;
 using geometry::Vec2;
 
-constexpr int most_warnings = 5;
-
 bool ends_with_extension(const std::string& path, std::string_view extension) {
   if (path.size() < extension.size())
     return false;
@@ -28,73 +27,6 @@ bool ends_with_extension(const std::string& path, std::string_view extension) {
   }
   return true;
 }
-
-/// Makes rings out of vertices in reading order; knows about repeated vertices, not about text.
-class RingBuilder {
-public:
-  explicit RingBuilder(Contour& contour) : contour_(contour) {}
-
-  void add(Vec2 p, int line) {
-    check_coordinates(p, contour_.source, line);
-    if (!ring_.points.empty() && ring_.points.back() == p) {
-      warn(p, line);
-      return;
-    }
-    ring_.points.push_back(p);
-    ring_.lines.push_back(line);
-  }
-
-  void end_ring() {
-    if (ring_.points.empty())
-      return;
-    if (ring_.points.size() > 1 && ring_.points.front() == ring_.points.back()) {
-      ring_.points.pop_back();
-      ring_.lines.pop_back();
-    }
-    if (const int distinct = distinct_vertices(); distinct < 3)
-      throw GeometryError(fmt::format("{}:{}: the ring that starts here at ({}, {}) has {} distinct {}; expected at "
-                                      "least 3",
-                                      contour_.source, ring_.lines[0], ring_.points[0].x, ring_.points[0].y, distinct,
-                                      distinct == 1 ? "vertex" : "vertices"));
-    contour_.rings.push_back(std::move(ring_));
-    ring_ = {};
-  }
-
-  void finish() {
-    end_ring();
-    if (contour_.rings.empty())
-      throw GeometryError(
-          fmt::format("{}: expected lines 'x y' that make a ring, found no vertex at all", contour_.source));
-    if (merged_ > most_warnings)
-      contour_.warnings.push_back(
-          fmt::format("{}: {} more repeated consecutive vertices merged", contour_.source, merged_ - most_warnings));
-  }
-
-private:
-  /// 1, 2, or 3 for three and more.
-  int distinct_vertices() const {
-    const std::vector<Vec2>& p = ring_.points;
-    std::size_t other = 1;
-    while (other < p.size() && p[other] == p[0])
-      ++other;
-    if (other >= p.size())
-      return 1;
-    for (std::size_t k = other + 1; k < p.size(); ++k)
-      if (p[k] != p[0] && p[k] != p[other])
-        return 3;
-    return 2;
-  }
-
-  void warn(Vec2 p, int line) {
-    if (++merged_ <= most_warnings)
-      contour_.warnings.push_back(fmt::format("{}:{}: vertex ({}, {}) repeats the one before it; the two are merged",
-                                              contour_.source, line, p.x, p.y));
-  }
-
-  Contour& contour_;
-  ContourRing ring_;
-  int merged_ = 0;
-};
 
 } // namespace
 
@@ -111,7 +43,7 @@ Contour parse_xy(std::string_view text, const std::string& source) {
       if (const auto vertex = reader.read(content, number))
         builder.add(*vertex, number);
   });
-  builder.finish();
+  builder.finish("lines 'x y' that make a ring");
   contour.warnings.insert(contour.warnings.begin(), reader.warnings().begin(), reader.warnings().end());
   return contour;
 }
@@ -137,16 +69,21 @@ std::vector<FilePoint> parse_points(std::string_view text, const std::string& so
 }
 
 std::string read_contour_text(const std::string& path, const std::string& hint) {
-  for (const std::string_view extension : {".poly", ".geojson", ".json"})
+  for (const std::string_view extension : {".poly", ".shp", ".kml", ".dxf", ".svg"})
     if (ends_with_extension(path, extension))
-      throw ConfigError(fmt::format("{}: contours of type '{}' cannot be read by this version; expected an '.xy' file "
-                                    "with one 'x y' per line and a blank line between rings",
+      throw ConfigError(fmt::format("{}: contours of type '{}' cannot be read by this version; expected a '.geojson' "
+                                    "file, or an '.xy' file with one 'x y' per line and a blank line between rings",
                                     path, extension));
   return read_file(path, hint);
 }
 
-Contour read_xy(const std::string& path) {
-  return parse_xy(read_contour_text(path), path);
+Contour parse_contour(std::string_view text, const std::string& source) {
+  const bool is_json = ends_with_extension(source, ".geojson") || ends_with_extension(source, ".json");
+  return is_json ? parse_geojson(text, source) : parse_xy(text, source);
+}
+
+Contour read_contour(const std::string& path) {
+  return parse_contour(read_contour_text(path), path);
 }
 
 Contour make_contour(const std::vector<std::vector<Vec2>>& rings, const std::string& source) {
@@ -159,7 +96,7 @@ Contour make_contour(const std::vector<std::vector<Vec2>>& rings, const std::str
       builder.add(p, ++number);
     builder.end_ring();
   }
-  builder.finish();
+  builder.finish("vertices that make a ring");
   return contour;
 }
 

@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A normalised contour in metres: file and report tell the way back to its coordinates, messages its lines and places."""
+"""Coordinates of users: a normalised contour in metres, whose file and report tell the way back and whose messages name
+lines and places; shapes that keep their coordinates, from text and from GeoJSON."""
+import json
 import math
 import re
 import unittest
@@ -75,6 +77,33 @@ class UserCoordinates(unittest.TestCase):
             done = run(config, "domain.x_min=0")  # a side that is given is obeyed, and the others are 0 and 1
             self.assertEqual(done.returncode, 3, done.stdout)
             self.assertRegex(done.stderr, "coast.xy.* container")
+
+    def test_a_map_in_geojson(self):
+        """Longitude and latitude of a coast with a lake, as they are: the same mesh on any ranks, mistakes by line."""
+        coast = [[8.0, 54.0], [9.5, 54.1], [9.25, 55.0], [8.25, 54.8], [8.0, 54.0]]
+        lake = [[8.5, 54.3], [8.6, 54.6], [8.9, 54.4], [8.5, 54.3]]
+        text = json.dumps({"type": "Feature", "properties": {"name": "coast"},
+                           "geometry": {"type": "Polygon", "coordinates": [coast, lake]}}, indent=1)
+        with Workspace() as directory:
+            config = directory / "job.ini"
+            config.write_text(CONFIG.replace("coast.xy", "coast.geojson").replace("normalize = true\n", ""))
+            (directory / "coast.geojson").write_text(text)
+            hashes = set()
+            for ranks in (1, 3):
+                done = run(config, f"output.directory={directory}", f"output.name=on_{ranks}", ranks=ranks)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                with h5py.File(directory / f"on_{ranks}.h5", "r") as file:
+                    hashes.add(int(file["trime_mpi"].attrs["mesh_hash"]))
+                    points = file["Mesh/mesh/geometry"][:]
+                for vertex in coast + lake:
+                    self.assertLess(numpy.abs(points - vertex).max(axis=1).min(), 1e-9)
+            self.assertEqual(len(hashes), 1)
+            crossed = text.replace("8.25", "9.99")  # the ring crosses itself
+            (directory / "coast.geojson").write_text(crossed)
+            for ranks in (1, 3):
+                done = run(config, "--validate", ranks=ranks)
+                self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
+                self.assertRegex(done.stderr, r"coast\.geojson:\d+")
 
 
 if __name__ == "__main__":

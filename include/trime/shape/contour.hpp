@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contours: rings of vertices as users draw them, read from `.xy` text, and their place in the container.
+// Contours: rings of vertices as users draw them, read from `.xy` text or GeoJSON, and their place in the container.
 // Reading and parsing are apart, so that one rank can read the bytes and all ranks parse the same text.
 #pragma once
 
@@ -25,7 +25,7 @@ struct Contour {
 };
 
 /// @brief Bytes of a contour file. `hint` ends the message if it cannot be opened.
-/// @throws ConfigError for `.poly` and `.geojson`, which this version does not read; FileError if it cannot be read
+/// @throws ConfigError for `.poly`, `.shp` and others that this version does not read; FileError if it cannot be read
 std::string read_contour_text(const std::string& path, const std::string& hint = "");
 
 /// @brief Rings of `.xy` text: one `x y` a line, a blank line or one that starts with `>` ends a ring, `#` and `;`
@@ -48,8 +48,17 @@ struct FilePoint {
 /// @throws GeometryError `source:line: ...` for a line that is not two finite numbers, or without any point
 std::vector<FilePoint> parse_points(std::string_view text, const std::string& source);
 
-/// read_contour_text and parse_xy.
-Contour read_xy(const std::string& path);
+/// @brief Rings of the polygons of a GeoJSON text (RFC 7946): a geometry, a feature, or a collection of them. Closed
+/// lines are rings, too. Points and what lies outside of `coordinates` mean nothing. Numbers are taken as they
+/// are, as coordinates in a plane.
+/// @throws GeometryError `source:line: ...` for text that is no JSON, a position without two numbers, an open line, a
+/// text without polygons
+Contour parse_geojson(std::string_view text, const std::string& source);
+
+/// parse_geojson for a source that ends in `.geojson` or `.json`, else parse_xy.
+Contour parse_contour(std::string_view text, const std::string& source);
+/// read_contour_text and parse_contour.
+Contour read_contour(const std::string& path);
 
 /// @brief A contour from rings made by a program; vertices are counted from 1 through all rings in place of lines.
 /// @throws GeometryError as parse_xy

@@ -285,10 +285,10 @@ TEST(Contour, WarnsOfSeparatePiecesButNotOfHoles) {
 }
 
 TEST(Contour, FileErrors) {
-  EXPECT_NE(message_of<FileError>([] { read_xy("no/such/file.xy"); }).find("no/such/file.xy"), std::string::npos);
-  EXPECT_NE(message_of<FileError>([] { read_xy("."); }), "");
-  EXPECT_NE(message_of<ConfigError>([] { read_xy("a.poly"); }).find(".poly"), std::string::npos);
-  EXPECT_NE(message_of<ConfigError>([] { read_xy("a.GeoJSON"); }).find(".geojson"), std::string::npos);
+  EXPECT_NE(message_of<FileError>([] { read_contour("no/such/file.xy"); }).find("no/such/file.xy"), std::string::npos);
+  EXPECT_NE(message_of<FileError>([] { read_contour("."); }), "");
+  EXPECT_NE(message_of<ConfigError>([] { read_contour("a.poly"); }).find(".poly"), std::string::npos);
+  EXPECT_NE(message_of<ConfigError>([] { read_contour("a.SHP"); }).find(".geojson"), std::string::npos);
 }
 
 TEST(Contour, ReadsAFile) {
@@ -297,8 +297,8 @@ TEST(Contour, ReadsAFile) {
   ASSERT_NE(file, nullptr);
   std::fputs("0 0\n1 0\n0 1\n", file);
   std::fclose(file);
-  EXPECT_EQ(read_xy(path).rings[0].points.size(), 3u);
-  EXPECT_EQ(read_xy(path).source, path);
+  EXPECT_EQ(read_contour(path).rings[0].points.size(), 3u);
+  EXPECT_EQ(read_contour(path).source, path);
   std::remove(path.c_str());
 }
 

@@ -33,7 +33,7 @@ std::string config_file(const std::string& name) {
 }
 
 Part normalized(const std::string& name, const std::string& path) {
-  const Contour contour = read_xy(path);
+  const Contour contour = read_contour(path);
   return Part::contour(name, contour, fit_to_container(contour, unit_frame.container()), unit_frame);
 }
 
@@ -124,7 +124,7 @@ double length_of(const std::vector<Vec2>& ring) {
 
 TEST(Shape, SpadeMinusCircle) {
   const std::string path = config_file("spade.xy");
-  const Contour contour = read_xy(path);
+  const Contour contour = read_contour(path);
   const double scale = fit_to_container(contour, unit_frame.container()).scale;
   const RegionShape shape({normalized("spade", path), Part::circle("hole", {0.5, 0.6}, 0.1, unit_frame)},
                           "difference(spade, hole)", unit_frame);
@@ -150,7 +150,7 @@ TEST(Shape, RaggedContourWithManyVerticesAndLakes) {
     file << "\n";
   }
   file.close();
-  const Contour contour = read_xy(path);
+  const Contour contour = read_contour(path);
   ASSERT_EQ(contour.rings.size(), rings.size());
   const Normalization fit = fit_to_container(contour, unit_frame.container());
   const RegionShape shape({Part::contour("map", contour, fit, unit_frame)}, "map", unit_frame);
