@@ -182,9 +182,20 @@ double Communicator::max(double value) const {
 }
 
 std::int64_t Communicator::exclusive_scan(std::int64_t value) const {
-  std::int64_t before = 0;
-  check(MPI_Exscan(&value, &before, 1, MPI_INT64_T, MPI_SUM, collective(*native_)));
-  return rank_ == 0 ? 0 : before;
+  const MPI_Comm comm = collective(*native_);
+  std::int64_t before =
+      0; // not by MPI_Exscan: ranks take turns in that of Open MPI, and send to all others in SimGrid's
+  for (int distance = 1; distance < size_;
+       distance *= 2) { // then `before + value` sums `distance` ranks up to this one
+    const int lower = rank_ >= distance ? rank_ - distance : MPI_PROC_NULL;
+    const int higher = rank_ + distance < size_ ? rank_ + distance : MPI_PROC_NULL;
+    const std::int64_t sum = before + value;
+    std::int64_t theirs = 0;
+    check(MPI_Sendrecv(&sum, 1, MPI_INT64_T, higher, tag_scan, &theirs, 1, MPI_INT64_T, lower, tag_scan, comm,
+                       MPI_STATUS_IGNORE));
+    before += theirs;
+  }
+  return before;
 }
 
 std::vector<std::int64_t> Communicator::all_gather(std::int64_t value) const {

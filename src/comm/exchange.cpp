@@ -8,8 +8,6 @@
 namespace trime::comm {
 namespace {
 
-enum Tag : int { tag_known = 101, tag_size = 102, tag_bundle = 103 };
-
 /// [bytes] A message up to this size travels in the bundles of exchange_any, passed on from rank to rank; of a longer
 /// one only the size. So nothing long travels more than once.
 constexpr std::size_t most_passed_on = 4096;

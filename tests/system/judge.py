@@ -86,7 +86,8 @@ def input_rings(file, rings):
         raise ValueError(f"one contour was expected in the config, found {len(contours)}")
     if ini[contours[0]].get("normalize", "false") != "true":
         return rings
-    sides = {name: ini.getfloat("domain", name, fallback=value) for name, value in CONTAINER.items()}
+    given = {name: ini.get("domain", name, fallback="auto") for name in CONTAINER}
+    sides = {name: CONTAINER[name] if text == "auto" else float(text) for name, text in given.items()}
     return normalized(rings, (sides["x_min"], sides["y_min"]), (sides["x_max"], sides["y_max"]))
 
 

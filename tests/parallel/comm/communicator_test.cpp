@@ -15,7 +15,9 @@ TEST(Communicator, ReducesAndScans) {
   const std::int64_t n = comm.size();
   EXPECT_EQ(comm.sum(std::int64_t{comm.rank()}), n * (n - 1) / 2);
   EXPECT_EQ(comm.max(std::int64_t{comm.rank()}), n - 1);
-  EXPECT_EQ(comm.exclusive_scan(2), 2 * comm.rank());
+  const std::int64_t rank = comm.rank();
+  EXPECT_EQ(comm.exclusive_scan(2), 2 * rank);
+  EXPECT_EQ(comm.exclusive_scan(rank * rank), (rank - 1) * rank * (2 * rank - 1) / 6); // of squares below rank^2
   EXPECT_EQ(comm.all_gather(std::int64_t{comm.rank()}).back(), n - 1);
 }
 
