@@ -54,6 +54,12 @@ public:
     left_ = left_.subspan(values.size_bytes());
   }
   template <class T>
+  T take() {
+    T value;
+    take(std::span<T>(&value, 1));
+    return value;
+  }
+  template <class T>
   std::vector<T> take(std::size_t n) {
     std::vector<T> values(n);
     take(std::span<T>(values));
@@ -134,6 +140,8 @@ void Halo::reset(const Partition& partition, int margin) {
   partition_ = partition;
   imports_.clear();
   exports_.clear();
+  inward_.clear();
+  outward_.clear();
   std::vector<BinRef> wanted;
   for (LocalIndex tile = partition.first_tile(comm_->rank()); tile < partition.last_tile(comm_->rank()); ++tile)
     list_bins_around(tile, margin, wanted);
@@ -202,6 +210,7 @@ void Halo::extend(mesh::BinnedPoints& points, std::vector<BinRef> missing, std::
   const std::vector<Message> arrived = comm_->exchange_any(replies); // as many as were asked, in the same order
   for (std::size_t k = 0; k < requests.size(); ++k)
     add_described(arrived[k].data, requests[k].bins, points, sizes);
+  find_routes(points);
   comm_->counters().note(Counter::ghosts, points.size() - points.owned());
 }
 
@@ -226,39 +235,56 @@ void Halo::refresh(mesh::BinnedPoints& points) {
         {message.peer, std::vector<std::byte>(sum_of(comm::from_bytes<std::int32_t>(message.data)) * sizeof(Ghost))});
   comm_->exchange_known(sites_out, sites_in);
   points.assign_ghosts(imported, concatenate<std::int32_t>(counts_in), concatenate<Ghost>(sites_in));
+  find_routes(points);
   comm_->counters().note(Counter::ghosts, points.size() - points.owned());
 }
 
-/// Ghosts that come from a peer.
-std::size_t Halo::ghosts_of(const mesh::BinnedPoints& points, const Peer& peer) const {
-  std::size_t sites = 0;
-  for (const BinRef& bin : peer.bins) {
-    const auto [begin, end] = points.bin_range(bin);
-    sites += static_cast<std::size_t>(end - begin);
+/// Where that lies which a peer gets or sends; bins whose sites follow each other share a range.
+Halo::Route Halo::route_of(const mesh::BinnedPoints& points, const Peer& peer, bool exported) {
+  Route route{peer.rank, {}, {}, 0};
+  for (std::size_t k = 0; k < peer.bins.size(); ++k) {
+    const BinRef& bin = peer.bins[k];
+    if (k == 0 || bin.tile != peer.bins[k - 1].tile)
+      route.tiles.push_back(points.known_tile(bin.tile));
+    const mesh::SiteRange range = exported ? sites_of(points, bin) : points.bin_range(bin);
+    if (range.begin == range.end)
+      continue;
+    route.site_count += at(range.end - range.begin);
+    if (!route.ranges.empty() && route.ranges.back().end == range.begin)
+      route.ranges.back().end = range.end;
+    else
+      route.ranges.push_back(range);
   }
-  return sites;
+  return route;
+}
+
+/// @pre the ghosts are those of all subscribed bins
+void Halo::find_routes(const mesh::BinnedPoints& points) {
+  outward_.clear();
+  inward_.clear();
+  for (const Peer& peer : exports_)
+    outward_.push_back(route_of(points, peer, true));
+  for (const Peer& peer : imports_)
+    inward_.push_back(route_of(points, peer, false));
 }
 
 template <class T>
 std::vector<T> Halo::exchange_values(const mesh::BinnedPoints& points, std::span<const T> owned_values) const {
   std::vector<Message> outgoing, incoming;
-  for (const Peer& peer : exports_) {
-    outgoing.push_back({peer.rank, {}});
-    for (const BinRef& bin : peer.bins) {
-      const auto [begin, end] = sites_of(points, bin);
+  for (const Route& route : outward_) {
+    outgoing.push_back({route.rank, {}});
+    outgoing.back().data.reserve(route.site_count * sizeof(T));
+    for (const auto [begin, end] : route.ranges)
       append(outgoing.back().data, owned_values.subspan(at(begin), at(end - begin)));
-    }
   }
-  for (const Peer& peer : imports_)
-    incoming.push_back({peer.rank, std::vector<std::byte>(ghosts_of(points, peer) * sizeof(T))});
+  for (const Route& route : inward_)
+    incoming.push_back({route.rank, std::vector<std::byte>(route.site_count * sizeof(T))});
   comm_->exchange_known(outgoing, incoming);
   std::vector<T> values(at(points.size() - points.owned()));
   for (std::size_t m = 0; m < incoming.size(); ++m) {
     Reader reader(incoming[m].data);
-    for (const BinRef& bin : imports_[m].bins) {
-      const auto [begin, end] = points.bin_range(bin);
+    for (const auto [begin, end] : inward_[m].ranges)
       reader.take(std::span(values).subspan(at(begin - points.owned()), at(end - begin)));
-    }
   }
   return values;
 }
@@ -286,15 +312,14 @@ std::vector<int> Halo::peers() const {
 std::vector<GhostNews> Halo::tell_owners(const mesh::BinnedPoints& points, std::span<const LocalIndex> ghosts,
                                          std::span<const GhostNews> news) const {
   struct Source {
-    LocalIndex first; // ghost of a bin
+    LocalIndex first; // of a range of ghosts
     int rank;
   };
   std::vector<Source> sources; // ascending
   if (!ghosts.empty())
-    for (const Peer& peer : imports_)
-      for (const BinRef& bin : peer.bins)
-        if (const auto [begin, end] = points.bin_range(bin); begin < end)
-          sources.push_back({begin, peer.rank});
+    for (const Route& route : inward_)
+      for (const mesh::SiteRange& range : route.ranges)
+        sources.push_back({range.begin, route.rank});
   std::sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) { return a.first < b.first; });
   std::vector<Message> outgoing;
   for (std::size_t k = 0; k < ghosts.size(); ++k) {
@@ -310,31 +335,26 @@ std::vector<GhostNews> Halo::tell_owners(const mesh::BinnedPoints& points, std::
   return concatenate<GhostNews>(comm::exchange_among(*comm_, peers(), outgoing));
 }
 
-bool Halo::begins_tile(const Peer& peer, std::size_t k) {
-  return k == 0 || peer.bins[k].tile != peer.bins[k - 1].tile;
-}
-
-/// For each tile of a peer its drift, then the positions of its sites.
+/// The drifts of all tiles of a peer, then the positions of its sites.
 void Halo::begin_positions(const mesh::BinnedPoints& points) {
   TRIME_ASSERT(!grid_->periods().any() && !exchange_.is_open());
+  const auto bytes_of = [](const Route& route) {
+    return route.tiles.size() * sizeof(double) + route.site_count * sizeof(geometry::Vec2);
+  };
   std::vector<Message> outgoing;
-  for (const Peer& peer : exports_) {
-    outgoing.push_back({peer.rank, {}});
+  for (const Route& route : outward_) {
+    outgoing.push_back({route.rank, {}});
     std::vector<std::byte>& data = outgoing.back().data;
-    for (std::size_t k = 0; k < peer.bins.size(); ++k) {
-      if (begins_tile(peer, k))
-        append(data, points.drifts().of(points.known_tile(peer.bins[k].tile)));
-      const auto [begin, end] = sites_of(points, peer.bins[k]);
+    data.reserve(bytes_of(route));
+    for (const LocalIndex tile : route.tiles)
+      append(data, points.drifts().of(tile));
+    for (const auto [begin, end] : route.ranges)
       append(data, points.positions().subspan(at(begin), at(end - begin)));
-    }
   }
-  positions_.clear();
-  for (const Peer& peer : imports_) {
-    std::size_t tiles = 0;
-    for (std::size_t k = 0; k < peer.bins.size(); ++k)
-      tiles += begins_tile(peer, k);
-    positions_.push_back(
-        {peer.rank, std::vector<std::byte>(tiles * sizeof(double) + ghosts_of(points, peer) * sizeof(geometry::Vec2))});
+  positions_.resize(inward_.size()); // with the memory of the last time
+  for (std::size_t m = 0; m < inward_.size(); ++m) {
+    positions_[m].peer = inward_[m].rank;
+    positions_[m].data.resize(bytes_of(inward_[m]));
   }
   exchange_ = comm_->begin_exchange(std::move(outgoing), positions_);
 }
@@ -345,15 +365,11 @@ void Halo::finish_positions(mesh::BinnedPoints& points) {
   comm_->counters().note(Counter::ghosts, std::ssize(ghosts));
   for (std::size_t m = 0; m < positions_.size(); ++m) {
     Reader reader(positions_[m].data);
-    for (std::size_t k = 0; k < imports_[m].bins.size(); ++k) {
-      const BinRef& bin = imports_[m].bins[k];
-      if (begins_tile(imports_[m], k))
-        points.drifts().set(points.known_tile(bin.tile), reader.take<double>(1).front());
-      const auto [begin, end] = points.bin_range(bin);
+    for (const LocalIndex tile : inward_[m].tiles)
+      points.drifts().set(tile, reader.take<double>());
+    for (const auto [begin, end] : inward_[m].ranges)
       reader.take(ghosts.subspan(at(begin - points.owned()), at(end - begin)));
-    }
   }
-  positions_.clear();
 }
 
 } // namespace trime::decomposition

@@ -62,10 +62,17 @@ private:
     int rank;
     std::vector<mesh::BinRef> bins; // ascending
   };
+  /// Where the sites of all bins of a peer lie, until sites are sorted or the halo grows.
+  struct Route {
+    int rank;
+    std::vector<mesh::SiteRange> ranges;
+    std::vector<LocalIndex> tiles; // known tiles that these bins are of
+    std::size_t site_count;
+  };
+  static Route route_of(const mesh::BinnedPoints& points, const Peer& peer, bool exported);
+  void find_routes(const mesh::BinnedPoints& points);
   template <class T>
   std::vector<T> exchange_values(const mesh::BinnedPoints& points, std::span<const T> owned_values) const;
-  std::size_t ghosts_of(const mesh::BinnedPoints& points, const Peer& peer) const;
-  static bool begins_tile(const Peer& peer, std::size_t k);
   void list_bins_around(LocalIndex tile, int margin, std::vector<mesh::BinRef>& wanted) const;
   std::vector<Peer> by_owner(std::vector<mesh::BinRef> bins) const;
   std::vector<int> peers() const;
@@ -75,6 +82,7 @@ private:
   const mesh::TileGrid* grid_;
   Partition partition_;
   std::vector<Peer> imports_, exports_;  // ascending by rank
+  std::vector<Route> inward_, outward_;  // of the imports and of the exports
   std::vector<comm::Message> positions_; // on their way, one message per import
   comm::Communicator::Exchange exchange_;
 };
