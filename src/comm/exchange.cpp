@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Messages between ranks: with peers that are known, and with peers of which only the sender knows.
+#include "comm/message_head.hpp"
 #include "comm/mpi_call.hpp"
 #include "trime/comm/communicator.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace trime::comm {
 namespace {
@@ -89,26 +91,29 @@ private:
     return away;
   }
 
+  /// One message each way; a second one of what does not fit into its head.
   void swap(int target, const Bundle& away, const std::vector<int>& sources) {
-    const auto own_size = static_cast<std::int64_t>(away.size());
-    std::vector<std::int64_t> sizes(sources.size());
-    std::vector<MPI_Request> requests(sources.size() + 1);
-    for (std::size_t k = 0; k < sources.size(); ++k)
-      check(MPI_Irecv(&sizes[k], 1, MPI_INT64_T, sources[k], tag_size, native_.comm, &requests[k]));
-    count_message(native_, target, sizeof own_size);
-    check(MPI_Isend(&own_size, 1, MPI_INT64_T, target, tag_size, native_.comm, &requests.back()));
-    check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
-    std::vector<Message> incoming;
-    for (std::size_t k = 0; k < sources.size(); ++k)
-      incoming.push_back({sources[k], Bundle(static_cast<std::size_t>(sizes[k]))});
-    requests.clear();
+    std::vector<Message> incoming, rests;
+    for (const int source : sources)
+      incoming.push_back({source, Bundle(head_bytes)});
+    const Message head{target, head_of(away)};
+    exchange(head, tag_head, incoming);
+    for (Message& message : incoming)
+      rests.push_back({message.peer, Bundle(open_head(message.data))});
+    const std::span<const std::byte> more = rest_of(away);
+    exchange({target, {more.begin(), more.end()}}, tag_bundle, rests);
+    for (std::size_t k = 0; k < incoming.size(); ++k)
+      for (const Bundle& part : {std::cref(incoming[k].data), std::cref(rests[k].data)})
+        bundle_.insert(bundle_.end(), part.begin(), part.end());
+  }
+
+  /// Empty messages are not sent. What arrives may be shorter than the room for it.
+  void exchange(const Message& outgoing, int tag, const std::vector<Message>& incoming) const {
+    std::vector<MPI_Request> requests;
     for (const Message& message : incoming)
-      post(message, false, tag_bundle, native_, requests);
-    const Message outgoing{target, away};
-    post(outgoing, true, tag_bundle, native_, requests);
+      post(message, false, tag, native_, requests);
+    post(outgoing, true, tag, native_, requests);
     check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
-    for (const Message& message : incoming)
-      bundle_.insert(bundle_.end(), message.data.begin(), message.data.end());
   }
 
   const Communicator& comm_;

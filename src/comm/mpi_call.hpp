@@ -12,7 +12,7 @@
 namespace trime::comm {
 
 /// What a message is part of.
-enum Tag : int { tag_known = 101, tag_size = 102, tag_bundle = 103, tag_scan = 104 };
+enum Tag : int { tag_known = 101, tag_head = 102, tag_bundle = 103, tag_scan = 104 };
 
 /// The only place that looks at MPI return codes.
 inline void check(int code) {

@@ -1,31 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "comm/neighbours.hpp"
 
+#include "comm/message_head.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 namespace trime::comm {
 namespace {
 
-/// The first part of a message with the size of all of it before: small enough for MPI to send it at once.
-constexpr std::size_t head_bytes = 4096;
-using Size = std::uint64_t;
-constexpr std::size_t most_in_head = head_bytes - sizeof(Size);
-
-std::vector<std::byte> head_of(std::span<const std::byte> data) {
-  const Size size = data.size();
-  std::vector<std::byte> head(sizeof size + std::min(data.size(), most_in_head));
-  std::memcpy(head.data(), &size, sizeof size);
-  std::copy_n(data.begin(), head.size() - sizeof size, head.begin() + sizeof size);
-  return head;
-}
-
 /// What follows the head, if anything does.
 void add_rest(int peer, std::span<const std::byte> data, std::vector<Message>& rests) {
-  if (data.size() > most_in_head)
-    rests.push_back({peer, {data.begin() + most_in_head, data.end()}});
+  if (const std::span<const std::byte> rest = rest_of(data); !rest.empty())
+    rests.push_back({peer, {rest.begin(), rest.end()}});
 }
 
 } // namespace
@@ -45,12 +32,8 @@ std::vector<Message> exchange_among(const Communicator& comm, std::span<const in
                  "a message for rank {}, which is none of the {} peers", message.peer, peers.size());
   comm.exchange_known(heads, incoming);
   for (Message& message : incoming) {
-    Size size = 0;
-    std::memcpy(&size, message.data.data(), sizeof size);
-    message.data.erase(message.data.begin(), message.data.begin() + sizeof size);
-    message.data.resize(std::min<std::size_t>(size, most_in_head));
-    if (size > most_in_head)
-      more.push_back({message.peer, std::vector<std::byte>(size - most_in_head)});
+    if (const std::size_t left = open_head(message.data); left > 0)
+      more.push_back({message.peer, std::vector<std::byte>(left)});
   }
   comm.exchange_known(rests, more);
   for (const Message& rest : more) {

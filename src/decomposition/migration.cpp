@@ -87,7 +87,13 @@ void migrate(const comm::Communicator& comm, const mesh::TileGrid& grid, const P
   std::vector<comm::Message> outgoing;
   for (const auto& [rank, list] : leaving)
     outgoing.push_back({rank, comm::to_bytes(std::span<const mesh::Site>(list))});
-  for (const comm::Message& message : comm.exchange_any(outgoing)) {
+  const std::vector<comm::Message> incoming = comm.exchange_any(outgoing);
+  std::size_t bytes = 0;
+  for (const comm::Message& message : incoming)
+    bytes += message.data.size();
+  if (const std::size_t all = sites.size() + bytes / sizeof(mesh::Site); all > sites.capacity())
+    sites.reserve(all); // no more: what grows by itself doubles
+  for (const comm::Message& message : incoming) {
     const std::vector<mesh::Site> arrived = comm::from_bytes<mesh::Site>(message.data);
     sites.insert(sites.end(), arrived.begin(), arrived.end());
     comm.counters().add(Counter::sites_migrated, std::ssize(arrived));

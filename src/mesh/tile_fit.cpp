@@ -12,8 +12,6 @@ public:
   Fit(const TileGrid& grid, std::span<const std::int64_t> weights, std::int64_t most)
       : grid_(grid), most_(most), before_(weights.size() + 1, 0) {
     std::partial_sum(weights.begin(), weights.end(), before_.begin() + 1);
-    for (const Tile& tile : grid.tiles())
-      start_.push_back(tile.on_curve().key << (2 * tile.shift));
   }
 
   /// The tiles [first, last) fill a square.
@@ -28,9 +26,7 @@ public:
       divide(square, weight);
     } else {
       for (const CurveSquare& quarter : grid_.quarters(square)) {
-        const std::uint64_t final_key = ((quarter.key + 1) << (2 * (32 - quarter.level))) - 1;
-        const auto end = std::upper_bound(start_.begin() + first, start_.begin() + last, final_key);
-        const auto next = static_cast<LocalIndex>(end - start_.begin());
+        const LocalIndex next = end_in(quarter, first, last);
         visit(quarter, first, next);
         first = next;
       }
@@ -39,6 +35,15 @@ public:
   WeightedTiles result() { return std::move(fit_); }
 
 private:
+  /// How far the tiles of a quarter go, which come first: by their places, since a key on the curve takes longer.
+  LocalIndex end_in(const CurveSquare& quarter, LocalIndex first, LocalIndex last) const {
+    const int shift = 32 - quarter.level;
+    const auto begin = grid_.tiles().begin();
+    const auto end = std::partition_point(begin + first, begin + last, [&](const Tile& tile) {
+      return tile.x >> shift == quarter.x && tile.y >> shift == quarter.y;
+    });
+    return static_cast<LocalIndex>(end - begin);
+  }
   /// Deeper at once where a tile is far too heavy: what is too light joins again.
   void divide(const CurveSquare& square, std::int64_t weight) {
     fit_.divided = true;
@@ -54,7 +59,6 @@ private:
   const TileGrid& grid_;
   std::int64_t most_;
   std::vector<std::int64_t> before_; // weights of the tiles before each; all of them
-  std::vector<std::uint64_t> start_; // where the curve comes into each tile
   WeightedTiles fit_;
 };
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace trime::start {
@@ -32,6 +31,24 @@ std::pair<double, double> clip_line(Vec2 from, Vec2 direction, const geometry::B
   clip(from.x, direction.x, box.min.x, box.max.x);
   clip(from.y, direction.y, box.min.y, box.max.y);
   return {low, high};
+}
+
+/// The last row or column from `first` on up to a limit, and no more than one period of them.
+std::int64_t last_of(std::int64_t first, double limit, std::int64_t period) {
+  const auto last = static_cast<std::int64_t>(std::ceil(limit));
+  return period > 0 ? std::min(last, first + period - 1) : last;
+}
+
+/// Into the first period, if there is one.
+std::int64_t reduced(std::int64_t k, std::int64_t period) {
+  return period > 0 ? (k % period + period) % period : k;
+}
+
+std::int64_t count_of(const std::vector<LatticeRun>& runs) {
+  std::int64_t n = 0;
+  for (const LatticeRun& run : runs)
+    n += run.last - run.first + 1;
+  return n;
 }
 
 } // namespace
@@ -84,17 +101,59 @@ bool LatticeStart::is_clear(const mesh::TileGrid& grid, LocalIndex tile, double 
   return guard_.distance(middle, reach) >= reach && guard_.inside(middle);
 }
 
-/// Visits the lattice sites of one tile, row by row. A site belongs to the tile of its snapped coordinates; rows and
-/// columns reach a little beyond the tile's box, so rounding cannot lose any. Rows and columns of a periodic lattice
-/// are reduced to the first so many, so that a site has one position from wherever it is seen.
-/// @param visit visit(first, last, site): the sites site(first) .. site(last) of one row
-template <class Visit>
-void LatticeStart::for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile, const RowLattice& rows, double spacing,
-                                    const Visit& visit) const {
+/// Columns of a periodic lattice are reduced to the first so many, so that a site has one position from wherever it is
+/// seen.
+Vec2 LatticeStart::site(const RowLattice& rows, std::int64_t row, std::int64_t column) const {
+  const Vec2 start = rows.origin + (static_cast<double>(row) * rows.height) * geometry::left_normal(rows.along);
+  const double along = (static_cast<double>(reduced(column, rows.columns)) + rows.shift(row)) * rows.spacing;
+  return periods_.wrap(lattice_.snap(start + along * rows.along));
+}
+
+/// Inside, and not in the strip along the boundary.
+bool LatticeStart::is_free(Vec2 p, double spacing) const {
+  if (!guard_.inside(p))
+    return false;
+  const double free = StartRules::lattice_strip * spacing;
+  // Where even the lower bound is far enough, no disc is near: one look-up does for nearly all.
+  return guard_.distance_below(p, free) >= free || (guard_.distance(p, free) >= free && !guard_.encroaches(p));
+}
+
+/// Adds what is free of a run to the others of its row. Halves of it that are clear of the boundary are in or out as a
+/// whole.
+void LatticeStart::add_row(const RowLattice& rows, LatticeRun row, double spacing,
+                           std::vector<LatticeRun>& runs) const {
+  const auto add = [&](std::int64_t first, std::int64_t last) {
+    if (!runs.empty() && runs.back().row == row.row && runs.back().last + 1 == first)
+      runs.back().last = last;
+    else
+      runs.push_back({row.row, first, last});
+  };
+  const std::int64_t sites = row.last - row.first + 1;
+  if (periods_.any() || sites <= StartRules::shortest_half) {
+    for (std::int64_t column = row.first; column <= row.last; ++column)
+      if (is_free(site(rows, row.row, column), spacing))
+        add(column, column);
+    return;
+  }
+  const std::int64_t middle = row.first + sites / 2;
+  const Vec2 p = site(rows, row.row, middle);
+  const double reach = (static_cast<double>(sites / 2) + 2) * spacing;
+  if (guard_.distance_below(p, reach) < reach) {
+    add_row(rows, {row.row, row.first, middle - 1}, spacing, runs);
+    add_row(rows, {row.row, middle, row.last}, spacing, runs);
+  } else if (guard_.inside(p)) {
+    add(row.first, row.last);
+  }
+}
+
+/// The lattice sites of one tile, row by row. A site belongs to the tile of its snapped coordinates; rows and columns
+/// reach a little beyond the tile's box, so rounding cannot lose any.
+std::vector<LatticeRun> LatticeStart::runs_in(const mesh::TileGrid& grid, LocalIndex tile, const RowLattice& rows,
+                                              double spacing) const {
+  std::vector<LatticeRun> runs;
   geometry::Box box = grid.tile_box(tile);
   box = {box.min - Vec2{0.1 * spacing, 0.1 * spacing}, box.max + Vec2{0.1 * spacing, 0.1 * spacing}};
   const Vec2 across = geometry::left_normal(rows.along);
-  const double free = StartRules::lattice_strip * spacing;
   double low = INFINITY, high = -INFINITY, begin = INFINITY, end = -INFINITY;
   for (const Vec2 corner : {box.min, Vec2{box.max.x, box.min.y}, box.max, Vec2{box.min.x, box.max.y}}) {
     low = std::min(low, geometry::dot(corner - rows.origin, across));
@@ -103,13 +162,6 @@ void LatticeStart::for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile,
     end = std::max(end, geometry::dot(corner - rows.origin, rows.along));
   }
   const bool clear = is_clear(grid, tile, spacing);
-  const auto last_of = [](std::int64_t first, double limit, std::int64_t period) {
-    const auto last = static_cast<std::int64_t>(std::ceil(limit));
-    return period > 0 ? std::min(last, first + period - 1) : last;
-  };
-  const auto reduced = [](std::int64_t k, std::int64_t period) {
-    return period > 0 ? (k % period + period) % period : k;
-  };
   const auto first_row = static_cast<std::int64_t>(std::floor(low / rows.height));
   for (std::int64_t j = first_row; j <= last_of(first_row, high / rows.height, rows.rows); ++j) {
     const std::int64_t row = reduced(j, rows.rows);
@@ -120,72 +172,66 @@ void LatticeStart::for_each_in_tile(const mesh::TileGrid& grid, LocalIndex tile,
       continue;
     auto column = static_cast<std::int64_t>(std::floor(first / rows.spacing - shift));
     std::int64_t last_column = last_of(column, last / rows.spacing - shift, rows.columns);
-    const auto site = [&](std::int64_t i) {
-      const double along = (static_cast<double>(reduced(i, rows.columns)) + shift) * rows.spacing;
-      return periods_.wrap(lattice_.snap(start + along * rows.along));
+    const auto in_tile = [&](std::int64_t i) {
+      const Vec2 p = site(rows, row, i);
+      return grid.container().contains(p) && grid.place(p).tile == tile;
     };
-    const auto in_tile = [&](Vec2 p) { return grid.container().contains(p) && grid.place(p).tile == tile; };
-    if (clear) {
-      while (column <= last_column && !in_tile(site(column)))
-        ++column;
-      while (column < last_column && !in_tile(site(last_column)))
-        --last_column;
-      if (column <= last_column)
-        visit(column, last_column, site);
+    if (periods_.any()) { // a row may come into the tile again
+      for (; column <= last_column; ++column)
+        if (in_tile(column))
+          add_row(rows, {row, column, column}, spacing, runs);
       continue;
     }
-    for (; column <= last_column; ++column) {
-      const Vec2 p = site(column);
-      if (!in_tile(p) || !guard_.inside(p))
-        continue;
-      // Where even the lower bound is far enough, no disc is near: one look-up does for nearly all.
-      if (guard_.distance_below(p, free) < free && (guard_.distance(p, free) < free || guard_.encroaches(p)))
-        continue;
-      visit(column, column, site);
-    }
+    while (column <= last_column && !in_tile(column))
+      ++column;
+    while (column < last_column && !in_tile(last_column))
+      --last_column;
+    if (column <= last_column && clear)
+      runs.push_back({row, column, last_column});
+    else if (column <= last_column)
+      add_row(rows, {row, column, last_column}, spacing, runs);
   }
+  return runs;
 }
 
-mesh::SiteList LatticeStart::sites(const mesh::TileRange& tiles, double spacing, std::size_t more) const {
+LatticeRuns LatticeStart::runs(const mesh::TileRange& tiles, double spacing) const {
+  LatticeRuns all{spacing, {}};
   const RowLattice rows = rows_of(spacing);
   if (!(rows.spacing > 0))
-    return {};
-  std::vector<std::int64_t> before = counts(tiles, rows, spacing);
-  before.push_back(0);
-  std::exclusive_scan(before.begin(), before.end(), before.begin(), std::int64_t{0});
-  const auto n = static_cast<std::size_t>(before.back());
-  mesh::SiteList all;
-  all.reserve(n + more);
-  all.resize(n);
+    return all;
+  all.of_tile.resize(static_cast<std::size_t>(tiles.last - tiles.first));
   thread_loop(tiles.last - tiles.first, 1, [&](std::ptrdiff_t t, int) {
-    auto to = all.begin() + static_cast<std::ptrdiff_t>(before[static_cast<std::size_t>(t)]);
-    for_each_in_tile(tiles.grid, tiles.first + static_cast<LocalIndex>(t), rows, spacing,
-                     [&](std::int64_t column, std::int64_t last, const auto& site) {
-                       for (; column <= last; ++column, ++to)
-                         *to = {site(column)};
-                     });
+    all.of_tile[static_cast<std::size_t>(t)] =
+        runs_in(tiles.grid, tiles.first + static_cast<LocalIndex>(t), rows, spacing);
   });
   return all;
 }
 
-std::vector<std::int64_t> LatticeStart::counts(const mesh::TileRange& tiles, const RowLattice& rows,
-                                               double spacing) const {
-  std::vector<std::int64_t> of_tile(static_cast<std::size_t>(tiles.last - tiles.first), 0);
-  thread_loop(tiles.last - tiles.first, 1, [&](std::ptrdiff_t t, int) {
-    for_each_in_tile(tiles.grid, tiles.first + static_cast<LocalIndex>(t), rows, spacing,
-                     [&](std::int64_t column, std::int64_t last, const auto&) {
-                       of_tile[static_cast<std::size_t>(t)] += last - column + 1;
-                     });
+mesh::SiteList LatticeStart::sites(const LatticeRuns& runs, std::size_t more) const {
+  const RowLattice rows = rows_of(runs.spacing);
+  std::vector<std::int64_t> before;
+  std::int64_t n = 0;
+  for (const std::vector<LatticeRun>& of_tile : runs.of_tile) {
+    before.push_back(n);
+    n += count_of(of_tile);
+  }
+  mesh::SiteList all;
+  all.reserve(static_cast<std::size_t>(n) + more);
+  all.resize(static_cast<std::size_t>(n));
+  thread_loop(std::ssize(before), 1, [&](std::ptrdiff_t t, int) {
+    auto to = all.begin() + static_cast<std::ptrdiff_t>(before[static_cast<std::size_t>(t)]);
+    for (const LatticeRun& run : runs.of_tile[static_cast<std::size_t>(t)])
+      for (std::int64_t column = run.first; column <= run.last; ++column, ++to)
+        *to = {site(rows, run.row, column)};
   });
-  return of_tile;
+  return all;
 }
 
-std::int64_t LatticeStart::count(const mesh::TileRange& tiles, double spacing) const {
-  const RowLattice rows = rows_of(spacing);
-  if (!(rows.spacing > 0))
-    return 0;
-  const std::vector<std::int64_t> of_tile = counts(tiles, rows, spacing);
-  return std::accumulate(of_tile.begin(), of_tile.end(), std::int64_t{0});
+std::int64_t LatticeRuns::count() const {
+  std::int64_t n = 0;
+  for (const std::vector<LatticeRun>& runs : of_tile)
+    n += count_of(runs);
+  return n;
 }
 
 } // namespace trime::start

@@ -111,9 +111,10 @@ Stage PointScheme::first_of_lattice() {
   }
   shortage_ = std::move(fit.shortage);
   const auto time = context_->timers.scope("start");
-  place_sites(*context_, fit.stage,
-              LatticeStart(context_->given_boundary, *fit.stage.guard, context_->lattice)
-                  .sites(own_share(fit.stage), fit.spacing, static_cast<std::size_t>(fit.stage.placed_first())));
+  const LatticeStart start(context_->given_boundary, *fit.stage.guard, context_->lattice);
+  if (fit.runs.of_tile.empty())
+    fit.runs = start.runs(own_share(fit.stage), fit.spacing);
+  place_sites(*context_, fit.stage, start.sites(fit.runs, static_cast<std::size_t>(fit.stage.placed_first())));
   return std::move(fit.stage);
 }
 

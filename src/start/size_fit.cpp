@@ -38,10 +38,10 @@ std::optional<Stage> lay_affordable_boundary(const LayoutContext& context, doubl
   return std::nullopt;
 }
 
-/// @brief The smallest spacing found whose lattice has at most the wanted number of sites. The count falls like the
-/// inverse square of the spacing, in jumps where whole rows go: secant steps inside a bracket. All ranks take the
-/// same steps.
-double fitting_spacing(const LayoutContext& context, const Stage& stage) {
+/// @brief The runs of the smallest spacing found whose lattice has at most the wanted number of sites. The count falls
+/// like the inverse square of the spacing, in jumps where whole rows go: secant steps inside a bracket. All ranks take
+/// the same steps.
+LatticeRuns fitting_runs(const LayoutContext& context, const Stage& stage) {
   const auto time = context.timers.scope("start");
   const double h = stage.size->size({});
   const LatticeStart start(context.given_boundary, *stage.guard, context.lattice);
@@ -53,19 +53,21 @@ double fitting_spacing(const LayoutContext& context, const Stage& stage) {
   // below half the size of the chords is tried.
   double low = 0.5 * h, high = none, spacing = h;
   GlobalId best = 0;
+  LatticeRuns fitting{high, {}};
   double stride =
       FitRules::least_step; // least relative step while no spacing is known that is large enough; doubles each time
   for (int round = 0; round < FitRules::spacing_rounds && wanted - best > wanted / FitRules::spacing_precision;
        ++round) {
-    const GlobalId count =
-        context.comm.sum(context.fixed.inside().empty()
-                             ? start.count(tiles, spacing)
-                             : context.fixed.count_clear(start.sites(tiles, spacing), sizing::UniformSize(h)));
+    LatticeRuns runs = start.runs(tiles, spacing);
+    const GlobalId count = context.comm.sum(context.fixed.inside().empty()
+                                                ? runs.count()
+                                                : context.fixed.count_clear(start.sites(runs), sizing::UniformSize(h)));
     if (count > wanted) {
       low = spacing;
     } else if (count >= best) {
       high = spacing;
       best = count;
+      fitting = std::move(runs);
     }
     const double guess = spacing * std::sqrt((static_cast<double>(count) + 0.5) / (static_cast<double>(wanted) + 0.25));
     if (high == none) {
@@ -76,7 +78,7 @@ double fitting_spacing(const LayoutContext& context, const Stage& stage) {
       spacing = std::clamp(guess, low + margin, high - margin);
     }
   }
-  return high;
+  return fitting;
 }
 
 } // namespace
@@ -107,6 +109,7 @@ LatticeFit fit_lattice(const LayoutContext& context) {
       break;
     }
     fit.stage = std::move(*stage);
+    fit.runs = {};
     const double laid = fit.spacing = fit.stage.size->size({});
     if (!by_points)
       break;
@@ -114,7 +117,8 @@ LatticeFit fit_lattice(const LayoutContext& context) {
       fit.shortage = fmt::format("min_size = {:g} leaves no room for more", *options.min_size);
       break;
     }
-    const double spacing = fitting_spacing(context, fit.stage);
+    fit.runs = fitting_runs(context, fit.stage);
+    const double spacing = fit.runs.spacing;
     const bool comparable =
         spacing < FitRules::comparable_spacing * laid; // else so few sites are wanted that it means nothing
     if (round + 1 == FitRules::boundary_rounds || !comparable ||

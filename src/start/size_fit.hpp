@@ -3,6 +3,7 @@
 #pragma once
 
 #include "start/layout.hpp"
+#include "start/start.hpp"
 
 #include <string>
 
@@ -12,6 +13,7 @@ namespace trime::start {
 struct LatticeFit {
   sites::Stage stage;
   double spacing = 1;
+  LatticeRuns runs;     ///< of this rank with that spacing, if they were found on the way
   std::string shortage; ///< why there will be fewer points than asked for; empty if not
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The exchanges and reductions of the communicator in their uglier cases.
 #include "comm/agree.hpp"
+#include "comm/message_head.hpp"
 #include "support/distributed.hpp"
 #include "trime/comm/communicator.hpp"
 
@@ -37,6 +38,19 @@ TEST(Exchange, ManyRoundsOfAnyDoNotMix) {
         outgoing.push_back({peer, bytes_of(static_cast<std::size_t>(round + peer), round)});
     for (const Message& message : comm.exchange_any(outgoing))
       EXPECT_EQ(message.data, bytes_of(static_cast<std::size_t>(round + comm.rank()), round));
+  }
+}
+
+/// A step sends a bundle in one message or in two: all sizes around that of the head, and much longer bundles.
+TEST(Exchange, AnyMovesBundlesAroundTheSizeOfAHead) {
+  const Communicator comm = Communicator::world();
+  for (std::size_t n = head_bytes - 40; n < head_bytes + 8; ++n) {
+    std::vector<Message> outgoing;
+    for (int peer = 0; peer < comm.size(); ++peer)
+      if ((peer + static_cast<int>(n)) % 2 == 0 || peer == (comm.rank() + 1) % comm.size())
+        outgoing.push_back({peer, bytes_of(n, comm.rank() + 1)});
+    for (const Message& message : comm.exchange_any(outgoing))
+      EXPECT_EQ(message.data, bytes_of(n, message.peer + 1));
   }
 }
 

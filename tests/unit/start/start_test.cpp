@@ -100,7 +100,7 @@ TEST(LatticeStart, IsTheSameForEverySplitOfTheTilesAndAnyThreads) {
     const testing::OnThreads on(cut % 2 == 0 ? 3 : 1);
     SiteList joined = stage.start.sites({stage.grid, 0, cut}, h);
     const SiteList rest = stage.start.sites({stage.grid, cut, tiles}, h);
-    EXPECT_EQ(stage.start.count({stage.grid, 0, cut}, h), static_cast<std::int64_t>(joined.size()));
+    EXPECT_EQ(stage.start.runs({stage.grid, 0, cut}, h).count(), static_cast<std::int64_t>(joined.size()));
     joined.insert(joined.end(), rest.begin(), rest.end());
     ASSERT_EQ(joined.size(), whole.size());
     for (std::size_t k = 0; k < whole.size(); ++k)
@@ -183,7 +183,7 @@ TEST(PeriodicLatticeStart, IsTheSameForEverySplitAndFillsAllShapesUpToTheirBound
     const SiteList rest = stage.start.sites({stage.grid, cut, tiles}, h);
     joined.insert(joined.end(), rest.begin(), rest.end());
     ASSERT_EQ(joined.size(), whole.size());
-    EXPECT_EQ(stage.start.count({stage.grid, 0, tiles}, h), std::ssize(whole));
+    EXPECT_EQ(stage.start.runs({stage.grid, 0, tiles}, h).count(), std::ssize(whole));
     for (std::size_t k = 0; k < whole.size(); ++k) {
       ASSERT_EQ(joined[k].position, whole[k].position);
       EXPECT_TRUE(stage.guard.inside(whole[k].position));
@@ -210,7 +210,7 @@ TEST(PeriodicLatticeStart, ASpacingLargerThanThePeriodGivesNoSites) {
 TEST(LatticeStart, ASpacingLargerThanTheShapeGivesNoSites) {
   const Stage stage(tilted_square(), 0.05);
   EXPECT_TRUE(stage.all(10).empty());
-  EXPECT_EQ(stage.start.count({stage.grid, 0, stage.grid.tile_count()}, 10), 0);
+  EXPECT_EQ(stage.start.runs({stage.grid, 0, stage.grid.tile_count()}, 10).count(), 0);
 }
 
 } // namespace
