@@ -186,6 +186,9 @@ struct CleanupRules {
   static constexpr int most_rounds = 250;
   /// [passes] That choose the patches of a round. Measured: fewer than 5 of 600 places are left out that had room.
   static constexpr int passes = 6;
+  /// [patches] One after the other that the slowest rank must be spared for patches to be dealt out: on 256 ranks that
+  /// takes about as long as one patch. Not measured.
+  static constexpr int least_spared = 2;
   /// [1] Factor on the separation: ranks with tiles within it are neighbours from the first, so that candidates in the
   /// cell of a contender, and in its patch, reach to none but neighbours. Where that is too little, a round is done
   /// again with more neighbours. Not measured.
