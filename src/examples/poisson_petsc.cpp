@@ -55,19 +55,17 @@ PetscErrorCode make_plex(const LocalMesh& mesh, const std::vector<std::string>& 
   for (LocalIndex i = 0; i < mesh.owned_points; ++i)
     coordinates.insert(coordinates.end(), {mesh.points[at(i)].x, mesh.points[at(i)].y});
   PetscSF owners = nullptr;
-  PetscInt* ids = nullptr;
   PetscCall(DMPlexCreateFromCellListParallelPetsc(PETSC_COMM_WORLD, 2, mesh.owned_triangles, mesh.owned_points,
                                                   to_petsc(mesh.total_points), 3, PETSC_TRUE, cells.data(), 2,
-                                                  coordinates.data(), &owners, &ids, dm));
-  PetscInt first_vertex = 0, last_vertex = 0;
-  PetscCall(DMPlexGetDepthStratum(*dm, 0, &first_vertex, &last_vertex));
-  const std::vector<PetscInt> known(ids, ids + (last_vertex - first_vertex));
+                                                  coordinates.data(), &owners, nullptr, dm));
+  std::sort(cells.begin(), cells.end()); // PETSc has them; the vertices of a DMPlex go by global ids
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   for (const std::string& name : part_names)
     PetscCall(DMCreateLabel(*dm, name.c_str()));
   for (LocalIndex k = 0; k < mesh.owned_facets; ++k) {
     const auto& [a, b] = mesh.facets[at(k)];
     PetscInt edge = 0;
-    PetscCall(find_edge(*dm, known, {mesh.global_id(a), mesh.global_id(b)}, &edge));
+    PetscCall(find_edge(*dm, cells, {mesh.global_id(a), mesh.global_id(b)}, &edge));
     PetscCall(DMSetLabelValue(*dm, part_names[at(mesh.facet_parts[at(k)])].c_str(), edge, 1));
   }
   for (const std::string& name : part_names) { // the ends of the edges as well, wherever they are
@@ -75,7 +73,6 @@ PetscErrorCode make_plex(const LocalMesh& mesh, const std::vector<std::string>& 
     PetscCall(DMGetLabel(*dm, name.c_str(), &label));
     PetscCall(DMPlexLabelComplete(*dm, label));
   }
-  PetscCall(PetscFree(ids));
   PetscCall(PetscSFDestroy(&owners));
   PetscFunctionReturn(0);
 }
