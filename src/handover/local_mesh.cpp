@@ -87,7 +87,6 @@ private:
   /// Triangles and facets to the owners of their lowest vertices, where a Mesher has them already.
   void take_home() {
     Outbox<Triangle> triangles_away;
-    owned_.reserve(mesh_.triangles.size());
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       const Triangle triangle{mesh_.triangle_slab.first + static_cast<GlobalId>(t), mesh_.triangle_ids(t),
                               mesh_.region.empty() ? 1 : mesh_.region[t]};
@@ -200,19 +199,15 @@ private:
   }
 
   void place_triangles() {
-    const std::size_t count = owned_.size() + foreign_.size();
     made_.owned_triangles = static_cast<LocalIndex>(owned_.size());
-    made_.triangles.reserve(count);
-    made_.triangle_ids.reserve(count);
     for (const std::vector<Triangle>* list : {&owned_, &foreign_})
       for (const auto& [id, vertices, region] : *list) {
         made_.triangles.push_back({local(vertices[0]), local(vertices[1]), local(vertices[2])});
         made_.triangle_ids.push_back(id);
-        if (region != 1 && made_.regions.empty())
-          made_.regions.assign(count, 1);
-        if (!made_.regions.empty())
-          made_.regions[made_.triangles.size() - 1] = region;
+        made_.regions.push_back(region);
       }
+    if (std::all_of(made_.regions.begin(), made_.regions.end(), [](std::int32_t region) { return region == 1; }))
+      made_.regions.clear();
   }
 
   void place_facets() {

@@ -73,7 +73,7 @@ struct LocalMesh {
 /// @param mesh whole, over all ranks of `comm`
 /// @throws InternalError on all ranks if a facet belongs to no triangle
 /// @note Collective. Seven sparse exchanges and a list of one number per rank; O(n log n) in what the rank holds.
-/// Memory: 20 bytes a point, 20 a triangle (24 with regions); 40 a triangle more while it is made.
+/// Memory: 20 bytes a point and 24 a triangle, 40 a triangle more while it is made; up to twice that as lists grow.
 LocalMesh make_local_mesh(const comm::Communicator& comm, const mesh::DistributedMesh& mesh,
                           Overlap overlap = Overlap::triangles);
 
