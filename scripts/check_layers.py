@@ -32,6 +32,7 @@ ARROWS = {
     "meshing": ["start", "sweep", "cleanup", "extraction", "certificate", "shape"],
     "io": ["mesh", "comm"],
     "formats": ["io"],
+    "handover": ["mesh", "comm"],
     "app": ["meshing", "formats"],
 }
 # Foreign headers that only some modules may see, as (pattern, name, modules).

@@ -19,6 +19,7 @@ trime_test_packages=(
   python3-gmsh python3-dolfinx freefem++          # readers of the formats of other programs
   python3-scipy gmsh                              # Poisson's equation, on meshes of Gmsh too, judge.py; benchmark.py --gmsh;
                                                   # scaling.py --model
+  libpetsc-real-dev metis scotch                  # the PETSc example (the rest of PETSc comes with dolfinx); edge_cut.py
   munge slurmctld slurmd slurm-client             # a SLURM of one node for the job scripts
   environment-modules                             # loads the module file
   iproute2                                        # hosts of one's own: network namespaces, for runs over TCP

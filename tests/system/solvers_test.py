@@ -1,0 +1,66 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The examples that solve Poisson's equation on the mesh in memory, by own arrays and by PETSc: the error falls with second
+order, and is the same on any ranks. The ranks' parts are compact. Without PETSc its example is skipped."""
+import math
+import os
+import pathlib
+import re
+import subprocess
+import unittest
+
+from trime_run import MPIEXEC, PROGRAM, ROOT, environment
+
+EXAMPLES = pathlib.Path(os.environ.get("TRIME_EXAMPLES", ROOT / "build" / "ci" / "src" / "examples"))
+SIZES = (500, 2000, 8000)  # points
+SOLVER_TOLERANCE = 1e-5  # of the error, which is 1e-4 of the solution; residuals fall by 1e-10
+
+
+def solve(name, points, ranks):
+    """Points and triangles of the mesh, and the error."""
+    start = [] if ranks == 1 else [MPIEXEC, "-np", str(ranks)]
+    done = subprocess.run([*start, str(EXAMPLES / name), str(points)], env=environment(1), capture_output=True, text=True,
+                          timeout=120, check=False)
+    found = re.search(r"(\d+) points, (\d+) triangles; \d+ steps; error (\S+?);?\s", done.stdout)
+    if done.returncode or not found:
+        raise AssertionError(f"{name} {points} on {ranks} ranks: exit code {done.returncode}\n{done.stdout}{done.stderr}")
+    return int(found[1]), int(found[2]), float(found[3])
+
+
+class Solvers(unittest.TestCase):
+    def check_solver(self, name):
+        runs = [solve(name, points, 1) for points in SIZES]
+        for (coarse, _, coarse_error), (fine, _, fine_error) in zip(runs, runs[1:]):
+            order = math.log(coarse_error / fine_error) / (0.5 * math.log(fine / coarse))
+            self.assertGreater(order, 1.9, runs)
+        for expected, points in zip(runs[:2], SIZES):
+            for ranks in (2, 3, 4):
+                found = solve(name, points, ranks)
+                self.assertEqual(found[:2], expected[:2])
+                self.assertAlmostEqual(found[2] / expected[2], 1, delta=SOLVER_TOLERANCE)
+        return runs
+
+    def test_own_solver(self):
+        self.check_solver("own_solver")
+
+    @unittest.skipUnless((EXAMPLES / "poisson_petsc").exists(), "built without PETSc")
+    def test_petsc(self):
+        runs = self.check_solver("poisson_petsc")
+        self.assertAlmostEqual(runs[0][2] / solve("own_solver", SIZES[0], 1)[2], 1, delta=SOLVER_TOLERANCE)
+
+
+class EdgeCut(unittest.TestCase):
+    def test_parts_are_nearly_as_compact_as_those_of_partitioners(self):
+        done = subprocess.run([str(ROOT / "scripts" / "edge_cut.py"), "--points", "2e4", "--parts", "4,16",
+                               "--program", PROGRAM], env=environment(1), capture_output=True, text=True, timeout=120,
+                              check=True)
+        rows = [line.split("|")[1:-1] for line in done.stdout.splitlines()[2:]]
+        self.assertEqual([int(row[1]) for row in rows], [4, 16, 4, 16])
+        for row in rows:
+            self.assertLess(float(row[3].strip(" %")), 5, row)  # uneven
+            if row[8].strip():
+                self.assertLess(float(row[8]), 2, row)
+
+
+if __name__ == "__main__":
+    unittest.main()
