@@ -93,8 +93,8 @@ void Log::phase(const std::string& name) {
 void Log::progress(const ProgressStep& step) {
   if (!shows_progress())
     return;
-  if (step.is_shown ? terminal_.empty() || interval_ > 0
-                    : step.number >= next_row_ && (terminal_.empty() || interval_ > 0))
+  const bool has_rows = terminal_.empty() || interval_ > 0;
+  if (has_rows && (step.is_shown || step.number >= next_row_))
     print_row(step);
   const double now = wall_seconds();
   live_ = step.live;

@@ -86,8 +86,8 @@ def line_width(triangles):
 
 def draw_polygons(axes, mesh, chosen, width, colours):
     """Triangles `chosen` (an index) as polygons; colours: options of PolyCollection."""
-    axes.add_collection(PolyCollection(mesh.corners(chosen), edgecolors=INK, linewidths=width, rasterized=True,
-                                       **colours))
+    axes.add_collection(PolyCollection(mesh.corners(chosen), linewidths=width, rasterized=True,
+                                       **{"edgecolors": INK, **colours}))
 
 
 def draw_facets(axes, mesh, width=0.6, colour=INK, rows=slice(None)):
@@ -114,7 +114,8 @@ def draw_values(axes, mesh, value, colours, limits, norm=None):
     image, polygons = raster.mean_image(mesh, canvas, value)
     axes.imshow(image, origin="lower", extent=canvas.extent, cmap=colours, norm=norm, interpolation="nearest")
     if len(polygons):
-        draw_polygons(axes, mesh, polygons, 0.05, {"array": value[polygons], "cmap": colours, "norm": norm})
+        draw_polygons(axes, mesh, polygons, 0.2,
+                      {"array": value[polygons], "cmap": colours, "norm": norm, "edgecolors": "face"})
 
 
 def draw_numbers(axes, mesh, number, palette):
@@ -128,7 +129,7 @@ def draw_numbers(axes, mesh, number, palette):
     pixels = np.concatenate([palette, [(1, 1, 1)]])[image]
     axes.imshow(pixels, origin="lower", extent=canvas.extent, interpolation="nearest")
     if len(polygons):
-        draw_polygons(axes, mesh, polygons, 0.05, {"facecolors": palette[number[polygons]]})
+        draw_polygons(axes, mesh, polygons, 0.2, {"facecolors": palette[number[polygons]], "edgecolors": "face"})
 
 
 def add_scale(figure, axes, norm, colours, label, extend="neither"):

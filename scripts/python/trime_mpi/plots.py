@@ -16,18 +16,20 @@ from .read import read
 
 ZOOM_TRIANGLES = 500  # about that many in the window around the worst triangle
 MOST_NAMES = 24       # in a legend
+TRIANGLE_HEIGHT = 0.866  # of an equilateral triangle, over its side
 
 
 def draw_zoom(axes, mesh):
     """The window around the worst triangle; returns its middle and half its side."""
     worst = int(np.argmax(np.nan_to_num(mesh.alpha, nan=np.inf)))
     place = mesh.corners([worst]).mean(axis=1)[0]
-    distance = np.abs(mesh.points - place).max(axis=1)
-    last = min(ZOOM_TRIANGLES // 2, len(distance) - 1)  # half as many points as triangles
     low, high = drawing.box_of(mesh)
-    reach = min(np.partition(distance, last)[last], (high - low).min() / 2)
+    height = float(mesh.size[mesh.triangles[worst]].mean()) * TRIANGLE_HEIGHT
+    reach = min(np.sqrt(ZOOM_TRIANGLES * height * height / TRIANGLE_HEIGHT / 2) / 2, (high - low).min() / 2)
     centre = np.clip(place, low + reach, high - reach)  # a window beyond the mesh shows nothing
-    near = np.abs(mesh.points - centre).max(axis=1) <= 1.3 * reach
+    near = np.ones(len(mesh.points), bool)
+    for axis in range(2):
+        near &= np.abs(mesh.points[:, axis] - centre[axis]) <= 1.3 * reach
     chosen = np.flatnonzero(near[mesh.triangles[:, 0]])
     drawing.draw_polygons(axes, mesh, chosen, 0.35,
                           {"array": mesh.alpha[chosen], "cmap": ALPHA_COLOURS, "norm": Normalize(*ALPHA_RANGE)})
@@ -40,7 +42,10 @@ def draw_zoom(axes, mesh):
 def draw_histogram(axes, alpha):
     """Counts of alpha, logarithmic."""
     top = max(1.2, min(float(np.nanmax(alpha)), 3.0))
-    counts, edges = np.histogram(np.clip(alpha, 1, top), bins=80, range=(1, top))
+    bins = 80
+    edges = np.linspace(1, top, bins + 1)
+    counts = np.bincount(np.clip((np.nan_to_num(alpha, nan=top) - 1) * (bins / (top - 1)), 0, bins - 1).astype(np.int32),
+                         minlength=bins)
     shade = 0.12 + 0.88 * np.clip((edges[:-1] - ALPHA_RANGE[0]) / (ALPHA_RANGE[1] - ALPHA_RANGE[0]), 0, 1)
     axes.bar(edges[:-1], counts, np.diff(edges), align="edge", color=ALPHA_COLOURS(shade), edgecolor="#8a939b",
              linewidth=0.3, log=True)
@@ -89,10 +94,7 @@ def draw_size(axes, mesh, norm):
                        mesh.size[mesh.triangles].ravel(), shading="gouraud", cmap=SIZE_COLOURS,
                        norm=norm).set_rasterized(True)
     else:
-        value = np.zeros(len(mesh.triangles), np.float32)
-        for corner in range(3):
-            value += mesh.size[mesh.triangles[:, corner]]
-        drawing.draw_values(axes, mesh, value / 3, SIZE_COLOURS, None, norm)
+        drawing.draw_values(axes, mesh, mesh.size[mesh.triangles[:, 0]], SIZE_COLOURS, None, norm)
     drawing.draw_facets(axes, mesh, 0.8)
     drawing.frame(axes, *drawing.box_of(mesh))
 
@@ -168,7 +170,7 @@ def ranks_figure(mesh, name):
     """Who owned what: triangles by the rank of their first vertex."""
     figure, axes, tall = drawing.panel_figure(mesh)
     ranks = len(mesh.first_point)
-    owner = np.searchsorted(mesh.first_point, mesh.triangles[:, 0], side="right") - 1
+    owner = mesh.ranks()[mesh.triangles[:, 0]]
     drawing.draw_numbers(axes, mesh, owner, [drawing.name_colour(rank) for rank in range(ranks)])
     drawing.draw_facets(axes, mesh, 0.6)
     drawing.frame(axes, *drawing.box_of(mesh))

@@ -9,6 +9,7 @@ import numpy as np
 
 CHUNK = 1 << 20     # triangles at a time: 100 MB
 LARGEST_LEVEL = 3   # triangles of more than 2^3 pixels become polygons
+LONGEST_EDGE = 1.5  # [h] of nearly all triangles
 
 
 class Canvas:
@@ -38,38 +39,49 @@ def sample_weights(level):
     return weights
 
 
-def chunks(mesh, canvas):
-    """Yields (first, last, corners as x and y [3, k], level [k]) of the triangles, some at a time."""
-    x, y = np.ascontiguousarray(mesh.points[:, 0]), np.ascontiguousarray(mesh.points[:, 1])
-    periods = mesh.periods
-    for first in range(0, len(mesh.triangles), CHUNK):
-        corners = mesh.triangles[first:first + CHUNK].T
-        place = [axis[corners] for axis in (x, y)]
-        for axis, period in zip(place, periods):
-            if period > 0:
-                axis -= period * np.round((axis - axis[0]) / period)
-        extent = np.maximum(*(np.maximum(np.maximum(abs(axis[1] - axis[0]), abs(axis[2] - axis[0])),
-                                         abs(axis[2] - axis[1])) for axis in place))
-        level = np.zeros(len(extent), np.int8)
-        large = extent > canvas.side
-        level[large] = np.minimum(np.ceil(np.log2(extent[large] / canvas.side)), LARGEST_LEVEL + 1)
-        yield first, first + len(extent), place, level
+def levels_of(x, y, side):
+    """How often triangles (corners [3, k]) must be divided in four so that samples lie closer than pixels."""
+    extent = np.maximum(*(np.maximum(np.maximum(abs(axis[1] - axis[0]), abs(axis[2] - axis[0])),
+                                     abs(axis[2] - axis[1])) for axis in (x, y)))
+    level = np.zeros(len(extent), np.int8)
+    large = extent > side
+    level[large] = np.minimum(np.ceil(np.log2(extent[large] / side)), LARGEST_LEVEL + 1)
+    return level
+
+
+def corners_of(mesh, first, last):
+    """x and y [3, k] of the corners of some triangles, images that lie together."""
+    place = mesh.points[mesh.triangles[first:last].T]
+    both = [place[:, :, 0], place[:, :, 1]]
+    for axis, period in zip(both, mesh.periods):
+        if period > 0:
+            axis -= period * np.round((axis - axis[0]) / period)
+    return both
 
 
 def samples(mesh, canvas, polygons):
     """Yields (triangles, pixels of one sample of each); each triangle comes as often as it has samples. The numbers of
-    triangles that are too large are appended to `polygons`."""
-    for first, last, (x, y), level in chunks(mesh, canvas):
+    triangles that are too large are appended to `polygons`.
+
+    Where all triangles are smaller than a pixel, their first vertex is as good a place as any other. Triangles are
+    sorted by it, which makes this several times faster.
+    """
+    at_points = canvas.pixels_of(mesh.points[:, 0], mesh.points[:, 1])
+    for first in range(0, len(mesh.triangles), CHUNK):
+        last = min(first + CHUNK, len(mesh.triangles))
+        vertices = mesh.triangles[first:last, 0]
+        if LONGEST_EDGE * mesh.size[vertices].max() < canvas.side:
+            yield slice(first, last), at_points[vertices]
+            continue
+        x, y = corners_of(mesh, first, last)
+        level = levels_of(x, y, canvas.side)
         for depth in np.unique(level):
             chosen = np.flatnonzero(level == depth)
             if depth > LARGEST_LEVEL:
                 polygons.extend(first + chosen)
                 continue
-            whole = len(chosen) == last - first
-            xs, ys = (x, y) if whole else (x[:, chosen], y[:, chosen])
-            triangles = slice(first, last) if whole else first + chosen
             for weight in sample_weights(int(depth)):
-                yield triangles, canvas.pixels_of(weight @ xs, weight @ ys)
+                yield first + chosen, canvas.pixels_of(weight @ x[:, chosen], weight @ y[:, chosen])
 
 
 def mean_image(mesh, canvas, value):

@@ -161,7 +161,8 @@ class Mesh:
 
     def ranks(self):
         """The rank of each point [N], which is also that of the triangles of which it is the first vertex."""
-        return np.searchsorted(self.first_point, np.arange(len(self.points)), side="right") - 1
+        return np.repeat(np.arange(len(self.first_point), dtype=np.int32),
+                         np.diff(np.append(self.first_point, len(self.points))))
 
 
 def brought_together(places, periods):
