@@ -99,8 +99,10 @@ void Log::progress(const ProgressStep& step) {
   const double now = wall_seconds();
   live_ = step.live;
   end_ = step.seconds_left < 0 ? -1 : now + step.seconds_left;
-  if (!terminal_.empty() && now - drawn_ >= redraw_seconds)
-    draw_live_line();
+  if (terminal_.empty() || now - drawn_ < redraw_seconds)
+    return;
+  drawn_ = now;
+  draw_live_line();
 }
 
 void Log::print_row(const ProgressStep& step) {
@@ -116,9 +118,8 @@ void Log::print_row(const ProgressStep& step) {
 /// A line that is wider than the window would not be erased as a whole.
 void Log::draw_live_line() {
   std::string line = phase_ + (phase_.empty() || live_.empty() ? "" : ": ") + live_;
-  drawn_ = wall_seconds();
-  if (end_ > drawn_)
-    line += fmt::format(", about {} left", duration_text(end_ - drawn_));
+  if (const double left = end_ - wall_seconds(); left > 0)
+    line += fmt::format(", about {} left", duration_text(left));
   line.resize(std::min(line.size(), static_cast<std::size_t>(columns_of(terminal_) - 1)));
   live_line = 1;
   fmt::print(stream_, "{}{}", live_line_eraser, line);

@@ -21,7 +21,7 @@ ROW = re.compile(r"^ *(\d+) +(\d+) +(\d+) +1\.\d{5} +1\.\d{5} +\d\S+ +\d+\.\d\d 
 
 
 def arguments(work, *more):
-    return [CONFIG, "meshing.points=3000", f"output.directory={work}", "output.overwrite=true", *more]
+    return [CONFIG, "meshing.points=5000", f"output.directory={work}", "output.overwrite=true", *more]
 
 
 def read_all(terminal):
@@ -67,7 +67,7 @@ class Progress(unittest.TestCase):
     def test_one_live_line_on_a_terminal(self):
         for ranks in (1, 2):
             with self.subTest(ranks=ranks), Workspace() as work:
-                code, text = run_on_terminal(arguments(work), ranks)
+                code, text = run_on_terminal(arguments(work, "meshing.points=20000"), ranks)
                 self.assertEqual(code, 0, text)
                 live = [part.split("\n")[0].rstrip("\r") for part in text.split(ERASE)[1:]]
                 self.assertTrue(any(re.match(r"sweeps: sweep \d+, alpha median 1\.\d{4}, max \S+, \d+\.\d % move", line)

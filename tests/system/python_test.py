@@ -46,7 +46,7 @@ def temporary_files():
 class Reading(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.work = cls.enterClassContext(Workspace()) if hasattr(cls, "enterClassContext") else Workspace().__enter__()
+        cls.work = cls.enterClassContext(Workspace())
         cls.file = cls.work / "m.h5"
         cls.mesh = trime_mpi.mesh(DISC, ranks=2, threads=1, output=cls.file)
 
@@ -77,7 +77,7 @@ class Reading(unittest.TestCase):
         self.assertGreater(len(mesh.history["sweep"]), 3)
         self.assertGreaterEqual(mesh.quality["alpha_max"], mesh.quality["alpha_mean"])
         self.assertGreater(mesh.counters["run"]["messages"]["sum"], 0)
-        self.assertGreater(mesh.timers["output"]["max"], 0)
+        self.assertGreater(mesh.timers["sweeps"]["max"], 0)
         self.assertEqual({loop["kind"] for loop in mesh.loops.values()}, {"outer", "hole"})
         self.assertIn("region = difference(disc, hole)", mesh.config)
         self.assertIn("gradation", mesh.config_resolved)
@@ -106,7 +106,7 @@ class Running(unittest.TestCase):
 
     def test_rings_and_fixed_points_as_arrays(self):
         square = np.array([[0.1, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]])
-        place = np.array([[0.3, 0.4]])
+        place = np.array([[0.2, 0.45]])
         mesh = trime_mpi.mesh({"shape": {"region": "a", "a": {"type": "contour", "rings": [square, 0.25 + square / 2]}},
                                "meshing": {"points": 800, "fixed_points": place}})
         self.assertLess(np.abs(mesh.points - place).max(axis=1).min(), 1e-9)
@@ -151,7 +151,9 @@ class Running(unittest.TestCase):
     def test_warnings_of_the_program(self):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            mesh = trime_mpi.mesh(changed(sizing={"type": "uniform", "max_size": 1e-1, "min_size": 8e-2}))
+            ring = np.array([[0.1, 0.1], [0.9, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]])  # a vertex twice
+            mesh = trime_mpi.mesh({"shape": {"region": "a", "a": {"type": "contour", "rings": ring}},
+                                   "meshing": {"points": 500}})
         self.assertEqual([str(one.message) for one in caught], mesh.warnings)
         self.assertTrue(mesh.warnings)
 
@@ -160,7 +162,7 @@ class Running(unittest.TestCase):
         before = temporary_files()
         for ranks in (1, 2):
             with self.subTest(ranks=ranks):
-                timer = threading.Timer(2, signal.raise_signal, [signal.SIGINT])
+                timer = threading.Timer(2, signal.pthread_kill, [threading.main_thread().ident, signal.SIGINT])
                 timer.start()
                 with self.assertRaises(KeyboardInterrupt):
                     trime_mpi.mesh(long, ranks=ranks, threads=1)
@@ -198,18 +200,27 @@ class Drawing(unittest.TestCase):
 
     def test_pixels_show_what_polygons_would(self):
         """Each pixel inside the shape is filled, and has the mean of the value there."""
-        canvas = raster.Canvas(*(self.mesh.points.min(axis=0), self.mesh.points.max(axis=0)), 150)
         middle = self.mesh.corners().mean(axis=1)
-        image, polygons = raster.mean_image(self.mesh, canvas, middle[:, 0])
-        self.assertEqual(len(polygons), 0)
-        rows, columns = np.mgrid[:canvas.shape[0], :canvas.shape[1]]
-        x = canvas.low[0] + (columns + 0.5) * canvas.side
-        y = canvas.low[1] + (rows + 0.5) * canvas.side
-        inside = (np.hypot(x - 0.5, y - 0.5) < 0.39) & (np.maximum(abs(x - 0.5), abs(y - 0.5)) > 0.11)
-        outside = (np.hypot(x - 0.5, y - 0.5) > 0.41) | (np.maximum(abs(x - 0.5), abs(y - 0.5)) < 0.09)
-        self.assertFalse(np.isnan(image[inside]).any())
-        self.assertTrue(np.isnan(image[outside]).all())
-        self.assertLess(np.abs(image - x)[inside].max(), self.mesh.size.max())
+        for pixels in (60, 12):  # smaller and larger than triangles
+            with self.subTest(pixels=pixels):
+                canvas = raster.Canvas(self.mesh.points.min(axis=0), self.mesh.points.max(axis=0), pixels)
+                image, polygons = raster.mean_image(self.mesh, canvas, middle[:, 0])
+                self.assertEqual(len(polygons), 0)
+                rows, columns = np.mgrid[:canvas.shape[0], :canvas.shape[1]]
+                x = canvas.low[0] + (columns + 0.5) * canvas.side
+                y = canvas.low[1] + (rows + 0.5) * canvas.side
+                margin = 0.75 * canvas.side  # half a diagonal, and a little
+                radius, square = np.hypot(x - 0.5, y - 0.5), np.maximum(abs(x - 0.5), abs(y - 0.5))
+                inside = (radius < 0.4 - margin) & (square > 0.1 + margin)
+                self.assertFalse(np.isnan(image[inside]).any())
+                self.assertTrue(np.isnan(image[(radius > 0.4 + margin) | (square < 0.1 - margin)]).all())
+                self.assertLess(np.abs(image - x)[inside].max(), self.mesh.size.max() + canvas.side)
+
+    def test_large_triangles_are_left_to_polygons(self):
+        canvas = raster.Canvas(self.mesh.points.min(axis=0), self.mesh.points.max(axis=0), 5000)
+        image, polygons = raster.number_image(self.mesh, canvas, np.zeros(len(self.mesh.triangles), int))
+        self.assertEqual(len(polygons), len(self.mesh.triangles))
+        self.assertTrue((image == -1).all())
 
     def test_wrong_wishes(self):
         with self.assertRaisesRegex(ValueError, "expected one of quality, size"):
