@@ -118,8 +118,9 @@ class Progress(unittest.TestCase):
 
     def test_an_error_stands_in_a_line_of_its_own(self):
         with Workspace() as work:
-            code, text = run_on_terminal(arguments(work, "meshing.points=20"))
-            self.assertEqual(code, 2)
+            code, text = run_on_terminal(arguments(work, "shape.spade.file=nothing.xy"))
+            self.assertEqual(code, 4)
+            self.assertIn(ERASE, text)
             self.assertTrue(any(line.startswith("trime_mpi: error: ") for line in shown(text)), text)
 
     def test_an_interrupt_erases_the_line(self):
