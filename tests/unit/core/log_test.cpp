@@ -60,7 +60,7 @@ TEST(Log, LeavesNoLiveLineWhereNobodyWatches) {
 TEST(Log, TellsDurationsAsExactlyAsAForecastIs) {
   EXPECT_EQ(duration_text(0.2), "1 s");
   EXPECT_EQ(duration_text(12.4), "12 s");
-  EXPECT_EQ(duration_text(150), "2 min");
+  EXPECT_EQ(duration_text(140), "2 min");
   EXPECT_EQ(duration_text(7800), "2 h 10 min");
 }
 
