@@ -13,7 +13,7 @@ namespace {
 constexpr int points = 1000;
 
 sweep::SweepOptions options_with_cap(int max_sweeps) {
-  sweep::SweepOptions options;
+  sweep::SweepOptions options{};
   options.max_sweeps = max_sweeps;
   return options;
 }
