@@ -9,7 +9,7 @@ trime_run_packages=(
   openmpi-bin libopenmpi-dev libhdf5-openmpi-dev  # MPI, and HDF5 with MPI
   libfmt-dev libcli11-dev libmuparser-dev         # text, command line, formulas
   nlohmann-json3-dev                              # GeoJSON; the file by which ParaView plays steps
-  python3 python3-h5py python3-numpy python3-matplotlib # scripts/plot_mesh.py, scripts/scaling.py
+  python3 python3-h5py python3-numpy python3-matplotlib # scripts/python, scripts/plot_mesh.py, scripts/scaling.py
 )
 # To run the tests, beside the above.
 trime_test_packages=(
@@ -20,6 +20,7 @@ trime_test_packages=(
   python3-scipy gmsh                              # Poisson's equation, on meshes of Gmsh too, judge.py; benchmark.py --gmsh;
                                                   # scaling.py --model
   libpetsc-real-dev metis scotch                  # the PETSc example (the rest of PETSc comes with dolfinx); edge_cut.py
+  python3-pip python3-setuptools                  # installs scripts/python
   munge slurmctld slurmd slurm-client             # a SLURM of one node for the job scripts
   environment-modules                             # loads the module file
   iproute2                                        # hosts of one's own: network namespaces, for runs over TCP

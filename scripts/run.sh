@@ -81,7 +81,7 @@ Files
   $picture  a picture of it
 How to look at them
   picture   xdg-open $picture
-$paraview  Python    import h5py; f = h5py.File("$mesh"); xy = f["Mesh/mesh/geometry"][:]; tri = f["Mesh/mesh/topology"][:]
+$paraview  Python    PYTHONPATH=$root/scripts/python /usr/bin/python3 -c 'import trime_mpi; print(trime_mpi.read("$mesh"))'
   numbers   h5dump -A -g /trime_mpi $mesh   (package hdf5-tools)
 TEXT
 exit "$status"

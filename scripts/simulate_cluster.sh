@@ -3,7 +3,7 @@
 # Runs the program on a simulated cluster: SimGrid's SMPI makes all ranks take turns on one core of this machine, times
 # what they compute, and simulates what they send over the network that a platform file describes.
 #   scripts/simulate_cluster.sh --ranks P [options] config.ini [section.key=value ...]
-#     --record FILE    the numbers of the run as JSON; its seconds are simulated
+#     --report FILE    the numbers of the run as JSON; its seconds are simulated
 #     --cluster FILE   the platform: nodes named node0, node1, ... (scripts/cluster/fat_tree.xml)
 #     --cores N        ranks on a node (64)
 #     --hash HEX       the mesh_hash that must come out; without it a real run finds it first
@@ -20,10 +20,11 @@ fail() { # CODE MESSAGE
 }
 usage() { sed -n '5,12s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
 
-ranks='' cluster="$root/scripts/cluster/fat_tree.xml" cores=64 record='' hash='' program='' build_only=no rest=()
+ranks='' cluster="$root/scripts/cluster/fat_tree.xml" cores=64 report='' hash='' program='' build_only=no rest=()
 while [ $# -gt 0 ]; do
+  [ "$1" != --record ] || set -- --report "${@:2}" # its name before
   case "$1" in
-    --ranks | --cluster | --cores | --record | --hash | --program)
+    --ranks | --cluster | --cores | --report | --hash | --program)
       [ $# -ge 2 ] || fail 2 "$1 needs a value; see --help"
       declare "${1#--}=$2"
       shift ;;
@@ -57,7 +58,7 @@ for ((rank = 0; rank < ranks; ++rank)); do # one line a rank
   echo "node$((rank / cores))"
 done >"$work/hosts"
 
-# hash_of FILE: the mesh_hash in a record, empty if there is none.
+# hash_of FILE: the mesh_hash in a report, empty if there is none.
 hash_of() { sed -n 's/.*"mesh_hash_hex": *"\([0-9a-f]*\)".*/\1/p' "$1" 2>/dev/null | head -n 1; }
 
 if [ -z "$hash" ]; then
@@ -65,7 +66,7 @@ if [ -z "$hash" ]; then
   [ -x "$real" ] || fail 2 "no real run to compare with: build $real (scripts/run.sh does), or give the mesh_hash with --hash"
   trime_mpi_environment
   status=0
-  "$real" "${rest[@]}" output.interval=0 --quiet --record "$work/real.json" || status=$?
+  "$real" "${rest[@]}" output.interval=0 --quiet --report "$work/real.json" || status=$?
   [ "$status" -eq 0 ] || [ "$status" -eq 5 ] || fail "$status" "the real run, with which this one is compared, failed"
   hash=$(hash_of "$work/real.json")
 fi
@@ -85,9 +86,9 @@ simulation=(
 )
 status=0
 TMPDIR=$work OMP_NUM_THREADS=1 smpirun -quiet -np "$ranks" -platform "$cluster" -hostfile "$work/hosts" "${simulation[@]}" \
-  "$program" "${rest[@]}" output.interval=0 --threads 1 --record "$work/record.json" || status=$?
-[ -s "$work/record.json" ] || fail $((status > 0 ? status : 4)) "the simulated run left no record"
-[ -z "$record" ] || cp "$work/record.json" "$record"
-found=$(hash_of "$work/record.json")
+  "$program" "${rest[@]}" output.interval=0 --threads 1 --report "$work/report.json" || status=$?
+[ -s "$work/report.json" ] || fail $((status > 0 ? status : 4)) "the simulated run left no report"
+[ -z "$report" ] || cp "$work/report.json" "$report"
+found=$(hash_of "$work/report.json")
 [ "$found" = "$hash" ] || fail 4 "mesh_hash $found on $ranks simulated ranks, $hash on a real one; please report this with the config"
 exit "$status"

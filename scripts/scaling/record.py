@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The numbers of one run, as trime_mpi --record writes them, and runs.jsonl, which keeps them."""
+"""The numbers of one run, as trime_mpi --report writes them, and runs.jsonl, which keeps them."""
 import dataclasses
 import json
 
@@ -36,7 +36,7 @@ def point_sweeps(history):
 
 
 def read_record(path):
-    """A run from the JSON of --record: quality, hash, phases with their traffic, seconds with output apart.
+    """A run from the JSON of --report: quality, hash, phases with their traffic, seconds with output apart.
 
     Raises RunError where the file is not there or not as expected.
     """

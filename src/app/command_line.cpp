@@ -30,8 +30,8 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
                "points keep everything");
   app.add_flag("--print-config", flags.print_config, "print the config with all defaults, as a complete file");
   app.add_flag("--overwrite", flags.overwrite, "convert: replace OUT");
-  app.add_option("--record", line.record,
-                 "write the numbers of the run, those of /trime_mpi in the mesh file, as JSON");
+  app.add_option("--report", line.report, "write the report of the run as JSON, with the numbers of /trime_mpi");
+  app.add_option("--record", line.report)->group(""); // its name before; not in the help
   app.add_option("--threads", flags.threads, "threads per rank: parallel.setup_threads and mesh_threads");
   app.add_option("--log-level", flags.level, "debug, info, warning, error, silent: log.level");
   app.add_flag("--quiet", flags.quiet, "print only warnings and errors");
@@ -80,8 +80,8 @@ void refuse_what_is_missing(const CommandLine& line, const Flags& flags) {
       line.action != Action::version && line.action != Action::help_config && line.action != Action::help;
   if (needs_config && line.config.empty())
     throw ConfigError("no config file is given; usage: trime_mpi CONFIG [section.key=value ...], see --help");
-  if (!line.record.empty() && line.action != Action::mesh)
-    throw ConfigError("'--record' is for runs that make a mesh; leave it out here");
+  if (!line.report.empty() && line.action != Action::mesh)
+    throw ConfigError("'--report' is for runs that make a mesh; leave it out here");
   if (flags.quiet && flags.level)
     throw ConfigError("'--quiet' and '--log-level' contradict each other; give one of them");
 }

@@ -16,7 +16,7 @@ struct CommandLine {
   std::vector<std::string> overrides; ///< section.key=value, those that options stand for included
   std::vector<std::string> files;     ///< of convert and info
   bool overwrite = false;             ///< convert: the file may be there
-  std::string record;                 ///< where the numbers of the run go as JSON; empty: nowhere
+  std::string report;                 ///< where the numbers of the run go as JSON; empty: nowhere
   std::string help;                   ///< text of --help
   std::string as_given;               ///< the whole line, for the records
 };

@@ -4,6 +4,7 @@
 #include "app/program.hpp"
 #include "app/user_places.hpp"
 #include "core/free_memory.hpp"
+#include "trime/core/log.hpp"
 #include "trime/io/run_files.hpp"
 
 #include <unistd.h>
@@ -26,6 +27,9 @@ volatile std::sig_atomic_t tells = 0;     ///< 1 on the rank whose handler says 
 void end_by_signal(int number) {
   const bool stands = run_files->final_mesh_written();
   run_files->remove_temporary();
+  [[maybe_unused]] const bool erased = // else there is nothing to do about it
+      tells == 0 || !trime::live_line_stands() ||
+      write(STDOUT_FILENO, trime::live_line_eraser, sizeof trime::live_line_eraser - 1) > 0;
   constexpr char without[] = "trime_mpi: interrupted; the final mesh was not written\n";
   constexpr char with[] =
       "trime_mpi: interrupted; the final mesh is written, but the report or other files are missing\n";

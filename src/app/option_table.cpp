@@ -316,7 +316,8 @@ constexpr Option table[] = {
      .kind = OptionKind::integer,
      .fallback = "0",
      .range = {0, 1e9},
-     .meaning = "print the line of every n-th sweep; 0: each on a terminal, sparse ones in a file"},
+     .meaning = "rows of the table of sweeps: the first of every n sweeps, on a terminal too, above the live line; 0: "
+                "sparse rows, none on a terminal"},
 };
 
 void add_once(std::vector<std::string>& names, const char* name) {

@@ -13,7 +13,7 @@
 #include "boundary/fixed_points.hpp"
 #include "core/free_memory.hpp"
 #include "core/thread_loop.hpp"
-#include "io/run_record.hpp"
+#include "io/report_file.hpp"
 #include "sites/rules.hpp"
 #include "start/points_of_length.hpp"
 #include "trime/io/mesh_series.hpp"
@@ -161,8 +161,8 @@ ExitCode make_mesh(const Job& job) {
     for (const std::string& warning : is_run ? series.check(points) : series.look(points))
       log.warning("{}", warning);
   check_exchange(options, comm);
-  if (!job.line.record.empty())
-    io::check_record(job.line.record, comm);
+  if (!job.line.report.empty())
+    io::check_report_file(job.line.report, comm);
   const BuiltSize size = [&] {
     const auto timing = timers.scope("size field");
     return build_size(options, boundary, comm);
@@ -200,8 +200,9 @@ ExitCode make_mesh(const Job& job) {
       files.paths.push_back(path);
   }
   const Measurements measured = gather_measurements(timers, comm);
-  if (!job.line.record.empty())
-    io::write_record(job.line.record, describe_run(provenance, result, sizes, measured), comm);
+  if (!job.line.report.empty())
+    io::write_report_file(job.line.report, describe_run(provenance, result, sizes, measured),
+                          {static_cast<int>(exit_code(result)), files.paths}, comm);
   log.info("{}", run_report(result, sizes, measured, files, input.normalized));
   if (!is_complete(result))
     log.warning("{}", incompleteness(result, options.write));
@@ -237,6 +238,8 @@ ExitCode run_program(int argc, const char* const* argv, const comm::Communicator
   }
   Log log(options.log_level, comm.is_root());
   log.set_progress_interval(options.log_interval);
+  if (line.action == Action::mesh)
+    timers.on_section([&log](const std::string& name) { log.phase(name == "measure" ? "sweeps" : name); });
   return make_mesh({comm, line, config_text, options, files, places, log, timers});
 }
 

@@ -190,6 +190,13 @@ void write_metadata(SlabFile& file, const Metadata& metadata) {
   }
 }
 
+/// Points are numbered along the ranks: those of rank r begin at first_point[r]. Every rank writes its own row.
+void write_ranks(SlabFile& file, const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
+  file.group("/trime_mpi/ranks");
+  file.slab(computed<std::int64_t>("/trime_mpi/ranks/first_point", {comm.rank(), comm.size()}, 1,
+                                   [&mesh](std::int64_t) { return mesh.point_slab.first; }));
+}
+
 /// Without any view the file is still a mesh.
 bool has_plain_mesh(const MeshFileOptions& options) {
   return options.xdmf || !options.vtkhdf;
@@ -223,6 +230,7 @@ void write_hdf5(const std::string& path, const MeshFileOptions& options, const m
     write_plain_mesh(file, mesh);
   write_facets(file, mesh);
   write_metadata(file, metadata);
+  write_ranks(file, mesh, comm);
   file.verify();
   file.close();
 }

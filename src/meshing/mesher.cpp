@@ -34,7 +34,7 @@ public:
 
   MeshResult make() {
     for (start_first_stage();; start_next_stage()) {
-      relaxation_.relax(stage_, {scheme_.stage(), scheme_.inserts(), scheme_.is_last()});
+      relaxation_.relax(stage_, {scheme_.stage(), scheme_.inserts(), scheme_.is_last(), scheme_.last_stage()});
       if (scheme_.is_last())
         break;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "meshing/relaxation.hpp"
 
+#include "meshing/forecast.hpp"
 #include "sweep/sweep_record.hpp"
 
 namespace trime::meshing {
@@ -18,7 +19,7 @@ void Relaxation::relax(sites::Stage& stage, const StageNumber& number) {
   SweepSums sums = record(stage, number.stage, sweeper, counts);
   snapshots_.take(stage);
   begun_.reset();
-  std::optional<StopReason> end = go_on(number.is_last);
+  std::optional<StopReason> end = go_on(number);
   while (!end) {
     counts = {};
     do {
@@ -26,7 +27,7 @@ void Relaxation::relax(sites::Stage& stage, const StageNumber& number) {
       snapshots_.take(stage);
     } while (!is_record_due());
     sums = record(stage, number.stage, sweeper, counts);
-    end = go_on(number.is_last);
+    end = go_on(number);
   }
   stop_reason_ = *end;
   const auto time = run_.timers.scope("sort");
@@ -72,16 +73,24 @@ SweepSums Relaxation::record(const sites::Stage& stage, int stage_number, Sweepe
   return summary.sums;
 }
 
-/// Carries out what the control decides after a record: switches the rule if it says so, and writes the line of the
-/// log. Returns why the stage ends, if it does.
-std::optional<StopReason> Relaxation::go_on(bool is_last_stage) {
+/// Carries out what the control decides after a record: switches the rule if it says so, and tells the log. Returns why
+/// the stage ends, if it does.
+std::optional<StopReason> Relaxation::go_on(const StageNumber& number) {
   const sweep::SweepDecision decision = control_.decide();
   if (decision.next)
     control_.switch_to(*decision.next);
   sweep::SweepRecord& last = history_.back();
   last.by_bars = control_.mover() == sweep::Mover::bars;
-  run_.log.progress(last.sweep, to_string(last), (decision.stop && is_last_stage) || last.sweep == 0);
+  const bool is_first = history_.size() == 1 || history_[history_.size() - 2].stage != last.stage;
+  tell(number, (decision.stop && number.is_last) || is_first);
   return decision.stop;
+}
+
+/// The last record as a line of the log. From what this rank has; nothing is steered by it.
+void Relaxation::tell(const StageNumber& number, bool is_shown) const {
+  const sweep::SweepRecord& last = history_.back();
+  run_.log.progress({last.sweep, live_text(last), sweep::table_header(), table_row(last),
+                     seconds_left(history_, number, run_.sweeps), is_shown});
 }
 
 } // namespace trime::meshing

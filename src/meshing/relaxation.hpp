@@ -17,6 +17,7 @@ struct StageNumber {
   int stage;    ///< from 0
   bool inserts; ///< the stages to come insert points into the mesh of this one
   bool is_last;
+  int last = 0; ///< number of the last stage, as far as is known
 };
 
 /// Sweeps until the stop rule ends a stage; keeps the history of the run.
@@ -39,7 +40,8 @@ private:
   sweep::Sweeper::Counts sweep_once(sweep::Sweeper& sweeper, sweep::SweepSums& sums);
   sweep::SweepSums record(const sites::Stage& stage, int stage_number, sweep::Sweeper& sweeper,
                           const sweep::Sweeper::Counts& counts);
-  std::optional<sweep::StopReason> go_on(bool is_last_stage);
+  std::optional<sweep::StopReason> go_on(const StageNumber& number);
+  void tell(const StageNumber& number, bool is_shown) const;
 
   const RunContext& run_;
   const StageStars& stars_;

@@ -27,4 +27,13 @@ struct MeshingRules {
   static constexpr GlobalId shortage_slack = 3;
 };
 
+/// The numbers of the forecast on a terminal; no mesh depends on them.
+struct ForecastRules {
+  /// [sweeps] A stage is expected to take so many until its own gains tell more. Not measured.
+  static constexpr int usual_sweeps = 21;
+  /// [sweeps of the final mesh] What follows the sweeps takes as long: clean-up, proof, output. Measured: 20 to 30 on
+  /// squares of 1e6 to 1e8 points.
+  static constexpr int after_sweeps = 25;
+};
+
 } // namespace trime::meshing

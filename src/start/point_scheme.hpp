@@ -37,6 +37,8 @@ public:
   /// No further stage comes.
   bool is_last() const { return stage_ == last_stage_; }
   int stage() const { return stage_; }
+  /// Number of the last stage, as far as is known: insertions may take more.
+  int last_stage() const { return last_stage_; }
   /// The stages to come insert points into the mesh of this one.
   bool inserts() const { return scheme_ == Scheme::insertion; }
 

@@ -69,11 +69,20 @@ SweepSummary summarize_sweep(const SiteState& state, Sweeper& sweeper, const Swe
   return summary;
 }
 
-std::string to_string(const SweepRecord& r) {
-  return fmt::format("sweep {:4d}  points {:9d}  alpha median {:.5f} mean {:.5f} max {:8.4f}  moving {:6.2f} %  "
-                     "max move {:.3f} h  rebuilt {:8d}  {:8.2f} s",
-                     r.sweep, r.points, r.median_alpha, r.mean_alpha, r.max_alpha, 100 * r.moving_share, r.max_move,
-                     r.rebuilt_stars, r.seconds);
+std::string table_header() {
+  return "sweep stage       points  alpha: median      mean      max  moving %  max move/h  rebuilt stars  seconds";
+}
+
+std::string table_row(const SweepRecord& r) {
+  return fmt::format("{:>5} {:>5} {:>12} {:>14.5f} {:>9.5f} {:>8} {:>9.2f} {:>11.3f} {:>14} {:>8.2f}", r.sweep, r.stage,
+                     r.points, r.median_alpha, r.mean_alpha,
+                     r.max_alpha < 1000 ? fmt::format("{:.3f}", r.max_alpha) : fmt::format("{:.1e}", r.max_alpha),
+                     100 * r.moving_share, r.max_move, r.rebuilt_stars, r.seconds);
+}
+
+std::string live_text(const SweepRecord& r) {
+  return fmt::format("sweep {}, alpha median {:.4f}, max {:.3g}, {:.1f} % move", r.sweep, r.median_alpha, r.max_alpha,
+                     100 * r.moving_share);
 }
 
 } // namespace trime::sweep

@@ -24,7 +24,10 @@ struct SweepSummary {
 SweepSummary summarize_sweep(const sites::SiteState& state, Sweeper& sweeper, const Sweeper::Counts& counts,
                              double typical_size, GlobalId held);
 
-/// The line of the log.
-std::string to_string(const SweepRecord& record);
+/// Head of the table of sweeps in a log, and a row of it.
+std::string table_header();
+std::string table_row(const SweepRecord& record);
+/// The same for the live line of a terminal, in at most 60 columns.
+std::string live_text(const SweepRecord& record);
 
 } // namespace trime::sweep

@@ -37,11 +37,16 @@ class Package(unittest.TestCase):
         usr = self.work / "root" / "usr"
         for name in ("bin/trime_mpi", "lib/libtrime.a", "lib/cmake/trime_mpi/trime_mpiConfig.cmake",
                      "include/trime/meshing/make_mesh.hpp", "share/doc/trime-mpi/copyright",
-                     "share/trime_mpi/jobs/common.sh"):
+                     "share/trime_mpi/jobs/common.sh", "lib/python3/dist-packages/trime_mpi/__init__.py"):
             self.assertTrue((usr / name).is_file(), name)
         for folder in ("configs", "jobs"):
             self.assertEqual({path.name for path in (usr / "share" / "trime_mpi" / folder).iterdir()},
                              {path.name for path in (ROOT / folder).iterdir()})
+
+    def test_picture_by_the_installed_script(self):
+        """It finds the package beside it, without a source tree."""
+        script = self.work / "root" / "usr" / "share" / "trime_mpi" / "scripts" / "plot_mesh.py"
+        self.assertIn("history", output("/usr/bin/python3", script, "--help"))
 
     def test_dependencies(self):
         needed = output("dpkg-deb", "-f", self.deb, "Depends")

@@ -5,6 +5,7 @@
 
 #include "trime/core/counters.hpp"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ public:
   public:
     Scope(TimerTable& table, const std::string& name) : table_(table), name_(name), start_(wall_seconds()) {
       table_.outside(); // the section begins with nothing
+      if (table_.begins_)
+        table_.begins_(name_);
     }
     ~Scope() { table_.add(name_, wall_seconds() - start_, table_.take()); }
     Scope(const Scope&) = delete;
@@ -46,6 +49,8 @@ public:
   /// @param counters of this rank, which the table takes; null: nothing is counted. They must outlive the table.
   explicit TimerTable(Counters* counters = nullptr) : counters_(counters), start_(wall_seconds()) {}
   [[nodiscard]] Scope scope(const std::string& name) { return Scope(*this, name); }
+  /// Sets what is called with the name of each section that begins; at most one.
+  void on_section(std::function<void(const std::string&)> begins) { begins_ = std::move(begins); }
   void add(const std::string& name, double seconds, const CounterValues& counts = {});
   const std::vector<Section>& sections() const { return sections_; }
   /// Seconds since construction.
@@ -60,6 +65,7 @@ private:
   Counters* counters_;
   CounterValues outside_;
   double start_;
+  std::function<void(const std::string&)> begins_;
 };
 
 } // namespace trime

@@ -46,7 +46,7 @@ class Local:
             start += ["--map-by", f"ppr:{per_node}:node:PE={case.threads}", "--bind-to", "core"]
         else:
             start += ["-bind-to", f"core:{case.threads}"]
-        return start + [str(self.program), "--quiet", "--record", str(record)] + mesh_arguments(case, record.parent)
+        return start + [str(self.program), "--quiet", "--report", str(record)] + mesh_arguments(case, record.parent)
 
     def run(self, case, record, limit):
         """One run; `record` is where its numbers go. Raises RunError."""

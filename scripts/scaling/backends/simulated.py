@@ -45,7 +45,7 @@ class Simulated:
         """One run; `record` is where its numbers go. Raises RunError."""
         arguments = mesh_arguments(case, record.parent)
         known = self.hashes.get(tuple(arguments))
-        command = [str(SCRIPT), "--ranks", str(case.ranks), *self.cluster_option(), "--record", str(record),
+        command = [str(SCRIPT), "--ranks", str(case.ranks), *self.cluster_option(), "--report", str(record),
                    *(["--hash", known] if known else []), *arguments]
         run = run_command(command, record, {}, limit)
         self.hashes[tuple(arguments)] = run["mesh_hash"]

@@ -37,7 +37,7 @@ one() {{
   local stem=$1-$2 begin=$EPOCHREALTIME code=0
   [ ! -e "$1.failed" ] || return 0
   shift 2
-  job_run --quiet --record "$stem.json" "$@" >"$stem.log" 2>&1 || code=$?
+  job_run --quiet --report "$stem.json" "$@" >"$stem.log" 2>&1 || code=$?
   echo "$code $begin $EPOCHREALTIME" >"$stem.exit"
   case $code in 0 | {capped}) ;; *) touch "${{stem%-*}}.failed" ;; esac
 }}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/run_record.hpp"
+#include "io/report_file.hpp"
 
 #include "comm/agree.hpp"
 #include "io/temporary_file.hpp"
@@ -35,31 +35,34 @@ Json json_of(const MetadataGroup& group) {
 
 } // namespace
 
-std::string record_text(const Metadata& metadata) {
+std::string report_json(const Metadata& metadata, const Outcome& outcome) {
   Json groups = Json::object();
   for (const MetadataGroup& group : metadata.groups)
     groups[group.name] = json_of(group);
-  const Json record{{"attributes", json_of(metadata.attributes)}, {"groups", std::move(groups)}};
-  return record.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  const Json report{
+      {"format", "trime_mpi-report"}, {"format_version", report_version},           {"exit_code", outcome.exit_code},
+      {"files", outcome.files},       {"attributes", json_of(metadata.attributes)}, {"groups", std::move(groups)}};
+  return report.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void check_record(const std::string& path, const comm::Communicator& comm) {
+void check_report_file(const std::string& path, const comm::Communicator& comm) {
   comm::run_agreed(comm, [&] {
     if (!comm.is_root())
       return;
     if (std::filesystem::is_directory(path))
-      throw FileError(fmt::format("the record {} is a directory; name a file", path));
+      throw FileError(fmt::format("the report {} is a directory; name a file", path));
     const std::filesystem::path parent = std::filesystem::path(path).parent_path();
     const std::string directory = parent.empty() ? "." : parent.string();
     if (access(directory.c_str(), W_OK | X_OK) != 0)
-      throw FileError(fmt::format("the record {} cannot be written: {}: {}", path, directory, system_error()));
+      throw FileError(fmt::format("the report {} cannot be written: {}: {}", path, directory, system_error()));
   });
 }
 
-void write_record(const std::string& path, const Metadata& metadata, const comm::Communicator& comm) {
+void write_report_file(const std::string& path, const Metadata& metadata, const Outcome& outcome,
+                       const comm::Communicator& comm) {
   comm::run_agreed(comm, [&] {
     if (comm.is_root())
-      write_text_file(path, record_text(metadata), nullptr);
+      write_text_file(path, report_json(metadata, outcome), nullptr);
   });
 }
 

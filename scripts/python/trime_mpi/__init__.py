@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Makes, reads and draws the triangle meshes of trime_mpi.
+
+    import trime_mpi
+
+    mesh = trime_mpi.mesh({"shape": {"region": "disc"},
+                           "shape.disc": {"type": "circle", "center": (0.5, 0.5), "radius": 0.4},
+                           "meshing": {"points": 20000}}, ranks=2)
+    mesh.points, mesh.triangles, mesh.boundaries["disc"].facets
+    trime_mpi.plot(mesh, "quality", file="disc.png")
+
+read: a mesh file as NumPy arrays. mesh: runs the program, and raises what it says as exceptions. plot: pictures.
+"""
+from .errors import (ConfigError, FileError, GeometryError, IncompleteError, InternalError, InterruptedRun, MemoryLimit,
+                     ProgramMissing, TrimeError)
+from .read import Boundary, Check, Mesh, read
+from .run import mesh
+
+__all__ = ["Boundary", "Check", "ConfigError", "FileError", "GeometryError", "IncompleteError", "InternalError",
+           "InterruptedRun", "MemoryLimit", "Mesh", "ProgramMissing", "TrimeError", "mesh", "plot", "read"]
+__version__ = "0.1.0"
+
+
+def plot(mesh, what="quality", file=None, dpi=130):  # pylint: disable=redefined-outer-name
+    """Draws a mesh (a Mesh, or the path of its file); see trime_mpi.plots.plot. Needs matplotlib."""
+    from .plots import plot as draw  # matplotlib is not needed before
+    return draw(mesh, what, file, dpi)

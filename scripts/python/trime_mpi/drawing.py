@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What all pictures share: colours, frames, headers, and triangles as polygons or as pixels."""
+import matplotlib
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import LinearSegmentedColormap, Normalize, to_rgb
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+
+from . import raster
+
+RASTER_ABOVE = 200_000  # triangles
+LINES_ABOVE = 100_000   # facets: more are drawn as pixels
+PIXELS = 1200           # of the longer side of a picture
+INK, PALE, WINDOW = "#26323d", "#b8bfc6", "#0b6e99"
+LAND = "#eceae4"        # triangles whose value does not matter
+ALPHA_COLOURS = LinearSegmentedColormap.from_list("alpha", ["#f7f5ee", "#f6e3a1", "#f2ae5f", "#d9603f", "#8c1d40"])
+ALPHA_RANGE = (1.0, 1.3)
+SIZE_COLOURS = LinearSegmentedColormap.from_list("size", ["#0b3954", "#1d6f8a", "#4fa69a", "#a7cf9b", "#f3efc3"])
+NAME_COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7b3294", "#8c510a", "#1b7837",
+                "#c51b7d", "#4d4d4d", "#b2182b"]  # apart for most eyes; the first seven for all
+
+
+def name_colour(number):
+    """A colour for the number of a name or a rank; beyond the list, hues by the golden ratio."""
+    if number < len(NAME_COLOURS):
+        return to_rgb(NAME_COLOURS[number])
+    hue = (number * 0.6180339887498949) % 1
+    return tuple(matplotlib.colors.hsv_to_rgb((hue, 0.45 + 0.3 * (number % 3 == 0), 0.65 + 0.25 * (number % 2))))
+
+
+def frame(axes, low, high):
+    """Equal scales, the window with a margin, few ticks."""
+    margin = 0.02 * (high - low).max()
+    axes.set_aspect("equal")
+    axes.set_xlim(low[0] - margin, high[0] + margin)
+    axes.set_ylim(low[1] - margin, high[1] + margin)
+    plain_ticks(axes)
+
+
+def plain_ticks(axes):
+    """Small ticks, a pale frame."""
+    axes.tick_params(labelsize=7, colors=INK, length=2, which="both")
+    for spine in axes.spines.values():
+        spine.set_color(PALE)
+
+
+def box_of(mesh):
+    """Lower left and upper right corner."""
+    return mesh.points.min(axis=0), mesh.points.max(axis=0)
+
+
+def header(figure, title, text, tall):
+    """A bold line and a plain one at the top of a figure that is `tall` inches."""
+    figure.text(0.04, 1 - 0.40 / tall, title, fontsize=16, fontweight="bold", color=INK)
+    figure.text(0.04, 1 - 0.69 / tall, text, fontsize=10, color=INK)
+
+
+def summary(mesh):
+    """The numbers of the plain line."""
+    text = f"{len(mesh.points):,} points   {len(mesh.triangles):,} triangles"
+    if "alpha_mean" in mesh.quality:
+        text += (f"   alpha mean {mesh.quality['alpha_mean']:.4f}, max {mesh.quality['alpha_max']:.3f}"
+                 f"   smallest angle {mesh.quality['min_angle_degrees']:.1f}°")
+    return text + f"   mesh_hash {mesh.hash}"
+
+
+def panel_figure(mesh, beside=2.9):
+    """A figure with one map at the left, as wide and tall as its shape wants, and `beside` inches at the right. Returns
+    figure, axes of the map, and its height in inches."""
+    width, height = np.maximum(np.ptp(mesh.points, axis=0), 1e-300)
+    scale = min(9.6 / width, 8.2 / height)
+    across, up = max(scale * width, 4.6), max(scale * height, 2.6)
+    wide, tall = max(across + 0.8 + beside, 9.2), up + 1.4
+    figure = Figure(figsize=(wide, tall), facecolor="white")
+    axes = figure.add_axes([0.55 / wide, 0.4 / tall, across / wide, up / tall])
+    axes.set_anchor("NW")
+    return figure, axes, tall
+
+
+def line_width(triangles):
+    """Of the edges of so many triangles."""
+    return float(np.clip(22 / np.sqrt(max(triangles, 1)), 0.03, 0.5))
+
+
+def draw_polygons(axes, mesh, chosen, width, colours):
+    """Triangles `chosen` (an index) as polygons; colours: options of PolyCollection."""
+    axes.add_collection(PolyCollection(mesh.corners(chosen), linewidths=width, rasterized=True,
+                                       **{"edgecolors": INK, **colours}))
+
+
+def draw_facets(axes, mesh, width=0.6, colour=INK, rows=slice(None)):
+    """The boundary, or rows of it, as lines; as pixels where there are too many."""
+    if len(mesh.facets[rows]) <= LINES_ABOVE:
+        axes.add_collection(LineCollection(mesh.facet_ends(rows), colors=[colour], linewidths=width,
+                                           capstyle="round", rasterized=len(mesh.facets[rows]) > 20_000))
+        return
+    canvas = raster.Canvas(*box_of(mesh), PIXELS)
+    mask = raster.facet_mask(mesh, canvas, rows)
+    image = np.zeros(canvas.shape + (4,))
+    image[mask] = to_rgb(colour) + (1.0,)
+    axes.imshow(image, origin="lower", extent=canvas.extent, interpolation="nearest", zorder=2)
+
+
+def draw_values(axes, mesh, value, colours, limits, norm=None):
+    """All triangles, coloured by value [M]."""
+    norm = norm or Normalize(*limits)
+    if len(mesh.triangles) <= RASTER_ABOVE:
+        draw_polygons(axes, mesh, slice(None), line_width(len(mesh.triangles)),
+                      {"array": value, "cmap": colours, "norm": norm})
+        return
+    canvas = raster.Canvas(*box_of(mesh), PIXELS)
+    image, polygons = raster.mean_image(mesh, canvas, value)
+    axes.imshow(image, origin="lower", extent=canvas.extent, cmap=colours, norm=norm, interpolation="nearest")
+    if len(polygons):
+        draw_polygons(axes, mesh, polygons, 0.2,
+                      {"array": value[polygons], "cmap": colours, "norm": norm, "edgecolors": "face"})
+
+
+def draw_numbers(axes, mesh, number, palette):
+    """All triangles, coloured by the row of palette [k,3] that number [M] names."""
+    palette = np.asarray(palette, float)
+    if len(mesh.triangles) <= RASTER_ABOVE:
+        draw_polygons(axes, mesh, slice(None), 0.6 * line_width(len(mesh.triangles)), {"facecolors": palette[number]})
+        return
+    canvas = raster.Canvas(*box_of(mesh), PIXELS)
+    image, polygons = raster.number_image(mesh, canvas, number)
+    pixels = np.concatenate([palette, [(1, 1, 1)]])[image]
+    axes.imshow(pixels, origin="lower", extent=canvas.extent, interpolation="nearest")
+    if len(polygons):
+        draw_polygons(axes, mesh, polygons, 0.2, {"facecolors": palette[number[polygons]], "edgecolors": "face"})
+
+
+def add_scale(figure, axes, norm, colours, label, extend="neither"):
+    """A bar of colours to the right of axes."""
+    bar = figure.colorbar(ScalarMappable(norm, colours), ax=axes, fraction=0.03, pad=0.015, aspect=40, extend=extend)
+    bar.ax.tick_params(labelsize=7, which="both")
+    bar.set_label(label, fontsize=8)
+    return bar
+
+
+def label_sizes(bar, low, high):
+    """Five ticks with three digits, since decades are too far apart for most meshes."""
+    bar.ax.yaxis.set_major_locator(FixedLocator(np.geomspace(low, high, 5)))
+    bar.ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.3g}"))
+    bar.ax.yaxis.set_minor_locator(NullLocator())

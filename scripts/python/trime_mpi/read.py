@@ -1,0 +1,240 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A mesh file of trime_mpi as NumPy arrays."""
+import dataclasses
+import functools
+import os
+
+import h5py
+import numpy as np
+
+from .errors import FileError
+
+
+@dataclasses.dataclass(frozen=True)
+class Check:
+    """A check of the certificate: what was expected and what was found, and what it means."""
+    name: str
+    passed: bool
+    expected: float
+    found: float
+    meaning: str
+
+
+@dataclasses.dataclass(frozen=True)
+class Boundary:
+    """The edges of a mesh that follow one part of the shape. facets [k,2]: vertices, the interior on the left of each
+    edge; rows [k]: their rows in Mesh.facets; vertices [v]: all of them, each once, ascending."""
+    name: str
+    rows: np.ndarray
+    facets: np.ndarray
+
+    @functools.cached_property
+    def vertices(self):
+        """Ids of the vertices of the facets, each once."""
+        return np.unique(self.facets)
+
+
+@dataclasses.dataclass
+class Mesh:
+    """A triangle mesh of N points, M triangles and B boundary edges. Ids count from 0.
+
+    points [N,2]; triangles [M,3], counter-clockwise; alpha, beta, region [M]; boundary (loop, 0 inside), size (wanted
+    edge length), fixed (corner or fixed point) [N]; facets [B,2], facet_tags (loop), facet_parts (part of the shape),
+    facet_size [B]. first_point [ranks]: the first point of each rank that made the mesh.
+
+    attributes, quality, timers, counters, history, tables: the group /trime_mpi, tables as dicts of columns. config:
+    the config as it was given; config_resolved: with all defaults.
+    """
+    path: str
+    points: np.ndarray
+    triangles: np.ndarray
+    alpha: np.ndarray
+    beta: np.ndarray
+    region: np.ndarray
+    boundary: np.ndarray
+    size: np.ndarray
+    fixed: np.ndarray
+    facets: np.ndarray
+    facet_tags: np.ndarray
+    facet_parts: np.ndarray
+    facet_size: np.ndarray
+    first_point: np.ndarray
+    attributes: dict
+    tables: dict
+    config: str
+    config_resolved: str
+    warnings: list = dataclasses.field(default_factory=list)
+
+    def __repr__(self):
+        return (f"<trime_mpi.Mesh of {len(self.points)} points, {len(self.triangles)} triangles, "
+                f"{len(self.facets)} boundary edges, hash {self.hash}>")
+
+    @property
+    def hash(self):
+        """Of points and triangles, 16 hexadecimal digits: equal hashes, equal meshes."""
+        if "mesh_hash_hex" in self.attributes:
+            return self.attributes["mesh_hash_hex"]
+        return f"{int(self.attributes['mesh_hash']) & 0xffffffffffffffff:016x}"
+
+    @property
+    def is_complete(self):
+        """False where the sweep cap ended the run, or a check failed."""
+        return bool(self.attributes.get("complete", 0))
+
+    @property
+    def periods(self):
+        """(x, y) of a periodic container; 0: not periodic."""
+        return float(self.attributes.get("period_x", 0)), float(self.attributes.get("period_y", 0))
+
+    @functools.cached_property
+    def parts(self):
+        """Names of the parts of the shape, by their number in facet_parts."""
+        tags = self.tables.get("tags", {})
+        return {int(number): name for number, name in zip(tags.get("part_id", ()), tags.get("part_name", ()))}
+
+    @functools.cached_property
+    def regions(self):
+        """Names of the regions of triangles, by their number in region."""
+        tags = self.tables.get("tags", {})
+        return {int(number): name for number, name in zip(tags.get("region_id", ()), tags.get("region_name", ()))}
+
+    @functools.cached_property
+    def boundaries(self):
+        """Name of a part of the shape -> the Boundary that follows it; parts without an edge are left out."""
+        order = np.argsort(self.facet_parts, kind="stable")
+        numbers, first = np.unique(self.facet_parts[order], return_index=True)
+        found = {}
+        for number, rows in zip(numbers, np.split(order, first[1:])):
+            name = self.parts.get(int(number), f"part {int(number)}")
+            found[name] = Boundary(name, rows, self.facets[rows])
+        return found
+
+    @functools.cached_property
+    def loops(self):
+        """Tag of a boundary loop -> dict of name, kind (outer, hole, band), edges and length."""
+        tags = self.tables.get("tags", {})
+        columns = [tags.get(name, ()) for name in ("edge_id", "edge_name", "edge_kind", "edge_count", "edge_length_sum")]
+        return {int(tag): {"name": name, "kind": kind, "edges": int(edges), "length": float(length)}
+                for tag, name, kind, edges, length in zip(*columns)}
+
+    @functools.cached_property
+    def checks(self):
+        """Name of a check -> Check."""
+        table = self.tables.get("checks", {})
+        columns = [table.get(name, ()) for name in ("name", "passed", "expected", "found", "meaning")]
+        return {name: Check(name, bool(passed), float(expected), float(found), meaning)
+                for name, passed, expected, found, meaning in zip(*columns)}
+
+    @property
+    def history(self):
+        """Columns of the records of the run: sweep, stage, points, median_alpha, max_alpha, moving_share, ..."""
+        return self.tables.get("history", {})
+
+    @property
+    def quality(self):
+        """The summary of the report: attributes by name, and its columns."""
+        return self.tables.get("quality", {})
+
+    @functools.cached_property
+    def counters(self):
+        """Phase -> counter -> dict of unit, sum, min, mean, max over the ranks; phase `run`: the whole run."""
+        table, nested = self.tables.get("counters", {}), {}
+        rows = zip(*(table.get(name, ()) for name in ("phase", "name", "unit", "sum", "min", "mean", "max")))
+        for phase, name, unit, *values in rows:
+            nested.setdefault(phase, {})[name] = {"unit": unit} | dict(zip(("sum", "min", "mean", "max"), values))
+        return nested
+
+    @functools.cached_property
+    def timers(self):
+        """Phase -> dict of calls, and of min, avg, max over the ranks in seconds."""
+        table = self.tables.get("timers", {})
+        columns = [name for name in table if name != "name"]
+        return {row[0]: dict(zip(columns, row[1:])) for row in zip(table.get("name", ()), *(table[c] for c in columns))}
+
+    def corners(self, chosen=slice(None)):
+        """Coordinates of the corners of triangles [M,3,2]; in a periodic container images that lie together."""
+        return brought_together(self.points[self.triangles[chosen]], self.periods)
+
+    def facet_ends(self, chosen=slice(None)):
+        """The same of facets [B,2,2]."""
+        return brought_together(self.points[self.facets[chosen]], self.periods)
+
+    def ranks(self):
+        """The rank of each point [N], which is also that of the triangles of which it is the first vertex."""
+        return np.repeat(np.arange(len(self.first_point), dtype=np.int32),
+                         np.diff(np.append(self.first_point, len(self.points))))
+
+
+def brought_together(places, periods):
+    """The images of places [..., k, 2] that are nearest to the first of each k."""
+    for axis, period in enumerate(periods):
+        if period > 0:
+            first = places[:, :1, axis]
+            places[:, :, axis] -= period * np.round((places[:, :, axis] - first) / period)
+    return places
+
+
+def python_value(value):
+    """An attribute as a number or a str."""
+    if isinstance(value, bytes):
+        return value.decode("utf-8", "replace")
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def column_values(dataset):
+    """A column as an array of numbers, or a list of str."""
+    values = dataset[()]
+    if dataset.dtype.kind in "OS":
+        return [python_value(value) for value in np.atleast_1d(values)]
+    return values
+
+
+def text_of(group, name):
+    """A text of /trime_mpi, empty if there is none."""
+    return python_value(group[name][()]) if name in group else ""
+
+
+def read_tables(group):
+    """Groups of /trime_mpi as {name: {attribute or column: values}}."""
+    tables = {}
+    for name, inner in group.items():
+        if isinstance(inner, h5py.Group):
+            tables[name] = {key: python_value(value) for key, value in inner.attrs.items()}
+            tables[name].update((key, column_values(values)) for key, values in inner.items())
+    return tables
+
+
+def read_open(file, path):
+    """The mesh of an open file."""
+    about = file["trime_mpi"]
+    if "Mesh/mesh" in file:
+        points, triangles = file["Mesh/mesh/geometry"][:], file["Mesh/mesh/topology"][:]
+    else:  # written for ParaView only
+        points, triangles = file["VTKHDF/Points"][:, :2].copy(), file["VTKHDF/Connectivity"][:].reshape(-1, 3)
+    fields = file["VTKHDF" if "VTKHDF/PointData" in file else "Mesh"]
+    cells, nodes, facets = fields["CellData"], fields["PointData"], file["Mesh/facets"]
+    tables = read_tables(about)
+    first = np.asarray(tables.pop("ranks", {}).get("first_point", [0]))
+    return Mesh(
+        path=os.fspath(path), points=points, triangles=triangles, alpha=cells["alpha"][:], beta=cells["beta"][:],
+        region=cells["region"][:], boundary=nodes["boundary"][:], size=nodes["size"][:],
+        fixed=nodes["fixed"][:].astype(bool), facets=facets["topology"][:], facet_tags=facets["values"][:],
+        facet_parts=facets["parts"][:],
+        facet_size=facets["asked_size"][:] if "asked_size" in facets else np.zeros(0, np.float32), first_point=first,
+        attributes={key: python_value(value) for key, value in about.attrs.items()}, tables=tables,
+        config=text_of(about, "config_text"), config_resolved=text_of(about, "config_resolved"))
+
+
+def read(file):
+    """The mesh in a file NAME.h5 (or NAME.vtkhdf) that trime_mpi has written.
+
+    Raises FileError if there is no such file, or if it is not a mesh of trime_mpi. About 100 bytes a point.
+    """
+    path = os.fspath(file)
+    if not os.path.exists(path):
+        raise FileError([f"there is no {path}"])
+    try:
+        with h5py.File(path, "r") as opened:
+            return read_open(opened, path)
+    except (OSError, KeyError) as error:
+        raise FileError([f"{path} is not a mesh file of trime_mpi: {error}"]) from error

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The report of a run as one JSON file: for scripts that compare many runs, also of runs that write no mesh. What it
+// holds is told in src/README.md, "The report as JSON".
+#pragma once
+
+#include "trime/comm/communicator.hpp"
+#include "trime/io/metadata.hpp"
+
+#include <string>
+#include <vector>
+
+namespace trime::io {
+
+/// Of the members of every report; a member that goes, or means something else, raises it. New ones do not.
+inline constexpr int report_version = 1;
+
+/// What a run has ended with, beside its metadata.
+struct Outcome {
+  int exit_code = 0;
+  std::vector<std::string> files; ///< that were written
+};
+
+/// @brief {"format": "trime_mpi-report", "format_version": 1, "exit_code", "files": [...], "attributes": {name: value},
+/// "groups": {group: {"attributes": {...}, "columns": {name: [values]}}}}. Attributes and groups have the names of the
+/// group /trime_mpi of a mesh file; the texts are left out. Numbers that are not finite become null, and bytes that are
+/// no UTF-8 are replaced, since JSON cannot hold them.
+std::string report_json(const Metadata& metadata, const Outcome& outcome);
+
+/// @brief Sees that the file can be written; to be called before work starts that would be lost.
+/// @throws FileError on all ranks
+/// @note Collective.
+void check_report_file(const std::string& path, const comm::Communicator& comm);
+
+/// @brief Writes the report of rank 0 to `path`, whole or not at all; a file of this name is replaced.
+/// @throws FileError on all ranks
+/// @note Collective.
+void write_report_file(const std::string& path, const Metadata& metadata, const Outcome& outcome,
+                       const comm::Communicator& comm);
+
+} // namespace trime::io

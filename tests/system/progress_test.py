@@ -1,0 +1,159 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a run says while it runs: one live line on a terminal, sparse rows of a table elsewhere, nothing with --quiet."""
+import fcntl
+import json
+import os
+import pty
+import re
+import signal
+import struct
+import subprocess
+import termios
+import time
+import unittest
+
+from trime_run import ROOT, Workspace, command, environment, run
+
+CONFIG = ROOT / "configs" / "spade.ini"
+ERASE = "\r\x1b[K"
+ROW = re.compile(r"^ *(\d+) +(\d+) +(\d+) +1\.\d{5} +1\.\d{5} +\d\S+ +\d+\.\d\d +\d\.\d{3} +\d+ +\d+\.\d\d$")
+
+
+def arguments(work, *more):
+    return [CONFIG, "meshing.points=5000", f"output.directory={work}", "output.overwrite=true", *more]
+
+
+def read_all(terminal):
+    """All that was written to a pseudo-terminal; its reading end fails where the writers have gone."""
+    parts = []
+    while True:
+        try:
+            part = os.read(terminal, 1 << 16)
+        except OSError:
+            break
+        if not part:
+            break
+        parts.append(part)
+    return b"".join(parts).decode()
+
+
+def run_on_terminal(given, ranks=1, columns=100, kind="xterm", interrupt_after=None):
+    """Exit code and output of a run whose output is a terminal of so many columns."""
+    mine, its = pty.openpty()
+    fcntl.ioctl(its, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
+    with subprocess.Popen(command(given, ranks), env=environment(1) | {"TERM": kind}, stdin=subprocess.DEVNULL,
+                          stdout=its, stderr=its) as process:
+        os.close(its)
+        if interrupt_after is not None:
+            time.sleep(interrupt_after)
+            process.send_signal(signal.SIGINT)
+        text = read_all(mine)
+        os.close(mine)
+        return process.wait(120), text
+
+
+def shown(text):
+    """The lines that remain on the screen: what stood before an erasure is gone."""
+    return [line.rsplit(ERASE, 1)[-1].rstrip("\r") for line in text.split("\n")]
+
+
+def rows(text):
+    """The rows of the table of sweeps as (sweep, stage)."""
+    return [(int(found[1]), int(found[2])) for found in map(ROW.match, shown(text)) if found]
+
+
+class Progress(unittest.TestCase):
+    def test_one_live_line_on_a_terminal(self):
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks), Workspace() as work:
+                code, text = run_on_terminal(arguments(work, "meshing.points=20000"), ranks)
+                self.assertEqual(code, 0, text)
+                live = [part.split("\n")[0].rstrip("\r") for part in text.split(ERASE)[1:]]
+                self.assertTrue(any(re.match(r"sweeps: sweep \d+, alpha median 1\.\d{4}, max \S+, \d+\.\d % move", line)
+                                    for line in live), text)
+                self.assertTrue(any(line.endswith(" left") for line in live), live)
+                for phase in ("shape", "size field", "clean-up", "certificate", "output"):
+                    self.assertTrue(any(line.startswith(phase) for line in live), phase)
+                # Nothing of it stays, and no message stands behind it in a line.
+                self.assertEqual([line for line in shown(text) if " % move" in line or line == "certificate"], [])
+                self.assertIn("Checks", shown(text))
+                self.assertEqual(rows(text), [])
+
+    def test_the_line_fits_into_the_window(self):
+        with Workspace() as work:
+            code, text = run_on_terminal(arguments(work), columns=30)
+            self.assertEqual(code, 0)
+            live = [re.split(r"[\r\n]", part)[0] for part in text.split(ERASE)[1:]]
+            drawn = [line for line in live if line.startswith("sweeps")]
+            self.assertTrue(drawn)
+            self.assertLessEqual(max(map(len, drawn)), 29)
+
+    def test_rows_above_the_line_if_the_config_asks(self):
+        with Workspace() as work:
+            code, text = run_on_terminal(arguments(work, "log.interval=10"))
+            self.assertEqual(code, 0)
+            self.assertGreater(len(rows(text)), 5)
+            self.assertIn(ERASE, text)
+
+    def test_sparse_rows_in_a_log(self):
+        with Workspace() as work:
+            done = run(*arguments(work), ranks=2)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertNotIn("\r", done.stdout)
+            self.assertNotIn("\x1b", done.stdout)
+            found = rows(done.stdout)
+            self.assertEqual([sweep for sweep, _ in found[:6]], [0, 3, 6, 12, 21, 51])
+            self.assertEqual({stage for _, stage in found}, {0, 1}, "each stage shows its start")
+            self.assertEqual(done.stdout.count("alpha: median"), 1)
+            widths = {len(line) for line in done.stdout.split("\n") if ROW.match(line)}
+            self.assertEqual(len(widths), 1, "columns stand")
+            code, text = run_on_terminal(arguments(work), kind="dumb")
+            self.assertEqual((code, text.count("\x1b")), (0, 0))
+
+    def test_quiet_is_silent(self):
+        with Workspace() as work:
+            code, text = run_on_terminal(arguments(work, "--quiet"))
+            self.assertEqual((code, text), (0, ""))
+
+    def test_an_error_stands_in_a_line_of_its_own(self):
+        with Workspace() as work:
+            code, text = run_on_terminal(arguments(work, "shape.spade.file=nothing.xy"))
+            self.assertEqual(code, 4)
+            self.assertIn(ERASE, text)
+            self.assertTrue(any(line.startswith("trime_mpi: error: ") for line in shown(text)), text)
+
+    def test_an_interrupt_erases_the_line(self):
+        with Workspace() as work:
+            code, text = run_on_terminal(arguments(work, "meshing.points=2000000"), interrupt_after=2)
+            self.assertEqual(code, -signal.SIGINT)
+            self.assertTrue(any(line.startswith("trime_mpi: interrupted") for line in shown(text)), text)
+
+
+class Report(unittest.TestCase):
+    def test_schema(self):
+        with Workspace() as work:
+            done = run(*arguments(work, "--quiet", "--report", work / "r.json"))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            report = json.loads((work / "r.json").read_text(encoding="utf-8"))
+            self.assertEqual(set(report), {"format", "format_version", "exit_code", "files", "attributes", "groups"})
+            self.assertEqual((report["format"], report["format_version"]), ("trime_mpi-report", 1))
+            self.assertEqual(report["files"], [f"{work}/spade.{ending}" for ending in ("h5", "xdmf", "vtkhdf")])
+            for name in ("points", "triangles", "mesh_hash_hex", "stop_reason", "seconds_total", "complete"):
+                self.assertIn(name, report["attributes"])
+            for name in ("history", "quality", "checks", "timers", "counters", "tags"):
+                self.assertIn(name, report["groups"])
+            page = (ROOT / "src" / "README.md").read_text(encoding="utf-8")
+            for name in report:
+                self.assertIn(f"| `{name}`", page)
+
+    def test_exit_code_and_no_files(self):
+        with Workspace() as work:
+            done = run(*arguments(work, "output.interval=0", "meshing.max_sweeps=2", "--record", work / "r.json"))
+            self.assertEqual(done.returncode, 5)  # --record: its name in earlier versions
+            report = json.loads((work / "r.json").read_text(encoding="utf-8"))
+            self.assertEqual((report["exit_code"], report["files"]), (5, []))
+
+
+if __name__ == "__main__":
+    unittest.main()
