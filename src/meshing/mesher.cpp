@@ -168,7 +168,8 @@ MeshResult Run::extract() {
     const auto time = run_.timers.scope("certificate");
     result.checks = certificate::certify(view, numbering,
                                          {run_.given_boundary, boundary_.curves(), *stage_.asked_size, run_.side(),
-                                          stage_.simplified.coarseness, run_.options.features.within},
+                                          stage_.simplified.coarseness, run_.options.features.within,
+                                          run_.options.features.corner_angle},
                                          result.mesh);
   }
   result.checks.push_back(extraction::worst_alpha_check(result.quality, run_.options.worst_alpha));
