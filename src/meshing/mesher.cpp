@@ -10,6 +10,7 @@
 #include "meshing/outlook.hpp"
 #include "meshing/relaxation.hpp"
 #include "meshing/rules.hpp"
+#include "meshing/same_input.hpp"
 #include "start/layout.hpp"
 #include "start/point_scheme.hpp"
 #include "start/size_warnings.hpp"
@@ -233,6 +234,8 @@ void Mesher::on_snapshot(SnapshotObserver observer) {
 }
 
 MeshResult Mesher::run() {
+  const RunContext& context = implementation_->run;
+  check_same_input(context.given_boundary, context.relative_size, context.comm);
   return Run(implementation_->run, implementation_->observer).make();
 }
 
