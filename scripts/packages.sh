@@ -14,7 +14,7 @@ trime_run_packages=(
 # To run the tests, beside the above.
 trime_test_packages=(
   libgtest-dev libbenchmark-dev                   # unit tests, benchmarks
-  libcgal-dev libboost-dev                        # their oracles: CGAL, big integers of Boost
+  libcgal-dev libboost-dev                        # oracles of the tests, and trime_check: CGAL, big integers of Boost
   hdf5-tools python3-vtk9 python3-meshio          # h5diff, and two foreign readers of the mesh file
   python3-gmsh python3-dolfinx freefem++          # readers of the formats of other programs
   python3-scipy gmsh                              # Poisson's equation, on meshes of Gmsh too, judge.py; benchmark.py --gmsh;

@@ -3,6 +3,7 @@
 #include "app/large_arrays.hpp"
 #include "app/program.hpp"
 #include "app/user_places.hpp"
+#include "comm/departure.hpp"
 #include "core/free_memory.hpp"
 #include "trime/core/log.hpp"
 #include "trime/io/run_files.hpp"
@@ -39,12 +40,14 @@ void end_by_signal(int number) {
   std::raise(number);
 }
 
-/// The signals that end a program, but not those that whoever started it told it to ignore (nohup).
+/// The signals that end a program, but not those that whoever started it told it to ignore (nohup). A file that grows
+/// beyond its limit is no reason to end: the write fails, and that is told.
 void handle_signals(bool tell) {
   tells = tell ? 1 : 0;
-  for (const int number : {SIGINT, SIGTERM, SIGHUP})
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGABRT, SIGXCPU})
     if (std::signal(number, end_by_signal) == SIG_IGN)
       std::signal(number, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 /// Every line of the message as one line of error.
@@ -67,12 +70,16 @@ void print_error(const std::string& message) {
   trime::comm::abort_job(static_cast<int>(code));
 }
 
-/// Errors of the program are the same on all ranks; rank 0 tells them.
-ExitCode run(int argc, char** argv, const trime::comm::Communicator& comm) {
+/// Errors of the program should be the same on all ranks; then rank 0 tells them. One that is not ends the job.
+/// @param leaving on which ranks meet that have an error
+ExitCode run(int argc, char** argv, const trime::comm::Communicator& comm, const trime::comm::Communicator& leaving) {
+  constexpr double patience = 10; // [s] ranks that throw the same error may be that far apart
   trime::app::UserPlaces places;
   try {
     return trime::app::run_program(argc, argv, comm, run_files, places);
   } catch (const trime::Error& error) {
+    if (!trime::comm::all_arrive(leaving, patience))
+      leave_alone(fmt::format("{} (rank {} alone)", places.explain(error.what()), comm.rank()), error.code());
     if (comm.is_root())
       print_error(places.explain(error.what()));
     return error.code();
@@ -93,7 +100,8 @@ int main(int argc, char** argv) {
   const trime::comm::Environment environment(argc, argv);
   const trime::comm::Communicator comm = trime::comm::Communicator::world();
   handle_signals(comm.is_root());
-  const ExitCode code = run(argc, argv, comm);
+  const trime::comm::Communicator leaving = trime::comm::Communicator::world();
+  const ExitCode code = run(argc, argv, comm, leaving);
   tells = 0; // all has been said; mpirun may end ranks that are slow to leave by a signal
   return static_cast<int>(code);
 }

@@ -132,9 +132,17 @@ io::SeriesOptions series_options(const Job& job, const geometry::Boundary& bound
   return options;
 }
 
+/// What the environment asks for must be the same on all ranks, since it decides where they work together; launchers do
+/// not hand it on to all of them. Rank 0 decides. Collective.
+sweep::StarTests of_root(const sweep::StarTests& tests, const comm::Communicator& comm) {
+  const std::string of_root = comm.broadcast(std::string{tests.verify ? '1' : '0', tests.by_emptiness ? '1' : '0'});
+  return {of_root[0] == '1', of_root[1] == '1'};
+}
+
 ExitCode make_mesh(const Job& job) {
   const comm::Communicator& comm = job.comm;
   RunOptions options = job.options;
+  options.mesh.star_tests = of_root(options.mesh.star_tests, comm);
   const bool is_run = job.line.action == Action::mesh;
   Log& log = job.log;
   TimerTable& timers = job.timers;

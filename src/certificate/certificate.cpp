@@ -5,11 +5,13 @@
 
 #include "certificate/boundary_proof.hpp"
 #include "certificate/exact_area.hpp"
+#include "certificate/rules.hpp"
 #include "core/random.hpp"
 #include "core/thread_loop.hpp"
 #include "geometry/predicates.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace trime::certificate {
@@ -26,10 +28,11 @@ struct Counts {
   std::int64_t points = 0, edges = 0, triangles = 0, facets = 0, listings = 0;
   std::uint64_t hash_of_listings = 0, hash_of_triangles = 0, hash_of_written = 0;
   std::uint64_t hash_of_facets = 0, hash_of_written_facets = 0;
-  std::int64_t not_positive = 0, not_delaunay = 0, incomplete = 0, unused = 0, corners = 0, fixed = 0;
+  std::uint64_t hash_of_points = 0, hash_of_written_points = 0;
+  std::int64_t not_positive = 0, not_delaunay = 0, incomplete = 0, unused = 0, corners = 0, junctions = 0, fixed = 0;
   ExactArea area;
 
-  static constexpr std::size_t size = 19;
+  static constexpr std::size_t size = 22;
   std::array<std::int64_t, size> pack() const {
     const auto parts = area.split();
     const auto bits = [](std::uint64_t hash) { return static_cast<std::int64_t>(hash); };
@@ -43,11 +46,14 @@ struct Counts {
             bits(hash_of_written),
             bits(hash_of_facets),
             bits(hash_of_written_facets),
+            bits(hash_of_points),
+            bits(hash_of_written_points),
             not_positive,
             not_delaunay,
             incomplete,
             unused,
             corners,
+            junctions,
             fixed,
             parts[0],
             parts[1],
@@ -55,9 +61,9 @@ struct Counts {
   }
   static Counts unpack(const std::array<std::int64_t, size>& p) {
     const auto hash = [&](std::size_t k) { return static_cast<std::uint64_t>(p[k]); };
-    Counts c{p[0],    p[1],  p[2],  p[3],  p[4],  hash(5), hash(6), hash(7), hash(8),
-             hash(9), p[10], p[11], p[12], p[13], p[14],   p[15],   {}};
-    c.area = ExactArea::join({p[16], p[17], p[18]});
+    Counts c{p[0],     p[1],     p[2],  p[3],  p[4],  hash(5), hash(6), hash(7), hash(8), hash(9),
+             hash(10), hash(11), p[12], p[13], p[14], p[15],   p[16],   p[17],   p[18],   {}};
+    c.area = ExactArea::join({p[19], p[20], p[21]});
     return c;
   }
   void add(const Counts& other) {
@@ -81,6 +87,12 @@ std::uint64_t triangle_hash(GlobalId a, GlobalId b, GlobalId c) {
 std::uint64_t facet_hash(GlobalId first, GlobalId second, std::int32_t tag, std::int32_t part) {
   const auto labels = static_cast<std::uint64_t>((std::int64_t{tag} << 32) + part);
   return mix_bits(mix_bits(mix_bits(static_cast<std::uint64_t>(first)) ^ static_cast<std::uint64_t>(second)) ^ labels);
+}
+
+/// Of a point as it is written: its number, and its coordinates bit for bit.
+std::uint64_t point_hash(GlobalId id, Vec2 p) {
+  return mix_bits(mix_bits(mix_bits(static_cast<std::uint64_t>(id)) ^ std::bit_cast<std::uint64_t>(p.x)) ^
+                  std::bit_cast<std::uint64_t>(p.y));
 }
 
 /// @brief Counts quadruples of points whose last lies inside the circle of the others, many at a time: nearly all are
@@ -125,8 +137,9 @@ private:
 /// Counts at the stars of sites, one after the other.
 class StarCounter {
 public:
-  StarCounter(const StageView& view, const decomposition::Numbering& numbering)
-      : view_(view), numbering_(numbering), points_(view.state.points()), fan_(view, numbering),
+  /// @param junctions places of the corners of the curves, in lexicographic order
+  StarCounter(const StageView& view, const decomposition::Numbering& numbering, std::span<const Vec2> junctions)
+      : view_(view), numbering_(numbering), junctions_(junctions), points_(view.state.points()), fan_(view, numbering),
         circles_(view.lattice, points_.grid().periods()) {}
 
   void count(LocalIndex site) {
@@ -140,6 +153,7 @@ public:
       std::transform(fan_.vertices.begin(), fan_.vertices.end(), ids_.begin(),
                      [&](LocalIndex vertex) { return numbering_.global_id(vertex); });
     ++counts_.points;
+    counts_.hash_of_points += point_hash(numbering_.global_id(numbering_.vertex(site)), points_.position(site));
     counts_.incomplete += !fan_.complete;
     counts_.unused += fan_.triangles == 0;
     counts_.listings += static_cast<std::int64_t>(fan_.triangles);
@@ -167,6 +181,7 @@ private:
     if (b < 0 || p != view_.polygon.sites[at(b)].position)
       return;
     counts_.corners += is_corner;
+    counts_.junctions += std::binary_search(junctions_.begin(), junctions_.end(), p, geometry::lexicographically_less);
     if (!fan_.complete)
       return;
     const BoundarySite& to_next = view_.polygon.sites[at(b)]; // its chord leads to the next boundary site
@@ -197,6 +212,7 @@ private:
 
   const StageView& view_;
   const decomposition::Numbering& numbering_;
+  std::span<const Vec2> junctions_;
   const mesh::BinnedPoints& points_;
   FlatFan fan_;
   CircleTests circles_;
@@ -204,10 +220,22 @@ private:
   Counts counts_;
 };
 
+/// @brief Where the curves turn by more than this, in lexicographic order: corners by the curves alone, whatever their
+/// layout says. Every rank holds them, as it does the pieces.
+std::vector<Vec2> junctions_of(const geometry::Boundary& curves, double degrees) {
+  std::vector<Vec2> places;
+  for (const geometry::Loop& loop : curves.loops)
+    for (std::size_t i = 0; i < loop.pieces.size(); ++i)
+      if (loop.turn_degrees(i) > degrees + CertificateRules::angle_slack)
+        places.push_back(curves.periods.wrap(loop.pieces[i].start));
+  std::sort(places.begin(), places.end(), geometry::lexicographically_less);
+  return places;
+}
+
 /// Of this rank: from the stars.
-Counts count_stars(const StageView& view, const decomposition::Numbering& numbering) {
+Counts count_stars(const StageView& view, const decomposition::Numbering& numbering, std::span<const Vec2> junctions) {
   const mesh::BinnedPoints& points = view.state.points();
-  PerThread<StarCounter> of_thread(view, numbering);
+  PerThread<StarCounter> of_thread(view, numbering, junctions);
   thread_loop(points.last_tile() - points.first_tile(), 1, [&](std::ptrdiff_t t, int thread) {
     const auto [begin, end] = points.tile_range(points.first_tile() + static_cast<LocalIndex>(t));
     StarCounter& counter = of_thread[thread];
@@ -225,6 +253,9 @@ void add_written(const mesh::DistributedMesh& mesh, Counts& counts) {
   counts.hash_of_written = thread_sum(mesh.triangles.size(), [&](std::size_t t) {
     const auto [a, b, c] = mesh.triangle_ids(t);
     return triangle_hash(a, b, c);
+  });
+  counts.hash_of_written_points = thread_sum(mesh.points.size(), [&](std::size_t i) {
+    return point_hash(mesh.point_slab.first + static_cast<GlobalId>(i), mesh.points[i]);
   });
   counts.hash_of_written_facets = thread_sum(mesh.facets.size(), [&](std::size_t k) {
     return facet_hash(mesh.facets[k][0], mesh.facets[k][1], mesh.facet_tags[k], mesh.facet_parts[k]);
@@ -267,7 +298,8 @@ mesh::Check check(const char* name, std::int64_t expected, std::int64_t found, c
 
 mesh::Checks certify(const StageView& view, const decomposition::Numbering& numbering, const Expectation& expectation,
                      const mesh::DistributedMesh& mesh) {
-  Counts counts = count_stars(view, numbering);
+  const std::vector<Vec2> junctions = junctions_of(expectation.meshed, expectation.corner_angle);
+  Counts counts = count_stars(view, numbering, junctions);
   add_written(mesh, counts);
   auto packed = counts.pack();
   view.state.comm().sum(packed);
@@ -282,6 +314,9 @@ mesh::Checks certify(const StageView& view, const decomposition::Numbering& numb
       check("star_listings", 3 * counts.triangles, counts.listings, "every triangle is listed by its three stars"));
   checks.push_back(check("star_disagreements", 0, 3 * counts.hash_of_triangles != counts.hash_of_listings,
                          "and all three list the same one"));
+  checks.push_back(check("written_points", counts.points,
+                         counts.hash_of_written_points == counts.hash_of_points ? mesh.point_slab.total : -1,
+                         "the points to be written are the proven ones, bit for bit and in this order"));
   checks.push_back(check("written_triangles", counts.triangles,
                          counts.hash_of_written == counts.hash_of_triangles ? mesh.triangle_slab.total : -1,
                          "the triangles to be written are these"));
@@ -292,12 +327,17 @@ mesh::Checks certify(const StageView& view, const decomposition::Numbering& numb
   checks.push_back(check("euler_characteristic", expectation.meshed.euler_characteristic(),
                          counts.points - counts.edges + counts.triangles,
                          "of the shape; in the plane components minus holes"));
-  checks.push_back(check("edge_count", (3 * counts.triangles + chords) / 2, counts.edges,
-                         "inner edges have two triangles, facets one"));
+  const std::int64_t sides = 3 * counts.triangles + chords; // of triangles and facets: odd numbers are wrong, too
+  checks.push_back({"edge_count", 0.5 * static_cast<double>(sides), static_cast<double>(counts.edges),
+                    sides == 2 * counts.edges, "inner edges have two triangles, facets one"});
   checks.push_back(check("not_delaunay", 0, counts.not_delaunay, "edges that are not locally Delaunay (exact test)"));
   checks.push_back(check("boundary_segments", chords, counts.facets, "chords that are edges of the mesh"));
   checks.push_back(
       check("corners", view.polygon.corners, counts.corners, "corners that are vertices, bit for bit on the lattice"));
+  const std::int64_t kept = std::ssize(junctions) - view.polygon.left_out;
+  checks.push_back({"turns_kept", static_cast<double>(std::max<std::int64_t>(0, kept)),
+                    static_cast<double>(counts.junctions), counts.junctions >= kept,
+                    "vertices where the curves turn by more than corner_angle: at least all but those left out"});
   if (!view.fixed.empty())
     checks.push_back(check("fixed_points", static_cast<std::int64_t>(view.fixed.size()), counts.fixed,
                            "fixed points that are vertices, bit for bit on the lattice"));

@@ -21,6 +21,9 @@ struct CertificateRules {
   static constexpr double arc_slack = 1e-3;
   /// [area of the shape] Between the mesh with its curved rim and the shape: sums of doubles.
   static constexpr double area_limit = 1e-10;
+  /// [degrees] A curve that turns by so little more than the angle of corners may have been taken for one without a
+  /// corner: angles are computed in doubles, in two ways. Not measured.
+  static constexpr double angle_slack = 1e-6;
 };
 
 } // namespace trime::certificate

@@ -2,13 +2,18 @@
 // The bytes of a file that a user has named.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace trime {
 
-/// @brief The whole file. @throws FileError with the system's reason if it cannot be opened or read (a directory, too);
-/// `hint` ends the message if it cannot be opened
+/// [bytes] Larger files are refused: a contour of 2^31 bytes has some 5 10^7 vertices, and every rank holds them.
+inline constexpr std::int64_t most_bytes_of_a_file = std::int64_t{1} << 31;
+
+/// @brief The whole file, which must be a regular one: pipes and devices are refused, as they may have no end. @throws
+/// FileError with the system's reason if it cannot be opened or read (a directory, too); `hint` ends the message if it
+/// cannot be opened. @throws FileError with its size, if it has more bytes than `most`
 /// @note Serial: in a parallel run one rank reads and sends the text to the others.
-std::string read_file(const std::string& path, const std::string& hint = "");
+std::string read_file(const std::string& path, const std::string& hint = "", std::int64_t most = most_bytes_of_a_file);
 
 } // namespace trime

@@ -253,7 +253,7 @@ void check_shapes(const mesh::DistributedMesh& mesh) {
 /// Rank 0: final names, and the views that belong to them.
 WrittenFiles publish(TemporaryFile& temporary, const MeshFileOptions& options, const mesh::DistributedMesh& mesh) {
   const std::string h5 = options.path(".h5"), xdmf = options.path(".xdmf"), vtkhdf = options.path(".vtkhdf");
-  temporary.rename_to(h5);
+  temporary.rename_to(h5, options.overwrite);
   if (options.is_final && options.run_files)
     options.run_files->set_final_mesh_written();
   WrittenFiles written{{h5}, 0};

@@ -33,7 +33,7 @@ void make_directory(const std::string& directory) {
 /// By really making a file: permissions alone do not tell of read-only and full file systems.
 void check_writable(const std::string& directory, const std::string& name) {
   const std::string probe = temporary_name(directory + "/" + name + ".h5");
-  const int descriptor = open(probe.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0666);
+  const int descriptor = open(probe.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0666);
   if (descriptor < 0)
     throw FileError(
         fmt::format("cannot write into the output directory {}: {}; set output.directory", directory, system_error()));

@@ -5,11 +5,13 @@
 #include "trime/io/run_files.hpp"
 
 #include <fcntl.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -30,6 +32,22 @@ void synchronise(const std::string& path, int flags) {
     throw FileError(fmt::format("cannot write {} to disk: {}", path, reason));
 }
 
+/// False if there is something of that name, which stays.
+bool rename_to_absent(const std::string& path, const std::string& final_path) {
+  if (renameat2(AT_FDCWD, path.c_str(), AT_FDCWD, final_path.c_str(), RENAME_NOREPLACE) == 0)
+    return true;
+  if (errno == EEXIST)
+    return false;
+  struct stat status {}; // some file systems cannot do it in one step
+  if (errno != EINVAL && errno != ENOSYS && errno != ENOTSUP)
+    throw FileError(fmt::format("cannot rename {} to {}: {}", path, final_path, system_error()));
+  if (lstat(final_path.c_str(), &status) == 0)
+    return false;
+  if (std::rename(path.c_str(), final_path.c_str()) != 0)
+    throw FileError(fmt::format("cannot rename {} to {}: {}", path, final_path, system_error()));
+  return true;
+}
+
 std::string directory_of(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
@@ -44,6 +62,14 @@ std::string system_error() {
 TemporaryFile::TemporaryFile(std::string path, RunFiles* files) : path_(std::move(path)), files_(files) {
   if (files_)
     files_->start_writing(path_);
+  const int descriptor = open(path_.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0666);
+  if (descriptor < 0) {
+    const std::string reason = system_error();
+    if (files_)
+      files_->stop_writing();
+    throw FileError(fmt::format("cannot create {}: {}", path_, reason));
+  }
+  ::close(descriptor);
 }
 
 TemporaryFile::~TemporaryFile() {
@@ -58,12 +84,16 @@ void TemporaryFile::publish(const std::string& final_path) {
   synchronise_directory(final_path);
 }
 
-void TemporaryFile::rename_to(const std::string& final_path) {
+void TemporaryFile::rename_to(const std::string& final_path, bool replaces) {
   struct stat status {};
   if (stat(path_.c_str(), &status) == 0 && truncate(path_.c_str(), status.st_size) != 0)
     throw FileError(fmt::format("cannot write {}: {}", path_, system_error()));
   synchronise(path_, O_RDWR);
-  if (std::rename(path_.c_str(), final_path.c_str()) != 0)
+  if (!replaces && !rename_to_absent(path_, final_path))
+    throw FileError(fmt::format("{} has come to exist since this run began, and output.overwrite = false; the new mesh "
+                                "is not written: set output.overwrite = true to replace it, or another output.name",
+                                final_path));
+  if (replaces && std::rename(path_.c_str(), final_path.c_str()) != 0)
     throw FileError(fmt::format("cannot rename {} to {}: {}", path_, final_path, system_error()));
   published_ = true;
   if (files_)
@@ -81,7 +111,11 @@ void synchronise_directory(const std::string& path) {
 
 std::string temporary_name(const std::string& final_path) {
   const char* job = std::getenv("SLURM_JOB_ID");
-  return final_path + ".tmp-" + (job && *job ? std::string(job) : std::to_string(getpid()));
+  std::uint64_t random = 0;
+  if (getrandom(&random, sizeof random, GRND_NONBLOCK) != sizeof random) // a machine that has just started
+    random = static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
+  return fmt::format("{}.tmp-{}-{:016x}", final_path, job && *job ? std::string(job) : std::to_string(getpid()),
+                     random);
 }
 
 void reserve_space(const std::string& path, std::int64_t bytes) {
@@ -125,7 +159,6 @@ void write_one_text_file(const std::string& final_path, const std::string& text,
 
 void replace_link(const std::string& target, const std::string& path) {
   const std::string temporary = temporary_name(path);
-  unlink(temporary.c_str());
   if (symlink(target.c_str(), temporary.c_str()) != 0 || std::rename(temporary.c_str(), path.c_str()) != 0) {
     const std::string reason = system_error();
     unlink(temporary.c_str());

@@ -10,20 +10,22 @@ namespace trime::io {
 
 class RunFiles;
 
-/// @brief Keeps one temporary name; removes the file at the end of its life unless it was renamed. One object at a
-/// time.
+/// @brief Makes an empty file of a name that nothing has, and removes it at the end of its life unless it was renamed.
+/// One object at a time.
 class TemporaryFile {
 public:
   /// @param files is told of the file, so that a signal handler can remove it; may be null, else outlives this object
+  /// @throws FileError also if there is anything of this name, a link too: what others put there is never written to
   TemporaryFile(std::string path, RunFiles* files);
   ~TemporaryFile();
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   const std::string& path() const { return path_; }
-  /// Gives back reserved space, brings the bytes to the disk, then renames. @throws FileError
+  /// @brief Gives back reserved space, brings the bytes to the disk, then renames. @param replaces what has that name
+  /// @throws FileError
   /// @post synchronise_directory will do the rest
-  void rename_to(const std::string& final_path);
+  void rename_to(const std::string& final_path, bool replaces = true);
   /// The same, then brings the directory to the disk. @throws FileError
   void publish(const std::string& final_path);
 
@@ -49,7 +51,7 @@ private:
   std::vector<std::string> paths_;
 };
 
-/// `final_path` + ".tmp-" + the job's id under SLURM, else the process id.
+/// `final_path` + ".tmp-" + the job's id under SLURM, else the process id + a random part that nobody can foresee.
 std::string temporary_name(const std::string& final_path);
 
 /// @brief Takes `bytes` of disk space for a file that exists, without changing its size; where the file system cannot

@@ -27,7 +27,7 @@ class Output {
 public:
   Output(const std::string& final_path, RunFiles* files)
       : final_path_(final_path), temporary_(temporary_name(final_path), files),
-        descriptor_(open(temporary_.path().c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0666)) {
+        descriptor_(open(temporary_.path().c_str(), O_NOFOLLOW | O_WRONLY | O_CLOEXEC)) {
     if (descriptor_ < 0)
       throw FileError(fmt::format("cannot create {}: {}", temporary_.path(), system_error()));
   }

@@ -10,6 +10,7 @@
 #include "meshing/outlook.hpp"
 #include "meshing/relaxation.hpp"
 #include "meshing/rules.hpp"
+#include "meshing/same_input.hpp"
 #include "start/layout.hpp"
 #include "start/point_scheme.hpp"
 #include "start/size_warnings.hpp"
@@ -168,7 +169,8 @@ MeshResult Run::extract() {
     const auto time = run_.timers.scope("certificate");
     result.checks = certificate::certify(view, numbering,
                                          {run_.given_boundary, boundary_.curves(), *stage_.asked_size, run_.side(),
-                                          stage_.simplified.coarseness, run_.options.features.within},
+                                          stage_.simplified.coarseness, run_.options.features.within,
+                                          run_.options.features.corner_angle},
                                          result.mesh);
   }
   result.checks.push_back(extraction::worst_alpha_check(result.quality, run_.options.worst_alpha));
@@ -232,6 +234,8 @@ void Mesher::on_snapshot(SnapshotObserver observer) {
 }
 
 MeshResult Mesher::run() {
+  const RunContext& context = implementation_->run;
+  check_same_input(context.given_boundary, context.relative_size, context.comm);
   return Run(implementation_->run, implementation_->observer).make();
 }
 

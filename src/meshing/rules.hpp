@@ -4,6 +4,8 @@
 
 #include "trime/core/types.hpp"
 
+#include <cstddef>
+
 namespace trime::meshing {
 
 /// The numbers of the run.
@@ -25,6 +27,8 @@ struct MeshingRules {
   static constexpr double shortage_note = 0.99;
   /// [points] Fewer missing ones are never mentioned: a triangle. Not measured.
   static constexpr GlobalId shortage_slack = 3;
+  /// [places] At so many, about, the sizes of all ranks are compared before the run. Not measured.
+  static constexpr std::size_t compared_sizes = 1000;
 };
 
 /// The numbers of the forecast on a terminal; no mesh depends on them.

@@ -55,6 +55,11 @@ class Layers(unittest.TestCase):
             with self.subTest(path=path, header=header):
                 self.assert_refused(path, f'#include "{header}"', "may use")
 
+    def test_the_verifier_shares_no_code(self):
+        for header in ("trime/geometry/vec2.hpp", "io/hdf5_handle.hpp", "core/random.hpp"):
+            self.assert_refused("src/check/a.cpp", f'#include "{header}"', "shares no code")
+        self.assert_allowed("src/check/a.cpp", "#include <hdf5.h>")
+
     def test_downward_includes_are_allowed_over_several_layers(self):
         for path, header in [
             ("src/meshing/a.cpp", "trime/geometry/predicates.hpp"),

@@ -39,6 +39,8 @@ class Package(unittest.TestCase):
                      "include/trime/meshing/make_mesh.hpp", "share/doc/trime-mpi/copyright",
                      "share/trime_mpi/jobs/common.sh", "lib/python3/dist-packages/trime_mpi/__init__.py"):
             self.assertTrue((usr / name).is_file(), name)
+        if "TRIME_BUILD_CHECK:BOOL=OFF" not in (BUILD / "CMakeCache.txt").read_text(encoding="utf-8"):
+            self.assertTrue((usr / "bin/trime_check").is_file())
         for folder in ("configs", "jobs"):
             self.assertEqual({path.name for path in (usr / "share" / "trime_mpi" / folder).iterdir()},
                              {path.name for path in (ROOT / folder).iterdir()})

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A killed run leaves no half file under the final name: either nothing, or a mesh that is whole."""
 import os
+import resource
 import signal
 import subprocess
 import time
@@ -9,7 +10,7 @@ import unittest
 
 import h5py
 
-from trime_run import ROOT, Workspace, command, environment
+from trime_run import MPIEXEC, PROGRAM, ROOT, Workspace, command, environment
 
 CONFIG = ROOT / "configs" / "square.ini"
 LONG, SHORT = 8_000_000, 100_000  # points: far from its end after some seconds; soon at its end
@@ -99,7 +100,7 @@ class Interrupted(unittest.TestCase):
                 return code, run.stderr.read(), sorted(path.name for path in directory.iterdir())
 
     def test_a_word_is_said_on_every_signal_that_ends_a_program(self):
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGABRT, signal.SIGXCPU):
             with self.subTest(signal=number):
                 code, told, left = self.interrupted(number, None)
                 self.assertEqual(code, -number)
@@ -124,6 +125,44 @@ class Interrupted(unittest.TestCase):
             if run.returncode != 0:  # it was not done before the signal came
                 self.assertEqual(run.returncode, -signal.SIGTERM)
                 self.assertIn("interrupted; the final mesh is written", told)
+
+    def test_a_file_that_grows_beyond_its_limit_is_an_error(self):
+        """SIGXFSZ would end the program, and leave a part of the file."""
+        with Workspace() as directory:
+            arguments = [CONFIG, "meshing.points=3000", f"output.directory={directory}", "output.name=mesh"]
+            done = subprocess.run(command(arguments, 1), env=environment(1), capture_output=True, text=True, check=False,
+                                  timeout=PATIENCE, preexec_fn=lambda: resource.setrlimit(
+                                      resource.RLIMIT_FSIZE, (100_000, 100_000)))
+            self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
+            self.assertIn("File too large", done.stderr)
+            self.assertEqual(list(directory.iterdir()), [])
+
+    def together(self, *programs):
+        """One rank of each command line, as one job; code, text, seconds."""
+        line = [MPIEXEC]
+        for program in programs:
+            line += ([":"] if len(line) > 1 else []) + ["-np", "1"] + [str(part) for part in program]
+        begin = time.monotonic()
+        done = subprocess.run(line, env=environment(1), capture_output=True, text=True, check=False, timeout=PATIENCE)
+        return done.returncode, done.stdout + done.stderr, time.monotonic() - begin
+
+    def test_an_error_that_one_rank_has_alone_ends_the_job(self):
+        with Workspace() as directory:
+            run = [PROGRAM, CONFIG, "meshing.points=1000", f"output.directory={directory}"]
+            code, told, seconds = self.together(run, run + ["--nonsense"])
+            self.assertNotEqual(code, 0)
+            self.assertIn("--nonsense", told)
+            self.assertIn("(rank 1 alone)", told)
+            self.assertLess(seconds, 30)
+            self.assertEqual(list(directory.iterdir()), [])
+
+    def test_the_environment_of_rank_0_decides(self):
+        with Workspace() as directory:
+            run = [PROGRAM, CONFIG, "meshing.points=1000", f"output.directory={directory}", "output.overwrite=true"]
+            asks = ["env", "TRIME_VERIFY_STARS=1"] + run
+            for programs in ((asks, run), (run, asks)):
+                code, told, _ = self.together(*programs)
+                self.assertEqual(code, 0, told)
 
     def test_a_signal_that_the_caller_ignores_stays_ignored(self):
         for number in (signal.SIGINT, signal.SIGHUP):

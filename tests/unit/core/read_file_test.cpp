@@ -6,6 +6,7 @@
 #include "trime/core/error.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 
@@ -36,6 +37,27 @@ TEST(ReadFile, KeepsEveryByte) {
 TEST(ReadFile, SaysWhichFileAndWhy) {
   EXPECT_NE(error_of("no/such/file").find("no/such/file: No such file"), std::string::npos) << error_of("no/such/file");
   EXPECT_NE(error_of("/").find("cannot read /: Is a directory"), std::string::npos) << error_of("/");
+}
+
+TEST(ReadFile, RefusesWhatMayHaveNoEnd) {
+  const test::TemporaryDirectory directory;
+  const std::string pipe = directory.path() + "/pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_NE(error_of(pipe).find("expected a regular file"), std::string::npos) << error_of(pipe);
+  EXPECT_NE(error_of("/dev/zero").find("expected a regular file"), std::string::npos);
+}
+
+TEST(ReadFile, SaysHowLargeAFileIsThatIsTooLarge) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.path() + "/large";
+  std::ofstream(path) << std::string(1000, 'x');
+  EXPECT_EQ(read_file(path, "", 1000).size(), 1000u);
+  try {
+    read_file(path, "", 999);
+    ADD_FAILURE();
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("large has 1000 bytes or more; at most 999"), std::string::npos) << error.what();
+  }
 }
 
 } // namespace

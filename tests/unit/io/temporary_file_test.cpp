@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/temporary_file.hpp"
 
+#include "trime/core/error.hpp"
 #include "trime/io/run_files.hpp"
 
 #include "support/temporary_directory.hpp"
@@ -49,6 +50,44 @@ TEST(TemporaryFile, IsKnownToASignalHandlerWhileItIsWritten) {
   }
   EXPECT_EQ(contents(final_path), "whole");
   EXPECT_FALSE(files.final_mesh_written());
+}
+
+TEST(TemporaryFile, NeverWritesToWhatSomebodyPutThere) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.path() + "/mesh.h5.tmp-1", victim = directory.path() + "/victim";
+  std::ofstream(victim) << "precious";
+  std::filesystem::create_symlink(victim, path);
+  RunFiles files;
+  EXPECT_THROW(TemporaryFile(path, &files), FileError);
+  files.remove_temporary();
+  EXPECT_TRUE(std::filesystem::is_symlink(path)) << "which is not ours to remove";
+  std::filesystem::remove(path);
+  std::filesystem::create_symlink(directory.path() + "/absent", path);
+  EXPECT_THROW(TemporaryFile(path, nullptr), FileError);
+  EXPECT_FALSE(std::filesystem::exists(directory.path() + "/absent"));
+  EXPECT_EQ(contents(victim), "precious");
+}
+
+TEST(TemporaryFile, HasANameThatNobodyCanForesee) {
+  const std::string first = temporary_name("mesh.h5"), second = temporary_name("mesh.h5");
+  EXPECT_TRUE(first.starts_with("mesh.h5.tmp-"));
+  EXPECT_NE(first, second);
+}
+
+TEST(TemporaryFile, DoesNotReplaceWhatCameMeanwhile) {
+  const test::TemporaryDirectory directory;
+  const std::string final_path = directory.path() + "/mesh.h5";
+  {
+    TemporaryFile temporary(temporary_name(final_path), nullptr);
+    std::ofstream(final_path) << "of another run";
+    EXPECT_THROW(temporary.rename_to(final_path, false), FileError);
+  }
+  EXPECT_EQ(contents(final_path), "of another run");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory.path()), {}), 1);
+  std::filesystem::remove(final_path);
+  TemporaryFile temporary(temporary_name(final_path), nullptr);
+  temporary.rename_to(final_path, false);
+  EXPECT_EQ(contents(final_path), "");
 }
 
 } // namespace

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The checks, in the order in which they are made. Each file of checks needs what those before it have passed.
+#pragma once
+
+#include "mesh.hpp"
+#include "report.hpp"
+#include "stored_file.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace trime_check {
+
+/// What is counted on the way, to be compared with what the file says of itself.
+struct Counted {
+  std::int64_t edges = 0, loops = 0, clockwise = 0, not_delaunay = 0, components = 0;
+  std::int64_t euler_characteristic = 0, unused = 0, corners = 0;
+  double area = 0;
+};
+
+/// Ids in range and in order, coordinates finite, views equal to the arrays, the hash. False: ids or coordinates are
+/// such that nothing more can be said.
+bool check_arrays(const StoredFile& file, const Mesh& mesh, Report& report);
+
+/// Orientation, edges, Delaunay, loops of facets, Euler characteristic, area, tags.
+Counted check_surface(const StoredFile& file, const Mesh& mesh, Report& report);
+
+/// Alpha, beta, sizes, the quality summary, and the certificate as it is stored.
+void check_summary(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report);
+
+/// @brief Corners, fixed points and boundary vertices against the shape of a config.
+/// @param config path of a config file; empty: the text that is stored in the mesh file
+void check_shape(const StoredFile& file, const Mesh& mesh, const std::string& config, Report& report);
+
+} // namespace trime_check

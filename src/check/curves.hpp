@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The exact curves of a config's shape: distances from them, insides, corners.
+#pragma once
+
+#include "config_text.hpp"
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace trime_check {
+
+struct Box {
+  Point min, max;
+};
+
+/// The curve of one part of a shape.
+class Curve {
+public:
+  virtual ~Curve() = default;
+  virtual double distance(Point p) const = 0;
+  virtual bool contains(Point p) const = 0;
+  /// Vertices that turn by more than so many degrees.
+  virtual std::vector<Point> corners(double degrees) const = 0;
+};
+
+struct Part {
+  std::string name;
+  std::unique_ptr<Curve> curve; ///< none: a formula, or a file that is not read
+  std::string reason;           ///< why there is none
+};
+
+/// @brief The parts of a config in its container, `domain` behind the others.
+struct Shape {
+  std::vector<Part> parts;
+  Box container;
+  Periods periods;
+  double step = 0; ///< of the lattice on which all coordinates lie
+  std::string region;
+  std::vector<Point> fixed_points;
+  std::string fixed_points_reason; ///< why they are not known
+
+  double side() const { return std::fmax(container.max.x - container.min.x, container.max.y - container.min.y); }
+  const Part* part(const std::string& name) const;
+  /// Distance from a part, images of the container's periods too.
+  double distance(const Part& part, Point p) const;
+  /// Does the shape change at p where one is in this part or out of it? @pre all parts have curves
+  bool matters(const Part& part, Point p) const;
+};
+
+/// @throws Failure (exit 2) where the config says too little
+Shape make_shape(const ConfigText& config);
+
+/// A region of nested unions, intersections and differences: its value from that of its parts. @throws Failure (exit 2)
+bool evaluate_region(const std::string& region, const std::vector<std::pair<std::string, bool>>& inside);
+Box region_box(const std::string& region, const std::vector<std::pair<std::string, Box>>& boxes);
+
+} // namespace trime_check

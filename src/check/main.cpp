@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// trime_check FILE.h5 [CONFIG]: recomputes from a mesh file all that it promises, and says what does not hold.
+// One process, no MPI; exact predicates of CGAL, exact integers of Boost; shares no code with trime_mpi.
+#include "checks.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr const char* help =
+    R"(trime_check FILE.h5 [CONFIG]
+
+Recomputes from a mesh file of trime_mpi all that it promises: triangles, Delaunay edges, boundary loops, area, tags,
+quality, hash, the stored checks, and the boundary against the shape. One line a check: expected, found, first wrong place.
+
+  FILE.h5   a mesh that trime_mpi has written
+  CONFIG    the shape is that of this config; without it, of the one that is stored in the file
+
+Exit codes: 0 all checks passed, 2 wrong command line or config, 4 no mesh file, 5 a check failed, 1 internal error.
+)";
+
+int run(const std::vector<std::string>& arguments) {
+  if (arguments.size() == 1 && (arguments[0] == "--help" || arguments[0] == "-h")) {
+    fmt::print("{}", help);
+    return 0;
+  }
+  if (arguments.size() == 1 && arguments[0] == "--version") {
+    fmt::print("trime_check {}\n", TRIME_VERSION);
+    return 0;
+  }
+  if (arguments.empty() || arguments.size() > 2 || arguments[0].starts_with('-'))
+    throw trime_check::Failure(trime_check::ExitCode::usage,
+                               "expected FILE.h5 and perhaps a config; see trime_check --help");
+  const trime_check::StoredFile file(arguments[0]);
+  trime_check::Mesh mesh;
+  trime_check::Report report;
+  if (trime_check::read_mesh(file, mesh, report) && trime_check::check_arrays(file, mesh, report)) {
+    const trime_check::Counted counted = trime_check::check_surface(file, mesh, report);
+    trime_check::check_summary(file, mesh, counted, report);
+    trime_check::check_shape(file, mesh, arguments.size() > 1 ? arguments[1] : "", report);
+  } else
+    report.skip("geometry", "the arrays are such that nothing can be computed from them");
+  fmt::print("{}: {} points, {} triangles, {} facets\n{}", arguments[0], mesh.points.size(), mesh.triangles.size(),
+             mesh.facets.size(), report.text());
+  return static_cast<int>(report.all_passed() ? trime_check::ExitCode::sound : trime_check::ExitCode::damaged);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run({argv + 1, argv + argc});
+  } catch (const trime_check::Failure& failure) {
+    fmt::print(stderr, "trime_check: error: {}\n", failure.what());
+    return static_cast<int>(failure.code());
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "trime_check: internal error: {}\n", error.what());
+    return static_cast<int>(trime_check::ExitCode::internal_error);
+  }
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The arrays of a mesh file as they stand in it, and images of points in periodic containers.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace trime_check {
+
+struct Point {
+  double x = 0, y = 0;
+};
+inline Point operator-(Point a, Point b) {
+  return {a.x - b.x, a.y - b.y};
+}
+inline Point operator+(Point a, Point b) {
+  return {a.x + b.x, a.y + b.y};
+}
+
+using Triangle = std::array<std::int64_t, 3>;
+using Facet = std::array<std::int64_t, 2>;
+
+/// Periods of the container; 0: none.
+struct Periods {
+  double x = 0, y = 0;
+
+  bool any() const { return x > 0 || y > 0; }
+  /// The image of p nearest to q. Exact for coordinates on the lattice, of which the periods are multiples.
+  Point near(Point p, Point q) const {
+    const auto shift = [](double d, double period) { return period > 0 ? -period * std::round(d / period) : 0.0; };
+    return {p.x + shift(p.x - q.x, x), p.y + shift(p.y - q.y, y)};
+  }
+};
+
+struct Mesh {
+  std::vector<Point> points;
+  std::vector<Triangle> triangles;
+  std::vector<Facet> facets;
+  std::vector<std::int64_t> facet_tags, facet_parts;
+  std::vector<double> asked_sizes;
+
+  std::vector<double> alpha, beta, size;
+  std::vector<std::int64_t> region, boundary, fixed;
+
+  bool has_vtk = true, has_plain = true; ///< /VTKHDF and /Mesh/mesh: a run may leave out one of them
+  // The views: copies of points and triangles for other readers.
+  std::vector<double> vtk_points, petsc_points;
+  std::vector<std::int64_t> connectivity, offsets, types, counts; ///< counts: points, cells, connectivity
+
+  Periods periods;
+
+  Point at(std::int64_t id) const { return points[static_cast<std::size_t>(id)]; }
+  /// The corners of a triangle side by side.
+  std::array<Point, 3> corners(const Triangle& t) const {
+    const Point a = at(t[0]);
+    return {a, periods.near(at(t[1]), a), periods.near(at(t[2]), a)};
+  }
+};
+
+/// Places for people.
+inline std::string place_of(Point p) {
+  return fmt::format("({:.9g}, {:.9g})", p.x, p.y);
+}
+inline std::string place_of(const Mesh& mesh, std::size_t triangle) {
+  const Triangle& t = mesh.triangles[triangle];
+  return fmt::format("triangle {} ({} {} {}) at {}", triangle, t[0], t[1], t[2], place_of(mesh.at(t[0])));
+}
+inline std::string place_of(const Mesh& mesh, const Facet& facet) {
+  return fmt::format("edge {} {} at {}", facet[0], facet[1], place_of(mesh.at(facet[0])));
+}
+
+} // namespace trime_check

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a reader sees: one line a check.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace trime_check {
+
+/// Exit codes of the program; those of trime_mpi where both have them.
+enum class ExitCode : int { sound = 0, internal_error = 1, usage = 2, file = 4, damaged = 5 };
+
+/// What ends the program before it can judge anything.
+class Failure : public std::runtime_error {
+public:
+  Failure(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  ExitCode code() const { return code_; }
+
+private:
+  ExitCode code_;
+};
+
+/// How often something is wrong, and where it is wrong first or worst.
+struct Tally {
+  std::int64_t count = 0;
+  std::string place;
+
+  /// @param where makes the place; called once only
+  template <class Where>
+  void note(const Where& where) {
+    if (count++ == 0)
+      place = where();
+  }
+};
+
+/// The checks in the order in which they were made.
+class Report {
+public:
+  /// @param meaning says in words what was compared
+  void add(const std::string& name, bool passed, const std::string& expected, const std::string& found,
+           const std::string& meaning, const std::string& place = "");
+  /// Expected is that nothing is counted.
+  void none(const std::string& name, const Tally& tally, const std::string& meaning);
+  /// Two numbers that must be equal.
+  void equal(const std::string& name, std::int64_t expected, std::int64_t found, const std::string& meaning,
+             const std::string& place = "");
+  /// What could not be checked, and why. It is no failure.
+  void skip(const std::string& name, const std::string& reason);
+
+  std::string text() const;
+  bool all_passed() const { return failed_.empty(); }
+
+private:
+  std::vector<std::string> lines_, failed_;
+  std::size_t checks_ = 0, skipped_ = 0;
+};
+
+} // namespace trime_check

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "checks.hpp"
+#include "curves.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+namespace trime_check {
+namespace {
+
+// [longer side of the container] Curves are computed in doubles.
+constexpr double on_curve = 1e-9;
+// [steps of the lattice] Points of a config come to the nearest lattice point, some after they were normalised.
+constexpr double on_lattice = 4;
+// [h asked for] Rounding of sizes, where the boundary was simplified.
+constexpr double slack = 1.01;
+
+/// Finds vertices that are marked as fixed.
+class FixedVertices {
+public:
+  FixedVertices(const Mesh& mesh, const Shape& shape) : periods_(shape.periods), reach_(on_lattice * shape.step) {
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+      if (mesh.fixed[i] == 1)
+        points_.push_back(mesh.points[i]);
+    std::ranges::sort(points_, {}, &Point::x);
+  }
+
+  bool has(Point p) const {
+    bool found = false;
+    for (const int i : {-1, 0, 1})
+      found = found || ((i == 0 || periods_.x > 0) && has_at(p, p.x + i * periods_.x));
+    return found;
+  }
+
+private:
+  bool has_at(Point p, double x) const {
+    for (auto at = std::ranges::lower_bound(points_, x - reach_, {}, &Point::x);
+         at != points_.end() && at->x <= x + reach_; ++at)
+      if (std::fabs(periods_.near(*at, p).y - p.y) <= reach_)
+        return true;
+    return false;
+  }
+
+  Periods periods_;
+  double reach_;
+  std::vector<Point> points_;
+};
+
+class ShapeChecks {
+public:
+  ShapeChecks(const StoredFile& file, const Mesh& mesh, const ConfigText& config, Report& report)
+      : file_(file), mesh_(mesh), config_(config), report_(report), shape_(make_shape(config)), fixed_(mesh, shape_) {}
+
+  void run() {
+    check_container();
+    check_fixed_points();
+    check_corners();
+    check_vertices();
+  }
+
+private:
+  void check_container() {
+    Tally outside, off;
+    const Box& box = shape_.container;
+    for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
+      const Point p = mesh_.points[i];
+      const auto place = [&] { return fmt::format("point {} at {}", i, place_of(p)); };
+      if (!(p.x >= box.min.x - shape_.step && p.x <= box.max.x + shape_.step && p.y >= box.min.y - shape_.step &&
+            p.y <= box.max.y + shape_.step))
+        outside.note(place);
+      if (p.x != std::round(p.x / shape_.step) * shape_.step || p.y != std::round(p.y / shape_.step) * shape_.step)
+        off.note(place);
+    }
+    const bool same = mesh_.periods.x == shape_.periods.x && mesh_.periods.y == shape_.periods.y;
+    const auto text = [](Periods p) { return fmt::format("({:.12g}, {:.12g})", p.x, p.y); };
+    report_.add("periods", same, text(shape_.periods), text(mesh_.periods), "periods of the container, 0 for none");
+    report_.none("container", outside,
+                 fmt::format("points outside of the container from {} to {}", place_of(box.min), place_of(box.max)));
+    report_.none("lattice", off,
+                 fmt::format("points that are no multiples of {:.6g}, the step of its lattice", shape_.step));
+  }
+
+  void check_fixed_points() {
+    if (!shape_.fixed_points_reason.empty()) {
+      report_.skip("fixed_points", shape_.fixed_points_reason);
+      return;
+    }
+    if (shape_.fixed_points.empty())
+      return;
+    Tally missing;
+    for (const Point p : shape_.fixed_points)
+      if (!fixed_.has(p))
+        missing.note([&] { return place_of(p); });
+    report_.none(
+        "fixed_points", missing,
+        fmt::format("of {} fixed points of the config those that are no vertices", shape_.fixed_points.size()));
+  }
+
+  /// Why corners or curves cannot be judged; empty: they can.
+  std::string unknown_part() const {
+    for (const Part& part : shape_.parts)
+      if (!part.curve)
+        return fmt::format("part {}: {}", part.name, part.reason);
+    return "";
+  }
+
+  /// Loops of the shape of which nothing was cut, dropped or smoothed: the curve is the one of the config.
+  std::set<std::int64_t> changed_tags(bool& any) const {
+    std::set<std::int64_t> tags;
+    const std::vector<std::string> states = file_.names("/trime_mpi/rings/state");
+    const std::vector<std::string> lists = file_.names("/trime_mpi/rings/tags");
+    any = states.empty() && !loops_of_file().empty();
+    if (any) // a step of a run, which does not say what became of the loops
+      for (const double tag : loops_of_file())
+        tags.insert(static_cast<std::int64_t>(tag));
+    for (std::size_t k = 0; k < std::min(states.size(), lists.size()); ++k) {
+      if (states[k] == "kept")
+        continue;
+      any = true;
+      for (const char* at = lists[k].c_str(); *at != '\0';) {
+        char* end = nullptr;
+        const long tag = std::strtol(at, &end, 10);
+        if (end == at)
+          break;
+        tags.insert(tag);
+        at = end;
+      }
+    }
+    return tags;
+  }
+  std::vector<double> loops_of_file() const { return file_.column("/trime_mpi/tags/edge_id"); }
+
+  void check_corners() {
+    if (const std::string reason = unknown_part(); !reason.empty()) {
+      report_.skip("corners", reason);
+      return;
+    }
+    bool any_changed = false;
+    changed_tags(any_changed);
+    const double angle = config_.number("meshing", "corner_angle").value_or(30);
+    std::int64_t expected = 0;
+    Tally missing;
+    for (const Part& part : shape_.parts)
+      if (!(part.name == "domain" && shape_.periods.any())) // whose corners may be no corners
+        for (const Point corner : part.curve->corners(angle))
+          if (shape_.matters(part, corner)) {
+            ++expected;
+            if (!fixed_.has(corner))
+              missing.note([&] { return place_of(corner); });
+          }
+    const auto left_out = static_cast<std::int64_t>(file_.number("/trime_mpi", "corners_left_out").value_or(0));
+    const std::string found = std::to_string(expected - missing.count);
+    if (any_changed)
+      report_.skip(
+          "corners",
+          fmt::format("{} of {} corners of the config are vertices, but the boundary was simplified", found, expected));
+    else
+      report_.add("corners", missing.count <= left_out,
+                  left_out > 0 ? fmt::format("{} to {}", expected - left_out, expected) : std::to_string(expected),
+                  found, fmt::format("corners of the config that are vertices; {} may be left out", left_out),
+                  missing.count == 0 ? "" : "first that is none: " + missing.place);
+  }
+
+  void check_vertices() {
+    const std::vector<std::string> names = file_.names("/trime_mpi/tags/part_name");
+    bool any_changed = false;
+    const std::set<std::int64_t> changed = changed_tags(any_changed);
+    const double within = config_.number("meshing", "simplify_within").value_or(0.5) *
+                          file_.number("/trime_mpi", "coarseness").value_or(1) * slack;
+    const std::string reason = unknown_part();
+    Tally off, foreign;
+    std::int64_t judged = 0;
+    for (std::size_t k = 0; k < mesh_.facets.size(); ++k) {
+      const auto number = static_cast<std::size_t>(mesh_.facet_parts[k]);
+      const Part* part = number < names.size() ? shape_.part(names[number]) : nullptr;
+      if (!part) {
+        foreign.note([&] { return fmt::format("facet {}: {}", k, place_of(mesh_, mesh_.facets[k])); });
+        continue;
+      }
+      const bool strict = !changed.contains(mesh_.facet_tags[k]);
+      if (strict ? !part->curve : !reason.empty())
+        continue;
+      const double limit = on_curve * shape_.side() + (strict ? 0 : within * mesh_.asked_sizes[k]);
+      ++judged;
+      for (const std::int64_t id : mesh_.facets[k]) {
+        double away = part->curve ? shape_.distance(*part, mesh_.at(id)) : 0;
+        for (const Part& other : shape_.parts) // what was joined may lie at another part
+          if (!strict && away > limit)
+            away = std::min(away, shape_.distance(other, mesh_.at(id)));
+        if (away > limit)
+          off.note([&] {
+            return fmt::format("point {} at {}: {:.3g} from {}, limit {:.3g}", id, place_of(mesh_.at(id)), away,
+                               part->name, limit);
+          });
+      }
+    }
+    report_.none("facet_parts", foreign, "facets of parts that the config does not have");
+    if (judged == 0 && !mesh_.facets.empty())
+      report_.skip("on_curve", reason.empty() ? "no facet follows a part that is known" : reason);
+    else
+      report_.none("on_curve", off,
+                   fmt::format("ends of {} facets ({} in all) that do not lie on the curve of their part", judged,
+                               mesh_.facets.size()));
+  }
+
+  const StoredFile& file_;
+  const Mesh& mesh_;
+  const ConfigText& config_;
+  Report& report_;
+  Shape shape_;
+  FixedVertices fixed_;
+};
+
+} // namespace
+
+void check_shape(const StoredFile& file, const Mesh& mesh, const std::string& config, Report& report) {
+  std::string text = file.text("/trime_mpi/config_resolved"), folder;
+  if (!config.empty()) {
+    const std::optional<std::string> given = read_text(config);
+    if (!given || std::filesystem::is_directory(config))
+      throw Failure(ExitCode::file, fmt::format("{}: the config cannot be read", config));
+    text = *given;
+    folder = std::filesystem::absolute(config).parent_path().string();
+  } else if (text.empty()) {
+    report.skip("shape", "the file holds no config; give one as the second argument");
+    return;
+  }
+  ShapeChecks(file, mesh, ConfigText(text, folder), report).run();
+}
+
+} // namespace trime_check

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads a mesh file by the serial functions of HDF5.
+#pragma once
+
+#include "mesh.hpp"
+#include "report.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trime_check {
+
+/// @brief An open file. Names are paths from its root.
+class StoredFile {
+public:
+  /// @throws Failure (exit 4) if there is no such file, it is no HDF5 file, cut off, or no mesh of trime_mpi
+  explicit StoredFile(const std::string& path);
+  ~StoredFile();
+  StoredFile(const StoredFile&) = delete;
+  StoredFile& operator=(const StoredFile&) = delete;
+
+  /// @brief The values of an array if its type and shape are these; else one line in `wrong`, and nothing.
+  /// @param type "float64", "int64" and the like  @param shape -1: any extent
+  template <class T>
+  std::vector<T> array(const std::string& name, const std::string& type, std::vector<std::int64_t> shape,
+                       Tally& wrong) const;
+
+  bool has(const std::string& name) const;
+  std::optional<double> number(const std::string& object, const std::string& attribute) const;
+  std::optional<std::uint64_t> hash(const std::string& object, const std::string& attribute) const;
+  std::optional<std::string> text_attribute(const std::string& object, const std::string& attribute) const;
+  /// A text that is a dataset; empty if there is none.
+  std::string text(const std::string& name) const;
+  /// Columns of a table; empty if there is none, or if its type is another.
+  std::vector<double> column(const std::string& name) const;
+  std::vector<std::string> names(const std::string& name) const;
+
+private:
+  std::int64_t file_ = -1;
+};
+
+/// Reads all arrays; what is missing or has another type or shape is told by the check `arrays`. Then the mesh is of
+/// use only if true is returned.
+bool read_mesh(const StoredFile& file, Mesh& mesh, Report& report);
+
+} // namespace trime_check

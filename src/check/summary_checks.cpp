@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "checks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+namespace trime_check {
+namespace {
+
+// Single precision has 2^-24; the formulas here and there are not the same.
+constexpr double float_tolerance = 1e-6, sum_tolerance = 1e-8;
+// Medians come from classes of values: of 1e-4 up to 2, of some per cent beyond.
+constexpr double median_tolerance = 2e-4, wide_median_tolerance = 0.02;
+// Means cap a ratio here.
+constexpr double cap = 65536;
+// A size is the length of the edges around it, within this factor: triangles may be four times worse than good ones.
+constexpr double size_factor = 12;
+constexpr std::array<double, 9> classes{1, 1.01, 1.02, 1.05, 1.1, 1.2, 1.5, 2, 5};
+
+bool near(double expected, double found, double tolerance) {
+  return expected == found || std::fabs(expected - found) <= tolerance * std::fabs(expected);
+}
+
+struct Measures {
+  double alpha, beta, angle;
+};
+
+/// By the sides: alpha = R/(2r), the ratio of the longest and the shortest, the smallest angle [degrees].
+Measures measure(const std::array<Point, 3>& corners) {
+  std::array<long double, 3> side;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point d = corners[(k + 1) % 3] - corners[k];
+    side[k] = std::sqrt(static_cast<long double>(d.x) * d.x + static_cast<long double>(d.y) * d.y);
+  }
+  std::ranges::sort(side);
+  const Point u = corners[1] - corners[0], v = corners[2] - corners[0];
+  const long double area = std::fabs(static_cast<long double>(u.x) * v.y - static_cast<long double>(u.y) * v.x) / 2;
+  const long double perimeter = side[0] + side[1] + side[2];
+  const long double circumradius = side[0] * side[1] * side[2] / (4 * area), inradius = 2 * area / perimeter;
+  const long double sine = std::min(1.0L, 2 * area / (side[1] * side[2]));
+  return {static_cast<double>(std::max(1.0L, circumradius / (2 * inradius))), static_cast<double>(side[2] / side[0]),
+          static_cast<double>(std::asin(sine) * 180 / 3.14159265358979323846L)};
+}
+
+/// Mean, half-mean, standard deviation, maximum and median of a ratio.
+void check_ratio(const StoredFile& file, const std::string& name, std::vector<double> values, Tally& wrong) {
+  long double sum = 0, roots = 0, squares = 0;
+  for (const double value : values) {
+    const double capped = std::min(value, cap);
+    sum += capped;
+    roots += std::sqrt(capped);
+    squares += std::min((capped - 1) * (capped - 1), cap);
+  }
+  const auto n = static_cast<long double>(values.size());
+  const auto mean = static_cast<double>(sum / n), root = static_cast<double>(roots / n);
+  const double spread = std::sqrt(std::max(0.0, static_cast<double>(squares / n) - (mean - 1) * (mean - 1)));
+  std::ranges::sort(values);
+  const double median = values[values.size() / 2];
+  const auto compare = [&](const char* what, double expected, double tolerance) {
+    const std::optional<double> found = file.number("/trime_mpi/quality", name + what);
+    if (!found || !near(expected, *found, tolerance))
+      wrong.note([&] {
+        return fmt::format("{}{}: expected {:.12g}, found {}", name, what, expected,
+                           found ? fmt::format("{:.12g}", *found) : "nothing");
+      });
+  };
+  compare("_mean", mean, sum_tolerance);
+  compare("_half_mean", root * root, sum_tolerance);
+  compare("_max", values.back(), sum_tolerance);
+  compare("_median", median, median < 2 ? median_tolerance : wide_median_tolerance);
+  compare("_std", spread, std::sqrt(sum_tolerance));
+}
+
+void check_histogram(const StoredFile& file, const std::vector<double>& alpha, Tally& wrong) {
+  std::array<std::int64_t, classes.size()> counts{}, doubtful{};
+  for (const double value : alpha) {
+    const auto k = static_cast<std::size_t>(std::ranges::upper_bound(classes, std::max(1.0, value)) - classes.begin());
+    ++counts[k - 1];
+    for (std::size_t edge = 1; edge < classes.size(); ++edge) // at the edge of two classes rounding decides
+      if (near(classes[edge], value, 1e-12)) {
+        ++doubtful[edge];
+        ++doubtful[edge - 1];
+      }
+  }
+  const std::vector<double> found = file.column("/trime_mpi/quality/alpha_histogram");
+  for (std::size_t k = 0; k < counts.size(); ++k)
+    if (k >= found.size() || std::fabs(found[k] - static_cast<double>(counts[k])) > static_cast<double>(doubtful[k]))
+      wrong.note([&] { return fmt::format("alpha_histogram from {}: expected {}", classes[k], counts[k]); });
+}
+
+void check_quality(const StoredFile& file, const Mesh& mesh, Report& report) {
+  Tally alpha_wrong, beta_wrong, summary;
+  std::vector<double> alpha, beta;
+  double angle = 60;
+  std::int64_t bad = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Measures m = measure(mesh.corners(mesh.triangles[t]));
+    const auto note = [&](Tally& tally, double expected, double found) {
+      if (!near(expected, found, float_tolerance))
+        tally.note(
+            [&] { return fmt::format("{}: expected {:.8g}, found {:.8g}", place_of(mesh, t), expected, found); });
+    };
+    note(alpha_wrong, m.alpha, mesh.alpha[t]);
+    note(beta_wrong, m.beta, mesh.beta[t]);
+    alpha.push_back(m.alpha);
+    beta.push_back(m.beta);
+    angle = std::min(angle, m.angle);
+    bad += m.alpha > 2;
+  }
+  check_histogram(file, alpha, summary);
+  check_ratio(file, "alpha", std::move(alpha), summary);
+  check_ratio(file, "beta", std::move(beta), summary);
+  if (!near(angle, file.number("/trime_mpi/quality", "min_angle_degrees").value_or(-1), sum_tolerance))
+    summary.note([&] { return fmt::format("min_angle_degrees: expected {:.12g}", angle); });
+  if (file.number("/trime_mpi/quality", "bad_triangles").value_or(-1) != static_cast<double>(bad))
+    summary.note([&] { return fmt::format("bad_triangles: expected {}", bad); });
+  report.none("alpha", alpha_wrong, "triangles whose `alpha` is not R/(2r)");
+  report.none("beta", beta_wrong, "triangles whose `beta` is not the longest over the shortest edge");
+  report.none("quality", summary, "numbers in /trime_mpi/quality that are not those of the triangles");
+}
+
+/// Sizes are positive, and about as long as the edges there.
+void check_sizes(const Mesh& mesh, Report& report) {
+  std::vector<double> length(mesh.points.size(), 0);
+  std::vector<std::int64_t> edges(mesh.points.size(), 0);
+  for (const Triangle& t : mesh.triangles) {
+    const auto corners = mesh.corners(t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point d = corners[(k + 1) % 3] - corners[k];
+      for (const std::int64_t id : {t[k], t[(k + 1) % 3]}) {
+        length[static_cast<std::size_t>(id)] += std::hypot(d.x, d.y);
+        ++edges[static_cast<std::size_t>(id)];
+      }
+    }
+  }
+  Tally wrong, asked, regions;
+  for (std::size_t i = 0; i < mesh.size.size(); ++i) {
+    const double mean = length[i] / static_cast<double>(std::max<std::int64_t>(1, edges[i]));
+    if (edges[i] > 0 && !(mesh.size[i] * size_factor > mean && mesh.size[i] < size_factor * mean))
+      wrong.note([&] {
+        return fmt::format("point {} at {}: size {:.6g}, edges {:.6g}", i, place_of(mesh.points[i]), mesh.size[i],
+                           mean);
+      });
+  }
+  for (std::size_t k = 0; k < mesh.facets.size(); ++k)
+    if (!(mesh.asked_sizes[k] > 0) || !std::isfinite(mesh.asked_sizes[k]))
+      asked.note([&] { return fmt::format("facet {}: {}", k, mesh.asked_sizes[k]); });
+  for (std::size_t t = 0; t < mesh.region.size(); ++t)
+    if (mesh.region[t] < 1)
+      regions.note([&] { return fmt::format("{}: {}", place_of(mesh, t), mesh.region[t]); });
+  report.none("size", wrong,
+              fmt::format("points whose `size` is not the length of their edges within a factor of {}", size_factor));
+  report.none("asked_size", asked, "facets whose `asked_size` is no positive number");
+  report.none("region", regions, "triangles of no region");
+}
+
+/// What the file says was counted, beside what is counted here.
+void check_stored_checks(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report) {
+  const std::vector<std::string> names = file.names("/trime_mpi/checks/name");
+  const std::vector<double> expected = file.column("/trime_mpi/checks/expected");
+  const std::vector<double> found = file.column("/trime_mpi/checks/found");
+  const std::vector<double> passed = file.column("/trime_mpi/checks/passed");
+  const double complete = file.number("/trime_mpi", "complete").value_or(-1);
+  if (names.empty() && complete == 0 &&
+      file.text_attribute("/trime_mpi", "stop_reason").value_or("").starts_with("none")) {
+    report.skip("stored_checks", "the mesh is a step of a run, which has no certificate");
+    return;
+  }
+  const auto triangles = static_cast<double>(mesh.triangles.size()), facets = static_cast<double>(mesh.facets.size());
+  const std::map<std::string, double> here{
+      {"star_listings", 3 * triangles},
+      {"written_points", static_cast<double>(mesh.points.size())},
+      {"written_triangles", triangles},
+      {"written_facets", facets},
+      {"boundary_segments", facets},
+      {"not_positive", static_cast<double>(counted.clockwise)},
+      {"not_delaunay", static_cast<double>(counted.not_delaunay)},
+      {"euler_characteristic", static_cast<double>(counted.euler_characteristic)},
+      {"edge_count", static_cast<double>(counted.edges)},
+      {"unused_points", static_cast<double>(counted.unused)},
+      {"boundary_cycles", static_cast<double>(counted.loops)},
+      {"corners", static_cast<double>(counted.corners)},
+      {"area", counted.area},
+  };
+  // Those with a largest value; turns_kept has a least one, of all others both numbers are the same.
+  const std::array<std::string, 6> limits{"vertex_distance", "generalisation", "chord_deviation",
+                                          "arc_deviation",   "area_residual",  "worst_alpha"};
+  Tally wrong;
+  std::size_t matched = 0;
+  double all = 1;
+  for (std::size_t k = 0; k < std::min({names.size(), expected.size(), found.size(), passed.size()}); ++k) {
+    const bool limit = std::ranges::find(limits, names[k]) != limits.end();
+    const bool holds = limit                      ? found[k] <= expected[k]
+                       : names[k] == "turns_kept" ? found[k] >= expected[k]
+                                                  : found[k] == expected[k];
+    const auto own = here.find(names[k]);
+    matched += own != here.end();
+    const bool same = own == here.end() || near(own->second, found[k], 1e-12);
+    if (!same || holds != (passed[k] == 1))
+      wrong.note([&] {
+        return fmt::format("{}: the file says expected {:.12g}, found {:.12g}, passed {}{}", names[k], expected[k],
+                           found[k], passed[k], same ? "" : fmt::format("; it is {:.12g}", own->second));
+      });
+    all = std::min(all, passed[k]);
+  }
+  const std::string reason = file.text_attribute("/trime_mpi", "stop_reason").value_or("");
+  const double must_be = reason == "sweep cap" ? 0 : all;
+  if (complete != must_be)
+    wrong.note([&] { return fmt::format("`complete` is {}, expected {}", complete, must_be); });
+  if (matched + 1 < here.size()) // files of older versions have no written_points
+    wrong.note([&] { return fmt::format("{} of {} known checks are missing", here.size() - matched, here.size()); });
+  for (const auto& [name, value] :
+       {std::pair{"points", static_cast<double>(mesh.points.size())}, std::pair{"triangles", triangles}})
+    if (file.number("/trime_mpi", name) != value)
+      wrong.note([&] { return fmt::format("`{}` is not {}", name, value); });
+  report.none("stored_checks", wrong, "lines of /trime_mpi/checks and counts that are not what is found here");
+}
+
+} // namespace
+
+void check_summary(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report) {
+  check_quality(file, mesh, report);
+  check_sizes(mesh, report);
+  check_stored_checks(file, mesh, counted, report);
+}
+
+} // namespace trime_check

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "checks.hpp"
+#include "exact.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace trime_check {
+namespace {
+
+/// An edge as one triangle has it.
+struct Side {
+  std::int64_t low, high;
+  std::uint32_t triangle; // of the file; meshes of more are for larger machines than one
+  std::uint8_t corner;    // opposite to it
+  bool forward;           // the triangle runs from low to high
+};
+
+std::vector<Side> sides_of(const Mesh& mesh) {
+  std::vector<Side> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::uint8_t k = 0; k < 3; ++k) {
+      const std::int64_t a = mesh.triangles[t][(k + 1) % 3], b = mesh.triangles[t][(k + 2) % 3];
+      sides.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(t), k, a < b});
+    }
+  std::ranges::sort(sides, {}, [](const Side& s) { return std::tuple(s.low, s.high, s.triangle, s.corner); });
+  return sides;
+}
+
+/// A union-find of points.
+class Components {
+public:
+  explicit Components(std::size_t points) : parent_(points) {
+    std::iota(parent_.begin(), parent_.end(), std::int64_t{0});
+  }
+  std::int64_t root(std::int64_t i) {
+    while (of(i) != i)
+      i = of(i) = of(of(i));
+    return i;
+  }
+  void join(std::int64_t a, std::int64_t b) { of(root(a)) = root(b); }
+
+private:
+  std::int64_t& of(std::int64_t i) { return parent_[static_cast<std::size_t>(i)]; }
+  std::vector<std::int64_t> parent_;
+};
+
+/// One of the closed curves of which the boundary consists.
+struct Loop {
+  std::vector<std::size_t> facets; // in the order in which they follow each other
+};
+
+/// All that looks at the triangles and facets together.
+class Surface {
+public:
+  Surface(const StoredFile& file, const Mesh& mesh, Report& report)
+      : file_(file), mesh_(mesh), report_(report), plane_(mesh) {}
+
+  Counted run() {
+    check_orientation();
+    check_edges();
+    check_points();
+    follow_loops();
+    check_euler();
+    check_area();
+    check_tags();
+    check_fixed();
+    return counted_;
+  }
+
+private:
+  void check_orientation() {
+    Tally clockwise;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto [a, b, c] = mesh_.corners(mesh_.triangles[t]);
+      if (!is_left_turn(a, b, c))
+        clockwise.note([&] { return place_of(mesh_, t); });
+      twice_area_ += plane_.twice_area(a, b, c);
+    }
+    counted_.clockwise = clockwise.count;
+    counted_.area = plane_.area(twice_area_);
+    report_.none("orientation", clockwise, "triangles that are flat or clockwise (CGAL, exact)");
+  }
+
+  /// The corner of the other triangle at an inner edge, beside the corners of this one.
+  bool is_delaunay(const Side& one, const Side& other) const {
+    const auto [a, b, c] = mesh_.corners(mesh_.triangles[one.triangle]);
+    const std::int64_t apex = mesh_.triangles[other.triangle][other.corner];
+    // Across the edge from the corner one.corner: of its images the one that the other triangle has.
+    const Point start = std::array{a, b, c}[(one.corner + 1) % 3];
+    const Point d = mesh_.periods.near(mesh_.at(apex), start);
+    return !is_left_turn(a, b, c) || !is_inside_circle(a, b, c, d);
+  }
+
+  void check_edges() {
+    const std::vector<Side> sides = sides_of(mesh_);
+    Tally crowded, not_delaunay, not_facets, without_triangle;
+    std::set<Facet> facets(mesh_.facets.begin(), mesh_.facets.end()), rim;
+    for (std::size_t k = 0; k < sides.size();) {
+      std::size_t end = k;
+      while (end < sides.size() && sides[end].low == sides[k].low && sides[end].high == sides[k].high)
+        ++end;
+      ++counted_.edges;
+      const Facet edge{sides[k].low, sides[k].high};
+      const bool pair = end - k == 2 && sides[k].forward != sides[k + 1].forward;
+      if (end - k > 2 || (end - k == 2 && !pair))
+        crowded.note([&] { return place_of(mesh_, edge); });
+      if (end - k == 1)
+        rim.insert(sides[k].forward ? edge : Facet{edge[1], edge[0]});
+      if (pair && !is_delaunay(sides[k], sides[k + 1]))
+        not_delaunay.note([&] { return place_of(mesh_, edge); });
+      k = end;
+    }
+    for (const Facet& edge : rim)
+      if (!facets.contains(edge))
+        not_facets.note([&] { return place_of(mesh_, edge); });
+    for (const Facet& facet : facets)
+      if (!rim.contains(facet))
+        without_triangle.note([&] { return place_of(mesh_, facet); });
+    for (std::size_t k = facets.size(); k < mesh_.facets.size(); ++k)
+      without_triangle.note([] { return std::string("a facet that is listed twice"); });
+    counted_.not_delaunay = not_delaunay.count;
+    report_.none("manifold", crowded, "edges of more than two triangles, or of two that both lie on the same side");
+    report_.none("delaunay", not_delaunay, "inner edges that are not locally Delaunay (CGAL, exact)");
+    report_.none("rim", not_facets, "edges of one triangle that are no facets");
+    report_.none("facets", without_triangle, "facets that are no edge of exactly one triangle on their left");
+  }
+
+  void check_points() {
+    Components components(mesh_.points.size());
+    std::vector<char> used(mesh_.points.size(), 0);
+    for (const Triangle& t : mesh_.triangles)
+      for (const std::int64_t id : t) {
+        used[static_cast<std::size_t>(id)] = 1;
+        components.join(t[0], id);
+      }
+    Tally unused;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      if (!used[i])
+        unused.note([&] { return fmt::format("point {} at {}", i, place_of(mesh_.points[i])); });
+      else
+        counted_.components += components.root(static_cast<std::int64_t>(i)) == static_cast<std::int64_t>(i);
+    }
+    counted_.unused = unused.count;
+    report_.none("unused_points", unused, "points without a triangle");
+  }
+
+  void follow_loops() {
+    std::map<std::int64_t, std::size_t> from;
+    Tally branches, open;
+    for (std::size_t k = 0; k < mesh_.facets.size(); ++k)
+      if (!from.emplace(mesh_.facets[k][0], k).second)
+        branches.note([&] { return place_of(mesh_, mesh_.facets[k]); });
+    std::vector<char> seen(mesh_.facets.size(), 0);
+    for (std::size_t first = 0; first < seen.size(); ++first) {
+      Loop loop;
+      for (std::size_t k = first; !seen[k];) {
+        seen[k] = 1;
+        loop.facets.push_back(k);
+        const auto next = from.find(mesh_.facets[k][1]);
+        if (next == from.end())
+          break;
+        k = next->second;
+      }
+      if (loop.facets.empty())
+        continue;
+      if (mesh_.facets[loop.facets.back()][1] != mesh_.facets[first][0])
+        open.note([&] { return place_of(mesh_, mesh_.facets[loop.facets.back()]); });
+      loops_.push_back(std::move(loop));
+    }
+    counted_.loops = std::ssize(loops_);
+    loops_are_sound_ = branches.count == 0 && open.count == 0;
+    report_.none("simple_loops", branches, "points at which two loops of facets meet");
+    report_.none("closed_loops", open, "chains of facets that do not come back to where they start");
+  }
+
+  /// A surface of the plane or of a strip: 2 for each component, less 1 for each loop. A torus may have a handle.
+  void check_euler() {
+    counted_.euler_characteristic =
+        std::ssize(mesh_.points) - counted_.unused - counted_.edges + std::ssize(mesh_.triangles);
+    std::int64_t expected = 2 * counted_.components - counted_.loops;
+    if (mesh_.periods.x > 0 && mesh_.periods.y > 0 && counted_.euler_characteristic == expected - 2)
+      expected -= 2;
+    report_.equal(
+        "euler", expected, counted_.euler_characteristic,
+        fmt::format("points - edges + triangles of {} components with {} loops", counted_.components, counted_.loops));
+  }
+
+  Point step(std::size_t facet) const {
+    const Point a = mesh_.at(mesh_.facets[facet][0]);
+    return mesh_.periods.near(mesh_.at(mesh_.facets[facet][1]), a) - a;
+  }
+
+  /// @brief Twice the area on the left of a loop, unrolled in a periodic container. One that winds around it gets the
+  /// area between it and a fixed point: the sum over all loops is that of the region, but for whole containers.
+  Integer twice_area_left_of(const Loop& loop) const {
+    const Point origin = mesh_.at(mesh_.facets[loop.facets[0]][0]);
+    Integer area = 0;
+    Point at = origin;
+    for (const std::size_t k : loop.facets) {
+      const Point to = at + step(k);
+      area += plane_.twice_area(origin, at, to);
+      at = to;
+    }
+    return area + 2 * plane_.cross(origin - mesh_.points[0], at - origin);
+  }
+
+  void check_area() {
+    if (!loops_are_sound_) {
+      report_.skip("area", "the facets are no closed simple loops");
+      return;
+    }
+    Integer polygon = 0, triangles = twice_area_;
+    for (const Loop& loop : loops_)
+      polygon += twice_area_left_of(loop);
+    if (mesh_.periods.x > 0 && mesh_.periods.y > 0) {
+      const Integer whole = 2 * plane_.cross({mesh_.periods.x, 0}, {0, mesh_.periods.y});
+      polygon = ((polygon % whole) + whole) % whole;
+      if (polygon == 0)
+        polygon = whole;
+    }
+    report_.add("area", polygon == triangles, fmt::format("{:.17g}", plane_.area(polygon)),
+                fmt::format("{:.17g}", plane_.area(triangles)),
+                "area inside the loops of facets, beside the sum over the triangles (Boost, exact integers)");
+  }
+
+  void check_tags() {
+    const std::vector<double> ids = file_.column("/trime_mpi/tags/edge_id");
+    const std::vector<double> counts = file_.column("/trime_mpi/tags/edge_count");
+    const std::vector<double> lengths = file_.column("/trime_mpi/tags/edge_length_sum");
+    const std::size_t parts = file_.names("/trime_mpi/tags/part_name").size();
+    Tally wrong, points;
+    std::set<std::int64_t> seen;
+    std::vector<std::int64_t> expected(mesh_.points.size(), 0);
+    for (const Loop& loop : loops_) {
+      const std::int64_t tag = mesh_.facet_tags[loop.facets[0]];
+      double length = 0;
+      for (const std::size_t k : loop.facets) {
+        length += std::hypot(step(k).x, step(k).y);
+        expected[static_cast<std::size_t>(mesh_.facets[k][0])] = mesh_.facet_tags[k];
+        const std::int64_t part = mesh_.facet_parts[k];
+        if (mesh_.facet_tags[k] != tag || part < 0 || part >= static_cast<std::int64_t>(parts))
+          wrong.note([&] { return fmt::format("tag or part of facet {}: {}", k, place_of(mesh_, mesh_.facets[k])); });
+      }
+      const auto row = static_cast<std::size_t>(std::ranges::find(ids, static_cast<double>(tag)) - ids.begin());
+      if (row >= std::min({ids.size(), counts.size(), lengths.size()}) || !seen.insert(tag).second ||
+          counts[row] != static_cast<double>(loop.facets.size()) || std::fabs(lengths[row] - length) > 1e-9 * length)
+        wrong.note([&] {
+          return fmt::format("loop of tag {}, {} facets, length {:.12g}: no such row in /trime_mpi/tags", tag,
+                             loop.facets.size(), length);
+        });
+    }
+    if (ids.size() != loops_.size())
+      wrong.note([&] { return fmt::format("/trime_mpi/tags has {} loops, the mesh {}", ids.size(), loops_.size()); });
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      if (mesh_.boundary[i] != expected[i])
+        points.note([&] {
+          return fmt::format("point {} at {}: expected {}, found {}", i, place_of(mesh_.points[i]), expected[i],
+                             mesh_.boundary[i]);
+        });
+    report_.none("tags", wrong, "facets and loops whose tags are not one to a loop, or not those of the table");
+    report_.none("boundary_array", points, "points whose value in `boundary` is not the tag of their loop, 0 inside");
+  }
+
+  void check_fixed() {
+    Tally wrong;
+    for (std::size_t i = 0; i < mesh_.fixed.size(); ++i) {
+      if (mesh_.fixed[i] != 0 && mesh_.fixed[i] != 1)
+        wrong.note([&] { return fmt::format("point {}: {}", i, mesh_.fixed[i]); });
+      counted_.corners += mesh_.fixed[i] == 1 && mesh_.boundary[i] != 0;
+    }
+    report_.none("fixed_array", wrong, "values of `fixed` that are neither 0 nor 1");
+  }
+
+  const StoredFile& file_;
+  const Mesh& mesh_;
+  Report& report_;
+  IntegerPlane plane_;
+  Counted counted_;
+  Integer twice_area_ = 0;
+  std::vector<Loop> loops_;
+  bool loops_are_sound_ = false;
+};
+
+} // namespace
+
+Counted check_surface(const StoredFile& file, const Mesh& mesh, Report& report) {
+  return Surface(file, mesh, report).run();
+}
+
+} // namespace trime_check

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every rank evaluates shape and size for itself. Unlike processors or libraries may then give unlike bits.
+#pragma once
+
+#include "trime/comm/communicator.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/sizing/size_field.hpp"
+
+namespace trime::meshing {
+
+/// @brief Do all ranks have the same boundary, and the same sizes at a thousand places on it? Also tests the arithmetic
+/// of each rank. Collective. O(pieces)
+/// @throws InternalError on all ranks if not, since ranks would wait for each other for ever or fail the certificate;
+/// what the size field throws
+void check_same_input(const geometry::Boundary& boundary, const sizing::SizeField& size,
+                      const comm::Communicator& comm);
+
+} // namespace trime::meshing
