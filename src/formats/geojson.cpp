@@ -71,7 +71,7 @@ void append_place(std::string& to, Vec2 p) {
 
 void append_head(std::string& to, const char* kind, GlobalId id, const char* label, std::int64_t number,
                  const std::string& name, const char* type) {
-  to += fmt::format(R"({{"type":"Feature","properties":{{"kind":"{}","id":{},"{}":{},"name":{}}},)"
+  to += fmt::format(R"({{"type":"Feature","properties":{{"kind":"{}","number":{},"{}":{},"name":{}}},)"
                     R"("geometry":{{"type":"{}","coordinates":)",
                     kind, id, label, number, name, type);
 }

@@ -56,7 +56,7 @@ POLY = """# a square with a hole, markers
 """
 FROM_ZERO = re.sub(r"^(\d) (\d) (\d) (\d)$", lambda m: " ".join(str(int(w) - 1) for w in m.groups()[:3]) + " " + m[4],
                    re.sub(r"^(\d) (0\.\d) (0\.\d)$", lambda m: f"{int(m[1]) - 1} {m[2]} {m[3]}", POLY, flags=re.M),
-                   flags=re.M).replace("7 1 0 0\n", "8 2 0 0\n")
+                   flags=re.M).replace("7 1 -1 0\n", "8 2 0 0\n")
 MSH = """# JIGSAW
 mshid=3;EUCLIDEAN-MESH
 ndims=2
@@ -288,7 +288,7 @@ class Maps(unittest.TestCase):
             told = gdal("ogrinfo", "-ro", "-al", "-so", work / "case.geojson")
             extent = [float(word) for word in re.search(r"Extent: \((\S+), (\S+)\) - \((\S+), (\S+)\)", told).groups()]
             low, high = vertices.min(axis=0), vertices.max(axis=0)
-            numpy.testing.assert_allclose(extent, [*low, *high], atol=0.02)
+            numpy.testing.assert_allclose(extent, [*low, *high], atol=0.05)
             self.assertRegex(told, r'ID\["EPSG",4326\]|WGS 84')
             self.assertIn(f"Feature Count: {len(triangles) + len(edges)}", told)
 
