@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
+#include <string>
 
 namespace trime::projection {
 namespace {
