@@ -13,7 +13,7 @@ namespace {
 using geometry::Frame;
 using geometry::Vec2;
 
-const Frame unit_frame({{0, 0}, {1, 1}});
+const Frame unit_frame(geometry::Box{{0, 0}, {1, 1}});
 
 /// Squares with the sides 8, 6, 4 and 2 around (4, 4), each with its side as marker.
 std::string nested(const std::string& holes) {
