@@ -17,6 +17,7 @@ ARROWS = {
     "mesh": ["geometry"],
     "cones": ["geometry", "comm"],
     "shape": ["geometry"],
+    "projection": ["geometry"],
     "sizing": ["cones"],
     "delaunay": ["mesh"],
     "decomposition": ["mesh", "comm"],
@@ -31,7 +32,7 @@ ARROWS = {
     "certificate": ["sites"],
     "meshing": ["start", "sweep", "cleanup", "extraction", "certificate", "shape"],
     "io": ["mesh", "comm"],
-    "formats": ["io"],
+    "formats": ["io", "projection"],
     "handover": ["mesh", "comm"],
     "app": ["meshing", "formats"],
 }
@@ -41,6 +42,8 @@ FOREIGN = [
     (re.compile(r"mpi\.h$"), "MPI", {"comm"}),
     (re.compile(r"(hdf5|H5\w*)\.h$"), "HDF5", {"io"}),
     (re.compile(r"omp\.h$"), "OpenMP", {"core"}),
+    (re.compile(r"proj\.h$"), "PROJ", {"projection"}),
+    (re.compile(r"shapefil\.h$"), "libshp", {"shape"}),
 ]
 NATIVE_HANDLE = "comm/native.hpp"  # brings mpi.h with it
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

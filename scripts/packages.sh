@@ -9,6 +9,7 @@ trime_run_packages=(
   openmpi-bin libopenmpi-dev libhdf5-openmpi-dev  # MPI, and HDF5 with MPI
   libfmt-dev libcli11-dev libmuparser-dev         # text, command line, formulas
   nlohmann-json3-dev                              # GeoJSON; the file by which ParaView plays steps
+  libshp-dev libproj-dev                          # shapefiles; longitude and latitude
   python3 python3-h5py python3-numpy python3-matplotlib # scripts/python, scripts/plot_mesh.py, scripts/scaling.py
 )
 # To run the tests, beside the above.
@@ -17,6 +18,7 @@ trime_test_packages=(
   libcgal-dev libboost-dev                        # oracles of the tests, and trime_check: CGAL, big integers of Boost
   hdf5-tools python3-vtk9 python3-meshio          # h5diff, and two foreign readers of the mesh file
   python3-gmsh python3-dolfinx freefem++          # readers of the formats of other programs
+  gdal-bin                                        # reads and writes maps: ogr2ogr, ogrinfo
   python3-scipy gmsh                              # Poisson's equation, on meshes of Gmsh too, judge.py; benchmark.py --gmsh;
                                                   # scaling.py --model
   libpetsc-real-dev metis scotch                  # the PETSc example (the rest of PETSc comes with dolfinx); edge_cut.py

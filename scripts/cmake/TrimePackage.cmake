@@ -47,7 +47,7 @@ endif()
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "${trime_launcher}, python3") # mpirun, plot_mesh.py
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-h5py, python3-numpy, python3-matplotlib") # the Python package
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS                  # to build with the library
-    "g++, cmake, ${trime_mpi_headers}, libfmt-dev, libmuparser-dev")
+    "g++, cmake, ${trime_mpi_headers}, libfmt-dev, libmuparser-dev, libproj-dev, libshp-dev")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION               # behind the line of the project; CPack indents it
 "trime_mpi reads a shape and an element size from a config file, and writes one
 HDF5 file that ParaView, VTK, FEniCS, PETSc and meshio open. It runs with MPI

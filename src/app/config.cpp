@@ -116,10 +116,30 @@ void read_region(const Settings& settings, RunOptions& options, Diagnostics& pro
   }
 }
 
+/// Of contours, in place of a normalisation.
+void read_projection(const Settings& settings, RunOptions& options, Diagnostics& problems) {
+  if (const std::string projection = settings.text("shape", "projection"); projection != "none")
+    options.projection = projection;
+  if (options.projection.empty())
+    return;
+  const auto is_contour = [](const PartOptions& part) { return part.type == "contour"; };
+  if (std::none_of(options.parts.begin(), options.parts.end(), is_contour))
+    problems.add(settings.line("shape", "projection"),
+                 fmt::format("'projection = {}' in [shape] is for contours, and no part has 'type = contour'",
+                             options.projection));
+  for (const PartOptions& part : options.parts)
+    if (part.normalize)
+      problems.add(
+          settings.line("shape." + part.name, "normalize"),
+          fmt::format("'normalize = true' in [shape.{}] and 'projection = {}' in [shape]: expected one of them",
+                      part.name, options.projection));
+}
+
 void read_shape(const Settings& settings, const fs::path& directory, RunOptions& options, Diagnostics& problems) {
   for (const std::string& name : settings.parts())
     options.parts.push_back(part_of(settings, name, directory, problems));
   read_region(settings, options, problems);
+  read_projection(settings, options, problems);
 }
 
 void read_domain(const Settings& settings, RunOptions& options, Diagnostics& problems) {

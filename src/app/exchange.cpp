@@ -29,11 +29,19 @@ void refuse_to_replace(const std::vector<std::string>& paths, const char* advice
   });
 }
 
+/// A value as words, or nothing if the file has none.
+std::string value_text(const Metadata& metadata, const std::string& name) {
+  for (const io::Attribute& attribute : metadata.attributes)
+    if (attribute.name == name)
+      return std::visit([](const auto& value) { return fmt::format("{}", value); }, attribute.value);
+  return {};
+}
+
 formats::Names names_of(const Metadata& metadata) {
-  formats::Names names{
-      io::column_of<std::string>(metadata, "tags", "part_name"),
-      io::column_of<std::string>(metadata, "tags", "region_name"),
-      {io::attribute_of<double>(metadata, "period_x"), io::attribute_of<double>(metadata, "period_y")}};
+  formats::Names names{io::column_of<std::string>(metadata, "tags", "part_name"),
+                       io::column_of<std::string>(metadata, "tags", "region_name"),
+                       {io::attribute_of<double>(metadata, "period_x"), io::attribute_of<double>(metadata, "period_y")},
+                       value_text(metadata, "crs")};
   return names;
 }
 
@@ -50,21 +58,14 @@ bool is_marked(const Metadata& metadata) {
   return io::attribute_of<std::int64_t>(metadata, "complete") == 0;
 }
 
-/// A value as words, or nothing if the file has none.
-std::string value_text(const Metadata& metadata, const std::string& name) {
-  for (const io::Attribute& attribute : metadata.attributes)
-    if (attribute.name == name)
-      return std::visit([](const auto& value) { return fmt::format("{}", value); }, attribute.value);
-  return {};
-}
-
 std::string made_text(const Metadata& metadata) {
   std::string text;
   for (const auto& [what, name] : {std::pair{"made", "created_utc"},
                                    {"by trime_mpi", "program_version"},
                                    {"command", "command_line"},
                                    {"method", "method"},
-                                   {"stopped", "stop_reason"}})
+                                   {"stopped", "stop_reason"},
+                                   {"crs", "crs"}})
     if (const std::string value = value_text(metadata, name); !value.empty())
       text += fmt::format("{:<13} {}\n", what, value);
   return text;

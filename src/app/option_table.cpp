@@ -71,6 +71,12 @@ constexpr Option table[] = {
      .meaning =
          "the shape, made of named parts: a name, `domain` for the container itself, or `union`, `intersection`, "
          "`difference` of two or more, nested: `difference(spade, union(hole, slot))`"},
+    {.section = "shape",
+     .key = "projection",
+     .kind = OptionKind::text,
+     .fallback = "none",
+     .meaning = "the plane in which contours in longitude and latitude are meshed: `auto` for a local one in metres, "
+                "or one that PROJ knows, such as `EPSG:32633`; none: coordinates are taken as they are"},
     {.section = "shape.NAME",
      .key = "type",
      .kind = OptionKind::word,
@@ -93,9 +99,8 @@ constexpr Option table[] = {
      .key = "file",
      .part_type = "contour",
      .kind = OptionKind::path,
-     .meaning =
-         "rings: `.xy`, one `x y` a line, a blank line or `>` ends a ring, `#` comments; or the polygons of a "
-         "`.geojson`; holes by even-odd nesting"},
+     .meaning = "rings: `.xy`, one `x y` a line, a blank line or `>` ends a ring, `#` comments; the polygons of a "
+                "`.geojson` or `.shp`; `.poly` of Triangle; `.msh` of JIGSAW; holes by even-odd nesting"},
     {.section = "shape.NAME",
      .key = "normalize",
      .part_type = "contour",
@@ -278,7 +283,7 @@ constexpr Option table[] = {
      .key = "formats",
      .kind = OptionKind::words,
      .fallback = "vtkhdf xdmf",
-     .choices = "vtkhdf xdmf text gmsh gmsh2 medit freefem triangle vtu 2dm fort14",
+     .choices = "vtkhdf xdmf text gmsh gmsh2 medit freefem triangle vtu 2dm fort14 geojson",
      .meaning =
          "`vtkhdf`: for ParaView and VTK; `xdmf`: for ParaView, FEniCS, PETSc; both lie in one file NAME.h5. "
          "`text`: the files of TriMe++, in the folder NAME. The others are for other programs and hold the final "

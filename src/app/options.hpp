@@ -52,6 +52,7 @@ inline constexpr geometry::Box unit_square{{0, 0}, {1, 1}};
 struct RunOptions {
   std::vector<PartOptions> parts;
   std::string region;
+  std::string projection; ///< of the contours: empty: none; `auto`; or a reference system that PROJ knows
   bool periodic_x = false, periodic_y = false; ///< sides of the container, for the frame in which the shape is made
   bool container_is_automatic = false;         ///< no side is given: the one of `mesh` may become one around the shape
   meshing::MeshOptions mesh;                   ///< without the fixed points, which are read when the shape is

@@ -125,8 +125,10 @@ meshing::MeshResult run_mesher(const Job& job, const Provenance& provenance, con
   return mesher.run();
 }
 
-io::SeriesOptions series_options(const Job& job, const geometry::Boundary& boundary) {
+io::SeriesOptions series_options(const Job& job, const shape::RegionShape& shape) {
+  const geometry::Boundary& boundary = shape.boundary();
   io::SeriesOptions options = job.options.output;
+  options.file.part_markers = shape.part_markers();
   options.file.run_files = job.files;
   options.period = {boundary.periods.x, boundary.periods.y};
   return options;
@@ -163,8 +165,8 @@ ExitCode make_mesh(const Job& job) {
   log.set_rewriter([&places = job.places](const std::string& message) { return places.explain(message); });
   const geometry::Boundary& boundary = input.shape.boundary();
   meshing::MeshOptions mesh_options = options.mesh;
-  mesh_options.fixed_points = read_fixed_points(options, input.fixed_points_place, comm);
-  io::MeshSeries series(series_options(job, boundary), comm);
+  mesh_options.fixed_points = read_fixed_points(options, input, comm);
+  io::MeshSeries series(series_options(job, input.shape), comm);
   if (const double points = expected_points(options, boundary); options.write)
     for (const std::string& warning : is_run ? series.check(points) : series.look(points))
       log.warning("{}", warning);
@@ -194,8 +196,15 @@ ExitCode make_mesh(const Job& job) {
     return ExitCode::done;
   }
 
-  const Provenance provenance{
-      job.line, options, job.config_text, placement, boundary, input.normalized, job.places.ring_lines(boundary)};
+  const Provenance provenance{job.line,
+                              options,
+                              job.config_text,
+                              placement,
+                              boundary,
+                              input.normalized,
+                              job.places.ring_lines(boundary),
+                              input.map,
+                              input.shape.part_markers()};
   const meshing::MeshResult result = run_mesher(job, provenance, *size.field, mesh_options, series);
   const SizeSummary sizes = summarize_size(size.description, result.mesh, comm);
   io::WrittenFiles files;
@@ -203,7 +212,8 @@ ExitCode make_mesh(const Job& job) {
     const io::Metadata metadata = describe_run(provenance, result, sizes, gather_measurements(timers, comm));
     const auto timing = timers.scope("output");
     files = series.write_final({final_retriangulation(result), result.mesh, result.quality, metadata});
-    const formats::Names names{boundary.part_names, {options.region}, {boundary.periods.x, boundary.periods.y}};
+    const formats::Names names{
+        boundary.part_names, {options.region}, {boundary.periods.x, boundary.periods.y}, input.map.crs};
     for (const std::string& path : write_exchange(options, result.mesh, names, job.files, comm))
       files.paths.push_back(path);
   }

@@ -42,6 +42,7 @@ Attributes run_attributes(const Provenance& p) {
           {"job_id", std::string(job ? job : "")},
           {"seed", p.options.mesh.seed},
           {"method", method_name(p.options.mesh.method)},
+          {"crs", p.map.crs},                 // reference system of the coordinates; empty: none is known
           {"period_x", p.boundary.periods.x}, // 0: not periodic; else images of a triangle's corners count
           {"period_y", p.boundary.periods.y},
           {"mpi_ranks", std::int64_t{p.placement.ranks}},
@@ -132,7 +133,11 @@ Attributes joined(Attributes a, const Attributes& b) {
 }
 
 std::vector<io::Text> texts(const Provenance& p) {
-  return {{"command_line", p.line.as_given}, {"config_text", p.config_text}, {"config_resolved", p.options.resolved}};
+  std::vector<io::Text> all{
+      {"command_line", p.line.as_given}, {"config_text", p.config_text}, {"config_resolved", p.options.resolved}};
+  if (!p.map.well_known_text.empty())
+    all.push_back({"crs_wkt", p.map.well_known_text});
+  return all;
 }
 
 io::MetadataGroup history_group(const std::vector<sweep::SweepRecord>& history) {
@@ -247,8 +252,8 @@ std::string kind_name(const polygon::LoopSummary& loop) {
 }
 
 /// What the numbers in /Mesh/facets mean: `values` are edge_id, `parts` are part_id.
-io::MetadataGroup tags_group(const geometry::Boundary& boundary, const std::vector<polygon::LoopSummary>& loops,
-                             const std::string& region) {
+io::MetadataGroup tags_group(const Provenance& p, const std::vector<polygon::LoopSummary>& loops) {
+  const geometry::Boundary& boundary = p.boundary;
   using polygon::LoopSummary;
   std::vector<std::int32_t> part_ids(boundary.part_names.size());
   std::iota(part_ids.begin(), part_ids.end(), 0);
@@ -261,8 +266,9 @@ io::MetadataGroup tags_group(const geometry::Boundary& boundary, const std::vect
            column<double>("edge_length_sum", loops, &LoopSummary::length),
            {"part_id", part_ids},
            {"part_name", boundary.part_names},
+           {"part_marker", p.part_markers},
            {"region_id", std::vector<std::int32_t>{1}},
-           {"region_name", std::vector<std::string>{region}}}};
+           {"region_name", std::vector<std::string>{p.options.region}}}};
 }
 
 } // namespace
@@ -275,7 +281,7 @@ io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result
           texts(p),
           {history_group(result.history), io::quality_group(result.quality), io::checks_group(result.checks),
            io::bad_triangles_group(result.quality), timers_group(measured.phases), counters_group(measured),
-           tags_group(p.boundary, result.loops, p.options.region), sharp_corners_group(result.features.sharp_corners),
+           tags_group(p, result.loops), sharp_corners_group(result.features.sharp_corners),
            rings_group(p, result.features.loops), normalization_group(p.normalized)}};
 }
 
@@ -287,8 +293,7 @@ io::Metadata describe_step(const Provenance& p, const meshing::Snapshot& snapsho
                         mesh_attributes(snapshot.mesh, snapshot.retriangulation)),
                  step),
           texts(p),
-          {io::quality_group(snapshot.quality), tags_group(p.boundary, snapshot.loops, p.options.region),
-           normalization_group(p.normalized)}};
+          {io::quality_group(snapshot.quality), tags_group(p, snapshot.loops), normalization_group(p.normalized)}};
 }
 
 } // namespace trime::app

@@ -4,6 +4,7 @@
 
 #include "app/command_line.hpp"
 #include "app/machine.hpp"
+#include "app/map_projection.hpp"
 #include "app/options.hpp"
 #include "app/run_report.hpp"
 #include "trime/geometry/boundary.hpp"
@@ -26,6 +27,8 @@ struct Provenance {
   const geometry::Boundary& boundary;
   const std::vector<NormalizedPart>& normalized;
   std::vector<std::int32_t> ring_lines; ///< UserPlaces::ring_lines
+  const MapSystem& map;
+  std::vector<std::int32_t> part_markers; ///< RegionShape::part_markers
 };
 
 /// Everything that the group /trime_mpi holds. Not collective.

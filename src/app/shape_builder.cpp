@@ -13,23 +13,26 @@
 namespace trime::app {
 namespace {
 
-/// Text of a contour or of points on every rank; the reader of the geometry refuses formats that it does not know.
-std::string read_text(const std::string& file, bool is_relative, const comm::Communicator& comm) {
-  std::string text;
-  comm::run_agreed(comm, [&] {
-    if (comm.is_root())
-      text = shape::read_contour_text(file, is_relative ? " (relative to the config file, not to the working directory)"
-                                                        : "");
-  });
-  return comm.broadcast(std::move(text));
+std::string hint_of(bool is_relative) {
+  return is_relative ? " (relative to the config file, not to the working directory)" : "";
 }
 
-/// The rings of parts that are contours, by part. Collective.
-std::vector<shape::Contour> read_contours(const RunOptions& options, const comm::Communicator& comm) {
+/// The rings of parts that are contours, by part, projected. Rank 0 reads. Collective.
+std::vector<shape::Contour> read_contours(const RunOptions& options, const comm::Communicator& comm, Log& log,
+                                          MapSystem& map) {
   std::vector<shape::Contour> contours(options.parts.size());
-  for (std::size_t k = 0; k < contours.size(); ++k)
-    if (const PartOptions& part = options.parts[k]; part.type == "contour")
-      contours[k] = shape::parse_contour(read_text(part.file, part.file_is_relative, comm), part.file);
+  comm::run_agreed(comm, [&] {
+    if (!comm.is_root())
+      return;
+    for (std::size_t k = 0; k < contours.size(); ++k)
+      if (const PartOptions& part = options.parts[k]; part.type == "contour")
+        contours[k] = shape::read_contour(part.file, hint_of(part.file_is_relative));
+    map = project_contours(options, contours, log);
+  });
+  for (shape::Contour& contour : contours)
+    contour = shape::contour_of_bytes(comm.broadcast(shape::to_bytes(contour)));
+  for (std::string* text : {&map.crs, &map.well_known_text, &map.crs_of_files})
+    *text = comm.broadcast(std::move(*text));
   return contours;
 }
 
@@ -102,7 +105,8 @@ std::string read_shared(const std::string& path, const comm::Communicator& comm)
 
 /// All ranks build the same shape from the same numbers, so they throw the same errors without asking each other.
 ShapeInput read_shape(const RunOptions& options, const comm::Communicator& comm, Log& log, UserPlaces& places) {
-  const std::vector<shape::Contour> contours = read_contours(options, comm);
+  MapSystem map;
+  const std::vector<shape::Contour> contours = read_contours(options, comm, log, map);
   const geometry::Box container =
       options.container_is_automatic ? automatic_container(options, contours) : options.mesh.container;
   const geometry::Frame frame(container, options.periodic_x, options.periodic_y);
@@ -123,18 +127,34 @@ ShapeInput read_shape(const RunOptions& options, const comm::Communicator& comm,
   }
   places = std::move(found);
   return {shape::RegionShape(std::move(parts), options.region, frame), container, fixed_points_place,
-          std::move(normalized)};
+          std::move(normalized), std::move(map)};
 }
 
-std::vector<boundary::FixedPoint> read_fixed_points(const RunOptions& options, const shape::Normalization& place,
+std::vector<boundary::FixedPoint> read_fixed_points(const RunOptions& options, const ShapeInput& input,
                                                     const comm::Communicator& comm) {
   const FixedPointsFile& source = options.fixed_points;
   if (source.file.empty())
     return {};
+  shape::Contour read; // one list of points, on its way to all ranks
+  read.source = source.file;
+  read.crs = input.map.crs_of_files;
+  comm::run_agreed(comm, [&] {
+    if (!comm.is_root())
+      return;
+    shape::ContourRing& list = read.rings.emplace_back();
+    for (const shape::FilePoint& point :
+         shape::parse_points(read_file(source.file, hint_of(source.file_is_relative)), source.file)) {
+      list.points.push_back(point.position);
+      list.lines.push_back(point.line);
+    }
+    if (!options.projection.empty())
+      project_contour(read, input.map.crs);
+  });
+  read = shape::contour_of_bytes(comm.broadcast(shape::to_bytes(read)));
   std::vector<boundary::FixedPoint> points;
-  const std::string text = read_text(source.file, source.file_is_relative, comm);
-  for (const shape::FilePoint& point : shape::parse_points(text, source.file))
-    points.push_back({place.apply(point.position), fmt::format("{}:{}", source.file, point.line)});
+  for (std::size_t k = 0; k < read.rings[0].points.size(); ++k)
+    points.push_back({input.fixed_points_place.apply(read.rings[0].points[k]),
+                      fmt::format("{}:{}", source.file, read.rings[0].lines[k])});
   return points;
 }
 

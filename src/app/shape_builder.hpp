@@ -2,6 +2,7 @@
 // From the sections [shape.NAME] to a RegionShape on every rank. Files are read by rank 0 only.
 #pragma once
 
+#include "app/map_projection.hpp"
 #include "app/options.hpp"
 #include "app/user_places.hpp"
 #include "trime/comm/communicator.hpp"
@@ -21,6 +22,7 @@ struct ShapeInput {
   geometry::Box container;                 ///< that of the options, or around the shape if that is automatic
   shape::Normalization fixed_points_place; ///< what fixed points undergo: that of the contour they are normalised with
   std::vector<NormalizedPart> normalized;  ///< in the order of the parts
+  MapSystem map;                           ///< of the container
 };
 
 /// @brief Reads each file once, and tells warnings to the log.
@@ -29,11 +31,11 @@ struct ShapeInput {
 /// @note Collective.
 ShapeInput read_shape(const RunOptions& options, const comm::Communicator& comm, Log& log, UserPlaces& places);
 
-/// @brief The fixed points with labels `file:line`, normalised; none if the options name no file.
-/// @param place ShapeInput::fixed_points_place
+/// @brief The fixed points with labels `file:line`, normalised or projected as the contours; none if the options name
+/// no file.
 /// @throws GeometryError, ConfigError, FileError on all ranks together
 /// @note Collective.
-std::vector<boundary::FixedPoint> read_fixed_points(const RunOptions& options, const shape::Normalization& place,
+std::vector<boundary::FixedPoint> read_fixed_points(const RunOptions& options, const ShapeInput& input,
                                                     const comm::Communicator& comm);
 
 } // namespace trime::app

@@ -44,12 +44,14 @@ std::optional<FoundPlace> place_at(std::string_view text) {
 } // namespace
 
 void UserPlaces::add(const shape::Contour& contour, const shape::Normalization& place) {
-  OneContour one{contour.source, place, place.scale != 1 || place.from != place.to, {}, {}, {}, {}};
+  OneContour one{contour.source, place, place.scale != 1 || place.from != place.to, {}, {}, {}, {}, {}};
   for (const shape::ContourRing& ring : contour.rings)
     for (std::size_t k = 0; k < ring.points.size(); ++k) {
       one.vertices.push_back(place.apply(ring.points[k]));
       one.lines.push_back(ring.lines[k]);
       one.ring_lines.push_back(ring.lines[0]);
+      if (!ring.in_file.empty())
+        one.in_file.push_back(ring.in_file[k]);
       one.box.include(one.vertices.back());
     }
   contours_.push_back(std::move(one));
@@ -71,8 +73,9 @@ std::string UserPlaces::name_of(Vec2 place) const {
   }
   if (contour == nullptr)
     return "";
-  const Vec2 user = contour->place.undo(place);
-  return contour->moved
+  const bool projected = !contour->in_file.empty();
+  const Vec2 user = projected ? contour->in_file[vertex] : contour->place.undo(place);
+  return contour->moved || projected
              ? fmt::format(" [{}:{}: ({:.10g}, {:.10g})]", contour->file, contour->lines[vertex], user.x, user.y)
              : fmt::format(" [{}:{}]", contour->file, contour->lines[vertex]);
 }

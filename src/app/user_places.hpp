@@ -27,7 +27,8 @@ public:
   void add(const shape::Contour& contour, const shape::Normalization& place);
 
   /// @brief The message with `[FILE:LINE]`, the nearest vertex, behind each place "(x, y)" in it; with
-  /// `[FILE:LINE: (x, y)]`, in the coordinates of the file, if the contour is normalised.
+  /// `[FILE:LINE: (x, y)]`, in the coordinates of the file, if the contour is normalised; if it is projected, these are
+  /// the coordinates of that vertex.
   ///
   /// Places that are far from all contours stay as they are, and so does the whole without contours. O(vertices) for
   /// each place.
@@ -45,7 +46,8 @@ private:
     geometry::Box box; ///< in the container
     std::vector<geometry::Vec2> vertices;
     std::vector<int> lines;
-    std::vector<int> ring_lines; ///< where the ring of each vertex begins
+    std::vector<int> ring_lines;         ///< where the ring of each vertex begins
+    std::vector<geometry::Vec2> in_file; ///< of each vertex if they are projected, else empty
   };
   std::string name_of(geometry::Vec2 place) const;
 

@@ -20,6 +20,7 @@ constexpr FormatName names[] = {
     {Format::vtu, "vtu", ".vtu"},
     {Format::sms, "2dm", ".2dm"},
     {Format::adcirc, "fort14", ".14"},
+    {Format::geojson, "geojson", ".geojson"},
 };
 
 const FormatName& name_of(Format format) {
@@ -35,7 +36,7 @@ void check_fits(Format format, const mesh::DistributedMesh& mesh, const Names& w
                                   word, with.period.x, with.period.y));
   constexpr GlobalId most = std::numeric_limits<std::int32_t>::max();
   const GlobalId elements = mesh.triangle_slab.total + mesh.facet_slab.total;
-  if (format != Format::gmsh && format != Format::vtu && elements > most)
+  if (format != Format::gmsh && format != Format::vtu && format != Format::geojson && elements > most)
     throw ConfigError(fmt::format("the format '{}' counts with 32 bits: expected at most {} triangles and edges, found "
                                   "{}; take gmsh, vtu, vtkhdf or xdmf",
                                   word, most, elements));
@@ -59,6 +60,8 @@ std::vector<FilePlan> plan(Format format, const ExchangeMesh& mesh, const std::s
     return plan_sms(mesh, path);
   case Format::adcirc:
     return plan_adcirc(mesh, path);
+  case Format::geojson:
+    return plan_geojson(mesh, path);
   }
   return {};
 }

@@ -97,5 +97,6 @@ std::vector<FilePlan> plan_triangle(const ExchangeMesh& mesh, const std::string&
 std::vector<FilePlan> plan_vtu(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_sms(const ExchangeMesh& mesh, const std::string& path);
 std::vector<FilePlan> plan_adcirc(const ExchangeMesh& mesh, const std::string& path);
+std::vector<FilePlan> plan_geojson(const ExchangeMesh& mesh, const std::string& path);
 
 } // namespace trime::formats

@@ -164,14 +164,30 @@ void write_plain_mesh(SlabFile& file, const mesh::DistributedMesh& mesh) {
   file.hard_link("/Mesh/mesh/topology", "/viz/topology/cells");
 }
 
-/// Tags of boundary edges: `values` by loop, `parts` by part of the shape. The markers of formats that give every
-/// segment one (.poly) are to lie beside them as /Mesh/facets/markers, int32 [B], where a shape has any.
-void write_facets(SlabFile& file, const mesh::DistributedMesh& mesh) {
+/// Of each facet; empty if no part has one. Collective in what it decides: parts are the same on all ranks.
+std::optional<std::vector<std::int32_t>> facet_markers(const MeshFileOptions& options,
+                                                       const mesh::DistributedMesh& mesh) {
+  const std::vector<std::int32_t>& of_part = options.part_markers;
+  if (std::all_of(of_part.begin(), of_part.end(), [](std::int32_t marker) { return marker == 0; }))
+    return std::nullopt;
+  std::vector<std::int32_t> markers;
+  markers.reserve(mesh.facet_parts.size());
+  for (const std::int32_t part : mesh.facet_parts)
+    markers.push_back(of_part.at(static_cast<std::size_t>(part)));
+  return markers;
+}
+
+/// Tags of boundary edges: `values` by loop, `parts` by part of the shape, `markers` by segment of the user's file
+/// where a shape has any. @param markers outlive the file
+void write_facets(SlabFile& file, const mesh::DistributedMesh& mesh,
+                  const std::optional<std::vector<std::int32_t>>& markers) {
   file.group("/Mesh/facets");
   file.slab(stored<std::int64_t>("/Mesh/facets/topology", mesh.facet_slab, 2, mesh.facets));
   file.slab(stored<std::int32_t>("/Mesh/facets/values", mesh.facet_slab, 0, mesh.facet_tags));
   file.slab(stored<std::int32_t>("/Mesh/facets/parts", mesh.facet_slab, 0, mesh.facet_parts));
   file.slab(stored<float>("/Mesh/facets/asked_size", mesh.facet_slab, 0, mesh.facet_sizes));
+  if (markers)
+    file.slab(stored<std::int32_t>("/Mesh/facets/markers", mesh.facet_slab, 0, *markers));
 }
 
 void write_metadata(SlabFile& file, const Metadata& metadata) {
@@ -206,7 +222,7 @@ bool has_plain_mesh(const MeshFileOptions& options) {
 std::int64_t file_bytes(const MeshFileOptions& options, const mesh::DistributedMesh& mesh, const Metadata& metadata) {
   const std::int64_t vtkhdf = options.vtkhdf ? 1 : 0, plain = has_plain_mesh(options) ? 1 : 0;
   const std::int64_t per_point = 9 + 24 * vtkhdf + 16 * plain, per_triangle = 12 + 33 * vtkhdf + 24 * plain;
-  constexpr std::int64_t headers = 64 << 10, per_facet = 24;
+  constexpr std::int64_t headers = 64 << 10, per_facet = 28;
   std::int64_t bytes = headers + per_point * mesh.point_slab.total + per_triangle * mesh.triangle_slab.total +
                        per_facet * mesh.facet_slab.total;
   for (const Text& text : metadata.texts)
@@ -220,6 +236,7 @@ std::int64_t file_bytes(const MeshFileOptions& options, const mesh::DistributedM
 
 void write_hdf5(const std::string& path, const MeshFileOptions& options, const mesh::DistributedMesh& mesh,
                 const Metadata& metadata, const comm::Communicator& comm) {
+  const auto markers = facet_markers(options, mesh);
   SlabFile file(comm, path);
   file.reserve(file_bytes(options, mesh, metadata));
   file.group("/Mesh");
@@ -228,7 +245,7 @@ void write_hdf5(const std::string& path, const MeshFileOptions& options, const m
   write_fields(file, field_group(options, "CellData"), field_group(options, "PointData"), mesh);
   if (has_plain_mesh(options))
     write_plain_mesh(file, mesh);
-  write_facets(file, mesh);
+  write_facets(file, mesh, markers);
   write_metadata(file, metadata);
   write_ranks(file, mesh, comm);
   file.verify();

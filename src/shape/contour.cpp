@@ -2,33 +2,16 @@
 #include "trime/shape/contour.hpp"
 
 #include "contour_text.hpp"
-#include "core/read_file.hpp"
 #include "shape/ring_builder.hpp"
 #include "shape/rules.hpp"
 #include "trime/core/error.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace trime::shape {
 
-namespace {
-
 using geometry::Box;
 using geometry::Vec2;
-
-bool ends_with_extension(const std::string& path, std::string_view extension) {
-  if (path.size() < extension.size())
-    return false;
-  for (std::size_t i = 0; i < extension.size(); ++i) {
-    const char c = path[path.size() - extension.size() + i];
-    if ((c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c) != extension[i])
-      return false;
-  }
-  return true;
-}
-
-} // namespace
 
 Contour parse_xy(std::string_view text, const std::string& source) {
   check_encoding(text, source);
@@ -66,24 +49,6 @@ std::vector<FilePoint> parse_points(std::string_view text, const std::string& so
   if (points.empty())
     throw GeometryError(fmt::format("{}: expected points, one 'x y' a line, found none", source));
   return points;
-}
-
-std::string read_contour_text(const std::string& path, const std::string& hint) {
-  for (const std::string_view extension : {".poly", ".shp", ".kml", ".dxf", ".svg"})
-    if (ends_with_extension(path, extension))
-      throw ConfigError(fmt::format("{}: contours of type '{}' cannot be read by this version; expected a '.geojson' "
-                                    "file, or an '.xy' file with one 'x y' per line and a blank line between rings",
-                                    path, extension));
-  return read_file(path, hint);
-}
-
-Contour parse_contour(std::string_view text, const std::string& source) {
-  const bool is_json = ends_with_extension(source, ".geojson") || ends_with_extension(source, ".json");
-  return is_json ? parse_geojson(text, source) : parse_xy(text, source);
-}
-
-Contour read_contour(const std::string& path) {
-  return parse_contour(read_contour_text(path), path);
 }
 
 Contour make_contour(const std::vector<std::vector<Vec2>>& rings, const std::string& source) {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 
 namespace trime::shape {
@@ -51,6 +52,8 @@ public:
       warnings.push_back(fmt::format("{}:{}: the ring that starts here was given before, at line {}; it is used once",
                                      contour_.source, ring.line, ring.first_line));
     SegmentGrid grid(segments_of(rings_));
+    const std::vector<int> markers = markers_of_segments();
+    const SegmentGrid given = markers.empty() ? SegmentGrid{} : grid;
     if (const std::vector<SegmentPair> meetings = find_meetings(rings_, grid); !meetings.empty()) {
       tell_touches(part_touches(rings_, meetings, grid, frame_), warnings);
       grid = SegmentGrid(segments_of(rings_));
@@ -63,6 +66,10 @@ public:
       polygon.rings.push_back({first, static_cast<LocalIndex>(ring.points.size()), false});
       first += polygon.rings.back().count;
     }
+    if (!markers
+             .empty()) // where rings are parted segments move by a few steps of the lattice, and may fall into several
+      for (const Segment& s : polygon.grid.segments())
+        polygon.markers.push_back(markers[at(given.nearest(0.5 * (s.a + s.b)).segment)]);
     orient(polygon);
     tell_pieces(polygon, warnings);
     return polygon;
@@ -76,10 +83,8 @@ private:
   void tell_touches(const std::vector<RingTouch>& touches, std::vector<std::string>& warnings) const;
   void tell_pieces(const Polygon& polygon, std::vector<std::string>& warnings) const;
   [[noreturn]] void report(const SegmentGrid& grid, const SegmentPair& pair) const;
-  std::string in_file(Vec2 p) const {
-    const Vec2 original = normalization_.undo(p);
-    return fmt::format("({:.12g}, {:.12g})", original.x, original.y);
-  }
+  std::vector<int> markers_of_segments() const;
+  std::string in_file(Vec2 p) const;
 
   const Contour& contour_;
   const Normalization& normalization_;
@@ -87,9 +92,36 @@ private:
   std::vector<LatticeRing> rings_;
 };
 
+/// Of all segments of the rings; empty if none has any.
+std::vector<int> Placement::markers_of_segments() const {
+  std::vector<int> markers;
+  for (const LatticeRing& ring : rings_) {
+    markers.insert(markers.end(), ring.markers.begin(), ring.markers.end());
+    if (ring.markers.empty())
+      markers.resize(markers.size() + ring.points.size(), 0);
+  }
+  if (std::all_of(markers.begin(), markers.end(), [](int marker) { return marker == 0; }))
+    return {};
+  return markers;
+}
+
+/// A place in the coordinates of the file; where these are projected, that of the nearest vertex. O(vertices)
+std::string Placement::in_file(Vec2 p) const {
+  Vec2 original = normalization_.undo(p);
+  double least = HUGE_VAL;
+  for (const ContourRing& ring : contour_.rings)
+    for (std::size_t k = 0; k < ring.in_file.size(); ++k)
+      if (const double d = squared_length(normalization_.apply(ring.points[k]) - p); d < least) {
+        least = d;
+        original = ring.in_file[k];
+      }
+  return fmt::format("({:.12g}, {:.12g})", original.x, original.y);
+}
+
 void Placement::add_ring(const ContourRing& ring, std::vector<std::string>& warnings) {
   std::vector<Vec2> points;
-  std::vector<int> lines;
+  std::vector<int> lines, markers;
+  const auto marker = [&](std::size_t k) { return ring.markers.empty() ? 0 : ring.markers[k]; };
   for (std::size_t k = 0; k < ring.points.size(); ++k) {
     const Vec2 p = frame_.snap(normalization_.apply(ring.points[k]));
     if (!frame_.reach().contains(p))
@@ -98,10 +130,13 @@ void Placement::add_ring(const ContourRing& ring, std::vector<std::string>& warn
           "normalize = true",
           contour_.source, ring.lines[k], ring.points[k].x, ring.points[k].y, frame_.container().min.x,
           frame_.container().max.x, frame_.container().min.y, frame_.container().max.y));
-    if (!points.empty() && points.back() == p)
+    if (!points.empty() && points.back() == p) {
+      markers.back() = marker(k);
       continue;
+    }
     points.push_back(p);
     lines.push_back(ring.lines[k]);
+    markers.push_back(marker(k));
   }
   while (points.size() > 1 && points.front() == points.back())
     points.pop_back();
@@ -111,8 +146,11 @@ void Placement::add_ring(const ContourRing& ring, std::vector<std::string>& warn
                                    contour_.source, ring.lines[0], ring.points.size() - points.size(),
                                    frame_.step() / normalization_.scale));
   lines.resize(points.size());
+  markers.resize(points.size());
   check_turns(points, lines);
-  rings_.push_back({std::move(points), std::move(lines)});
+  if (ring.markers.empty())
+    markers.clear();
+  rings_.push_back({std::move(points), std::move(lines), std::move(markers)});
 }
 
 void Placement::check_turns(const std::vector<Vec2>& p, const std::vector<int>& lines) const {

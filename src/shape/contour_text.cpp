@@ -24,6 +24,14 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
+/// Blanks at both ends, and one comma behind a number: `1, 2` and `1,2` are two numbers.
+std::string_view without_comma(std::string_view text) {
+  text = trimmed(text);
+  if (text.starts_with(','))
+    text.remove_prefix(1);
+  return text;
+}
+
 /// The next word, which blanks or the end follow; taken off `text`.
 std::string_view take_word(std::string_view& text) {
   text = trimmed(text);
@@ -82,6 +90,15 @@ bool are_columns(const std::array<std::string, 2>& names, bool swapped) {
   });
 }
 
+/// The first number of a line, taken off it: a comma, a blank or both follow.
+bool take_first(std::string_view& line, double& value) {
+  const std::size_t end = std::min(line.find_first_of(", \t"), line.size());
+  if (!is_number(line.substr(0, end), value))
+    return false;
+  line = without_comma(line.substr(end));
+  return true;
+}
+
 /// What people write instead of 'x y', for the message; empty if it is none of that.
 std::string hint_for(std::string_view line, bool first) {
   if (first && are_columns(column_names(line), true))
@@ -91,7 +108,7 @@ std::string hint_for(std::string_view line, bool first) {
   if (line.front() == '{' || line.front() == '<')
     return "; this looks like GeoJSON or XML: convert it to lines 'x y' with a blank line between rings";
   if (line.find(',') != std::string_view::npos)
-    return "; separate the numbers by blanks, not commas, and write decimals with a point";
+    return "; write decimals with a point, and blanks or one comma between the two numbers";
   double number = 0;
   int numbers = 0;
   while (numbers < 4 && is_number(take_word(line), number))
@@ -135,7 +152,7 @@ std::string_view take_line(std::string_view& text) {
 std::optional<Vec2> VertexReader::read(std::string_view line, int number) {
   Vec2 p;
   std::string_view rest = line;
-  if (is_number(take_word(rest), p.x) && is_number(take_word(rest), p.y) && trimmed(rest).empty()) {
+  if (take_first(rest, p.x) && is_number(take_word(rest), p.y) && trimmed(rest).empty()) {
     first_ = false;
     return p;
   }
@@ -150,6 +167,53 @@ std::optional<Vec2> VertexReader::read(std::string_view line, int number) {
 void VertexReader::refuse(std::string_view line, int number) const {
   throw GeometryError(fmt::format("{}:{}: expected two numbers 'x y', found '{}'{}", source_, number,
                                   line.substr(0, most_shown), hint_for(line, first_)));
+}
+
+WordLines::WordLines(std::string_view text, const std::string& source, std::string_view separators)
+    : rest_(text), source_(source), separators_(separators) {
+  if (rest_.starts_with("\xEF\xBB\xBF")) // byte order mark of some editors
+    rest_.remove_prefix(3);
+}
+
+bool WordLines::next() {
+  words_.clear();
+  while (words_.empty() && !rest_.empty()) {
+    line_ = take_line(rest_);
+    ++number_;
+    line_ = trimmed(line_.substr(0, line_.find('#')));
+    const auto parts = [this](char c) { return is_space(c) || separators_.find(c) != std::string_view::npos; };
+    for (std::size_t at = 0; at < line_.size();) {
+      while (at < line_.size() && parts(line_[at]))
+        ++at;
+      const std::size_t first = at;
+      while (at < line_.size() && !parts(line_[at]))
+        ++at;
+      if (at > first)
+        words_.push_back(line_.substr(first, at - first));
+    }
+  }
+  return !words_.empty();
+}
+
+double WordLines::number_at(std::size_t k, const char* what) const {
+  double value = 0;
+  if (k >= words_.size() || !is_number(words_[k], value))
+    refuse(what);
+  return value;
+}
+
+int WordLines::integer_at(std::size_t k, const char* what) const {
+  constexpr double most = 2147483647;
+  const double value = number_at(k, what);
+  if (!(std::fabs(value) <= most) || value != std::trunc(value))
+    refuse(what);
+  return static_cast<int>(value);
+}
+
+void WordLines::refuse(const std::string& what) const {
+  const std::string found =
+      words_.empty() ? std::string("the end of the file") : fmt::format("'{}'", line_.substr(0, most_shown));
+  throw GeometryError(fmt::format("{}:{}: expected {}, found {}", source_, number_, what, found));
 }
 
 void check_coordinates(Vec2 p, const std::string& source, int line) {

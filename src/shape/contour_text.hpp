@@ -57,6 +57,31 @@ private:
   bool first_ = true; // no line with content so far
 };
 
+/// @brief The lines of a text of numbers, one after the other, as words. Comments begin with '#'; lines without words
+/// are left out.
+class WordLines {
+public:
+  /// @param separators part words, beside blanks and tabs
+  WordLines(std::string_view text, const std::string& source, std::string_view separators);
+
+  /// Goes to the next line with words. @return is there one?
+  bool next();
+  int number() const { return number_; } ///< of the line, from 1
+  const std::vector<std::string_view>& words() const { return words_; }
+  /// @brief Word k as a number. @throws GeometryError naming `what` was expected
+  double number_at(std::size_t k, const char* what) const;
+  /// The same for an integer that fits into an int.
+  int integer_at(std::size_t k, const char* what) const;
+  [[noreturn]] void refuse(const std::string& what) const;
+
+private:
+  std::string_view rest_;
+  const std::string& source_;
+  std::string_view separators_, line_;
+  std::vector<std::string_view> words_;
+  int number_ = 0;
+};
+
 /// @brief Refuses coordinates that are not finite or larger than ShapeRules::largest_coordinate.
 /// @throws GeometryError `source:line: ...`
 void check_coordinates(geometry::Vec2 p, const std::string& source, int line);

@@ -61,6 +61,10 @@ public:
   bool string(std::string& text) {
     if (!objects_.empty() && objects_.back().arrays.empty() && objects_.back().key == "type")
       objects_.back().type = text;
+    constexpr std::size_t depth = 3; // "crs": {"properties": {"name": ...}} of the whole, as GeoJSON had it before 2016
+    if (objects_.size() == depth && objects_[0].key == "crs" && objects_[1].key == "properties" &&
+        objects_[2].key == "name")
+      contour_.crs = text;
     return other_value();
   }
   bool start_object(std::size_t) {

@@ -15,6 +15,7 @@ namespace trime::shape {
 struct LatticeRing {
   std::vector<geometry::Vec2> points;
   std::vector<int> lines;
+  std::vector<int> markers{}; ///< as those of a ContourRing; lost where rings are parted
 };
 
 enum class Meeting { none, touch, crossing };

@@ -6,6 +6,7 @@
 
 #include "arrangement.hpp"
 #include "core/angle.hpp"
+#include "marked_pieces.hpp"
 #include "part_images.hpp"
 #include "quotient.hpp"
 #include "trime/core/error.hpp"
@@ -61,8 +62,8 @@ Piece reversed_arc(Piece arc) {
 class BoundaryMaker {
 public:
   BoundaryMaker(const Region& region, std::span<const Part> parts, const Frame& frame)
-      : region_(region), frame_(frame), domain_(domain_part(frame)), cut_(cutting_part(frame)), placed_(place(parts)),
-        arrangement_(placed_, frame) {
+      : region_(region), frame_(frame), given_(parts), domain_(domain_part(frame)), cut_(cutting_part(frame)),
+        placed_(place(parts)), arrangement_(placed_, frame) {
     for (const Part& part : parts)
       boundary_.part_names.push_back(part.name());
     if (region.parts().back() == static_cast<int>(parts.size()))
@@ -70,7 +71,7 @@ public:
     boundary_.periods = frame.periods();
   }
 
-  Boundary make() {
+  MarkedBoundary make() {
     classify();
     if (!kept_.empty())
       check_container();
@@ -80,7 +81,8 @@ public:
       finish_periodic_area();
     if (boundary_.loops.empty() && !boundary_.covers_torus)
       throw GeometryError(fmt::format("the region '{}' is empty: no part of the plane lies in it", region_.text()));
-    return std::move(boundary_);
+    std::vector<std::int32_t> markers = name_markers(boundary_, given_, frame_);
+    return {std::move(boundary_), std::move(markers)};
   }
 
 private:
@@ -125,6 +127,7 @@ private:
 
   const Region& region_;
   const Frame& frame_;
+  const std::span<const Part> given_;
   const Part domain_, cut_;
   std::vector<std::size_t> first_place_; // in placed_, of each part
   const std::vector<PlacedPart> placed_;
@@ -351,7 +354,7 @@ void BoundaryMaker::finish_periodic_area() {
 
 } // namespace
 
-Boundary make_boundary(const Region& region, std::span<const Part> parts, const Frame& frame) {
+MarkedBoundary make_boundary(const Region& region, std::span<const Part> parts, const Frame& frame) {
   return BoundaryMaker(region, parts, frame).make();
 }
 

@@ -2,8 +2,8 @@
 // From the parts and the region to the boundary of the shape.
 #pragma once
 
-#include "trime/geometry/boundary.hpp"
 #include "trime/geometry/frame.hpp"
+#include "trime/shape/marked_boundary.hpp"
 #include "trime/shape/part.hpp"
 #include "trime/shape/region.hpp"
 
@@ -21,6 +21,6 @@ namespace trime::shape {
 /// O(M log M) for M pieces.
 /// @throws GeometryError if the region is empty, leaves the container, or its boundary touches itself, or if a part
 /// sticks out of a periodic side by more than one period
-geometry::Boundary make_boundary(const Region& region, std::span<const Part> parts, const geometry::Frame& frame);
+MarkedBoundary make_boundary(const Region& region, std::span<const Part> parts, const geometry::Frame& frame);
 
 } // namespace trime::shape

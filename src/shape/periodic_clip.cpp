@@ -88,7 +88,8 @@ Contour clip_to_periods(const Part& traced, const Frame& frame) {
   const Frame plain(frame.container());
   const std::vector<Part> parts{traced, Part::rectangle("container", frame.inner(), plain)};
   const std::array<std::string, 2> names{"traced", "container"};
-  const Boundary clipped = make_boundary(Region::parse("intersection(traced, container)", names), parts, plain);
+  const Boundary clipped =
+      make_boundary(Region::parse("intersection(traced, container)", names), parts, plain).boundary;
   Rings rings;
   for (const Loop& loop : clipped.loops) {
     rings.emplace_back();

@@ -31,7 +31,7 @@ std::vector<std::string> names_of(const std::vector<Part>& parts) {
 
 RegionShape::RegionShape(std::vector<Part> parts, std::string_view region, const Frame& frame)
     : frame_(frame), parts_(std::move(parts)), region_(Region::parse(region, names_of(parts_))),
-      boundary_(make_boundary(region_, parts_, frame)), tree_(boundary_) {
+      made_(make_boundary(region_, parts_, frame)), tree_(made_.boundary) {
   parts_.push_back(domain_part(frame));
   shifts_.resize(parts_.size());
   for (const int part : region_.parts())

@@ -4,6 +4,8 @@
 #include "contour_text.hpp"
 #include "trime/core/error.hpp"
 
+#include <algorithm>
+
 namespace trime::shape {
 namespace {
 
@@ -13,14 +15,16 @@ constexpr int most_warnings = 5;
 
 } // namespace
 
-void RingBuilder::add(Vec2 p, int line) {
+void RingBuilder::add(Vec2 p, int line, int marker) {
   check_coordinates(p, contour_.source, line);
   if (!ring_.points.empty() && ring_.points.back() == p) {
     warn(p, line);
+    ring_.markers.back() = marker;
     return;
   }
   ring_.points.push_back(p);
   ring_.lines.push_back(line);
+  ring_.markers.push_back(marker);
 }
 
 void RingBuilder::end_ring() {
@@ -29,12 +33,15 @@ void RingBuilder::end_ring() {
   if (ring_.points.size() > 1 && ring_.points.front() == ring_.points.back()) {
     ring_.points.pop_back();
     ring_.lines.pop_back();
+    ring_.markers.pop_back();
   }
   if (const int distinct = distinct_vertices(); distinct < 3)
     throw GeometryError(fmt::format("{}:{}: the ring that starts here at ({}, {}) has {} distinct {}; expected at "
                                     "least 3",
                                     contour_.source, ring_.lines[0], ring_.points[0].x, ring_.points[0].y, distinct,
                                     distinct == 1 ? "vertex" : "vertices"));
+  if (std::all_of(ring_.markers.begin(), ring_.markers.end(), [](int marker) { return marker == 0; }))
+    ring_.markers.clear();
   contour_.rings.push_back(std::move(ring_));
   ring_ = {};
 }

@@ -12,8 +12,9 @@ public:
   /// @param contour with its source; gets rings and warnings, and outlives this object
   explicit RingBuilder(Contour& contour) : contour_(contour) {}
 
+  /// @param marker of the edge from this vertex to the next
   /// @throws GeometryError for coordinates that are too large
-  void add(geometry::Vec2 p, int line);
+  void add(geometry::Vec2 p, int line, int marker = 0);
   /// @throws GeometryError for a ring with fewer than three distinct vertices
   void end_ring();
   /// @param expected what the text should have held, for the message if it holds no vertex

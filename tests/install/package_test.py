@@ -52,7 +52,8 @@ class Package(unittest.TestCase):
 
     def test_dependencies(self):
         needed = output("dpkg-deb", "-f", self.deb, "Depends")
-        for package in ("openmpi-bin", "libopenmpi3", "libhdf5-openmpi-103", "libfmt9", "libmuparser2v5"):
+        for package in ("openmpi-bin", "libopenmpi3", "libhdf5-openmpi-103", "libfmt9", "libmuparser2v5", "libproj25",
+                        "libshp2"):
             self.assertIn(package, needed)
         self.assertNotIn("-dev", needed)
 

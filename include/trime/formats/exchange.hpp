@@ -17,7 +17,7 @@ class RunFiles;
 
 namespace trime::formats {
 
-enum class Format { gmsh, gmsh2, medit, freefem, triangle, vtu, sms, adcirc };
+enum class Format { gmsh, gmsh2, medit, freefem, triangle, vtu, sms, adcirc, geojson };
 
 /// A format as users name it.
 struct FormatName {
@@ -37,6 +37,8 @@ struct Names {
   std::vector<std::string> regions; ///< of region 1, 2, ...
   /// Sides of a periodic container, 0 where it is not.
   geometry::Vec2 period{0, 0};
+  /// Reference system of the coordinates, as PROJ names it; empty: none is known.
+  std::string crs{};
 };
 
 /// The paths of a format whose first file is `path`: Triangle has three.

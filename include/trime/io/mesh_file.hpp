@@ -19,9 +19,11 @@ struct MeshFileOptions {
   std::string directory = "out"; ///< made if it is missing
   std::string name = "mesh";     ///< stem of the file names
   bool overwrite = false;
-  bool vtkhdf = true;            ///< group /VTKHDF and the link NAME.vtkhdf
-  bool xdmf = true;              ///< group /Mesh/mesh (there in any case without vtkhdf) and the file NAME.xdmf
-  bool is_final = false;         ///< the mesh that the run is for: RunFiles will be told
+  bool vtkhdf = true;    ///< group /VTKHDF and the link NAME.vtkhdf
+  bool xdmf = true;      ///< group /Mesh/mesh (there in any case without vtkhdf) and the file NAME.xdmf
+  bool is_final = false; ///< the mesh that the run is for: RunFiles will be told
+  /// Marker of the edges of each part, by DistributedMesh::facet_parts; /Mesh/facets/markers if any is not 0.
+  std::vector<std::int32_t> part_markers{};
   RunFiles* run_files = nullptr; ///< told which files exist, for a signal handler; null: nobody asks
 
   /// `directory/name` + ending.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contours: rings of vertices as users draw them, read from `.xy` text or GeoJSON, and their place in the container.
-// Reading and parsing are apart, so that one rank can read the bytes and all ranks parse the same text.
+// Contours: rings of vertices as users draw them, read from files of several formats, and their place in the container.
+// Reading is serial: in a parallel run one rank reads and sends the rings to the others.
 #pragma once
 
 #include "trime/geometry/vec2.hpp"
@@ -14,22 +14,36 @@ namespace trime::shape {
 /// One closed ring: the last vertex is joined to the first, which is not repeated. Either orientation.
 struct ContourRing {
   std::vector<geometry::Vec2> points;
-  std::vector<int> lines; ///< line of each vertex in the file, from 1
+  std::vector<int> lines; ///< line of each vertex in the file, from 1; of a shapefile the number of its record
+  /// Marker of the edge from each vertex to the next, as the file has them; empty: all are 0, which means none.
+  std::vector<int> markers{};
+  /// The vertices as they stand in the file, where `points` are projected from there; else empty.
+  std::vector<geometry::Vec2> in_file{};
 };
 
-/// Rings in the coordinates of their file. Which rings are holes follows from even-odd nesting.
+/// Rings in the coordinates of their file, unless they are projected. Which rings are holes follows from even-odd
+/// nesting.
 struct Contour {
   std::string source; ///< name used in messages, for example the path
   std::vector<ContourRing> rings;
   std::vector<std::string> warnings; ///< for the user, one sentence each
+  std::string crs{};                 ///< reference system of the coordinates as the file tells it; empty: it does not
 };
 
-/// @brief Bytes of a contour file. `hint` ends the message if it cannot be opened.
-/// @throws ConfigError for `.poly`, `.shp` and others that this version does not read; FileError if it cannot be read
-std::string read_contour_text(const std::string& path, const std::string& hint = "");
+/// @brief The rings of a file; its name ends in `.poly` (Triangle), `.shp` (ESRI), `.msh` (JIGSAW), `.geojson` or
+/// `.json`, else it is `.xy` text. Of a shapefile NAME.shx is read, too, and NAME.prj if there is one; of a `.poly`
+/// without vertices NAME.node.
+/// @param hint ends the message if the file cannot be opened
+/// @throws ConfigError for formats that are known and not read; FileError if a file cannot be read; GeometryError
+/// `source:line: ...` as the functions below
+/// @note Serial.
+Contour read_contour(const std::string& path, const std::string& hint = "");
+
+/// The same for a text, by the ending of `source`.
+Contour parse_contour(std::string_view text, const std::string& source);
 
 /// @brief Rings of `.xy` text: one `x y` a line, a blank line or one that starts with `>` ends a ring, `#` and `;`
-/// start comments.
+/// start comments. A comma may stand between the numbers.
 ///
 /// Lines end by LF, CR LF or CR. Exponents may be written with `d` (Fortran). A first line `x y`, `lon lat` or the like
 /// is left out with a warning. A ring may repeat its first vertex at its end or not; repeated consecutive vertices are
@@ -49,20 +63,33 @@ struct FilePoint {
 std::vector<FilePoint> parse_points(std::string_view text, const std::string& source);
 
 /// @brief Rings of the polygons of a GeoJSON text (RFC 7946): a geometry, a feature, or a collection of them. Closed
-/// lines are rings, too. Points and what lies outside of `coordinates` mean nothing. Numbers are taken as they
-/// are, as coordinates in a plane.
+/// lines are rings, too. Points and what lies outside of `coordinates` mean nothing, but for the name of a `crs`.
+/// Numbers are taken as they are.
 /// @throws GeometryError `source:line: ...` for text that is no JSON, a position without two numbers, an open line, a
 /// text without polygons
 Contour parse_geojson(std::string_view text, const std::string& source);
 
-/// parse_geojson for a source that ends in `.geojson` or `.json`, else parse_xy.
-Contour parse_contour(std::string_view text, const std::string& source);
-/// read_contour_text and parse_contour.
-Contour read_contour(const std::string& path);
+/// @brief Rings of the segments of a `.poly` file of Triangle, with their markers. Numbers begin with 0 or 1. Commas
+/// part numbers, too.
+///
+/// What is meshed is what Triangle meshes: all that segments enclose but what a hole point lies in. Rings with the same
+/// on both sides are left out with a warning, and so are vertices without segments and regional attributes.
+/// @param nodes text of the `.node` file, for a `.poly` without vertices
+/// @throws GeometryError `source:line: ...` for a text that is no `.poly`, or segments that make no rings
+Contour parse_poly(std::string_view text, const std::string& source, std::string_view nodes = {});
+
+/// @brief Rings of the edges (`edge2`) of a plane mesh or geometry of JIGSAW, with their tags as markers.
+/// @throws GeometryError `source:line: ...` for a text that is none, also for a `.msh` of Gmsh, or edges that make no
+/// rings
+Contour parse_jigsaw(std::string_view text, const std::string& source);
 
 /// @brief A contour from rings made by a program; vertices are counted from 1 through all rings in place of lines.
 /// @throws GeometryError as parse_xy
 Contour make_contour(const std::vector<std::vector<geometry::Vec2>>& rings, const std::string& source);
+
+/// The contour as bytes, and back.
+std::string to_bytes(const Contour& contour);
+Contour contour_of_bytes(std::string_view bytes);
 
 /// Uniform scaling with a shift: how the coordinates of a file become those of the container. Identity by default.
 struct Normalization {

@@ -26,6 +26,7 @@ struct Polygon {
   };
   geometry::SegmentGrid grid; ///< segments ring by ring, each starting where the one before it ends
   std::vector<Ring> rings;
+  std::vector<int> markers{}; ///< of each segment; empty: all are 0, which means none
 };
 
 /// The four vertices of a circle at angles 0, pi/2, pi, 3 pi/2; exact.

@@ -5,10 +5,12 @@
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/frame.hpp"
 #include "trime/geometry/piece_tree.hpp"
+#include "trime/shape/marked_boundary.hpp"
 #include "trime/shape/part.hpp"
 #include "trime/shape/region.hpp"
 #include "trime/shape/shape.hpp"
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,7 +27,9 @@ public:
   RegionShape(std::vector<Part> parts, std::string_view region, const geometry::Frame& frame);
 
   const geometry::Frame& frame() const { return frame_; }
-  const geometry::Boundary& boundary() const { return boundary_; }
+  const geometry::Boundary& boundary() const { return made_.boundary; }
+  /// Markers that a contour file gives its segments: one for each of boundary().part_names, 0 where there is none.
+  const std::vector<std::int32_t>& part_markers() const { return made_.part_markers; }
   /// The parts as given, then the container under the name `domain`.
   const std::vector<Part>& parts() const { return parts_; }
   const Region& region() const { return region_; }
@@ -44,7 +48,7 @@ private:
   std::vector<Part> parts_;
   std::vector<std::vector<geometry::Vec2>> shifts_; // of the images of each part
   Region region_;
-  geometry::Boundary boundary_;
+  MarkedBoundary made_;
   geometry::PieceTree tree_;
 };
 

@@ -28,6 +28,8 @@ class TrimeMpi(CMakePackage):
     depends_on("fmt@9:")
     depends_on("cli11@2:", type="build")
     depends_on("muparser@2.3:")
+    depends_on("proj@9:")
+    depends_on("shapelib@1.5:")
     depends_on("nlohmann-json@3:", type="build")
 
     conflicts("%gcc@:11", msg="C++20 is needed: gcc 12 or later")

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A boundary with the markers that files give its segments. Plain data.
+#pragma once
+
+#include "trime/geometry/boundary.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace trime::shape {
+
+/// Pieces of a part whose segments have a marker other than 0 are of a part of their own, "NAME.MARKER", behind all
+/// others in Boundary::part_names. Where two such parts meet on one curve there is a corner.
+struct MarkedBoundary {
+  geometry::Boundary boundary;
+  std::vector<std::int32_t> part_markers; ///< for each of Boundary::part_names; 0: none
+};
+
+} // namespace trime::shape

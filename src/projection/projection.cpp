@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "projection/projection.hpp"
+
+#include "core/angle.hpp"
+#include "trime/core/error.hpp"
+
+#include <proj.h>
+
+#include <array>
+#include <cmath>
+
+namespace trime::projection {
+namespace {
+
+using geometry::Vec2;
+
+struct Close {
+  void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
+  void operator()(PJ* object) const { proj_destroy(object); }
+};
+using Context = std::unique_ptr<PJ_CONTEXT, Close>;
+using Object = std::unique_ptr<PJ, Close>;
+
+/// Silent, and off the net: a grid that is fetched or not would change the mesh.
+Context make_context() {
+  Context context(proj_context_create());
+  if (!context)
+    throw ConfigError("PROJ cannot start; is the package proj-data installed?");
+  proj_log_level(context.get(), PJ_LOG_NONE);
+  proj_context_set_enable_network(context.get(), 0);
+  return context;
+}
+
+std::string reason(const Context& context) {
+  const int code = proj_context_errno(context.get());
+  return code == 0 ? std::string("unknown name") : std::string(proj_context_errno_string(context.get(), code));
+}
+
+/// A projection without '+type=crs' is a reference system, too.
+Object make_crs(const Context& context, const std::string& crs) {
+  const bool lacks_type = crs.starts_with("+") && crs.find("+type=crs") == std::string::npos;
+  Object object(proj_create(context.get(), lacks_type ? (crs + " +type=crs").c_str() : crs.c_str()));
+  if (!object || proj_is_crs(object.get()) == 0)
+    throw ConfigError(fmt::format("'{}' is no coordinate reference system that PROJ knows ({}); expected one such as "
+                                  "EPSG:32633, or '+proj=utm +zone=33 +datum=WGS84'",
+                                  crs.size() > 60 ? crs.substr(0, 60) + "..." : crs, reason(context)));
+  return object;
+}
+
+} // namespace
+
+struct Transform::Handle {
+  Context context;
+  Object way;
+};
+
+Transform::Transform(const std::string& from, const std::string& to) : handle_(std::make_unique<Handle>()) {
+  handle_->context = make_context();
+  PJ_CONTEXT* context = handle_->context.get();
+  const Object source = make_crs(handle_->context, from), target = make_crs(handle_->context, to);
+  const Object plain(proj_create_crs_to_crs_from_pj(context, source.get(), target.get(), nullptr, nullptr));
+  if (plain)
+    handle_->way.reset(proj_normalize_for_visualization(context, plain.get()));
+  if (!handle_->way)
+    throw ConfigError(fmt::format("PROJ knows no way from '{}' to '{}' ({})", from, to, reason(handle_->context)));
+}
+
+Transform::~Transform() = default;
+
+namespace {
+std::optional<Vec2> transformed(PJ* way, PJ_DIRECTION direction, Vec2 p) {
+  const PJ_COORD to = proj_trans(way, direction, proj_coord(p.x, p.y, 0, HUGE_VAL));
+  proj_errno_reset(way);
+  if (!std::isfinite(to.xy.x) || !std::isfinite(to.xy.y))
+    return std::nullopt;
+  return Vec2{to.xy.x, to.xy.y};
+}
+} // namespace
+
+std::optional<Vec2> Transform::apply(Vec2 p) const {
+  return transformed(handle_->way.get(), PJ_FWD, p);
+}
+
+std::optional<Vec2> Transform::undo(Vec2 p) const {
+  return transformed(handle_->way.get(), PJ_INV, p);
+}
+
+bool is_geographic(const std::string& crs) {
+  const Context context = make_context();
+  Object object = make_crs(context, crs);
+  while (proj_get_type(object.get()) == PJ_TYPE_BOUND_CRS)
+    object.reset(proj_get_source_crs(context.get(), object.get()));
+  const PJ_TYPE type = proj_get_type(object.get());
+  return type == PJ_TYPE_GEOGRAPHIC_2D_CRS || type == PJ_TYPE_GEOGRAPHIC_3D_CRS;
+}
+
+std::string well_known_text(const std::string& crs) {
+  const Context context = make_context();
+  const Object object = make_crs(context, crs);
+  const char* text = proj_as_wkt(context.get(), object.get(), PJ_WKT2_2019, nullptr);
+  return text == nullptr ? crs : text;
+}
+
+std::string local_plane(std::span<const Vec2> degrees_east_north) {
+  const auto direction = [](Vec2 p) {
+    const SinCos east = sin_cos(p.x * degrees), north = sin_cos(p.y * degrees);
+    return std::array<double, 3>{north.cos * east.cos, north.cos * east.sin, north.sin};
+  };
+  std::array<double, 3> middle{};
+  for (const Vec2 p : degrees_east_north)
+    for (std::size_t k = 0; k < 3; ++k)
+      middle[k] += direction(p)[k];
+  // To a hundredth of a degree: the last bits of sums and functions do not matter, and people can read it.
+  const auto rounded = [](double angle) { return std::round(angle * degrees_per_radian * 100) / 100 + 0.0; };
+  const double east = rounded(angle_of(middle[1], middle[0])),
+               north = rounded(angle_of(middle[2], std::hypot(middle[0], middle[1])));
+  const std::array<double, 3> center = direction({east, north});
+  for (const Vec2 p : degrees_east_north) {
+    const std::array<double, 3> d = direction(p);
+    const double cosine = d[0] * center[0] + d[1] * center[1] + d[2] * center[2];
+    if (!(cosine >= sin_cos(farthest_degrees * degrees).cos))
+      throw GeometryError(fmt::format("'projection = auto' is for shapes within {} degrees of their middle: expected "
+                                      "that of longitude {} and latitude {}, found ({}, {}); name a projection",
+                                      farthest_degrees, east, north, p.x, p.y));
+  }
+  return fmt::format("+proj=stere +lat_0={} +lon_0={} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m +no_defs +type=crs",
+                     north, east);
+}
+
+} // namespace trime::projection

@@ -1,0 +1,359 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contours as users have them: dirty files of every format, read or refused with file and line, the same on 1 and 3
+ranks; markers of segments on the edges of the mesh; a coast in longitude and latitude that is meshed in a plane, written
+back, and found at the right place by GDAL."""
+import json
+import math
+import re
+import subprocess
+import unittest
+
+import h5py
+import numpy
+
+from rough_coast import rough_coast
+from trime_run import Workspace, run
+
+CONFIG = "[shape]\nregion = land\n[shape.land]\ntype = contour\nfile = {}\n[meshing]\npoints = {}\n"
+GEOMETRY, FILE, USAGE = 3, 4, 2
+SQUARE = ["0.1 0.1", "0.9 0.1", "0.9 0.9", "0.1 0.9"]
+HOLE = ["0.4 0.4", "0.6 0.4", "0.6 0.6", "0.4 0.6"]
+
+
+def xy(*rings, between="\n", end="\n"):
+    """Lines of rings."""
+    return (between + end).join("".join(line + end for line in ring) for ring in rings)
+
+
+def geojson(*rings, kind="Polygon", **more):
+    """A geometry with a line for each position."""
+    rows = [[[float(word) for word in line.split()] for line in ring] for ring in rings]
+    return json.dumps({"type": kind, "coordinates": rows if kind == "Polygon" else rows[0], **more}, indent=1)
+
+
+POLY = """# a square with a hole, markers
+8 2 0 0
+1 0.1 0.1
+2 0.9 0.1
+3 0.9 0.9
+4 0.1 0.9
+5 0.4 0.4
+6 0.6 0.4
+7 0.6 0.6
+8 0.4 0.6
+8 1
+1 1 2 1
+2 2 3 2
+3 3 4 1
+4 4 1 1
+5 5 6 7
+6 6 7 7
+7 7 8 7
+8 8 5 7
+1
+1 0.5 0.5
+"""
+FROM_ZERO = re.sub(r"^(\d) (\d) (\d) (\d)$", lambda m: " ".join(str(int(w) - 1) for w in m.groups()[:3]) + " " + m[4],
+                   re.sub(r"^(\d) (0\.\d) (0\.\d)$", lambda m: f"{int(m[1]) - 1} {m[2]} {m[3]}", POLY, flags=re.M),
+                   flags=re.M).replace("7 1 -1 0\n", "8 2 0 0\n")
+MSH = """# JIGSAW
+mshid=3;EUCLIDEAN-MESH
+ndims=2
+point=4
+0.1;0.1;0
+0.9;0.1;0
+0.9;0.9;0
+0.1;0.9;0
+edge2=4
+0;1;1
+1;2;2
+2;3;1
+3;0;1
+"""
+WHOLE, HOLED = 0.64, 0.6
+
+# (what, file, text, area of the shape) or (what, file, text, exit code, what the message holds)
+READ = [
+    ("commas", "a.xy", xy([line.replace(" ", ",") for line in SQUARE]), WHOLE),
+    ("commas and blanks", "a.xy", xy([line.replace(" ", " , ") for line in SQUARE]), WHOLE),
+    ("tabs", "a.xy", xy([line.replace(" ", "\t") for line in SQUARE], HOLE), HOLED),
+    ("byte order mark, CR LF", "a.xy", "\ufeff" + xy(SQUARE, HOLE, between="", end="\r\n"), HOLED),
+    ("CR only", "a.xy", xy(SQUARE, HOLE, between="", end="\r"), HOLED),
+    ("closed rings, GMT", "a.xy", "> land\n" + xy(SQUARE + SQUARE[:1]) + "> lake\n" + xy(HOLE + HOLE[:1]), HOLED),
+    ("repeated points", "a.xy", xy([line for line in SQUARE for _ in range(3)]), WHOLE),
+    ("names of columns, no last line end", "a.xy", "lon,lat\n" + xy(SQUARE).rstrip(), WHOLE),
+    ("a ring given twice", "a.xy", xy(SQUARE, SQUARE[2:] + SQUARE[:2], between=""), WHOLE),
+    ("byte order mark", "a.geojson", "\ufeff" + geojson(SQUARE + SQUARE[:1], HOLE + HOLE[:1]), HOLED),
+    ("open polygon, closed line", "a.json", geojson(SQUARE), WHOLE),
+    ("plain", "a.poly", POLY, HOLED),
+    ("from 0, tabs, CR LF", "a.poly", FROM_ZERO.replace(" ", "\t").replace("\n", "\r\n"), HOLED),
+    ("commas, no section of holes", "a.poly", "\n".join(POLY.replace(" ", ", ").splitlines()[:-2]) + "\n", WHOLE),
+    ("region attributes, a free vertex", "a.poly",
+     POLY.replace("8 2 0 0", "9 2 0 0").replace("8 0.4 0.6\n", "8 0.4 0.6\n9 0.2 0.2\n") + "1\n1 0.2 0.2 5 0.1\n", HOLED),
+    ("vertices twice", "a.poly", POLY.replace("8 2 0 0", "9 2 0 0").replace("8 0.4 0.6\n", "8 0.4 0.6\n9 0.1 0.1\n")
+     .replace("4 4 1 1\n", "4 4 9 1\n"), HOLED),
+    ("plain", "a.msh", MSH, WHOLE),
+    ("sections that do not matter, capitals", "a.msh",
+     MSH.replace("edge2", "EDGE2") + "tria3=1\n0;1;2;0\nvalue=4;1\n1\n1\n1\n1\n", WHOLE),
+]
+REFUSED = [
+    ("three columns", "a.xy", xy([line + " 0" for line in SQUARE]), GEOMETRY, r"a\.xy:1: .*three numbers"),
+    ("decimal commas", "a.xy", xy([line.replace(".", ",") for line in SQUARE]), GEOMETRY, r"a\.xy:1: .*point"),
+    ("latitude first", "a.xy", "lat lon\n" + xy(SQUARE), GEOMETRY, r"a\.xy:1: .*other order"),
+    ("crossing", "a.xy", xy([SQUARE[0], SQUARE[2], SQUARE[1], SQUARE[3]]), GEOMETRY, r"a\.xy:\d: .*crosses.*near \("),
+    ("two vertices", "a.xy", xy(SQUARE, HOLE[:2]), GEOMETRY, r"a\.xy:6: .*2 distinct vertices"),
+    ("nan", "a.xy", xy(SQUARE + ["nan nan"]), GEOMETRY, r"a\.xy:5: .*finite"),
+    ("UTF-16", "a.xy", xy(SQUARE).encode("utf-16"), GEOMETRY, r"a\.xy:1: .*UTF-8"),
+    ("empty", "a.xy", "", GEOMETRY, r"a\.xy: .*no vertex"),
+    ("cut off", "a.geojson", geojson(SQUARE)[:-9], GEOMETRY, r"a\.geojson:\d+: expected JSON"),
+    ("a word", "a.geojson", geojson(SQUARE).replace("0.9", '"0.9"', 1), GEOMETRY, r"a\.geojson:\d+: .*numbers"),
+    ("open line", "a.geojson", geojson(SQUARE, kind="LineString"), GEOMETRY, r"a\.geojson:\d+: .*ends where it starts"),
+    ("points only", "a.geojson", '{"type": "Point", "coordinates": [1, 2]}', GEOMETRY, r"a\.geojson: .*Polygon"),
+    ("missing vertex", "a.poly", POLY.replace("8 8 5 7", "8 8 9 7"), GEOMETRY, r"a\.poly:19: expected vertices from 1 to 8"),
+    ("open ring", "a.poly", POLY.replace("8 1\n1", "7 1\n1", 1).replace("8 8 5 7\n", ""), GEOMETRY,
+     r"a\.poly:\d+: 1 segment ends at vertex [58]"),
+    ("line inside", "a.poly", POLY.replace("8 1\n", "9 1\n").replace("1\n1 0.5", "9 1 5 0\n1\n1 0.5"), GEOMETRY,
+     r"a\.poly:\d+: 3 segments meet at vertex"),
+    ("too short", "a.poly", POLY[:60], GEOMETRY, r"a\.poly:\d+: expected .*vertex|a\.poly:\d+: expected vertex"),
+    ("space", "a.poly", POLY.replace("8 2 0 0", "8 3 0 0"), GEOMETRY, r"a\.poly:2: expected a plane \.poly"),
+    ("no .node", "a.poly", "0 2 0 0\n" + POLY[POLY.index("8 1\n"):], FILE, r"a\.node.*no vertices of its own"),
+    ("Gmsh", "a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", GEOMETRY, r"a\.msh:1: .*Gmsh"),
+    ("on the ellipsoid", "a.msh", MSH.replace("EUCLIDEAN", "ELLIPSOID"), GEOMETRY, r"a\.msh:2: .*projection"),
+    ("missing point", "a.msh", MSH.replace("3;0;1", "3;4;1"), GEOMETRY, r"a\.msh:13: expected points from 0 to 3"),
+    ("too few rows", "a.msh", MSH.replace("edge2=4", "edge2=5"), GEOMETRY, r"a\.msh:\d+: expected edge 5 of 5"),
+    ("no shapefile", "a.shp", "0 0\n1 0\n1 1\n", FILE, r"a\.shx.*NAME\.shp and NAME\.shx"),
+    ("another format", "a.dxf", "0\nSECTION\n", USAGE, r"a\.dxf: .*ogr2ogr"),
+]
+
+
+def gdal(*arguments):
+    """Output of a program of GDAL."""
+    return subprocess.run([str(word) for word in arguments], capture_output=True, text=True, check=True, timeout=60).stdout
+
+
+def shapefile(path, text):
+    """A shapefile from GeoJSON."""
+    source = path.with_suffix(".source.geojson")
+    source.write_text(text)
+    gdal("ogr2ogr", "-f", "ESRI Shapefile", path, source)
+
+
+def coast_in_degrees():
+    """The made coast west of Norway, as rings of [longitude, latitude], closed; 1 degree high."""
+    return [[[round(4 + x / 128, 6), round(60 + y / 256, 6)] for x, y in ring + ring[:1]] for ring in rough_coast(3)]
+
+
+def fourfold(line):
+    """`shape: area 0.64, ...` as (area, rest)."""
+    return float(re.search(r"area (\S+),", line)[1]), line.split("boundary")[1]
+
+
+class DirtyInputs(unittest.TestCase):
+    """On 1 and 3 ranks the same words."""
+
+    def validated(self, name, text):
+        """What the program says of a contour, on both."""
+        said = []
+        with Workspace() as work:
+            (work / name).write_bytes(text if isinstance(text, bytes) else text.encode())
+            (work / "case.ini").write_text(CONFIG.format(name, 500))
+            for ranks in (1, 3):
+                done = run(work / "case.ini", "--validate", ranks=ranks, cwd=work)
+                shape = [line for line in done.stdout.splitlines() if line.startswith("shape:")]
+                told = [line.replace(str(work), "") for line in (done.stderr + done.stdout).splitlines()
+                        if ("warning" in line or "error" in line) and "share their cores" not in line]
+                said.append((done.returncode, shape, told))
+        self.assertEqual(said[0], said[1])
+        return said[0]
+
+    def test_read(self):
+        for what, name, text, area in READ:
+            with self.subTest(what=what, file=name):
+                code, shape, told = self.validated(name, text)
+                self.assertEqual(code, 0, told)
+                self.assertAlmostEqual(fourfold(shape[0])[0], area, 9)
+
+    def test_refused(self):
+        for what, name, text, code, message in REFUSED:
+            with self.subTest(what=what, file=name):
+                found, _, told = self.validated(name, text)
+                self.assertEqual(found, code, told)
+                self.assertEqual(len(told), 1, told)
+                self.assertRegex(told[0], message)
+
+    def test_there_are_thirty(self):
+        self.assertGreaterEqual(len(READ) + len(REFUSED), 30)
+
+    def test_what_is_left_out_is_told(self):
+        for text, message in (("region attributes", r":\d+: regional attributes are left out"),
+                              ("region attributes", r":11: 1 vertex lies, here first, on no segment"),
+                              ("no section of holes", r":7: 1 ring has no hole point inside")):
+            row = next(row for row in READ if text in row[0] and row[1] == "a.poly")
+            self.assertRegex("\n".join(self.validated(row[1], row[2])[2]), message)
+
+    def test_damaged_shapefiles(self):
+        with Workspace() as work:
+            (work / "case.ini").write_text(CONFIG.format("a.shp", 500))
+            shapefile(work / "a.shp", geojson(SQUARE + SQUARE[:1], HOLE + HOLE[:1]))
+            whole = (work / "a.shp").read_bytes()
+            done = run(work / "case.ini", "--validate", ranks=3)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertAlmostEqual(fourfold(done.stdout[done.stdout.index("shape:"):])[0], HOLED, 9)
+            for ranks in (1, 3):
+                (work / "a.shp").write_bytes(whole[:150])
+                done = run(work / "case.ini", "--validate", ranks=ranks)
+                self.assertEqual(done.returncode, FILE, done.stdout + done.stderr)
+                self.assertRegex(done.stderr, r"a\.shp:1: the record is damaged")
+                (work / "a.shp").write_bytes(b"nothing of the kind" * 20)
+                done = run(work / "case.ini", "--validate", ranks=ranks)
+                self.assertEqual(done.returncode, FILE, done.stdout + done.stderr)
+                self.assertRegex(done.stderr, r"a\.shp is no shapefile")
+
+
+class Markers(unittest.TestCase):
+    def test_markers_of_segments_are_those_of_edges(self):
+        """The right side of the square has a marker of its own, though nothing turns at a vertex in the middle."""
+        text = POLY.replace("8 2 0 0", "9 2 0 0").replace("8 0.4 0.6\n", "8 0.4 0.6\n9 0.5 0.1\n")
+        text = text.replace("8 1\n1 1 2 1\n", "9 1\n1 1 9 1\n9 9 2 -4\n")
+        with Workspace() as work:
+            (work / "a.poly").write_text(text)
+            (work / "case.ini").write_text(CONFIG.format("a.poly", 800))
+            done = run(work / "case.ini", f"output.directory={work}", "output.formats=xdmf gmsh2", ranks=3)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            with h5py.File(work / "case.h5") as file:
+                points, edges = file["Mesh/mesh/geometry"][:], file["Mesh/facets/topology"][:]
+                markers, parts = file["Mesh/facets/markers"][:], file["Mesh/facets/parts"][:]
+                tags = file["trime_mpi/tags"]
+                names = [name.decode() for name in tags["part_name"]]
+                self.assertEqual(names, ["land", "land.-4", "land.1", "land.2", "land.7"])
+                numpy.testing.assert_array_equal(markers, tags["part_marker"][:][parts])
+            x, y = points[edges].mean(axis=1).T
+            expected = numpy.where((numpy.abs(x - 0.5) < 0.2) & (numpy.abs(y - 0.5) < 0.2), 7,
+                                   numpy.where(x > 0.9 - 1e-9, 2, numpy.where((y < 0.1 + 1e-9) & (x > 0.5), -4, 1)))
+            numpy.testing.assert_array_equal(markers, expected)
+            self.assertIn(b'"land.-4"', (work / "case.msh2").read_bytes())
+
+
+class Maps(unittest.TestCase):
+    def mesh(self, work, name, *overrides, ranks=1):
+        """The mesh of a contour file; its hash."""
+        (work / "case.ini").write_text(CONFIG.format(name, 6000))
+        done = run(work / "case.ini", f"output.directory={work}", "output.overwrite=true", *overrides, ranks=ranks)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        with h5py.File(work / "case.h5") as file:
+            return int(file["trime_mpi"].attrs["mesh_hash"]), done
+
+    def places(self, path):
+        """Triangles and edges of an exported file, in degrees."""
+        features = json.loads(path.read_text())["features"]
+        kinds = {"triangle": [], "edge": []}
+        for feature in features:
+            kinds[feature["properties"]["kind"]].append(feature["geometry"]["coordinates"])
+        return numpy.array(kinds["triangle"])[:, 0], numpy.array(kinds["edge"])
+
+    def test_a_coast_in_degrees(self):
+        rings = coast_in_degrees()
+        text = json.dumps({"type": "Polygon", "coordinates": rings}, indent=1)
+        auto = "shape.projection=auto"
+        with Workspace() as work:
+            (work / "coast.geojson").write_text(text)
+            shapefile(work / "coast.shp", text)
+            (work / "coast.xy").write_text("\n".join("".join(f"{x} {y}\n" for x, y in ring) for ring in rings))
+            hashes = {self.mesh(work, "coast.shp", auto, ranks=3)[0], self.mesh(work, "coast.xy", auto)[0]}
+            found, done = self.mesh(work, "coast.geojson", auto, "output.formats=xdmf geojson", ranks=3)
+            self.assertEqual(hashes, {found})
+            self.assertRegex(done.stdout, r"projection: \+proj=stere \+lat_0=60\.\d+ \+lon_0=[45]")
+            self.assertRegex(done.stdout, r"worst triangle at .* \[.*coast\.geojson:\d+: \([456]\.\d+, 6[01]\.\d+\)\]")
+            with h5py.File(work / "case.h5") as file:
+                self.assertTrue(file["trime_mpi"].attrs["crs"].startswith("+proj=stere"))
+                self.assertIn("Stereographic", file["trime_mpi/crs_wkt"][()].decode())
+                points, fixed = file["Mesh/mesh/geometry"][:], file["Mesh/PointData/fixed"][:]
+            self.assertLess(numpy.abs(points).max(), 1e5)  # metres from the middle
+            triangles, edges = self.places(work / "case.geojson")
+            vertices = numpy.concatenate([ring[:-1] for ring in rings])
+            kept = 0
+            corners = numpy.unique(edges.reshape(-1, 2), axis=0)
+            for place in corners:
+                nearest = numpy.abs(vertices - place).max(axis=1).min()
+                kept += nearest < 1e-9
+            self.assertGreater(kept, 0.9 * fixed.sum())
+            self.assertGreater(kept, 20)
+            self.assertGreater(len(triangles), 8000)
+            written = (work / "case.geojson").read_bytes()
+            for ranks in (1, 2):
+                done = run("convert", work / "case.h5", work / "again.geojson", "--overwrite", ranks=ranks)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual((work / "again.geojson").read_bytes(), written)
+            told = gdal("ogrinfo", "-ro", "-al", "-so", work / "case.geojson")
+            extent = [float(word) for word in re.search(r"Extent: \((\S+), (\S+)\) - \((\S+), (\S+)\)", told).groups()]
+            low, high = vertices.min(axis=0), vertices.max(axis=0)
+            numpy.testing.assert_allclose(extent, [*low, *high], atol=0.05)
+            self.assertRegex(told, r'ID\["EPSG",4326\]|WGS 84')
+            self.assertIn(f"Feature Count: {len(triangles) + len(edges)}", told)
+
+    def test_a_named_projection_is_that_of_gdal(self):
+        square = [[9.0, 48.0], [9.4, 48.0], [9.4, 48.3], [9.0, 48.3], [9.0, 48.0]]
+        text = json.dumps({"type": "Polygon", "coordinates": [square]})
+        with Workspace() as work:
+            shapefile(work / "a.shp", text)
+            gdal("ogr2ogr", "-t_srs", "EPSG:32632", work / "utm.shp", work / "a.shp")
+            gdal("ogr2ogr", "-t_srs", "EPSG:32632", work / "utm.geojson", work / "a.shp")
+            projected, _ = self.mesh(work, "a.shp", "shape.projection=EPSG:32632")
+            with h5py.File(work / "case.h5") as file:
+                corners = file["Mesh/mesh/geometry"][:]
+            for x, y in json.loads((work / "utm.geojson").read_text())["features"][0]["geometry"]["coordinates"][0]:
+                self.assertLess(numpy.abs(corners - (x, y)).max(axis=1).min(), 1e-5)
+            self.mesh(work, "utm.shp", "output.formats=xdmf geojson")  # as it is, with the system of its .prj
+            _, edges = self.places(work / "case.geojson")
+            for corner in square:
+                self.assertLess(numpy.abs(edges - corner).max(axis=2).min(), 1e-9)
+            self.assertNotEqual(projected, 0)
+
+    def test_degrees_that_are_meshed_as_lengths_are_told(self):
+        with Workspace() as work:
+            shapefile(work / "a.shp", geojson(SQUARE + SQUARE[:1]))
+            (work / "case.ini").write_text(CONFIG.format("a.shp", 500))
+            self.assertIn("'projection = auto' in [shape]", run(work / "case.ini", "--validate").stdout)
+
+    def test_fixed_points_are_projected_too(self):
+        with Workspace() as work:
+            (work / "a.geojson").write_text(geojson(["9 48", "9.4 48", "9.4 48.3", "9 48.3"]))
+            (work / "points.xy").write_text("9.1234 48.0987\n9.2 48.2\n")
+            self.mesh(work, "a.geojson", "shape.projection=auto", f"meshing.fixed_points={work}/points.xy",
+                      "output.formats=xdmf geojson", ranks=2)
+            triangles, _ = self.places(work / "case.geojson")
+            for place in ((9.1234, 48.0987), (9.2, 48.2)):
+                self.assertLess(numpy.abs(triangles - place).max(axis=2).min(), 1e-9)
+
+    def test_across_the_date_line(self):
+        with Workspace() as work:
+            (work / "a.geojson").write_text(geojson(["179 -17", "-179 -17", "-179 -16", "179 -16"]))
+            self.mesh(work, "a.geojson", "shape.projection=auto")
+            with h5py.File(work / "case.h5") as file:
+                width = numpy.ptp(file["Mesh/mesh/geometry"][:, 0])
+            self.assertAlmostEqual(width / (2 * 111320 * math.cos(math.radians(16.5))), 1, delta=0.01)
+
+    def test_refused(self):
+        with Workspace() as work:
+            (work / "a.geojson").write_text(geojson(["9 48", "9.4 48", "9.4 48.3", "9 98.3"]))
+            (work / "case.ini").write_text(CONFIG.format("a.geojson", 500))
+            for ranks in (1, 3):
+                for projection, code, message in (
+                        ("auto", GEOMETRY, r"a\.geojson:\d+: the vertex \(9, 98\.3\) .*latitude"),
+                        ("EPSG:1", USAGE, r"'projection = EPSG:1' in \[shape\]: .*EPSG:32633"),
+                        ("EPSG:4326", USAGE, r"expected a plane")):
+                    if projection != "auto":
+                        (work / "a.geojson").write_text(geojson(["9 48", "9.4 48", "9.4 48.3", "9 48.3"]))
+                    else:
+                        (work / "a.geojson").write_text(geojson(["9 48", "9.4 48", "9.4 48.3", "9 98.3"]))
+                    done = run(work / "case.ini", "--validate", f"shape.projection={projection}", ranks=ranks)
+                    self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+                    self.assertRegex(done.stderr, message)
+            done = run(work / "case.ini", "--validate", "shape.projection=auto", "shape.land.normalize=true")
+            self.assertEqual(done.returncode, USAGE, done.stdout + done.stderr)
+            self.assertRegex(done.stderr, "expected one of them")
+
+
+if __name__ == "__main__":
+    unittest.main()
