@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <span>
 
 namespace trime::polygon {
 
@@ -36,6 +38,46 @@ void for_each_shift(const geometry::Periods& periods, double reach, const Visit&
   for (int i = -images(periods.x); i <= images(periods.x); ++i)
     for (int j = -images(periods.y); j <= images(periods.y); ++j)
       visit(Vec2{i * periods.x, j * periods.y});
+}
+
+/// Chessboard distances along one row of cells: loops over bytes that know no order, so that compilers make vectors of
+/// them.
+class RowClearance {
+public:
+  /// @param border_is_near a disc may lie right beyond both ends
+  RowClearance(std::size_t width, bool border_is_near)
+      : width_(width), from_(width + 2 * margin, border_is_near ? std::uint8_t{0} : farthest), to_(from_) {}
+
+  /// Where the row is to be filled in: 0 for a cell with a disc, else `farthest`.
+  std::span<std::uint8_t> start() { return {&from_[margin], width_}; }
+  /// The distances of that row. Shifts by 1, 2, 4 ... cells together reach all cells up to the farthest.
+  void finish(std::uint8_t* row) {
+    for (std::size_t step = 1; step <= farthest; step *= 2) {
+      for (std::size_t i = margin; i < margin + width_; ++i)
+        to_[i] = std::min(from_[i], further(std::min(from_[i - step], from_[i + step]), step));
+      std::swap(from_, to_);
+    }
+    std::copy_n(&from_[margin], width_, row);
+  }
+
+  static constexpr std::uint8_t farthest = PolygonRules::farthest_cell;
+
+private:
+  static std::uint8_t further(std::uint8_t v, std::size_t step) { return static_cast<std::uint8_t>(v + step); }
+  static constexpr std::size_t margin = farthest;
+  std::size_t width_;
+  std::vector<std::uint8_t> from_, to_; // with a margin at both ends
+};
+
+/// One step from a neighbouring row to this one, straight or aslant. @pre width >= 2
+void lower_by_row(std::uint8_t* row, const std::uint8_t* other, std::size_t width) {
+  const auto lower = [row](std::size_t i, std::uint8_t v) {
+    row[i] = std::min(row[i], static_cast<std::uint8_t>(v + 1));
+  };
+  lower(0, std::min(other[0], other[1]));
+  for (std::size_t i = 1; i + 1 < width; ++i)
+    lower(i, std::min(std::min(other[i - 1], other[i]), other[i + 1]));
+  lower(width - 1, std::min(other[width - 2], other[width - 1]));
 }
 
 } // namespace
@@ -119,65 +161,51 @@ void BoundaryGuard::classify_cells(const geometry::Lattice& lattice) {
     const int first = static_cast<int>(strip) * strip_rows, last = std::min(rows, first + strip_rows);
     const int low = std::max(0, first - PolygonRules::farthest_cell),
               high = std::min(rows, last + PolygonRules::farthest_cell);
-    std::vector<std::int8_t> clearance = clearance_of(low, high);
+    std::vector<std::uint8_t> clearance = clearance_of(low, high);
     for (int j = first; j < last; ++j)
       classify_row(j, &clearance[static_cast<std::size_t>(j - low) * columns], lattice);
   });
 }
 
-/// @brief Chessboard distance of each cell of rows [low, high) to the nearest of them with a disc (Rosenfeld and Pfaltz
-/// 1966). What lies beyond the border of a periodic axis is not known, and may be a disc.
-std::vector<std::int8_t> BoundaryGuard::clearance_of(int low, int high) const {
+/// @brief Chessboard distance of each cell of rows [low, high) to the nearest of them with a disc: along the rows, then
+/// down and up from row to row (Rosenfeld and Pfaltz 1966). What lies beyond the border of a periodic axis is not
+/// known, and may be a disc.
+std::vector<std::uint8_t> BoundaryGuard::clearance_of(int low, int high) const {
   const std::size_t width = static_cast<std::size_t>(cells_.columns()), rows = static_cast<std::size_t>(high - low);
-  std::vector<std::int8_t> clearance(width * rows);
-  const std::size_t offset = static_cast<std::size_t>(low) * width;
-  for (std::size_t cell = 0; cell < clearance.size(); ++cell)
-    clearance[cell] = cells_.has_disc(offset + cell) ? 0 : PolygonRules::farthest_cell;
-  constexpr auto next = [](std::int8_t v) { return static_cast<std::int8_t>(v + 1); };
-  const std::int8_t beyond = periods_.x > 0 ? 0 : PolygonRules::farthest_cell;
-  const auto look_aside = [&](std::int8_t* row, const std::int8_t* other, bool border) {
-    if (other == nullptr) {
-      if (border && periods_.y > 0)
-        for (std::size_t i = 0; i < width; ++i)
-          row[i] = std::min(row[i], std::int8_t{1});
-      return;
-    }
-    row[0] = std::min(row[0], next(std::min(other[0], other[1])));
-    for (std::size_t i = 1; i + 1 < width; ++i)
-      row[i] = std::min(row[i], next(std::min(std::min(other[i - 1], other[i]), other[i + 1])));
-    row[width - 1] = std::min(row[width - 1], next(std::min(other[width - 2], other[width - 1])));
-  };
+  std::vector<std::uint8_t> clearance(width * rows);
+  RowClearance along(width, periods_.x > 0);
   for (std::size_t j = 0; j < rows; ++j) {
-    std::int8_t* row = &clearance[j * width];
-    look_aside(row, j > 0 ? row - width : nullptr, low == 0);
-    std::int8_t before = beyond;
-    for (std::size_t i = 0; i < width; ++i)
-      before = row[i] = std::min(row[i], next(before));
+    cells_.mark_discs(low + static_cast<int>(j), RowClearance::farthest, along.start());
+    along.finish(&clearance[j * width]);
   }
-  for (std::size_t j = rows; j-- > 0;) {
-    std::int8_t* row = &clearance[j * width];
-    look_aside(row, j + 1 < rows ? row + width : nullptr, high == cells_.rows());
-    std::int8_t behind = beyond;
-    for (std::size_t i = width; i-- > 0;)
-      behind = row[i] = std::min(row[i], next(behind));
-  }
+  const auto border = [&](std::size_t j) {
+    for (std::size_t i = 0; i < width && periods_.y > 0; ++i)
+      clearance[j * width + i] = std::min(clearance[j * width + i], std::uint8_t{1});
+  };
+  if (low == 0)
+    border(0);
+  if (high == cells_.rows())
+    border(rows - 1);
+  for (std::size_t j = 1; j < rows; ++j)
+    lower_by_row(&clearance[j * width], &clearance[(j - 1) * width], width);
+  for (std::size_t j = rows - 1; j-- > 0;)
+    lower_by_row(&clearance[j * width], &clearance[(j + 1) * width], width);
   return clearance;
 }
 
 /// A cell without disc meets no chord, so one point decides for all of it, and for its clear right neighbours.
-void BoundaryGuard::classify_row(int j, const std::int8_t* clearance, const geometry::Lattice& lattice) {
-  const int columns = cells_.columns();
-  const std::size_t first = static_cast<std::size_t>(j) * columns;
-  bool inside = false, known = false;
-  for (int i = 0; i < columns; ++i) {
-    if (clearance[i] == 0) {
-      known = false;
+void BoundaryGuard::classify_row(int j, const std::uint8_t* clearance, const geometry::Lattice& lattice) {
+  const auto columns = static_cast<std::size_t>(cells_.columns());
+  std::int8_t* states = &state_[static_cast<std::size_t>(j) * columns];
+  for (std::size_t i = 0; i < columns; ++i) {
+    if (clearance[i] == 0)
       continue;
-    }
-    if (!known)
-      inside = inside_polygon(lattice.snap(cells_.middle(i, j)));
-    known = true;
-    state_[first + static_cast<std::size_t>(i)] = inside ? clearance[i] : static_cast<std::int8_t>(-clearance[i]);
+    const void* disc = std::memchr(clearance + i, 0, columns - i);
+    const std::size_t end =
+        disc != nullptr ? static_cast<std::size_t>(static_cast<const std::uint8_t*>(disc) - clearance) : columns;
+    const bool inside = inside_polygon(lattice.snap(cells_.middle(static_cast<int>(i), j)));
+    for (; i < end; ++i)
+      states[i] = static_cast<std::int8_t>(inside ? clearance[i] : -clearance[i]);
   }
 }
 

@@ -81,8 +81,8 @@ private:
   LocalIndex chord_count() const { return static_cast<LocalIndex>(chords_.segments().size()); }
   bool is_empty() const { return chords_.segments().empty(); }
   void classify_cells(const geometry::Lattice& lattice);
-  std::vector<std::int8_t> clearance_of(int low, int high) const;
-  void classify_row(int j, const std::int8_t* clearance, const geometry::Lattice& lattice);
+  std::vector<std::uint8_t> clearance_of(int low, int high) const;
+  void classify_row(int j, const std::uint8_t* clearance, const geometry::Lattice& lattice);
   int state_at(geometry::Vec2 p) const;
   /// A distance that no chord is nearer to p.
   double clear_way(geometry::Vec2 p) const;

@@ -72,14 +72,27 @@ void DiscCells::list_discs(std::span<const Segment> chords, std::span<const Segm
       body(static_cast<std::size_t>(k), first, last);
     });
   };
-  const auto cells_before = [this](int row) { return static_cast<std::size_t>(row) * columns_; };
-  starts_.assign(count() + 1, 0);
+  static_assert(strip_rows % word == 0);
+  bits_.assign((count() + word - 1) / word, 0);
+  for_each_strip([&](std::size_t strip, int first, int last) {
+    for (const LocalIndex k : discs_of[strip])
+      for_each_cell_of(reaches[static_cast<std::size_t>(k)], first, last,
+                       [&](std::size_t cell) { bits_[cell / word] |= std::uint64_t{1} << (cell % word); });
+  });
+  rank_cells();
+  // Cells with a disc above this row, where a word begins or the grid ends.
+  const auto ranks_before = [this](int row) {
+    return static_cast<std::size_t>(
+        ranks_[std::min(bits_.size(), (static_cast<std::size_t>(row) * columns_ + word - 1) / word)]);
+  };
+  starts_.assign(static_cast<std::size_t>(ranks_.back()) + 1, 0);
   std::vector<LocalIndex> entries_of(strips + 1, 0);
   for_each_strip([&](std::size_t strip, int first, int last) {
     for (const LocalIndex k : discs_of[strip])
-      for_each_cell_of(reaches[static_cast<std::size_t>(k)], first, last, [&](std::size_t cell) { ++starts_[cell]; });
-    for (std::size_t cell = cells_before(first); cell < cells_before(last); ++cell)
-      entries_of[strip + 1] += starts_[cell];
+      for_each_cell_of(reaches[static_cast<std::size_t>(k)], first, last,
+                       [&](std::size_t cell) { ++starts_[rank(cell)]; });
+    for (std::size_t k = ranks_before(first); k < ranks_before(last); ++k)
+      entries_of[strip + 1] += starts_[k];
   });
   for (std::size_t strip = 0; strip < strips; ++strip)
     entries_of[strip + 1] += entries_of[strip];
@@ -88,12 +101,32 @@ void DiscCells::list_discs(std::span<const Segment> chords, std::span<const Segm
   // Each list is filled from its end; then its start is known.
   for_each_strip([&](std::size_t strip, int first, int last) {
     LocalIndex end = entries_of[strip];
-    for (std::size_t cell = cells_before(first); cell < cells_before(last); ++cell)
-      starts_[cell] = end += starts_[cell];
+    for (std::size_t k = ranks_before(first); k < ranks_before(last); ++k)
+      starts_[k] = end += starts_[k];
     for (auto k = discs_of[strip].rbegin(); k != discs_of[strip].rend(); ++k)
       for_each_cell_of(reaches[static_cast<std::size_t>(*k)], first, last,
-                       [&](std::size_t cell) { discs_[static_cast<std::size_t>(--starts_[cell])] = *k; });
+                       [&](std::size_t cell) { discs_[static_cast<std::size_t>(--starts_[rank(cell)])] = *k; });
   });
+}
+
+void DiscCells::rank_cells() {
+  ranks_.resize(bits_.size() + 1);
+  LocalIndex set = 0;
+  for (std::size_t k = 0; k < bits_.size(); ++k) {
+    ranks_[k] = set;
+    set += static_cast<LocalIndex>(std::popcount(bits_[k]));
+  }
+  ranks_.back() = set;
+}
+
+void DiscCells::mark_discs(int row, std::uint8_t none, std::span<std::uint8_t> marks) const {
+  std::fill(marks.begin(), marks.end(), none);
+  const std::size_t first = static_cast<std::size_t>(row) * columns_, last = first + marks.size();
+  for (std::size_t k = first / word; k * word < last; ++k)
+    for (std::uint64_t left = bits_[k]; left != 0; left &= left - 1)
+      if (const std::size_t cell = k * word + static_cast<std::size_t>(std::countr_zero(left));
+          cell >= first && cell < last)
+        marks[cell - first] = 0;
 }
 
 } // namespace trime::polygon

@@ -5,6 +5,7 @@
 #include "trime/core/types.hpp"
 #include "trime/geometry/segment.hpp"
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -16,7 +17,7 @@ namespace trime::polygon {
 /// Radius around the middle of a chord that covers its disc and everything nearer to it than PolygonRules::near_chord.
 double reach_of(const geometry::Segment& chord);
 
-/// Rows of cells for one thread.
+/// Rows of cells for one thread: as many as a word has bits, so that no word has bits of two threads.
 constexpr int strip_rows = 64;
 
 /// Immutable once the discs are listed; thread-safe.
@@ -49,13 +50,19 @@ public:
   }
   /// The discs that reach into a cell, ascending; none into cell -1.
   std::span<const LocalIndex> discs_at(std::int64_t cell) const {
-    if (cell < 0)
+    if (cell < 0 || !has_disc(static_cast<std::size_t>(cell)))
       return {};
-    return std::span(discs_).subspan(static_cast<std::size_t>(starts_[cell]), starts_[cell + 1] - starts_[cell]);
+    const std::size_t k = rank(static_cast<std::size_t>(cell));
+    return std::span(discs_).subspan(static_cast<std::size_t>(starts_[k]), starts_[k + 1] - starts_[k]);
   }
-  bool has_disc(std::size_t cell) const { return starts_[cell + 1] > starts_[cell]; }
+  bool has_disc(std::size_t cell) const { return (bits_[cell / word] >> (cell % word) & 1) != 0; }
+  /// Of each cell of a row: 0 if a disc reaches into it, else `none`.
+  void mark_discs(int row, std::uint8_t none, std::span<std::uint8_t> marks) const;
 
-  std::size_t memory_bytes() const { return (starts_.capacity() + discs_.capacity()) * sizeof(LocalIndex); }
+  std::size_t memory_bytes() const {
+    return bits_.capacity() * sizeof(std::uint64_t) +
+           (ranks_.capacity() + starts_.capacity() + discs_.capacity()) * sizeof(LocalIndex);
+  }
 
 private:
   /// A disc with what is near its chord.
@@ -67,10 +74,22 @@ private:
   template <class Visit>
   void for_each_cell_of(const Reach& disc, int first_row, int last_row, const Visit& visit) const;
 
+  /// Number of cells with a disc before this one.
+  std::size_t rank(std::size_t cell) const {
+    const std::uint64_t below = bits_[cell / word] & ((std::uint64_t{1} << (cell % word)) - 1);
+    return static_cast<std::size_t>(ranks_[cell / word]) + static_cast<std::size_t>(std::popcount(below));
+  }
+  void rank_cells();
+
+  static constexpr std::size_t word = 64; // cells
+
   geometry::Vec2 corner_;
   double side_ = 1, inverse_side_ = 1; // of a cell
   int columns_ = 0, rows_ = 0;
-  std::vector<LocalIndex> starts_, discs_; // by cell, the first of its discs; and these
+  // Most cells have no disc, and take one bit.
+  std::vector<std::uint64_t> bits_;        // by cell, whether it has discs
+  std::vector<LocalIndex> ranks_;          // by word of these bits, the number of bits that are set before it
+  std::vector<LocalIndex> starts_, discs_; // by cell with discs, the first of them; and these
 };
 
 } // namespace trime::polygon

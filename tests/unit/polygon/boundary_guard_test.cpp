@@ -5,9 +5,13 @@
 
 #include "core/random.hpp"
 #include "geometry/diametral.hpp"
+#include "polygon/rules.hpp"
 #include "support/boundary_shapes.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
 
 namespace trime::polygon {
 namespace {
@@ -76,6 +80,22 @@ TEST(BoundaryGuard, AgreesWithTheDefinitionsChordByChord) {
       ASSERT_EQ(guard.distance(p, 0.1), nearest);
     }
   }
+}
+
+TEST(BoundaryGuard, StatesCountTheCellsToTheNearestDisc) {
+  const BoundaryGuard guard(star_with_hole(0.02), unit_lattice());
+  const GuardCells cells = guard.cells();
+  constexpr int farthest = PolygonRules::farthest_cell;
+  const auto state = [&](int i, int j) { return std::abs(cells.states[j * cells.columns + i]); };
+  for (int j = 0; j < cells.rows; ++j)
+    for (int i = 0; i < cells.columns; ++i) {
+      int nearest = farthest;
+      for (int b = std::max(0, j - farthest); b <= std::min(cells.rows - 1, j + farthest); ++b)
+        for (int a = std::max(0, i - farthest); a <= std::min(cells.columns - 1, i + farthest); ++a)
+          if (state(a, b) == 0)
+            nearest = std::min(nearest, std::max(std::abs(a - i), std::abs(b - j)));
+      ASSERT_EQ(state(i, j), nearest) << i << " " << j;
+    }
 }
 
 TEST(BoundaryGuard, PushesOutOfTheDiscsOfASquare) {
