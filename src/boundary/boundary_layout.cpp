@@ -236,6 +236,9 @@ public:
 
   /// The start of a stretch and what lies in it, without its end.
   void add(const Stretch& stretch, bool closed) {
+    if (const std::size_t needed = sites_.size() + static_cast<std::size_t>(stretch.intervals);
+        needed > sites_.capacity())
+      sites_.reserve(std::max(needed, 2 * sites_.capacity()));
     add_start(stretch);
     if (stretch.ragged)
       add_chosen(stretch, closed);

@@ -72,6 +72,8 @@ void BoundaryRefiner::add_loop(const std::vector<LoopSite>& loop_sites) {
   const LocalIndex first = static_cast<LocalIndex>(sites_.size()), n = static_cast<LocalIndex>(loop_sites.size());
   loop_first_.push_back(first);
   const auto loop = static_cast<std::int32_t>(loop_first_.size() - 1);
+  if (const std::size_t needed = sites_.size() + loop_sites.size(); needed > sites_.capacity())
+    sites_.reserve(std::max(needed, 2 * sites_.capacity()));
   for (LocalIndex k = 0; k < n; ++k)
     sites_.push_back({loop_sites[k].t, loop_sites[k].position, first + (k + n - 1) % n, first + (k + 1) % n, loop,
                       loop_sites[k].kind});
@@ -81,16 +83,18 @@ void BoundaryRefiner::add_loop(const std::vector<LoopSite>& loop_sites) {
 std::vector<BoundaryRefiner::Cut> BoundaryRefiner::find_cuts(const std::vector<LocalIndex>& fresh_sites,
                                                              const std::vector<LocalIndex>& fresh_chords) {
   std::vector<SiteTree::Entry> items;
+  items.reserve(fresh_sites.size());
   for (const LocalIndex k : fresh_sites)
     items.push_back({boundary_.periods.wrap(sites_[k].position), k});
-  const SiteTree newest(items);
+  const bool all_fresh = fresh_chords.size() >= sites_.size();
+  const SiteTree newest(all_fresh ? std::vector<SiteTree::Entry>{} : items); // for old chords
   for (; !trees_.empty() && trees_.back().size() <= 2 * items.size(); trees_.pop_back())
     items.insert(items.end(), trees_.back().items().begin(), trees_.back().items().end());
   trees_.emplace_back(std::move(items));
   std::vector<LocalIndex> fresh = fresh_chords;
   std::sort(fresh.begin(), fresh.end());
   const auto look = [&](LocalIndex k, std::vector<Cut>& cuts) {
-    const bool is_fresh = std::binary_search(fresh.begin(), fresh.end(), k);
+    const bool is_fresh = all_fresh || std::binary_search(fresh.begin(), fresh.end(), k);
     LocalIndex intruder = -1;
     if (!is_fresh)
       intruder = find_intruder(newest, k);
@@ -160,6 +164,10 @@ SiteTree BoundaryRefiner::tree_of(std::span<const Vec2> points) const {
 
 bool BoundaryRefiner::curve_offends(LocalIndex chord) const {
   const Site& a = sites_[chord];
+  if (const auto way = metrics_[a.loop].on_one_piece(a.t, end_t(a));
+      way && (way->turn == 0 || (way->turn < BoundaryRules::gentle_turn &&
+                                 way->length > BoundaryRules::gentle_in_steps * lattice_.step())))
+    return a.position == end_of(a);
   const PartSummary part = summarize(a);
   if (part.leaves_disc || a.position == end_of(a))
     return true;

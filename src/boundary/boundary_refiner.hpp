@@ -55,14 +55,14 @@ private:
     LocalIndex junction = -1; // the piece that starts there
   };
   CutPlace cut_place(const Site& a, const Site& b, double end) const;
-  /// A site of the result, without its neighbours, and what is told of its chord.
+  /// What is told of a chord.
   struct ChordRecord {
-    polygon::BoundarySite site;
     double squared_length = 0;
     LocalIndex left_out = 0; ///< corners between the site and its next
     double deviation = 0;    ///< of them, over the local size
   };
-  ChordRecord chord_from(LocalIndex k) const;
+  /// @param result the site where it starts, without its neighbours
+  ChordRecord chord_from(LocalIndex k, polygon::BoundarySite& result) const;
   [[noreturn]] void fail(const Cut& cut) const;
 
   const Site& next(const Site& site) const { return sites_[site.next]; }

@@ -2,7 +2,7 @@
 // What comes out of the layout of a boundary.
 
 #include "boundary/boundary_refiner.hpp"
-#include "core/gather.hpp"
+#include "core/thread_loop.hpp"
 #include "polygon/chord_curve.hpp"
 
 #include "core/angle.hpp"
@@ -18,21 +18,21 @@ using polygon::name_parts;
 
 namespace {
 
-constexpr std::ptrdiff_t chords_in_a_row = 64; // by one thread
+constexpr int chords_in_a_row = 64; // by one thread
 
 } // namespace
 
-/// The chord that starts at site k, as the result has it.
-BoundaryRefiner::ChordRecord BoundaryRefiner::chord_from(LocalIndex k) const {
+/// Site k as the result has it, and its chord.
+BoundaryRefiner::ChordRecord BoundaryRefiner::chord_from(LocalIndex k, polygon::BoundarySite& result) const {
   const Site& site = sites_[k];
   const LoopMetric& metric = metrics_[site.loop];
   const geometry::Periods& periods = boundary_.periods;
   const Vec2 canonical = periods.wrap(site.position), end = end_of(site) + (canonical - site.position);
   const auto [piece, along] = metric.place(site.t);
   ChordRecord out;
-  out.site = {canonical, 0, 0, metric.loop().tag, site.kind != SiteKind::plain, end - periods.wrap(end), piece, along};
+  result = {canonical, 0, 0, metric.loop().tag, site.kind != SiteKind::plain, end - periods.wrap(end), piece, along};
   out.squared_length = geometry::squared_length(end - canonical);
-  if (tolerance_.share == 0)
+  if (tolerance_.share == 0 || metric.on_one_piece(site.t, end_t(site)))
     return out;
   const double turn = corner_angle_ * (pi / 180);
   if (const PartSummary part = summarize(site); part.sharpest_turn > turn) {
@@ -59,19 +59,19 @@ BoundarySites BoundaryRefiner::result() const {
     } while (k != first);
   }
   out.loop_start.push_back(static_cast<LocalIndex>(order.size()));
-  const std::vector<ChordRecord> chords = gather_in_order<ChordRecord>(
-      std::ssize(order), chords_in_a_row, [&](std::ptrdiff_t k, std::vector<ChordRecord>& list) {
-        list.push_back(chord_from(order[static_cast<std::size_t>(k)]));
-      });
-  out.sites.reserve(chords.size());
+  std::vector<ChordRecord> chords(order.size());
+  out.sites.resize(order.size());
+  thread_loop(std::ssize(order), chords_in_a_row, [&](std::ptrdiff_t item, int) {
+    const auto k = static_cast<std::size_t>(item);
+    chords[k] = chord_from(order[k], out.sites[k]);
+  });
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t loop = 0; loop < loop_first_.size(); ++loop) {
     const LocalIndex first = out.loop_start[loop], end = out.loop_start[loop + 1];
     for (LocalIndex k = first; k < end; ++k) {
       const ChordRecord& chord = chords[k];
-      out.sites.push_back(chord.site);
-      out.sites.back().previous = k == first ? end - 1 : k - 1;
-      out.sites.back().next = k + 1 == end ? first : k + 1;
+      out.sites[static_cast<std::size_t>(k)].previous = k == first ? end - 1 : k - 1;
+      out.sites[static_cast<std::size_t>(k)].next = k + 1 == end ? first : k + 1;
       const SiteKind kind = sites_[order[k]].kind;
       out.corners += kind != SiteKind::plain;
       out.sharp_corners += kind == SiteKind::sharp_corner;

@@ -169,7 +169,8 @@ Vec2 LoopMetric::point(double t) const {
 double LoopMetric::arc(double t) const {
   const double turns = t >= total() ? 1 : t < 0 ? -1 : 0;
   t -= turns * total();
-  const Knot &low = knots_[knot_before(t)], &high = knots_[knot_before(t) + 1];
+  const LocalIndex k = knot_before(t);
+  const Knot &low = knots_[k], &high = knots_[k + 1];
   return turns * knots_.back().arc + low.arc + (high.arc - low.arc) * ((t - low.t) / (high.t - low.t));
 }
 
@@ -240,6 +241,16 @@ LocalIndex LoopMetric::corners_between(double t0, double t1, double turn) const 
   LocalIndex corners = 0;
   for_each_turn(t0, t1, [&](const Turn& one) { corners += one.junction >= 0 && std::fabs(one.amount) > turn; });
   return corners;
+}
+
+std::optional<LoopMetric::OnePiece> LoopMetric::on_one_piece(double t0, double t1) const {
+  const double shift = t0 >= total() ? total() : 0;
+  const LocalIndex i = knots_[knot_before(t0 - shift)].piece;
+  if (t0 < shift + piece_t_[i] || t1 > shift + piece_t_[i + 1])
+    return std::nullopt;
+  const Piece& piece = loop_.pieces[i];
+  const double length = arc_length(t0, t1);
+  return OnePiece{length, piece.circular ? length / piece.radius : 0};
 }
 
 PartSummary LoopMetric::summarize(double t0, double t1, Vec2 a, Vec2 b) const {

@@ -57,6 +57,13 @@ public:
   std::optional<double> first_at_radius(double t0, double t1, geometry::Vec2 center, double radius) const;
   /// Junctions strictly between t0 < t1 <= t0 + total() that turn by more than `turn` radians.
   LocalIndex corners_between(double t0, double t1, double turn) const;
+  /// A way that lies within one piece: no junction strictly between.
+  struct OnePiece {
+    double length = 0;
+    double turn = 0; ///< radians, not negative
+  };
+  /// The way between 0 <= t0 < t1 <= t0 + total() if one piece holds all of it.
+  std::optional<OnePiece> on_one_piece(double t0, double t1) const;
   /// The curve between t0 < t1 <= t0 + total(), whose ends became the sites a and b.
   PartSummary summarize(double t0, double t1, geometry::Vec2 a, geometry::Vec2 b) const;
 

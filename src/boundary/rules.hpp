@@ -26,6 +26,12 @@ struct BoundaryRules {
   /// [lattice steps] Neither h nor a part that is divided may be shorter: snapping to the lattice then turns a chord by
   /// less than 0.001.
   static constexpr double shortest_in_steps = 0x1p11;
+  /// [radians] An arc that turns by less stays in the disc of its chord: it needs no look at its points. With
+  /// exact ends it would up to pi; largest_turn is above it, too. Not measured.
+  static constexpr double gentle_turn = pi / 4;
+  /// [lattice steps] The same arc is no shorter. Fixed points may have moved its ends by on_boundary, which is a
+  /// thousandth of this. Not measured.
+  static constexpr double gentle_in_steps = 0x1p22;
   /// [radians] A junction of two arcs that turns by less lies within one circle: half a degree.
   static constexpr double smooth_junction = pi / 360;
   /// [tolerance] A chord that leaves corners farther off is divided. The layout keeps within 1.1; the rest is leeway

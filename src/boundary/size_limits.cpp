@@ -3,6 +3,7 @@
 
 #include "boundary/rules.hpp"
 #include "boundary/site_tree.hpp"
+#include "comm/shared_work.hpp"
 #include "core/gather.hpp"
 
 #include <algorithm>
@@ -17,19 +18,23 @@ namespace {
 
 constexpr int sites_in_a_row = 64; // by one thread
 
+/// Of the chords [first, last).
 class LimitFinder {
 public:
-  LimitFinder(const BoundarySites& boundary, const sizing::SizeField& size, const sizing::SizeField& asked)
-      : boundary_(boundary), size_(size), asked_(asked), tree_(items_of(boundary)), sharp_(boundary.sites.size()) {
+  LimitFinder(const BoundarySites& boundary, const sizing::SizeField& size, const sizing::SizeField& asked,
+              LocalIndex first, LocalIndex last)
+      : boundary_(boundary), size_(size), asked_(asked), first_(first), last_(last), site_sizes_(sizes_at_sites()),
+        tree_(items_near()), sharp_(boundary.sites.size()) {
     thread_loop(std::ssize(sharp_), sites_in_a_row, [this](std::ptrdiff_t k, int) {
       sharp_[static_cast<std::size_t>(k)] = chords_meet_sharply(static_cast<LocalIndex>(k));
     });
   }
 
   std::vector<sizing::SizeLimit> run() const {
-    return gather_in_order<sizing::SizeLimit>(
-        std::ssize(boundary_.sites), sites_in_a_row,
-        [&](std::ptrdiff_t k, std::vector<sizing::SizeLimit>& limits) { look(static_cast<LocalIndex>(k), limits); });
+    return gather_in_order<sizing::SizeLimit>(last_ - first_, sites_in_a_row,
+                                              [&](std::ptrdiff_t k, std::vector<sizing::SizeLimit>& limits) {
+                                                look(first_ + static_cast<LocalIndex>(k), limits);
+                                              });
   }
 
 private:
@@ -43,7 +48,7 @@ private:
         limits.push_back({place, limit});
     };
     const geometry::Segment chord = boundary_.chord(k);
-    const double at_site = sizing::checked_size(size_, chord.a);
+    const double at_site = site_sizes_[static_cast<std::size_t>(k - first_)];
     add(chord.a, gap_across(k, BoundaryRules::narrow_gap * at_site), at_site);
     if (is_near_sharp(k))
       return; // in a wedge chords are short at any size
@@ -53,10 +58,33 @@ private:
     add(middle, std::fmin(limit, BoundaryRules::width_factor * width_across(k, chord, length)), h);
   }
 
-  static std::vector<SiteTree::Entry> items_of(const BoundarySites& boundary) {
+  std::vector<double> sizes_at_sites() const {
+    std::vector<double> sizes(static_cast<std::size_t>(last_ - first_));
+    thread_loop(std::ssize(sizes), sites_in_a_row, [&](std::ptrdiff_t k, int) {
+      const auto site = static_cast<std::size_t>(first_ + k);
+      sizes[static_cast<std::size_t>(k)] = sizing::checked_size(size_, boundary_.sites[site].position);
+    });
+    return sizes;
+  }
+
+  /// The sites that the circles of these chords may meet.
+  std::vector<SiteTree::Entry> items_near() const {
+    constexpr double lens =
+        0.5 + BoundaryRules::lens_offset + BoundaryRules::lens_radius; // [chord lengths] from an end
+    constexpr double rounding = 1 + 1e-9;                              // must not hide a site
+    geometry::Box box;
+    for (LocalIndex k = first_; k < last_; ++k) {
+      const geometry::Segment chord = boundary_.chord(k);
+      const double reach =
+          rounding * std::fmax(BoundaryRules::narrow_gap * site_sizes_[static_cast<std::size_t>(k - first_)],
+                               lens * geometry::length(chord.b - chord.a));
+      box.include(chord.a - Vec2{reach, reach});
+      box.include(chord.a + Vec2{reach, reach});
+    }
     std::vector<SiteTree::Entry> items;
-    for (std::size_t k = 0; k < boundary.sites.size(); ++k)
-      items.push_back({boundary.sites[k].position, static_cast<LocalIndex>(k)});
+    for (std::size_t k = 0; k < boundary_.sites.size(); ++k)
+      if (const Vec2 p = boundary_.sites[k].position; box.contains(p))
+        items.push_back({p, static_cast<LocalIndex>(k)});
     return items;
   }
 
@@ -133,6 +161,8 @@ private:
 
   const BoundarySites& boundary_;
   const sizing::SizeField &size_, &asked_;
+  const LocalIndex first_, last_;
+  const std::vector<double> site_sizes_; // of each of these chords, where it starts
   const SiteTree tree_;
   std::vector<char> sharp_; // for each site, whether its chords meet sharply
 };
@@ -158,7 +188,19 @@ std::vector<sizing::SizeLimit> without_implied(const std::vector<sizing::SizeLim
 
 std::vector<sizing::SizeLimit> size_limits(const BoundarySites& boundary, const sizing::SizeField& size,
                                            const sizing::SizeField& asked, double gradation) {
-  return without_implied(LimitFinder(boundary, size, asked).run(), gradation);
+  const auto chords = static_cast<LocalIndex>(boundary.sites.size());
+  return without_implied(LimitFinder(boundary, size, asked, 0, chords).run(), gradation);
+}
+
+std::vector<sizing::SizeLimit> size_limits(const comm::Communicator& comm, const BoundarySites& boundary,
+                                           const sizing::SizeField& size, const sizing::SizeField& asked,
+                                           double gradation) {
+  const auto chords = static_cast<std::int64_t>(boundary.sites.size());
+  const auto share_of = [&](int rank) { return static_cast<LocalIndex>(chords * rank / comm.size()); };
+  std::vector<sizing::SizeLimit> mine;
+  comm::run_agreed(
+      comm, [&] { mine = LimitFinder(boundary, size, asked, share_of(comm.rank()), share_of(comm.rank() + 1)).run(); });
+  return without_implied(comm::gather_everywhere(comm, std::move(mine)), gradation);
 }
 
 } // namespace trime::boundary

@@ -4,6 +4,7 @@
 
 #include "boundary/boundary_sites.hpp"
 #include "sizing/lowered_size.hpp"
+#include "trime/comm/communicator.hpp"
 
 #include <vector>
 
@@ -17,5 +18,10 @@ namespace trime::boundary {
 /// those left out that the size implies around another, which grows with `gradation` from it. O(B log B)
 std::vector<sizing::SizeLimit> size_limits(const polygon::BoundarySites& boundary, const sizing::SizeField& size,
                                            const sizing::SizeField& asked, double gradation);
+
+/// The same by all ranks, each of which looks at a share of the chords and at the sites near them. Collective.
+std::vector<sizing::SizeLimit> size_limits(const comm::Communicator& comm, const polygon::BoundarySites& boundary,
+                                           const sizing::SizeField& size, const sizing::SizeField& asked,
+                                           double gradation);
 
 } // namespace trime::boundary

@@ -238,22 +238,17 @@ FittedStage try_boundary(const LayoutContext& context, const FittedSize& fitted,
 
 std::vector<sizing::SizeLimit> further_limits(const LayoutContext& context, const Stage& trial) {
   const auto time = context.timers.scope("boundary");
-  std::vector<sizing::SizeLimit> more;
-  if (!trial.asked_size->is_uniform() && !trial.polygon.overfull)
-    comm::run_agreed(context.comm, [&] {
-      more = size_limits(trial.polygon, *trial.size, *trial.asked_size, BoundaryRules::gradation);
-    });
-  return more;
+  if (trial.asked_size->is_uniform() || trial.polygon.overfull)
+    return {};
+  return size_limits(context.comm, trial.polygon, *trial.size, *trial.asked_size, BoundaryRules::gradation);
 }
 
 bool needs_lowering(const LayoutContext& context, const Stage& laid) {
   const auto time = context.timers.scope("boundary");
   bool needed = false;
-  comm::run_agreed(context.comm, [&] {
-    for (const sizing::SizeLimit& limit :
-         size_limits(laid.polygon, *laid.size, *laid.asked_size, BoundaryRules::gradation))
-      needed |= limit.size < StartRules::lowering_pays * laid.size->size(limit.place);
-  });
+  for (const sizing::SizeLimit& limit :
+       size_limits(context.comm, laid.polygon, *laid.size, *laid.asked_size, BoundaryRules::gradation))
+    needed |= limit.size < StartRules::lowering_pays * laid.size->size(limit.place);
   return needed;
 }
 
