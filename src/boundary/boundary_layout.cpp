@@ -236,7 +236,8 @@ public:
 
   /// The start of a stretch and what lies in it, without its end.
   void add(const Stretch& stretch, bool closed) {
-    if (const std::size_t needed = sites_.size() + static_cast<std::size_t>(stretch.intervals);
+    constexpr long most_ahead = 1 << 16; // an absurd size is told by the first site, not by a lack of memory
+    if (const std::size_t needed = sites_.size() + static_cast<std::size_t>(std::min(stretch.intervals, most_ahead));
         needed > sites_.capacity())
       sites_.reserve(std::max(needed, 2 * sites_.capacity()));
     add_start(stretch);
