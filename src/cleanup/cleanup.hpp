@@ -21,9 +21,9 @@ struct CleanupOptions {
 /// A site is a candidate if it has a bad triangle; the worst one of each cell of a few h is a contender for the middle
 /// of a patch (PatchOptimizer). Of the contenders those act that are the first of their surroundings in the order of a
 /// hash of place and round: their patches do not overlap, and the choice is the same for any partition. The owner of a
-/// contender is told by the others what it does not know of its patch, computes it, and sends the changes to the owners
-/// of the sites; all ranks learn of those on the boundary at the end. A site of a triangle for which nothing helped
-/// rests until it has moved by some share of h. The number of sites keeps to CleanupLimits.
+/// contender is told by the others what it does not know of its patch, has it tried, and sends the changes to the
+/// owners of the sites; all ranks learn of those on the boundary at the end. A site of a triangle for which nothing
+/// helped rests until it has moved by some share of h. The number of sites keeps to CleanupLimits.
 ///
 /// Nothing in a round costs more than what it touches: stars are computed once at the beginning; then the patches tell
 /// what has become of their triangles. At the end the stage learns of all edits: its state, its polygon and its guard

@@ -90,18 +90,19 @@ void CleanupRounds::meet_neighbours(std::span<const Contender> contenders) {
 }
 
 CleanupRounds::Outcome CleanupRounds::round(std::span<const Contender> contenders) {
-  Attempt attempt = try_patches(choose_apart(comm_, neighbours_, sites_, periods_, contenders));
+  Choice choice = choose_apart(comm_, neighbours_, sites_, periods_, contenders);
+  const auto [incomplete, counts] = count_patches(choice);
+  if (incomplete)
+    return Outcome::neighbours_missing;
+  if (counts.patches == 0)
+    return Outcome::nothing_left;
+  Attempt attempt = try_patches(std::move(choice), counts);
   const CleanupLimits::Gains gains = CleanupLimits::gains_of(attempt.results);
-  std::array<std::int64_t, 5> sums{std::ssize(attempt.results), !attempt.choice.is_whole, attempt.error.has_value(),
-                                   gains.added, gains.taken};
+  std::array<std::int64_t, 3> sums{attempt.error.has_value(), gains.added, gains.taken};
   comm_.sum(sums);
-  const auto [patches, incomplete, failing, added, taken] = sums;
+  const auto [failing, added, taken] = sums;
   if (failing > 0)
     comm::agree(comm_, attempt.error);
-  if (incomplete > 0)
-    return Outcome::neighbours_missing;
-  if (patches == 0)
-    return Outcome::nothing_left;
   limits_.count(comm_, {added, taken}, attempt.choice.own, attempt.results);
   count(attempt);
   take(exchange_news(attempt));
@@ -110,8 +111,17 @@ CleanupRounds::Outcome CleanupRounds::round(std::span<const Contender> contender
   return Outcome::done;
 }
 
-/// What is read around each place, tried by its owner.
-CleanupRounds::Attempt CleanupRounds::try_patches(Choice choice) {
+/// Over all ranks: whether some choice is not whole, and how many patches there are.
+std::pair<bool, PatchCounts> CleanupRounds::count_patches(const Choice& choice) const {
+  const std::int64_t patches = std::ssize(choice.own), threads = thread_count();
+  std::array<std::int64_t, 3> sums{!choice.is_whole, patches, threads};
+  std::array<double, 1> largest{static_cast<double>((patches + threads - 1) / threads)};
+  comm_.sum_and_max(sums, largest);
+  return {sums[0] > 0, {sums[1], sums[2], std::llround(largest[0])}};
+}
+
+/// What is read around each place, tried by its owner or by another rank.
+CleanupRounds::Attempt CleanupRounds::try_patches(Choice choice, const PatchCounts& counts) {
   const auto discs_of = [](std::span<const ChosenContender> list) {
     std::vector<PatchDisc> discs;
     for (const auto& [contender, rank, number] : list)
@@ -120,33 +130,40 @@ CleanupRounds::Attempt CleanupRounds::try_patches(Choice choice) {
   };
   const std::vector<PatchDisc> discs = discs_of(choice.own);
   std::vector<Surroundings> around = sites_.around(discs, discs_of(choice.near), choice.partners, Rules::most_in_patch);
-  Attempt attempt{std::move(choice), std::vector<PatchResult>(discs.size()), {}, {}};
-  for (std::size_t k = 0; k < discs.size(); ++k)
+  Attempt attempt{std::move(choice), {}, {}, {}};
+  std::vector<PatchTask> tasks;
+  for (std::size_t k = 0; k < discs.size(); ++k) {
     if (around[k].is_crowded()) {
       const double radius = Surroundings::radius(discs[k].disc.radius, Rules::most_narrowings);
       attempt.crowds.push_back({discs[k].disc.center, Rules::given_up_share * radius});
     }
+    tasks.push_back({attempt.choice.own[k].contender, std::move(around[k])});
+  }
   const PatchBudget budget = limits_.budget(stage_, again_alpha_);
-  attempt.error = comm::error_of([&] {
-    thread_loop(std::ssize(discs), 1, [&](std::ptrdiff_t item, int thread) {
-      const auto k = static_cast<std::size_t>(item);
-      if (!around[k].is_crowded())
-        improve(attempt.choice.own[k], around[k], budget, thread, attempt.results[k]);
+  attempt.results = try_shared(comm_, counts, std::move(tasks), [&](std::span<PatchTask> list) {
+    comm_.counters().add(Counter::patches, std::ssize(list));
+    std::vector<PatchResult> results(list.size());
+    attempt.error = comm::error_of([&] {
+      thread_loop(std::ssize(list), 1, [&](std::ptrdiff_t item, int thread) {
+        const auto k = static_cast<std::size_t>(item);
+        if (!list[k].around.is_crowded())
+          improve(list[k], budget, thread, results[k]);
+      });
     });
+    return results;
   });
   return attempt;
 }
 
 /// In later stages all may be tried once more.
-void CleanupRounds::improve(const ChosenContender& chosen, Surroundings& around, const PatchBudget& budget, int thread,
-                            PatchResult& result) {
+void CleanupRounds::improve(PatchTask& task, const PatchBudget& budget, int thread, PatchResult& result) {
+  auto& [contender, around] = task;
   std::sort(around.sites.begin(), around.sites.end(), [](const PatchSite& a, const PatchSite& b) {
     return geometry::lexicographically_less(a.position, b.position);
   });
   if (stage_ > 1)
     for (PatchSite& site : around.sites)
       site.rests = 0;
-  const Contender& contender = chosen.contender;
   const double size = Surroundings::radius(share_read * contender.separation, around.narrowings) / Rules::reach;
   result =
       optimizers_[thread]->improve(contender.place, size, around.sites, budget, hash_of(contender.place, 1 + round_));
@@ -173,7 +190,6 @@ void CleanupRounds::make_canonical(PatchResult& result) const {
 /// What the own patches have come to, and their edits on the boundary.
 void CleanupRounds::count(const Attempt& attempt) {
   comm_.counters().add(Counter::cleanup_rounds);
-  comm_.counters().add(Counter::patches, std::ssize(attempt.results));
   counts_.patches += std::ssize(attempt.results);
   for (const PatchResult& result : attempt.results) {
     counts_.better += !result.edits.empty();

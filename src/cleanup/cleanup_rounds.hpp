@@ -8,6 +8,7 @@
 #include "cleanup/cleanup_limits.hpp"
 #include "cleanup/cleanup_sites.hpp"
 #include "cleanup/patch_optimizer.hpp"
+#include "cleanup/patch_sharing.hpp"
 #include "comm/neighbours.hpp"
 #include "core/thread_loop.hpp"
 #include "trime/core/error.hpp"
@@ -16,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace trime::cleanup {
@@ -23,9 +25,10 @@ namespace trime::cleanup {
 /// @brief Chooses patches, has them tried, and tells all owners of sites what came of it. The state stays as it is
 /// until finish. All calls are collective.
 ///
-/// In a round ranks talk to their neighbours, of whom those with patches near each other's tiles exchange more; one
-/// reduction tells all of them how many sites have come and whether any rank has met an error. An error waits for it:
-/// until then its rank takes part in all messages.
+/// In a round ranks talk to their neighbours, of whom those with patches near each other's tiles exchange more. One
+/// reduction tells all of them how many patches there are; where some ranks have more than their share, these are dealt
+/// out. Another one tells how many sites have come and whether any rank has met an error. An error waits for it: until
+/// then its rank takes part in all messages.
 class CleanupRounds {
 public:
   /// @brief References must outlive the object.
@@ -61,9 +64,9 @@ private:
   std::vector<Contender> list_contenders();
   void meet_neighbours(std::span<const Contender> contenders);
   Outcome round(std::span<const Contender> contenders);
-  Attempt try_patches(Choice choice);
-  void improve(const ChosenContender& chosen, Surroundings& around, const PatchBudget& budget, int thread,
-               PatchResult& result);
+  std::pair<bool, PatchCounts> count_patches(const Choice& choice) const;
+  Attempt try_patches(Choice choice, const PatchCounts& counts);
+  void improve(PatchTask& task, const PatchBudget& budget, int thread, PatchResult& result);
   void make_canonical(PatchResult& result) const;
   void count(const Attempt& attempt);
   std::map<int, News> list_news(const Attempt& attempt) const;
