@@ -4,6 +4,7 @@
 
 #include "cleanup/cleanup_choice.hpp"
 #include "cleanup/cleanup_sites.hpp"
+#include "cleanup/rules.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -23,8 +24,8 @@ struct PatchCounts {
   std::int64_t patches = 0; ///< of all ranks
   std::int64_t threads = 1; ///< of all ranks
   std::int64_t turns = 0;   ///< most patches of a rank over its threads, rounded up
-  /// Whether the slowest rank would have less to do if all had about equally many.
-  bool is_uneven() const { return turns > (patches + threads - 1) / threads; }
+  /// Whether the slowest rank would be spared CleanupRules::least_spared patches if all had about equally many.
+  bool is_uneven() const { return turns >= (patches + threads - 1) / threads + CleanupRules::least_spared; }
 };
 
 /// Tries patches of this rank and of others. Must not throw or communicate. @return a result for each

@@ -70,8 +70,8 @@ TEST(PatchSharing, PatchesOfOneRankAreTriedByAll) {
 
 TEST(PatchSharing, UnevenPatchesOfAllRanksAreTriedByAll) {
   const auto world = comm::Communicator::world();
-  const int ranks = world.size(), all = ranks * (ranks - 1); // 0, 2, 4, ...
-  EXPECT_LE(share(world, 2 * world.rank()), (all + ranks - 1) / ranks);
+  const int ranks = world.size(), all = 2 * ranks * (ranks - 1); // 0, 4, 8, ...
+  EXPECT_LE(share(world, 4 * world.rank()), (all + ranks - 1) / ranks);
 }
 
 TEST(PatchSharing, EvenPatchesStayWhereTheyAre) {
@@ -83,7 +83,8 @@ TEST(PatchSharing, EvenPatchesStayWhereTheyAre) {
 TEST(PatchSharing, ThreadsCountAsPlacesForPatches) {
   EXPECT_FALSE((PatchCounts{.patches = 4, .threads = 8, .turns = 1}).is_uneven());
   EXPECT_FALSE((PatchCounts{.patches = 9, .threads = 8, .turns = 2}).is_uneven());
-  EXPECT_TRUE((PatchCounts{.patches = 8, .threads = 8, .turns = 2}).is_uneven());
+  EXPECT_FALSE((PatchCounts{.patches = 8, .threads = 8, .turns = 2}).is_uneven());
+  EXPECT_TRUE((PatchCounts{.patches = 8, .threads = 8, .turns = 3}).is_uneven());
 }
 
 } // namespace
