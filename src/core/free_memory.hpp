@@ -9,8 +9,8 @@ namespace trime {
 /// What a run needs at its peak, over all ranks, beside the libraries, the shape and the size field. It is a little
 /// more than is measured: 130 on the square, 140 where the size varies.
 inline constexpr double bytes_per_point = 150;
-/// The same on each rank, for every point of the whole mesh: where all tiles are. Measured with 10^6 points: 0.07 on the
-/// disc, 0.15 where the size varies.
+/// The same on each rank, for every point of the whole mesh: where all tiles are. Measured with 10^6 points: 0.07 on
+/// the disc, 0.15 where the size varies.
 inline constexpr double bytes_per_point_on_each_rank = 0.15;
 /// The program with its libraries.
 inline constexpr double bytes_per_process = 32 * 0x1p20;

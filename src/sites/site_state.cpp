@@ -22,8 +22,8 @@ void check_counts(const std::vector<std::int64_t>& weights, const decomposition:
     const std::int64_t sites = std::accumulate(weights.begin() + partition.first_tile(rank),
                                                weights.begin() + partition.last_tile(rank), std::int64_t{0});
     if (sites > SiteRules::most_owned)
-      throw ConfigError(
-          fmt::format("rank {} would own {} points, at most {} are possible; start more ranks", rank, sites, SiteRules::most_owned));
+      throw ConfigError(fmt::format("rank {} would own {} points, at most {} are possible; start more ranks", rank,
+                                    sites, SiteRules::most_owned));
   }
 }
 

@@ -40,7 +40,7 @@ def mesh_hash(file):
     triangle = mix(np.uint64(2) * np.arange(len(ids), dtype=np.uint64) + np.uint64(1))
     for k in range(3):
         triangle = mix(triangle ^ ids[:, k])
-    return np.uint64(point.sum(dtype=np.uint64) + triangle.sum(dtype=np.uint64))
+    return np.concatenate([point, triangle]).sum(dtype=np.uint64)
 
 
 def seal(file):

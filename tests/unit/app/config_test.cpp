@@ -236,9 +236,8 @@ TEST(Config, RefusesByNameWhatThisVersionCannotDo) {
 
 TEST(Config, TheHelpSaysWhichValuesThisVersionRefuses) {
   const std::string help = help_config();
-  for (const char* values :
-       {"| `[checkpoint] interval` | 0; others are refused by this version (0) |",
-        "| `[checkpoint] keep` | 2; others are refused by this version (2) |"})
+  for (const char* values : {"| `[checkpoint] interval` | 0; others are refused by this version (0) |",
+                             "| `[checkpoint] keep` | 2; others are refused by this version (2) |"})
     EXPECT_NE(help.find(values), std::string::npos) << values;
 }
 

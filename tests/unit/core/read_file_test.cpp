@@ -56,7 +56,8 @@ TEST(ReadFile, SaysHowLargeAFileIsThatIsTooLarge) {
     read_file(path, "", 999);
     ADD_FAILURE();
   } catch (const FileError& error) {
-    EXPECT_NE(std::string(error.what()).find("large has 1000 bytes or more; at most 999"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("large has 1000 bytes or more; at most 999"), std::string::npos)
+        << error.what();
   }
 }
 
