@@ -6,6 +6,7 @@
 #include "comm/departure.hpp"
 #include "core/free_memory.hpp"
 #include "trime/core/log.hpp"
+#include "trime/io/mesh_file.hpp"
 #include "trime/io/run_files.hpp"
 
 #include <unistd.h>
@@ -102,6 +103,8 @@ int main(int argc, char** argv) {
   handle_signals(comm.is_root());
   const trime::comm::Communicator leaving = trime::comm::Communicator::world();
   const ExitCode code = run(argc, argv, comm, leaving);
+  if (code != ExitCode::done && comm.max(std::int64_t{trime::io::hdf5_cannot_end()}) > 0)
+    trime::comm::abort_job(static_cast<int>(code));
   tells = 0; // all has been said; mpirun may end ranks that are slow to leave by a signal
   return static_cast<int>(code);
 }

@@ -2,9 +2,12 @@
 #include "io/hdf5_handle.hpp"
 
 #include "trime/core/error.hpp"
+#include "trime/io/mesh_file.hpp"
 
 namespace trime::io {
 namespace {
+
+bool file_stays_open = false; // HDF5 has its own globals, and this is about them
 
 herr_t keep_innermost(unsigned, const H5E_error2_t* entry, void* text) {
   if (entry->desc)
@@ -25,6 +28,16 @@ std::string hdf5_error_text() {
     return text.substr(from, text.find('\'', from) - from);
   }
   return text.empty() ? "HDF5 gives no reason" : text;
+}
+
+herr_t close_file(hid_t file) noexcept {
+  const herr_t status = H5Fclose(file);
+  file_stays_open = file_stays_open || status < 0;
+  return status;
+}
+
+bool hdf5_cannot_end() {
+  return file_stays_open;
 }
 
 void silence_hdf5() {

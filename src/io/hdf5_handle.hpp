@@ -49,7 +49,10 @@ private:
   hid_t id_ = -1;
 };
 
-using Hdf5File = Hdf5Handle<H5Fclose>;
+/// As H5Fclose, and remembers a failure for `hdf5_cannot_end`.
+herr_t close_file(hid_t file) noexcept;
+
+using Hdf5File = Hdf5Handle<close_file>;
 using Hdf5Group = Hdf5Handle<H5Gclose>;
 using Hdf5Dataset = Hdf5Handle<H5Dclose>;
 using Hdf5Space = Hdf5Handle<H5Sclose>;

@@ -128,11 +128,12 @@ class Interrupted(unittest.TestCase):
 
     def test_a_file_that_grows_beyond_its_limit_is_an_error(self):
         """SIGXFSZ would end the program, and leave a part of the file."""
+        limit = 40_000_000  # bytes: more than MPI's own files need, less than those of the mesh
         with Workspace() as directory:
-            arguments = [CONFIG, "meshing.points=3000", f"output.directory={directory}", "output.name=mesh"]
+            arguments = [CONFIG, "meshing.points=500000", f"output.directory={directory}", "output.name=mesh"]
             done = subprocess.run(command(arguments, 1), env=environment(1), capture_output=True, text=True, check=False,
                                   timeout=PATIENCE, preexec_fn=lambda: resource.setrlimit(
-                                      resource.RLIMIT_FSIZE, (100_000, 100_000)))
+                                      resource.RLIMIT_FSIZE, (limit, limit)))
             self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
             self.assertIn("File too large", done.stderr)
             self.assertEqual(list(directory.iterdir()), [])

@@ -59,4 +59,8 @@ WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedM
 /// Version of the HDF5 library, e.g. "1.10.8".
 std::string hdf5_version();
 
+/// @brief Whether HDF5 could not close a file on this rank, say one beyond a limit of the system. HDF5 tries again in
+/// MPI_Finalize and crashes there (1.10.8), so such a program must end by `comm::abort_job`.
+bool hdf5_cannot_end();
+
 } // namespace trime::io
