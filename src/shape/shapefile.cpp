@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
 namespace trime::shape {
 namespace {
@@ -127,7 +128,9 @@ private:
 } // namespace
 
 Contour read_shapefile(const std::string& path, const std::string& hint) {
-  read_file(path, hint); // the reason of the system if it cannot be opened
+  const std::string bytes = read_file(path, hint);             // the reason of the system if it cannot be opened
+  if (!bytes.starts_with(std::string_view("\0\0\x27\x0a", 4))) // libshp reads anything as an empty shapefile
+    throw FileError(fmt::format("{} is no shapefile: expected the file code 9994 in its first 4 bytes", path));
   Contour contour = ShapefileReader(path).read();
   if (const std::string prj = beside(path, ".prj", ".PRJ"); std::filesystem::exists(prj))
     contour.crs = std::string(trimmed(read_file(prj)));
