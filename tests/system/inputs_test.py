@@ -268,17 +268,15 @@ class Maps(unittest.TestCase):
             with h5py.File(work / "case.h5") as file:
                 self.assertTrue(file["trime_mpi"].attrs["crs"].startswith(b"+proj=stere"))
                 self.assertIn("Stereographic", file["trime_mpi/crs_wkt"][()].decode())
-                points, fixed = file["Mesh/mesh/geometry"][:], file["Mesh/PointData/fixed"][:]
+                points = file["Mesh/mesh/geometry"][:]
             self.assertLess(numpy.abs(points).max(), 1e5)  # metres from the middle
             triangles, edges = self.places(work / "case.geojson")
             vertices = numpy.concatenate([ring[:-1] for ring in rings])
-            kept = 0
             corners = numpy.unique(edges.reshape(-1, 2), axis=0)
-            for place in corners:
-                nearest = numpy.abs(vertices - place).max(axis=1).min()
-                kept += nearest < 1e-9
-            self.assertGreater(kept, 0.9 * fixed.sum())
-            self.assertGreater(kept, 20)
+            nearest = numpy.array([numpy.abs(vertices - place).max(axis=1).min() for place in corners])
+            kept = nearest[nearest < 1e-6]  # others were moved, by metres at least, where the coast was simplified
+            self.assertGreater(len(kept), 20)
+            self.assertLess(kept.max(), 1e-9)
             self.assertGreater(len(triangles), 8000)
             written = (work / "case.geojson").read_bytes()
             for ranks in (1, 2):
