@@ -37,7 +37,8 @@ std::string beside(const std::string& path, const char* ending, const char* uppe
   return std::filesystem::exists(stem + ending) ? stem + ending : stem + upper_ending;
 }
 
-File open(const std::string& path) {
+/// @param bytes of the file
+File open(const std::string& path, std::string_view bytes) {
   SAHooks hooks;
   SASetupDefaultHooks(&hooks);
   hooks.Error = [](const char* message) { said() += (said().empty() ? "" : "; ") + std::string(message); };
@@ -46,6 +47,8 @@ File open(const std::string& path) {
     throw FileError(fmt::format("cannot open {}: a shapefile is at least NAME.shp and NAME.shx, expected both in one "
                                 "directory; copy all files of the set, or make it anew by ogr2ogr",
                                 beside(path, ".shx", ".shx")));
+  if (!bytes.starts_with(std::string_view("\0\0\x27\x0a", 4))) // libshp reads anything as an empty shapefile
+    throw FileError(fmt::format("{} is no shapefile: expected the file code 9994 in its first 4 bytes", path));
   File file(SHPOpenLL(path.c_str(), "rb", &hooks));
   if (!file)
     throw FileError(fmt::format("{} is no shapefile, or damaged: expected one that libshp opens, found: {}", path,
@@ -59,7 +62,9 @@ std::string type_name(int type) {
 
 class ShapefileReader {
 public:
-  explicit ShapefileReader(const std::string& path) : path_(path), file_(open(path)) { contour_.source = path; }
+  ShapefileReader(const std::string& path, std::string_view bytes) : path_(path), file_(open(path, bytes)) {
+    contour_.source = path;
+  }
 
   Contour read() {
     int records = 0, type = 0;
@@ -128,10 +133,8 @@ private:
 } // namespace
 
 Contour read_shapefile(const std::string& path, const std::string& hint) {
-  const std::string bytes = read_file(path, hint);             // the reason of the system if it cannot be opened
-  if (!bytes.starts_with(std::string_view("\0\0\x27\x0a", 4))) // libshp reads anything as an empty shapefile
-    throw FileError(fmt::format("{} is no shapefile: expected the file code 9994 in its first 4 bytes", path));
-  Contour contour = ShapefileReader(path).read();
+  const std::string bytes = read_file(path, hint); // the reason of the system if it cannot be opened
+  Contour contour = ShapefileReader(path, bytes).read();
   if (const std::string prj = beside(path, ".prj", ".PRJ"); std::filesystem::exists(prj))
     contour.crs = std::string(trimmed(read_file(prj)));
   return contour;

