@@ -18,9 +18,9 @@
 
 namespace {
 
-constexpr std::size_t large = std::size_t{256} << 10; // 64 small pages
-
-[[maybe_unused]] constinit trime::app::PagePool pool; // sanitizers have no use for it, see below
+// Sanitizers have no use for these, see below.
+[[maybe_unused]] constexpr std::size_t large = std::size_t{256} << 10; // 64 small pages
+[[maybe_unused]] constinit trime::app::PagePool pool;
 
 } // namespace
 

@@ -215,10 +215,12 @@ void check_stored_checks(const StoredFile& file, const Mesh& mesh, const Counted
     wrong.note([&] { return fmt::format("`complete` is {}, expected {}", complete, must_be); });
   if (matched + 1 < here.size()) // files of older versions have no written_points
     wrong.note([&] { return fmt::format("{} of {} known checks are missing", here.size() - matched, here.size()); });
-  for (const auto& [name, value] :
-       {std::pair{"points", static_cast<double>(mesh.points.size())}, std::pair{"triangles", triangles}})
+  const auto compare_count = [&](const char* name, double value) {
     if (file.number("/trime_mpi", name) != value)
       wrong.note([&] { return fmt::format("`{}` is not {}", name, value); });
+  };
+  compare_count("points", static_cast<double>(mesh.points.size()));
+  compare_count("triangles", triangles);
   report.none("stored_checks", wrong, "lines of /trime_mpi/checks and counts that are not what is found here");
 }
 
