@@ -12,8 +12,8 @@ namespace trime::app {
 
 /// @brief Blocks of one reserved range of addresses. A freed block keeps its pages for the next one, as long as blocks
 /// in use and kept pages together are no more than were ever in use at one time: so it never raises the peak of memory.
-/// Asks the system for huge pages. O(blocks) a call, so not for small
-/// things. The addresses are never given back. Thread-safe.
+/// Asks the system for huge pages. O(blocks) a call, so not for small things. The addresses are never given back.
+/// Thread-safe.
 class PagePool {
 public:
   constexpr PagePool() = default;
