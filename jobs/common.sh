@@ -42,10 +42,10 @@ job_config() {
     "Give its path as the first argument."
 }
 
-# job_run CONFIG [section.key=value ...]: starts the program on all ranks of the job; returns its exit code.
+# job_command CONFIG [section.key=value ...]: sets command_line, which starts the program on all ranks of the job.
 # TRIME_LAUNCHER: mpirun (default), the mpiexec of another MPI, or srun, with options, e.g. "srun --mpi=pmix".
 # TRIME_CONTAINER: what to put before the program, e.g. "apptainer exec trime_mpi.sif".
-job_run() {
+job_command() {
   local launch=() container=() kind
   read -ra launch <<<"${TRIME_LAUNCHER:-mpirun}"
   read -ra container <<<"${TRIME_CONTAINER:-}"
@@ -61,7 +61,32 @@ job_run() {
     *HYDRA*) launch+=(-n "$SLURM_NTASKS" -bind-to "core:$threads") ;; # of MPICH
     *) launch+=(-n "$SLURM_NTASKS") ;; # another one: its options, if any, stand in TRIME_LAUNCHER
   esac
-  "${launch[@]}" ${container[@]+"${container[@]}"} "$program" "$@"
+  command_line=("${launch[@]}" ${container[@]+"${container[@]}"} "$program" "$@")
+}
+
+# job_run CONFIG [section.key=value ...]: runs that; returns its exit code.
+job_run() {
+  job_command "$@"
+  "${command_line[@]}"
+}
+
+# job_restartable CONFIG [section.key=value ...]: runs that from the newest checkpoint, if there is one. The signal USR1
+# to this script stops the program at a checkpoint, and the job is queued again. Returns the exit code of the program.
+job_restartable() {
+  local code=138 pid
+  job_command "$@" --restart auto
+  "${command_line[@]}" &
+  pid=$!
+  trap 'kill -USR1 "$pid" 2>/dev/null || true' USR1
+  if [ -n "${asked_early:-}" ]; then # the launcher must be up before it can hand the signal on
+    (sleep 5; kill -USR1 "$pid") &
+  fi
+  while [ "$code" -eq 138 ]; do # USR1 ends `wait`, not the program
+    code=0
+    wait "$pid" || code=$?
+  done
+  [ "$code" -ne 75 ] || scontrol requeue "$SLURM_JOB_ID"
+  return "$code"
 }
 
 # job_hello WHAT: the first lines of the log, so that a result can be traced.

@@ -32,9 +32,10 @@ ARROWS = {
     "certificate": ["sites"],
     "meshing": ["start", "sweep", "cleanup", "extraction", "certificate", "shape"],
     "io": ["mesh", "comm"],
+    "checkpoint": ["meshing", "io"],
     "formats": ["io", "projection"],
     "handover": ["mesh", "comm"],
-    "app": ["meshing", "formats"],
+    "app": ["checkpoint", "formats"],
 }
 # Foreign headers that only some modules may see, as (pattern, name, modules).
 VERIFIER = "check"  # a program of its own, which shares no code with the modules

@@ -23,7 +23,8 @@ import numpy
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 GRADED, UNIFORM = "type = automatic\ngradation = 0.1", "type = uniform"
-SHAPES = {"disc, uniform": ("circle.ini", UNIFORM), "spade, graded": ("spade.ini", GRADED)}  # config, its size
+SHAPES = {"disc, uniform": ("circle.ini", UNIFORM), "spade, graded": ("spade.ini", GRADED),
+          "coast, graded": ("coast.ini", GRADED)}  # config, its size; the coast keeps its own
 
 
 def made_mesh(program, shape, points, folder):

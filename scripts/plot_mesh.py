@@ -59,7 +59,7 @@ def main():
     picture = options.output or options.mesh.with_suffix(".png")
     what = options.what or ("size" if options.size else "quality")
     try:
-        mesh = read(options.mesh)
+        mesh = read(options.mesh, in_place=True)
         plot(mesh, what, picture, options.dpi)
     except (TrimeError, ValueError, OSError) as error:
         sys.exit(f"plot_mesh.py: {error}")

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -14,7 +15,7 @@ namespace {
 struct Flags {
   bool help_config = false, version = false, validate = false, dry_run = false, print_config = false, quiet = false,
        overwrite = false;
-  std::optional<std::string> threads, level, restart, time_limit;
+  std::optional<std::string> threads, level, time_limit;
 };
 
 void declare(CLI::App& app, CommandLine& line, Flags& flags) {
@@ -35,10 +36,14 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
   app.add_option("--threads", flags.threads, "threads per rank: parallel.setup_threads and mesh_threads");
   app.add_option("--log-level", flags.level, "debug, info, warning, error, silent: log.level");
   app.add_flag("--quiet", flags.quiet, "print only warnings and errors");
-  for (auto* option : {app.add_option("--restart", flags.restart), app.add_option("--time-limit", flags.time_limit)})
-    option->group(""); // known, to be refused with a word, but not in the help
+  app.add_option("--restart", line.restart,
+                 "go on from a checkpoint: its file, or `auto` for the newest of this config, if there is one");
+  app.add_option("--time-limit", flags.time_limit,
+                 "HH:MM:SS: stop at a checkpoint before the run has taken so long, with exit code 75");
   app.footer("Exit codes: 0 done, 1 internal error, 2 usage or config (also fewer points than the boundary takes),\n"
-             "3 geometry, 4 file, 5 mesh written but marked (sweep cap, or a check failed), 6 out of memory.\n"
+             "3 geometry, 4 file, 5 mesh written but marked (sweep cap, or a check failed), 6 out of memory,\n"
+             "75 stopped at a checkpoint: run again with --restart auto.\n"
+             "Signals: USR1 writes a checkpoint and stops, USR2 writes one and goes on.\n"
              "A run ended by signal n leaves with 128 + n (130: Ctrl-C, 143: SIGTERM; mpirun makes 1 of it) and\n"
              "says whether the final mesh is there.");
 }
@@ -71,11 +76,21 @@ void take_files(CommandLine& line, const Flags& flags) {
                                   converts ? "convert IN.h5 OUT.ENDING [--overwrite]" : "info FILE.h5"));
 }
 
+/// Of HH:MM:SS. @throws ConfigError
+double seconds_of(const std::string& text) {
+  int hours = 0, minutes = 0, seconds = 0, used = 0;
+  const int found = std::sscanf(text.c_str(), "%4d:%2d:%2d%n", &hours, &minutes, &seconds, &used);
+  if (found != 3 || static_cast<std::size_t>(used) != text.size() || hours < 0 || minutes < 0 || minutes > 59 ||
+      seconds < 0 || seconds > 59 || hours + minutes + seconds == 0)
+    throw ConfigError(fmt::format("'--time-limit {}': expected hours, minutes and seconds as HH:MM:SS, more than 0; "
+                                  "say 00:55:00",
+                                  text));
+  return 3600.0 * hours + 60 * minutes + seconds;
+}
+
 void refuse_what_is_missing(const CommandLine& line, const Flags& flags) {
-  if (flags.restart)
-    throw ConfigError("'--restart' is not supported yet; run the config from the start");
-  if (flags.time_limit)
-    throw ConfigError("'--time-limit' is not supported yet; limit meshing.max_sweeps instead");
+  if ((!line.restart.empty() || flags.time_limit) && line.action != Action::mesh)
+    throw ConfigError("'--restart' and '--time-limit' are for runs that make a mesh; leave them out here");
   const bool needs_config =
       line.action != Action::version && line.action != Action::help_config && line.action != Action::help;
   if (needs_config && line.config.empty())
@@ -110,6 +125,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     throw ConfigError(fmt::format("command line: {}; see --help", error.what()));
   }
   take_files(line, flags);
+  if (flags.time_limit)
+    line.time_limit = seconds_of(*flags.time_limit);
   refuse_what_is_missing(line, flags);
   if (flags.threads)
     for (const char* key : {"parallel.setup_threads=", "parallel.mesh_threads="})

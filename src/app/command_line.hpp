@@ -17,6 +17,8 @@ struct CommandLine {
   std::vector<std::string> files;     ///< of convert and info
   bool overwrite = false;             ///< convert: the file may be there
   std::string report;                 ///< where the numbers of the run go as JSON; empty: nowhere
+  std::string restart;                ///< a checkpoint to go on from, or `auto`; empty: from the start
+  double time_limit = 0;              ///< seconds; 0: none
   std::string help;                   ///< text of --help
   std::string as_given;               ///< the whole line, for the records
 };

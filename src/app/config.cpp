@@ -86,6 +86,8 @@ PartOptions part_of(const Settings& settings, const std::string& name, const fs:
   } else if (part.type == "contour") {
     part.file_is_relative = fs::path(settings.text(section, "file")).is_relative();
     part.file = (directory / settings.text(section, "file")).lexically_normal().string(); // absolute paths stay
+    if (const std::string attribute = settings.text(section, "attribute"); attribute != "none")
+      part.attribute = attribute;
     part.normalize = settings.boolean(section, "normalize");
   } else if (part.type == "expression") {
     part.sdf = settings.text(section, "sdf");
@@ -222,7 +224,8 @@ void read_meshing(const Settings& settings, meshing::MeshOptions& mesh, Diagnost
   mesh.max_sweeps = static_cast<int>(settings.integer("meshing", "max_sweeps"));
   mesh.cleanup = settings.boolean("meshing", "cleanup");
   // No keys: tools for those who change the sweeps.
-  mesh.star_tests = {std::getenv("TRIME_VERIFY_STARS") != nullptr, std::getenv("TRIME_STARS_BY_EMPTINESS") != nullptr};
+  mesh.star_tests = {std::getenv("TRIME_VERIFY_STARS") != nullptr, std::getenv("TRIME_STARS_BY_EMPTINESS") != nullptr,
+                     std::getenv("TRIME_SLEEPLESS") != nullptr};
   mesh.worst_alpha = settings.number("meshing", "worst_alpha");
   mesh.stop_tolerance = settings.optional_number("meshing", "stop_tolerance");
 }
@@ -289,6 +292,13 @@ void read_output(const Settings& settings, RunOptions& options, Diagnostics& pro
                              file.name));
 }
 
+void read_checkpoint(const Settings& settings, CheckpointOptions& options) {
+  options.interval = settings.number("checkpoint", "interval");
+  options.keep = static_cast<int>(settings.integer("checkpoint", "keep"));
+  if (const std::string file = settings.text("checkpoint", "stop_file"); file != "none")
+    options.stop_file = file;
+}
+
 void read_log(const Settings& settings, RunOptions& options) {
   constexpr std::pair<const char*, LogLevel> levels[] = {{"debug", LogLevel::debug},
                                                          {"info", LogLevel::info},
@@ -328,6 +338,7 @@ RunOptions parse_config(std::string_view text, const std::string& path, const st
   read_fixed_points(settings, fs::path(path).parent_path(), options, problems);
   read_parallel(settings, options);
   read_output(settings, options, problems);
+  read_checkpoint(settings, options.checkpoint);
   read_log(settings, options);
   problems.throw_if_any();
   options.resolved = settings.resolved(fs::path(path).parent_path().string());

@@ -2,6 +2,7 @@
 // trime_mpi: starts and ends MPI, and turns errors into messages and exit codes. The only try of the program.
 #include "app/large_arrays.hpp"
 #include "app/program.hpp"
+#include "app/signal_requests.hpp"
 #include "app/user_places.hpp"
 #include "comm/departure.hpp"
 #include "core/free_memory.hpp"
@@ -22,8 +23,9 @@ namespace {
 
 using trime::ExitCode;
 
-trime::io::RunFiles* run_files = nullptr; ///< of main, set before the first handler: a handler has no arguments
-volatile std::sig_atomic_t tells = 0;     ///< 1 on the rank whose handler says a word: rank 0, until its last one
+trime::io::RunFiles* run_files = nullptr;       ///< of main, set before the first handler: a handler has no arguments
+trime::app::SignalRequests* requests = nullptr; ///< likewise
+volatile std::sig_atomic_t tells = 0;           ///< 1 on the rank whose handler says a word: rank 0, until its last one
 
 /// Leaves no temporary file, then ends as the signal would have ended the program. Only calls that a handler may make.
 void end_by_signal(int number) {
@@ -41,12 +43,53 @@ void end_by_signal(int number) {
   std::raise(number);
 }
 
+/// Where checkpoints are written, the run stops at the next one; a second signal ends it at once.
+void end_in_order(int number) {
+  if (requests->stops_in_order() && !requests->asks_to_stop())
+    requests->ask_to_stop();
+  else
+    end_by_signal(number);
+}
+
+/// Ends this process with the exit code of a checkpoint that was written before. The launcher ends the others.
+[[noreturn]] void leave_at_checkpoint() {
+  run_files->remove_temporary();
+  constexpr char text[] = "trime_mpi: stopped; the last checkpoint is from before the clean-up\n";
+  if (tells != 0 && write(STDERR_FILENO, text, sizeof text - 1) < 0)
+    tells = 0;
+  _exit(static_cast<int>(ExitCode::checkpointed));
+}
+
+/// In the clean-up and after it nothing is written any more.
+void stop_at_checkpoint(int) {
+  if (!requests->writes_no_more()) {
+    requests->ask_to_stop();
+    return;
+  }
+  if (requests->last_stands() && !run_files->final_mesh_written())
+    leave_at_checkpoint();
+  constexpr char text[] = "trime_mpi: no checkpoint is written so late; the run goes on to its end\n";
+  if (tells != 0 && write(STDERR_FILENO, text, sizeof text - 1) < 0)
+    tells = 0;
+}
+
+void write_checkpoint(int) {
+  requests->ask_to_write();
+}
+
+/// Before MPI starts, which takes a while: without handlers these signals would end the program.
+void listen_to_requests() {
+  std::signal(SIGUSR1, stop_at_checkpoint);
+  std::signal(SIGUSR2, write_checkpoint);
+  std::signal(SIGALRM, stop_at_checkpoint);
+}
+
 /// The signals that end a program, but not those that whoever started it told it to ignore (nohup). A file that grows
 /// beyond its limit is no reason to end: the write fails, and that is told.
 void handle_signals(bool tell) {
   tells = tell ? 1 : 0;
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGABRT, SIGXCPU})
-    if (std::signal(number, end_by_signal) == SIG_IGN)
+    if (std::signal(number, number == SIGINT || number == SIGTERM ? end_in_order : end_by_signal) == SIG_IGN)
       std::signal(number, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
 }
@@ -64,6 +107,12 @@ void print_error(const std::string& message) {
   std::fflush(stderr);
 }
 
+/// A run that has stopped in order.
+void print_stop(const std::string& message) {
+  std::fflush(stdout);
+  std::fputs(("trime_mpi: " + message + "\n").c_str(), stderr);
+}
+
 /// An error that this rank has alone: others may wait for it for ever. The whole job ends.
 [[noreturn]] void leave_alone(const std::string& message, ExitCode code) {
   print_error(message);
@@ -77,12 +126,12 @@ ExitCode run(int argc, char** argv, const trime::comm::Communicator& comm, const
   constexpr double patience = 10; // [s] ranks that throw the same error may be that far apart
   trime::app::UserPlaces places;
   try {
-    return trime::app::run_program(argc, argv, comm, run_files, places);
+    return trime::app::run_program(argc, argv, comm, run_files, *requests, places);
   } catch (const trime::Error& error) {
     if (!trime::comm::all_arrive(leaving, patience))
       leave_alone(fmt::format("{} (rank {} alone)", places.explain(error.what()), comm.rank()), error.code());
     if (comm.is_root())
-      print_error(places.explain(error.what()));
+      error.code() == ExitCode::checkpointed ? print_stop(error.what()) : print_error(places.explain(error.what()));
     return error.code();
   } catch (const std::bad_alloc&) {
     leave_alone(trime::out_of_memory_text(), ExitCode::out_of_memory);
@@ -98,6 +147,9 @@ int main(int argc, char** argv) {
   trime::app::prepare_large_arrays();
   trime::io::RunFiles files;
   run_files = &files;
+  trime::app::SignalRequests signals;
+  requests = &signals;
+  listen_to_requests();
   const trime::comm::Environment environment(argc, argv);
   const trime::comm::Communicator comm = trime::comm::Communicator::world();
   handle_signals(comm.is_root());

@@ -27,6 +27,7 @@ struct PartOptions {
   std::array<geometry::Vec2, 3> corners;
   std::string file;              ///< path as the program can open it
   bool file_is_relative = false; ///< the user wrote it relative to the config file
+  std::string attribute;         ///< of the features of a map that names the boundary; empty: none
   bool normalize = false;
   std::string sdf; ///< formula of x and y
 };
@@ -49,6 +50,13 @@ struct FixedPointsFile {
 /// The container where the config gives no sides.
 inline constexpr geometry::Box unit_square{{0, 0}, {1, 1}};
 
+/// Section [checkpoint].
+struct CheckpointOptions {
+  double interval = 0;   ///< seconds; 0: only on a signal
+  int keep = 2;          ///< files in turn
+  std::string stop_file; ///< empty: none
+};
+
 struct RunOptions {
   std::vector<PartOptions> parts;
   std::string region;
@@ -63,6 +71,7 @@ struct RunOptions {
   io::SeriesOptions output;              ///< without the period, which the boundary of the shape knows
   std::vector<formats::Format> exchange; ///< formats of other programs in which the final mesh is written, too
   bool write = true;                     ///< false: nothing is written
+  CheckpointOptions checkpoint;
   LogLevel log_level = LogLevel::info;
   int log_interval = 0;
   std::string resolved;              ///< the whole config with all defaults, as a complete ini

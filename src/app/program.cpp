@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/program.hpp"
 
+#include "app/checkpoint_keeper.hpp"
 #include "app/command_line.hpp"
 #include "app/config.hpp"
 #include "app/exchange.hpp"
@@ -36,6 +37,12 @@ std::string version_text() {
   const BuildInfo build = build_info();
   return fmt::format("trime_mpi {} (commit {}, {})\ncompiler {}\nMPI      {}\nHDF5     {}\n", build.version,
                      build.git_commit, build.build_type, build.compiler, build.mpi_library, build.hdf5_library);
+}
+
+/// In checkpoints, which serve the same program only.
+std::string program_name() {
+  const BuildInfo build = build_info();
+  return fmt::format("trime_mpi {} (commit {})", build.version, build.git_commit);
 }
 
 /// Points that the options ask for.
@@ -110,6 +117,7 @@ struct Job {
   const std::string& config_text;
   const RunOptions& options;
   io::RunFiles* files;
+  SignalRequests& signals;
   UserPlaces& places;
   Log& log;
   TimerTable& timers;
@@ -117,11 +125,15 @@ struct Job {
 
 /// The mesher with what is written while it runs.
 meshing::MeshResult run_mesher(const Job& job, const Provenance& provenance, const sizing::SizeField& size,
-                               const meshing::MeshOptions& options, io::MeshSeries& series) {
+                               const meshing::MeshOptions& options, io::MeshSeries& series, CheckpointKeeper& keeper) {
   meshing::Mesher mesher(job.comm, provenance.boundary, size, options, job.log, job.timers);
   mesher.on_snapshot([&](const meshing::Snapshot& snapshot) { // timed by the mesher
     series.write_step({snapshot.retriangulation, snapshot.mesh, snapshot.quality, describe_step(provenance, snapshot)});
   });
+  const std::optional<meshing::SavedRun> saved = keeper.find(job.line.restart);
+  if (saved)
+    mesher.go_on_from(*saved);
+  mesher.keep_checkpoints(keeper);
   return mesher.run();
 }
 
@@ -137,8 +149,9 @@ io::SeriesOptions series_options(const Job& job, const shape::RegionShape& shape
 /// What the environment asks for must be the same on all ranks, since it decides where they work together; launchers do
 /// not hand it on to all of them. Rank 0 decides. Collective.
 sweep::StarTests of_root(const sweep::StarTests& tests, const comm::Communicator& comm) {
-  const std::string of_root = comm.broadcast(std::string{tests.verify ? '1' : '0', tests.by_emptiness ? '1' : '0'});
-  return {of_root[0] == '1', of_root[1] == '1'};
+  const std::string of_root = comm.broadcast(
+      std::string{tests.verify ? '1' : '0', tests.by_emptiness ? '1' : '0', tests.sleepless ? '1' : '0'});
+  return {of_root[0] == '1', of_root[1] == '1', of_root[2] == '1'};
 }
 
 ExitCode make_mesh(const Job& job) {
@@ -205,7 +218,11 @@ ExitCode make_mesh(const Job& job) {
                               job.places.ring_lines(boundary),
                               input.map,
                               input.shape.part_markers()};
-  const meshing::MeshResult result = run_mesher(job, provenance, *size.field, mesh_options, series);
+  io::MeshFileOptions checkpoint_output = options.output.file;
+  checkpoint_output.run_files = job.files;
+  CheckpointKeeper keeper({comm, checkpoint_output, job.signals, timers, log}, options.checkpoint, job.line.time_limit,
+                          {program_name(), options.resolved});
+  const meshing::MeshResult result = run_mesher(job, provenance, *size.field, mesh_options, series, keeper);
   const SizeSummary sizes = summarize_size(size.description, result.mesh, comm);
   io::WrittenFiles files;
   if (options.write) {
@@ -221,6 +238,7 @@ ExitCode make_mesh(const Job& job) {
   if (!job.line.report.empty())
     io::write_report_file(job.line.report, describe_run(provenance, result, sizes, measured),
                           {static_cast<int>(exit_code(result)), files.paths}, comm);
+  keeper.remove_all();
   log.info("{}", run_report(result, sizes, measured, files, input.normalized));
   if (!is_complete(result))
     log.warning("{}", incompleteness(result, options.write));
@@ -230,7 +248,7 @@ ExitCode make_mesh(const Job& job) {
 } // namespace
 
 ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm, io::RunFiles* files,
-                     UserPlaces& places) {
+                     SignalRequests& signals, UserPlaces& places) {
   TimerTable timers(&comm.counters());
   const CommandLine line = parse_command_line(argc, argv);
   if (line.action == Action::help || line.action == Action::help_config || line.action == Action::version) {
@@ -258,7 +276,7 @@ ExitCode run_program(int argc, const char* const* argv, const comm::Communicator
   log.set_progress_interval(options.log_interval);
   if (line.action == Action::mesh)
     timers.on_section([&log](const std::string& name) { log.phase(name == "measure" ? "sweeps" : name); });
-  return make_mesh({comm, line, config_text, options, files, places, log, timers});
+  return make_mesh({comm, line, config_text, options, files, signals, places, log, timers});
 }
 
 } // namespace trime::app

@@ -11,13 +11,15 @@ class RunFiles;
 
 namespace trime::app {
 
+class SignalRequests;
 class UserPlaces;
 
 /// @brief Runs the program. @note Collective.
 /// @param files is told which files exist, for a signal handler; may be null
+/// @param signals what signals ask for
 /// @param places gets what the caller needs to explain an error that is thrown
 /// @throws Error on all ranks together
 ExitCode run_program(int argc, const char* const* argv, const comm::Communicator& comm, io::RunFiles* files,
-                     UserPlaces& places);
+                     SignalRequests& signals, UserPlaces& places);
 
 } // namespace trime::app

@@ -26,7 +26,7 @@ std::vector<shape::Contour> read_contours(const RunOptions& options, const comm:
       return;
     for (std::size_t k = 0; k < contours.size(); ++k)
       if (const PartOptions& part = options.parts[k]; part.type == "contour")
-        contours[k] = shape::read_contour(part.file, hint_of(part.file_is_relative));
+        contours[k] = shape::read_contour(part.file, hint_of(part.file_is_relative), part.attribute);
     map = project_contours(options, contours, log);
   });
   for (shape::Contour& contour : contours)

@@ -73,10 +73,13 @@ void certify_and_move(benchmark::State& state, const SweepKernels& kernels) {
   Stage stage(state);
   std::vector<LocalIndex> suspects(static_cast<std::size_t>(stage.points.owned())), irregular(suspects.size()),
       guarded(suspects.size());
+  std::vector<std::uint8_t> flags(suspects.size());
+  stage.task.flags = flags.data();
   for (auto _ : state)
     for (LocalIndex tile = 0; tile < stage.grid.tile_count(); ++tile) {
       const auto [begin, end] = stage.points.tile_range(tile);
       sweep::SweepLeftovers leftovers{suspects.data(), irregular.data(), guarded.data()};
+      std::fill(flags.begin() + begin, flags.begin() + end, sweep::SiteFlags::awake);
       benchmark::DoNotOptimize(kernels.sweep(stage.task, begin, end, leftovers));
     }
   per_point(state, static_cast<double>(stage.points.owned()));

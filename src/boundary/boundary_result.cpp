@@ -32,7 +32,7 @@ BoundaryRefiner::ChordRecord BoundaryRefiner::chord_from(LocalIndex k, polygon::
   ChordRecord out;
   result = {canonical, 0, 0, metric.loop().tag, site.kind != SiteKind::plain, end - periods.wrap(end), piece, along};
   out.squared_length = geometry::squared_length(end - canonical);
-  if (tolerance_.share == 0 || metric.on_one_piece(site.t, end_t(site)))
+  if (tolerance_.share == 0 || metric.is_on_one_piece(site.t, end_t(site)))
     return out;
   const double turn = corner_angle_ * (pi / 180);
   if (const PartSummary part = summarize(site); part.sharpest_turn > turn) {

@@ -243,10 +243,16 @@ LocalIndex LoopMetric::corners_between(double t0, double t1, double turn) const 
   return corners;
 }
 
-std::optional<LoopMetric::OnePiece> LoopMetric::on_one_piece(double t0, double t1) const {
+/// -1 if it takes more than one.
+LocalIndex LoopMetric::piece_of_way(double t0, double t1) const {
   const double shift = t0 >= total() ? total() : 0;
   const LocalIndex i = knots_[knot_before(t0 - shift)].piece;
-  if (t0 < shift + piece_t_[i] || t1 > shift + piece_t_[i + 1])
+  return t0 < shift + piece_t_[i] || t1 > shift + piece_t_[i + 1] ? -1 : i;
+}
+
+std::optional<LoopMetric::OnePiece> LoopMetric::on_one_piece(double t0, double t1) const {
+  const LocalIndex i = piece_of_way(t0, t1);
+  if (i < 0)
     return std::nullopt;
   const Piece& piece = loop_.pieces[i];
   const double length = arc_length(t0, t1);

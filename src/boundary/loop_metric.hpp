@@ -64,6 +64,8 @@ public:
   };
   /// The way between 0 <= t0 < t1 <= t0 + total() if one piece holds all of it.
   std::optional<OnePiece> on_one_piece(double t0, double t1) const;
+  /// Does one piece hold all of it? Faster.
+  bool is_on_one_piece(double t0, double t1) const { return piece_of_way(t0, t1) >= 0; }
   /// The curve between t0 < t1 <= t0 + total(), whose ends became the sites a and b.
   PartSummary summarize(double t0, double t1, geometry::Vec2 a, geometry::Vec2 b) const;
 
@@ -92,6 +94,7 @@ private:
   SizePair add_piece(LocalIndex i, SizePair sizes, Walk& walk, std::vector<Knot>& knots) const;
   void join(const std::vector<Run>& runs, SizePair at_start);
   double arc(double t) const;
+  LocalIndex piece_of_way(double t0, double t1) const;
   LocalIndex knot_before(double t) const;
 
   const geometry::Loop& loop_;

@@ -60,7 +60,7 @@ CleanupCounts mend(Stage& stage, const geometry::Boundary& meshed, const geometr
     rounds.run_stage(k);
   const CleanupCounts all = rounds.counts();
   if (all.better > 0)
-    rounds.finish(stage);
+    rounds.finish(stage, builder);
   return all;
 }
 

@@ -15,8 +15,8 @@ struct CleanupOptions {
   double tolerance = 0; ///< in asked sizes: how far chords may pass from corners that they leave out; 0: none may be
 };
 
-/// @brief Mends bad triangles of a stage in rounds of try and keep, until nothing is left to be tried. Stars are to be
-/// computed anew afterwards if any patch became better. Collective. About 0.5 ms a patch.
+/// @brief Mends bad triangles of a stage in rounds of try and keep, until nothing is left to be tried. Afterwards
+/// the stars that it may have changed are not certain, and to be computed. Collective. About 0.5 ms a patch.
 ///
 /// A site is a candidate if it has a bad triangle; the worst one of each cell of a few h is a contender for the middle
 /// of a patch (PatchOptimizer). Of the contenders those act that are the first of their surroundings in the order of a
@@ -26,8 +26,9 @@ struct CleanupOptions {
 /// helped rests until it has moved by some share of h. The number of sites keeps to CleanupLimits.
 ///
 /// Nothing in a round costs more than what it touches: stars are computed once at the beginning; then the patches tell
-/// what has become of their triangles. At the end the stage learns of all edits: its state, its polygon and its guard
-/// are replaced if any patch became better.
+/// what has become of their triangles. At the end the stage learns of all edits, if any patch became better: sites are
+/// put in place without sorting and lose their leads, stars that nothing near has changed stay certain. Polygon and
+/// guard are replaced if any of the edits was on the boundary.
 /// @param meshed the curves on which the sites of the polygon lie
 CleanupCounts mend(sites::Stage& stage, const geometry::Boundary& meshed, const geometry::Lattice& lattice,
                    const delaunay::StarBuilder& builder, const CleanupOptions& options);

@@ -83,8 +83,10 @@ void CleanupBoundary::carry_out(std::span<const Edit> edits, BoundaryChain& chai
   }
 }
 
-BoundarySites CleanupBoundary::finish() {
+std::optional<BoundarySites> CleanupBoundary::finish() {
   std::vector<Edit> all = comm::from_bytes<Edit>(comm_.all_gather(std::as_bytes(std::span<const Edit>(edits_))));
+  if (all.empty())
+    return std::nullopt;
   std::stable_sort(all.begin(), all.end(), [](const Edit& a, const Edit& b) { return a.round < b.round; });
   BoundaryChain chain(sites_, curve_);
   for (auto begin = all.begin(); begin != all.end();) {
@@ -97,6 +99,8 @@ BoundarySites CleanupBoundary::finish() {
 }
 
 LocalIndex CleanupBoundary::index(BoundaryName site) const {
+  if (!has_new_indices())
+    return static_cast<LocalIndex>(site);
   const auto made = made_.find(site);
   return new_index_[at(made != made_.end() ? made->second : static_cast<LocalIndex>(site))];
 }

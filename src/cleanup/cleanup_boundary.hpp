@@ -7,6 +7,7 @@
 #include "trime/comm/communicator.hpp"
 #include "trime/sizing/size_field.hpp"
 
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -38,10 +39,12 @@ public:
 
   /// Notes edits of the own patches of a round (0, 1, ...), for `finish`.
   void note(std::span<const SiteEdit> edits, int round);
-  /// @brief All ranks learn of all edits. @return the sites on the boundary after them. Collective: O(edits on the
-  /// boundary of all ranks).
-  polygon::BoundarySites finish();
-  /// The index of a site in the result of `finish`. @pre it is still there
+  /// @brief All ranks learn of all edits. @return the sites on the boundary after them; nothing if there were none.
+  /// Collective: O(edits on the boundary of all ranks), and passes over all its sites if there were any.
+  std::optional<polygon::BoundarySites> finish();
+  /// Whether `finish` has found edits that may have changed the indices.
+  bool has_new_indices() const { return !new_index_.empty(); }
+  /// The index of a site after `finish`. @pre it is still there
   LocalIndex index(BoundaryName site) const;
 
 private:
@@ -65,7 +68,7 @@ private:
   std::unordered_map<BoundaryName, BoundaryPlace> known_; // of sites that are new or not as they were
   std::vector<Edit> edits_;                               // of the own patches, by round
   std::unordered_map<BoundaryName, LocalIndex> made_;     // index in the chain of sites that are new
-  std::vector<LocalIndex> new_index_;                     // by index in the chain
+  std::vector<LocalIndex> new_index_;                     // by index in the chain; empty: all are as they were
 };
 
 } // namespace trime::cleanup

@@ -59,10 +59,13 @@ void CleanupRounds::run_stage(int stage) {
   }
 }
 
-void CleanupRounds::finish(sites::Stage& stage) {
-  polygon::BoundarySites polygon = boundary_.finish();
-  sites_.finish(*stage.state);
-  stage.polygon = std::move(polygon);
+void CleanupRounds::finish(sites::Stage& stage, const delaunay::StarBuilder& builder) {
+  std::optional<polygon::BoundarySites> polygon = boundary_.finish();
+  stage.state->points().release_leads();
+  sites_.finish(*stage.state, builder);
+  if (!polygon)
+    return;
+  stage.polygon = std::move(*polygon);
   *stage.guard = BoundaryGuard(stage.polygon, lattice_);
 }
 

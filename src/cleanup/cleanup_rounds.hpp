@@ -40,8 +40,8 @@ public:
   void run_stage(int stage);
   /// Of all rounds until now.
   CleanupCounts counts() const;
-  /// Carries all edits over to the state, the polygon and the guard of the stage.
-  void finish(sites::Stage& stage);
+  /// Carries all edits over to the state, the polygon and the guard of the stage. @param builder of its stars
+  void finish(sites::Stage& stage, const delaunay::StarBuilder& builder);
 
 private:
   /// The own patches of a round.

@@ -182,18 +182,15 @@ CleanupSites::Added& CleanupSites::find_added(Vec2 p) {
   return *found;
 }
 
-/// @return the index of the owned site that it was at the beginning, or -1
-LocalIndex CleanupSites::take_out(Vec2 p) {
+void CleanupSites::take_out(Vec2 p) {
   if (const LocalIndex i = find_in_state(p); i >= 0) {
     status_[at(i)] = SiteStatus::gone;
-    return i;
+    return;
   }
   Added& added = find_added(p);
-  const LocalIndex origin = added.origin;
   std::vector<Added>& list = added_in(state_.grid().place(p).tile);
   added = list.back();
   list.pop_back();
-  return origin;
 }
 
 void CleanupSites::set_rest(Vec2 p, bool rests) {
@@ -215,21 +212,18 @@ std::vector<Vec2> CleanupSites::let_rest(const Disc& disc) {
 }
 
 void CleanupSites::apply(std::span<const SiteEdit> edits, std::span<const BoundaryLink> links) {
-  std::vector<LocalIndex> origins(edits.size(), -1);
-  for (std::size_t k = 0; k < edits.size(); ++k) { // first all that go: one may come where another was
-    const SiteEdit& edit = edits[k];
+  for (const SiteEdit& edit : edits) { // first all that go: one may come where another was
     if (edit.kind == EditKind::insert || !owns(edit.from))
       continue;
-    origins[k] = take_out(edit.from);
+    take_out(edit.from);
     if (edit.boundary >= 0)
       boundary_.forget(edit.boundary);
   }
-  for (std::size_t k = 0; k < edits.size(); ++k) {
-    const SiteEdit& edit = edits[k];
+  for (const SiteEdit& edit : edits) {
     if (edit.kind == EditKind::remove || !owns(edit.to))
       continue;
     const BoundaryName name = edit.kind == EditKind::insert ? edit.made : edit.boundary;
-    added_in(state_.grid().place(edit.to).tile).push_back({edit.to, edit.size, name, origins[k]});
+    added_in(state_.grid().place(edit.to).tile).push_back({edit.to, edit.size, name});
     if (name >= 0)
       boundary_.set_place(name, edit);
   }
@@ -238,29 +232,28 @@ void CleanupSites::apply(std::span<const SiteEdit> edits, std::span<const Bounda
       boundary_.set_next(link.site, link.next);
 }
 
-void CleanupSites::finish(SiteState& state) const {
+/// A site that has moved begins anew, as it does where another rank owns its new place: pushes are not kept.
+void CleanupSites::finish(SiteState& state, const delaunay::StarBuilder& builder) const {
   mesh::BinnedPoints& points = state.points();
-  const auto renumbered = [&](BoundaryName boundary) {
-    return boundary >= 0 ? boundary_.index(boundary) : static_cast<std::int32_t>(boundary);
-  };
-  prepare_to_stay(points);
-  std::vector<std::uint8_t> deleted(at(points.owned()), 0);
-  thread_loop(points.owned(), sites_in_a_row, [&](std::ptrdiff_t item, int) {
-    const auto i = static_cast<LocalIndex>(item);
-    deleted[at(i)] = status_[at(i)] == SiteStatus::gone;
-    points.set_boundary(i, !deleted[at(i)] ? renumbered(points.boundary(i)) : mesh::free_site);
-  });
-  mesh::SiteList more;
+  if (boundary_.has_new_indices())
+    thread_loop(points.owned(), sites_in_a_row, [&](std::ptrdiff_t item, int) {
+      const auto i = static_cast<LocalIndex>(item);
+      if (const std::int32_t name = points.boundary(i); name >= 0 && status_[at(i)] != SiteStatus::gone)
+        points.set_boundary(i, boundary_.index(name));
+    });
+  std::vector<LocalIndex> gone;
+  for (LocalIndex i = 0; i < points.owned(); ++i)
+    if (status_[at(i)] == SiteStatus::gone)
+      gone.push_back(i);
+  mesh::SiteList come;
+  std::vector<double> sizes;
   for (const std::vector<Added>& list : added_)
-    for (const Added& added : list)
-      if (added.origin >= 0) {
-        points.next().positions()[at(added.origin)] = added.position;
-        points.set_boundary(added.origin, renumbered(added.boundary));
-        deleted[at(added.origin)] = 0;
-      } else {
-        more.push_back({added.position, renumbered(added.boundary)});
-      }
-  state.move_sites(std::move(deleted), std::move(more));
+    for (const Added& added : list) {
+      come.push_back({added.position, added.boundary >= 0 ? boundary_.index(added.boundary)
+                                                          : static_cast<std::int32_t>(added.boundary)});
+      sizes.push_back(added.size);
+    }
+  state.edit_sites(builder, std::move(gone), std::move(come), sizes);
 }
 
 } // namespace trime::cleanup

@@ -61,15 +61,14 @@ public:
   /// @return their canonical places
   std::vector<geometry::Vec2> let_rest(const sites::Disc& disc);
 
-  /// Carries all edits over to the state. @pre CleanupBoundary::finish. Collective.
-  void finish(sites::SiteState& state) const;
+  /// Carries all edits over to the state: SiteState::edit_sites. Collective. @pre CleanupBoundary::finish
+  void finish(sites::SiteState& state, const delaunay::StarBuilder& builder) const;
 
 private:
   struct Added {
     geometry::Vec2 position;
     double size;
     BoundaryName boundary;
-    LocalIndex origin; // index of the owned site that it was, -1 if new here
     bool rests = false;
   };
   enum class SiteStatus : std::uint8_t { gone, in_place, rests };
@@ -81,7 +80,7 @@ private:
                     int narrowings);
   LocalIndex find_in_state(geometry::Vec2 p) const;
   Added& find_added(geometry::Vec2 p);
-  LocalIndex take_out(geometry::Vec2 p);
+  void take_out(geometry::Vec2 p);
   std::vector<Added>& added_in(LocalIndex tile) {
     return added_[static_cast<std::size_t>(tile - state_.points().first_tile())];
   }

@@ -14,6 +14,7 @@ namespace trime::comm {
 namespace {
 
 std::unique_ptr<Communicator::Native> duplicate(MPI_Comm comm) {
+  const InMpi in_mpi;
   auto native = std::make_unique<Communicator::Native>();
   check(MPI_Comm_dup(comm, &native->comm));
   check(MPI_Comm_set_errhandler(native->comm, MPI_ERRORS_RETURN));
@@ -21,9 +22,16 @@ std::unique_ptr<Communicator::Native> duplicate(MPI_Comm comm) {
 }
 
 template <class T>
-void reduce_in_place(std::span<T> values, MPI_Datatype type, MPI_Op op, MPI_Comm comm) {
-  if (!values.empty())
-    check(MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), type, op, comm));
+void reduce_in_place(std::span<T> values, MPI_Datatype type, MPI_Op op, const Communicator::Native& native) {
+  if (values.empty())
+    return;
+  const Wait wait(native);
+  check(MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), type, op, collective(native)));
+}
+
+double mpi_seconds() {
+  const InMpi in_mpi;
+  return MPI_Wtime();
 }
 
 } // namespace
@@ -49,11 +57,12 @@ Environment::Environment(int& argc, char**& argv) {
   setenv("OMPI_MCA_fcoll", "^vulcan", 0); // stays if the user has chosen a writer
   int provided = MPI_THREAD_SINGLE;
   check(MPI_Init_thread(&argc, &argv, needed_thread_level, &provided));
-  set_wall_clock(MPI_Wtime);
+  set_wall_clock(mpi_seconds);
   if (provided < needed_thread_level) {
     fmt::print(stderr, "trime_mpi: this MPI gives thread level {}, at least MPI_THREAD_FUNNELED is needed\n", provided);
     MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitCode::internal_error));
   }
+  begin_simulated_work();
 }
 
 Environment::~Environment() {
@@ -61,8 +70,10 @@ Environment::~Environment() {
     return;
   int finalized = 0;
   MPI_Finalized(&finalized);
-  if (!finalized)
-    MPI_Finalize();
+  if (finalized)
+    return;
+  end_simulated_work();
+  MPI_Finalize();
 }
 
 std::string library_version() {
@@ -81,6 +92,7 @@ Communicator Communicator::self() {
 }
 
 Communicator Communicator::node() const {
+  const InMpi in_mpi;
   auto native = std::make_unique<Native>();
   check(MPI_Comm_split_type(collective(*native_), MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &native->comm));
   check(MPI_Comm_set_errhandler(native->comm, MPI_ERRORS_RETURN));
@@ -100,8 +112,10 @@ Communicator& Communicator::operator=(Communicator&& other) noexcept {
   return *this;
 }
 Communicator::~Communicator() {
-  if (native_ && native_->comm != MPI_COMM_NULL && std::uncaught_exceptions() == 0)
+  if (native_ && native_->comm != MPI_COMM_NULL && std::uncaught_exceptions() == 0) {
+    const InMpi in_mpi;
     MPI_Comm_free(&native_->comm);
+  }
 }
 
 Counters& Communicator::counters() const {
@@ -109,17 +123,18 @@ Counters& Communicator::counters() const {
 }
 
 void Communicator::barrier() const {
+  const Wait wait(*native_);
   check(MPI_Barrier(collective(*native_)));
 }
 
 void Communicator::sum(std::span<std::int64_t> values) const {
-  reduce_in_place(values, MPI_INT64_T, MPI_SUM, collective(*native_));
+  reduce_in_place(values, MPI_INT64_T, MPI_SUM, *native_);
 }
 void Communicator::min(std::span<double> values) const {
-  reduce_in_place(values, MPI_DOUBLE, MPI_MIN, collective(*native_));
+  reduce_in_place(values, MPI_DOUBLE, MPI_MIN, *native_);
 }
 void Communicator::max(std::span<double> values) const {
-  reduce_in_place(values, MPI_DOUBLE, MPI_MAX, collective(*native_));
+  reduce_in_place(values, MPI_DOUBLE, MPI_MAX, *native_);
 }
 
 namespace {
@@ -152,7 +167,10 @@ void Communicator::sum_and_max(std::span<std::int64_t> sums, std::span<double> l
   check(MPI_Type_contiguous(static_cast<int>(words.size()), MPI_INT64_T, &block));
   check(MPI_Type_commit(&block));
   check(MPI_Op_create(sum_and_max_of_blocks, 1, &reduce));
-  check(MPI_Allreduce(MPI_IN_PLACE, words.data(), 1, block, reduce, collective(*native_)));
+  {
+    const Wait wait(*native_);
+    check(MPI_Allreduce(MPI_IN_PLACE, words.data(), 1, block, reduce, collective(*native_)));
+  }
   check(MPI_Op_free(&reduce));
   check(MPI_Type_free(&block));
   std::copy_n(words.begin() + 2, sums.size(), sums.begin());
@@ -161,15 +179,15 @@ void Communicator::sum_and_max(std::span<std::int64_t> sums, std::span<double> l
 }
 
 std::int64_t Communicator::sum(std::int64_t value) const {
-  reduce_in_place(std::span(&value, 1), MPI_INT64_T, MPI_SUM, collective(*native_));
+  reduce_in_place(std::span(&value, 1), MPI_INT64_T, MPI_SUM, *native_);
   return value;
 }
 std::int64_t Communicator::min(std::int64_t value) const {
-  reduce_in_place(std::span(&value, 1), MPI_INT64_T, MPI_MIN, collective(*native_));
+  reduce_in_place(std::span(&value, 1), MPI_INT64_T, MPI_MIN, *native_);
   return value;
 }
 std::int64_t Communicator::max(std::int64_t value) const {
-  reduce_in_place(std::span(&value, 1), MPI_INT64_T, MPI_MAX, collective(*native_));
+  reduce_in_place(std::span(&value, 1), MPI_INT64_T, MPI_MAX, *native_);
   return value;
 }
 double Communicator::min(double value) const {
@@ -182,6 +200,7 @@ double Communicator::max(double value) const {
 }
 
 std::int64_t Communicator::exclusive_scan(std::int64_t value) const {
+  const Wait wait(*native_);
   const MPI_Comm comm = collective(*native_);
   std::int64_t before =
       0; // not by MPI_Exscan: ranks take turns in that of Open MPI, and send to all others in SimGrid's
@@ -200,11 +219,13 @@ std::int64_t Communicator::exclusive_scan(std::int64_t value) const {
 
 std::vector<std::int64_t> Communicator::all_gather(std::int64_t value) const {
   std::vector<std::int64_t> all = table_of_ranks<std::int64_t>(*this);
+  const Wait wait(*native_);
   check(MPI_Allgather(&value, 1, MPI_INT64_T, all.data(), 1, MPI_INT64_T, collective(*native_)));
   return all;
 }
 std::vector<double> Communicator::all_gather(double value) const {
   std::vector<double> all = table_of_ranks<double>(*this);
+  const Wait wait(*native_);
   check(MPI_Allgather(&value, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, collective(*native_)));
   return all;
 }
@@ -227,6 +248,7 @@ std::vector<std::byte> Communicator::all_gather(std::span<const std::byte> bytes
       counts[rank] = static_cast<int>(within(start + sizes[rank]) - within(start));
     }
     const std::int64_t sent = std::clamp(window - own_start, std::int64_t{0}, std::ssize(bytes)); // in earlier windows
+    const Wait wait(*native_);
     check(MPI_Allgatherv(bytes.data() + sent, counts[static_cast<std::size_t>(rank_)], MPI_BYTE, all.data() + window,
                          counts.data(), starts.data(), MPI_BYTE, collective(*native_)));
   }
@@ -234,6 +256,7 @@ std::vector<std::byte> Communicator::all_gather(std::span<const std::byte> bytes
 }
 
 std::string Communicator::broadcast(std::string text, int root) const {
+  const Wait wait(*native_);
   std::int64_t length = static_cast<std::int64_t>(text.size());
   check(MPI_Bcast(&length, 1, MPI_INT64_T, root, collective(*native_)));
   text.resize(static_cast<std::size_t>(length));

@@ -12,6 +12,7 @@ bool all_arrive(const Communicator& comm, double seconds) {
   using Clock = std::chrono::steady_clock;
   if (comm.size() == 1)
     return true;
+  const InMpi in_mpi;
   MPI_Request request = MPI_REQUEST_NULL;
   check(MPI_Ibarrier(native_handle(comm), &request));
   const Clock::time_point end =

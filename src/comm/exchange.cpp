@@ -16,6 +16,7 @@ constexpr std::size_t most_passed_on = 4096;
 
 void post(const Message& message, bool send, int tag, const Communicator::Native& native,
           std::vector<MPI_Request>& requests) {
+  const InMpi in_mpi;
   for (std::size_t offset = 0; offset < message.data.size(); offset += piece_bytes) {
     const int count = static_cast<int>(std::min(piece_bytes, message.data.size() - offset));
     std::byte* start = const_cast<std::byte*>(message.data.data()) + offset; // MPI receives through the same path
@@ -25,6 +26,11 @@ void post(const Message& message, bool send, int tag, const Communicator::Native
     check(send ? MPI_Isend(start, count, MPI_BYTE, message.peer, tag, native.comm, &requests.back())
                : MPI_Irecv(start, count, MPI_BYTE, message.peer, tag, native.comm, &requests.back()));
   }
+}
+
+void wait_for(std::vector<MPI_Request>& requests, const Communicator::Native& native) {
+  const Wait wait(native);
+  check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
 }
 
 /// What stands before each message in a bundle.
@@ -113,7 +119,7 @@ private:
     for (const Message& message : incoming)
       post(message, false, tag, native_, requests);
     post(outgoing, true, tag, native_, requests);
-    check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
+    wait_for(requests, native_);
   }
 
   const Communicator& comm_;
@@ -150,7 +156,7 @@ std::vector<Message> Communicator::exchange_any(const std::vector<Message>& outg
   for (const Message& message : outgoing)
     if (is_long(message))
       post(message, true, tag_known, *native_, requests);
-  check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
+  wait_for(requests, *native_);
   return incoming;
 }
 
@@ -160,11 +166,12 @@ void Communicator::exchange_known(std::span<const Message> outgoing, std::span<M
     post(message, false, tag_known, *native_, requests);
   for (const Message& message : outgoing)
     post(message, true, tag_known, *native_, requests);
-  check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
+  wait_for(requests, *native_);
 }
 
 struct Communicator::Exchange::Requests {
   std::vector<MPI_Request> list;
+  const Native* native;
 };
 
 Communicator::Exchange::Exchange() = default;
@@ -185,7 +192,7 @@ bool Communicator::Exchange::is_open() const {
 void Communicator::Exchange::wait() {
   if (!requests_)
     return;
-  check(MPI_Waitall(static_cast<int>(requests_->list.size()), requests_->list.data(), MPI_STATUSES_IGNORE));
+  wait_for(requests_->list, *requests_->native);
   requests_.reset();
   outgoing_.clear();
 }
@@ -193,6 +200,7 @@ void Communicator::Exchange::wait() {
 Communicator::Exchange Communicator::begin_exchange(std::vector<Message> outgoing, std::span<Message> incoming) const {
   Exchange exchange;
   exchange.requests_ = std::make_unique<Exchange::Requests>();
+  exchange.requests_->native = native_.get();
   exchange.outgoing_ = std::move(outgoing);
   for (const Message& message : incoming)
     post(message, false, tag_known, *native_, exchange.requests_->list);

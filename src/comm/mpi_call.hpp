@@ -3,7 +3,9 @@
 #pragma once
 
 #include "comm/native.hpp"
+#include "comm/simulated_work.hpp"
 #include "trime/core/error.hpp"
+#include "trime/core/timer.hpp"
 
 #include <cstddef>
 #include <string>
@@ -33,6 +35,20 @@ inline MPI_Comm collective(const Communicator::Native& native) {
   native.counters.add(Counter::collectives);
   return native.comm;
 }
+
+/// While it lives, the rank waits for others in a call of MPI.
+class Wait {
+public:
+  explicit Wait(const Communicator::Native& native) : counters_(native.counters), start_(wall_seconds()) {}
+  ~Wait() { counters_.add(Counter::wait_ns, static_cast<std::int64_t>(1e9 * (wall_seconds() - start_))); }
+  Wait(const Wait&) = delete;
+  Wait& operator=(const Wait&) = delete;
+
+private:
+  InMpi in_mpi_;
+  Counters& counters_;
+  double start_; // [s]
+};
 
 /// What a rank sends to itself is no traffic.
 inline void count_message(const Communicator::Native& native, int to, std::size_t bytes) {

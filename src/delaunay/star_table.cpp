@@ -131,4 +131,40 @@ void StarTable::renumber(std::span<const LocalIndex> new_index, LocalIndex new_s
   free_overflow_.clear();
 }
 
+void StarTable::renumber(const mesh::IndexShift& shift, std::span<const LocalIndex> ghosts) {
+  for (const LocalIndex i : shift.gone())
+    clear(i);
+  shift.move(rings_);
+  shift.move(degree_);
+  shift.move(flags_);
+  for (const LocalIndex i : shift.come())
+    degree_[static_cast<std::size_t>(i)] = flags_[static_cast<std::size_t>(i)] = 0;
+  const std::vector<LocalIndex> new_index = shift.new_indices();
+  const auto map_ring = [&](std::span<LocalIndex> ring) {
+    for (LocalIndex& neighbour : ring) {
+      if (neighbour == gap)
+        continue;
+      const auto k = static_cast<std::size_t>(neighbour);
+      neighbour = k < new_index.size()                   ? new_index[k]
+                  : k - new_index.size() < ghosts.size() ? ghosts[k - new_index.size()]
+                                                         : LocalIndex{-1};
+      if (neighbour < 0)
+        return false;
+    }
+    return true;
+  };
+  thread_loop(size(), chunk, [&](std::ptrdiff_t item, int) {
+    const auto i = static_cast<std::size_t>(item);
+    std::array<LocalIndex, slots>& ring = rings_[i];
+    const bool overflows = degree_[i] == overflowing;
+    if (degree_[i] > 0 &&
+        !map_ring(overflows ? std::span(overflow_[static_cast<std::size_t>(ring[0])]) : std::span<LocalIndex>(ring))) {
+      clear(static_cast<LocalIndex>(item));
+      flags_[i] = 0;
+    }
+    if (degree_[i] == 0)
+      ring = {}; // slots always hold indices that exist
+  });
+}
+
 } // namespace trime::delaunay

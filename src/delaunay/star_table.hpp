@@ -2,6 +2,7 @@
 // The stars of the owned sites: for each the ring of its Delaunay neighbours, counter-clockwise.
 #pragma once
 
+#include "mesh/index_shift.hpp"
 #include "trime/core/types.hpp"
 #include "trime/core/unset_vector.hpp"
 
@@ -72,6 +73,9 @@ public:
   /// as it takes. O(n); threads.
   /// @param new_index by old index of an owned site: its new index or -1
   void renumber(std::span<const LocalIndex> new_index, LocalIndex new_size);
+  /// @brief The same where few sites go and come, in place. Stars stay certain but for those beside a site that goes.
+  /// @param ghosts by former ghost, of those behind the owned sites, its new index or -1; empty: none has one
+  void renumber(const mesh::IndexShift& shift, std::span<const LocalIndex> ghosts);
 
 private:
   static constexpr std::uint8_t is_certain = 1, gapped = 2;

@@ -2,6 +2,7 @@
 #include "trime/io/mesh_file.hpp"
 
 #include "comm/agree.hpp"
+#include "io/output_files.hpp"
 #include "io/slab_file.hpp"
 #include "io/temporary_file.hpp"
 #include "io/xdmf.hpp"
@@ -177,14 +178,18 @@ std::optional<std::vector<std::int32_t>> facet_markers(const MeshFileOptions& op
   return markers;
 }
 
-/// Tags of boundary edges: `values` by loop, `parts` by part of the shape, `markers` by segment of the user's file
-/// where a shape has any. @param markers outlive the file
+/// Tags of boundary edges: `values` by loop, `parts` by part of the shape and `labels` as the formats of other programs
+/// count them, `markers` by segment of the user's file where a shape has any. @param markers outlive the file
 void write_facets(SlabFile& file, const mesh::DistributedMesh& mesh,
                   const std::optional<std::vector<std::int32_t>>& markers) {
   file.group("/Mesh/facets");
   file.slab(stored<std::int64_t>("/Mesh/facets/topology", mesh.facet_slab, 2, mesh.facets));
   file.slab(stored<std::int32_t>("/Mesh/facets/values", mesh.facet_slab, 0, mesh.facet_tags));
   file.slab(stored<std::int32_t>("/Mesh/facets/parts", mesh.facet_slab, 0, mesh.facet_parts));
+  file.slab(computed<std::int32_t>("/Mesh/facets/labels", mesh.facet_slab, std::ssize(mesh.facets),
+                                   [&mesh](std::int64_t row) {
+                                     return mesh.facet_parts[static_cast<std::size_t>(row - mesh.facet_slab.first)] + 1;
+                                   }));
   file.slab(stored<float>("/Mesh/facets/asked_size", mesh.facet_slab, 0, mesh.facet_sizes));
   if (markers)
     file.slab(stored<std::int32_t>("/Mesh/facets/markers", mesh.facet_slab, 0, *markers));
@@ -222,7 +227,7 @@ bool has_plain_mesh(const MeshFileOptions& options) {
 std::int64_t file_bytes(const MeshFileOptions& options, const mesh::DistributedMesh& mesh, const Metadata& metadata) {
   const std::int64_t vtkhdf = options.vtkhdf ? 1 : 0, plain = has_plain_mesh(options) ? 1 : 0;
   const std::int64_t per_point = 9 + 24 * vtkhdf + 16 * plain, per_triangle = 12 + 33 * vtkhdf + 24 * plain;
-  constexpr std::int64_t headers = 64 << 10, per_facet = 28;
+  constexpr std::int64_t headers = 64 << 10, per_facet = 32;
   std::int64_t bytes = headers + per_point * mesh.point_slab.total + per_triangle * mesh.triangle_slab.total +
                        per_facet * mesh.facet_slab.total;
   for (const Text& text : metadata.texts)
@@ -269,7 +274,8 @@ void check_shapes(const mesh::DistributedMesh& mesh) {
 
 /// Rank 0: final names, and the views that belong to them.
 WrittenFiles publish(TemporaryFile& temporary, const MeshFileOptions& options, const mesh::DistributedMesh& mesh) {
-  const std::string h5 = options.path(".h5"), xdmf = options.path(".xdmf"), vtkhdf = options.path(".vtkhdf");
+  const std::string h5 = options.path(".h5"), xdmf = options.path(".xdmf"), vtkhdf = options.path(".vtkhdf"),
+                    facets = facet_view(options);
   temporary.rename_to(h5, options.overwrite);
   if (options.is_final && options.run_files)
     options.run_files->set_final_mesh_written();
@@ -278,15 +284,22 @@ WrittenFiles publish(TemporaryFile& temporary, const MeshFileOptions& options, c
   if (stat(h5.c_str(), &status) == 0)
     written.bytes = status.st_size;
   // Views of an older mesh of this name would lie about the new one.
-  unlink(xdmf.c_str());
-  unlink(vtkhdf.c_str());
+  for (const std::string& path : {xdmf, vtkhdf, facets})
+    unlink(path.c_str());
   if (options.xdmf) {
-    write_one_text_file(
-        xdmf,
-        xdmf_text({options.name + ".h5", field_group(options, "CellData"), field_group(options, "PointData"),
-                   mesh.point_slab.total, mesh.triangle_slab.total, 0}),
-        options.run_files);
+    const XdmfContent content{options.name + ".h5",
+                              field_group(options, "CellData"),
+                              field_group(options, "PointData"),
+                              mesh.point_slab.total,
+                              mesh.triangle_slab.total,
+                              mesh.facet_slab.total,
+                              0};
+    write_one_text_file(xdmf, xdmf_text(content), options.run_files);
     written.paths.push_back(xdmf);
+    if (mesh.facet_slab.total > 0) { // a torus has none
+      write_one_text_file(facets, xdmf_facets_text(content), options.run_files);
+      written.paths.push_back(facets);
+    }
   }
   if (options.vtkhdf) {
     replace_link(options.name + ".h5", vtkhdf);

@@ -100,7 +100,7 @@ std::vector<std::string> MeshSeries::write_collections() const {
     std::vector<XdmfContent> grids;
     for (const Member& m : members_)
       grids.push_back({m.name + ".h5", field_group(file, "CellData"), field_group(file, "PointData"), m.quality.points,
-                       m.quality.triangles, m.quality.retriangulation});
+                       m.quality.triangles, 0, m.quality.retriangulation});
     write_text_file(xdmf_collection(file), xdmf_series_text(grids), file.run_files);
     paths.push_back(xdmf_collection(file));
   }

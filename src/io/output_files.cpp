@@ -12,14 +12,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <functional>
 
 namespace trime::io {
 namespace {
 
-constexpr std::array<const char*, 3> view_endings{".h5", ".xdmf", ".vtkhdf"};
+constexpr const char* facet_ending = ".xmf";
+constexpr std::array<const char*, 4> view_endings{".h5", ".xdmf", ".vtkhdf", facet_ending};
 constexpr const char* step_infix = "_step_";
 
 void make_directory(const std::string& directory) {
@@ -70,12 +70,9 @@ bool is_step_file(const std::string& file, const std::string& name) {
   const std::string start = name + step_infix;
   if (!file.starts_with(start))
     return false;
-  const std::size_t dot = file.find('.', start.size());
-  return dot != std::string::npos && dot > start.size() &&
-         std::all_of(file.begin() + static_cast<std::ptrdiff_t>(start.size()),
-                     file.begin() + static_cast<std::ptrdiff_t>(dot),
-                     [](char c) { return std::isdigit(static_cast<unsigned char>(c)); }) &&
-         std::find(view_endings.begin(), view_endings.end(), file.substr(dot)) != view_endings.end();
+  const std::size_t end = file.find_first_not_of("0123456789", start.size());
+  return end != std::string::npos && end > start.size() &&
+         std::find(view_endings.begin(), view_endings.end(), file.substr(end)) != view_endings.end();
 }
 
 /// Paths in a directory, which need not exist, whose file names are of a kind; sorted.
@@ -140,6 +137,10 @@ std::vector<std::string> warnings_for(const SeriesOptions& options, double expec
 
 std::string step_name(const std::string& name, int retriangulation) {
   return fmt::format("{}{}{:06d}", name, step_infix, retriangulation);
+}
+
+std::string facet_view(const MeshFileOptions& options) {
+  return options.path(facet_ending);
 }
 
 std::string xdmf_collection(const MeshFileOptions& options) {

@@ -11,6 +11,8 @@ namespace trime::io {
 
 /// "NAME_step_000012".
 std::string step_name(const std::string& name, int retriangulation);
+/// The view of the facets of a mesh.
+std::string facet_view(const MeshFileOptions& options);
 /// The collections of a series.
 std::string xdmf_collection(const MeshFileOptions& options);
 std::string vtkhdf_collection(const MeshFileOptions& options);

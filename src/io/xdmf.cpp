@@ -46,18 +46,23 @@ std::string attribute(const XdmfContent& content, const Field& field) {
 constexpr const char* header = "<?xml version=\"1.0\"?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n"
                                "<Xdmf Version=\"3.0\"><Domain>";
 
-/// A grid of one file; `extra` follows its start.
-std::string grid(const XdmfContent& content, const std::string& extra) {
-  const std::string file = escaped(content.file);
-  std::string text = fmt::format(
-      "<Grid Name=\"mesh\" GridType=\"Uniform\">\n{3}"
-      " <Topology TopologyType=\"Triangle\" NumberOfElements=\"{1}\" NodesPerElement=\"3\">\n"
-      "  <DataItem Dimensions=\"{1} 3\" NumberType=\"Int\" Precision=\"8\" Format=\"HDF\">{2}:/Mesh/mesh/topology"
+/// Corners of cells of a type, and the points.
+std::string topology(const XdmfContent& content, const std::string& type, int corners, std::int64_t cells,
+                     const char* group) {
+  return fmt::format(
+      " <Topology TopologyType=\"{4}\" NumberOfElements=\"{1}\" NodesPerElement=\"{3}\">\n"
+      "  <DataItem Dimensions=\"{1} {3}\" NumberType=\"Int\" Precision=\"8\" Format=\"HDF\">{2}:/Mesh/{5}/topology"
       "</DataItem></Topology>\n"
       " <Geometry GeometryType=\"XY\">\n"
       "  <DataItem Dimensions=\"{0} 2\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">{2}:/Mesh/mesh/geometry"
       "</DataItem></Geometry>\n",
-      content.points, content.triangles, file, extra);
+      content.points, cells, escaped(content.file), corners, type, group);
+}
+
+/// A grid of one file; `extra` follows its start.
+std::string grid(const XdmfContent& content, const std::string& extra) {
+  std::string text = fmt::format("<Grid Name=\"mesh\" GridType=\"Uniform\">\n{}{}", extra,
+                                 topology(content, "Triangle", 3, content.triangles, "mesh"));
   for (const Field& field :
        {Field{"alpha", "Cell", "Float", 4}, Field{"beta", "Cell", "Float", 4}, Field{"region", "Cell", "Int", 4},
         Field{"boundary", "Node", "Int", 4}, Field{"size", "Node", "Float", 4}, Field{"fixed", "Node", "UChar", 1}})
@@ -71,6 +76,17 @@ std::string grid(const XdmfContent& content, const std::string& extra) {
 /// more.
 std::string xdmf_text(const XdmfContent& content) {
   return header + grid(content, "") + "</Domain></Xdmf>\n";
+}
+
+/// In a file of its own, since meshio refuses a second grid. It is NAME.xmf, since dolfinx looks for arrays in the file
+/// of the same name with the ending .h5. dolfinx takes the first attribute of the grid.
+std::string xdmf_facets_text(const XdmfContent& content) {
+  return fmt::format("{}<Grid Name=\"facets\" GridType=\"Uniform\">\n{}"
+                     " <Attribute Name=\"labels\" AttributeType=\"Scalar\" Center=\"Cell\">\n"
+                     "  <DataItem Dimensions=\"{}\" NumberType=\"Int\" Precision=\"4\" Format=\"HDF\">"
+                     "{}:/Mesh/facets/labels</DataItem></Attribute>\n</Grid></Domain></Xdmf>\n",
+                     header, topology(content, "Polyline", 2, content.facets, "facets"), content.facets,
+                     escaped(content.file));
 }
 
 std::string xdmf_series_text(std::span<const XdmfContent> meshes) {

@@ -13,12 +13,14 @@ struct XdmfContent {
   std::string file;       ///< name of the HDF5 file, no directory
   std::string cell_data;  ///< group of alpha, beta, region
   std::string point_data; ///< group of boundary, size, fixed
-  std::int64_t points = 0, triangles = 0;
+  std::int64_t points = 0, triangles = 0, facets = 0;
   int time = 0; ///< of a series only
 };
 
 /// One mesh.
 std::string xdmf_text(const XdmfContent& content);
+/// The facets of one mesh with their labels, as dolfinx reads mesh tags and meshio lines.
+std::string xdmf_facets_text(const XdmfContent& content);
 /// Meshes of several files as a temporal collection.
 std::string xdmf_series_text(std::span<const XdmfContent> meshes);
 

@@ -64,8 +64,23 @@ std::vector<std::uint8_t> BinnedPoints::suitable_bin_bits(std::span<const Site> 
 
 LocalIndex BinnedPoints::assign_owned(std::span<const Site> sites, LocalIndex first_tile, LocalIndex last_tile,
                                       std::vector<LocalIndex>* new_index) {
+  return assign(ListedSites(sites), first_tile, last_tile, new_index);
+}
+
+void BinnedPoints::restore_owned(std::span<const Site> sites, std::span<const std::int64_t> counts,
+                                 LocalIndex first_tile, LocalIndex last_tile, std::vector<LocalIndex>& new_index) {
+  UnsetVector<geometry::Vec2> homes(sites.size());
+  std::size_t next = 0;
+  for (LocalIndex tile = first_tile; tile < last_tile; ++tile)
+    for (const std::size_t end = next + static_cast<std::size_t>(counts[at(tile - first_tile)]); next < end; ++next)
+      homes[next] = grid().nearest_in(tile, sites[next].position);
+  assign(HomedSites(sites, homes), first_tile, last_tile, &new_index);
+}
+
+template <class Sites>
+LocalIndex BinnedPoints::assign(const Sites& list, LocalIndex first_tile, LocalIndex last_tile,
+                                std::vector<LocalIndex>* new_index) {
   has_leads_ = true;
-  const ListedSites list(sites);
   if (!order_.is_grouped())
     order_.group(grid(), list, first_tile, last_tile);
   TRIME_ASSERT(order_.grouped() == list.size() && this->first_tile() == first_tile && this->last_tile() == last_tile,

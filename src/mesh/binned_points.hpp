@@ -4,6 +4,7 @@
 #pragma once
 
 #include "mesh/drifts.hpp"
+#include "mesh/index_shift.hpp"
 #include "mesh/known_bins.hpp"
 #include "mesh/next_places.hpp"
 #include "mesh/site.hpp"
@@ -23,7 +24,7 @@ namespace trime::mesh {
 /// @brief The sites and their bins. What may be called follows from the state:
 /// - empty: at first. Only suitable_bin_bits and assign_owned.
 /// - grouped: after suitable_bin_bits. Only assign_owned with the same sites and tiles.
-/// - sorted: after assign_owned and sort_moved. All but advance, sort_moved and what asks for next places.
+/// - sorted: after assign_owned, sort_moved and edit. All but advance, sort_moved and what asks for next places.
 /// - prepared: after prepare_advance. All. `advance` leads back to sorted: the bins are older than
 ///   the places then, and the drifts must be set; so do release_leads, and sort_moved with fresh bins. Once other
 ///   ghosts are assigned, places must be prepared anew before `advance`.
@@ -43,6 +44,11 @@ public:
   /// @return number of dropped sites. O(n); threads.
   LocalIndex assign_owned(std::span<const Site> sites, LocalIndex first_tile, LocalIndex last_tile,
                           std::vector<LocalIndex>* new_index = nullptr);
+
+  /// @brief The same for sites that have moved since they were sorted: they belong to their tiles all the same, and to
+  /// the bin of such a tile that is nearest. @param counts sites of each of the tiles, in whose order they come
+  void restore_owned(std::span<const Site> sites, std::span<const std::int64_t> counts, LocalIndex first_tile,
+                     LocalIndex last_tile, std::vector<LocalIndex>& new_index);
 
   /// @brief Replaces the ghosts: `bins` (ascending, of foreign tiles or of images of any) are known from now on and
   /// hold counts[k] sites each, concatenated in `sites` at their canonical positions; here they are moved to their
@@ -72,6 +78,11 @@ public:
   LocalIndex known_tiles() const { return bins_.known_tiles(); }
   /// Sites of a bin of an owned or partly known tile; empty if unknown.
   SiteRange bin_range(BinRef bin) const { return bins_.range(bin); }
+  /// See KnownBins::for_each_foreign: the ghosts.
+  template <class Visit>
+  void for_each_foreign_bin(const Visit& visit) const {
+    bins_.for_each_foreign(visit);
+  }
 
   /// @brief Calls visit(begin, end) for runs of local indices that together hold every known site of all bins that
   /// meet the square of half-width `reach` around `center`, and missing(BinRef) for each such bin that is unknown.
@@ -104,6 +115,13 @@ public:
   /// @param new_index for each owned site, then for each of `more`, its new local index, -1 if gone or dropped
   /// @pre all lie in the owned tiles
   void sort_moved(std::span<const std::uint8_t> gone, std::span<const Site> more, std::vector<LocalIndex>& new_index);
+  /// @brief Takes out some of the owned sites and puts others between the rest, which stay where they are: places, bins
+  /// and labels are those that sort_moved finds, and nothing is sorted but the sites that come. Forgets the ghosts.
+  /// O(edits log edits), and a pass at the speed of memory over the sites and bins behind the first edit.
+  /// @param gone ascending, each once @param come in the owned tiles
+  /// @param new_index for each of `come` its local index, -1 if it is dropped, since another lies at its place
+  /// @pre sites were sorted and have not moved since; leads are released
+  IndexShift edit(std::vector<LocalIndex> gone, std::span<const Site> come, std::vector<LocalIndex>& new_index);
   /// How far sites have come since they were sorted; searches go so much farther.
   const Drifts& drifts() const { return drifts_; }
   Drifts& drifts() { return drifts_; }
@@ -129,6 +147,15 @@ private:
   enum class State { empty, grouped, sorted, prepared, released };
   template <class Sites>
   LocalIndex sort(const Sites& sites);
+  /// A site that comes.
+  struct Newcomer {
+    BinRef bin;
+    LocalIndex number, place; // in the list of them; the owned site before which it comes
+  };
+  std::vector<Newcomer> place_newcomers(std::span<const Site> come, std::vector<LocalIndex>& gone) const;
+  template <class Sites>
+  LocalIndex assign(const Sites& sites, LocalIndex first_tile, LocalIndex last_tile,
+                    std::vector<LocalIndex>* new_index);
 
   State state_ = State::empty;
   KnownBins bins_;

@@ -55,6 +55,9 @@ public:
     const std::size_t at = blocks_[static_cast<std::size_t>(block)].first_bin + static_cast<std::size_t>(bin.bin);
     return {begin_[at], end_[at]};
   }
+  /// Calls visit(BinRef, SiteRange) for the known bins of foreign tiles and images, ascending.
+  template <class Visit>
+  void for_each_foreign(const Visit& visit) const;
   /// The number of a tile of which a bin is known, or -1.
   LocalIndex known_tile(LocalIndex tile) const { return block_of(tile, 0); }
   LocalIndex owned_tiles() const { return owned_blocks_; }
@@ -103,6 +106,16 @@ private:
   LocalIndex owned_blocks_ = 0;
   std::size_t owned_bins_ = 0;
 };
+
+template <class Visit>
+void KnownBins::for_each_foreign(const Visit& visit) const {
+  for (const Foreign& foreign : foreign_) {
+    const Block& block = blocks_[static_cast<std::size_t>(foreign.block)];
+    for (std::int32_t bin = 0; bin < std::int32_t{1} << (2 * block.bits); ++bin)
+      if (const std::size_t k = block.first_bin + static_cast<std::size_t>(bin); known_[k])
+        visit(BinRef{foreign.tile, bin, foreign.image}, SiteRange{begin_[k], end_[k]});
+  }
+}
 
 template <class Visit, class Missing>
 void KnownBins::for_each_near(geometry::Vec2 center, double reach, const Visit& visit, const Missing& missing) const {

@@ -7,14 +7,13 @@
 #include "trime/core/unset_vector.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace trime::mesh {
 namespace {
 
 using geometry::Vec2;
 
-/// The order in a bin. Of sites at one place the first is kept: the boundary site or the fixed one, else the one pushed
-/// most often.
 template <class Sites>
 bool precedes(const Sites& sites, LocalIndex i, LocalIndex j) {
   const Vec2 a = sites.position(i), b = sites.position(j);
@@ -31,6 +30,11 @@ bool precedes(const Sites& sites, LocalIndex i, LocalIndex j) {
 
 } // namespace
 
+bool precedes(const Site& a, const Site& b) {
+  const std::array<Site, 2> both{a, b};
+  return precedes(ListedSites(both), 0, 1);
+}
+
 template <class Sites>
 void SiteOrder::group(const TileGrid& grid, const Sites& sites, LocalIndex first_tile, LocalIndex last_tile) {
   first_tile_ = first_tile;
@@ -44,7 +48,7 @@ void SiteOrder::group(const TileGrid& grid, const Sites& sites, LocalIndex first
     LocalIndex* of_tile = counts.data() + part * tiles;
     for (std::ptrdiff_t item = n * part / parts; item < n * (part + 1) / parts; ++item)
       if (const LocalIndex i = static_cast<LocalIndex>(item); sites.stays(i)) {
-        const LocalIndex tile = grid.tile_at(sites.position(i));
+        const LocalIndex tile = grid.tile_at(sites.home(i));
         TRIME_ASSERT(tile >= first_tile_ && tile < last_tile_, "site of tile {} given to the owner of {}..{}", tile,
                      first_tile_, last_tile_);
         visit(i, of_tile[tile - first_tile_]);
@@ -156,7 +160,7 @@ LocalIndex SiteOrder::sort_tile(const Sites& sites, const TileGrid& grid, LocalI
   work.bin.resize(at(end - begin));
   work.sorted.resize(at(end - begin));
   for (LocalIndex k = begin; k < end; ++k) {
-    const int bin = grid.bin_at(sites.position(order_[at(k)]), first_tile_ + t, bins.bits);
+    const int bin = grid.bin_at(sites.home(order_[at(k)]), first_tile_ + t, bins.bits);
     work.bin[at(k - begin)] = bin;
     ++bin_end[bin];
   }
@@ -189,6 +193,32 @@ void SiteOrder::drop_duplicates(const Sites& sites, LocalIndex first, KnownBins:
   }
 }
 
+void SiteOrder::edit(const IndexShift& shift, std::span<const BinRef> come, KnownBins& bins) {
+  auto next_gone = shift.gone().begin();
+  auto next_come = come.begin();
+  LocalIndex moved = 0, tile_end = kept_.front(); // as it was
+  for (std::size_t t = 0; t + 1 < kept_.size(); ++t) {
+    kept_[t] = tile_end + moved;
+    tile_end = kept_[t + 1];
+    const LocalIndex tile = first_tile_ + static_cast<LocalIndex>(t);
+    const bool comes = next_come != come.end() && next_come->tile == tile;
+    const bool goes = next_gone != shift.gone().end() && *next_gone < tile_end;
+    if (!comes && !goes && moved == 0)
+      continue;
+    const KnownBins::TileBins of_tile = bins.owned_tile(static_cast<LocalIndex>(t));
+    for (std::size_t b = 0; b < of_tile.begin.size(); ++b) {
+      const LocalIndex bin_end = of_tile.end[b];
+      of_tile.begin[b] += moved;
+      for (; goes && next_gone != shift.gone().end() && *next_gone < bin_end; ++next_gone)
+        --moved;
+      for (; comes && next_come != come.end() && *next_come == BinRef{tile, static_cast<std::int32_t>(b)}; ++next_come)
+        ++moved;
+      of_tile.end[b] = bin_end + moved;
+    }
+  }
+  kept_.back() = tile_end + moved;
+}
+
 void SiteOrder::list_new_indices(LocalIndex before, std::vector<LocalIndex>& new_index) const {
   new_index.assign(at(before), -1);
   for_each([&](std::size_t k, LocalIndex from) { new_index[at(from)] = static_cast<LocalIndex>(k); });
@@ -201,7 +231,9 @@ void SiteOrder::forget() {
 
 template void SiteOrder::group(const TileGrid&, const ListedSites&, LocalIndex, LocalIndex);
 template void SiteOrder::group(const TileGrid&, const MovedSites&, LocalIndex, LocalIndex);
+template void SiteOrder::group(const TileGrid&, const HomedSites&, LocalIndex, LocalIndex);
 template LocalIndex SiteOrder::sort(const ListedSites&, KnownBins&);
 template LocalIndex SiteOrder::sort(const MovedSites&, KnownBins&);
+template LocalIndex SiteOrder::sort(const HomedSites&, KnownBins&);
 
 } // namespace trime::mesh

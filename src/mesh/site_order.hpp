@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/thread_loop.hpp"
+#include "mesh/index_shift.hpp"
 #include "mesh/known_bins.hpp"
 #include "mesh/site.hpp"
 #include "mesh/tile_grid.hpp"
@@ -15,6 +16,10 @@
 #include <vector>
 
 namespace trime::mesh {
+
+/// The order in a bin: by place. Of sites at one place the first is kept: the boundary site or the fixed one, else the
+/// one pushed most often.
+bool precedes(const Site& a, const Site& b);
 
 /// @brief Finds the new order of sites in two steps, group() and sort(). Then for_each() tells where each site comes
 /// from, until forget(); what remains is how many sites each tile has.
@@ -37,6 +42,10 @@ public:
   /// Returns how many were dropped. @pre the same sites are grouped; bins.own() was called for these tiles
   template <class Sites>
   LocalIndex sort(const Sites& sites, KnownBins& bins);
+
+  /// @brief The ranges of tiles and bins after some sites have gone and others have come, without sorting.
+  /// @param come the bin of each site that comes, in the order of the shift
+  void edit(const IndexShift& shift, std::span<const BinRef> come, KnownBins& bins);
 
   /// Number of sites that were sorted, without those dropped.
   LocalIndex size() const { return kept_.back(); }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What sites are sorted from: a list, or the sites that a rank has at their next places.
+// What sites are sorted from: a list, or the sites that a rank has at their next places. A site is sorted into the tile
+// and bin of its home, which is where it is but in a state that is restored.
 #pragma once
 
 #include "mesh/binned_points.hpp"
@@ -15,12 +16,24 @@ public:
   LocalIndex size() const { return static_cast<LocalIndex>(sites_.size()); }
   bool stays(LocalIndex) const { return true; }
   geometry::Vec2 position(LocalIndex i) const { return sites_[at(i)].position; }
+  geometry::Vec2 home(LocalIndex i) const { return position(i); }
   std::int32_t boundary(LocalIndex i) const { return sites_[at(i)].boundary; }
   std::int32_t pushes(LocalIndex i) const { return sites_[at(i)].pushes; }
   geometry::Vec2 lead(LocalIndex i) const { return sites_[at(i)].lead; }
 
 private:
   std::span<const Site> sites_;
+};
+
+/// Sites of a list that have moved since they were sorted into tiles: they are sorted into these again.
+class HomedSites : public ListedSites {
+public:
+  /// @param homes a place for each in the tile that it belongs to
+  HomedSites(std::span<const Site> sites, std::span<const geometry::Vec2> homes) : ListedSites(sites), homes_(homes) {}
+  geometry::Vec2 home(LocalIndex i) const { return homes_[at(i)]; }
+
+private:
+  std::span<const geometry::Vec2> homes_;
 };
 
 /// The owned sites at their next places, but for some that are gone, and after them new ones.
@@ -35,6 +48,7 @@ public:
   geometry::Vec2 position(LocalIndex i) const {
     return i < owned_ ? next_positions_[at(i)] : more_.position(i - owned_);
   }
+  geometry::Vec2 home(LocalIndex i) const { return position(i); }
   std::int32_t boundary(LocalIndex i) const { return i < owned_ ? points_.boundary(i) : more_.boundary(i - owned_); }
   std::int32_t pushes(LocalIndex i) const { return i < owned_ ? points_.pushes(i) : more_.pushes(i - owned_); }
   geometry::Vec2 lead(LocalIndex i) const {

@@ -100,6 +100,14 @@ void TileGrid::set_bin_bits(const std::vector<std::uint8_t>& bits) {
     tree_.set_bits(tile, bits[at(tile)]);
 }
 
+geometry::Vec2 TileGrid::nearest_in(LocalIndex tile, geometry::Vec2 p) const {
+  const FixedRect rect = rect_of(tree_[tile]);
+  const std::int64_t x = std::clamp<std::int64_t>(x_axis_.fixed(p.x), rect.x0, rect.x1),
+                     y = std::clamp<std::int64_t>(y_axis_.fixed(p.y), rect.y0, rect.y1);
+  return 0.5 * (geometry::Vec2{x_axis_.coordinate(x), y_axis_.coordinate(y)} +
+                geometry::Vec2{x_axis_.coordinate(x + 1), y_axis_.coordinate(y + 1)});
+}
+
 double TileGrid::side_of(LocalIndex tile) const {
   const geometry::Box box = tile_box(tile);
   return std::min(box.width(), box.height());

@@ -64,6 +64,8 @@ public:
             {x_axis_.coordinate(rect.x1 + 1), y_axis_.coordinate(rect.y1 + 1)}};
   }
   geometry::Box box_of(const CurveSquare& square) const { return box_of(rect_of(mesh::tile_of(square, 0))); }
+  /// A place in a tile, in that of its bins which is nearest to p.
+  geometry::Vec2 nearest_in(LocalIndex tile, geometry::Vec2 p) const;
   /// The shorter side of a tile, domain units.
   double side_of(LocalIndex tile) const;
   /// @brief Replaces the tiles. Whatever counts in tiles or bins (points, subscriptions) must be built anew.

@@ -7,6 +7,7 @@
 #include "comm/agree.hpp"
 #include "core/free_memory.hpp"
 #include "extraction/extraction.hpp"
+#include "meshing/checkpoint_writer.hpp"
 #include "meshing/outlook.hpp"
 #include "meshing/relaxation.hpp"
 #include "meshing/rules.hpp"
@@ -27,18 +28,28 @@ using sweep::LemmaReach;
 /// A run from the boundary and the size to the mesh. Each step works on the stage: its sites, their stars, their h.
 class Run {
 public:
-  Run(const RunContext& run, const SnapshotObserver& observer)
-      : run_(run), boundary_(run), layout_{run.comm, run.given_boundary, run.relative_size, run.start, run.lattice,
-                                           run.log,  run.timers,         boundary_.fixed()},
+  /// @param saved where to go on; null: from the start
+  Run(const RunContext& run, const SnapshotObserver& observer, Checkpoints* checkpoints, const SavedRun* saved)
+      : run_(run), saved_(saved), input_(check_same_input(run.given_boundary, run.relative_size, run.comm)),
+        boundary_(run), layout_{run.comm, run.given_boundary, run.relative_size, run.start, run.lattice,
+                                run.log,  run.timers,         boundary_.fixed()},
         scheme_(layout_), stars_(run), snapshots_(run, boundary_, stars_, observer),
-        relaxation_(run, stars_, snapshots_) {}
+        checkpoints_(run, checkpoints, [this](StateFields& fields) { visit(fields); }),
+        relaxation_(run, stars_, snapshots_, checkpoints_) {}
 
   MeshResult make() {
-    for (start_first_stage();; start_next_stage()) {
-      relaxation_.relax(stage_, {scheme_.stage(), scheme_.inserts(), scheme_.is_last(), scheme_.last_stage()});
-      if (scheme_.is_last())
-        break;
+    if (saved_) {
+      go_on_from(*saved_);
+    } else {
+      start_first_stage();
+      relaxation_.relax(stage_, number());
     }
+    while (!scheme_.is_last()) {
+      start_next_stage();
+      relaxation_.relax(stage_, number());
+    }
+    if (const int wish = checkpoints_.wish_before_cleanup(); wish > 0)
+      checkpoints_.write(RunPoint::relaxed, wish, relaxation_.state(), *stage_.state, quiet_tiles());
     empty_discs();
     const bool mended = clean_up();
     empty_discs(); // of chords that the clean-up has moved, where sizes are steep
@@ -49,7 +60,13 @@ public:
 private:
   void start_first_stage();
   void start_next_stage();
+  void go_on_from(const SavedRun& saved);
+  void check_input(const SavedRun& saved) const;
+  void visit(StateFields& fields);
+  StageNumber number() const { return {scheme_.stage(), scheme_.inserts(), scheme_.is_last(), scheme_.last_stage()}; }
+  std::vector<std::uint64_t> quiet_tiles() const;
   void begin(Stage stage);
+  void begin_sweeps();
   void count_replicated() const;
   void report_boundary();
   void empty_discs();
@@ -60,12 +77,15 @@ private:
   std::string count_reason(GlobalId points) const;
 
   const RunContext& run_;
+  const SavedRun* saved_;
+  InputHashes input_;
   MeshedBoundary boundary_;
   const start::LayoutContext layout_;
   start::PointScheme scheme_;
   Stage stage_; // the present one
   StageStars stars_;
   Snapshots snapshots_;
+  CheckpointWriter checkpoints_;
   Relaxation relaxation_;
   boundary::FeatureReport features_;
   GlobalId placed_ = 0; // points at the beginning of the stage
@@ -86,8 +106,13 @@ void Run::start_next_stage() {
 void Run::begin(Stage stage) {
   stage_ = std::move(stage);
   return_free_memory();
-  boundary_.follow(stage_.curves, stage_.polygon.dropped);
   placed_ = run_.comm.sum(std::int64_t{stage_.state->points().owned()});
+  begin_sweeps();
+}
+
+/// @pre the stage has its sites, and it is known how many there were at its beginning
+void Run::begin_sweeps() {
+  boundary_.follow(stage_.curves, stage_.polygon.dropped);
   stars_.begin_stage(placed_);
   count_replicated();
   const int components = boundary_.curves().components(), holes = boundary_.curves().holes();
@@ -98,6 +123,55 @@ void Run::begin(Stage stage) {
                 grid.cells().x, grid.cells().y, stage_.typical_size);
   if (scheme_.is_last())
     report_boundary();
+}
+
+/// What a checkpoint keeps of the run as a whole.
+void Run::visit(StateFields& fields) {
+  scheme_.visit(fields);
+  snapshots_.visit(fields);
+  fields.field("placed", placed_);
+  fields.field("shape_hash", input_.shape);
+  fields.field("size_hash", input_.sizes);
+}
+
+/// What a checkpoint keeps of the owned tiles where nothing was moved since they were sorted.
+std::vector<std::uint64_t> Run::quiet_tiles() const {
+  const mesh::BinnedPoints& points = stage_.state->points();
+  return std::vector<std::uint64_t>(static_cast<std::size_t>(points.last_tile() - points.first_tile()), 0);
+}
+
+/// The same on all ranks.
+void Run::check_input(const SavedRun& saved) const {
+  StateFields fields = StateFields::restoring(saved.state.numbers);
+  InputHashes then;
+  fields.field("shape_hash", then.shape);
+  fields.field("size_hash", then.sizes);
+  const auto check = [](std::int64_t kept, std::int64_t now, const char* what) {
+    if (kept != now)
+      throw FileError(fmt::format("the checkpoint is of a run with another {}: expected the hash {:016x}, found "
+                                  "{:016x}; an input file has changed since, or the program; start anew",
+                                  what, static_cast<std::uint64_t>(kept), static_cast<std::uint64_t>(now)));
+  };
+  check(then.shape, input_.shape, "shape");
+  check(then.sizes, input_.sizes, "size");
+}
+
+/// Lays the first stage out as at the start of the run, from that the present one, and fetches its sites.
+void Run::go_on_from(const SavedRun& saved) {
+  check_input(saved);
+  Stage first = scheme_.first();
+  const InputHashes now = input_;
+  StateFields fields = StateFields::restoring(saved.state.numbers);
+  visit(fields);
+  input_ = now;
+  stage_ = scheme_.lay_again_from(std::move(first));
+  return_free_memory();
+  stage_.state->restore(saved.tiles, saved.load, *stage_.size);
+  run_.log.info("restart: {} points, stage {}, after sweep {}",
+                run_.comm.sum(std::int64_t{stage_.state->points().owned()}), scheme_.stage(),
+                std::get<std::int64_t>(saved.state.numbers.at("sweeps")));
+  begin_sweeps();
+  relaxation_.resume(stage_, number(), saved);
 }
 
 /// What every rank holds as a whole: the boundary and the size.
@@ -222,21 +296,30 @@ class Mesher::Implementation {
 public:
   const RunContext run;
   SnapshotObserver observer;
+  Checkpoints* checkpoints = nullptr;
+  const SavedRun* saved = nullptr;
 };
 
 Mesher::Mesher(const comm::Communicator& comm, const geometry::Boundary& boundary, const sizing::SizeField& size,
                const MeshOptions& options, Log& log, TimerTable& timers)
-    : implementation_(new Implementation{{comm, boundary, size, options, log, timers}, {}}) {}
+    : implementation_(new Implementation{{comm, boundary, size, options, log, timers}, {}, nullptr, nullptr}) {}
 Mesher::~Mesher() = default;
 
 void Mesher::on_snapshot(SnapshotObserver observer) {
   implementation_->observer = std::move(observer);
 }
 
+void Mesher::keep_checkpoints(Checkpoints& checkpoints) {
+  implementation_->checkpoints = &checkpoints;
+}
+
+void Mesher::go_on_from(const SavedRun& saved) {
+  implementation_->saved = &saved;
+}
+
 MeshResult Mesher::run() {
-  const RunContext& context = implementation_->run;
-  check_same_input(context.given_boundary, context.relative_size, context.comm);
-  return Run(implementation_->run, implementation_->observer).make();
+  return Run(implementation_->run, implementation_->observer, implementation_->checkpoints, implementation_->saved)
+      .make();
 }
 
 Outlook Mesher::outlook() const {

@@ -12,65 +12,138 @@ using sweep::SweepSums;
 
 void Relaxation::relax(sites::Stage& stage, const StageNumber& number) {
   control_.begin_stage(number.inserts, number.is_last);
-  Sweeper::Counts counts; // since the last record
-  counts.rebuilt = run_.comm.sum(stars_.compute(stage, sites::Wanted::inner_sites).rebuilt);
+  counts_ = {};
+  counts_.rebuilt = run_.comm.sum(stars_.compute(stage, sites::Wanted::inner_sites).rebuilt);
   Sweeper sweeper(*stage.state, stars_.builder(), sweep::move_context(stage, run_.lattice),
-                  stars_.allowed(sweep::LemmaReach::up_to_chords));
-  SweepSums sums = record(stage, number.stage, sweeper, counts);
+                  stars_.allowed(sweep::LemmaReach::up_to_chords), sleep());
+  record(stage, number.stage, sweeper);
   snapshots_.take(stage);
   begun_.reset();
-  std::optional<StopReason> end = go_on(number);
-  while (!end) {
-    counts = {};
-    do {
-      counts.follow_by(sweep_once(sweeper, sums));
-      snapshots_.take(stage);
-    } while (!is_record_due());
-    sums = record(stage, number.stage, sweeper, counts);
+  if (const std::optional<StopReason> end = go_on(number))
+    stop_reason_ = *end;
+  else
+    sweep_on(stage, number, sweeper, false);
+  sort(stage, sweeper);
+}
+
+/// Until the stop rule ends the stage. @param moved the last move is made, and nothing of what follows it
+void Relaxation::sweep_on(sites::Stage& stage, const StageNumber& number, Sweeper& sweeper, bool moved) {
+  for (std::optional<StopReason> end; !end; moved = false) {
+    if (!moved) {
+      move(sweeper);
+      if (sweeper.largest_wish() > 0)
+        write_checkpoint(stage, sweeper);
+    }
+    follow(sweeper);
+    snapshots_.take(stage);
+    if (!is_record_due())
+      continue;
+    record(stage, number.stage, sweeper);
     end = go_on(number);
+    if (end)
+      stop_reason_ = *end;
   }
-  stop_reason_ = *end;
+}
+
+void Relaxation::sort(sites::Stage& stage, Sweeper& sweeper) const {
   const auto time = run_.timers.scope("sort");
   sweeper.sort();
   stage.state->points().release_leads();
+}
+
+sweep::Sleep Relaxation::sleep() const {
+  return run_.sweeps.star_tests.sleepless ? sweep::Sleep::never : sweep::Sleep::where_nothing_moves;
 }
 
 bool Relaxation::is_record_due() const {
   return sweeps_ - history_.back().sweep >= sweep::StopRules::measuring_interval || sweeps_ >= run_.sweeps.max_sweeps;
 }
 
-/// Moves the sites by the rule and certifies the stars at the new places. That is one pass with the search for the
-/// places after these, which is made anew if the rule changes.
-Sweeper::Counts Relaxation::sweep_once(Sweeper& sweeper, SweepSums& sums) {
+/// Moves the sites by the rule. Their next places were found in the pass that certified their stars, unless the rule
+/// has changed since.
+void Relaxation::move(Sweeper& sweeper) {
   const auto time = run_.timers.scope("sweeps");
   if (begun_ != control_.mover()) {
     begun_ = control_.mover();
-    control_.rule().begin_sweep(sums);
+    control_.rule().begin_sweep(sums_);
     sweeper.discard();
   }
   if (!sweeper.is_prepared())
-    sweeper.prepare(control_.rule());
+    sweeper.prepare(control_.rule(), checkpoints_.wish());
   const Sweeper::Counts moved = sweeper.commit();
   ++sweeps_;
-  sums.power = moved.power;
-  control_.rule().begin_sweep(sums);
-  sweeper.prepare(control_.rule());
+  sums_.power = moved.power;
+  counts_.follow_by(moved);
+}
+
+/// Certifies the stars at the new places. That is one pass with the search for the places after these.
+void Relaxation::follow(Sweeper& sweeper) {
+  const auto time = run_.timers.scope("sweeps");
+  control_.rule().begin_sweep(sums_);
+  sweeper.prepare(control_.rule(), checkpoints_.wish());
   if (run_.sweeps.star_tests.verify)
     sweeper.verify();
-  return moved;
 }
 
 /// Measures the mesh; the sums steer the next move.
-SweepSums Relaxation::record(const sites::Stage& stage, int stage_number, Sweeper& sweeper,
-                             const Sweeper::Counts& counts) {
+void Relaxation::record(const sites::Stage& stage, int stage_number, Sweeper& sweeper) {
   const auto time = run_.timers.scope("measure");
   sweep::SweepSummary summary =
-      sweep::summarize_sweep(*stage.state, sweeper, counts, stage.typical_size, stage.placed_first());
+      sweep::summarize_sweep(*stage.state, sweeper, counts_, stage.typical_size, stage.placed_first());
   summary.record.sweep = sweeps_;
   summary.record.stage = stage_number;
   summary.record.seconds = run_.timers.total();
   history_.push_back(summary.record);
-  return summary.sums;
+  sums_ = summary.sums;
+  counts_ = {};
+}
+
+// --- checkpoints ---------------------------------------------------------------------------------------------------
+
+void Relaxation::visit(StateFields& fields) {
+  fields.field("sweeps", sweeps_);
+  fields.field("stop_reason", stop_reason_);
+  fields.field("sum_of_lengths", sums_.squared_length_ratio);
+  fields.field("sum_of_sizes", sums_.squared_size_ratio);
+  fields.field("sum_of_power", sums_.power);
+  fields.field("count_rebuilt", counts_.rebuilt);
+  fields.field("count_moving", counts_.moving);
+  fields.field("count_pushed", counts_.pushed);
+  fields.field("count_deleted", counts_.deleted);
+  fields.field("count_max_move", counts_.max_move);
+  fields.field("count_power", counts_.power);
+  control_.visit(fields);
+}
+
+void Relaxation::write_checkpoint(const sites::Stage& stage, Sweeper& sweeper) {
+  RunState now = state();
+  StateFields fields = StateFields::keeping(now.numbers);
+  sweeper.visit(fields);
+  checkpoints_.write(RunPoint::moved, sweeper.largest_wish(), std::move(now), *stage.state, sweeper.saved_activity());
+}
+
+RunState Relaxation::state() {
+  RunState now{{}, history_};
+  StateFields fields = StateFields::keeping(now.numbers);
+  visit(fields);
+  return now;
+}
+
+void Relaxation::resume(sites::Stage& stage, const StageNumber& number, const SavedRun& saved) {
+  history_ = saved.state.history;
+  control_.begin_stage(number.inserts, number.is_last);
+  StateFields fields = StateFields::restoring(saved.state.numbers);
+  visit(fields);
+  begun_ = control_.mover();
+  if (point_of(saved) == RunPoint::relaxed) {
+    stage.state->points().release_leads();
+    return;
+  }
+  Sweeper sweeper(*stage.state, stars_.builder(), sweep::move_context(stage, run_.lattice),
+                  stars_.allowed(sweep::LemmaReach::up_to_chords), sleep());
+  sweeper.restore(fields, saved.tiles.activity);
+  sweep_on(stage, number, sweeper, true);
+  sort(stage, sweeper);
 }
 
 /// Carries out what the control decides after a record: switches the rule if it says so, and tells the log. Returns why

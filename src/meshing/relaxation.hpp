@@ -2,6 +2,7 @@
 // The sweeps of a stage, one after the other, with what is measured and said about them.
 #pragma once
 
+#include "meshing/checkpoint_writer.hpp"
 #include "meshing/snapshots.hpp"
 #include "sweep/stopping.hpp"
 #include "sweep/sweeper.hpp"
@@ -24,11 +25,16 @@ struct StageNumber {
 class Relaxation {
 public:
   /// Keeps the references.
-  Relaxation(const RunContext& run, const StageStars& stars, Snapshots& snapshots)
-      : run_(run), stars_(stars), snapshots_(snapshots), control_(run.sweeps, history_) {}
+  Relaxation(const RunContext& run, const StageStars& stars, Snapshots& snapshots, const CheckpointWriter& checkpoints)
+      : run_(run), stars_(stars), snapshots_(snapshots), checkpoints_(checkpoints), control_(run.sweeps, history_) {}
 
   /// Sweeps until the stop rule ends the stage, at the sweep cap at the latest; then sorts. Collective.
   void relax(sites::Stage& stage, const StageNumber& number);
+  /// @brief Takes up what was kept in a checkpoint. If that was in the middle of a stage, sweeps on to its end, as
+  /// relax does. Collective. @pre the sites of the stage are restored
+  void resume(sites::Stage& stage, const StageNumber& number, const SavedRun& saved);
+  /// What a checkpoint at the end of a stage keeps. @pre nothing is relaxed any more
+  RunState state();
 
   /// Why the last stage ended.
   sweep::StopReason stop_reason() const { return stop_reason_; }
@@ -36,18 +42,26 @@ public:
   std::vector<sweep::SweepRecord> take_history() { return std::move(history_); }
 
 private:
+  sweep::Sleep sleep() const;
   bool is_record_due() const;
-  sweep::Sweeper::Counts sweep_once(sweep::Sweeper& sweeper, sweep::SweepSums& sums);
-  sweep::SweepSums record(const sites::Stage& stage, int stage_number, sweep::Sweeper& sweeper,
-                          const sweep::Sweeper::Counts& counts);
+  void sweep_on(sites::Stage& stage, const StageNumber& number, sweep::Sweeper& sweeper, bool moved);
+  void sort(sites::Stage& stage, sweep::Sweeper& sweeper) const;
+  void move(sweep::Sweeper& sweeper);
+  void follow(sweep::Sweeper& sweeper);
+  void write_checkpoint(const sites::Stage& stage, sweep::Sweeper& sweeper);
+  void visit(StateFields& fields);
+  void record(const sites::Stage& stage, int stage_number, sweep::Sweeper& sweeper);
   std::optional<sweep::StopReason> go_on(const StageNumber& number);
   void tell(const StageNumber& number, bool is_shown) const;
 
   const RunContext& run_;
   const StageStars& stars_;
   Snapshots& snapshots_;
+  const CheckpointWriter& checkpoints_;
   std::vector<sweep::SweepRecord> history_;
   sweep::SweepControl control_;
+  sweep::SweepSums sums_;             // of the last record, with the power of the last move
+  sweep::Sweeper::Counts counts_;     // of the moves since the last record
   int sweeps_ = 0;                    // moves made
   std::optional<sweep::Mover> begun_; // the rule that knows the sums for the next move
   sweep::StopReason stop_reason_ = sweep::StopReason::sweep_cap;

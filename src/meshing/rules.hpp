@@ -18,6 +18,9 @@ struct MeshingRules {
   static constexpr GlobalId few_points = 2000;
   /// [1] To 2500 h: a void that no start can leave.
   static constexpr int cap_doublings = 10;
+  /// [points] Of so many stars the lemma is not asked, which looks at all of them: the clean-up leaves a few per cent.
+  /// Not measured.
+  static constexpr double few_stars = 0.1;
   /// [FeatureOptions::tolerance] So far chords of the clean-up may pass from the curve: it looks at the worst triangles
   /// only. Not measured.
   static constexpr double cleanup_tolerance = 3;

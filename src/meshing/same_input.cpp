@@ -74,15 +74,17 @@ void check_same(std::int64_t hash, const char* what, const comm::Communicator& c
 
 } // namespace
 
-void check_same_input(const Boundary& boundary, const sizing::SizeField& size, const comm::Communicator& comm) {
+InputHashes check_same_input(const Boundary& boundary, const sizing::SizeField& size, const comm::Communicator& comm) {
   std::int64_t sizes = 0;
   comm::run_agreed(comm, [&] {
     if (const std::string fault = arithmetic_fault(); !fault.empty())
       throw InternalError("the arithmetic of this program would make other meshes here: " + fault);
     sizes = hash_of_sizes(boundary, size);
   });
-  check_same(hash_of(boundary), "shape", comm);
+  const std::int64_t shape = hash_of(boundary);
+  check_same(shape, "shape", comm);
   check_same(sizes, "size field", comm);
+  return {shape, sizes};
 }
 
 } // namespace trime::meshing

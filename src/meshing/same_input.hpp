@@ -6,13 +6,21 @@
 #include "trime/geometry/boundary.hpp"
 #include "trime/sizing/size_field.hpp"
 
+#include <cstdint>
+
 namespace trime::meshing {
+
+/// Of the boundary, and of sizes on it.
+struct InputHashes {
+  std::int64_t shape = 0, sizes = 0;
+};
 
 /// @brief Do all ranks have the same boundary, and the same sizes at a thousand places on it? Also tests the arithmetic
 /// of each rank. Collective. O(pieces)
+/// @return the hashes that they agree on
 /// @throws InternalError on all ranks if not, since ranks would wait for each other for ever or fail the certificate;
 /// what the size field throws
-void check_same_input(const geometry::Boundary& boundary, const sizing::SizeField& size,
-                      const comm::Communicator& comm);
+InputHashes check_same_input(const geometry::Boundary& boundary, const sizing::SizeField& size,
+                             const comm::Communicator& comm);
 
 } // namespace trime::meshing

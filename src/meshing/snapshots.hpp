@@ -2,6 +2,7 @@
 // The meshes that a run shows before it is done.
 #pragma once
 
+#include "core/state_fields.hpp"
 #include "meshing/meshed_boundary.hpp"
 #include "meshing/stage_stars.hpp"
 #include "trime/meshing/mesher.hpp"
@@ -20,6 +21,8 @@ public:
   void take(const sites::Stage& stage);
   /// The first of each stage, and one for each move.
   int triangulations() const { return triangulations_; }
+  /// What a checkpoint keeps.
+  void visit(StateFields& fields) { fields.field("triangulations", triangulations_); }
 
 private:
   bool is_wanted() const;

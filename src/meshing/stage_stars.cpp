@@ -25,13 +25,13 @@ using sweep::LemmaReach;
 
 constexpr std::ptrdiff_t sites_in_a_row = 4096; // by one thread
 
-/// Owned sites inside, on any rank, whose stars are not certain.
-bool any_uncertain(const SiteState& state) {
+/// Sites inside whose stars are not certain, over all ranks. Collective.
+std::int64_t count_uncertain(const SiteState& state) {
   const std::uint64_t uncertain = thread_sum(static_cast<std::size_t>(state.points().owned()), [&](std::size_t i) {
     const auto site = static_cast<LocalIndex>(i);
     return std::uint64_t{state.points().boundary(site) < 0 && !state.stars().certain(site)};
   });
-  return state.comm().sum(static_cast<std::int64_t>(uncertain)) > 0;
+  return state.comm().sum(static_cast<std::int64_t>(uncertain));
 }
 
 /// Only the stars with complete fans stay certain.
@@ -45,6 +45,7 @@ void doubt_incomplete(const StageView& view, SiteState& state) {
 } // namespace
 
 void StageStars::begin_stage(GlobalId points) {
+  points_ = points;
   set_cap(points < MeshingRules::few_points ? std::numeric_limits<double>::infinity() : MeshingRules::cap);
 }
 
@@ -64,14 +65,22 @@ LemmaReach StageStars::allowed(LemmaReach reach) const {
 
 void StageStars::certify(Stage& stage, LemmaReach reach) const {
   const auto time = run_.timers.scope("stars");
-  if (!any_uncertain(*stage.state))
+  if (count_uncertain(*stage.state) == 0)
     return;
+  certify_all(stage, reach);
+}
+
+void StageStars::certify_all(Stage& stage, LemmaReach reach) const {
   stage.state->refresh(*stage.size);
   sweep::StarCertifier(*stage.state, *builder_, sweep::move_context(stage, run_.lattice), allowed(reach)).certify_all();
 }
 
 void StageStars::complete(Stage& stage, LemmaReach reach) {
-  certify(stage, reach);
+  {
+    const auto time = run_.timers.scope("stars");
+    if (static_cast<double>(count_uncertain(*stage.state)) > MeshingRules::few_stars * static_cast<double>(points_))
+      certify_all(stage, reach);
+  }
   compute(stage, Wanted::all_sites);
   const StageView view = stage.view(run_.lattice);
   for (int doubling = 0; doubling < MeshingRules::cap_doublings && std::isfinite(cap_factor_); ++doubling) {

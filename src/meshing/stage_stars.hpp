@@ -26,8 +26,9 @@ public:
   /// @param reach up to which sites the stars around one may certify it: the clean-up may have moved boundary sites
   /// into discs of chords
   void certify(sites::Stage& stage, sweep::LemmaReach reach) const;
-  /// @brief Stars of all sites. Where a fan is not complete the cap may have been too low (a void): it is doubled for
-  /// these sites, a few times. The certificate finds fans that are not complete even then. @param reach as for certify
+  /// @brief Stars of all sites; where few are not certain, by emptiness, else most of them by the lemma. Where a fan is
+  /// not complete the cap may have been too low (a void): it is doubled for these sites, a few times. The certificate
+  /// finds fans that are not complete even then. @param reach as for certify
   /// @throws GeometryError on all ranks if triangles of a periodic container reach around it
   void complete(sites::Stage& stage, sweep::LemmaReach reach);
 
@@ -35,11 +36,13 @@ public:
   sweep::LemmaReach allowed(sweep::LemmaReach reach) const;
 
 private:
+  void certify_all(sites::Stage& stage, sweep::LemmaReach reach) const;
   void set_cap(double factor);
   void raise_cap(sites::Stage& stage);
   void check_periods(const sites::Stage& stage) const;
 
   const RunContext& run_;
+  GlobalId points_ = 0;   // at the beginning of the stage
   double cap_factor_ = 0; // of h
   std::unique_ptr<delaunay::StarBuilder> builder_;
 };

@@ -153,12 +153,14 @@ void BoundaryGuard::close_chords(const geometry::Box& window, const geometry::La
   inverted_ = !closed_.inside(periods_.wrap(lattice.snap(middle + 0.25 * geometry::left_normal(first.b - first.a))));
 }
 
-/// Strips of rows at the same time, each with as many rows around it as the clearance can reach.
+/// Strips of rows at the same time, each with as many rows around it as the clearance can reach: few strips, since
+/// those rows are measured for each of them. No state depends on the strips.
 void BoundaryGuard::classify_cells(const geometry::Lattice& lattice) {
   state_.assign(cells_.count(), near_disc);
   const int rows = cells_.rows(), columns = cells_.columns();
-  thread_loop((rows - 1) / strip_rows + 1, 1, [&](std::ptrdiff_t strip, int) {
-    const int first = static_cast<int>(strip) * strip_rows, last = std::min(rows, first + strip_rows);
+  const int height = std::max(strip_rows, (rows - 1) / thread_count() + 1);
+  thread_loop((rows - 1) / height + 1, 1, [&](std::ptrdiff_t strip, int) {
+    const int first = static_cast<int>(strip) * height, last = std::min(rows, first + height);
     const int low = std::max(0, first - PolygonRules::farthest_cell),
               high = std::min(rows, last + PolygonRules::farthest_cell);
     std::vector<std::uint8_t> clearance = clearance_of(low, high);

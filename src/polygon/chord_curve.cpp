@@ -121,6 +121,8 @@ ChordCurve compare(const Loop& loop, const BoundarySites& sites, LocalIndex k) {
 }
 
 std::int32_t part_in_the_middle(const Loop& loop, const BoundarySite& a, const BoundarySite& b) {
+  if (a.piece == b.piece && b.along > a.along)
+    return loop.pieces[static_cast<std::size_t>(a.piece)].part; // most chords span one piece
   double length = 0, before = 0;
   for_each_stretch(loop, a, b, [&](const Stretch& s) { length += s.to - s.from; });
   std::int32_t part = loop.pieces[static_cast<std::size_t>(a.piece)].part;

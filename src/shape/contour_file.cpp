@@ -32,6 +32,17 @@ void refuse_unread_formats(const std::string& path) {
                                     path, extension, path));
 }
 
+bool is_geojson(const std::string& path) {
+  return ends_with_extension(path, ".geojson") || ends_with_extension(path, ".json");
+}
+
+void check_has_attributes(const std::string& path, const std::string& attribute) {
+  if (!attribute.empty() && !is_geojson(path) && !ends_with_extension(path, ".shp"))
+    throw ConfigError(fmt::format("{}: expected a .geojson or .shp, whose features may have the attribute '{}', found "
+                                  "a file of another type",
+                                  path, attribute));
+}
+
 /// Does a `.poly` say that its vertices stand in another file?
 bool lacks_vertices(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
@@ -73,6 +84,7 @@ public:
     visit(contour.source);
     visit(contour.rings);
     visit(contour.warnings);
+    visit(contour.marker_names);
     visit(contour.crs);
   }
 
@@ -112,9 +124,10 @@ private:
 
 } // namespace
 
-Contour parse_contour(std::string_view text, const std::string& source) {
-  if (ends_with_extension(source, ".geojson") || ends_with_extension(source, ".json"))
-    return parse_geojson(text, source);
+Contour parse_contour(std::string_view text, const std::string& source, const std::string& attribute) {
+  check_has_attributes(source, attribute);
+  if (is_geojson(source))
+    return parse_geojson(text, source, attribute);
   if (ends_with_extension(source, ".poly"))
     return parse_poly(text, source);
   if (ends_with_extension(source, ".msh"))
@@ -122,16 +135,17 @@ Contour parse_contour(std::string_view text, const std::string& source) {
   return parse_xy(text, source);
 }
 
-Contour read_contour(const std::string& path, const std::string& hint) {
+Contour read_contour(const std::string& path, const std::string& hint, const std::string& attribute) {
   refuse_unread_formats(path);
+  check_has_attributes(path, attribute);
   if (ends_with_extension(path, ".shp"))
-    return read_shapefile(path, hint);
+    return read_shapefile(path, hint, attribute);
   const std::string text = read_file(path, hint);
   if (ends_with_extension(path, ".poly") && lacks_vertices(text)) {
     const std::string stem = path.substr(0, path.size() - std::string_view(".poly").size());
     return parse_poly(text, path, read_file(stem + ".node", fmt::format(" ({} has no vertices of its own)", path)));
   }
-  return parse_contour(text, path);
+  return parse_contour(text, path, attribute);
 }
 
 std::string to_bytes(const Contour& contour) {

@@ -70,6 +70,7 @@ public:
              .empty()) // where rings are parted segments move by a few steps of the lattice, and may fall into several
       for (const Segment& s : polygon.grid.segments())
         polygon.markers.push_back(markers[at(given.nearest(0.5 * (s.a + s.b)).segment)]);
+    polygon.marker_names = contour_.marker_names;
     orient(polygon);
     tell_pieces(polygon, warnings);
     return polygon;
@@ -194,12 +195,15 @@ void Placement::report(const SegmentGrid& grid, const SegmentPair& pair) const {
     line[k] = rings_[ring[k]].lines[index];
   }
   const bool same = ring[0] == ring[1], crossing = meeting_of(s, t) == Meeting::crossing;
-  const char* remedy = same && crossing ? "a ring must not cross itself; is a blank line between two rings missing?"
-                       : same           ? "a ring touches itself; is a blank line between two rings missing?"
-                       : crossing       ? "two rings must not cross; to join areas, make each a part of its own and "
-                                          "unite them in 'region'"
-                                        : "two rings touch or overlap along an edge, or cross at a vertex; make each a "
-                                          "part of its own and unite them in 'region', or take the common edge out";
+  const bool is_map =
+      contour_.source.ends_with(".shp") || contour_.source.ends_with("json"); // no lines, no rings of text
+  const char* remedy = same && is_map     ? "a ring must neither cross nor touch itself; ogr2ogr -makevalid may mend it"
+                       : same && crossing ? "a ring must not cross itself; is a blank line between two rings missing?"
+                       : same             ? "a ring touches itself; is a blank line between two rings missing?"
+                       : crossing         ? "two rings must not cross; to join areas, make each a part of its own and "
+                                            "unite them in 'region'"
+                                  : "two rings touch or overlap along an edge, or cross at a vertex; make each a "
+                                    "part of its own and unite them in 'region', or take the common edge out";
   throw GeometryError(fmt::format("{}:{}: the edge that starts here {} the edge that starts at line {} near {}; {}",
                                   contour_.source, line[0], crossing ? "crosses" : "touches", line[1],
                                   in_file(meeting_point(s, t)), remedy));

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // GeoJSON as a stream, so that every vertex knows its line and a large file is not kept as a tree.
 #include "contour_text.hpp"
-#include "shape/ring_builder.hpp"
+#include "shape/feature_rings.hpp"
 #include "trime/core/error.hpp"
 #include "trime/shape/contour.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <iterator>
+#include <optional>
 
 namespace trime::shape {
 namespace {
@@ -41,22 +42,22 @@ private:
   bool ends_line_ = false; // the character before this one
 };
 
-struct Vertex {
-  Vec2 position;
-  int line;
-};
-using Chain = std::vector<Vertex>; // an array of positions
+using Chain = std::vector<FilePoint>; // an array of positions
 
 /// Takes events of the parser. Whatever the type of an object turns out to be, its coordinates are kept until then.
 class GeoJsonReader {
 public:
-  GeoJsonReader(Contour& contour, const int& line) : contour_(contour), builder_(contour), line_(line) {}
+  GeoJsonReader(Contour& contour, const std::string& attribute, const int& line)
+      : contour_(contour), rings_(contour, attribute), attribute_(attribute), line_(line) {}
 
   bool null() { return other_value(); }
-  bool boolean(bool) { return other_value(); }
-  bool number_integer(std::int64_t number) { return value(static_cast<double>(number)); }
-  bool number_unsigned(std::uint64_t number) { return value(static_cast<double>(number)); }
-  bool number_float(double number, const std::string&) { return value(number); }
+  bool boolean(bool is_true) {
+    take_attribute([&] { return std::string(is_true ? "true" : "false"); });
+    return other_value();
+  }
+  bool number_integer(std::int64_t number) { return number_of(number); }
+  bool number_unsigned(std::uint64_t number) { return number_of(number); }
+  bool number_float(double number, const std::string&) { return number_of(number); }
   bool binary(nlohmann::json::binary_t&) { return other_value(); }
   bool string(std::string& text) {
     if (!objects_.empty() && objects_.back().arrays.empty() && objects_.back().key == "type")
@@ -65,6 +66,7 @@ public:
     if (objects_.size() == depth && objects_[0].key == "crs" && objects_[1].key == "properties" &&
         objects_[2].key == "name")
       contour_.crs = text;
+    take_attribute([&] { return text; });
     return other_value();
   }
   bool start_object(std::size_t) {
@@ -74,12 +76,16 @@ public:
   }
   bool key(std::string& text) {
     objects_.back().key = text;
+    if (is_property())
+      rings_.has_attribute(text);
     return true;
   }
   bool end_object() {
     const Object object = std::move(objects_.back());
     objects_.pop_back();
     add_rings(object);
+    if (object.type == "Feature")
+      rings_.end_feature(object.attribute);
     return true;
   }
   bool start_array(std::size_t) {
@@ -92,7 +98,7 @@ public:
     return true;
   }
   bool end_array() {
-    if (objects_.empty() || objects_.back().arrays.empty())
+    if (!is_in_coordinates())
       return true;
     Object& object = objects_.back();
     const Array array = std::move(object.arrays.back());
@@ -110,14 +116,7 @@ public:
     refuse(line_, fmt::format("expected JSON, found '{}'", shown(token)));
   }
 
-  void finish() {
-    builder_.finish("GeoJSON with a Polygon or MultiPolygon");
-    if (skipped_ > 0)
-      contour_.warnings.push_back(fmt::format("{}:{}: {} geometr{} of type {} or the like left out: only polygons and "
-                                              "closed lines bound a shape",
-                                              contour_.source, skipped_line_, skipped_, skipped_ == 1 ? "y" : "ies",
-                                              skipped_type_));
-  }
+  void finish() { rings_.finish("GeoJSON with a Polygon or MultiPolygon"); }
 
 private:
   struct Array {
@@ -131,6 +130,7 @@ private:
     std::vector<Array> arrays; // that are open, inside `coordinates`
     std::vector<Chain> chains;
     bool has_coordinates = false;
+    std::optional<std::string> attribute; // of a feature: that of its properties which names the boundary
   };
 
   [[noreturn]] void refuse(int line, const std::string& what) const {
@@ -142,8 +142,28 @@ private:
     return token.size() > most ? "..." + token.substr(token.size() - most) : token;
   }
 
+  /// Is the present value one of `properties` of an object that may be a feature, and is no `crs`?
+  bool is_property() const {
+    const std::size_t depth = objects_.size();
+    return depth > 1 && objects_[depth - 2].key == "properties" && !is_in_coordinates() &&
+           (depth < 3 || objects_[depth - 3].key != "crs");
+  }
+  bool is_in_coordinates() const { return !objects_.empty() && !objects_.back().arrays.empty(); }
+
+  template <class Text>
+  void take_attribute(const Text& text) {
+    if (is_property() && objects_.back().key == attribute_)
+      objects_[objects_.size() - 2].attribute = text();
+  }
+
+  template <class Number>
+  bool number_of(Number number) {
+    take_attribute([&] { return fmt::format("{}", number); });
+    return value(static_cast<double>(number));
+  }
+
   bool value(double number) {
-    if (objects_.empty() || objects_.back().arrays.empty())
+    if (!is_in_coordinates())
       return true;
     Array& array = objects_.back().arrays.back();
     if (array.numbers < 2) // a height may follow
@@ -153,7 +173,7 @@ private:
   }
 
   bool other_value() const {
-    if (!objects_.empty() && !objects_.back().arrays.empty())
+    if (is_in_coordinates())
       refuse(line_, "expected numbers in 'coordinates', found something else");
     return true;
   }
@@ -162,42 +182,29 @@ private:
     const bool is_polygon = object.type == "Polygon" || object.type == "MultiPolygon",
                is_line = object.type == "LineString" || object.type == "MultiLineString";
     if (!is_polygon && !is_line) {
-      if (!object.type.empty() && object.has_coordinates) {
-        ++skipped_;
-        skipped_line_ = line_;
-        skipped_type_ = object.type;
-      }
+      if (!object.type.empty() && object.has_coordinates)
+        rings_.skip(object.type, line_);
       return;
     }
-    for (const Chain& chain : object.chains) {
-      if (is_line && chain.front().position != chain.back().position)
-        refuse(chain.back().line,
-               fmt::format("expected a polygon, or a line that ends where it starts, at ({}, {}); found a {} that ends "
-                           "at ({}, {}): close it, or make a polygon of it",
-                           chain.front().position.x, chain.front().position.y, object.type, chain.back().position.x,
-                           chain.back().position.y));
-      for (const Vertex& vertex : chain)
-        builder_.add(vertex.position, vertex.line);
-      builder_.end_ring();
-    }
+    for (const Chain& chain : object.chains)
+      rings_.add(is_line ? FeatureRings::Kind::line : FeatureRings::Kind::polygon, chain);
   }
 
   Contour& contour_;
-  RingBuilder builder_;
+  FeatureRings rings_;
+  const std::string& attribute_;
   const int& line_;
   std::vector<Object> objects_; // that are open
-  int skipped_ = 0, skipped_line_ = 0;
-  std::string skipped_type_;
 };
 
 } // namespace
 
-Contour parse_geojson(std::string_view text, const std::string& source) {
+Contour parse_geojson(std::string_view text, const std::string& source, const std::string& attribute) {
   check_encoding(text, source);
   Contour contour;
   contour.source = source;
   int line = 1;
-  GeoJsonReader reader(contour, line);
+  GeoJsonReader reader(contour, attribute, line);
   nlohmann::json::sax_parse(LineIterator(text.data(), &line), LineIterator(text.data() + text.size(), &line), &reader);
   reader.finish();
   return contour;

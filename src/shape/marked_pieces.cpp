@@ -34,6 +34,12 @@ int marker_of(const Piece& piece, std::span<const Part> parts, const geometry::F
   return marker;
 }
 
+/// As the file has it, or the marker itself.
+std::string name_of(int part, int marker, std::span<const Part> parts) {
+  const std::vector<std::string>& names = parts[static_cast<std::size_t>(part)].as_polygon()->marker_names;
+  return names.empty() ? fmt::format("{}", marker) : names[static_cast<std::size_t>(marker - 1)];
+}
+
 } // namespace
 
 std::vector<std::int32_t> name_markers(geometry::Boundary& boundary, std::span<const Part> parts,
@@ -47,8 +53,8 @@ std::vector<std::int32_t> name_markers(geometry::Boundary& boundary, std::span<c
         index_of[{piece.part, of_piece.back()}] = 0;
   for (auto& [key, index] : index_of) {
     index = static_cast<int>(boundary.part_names.size());
-    boundary.part_names.push_back(
-        fmt::format("{}.{}", boundary.part_names[static_cast<std::size_t>(key.first)], key.second));
+    boundary.part_names.push_back(fmt::format("{}.{}", boundary.part_names[static_cast<std::size_t>(key.first)],
+                                              name_of(key.first, key.second, parts)));
     markers.push_back(key.second);
   }
   for (std::size_t next = 0; Loop & loop : boundary.loops) {

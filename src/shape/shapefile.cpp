@@ -3,20 +3,19 @@
 
 #include "contour_text.hpp"
 #include "core/read_file.hpp"
-#include "shape/ring_builder.hpp"
+#include "shape/feature_rings.hpp"
 #include "trime/core/error.hpp"
 
 #include <shapefil.h>
 
-#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 namespace trime::shape {
 namespace {
-
-using geometry::Vec2;
 
 /// What libshp would print.
 std::string& said() {
@@ -27,8 +26,10 @@ std::string& said() {
 struct Close {
   void operator()(SHPInfo* file) const { SHPClose(file); }
   void operator()(SHPObject* shape) const { SHPDestroyObject(shape); }
+  void operator()(DBFInfo* table) const { DBFClose(table); }
 };
 using File = std::unique_ptr<SHPInfo, Close>;
+using Table = std::unique_ptr<DBFInfo, Close>;
 using Record = std::unique_ptr<SHPObject, Close>;
 
 /// A file beside `path` with another ending, in the case of letters that is there.
@@ -37,12 +38,17 @@ std::string beside(const std::string& path, const char* ending, const char* uppe
   return std::filesystem::exists(stem + ending) ? stem + ending : stem + upper_ending;
 }
 
-/// @param bytes of the file
-File open(const std::string& path, std::string_view bytes) {
+SAHooks hooks_of_libshp() {
   SAHooks hooks;
   SASetupDefaultHooks(&hooks);
   hooks.Error = [](const char* message) { said() += (said().empty() ? "" : "; ") + std::string(message); };
   said().clear();
+  return hooks;
+}
+
+/// @param bytes of the file
+File open(const std::string& path, std::string_view bytes) {
+  SAHooks hooks = hooks_of_libshp();
   if (!std::filesystem::exists(beside(path, ".shx", ".SHX")))
     throw FileError(fmt::format("cannot open {}: a shapefile is at least NAME.shp and NAME.shx, expected both in one "
                                 "directory; copy all files of the set, or make it anew by ogr2ogr",
@@ -56,44 +62,106 @@ File open(const std::string& path, std::string_view bytes) {
   return file;
 }
 
-std::string type_name(int type) {
-  return SHPTypeName(type);
+/// Does each first byte of a character tell how many follow?
+bool is_utf8(std::string_view text) {
+  for (std::size_t k = 0; k < text.size();) {
+    const auto byte = static_cast<unsigned char>(text[k++]);
+    int follow = byte < 0x80 ? 0 : byte >= 0xC2 && byte < 0xE0 ? 1 : byte >= 0xE0 && byte < 0xF0 ? 2 : 3;
+    if (byte >= 0xF5 || (byte >= 0x80 && byte < 0xC2))
+      return false;
+    for (; follow > 0; --follow)
+      if (k >= text.size() || (static_cast<unsigned char>(text[k++]) & 0xC0) != 0x80)
+        return false;
+  }
+  return true;
 }
+
+/// A text that is no UTF-8 is Latin-1, as old shapefiles have it.
+std::string as_utf8(const std::string& text) {
+  if (is_utf8(text))
+    return text;
+  std::string wide;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      wide += c;
+    } else {
+      wide += static_cast<char>(0xC0 | byte >> 6);
+      wide += static_cast<char>(0x80 | (byte & 0x3F));
+    }
+  }
+  return wide;
+}
+
+/// NAME.dbf, and in it the field of the attribute that names the boundary.
+class Attributes {
+public:
+  Attributes(const std::string& path, const std::string& attribute, FeatureRings& rings) {
+    if (attribute.empty())
+      return;
+    if (!std::filesystem::exists(beside(path, ".dbf", ".DBF")))
+      throw FileError(
+          fmt::format("cannot open {}, which has the attributes of {}: expected both in one directory; copy "
+                      "all files of the set",
+                      beside(path, ".dbf", ".dbf"), path));
+    const std::string file = beside(path, ".dbf", ".DBF");
+    SAHooks hooks = hooks_of_libshp();
+    table_.reset(DBFOpenLL(file.c_str(), "rb", &hooks));
+    if (!table_)
+      throw FileError(fmt::format("{} is damaged: expected a table of dBASE that libshp opens, found: {}", file,
+                                  said().empty() ? "another file" : trimmed(said())));
+    field_ = DBFGetFieldIndex(table_.get(), attribute.c_str()); // in any case of letters
+    for (int k = 0; k < DBFGetFieldCount(table_.get()); ++k) {
+      std::array<char, XBASE_FLDNAME_LEN_READ + 1> name{};
+      DBFGetFieldInfo(table_.get(), k, name.data(), nullptr, nullptr);
+      rings.has_attribute(k == field_ ? attribute : as_utf8(name.data()));
+    }
+  }
+
+  std::optional<std::string> of(int record) const {
+    if (field_ < 0 || record >= DBFGetRecordCount(table_.get()) ||
+        DBFIsAttributeNULL(table_.get(), record, field_) != 0)
+      return {};
+    const char* text = DBFReadStringAttribute(table_.get(), record, field_);
+    return text == nullptr ? std::optional<std::string>() : as_utf8(text);
+  }
+
+private:
+  Table table_;
+  int field_ = -1;
+};
 
 class ShapefileReader {
 public:
-  ShapefileReader(const std::string& path, std::string_view bytes) : path_(path), file_(open(path, bytes)) {
+  ShapefileReader(const std::string& path, std::string_view bytes, const std::string& attribute)
+      : path_(path), file_(open(path, bytes)), rings_(contour_, attribute), attributes_(path, attribute, rings_) {
     contour_.source = path;
   }
 
   Contour read() {
     int records = 0, type = 0;
     SHPGetInfo(file_.get(), &records, &type, nullptr, nullptr);
-    RingBuilder builder(contour_);
     for (int k = 0; k < records; ++k) {
       const Record record(SHPReadObject(file_.get(), k));
       if (!record)
         throw FileError(fmt::format("{}:{}: the record is damaged: expected {} records, found {} that can be read: {}",
                                     path_, k + 1, records, k, said().empty() ? "the file is too short" : said()));
-      add(*record, k + 1, builder);
+      add(*record, k + 1);
+      rings_.end_feature(attributes_.of(k));
     }
-    builder.finish("a shapefile with polygons");
-    tell_skipped();
+    rings_.finish("a shapefile with polygons");
     return std::move(contour_);
   }
 
 private:
-  void add(const SHPObject& record, int number, RingBuilder& builder) {
+  void add(const SHPObject& record, int number) {
     const int type = record.nSHPType;
     const bool is_line = type == SHPT_ARC || type == SHPT_ARCZ || type == SHPT_ARCM,
                is_polygon = type == SHPT_POLYGON || type == SHPT_POLYGONZ || type == SHPT_POLYGONM;
     if (type == SHPT_NULL)
       return;
     if (!is_line && !is_polygon) {
-      if (++skipped_ == 1) {
-        skipped_record_ = number;
-        skipped_type_ = type_name(type);
-      }
+      rings_.skip(SHPTypeName(type), number);
       return;
     }
     for (int part = 0; part < record.nParts; ++part) {
@@ -103,38 +171,25 @@ private:
         throw FileError(fmt::format("{}:{}: part {} of the record is damaged: expected vertices within 0 to {}, found "
                                     "{} to {}",
                                     path_, number, part + 1, record.nVertices, first, end));
-      const auto vertex = [&](int k) { return Vec2{record.padfX[k], record.padfY[k]}; };
-      if (is_line && vertex(first) != vertex(end - 1))
-        throw GeometryError(fmt::format("{}:{}: expected polygons, or lines that end where they start, at ({}, {}); "
-                                        "found one that ends at ({}, {}): close it, or make a polygon of it",
-                                        path_, number, vertex(first).x, vertex(first).y, vertex(end - 1).x,
-                                        vertex(end - 1).y));
+      std::vector<FilePoint> vertices;
       for (int k = first; k < end; ++k)
-        builder.add(vertex(k), number);
-      builder.end_ring();
+        vertices.push_back({{record.padfX[k], record.padfY[k]}, number});
+      rings_.add(is_line ? FeatureRings::Kind::line : FeatureRings::Kind::polygon, std::move(vertices));
     }
-  }
-
-  void tell_skipped() {
-    if (skipped_ > 0)
-      contour_.warnings.push_back(fmt::format("{}:{}: {} record{} of type {}, here first, left out: only polygons and "
-                                              "closed lines bound a shape",
-                                              path_, skipped_record_, skipped_, skipped_ == 1 ? "" : "s",
-                                              skipped_type_));
   }
 
   const std::string& path_;
   File file_;
   Contour contour_;
-  int skipped_ = 0, skipped_record_ = 0;
-  std::string skipped_type_;
+  FeatureRings rings_;
+  Attributes attributes_;
 };
 
 } // namespace
 
-Contour read_shapefile(const std::string& path, const std::string& hint) {
+Contour read_shapefile(const std::string& path, const std::string& hint, const std::string& attribute) {
   const std::string bytes = read_file(path, hint); // the reason of the system if it cannot be opened
-  Contour contour = ShapefileReader(path, bytes).read();
+  Contour contour = ShapefileReader(path, bytes, attribute).read();
   if (const std::string prj = beside(path, ".prj", ".PRJ"); std::filesystem::exists(prj))
     contour.crs = std::string(trimmed(read_file(prj)));
   return contour;

@@ -4,6 +4,7 @@
 #include "comm/agree.hpp"
 #include "core/free_memory.hpp"
 #include "core/thread_loop.hpp"
+#include "sites/edited_stars.hpp"
 #include "sites/rules.hpp"
 #include "trime/core/error.hpp"
 
@@ -15,17 +16,6 @@ namespace {
 
 constexpr double unknown_size = 0;
 constexpr int size_chunk = 1024; // sites whose size one thread evaluates in a row
-
-/// Weights are replicated, so all ranks find the same.
-void check_counts(const std::vector<std::int64_t>& weights, const decomposition::Partition& partition) {
-  for (int rank = 0; rank < partition.ranks(); ++rank) {
-    const std::int64_t sites = std::accumulate(weights.begin() + partition.first_tile(rank),
-                                               weights.begin() + partition.last_tile(rank), std::int64_t{0});
-    if (sites > SiteRules::most_owned)
-      throw ConfigError(fmt::format("rank {} would own {} points, at most {} are possible; start more ranks", rank,
-                                    sites, SiteRules::most_owned));
-  }
-}
 
 } // namespace
 
@@ -40,6 +30,17 @@ SiteState::SiteState(const SiteState& other)
   for (LocalIndex i = 0; i < other.points_.owned(); ++i)
     sites.push_back(other.points_.site(i));
   distribute(std::move(sites));
+}
+
+/// Weights are replicated, so all ranks find the same.
+void SiteState::check_counts(std::span<const std::int64_t> weights) const {
+  for (int rank = 0; rank < partition_.ranks(); ++rank) {
+    const std::int64_t sites = std::accumulate(weights.begin() + partition_.first_tile(rank),
+                                               weights.begin() + partition_.last_tile(rank), std::int64_t{0});
+    if (sites > SiteRules::most_owned)
+      throw ConfigError(fmt::format("rank {} would own {} points, at most {} are possible; start more ranks", rank,
+                                    sites, SiteRules::most_owned));
+  }
 }
 
 /// After each sorting.
@@ -73,7 +74,7 @@ void SiteState::distribute(mesh::SiteList sites) {
   wrap(sites);
   const std::vector<std::int64_t> weights = decomposition::fit_tiles(comm_, grid_, sites);
   partition_ = decomposition::Partition(weights, comm_.size());
-  check_counts(weights, partition_);
+  check_counts(weights);
   decomposition::migrate(comm_, grid_, partition_, sites);
   choose_bins(sites);
   points_.assign_owned(sites, partition_.first_tile(comm_.rank()), partition_.last_tile(comm_.rank()));
@@ -108,6 +109,40 @@ void SiteState::move_sites(std::vector<std::uint8_t> gone, mesh::SiteList more) 
   sizes_.forget();
   carry_sizes(new_index);
   stars_.renumber(new_index, points_.owned());
+  count_sites();
+}
+
+void SiteState::edit_sites(const delaunay::StarBuilder& builder, std::vector<LocalIndex> gone, mesh::SiteList come,
+                           std::span<const double> sizes) {
+  TRIME_ASSERT(sizes_.known(points_.owned() - 1) || points_.owned() == 0, "h of the owned sites is not known");
+  wrap(come);
+  std::vector<ChangedPlace> changes;
+  for (const LocalIndex i : gone)
+    changes.push_back({points_.position(i), false});
+  for (const mesh::Site& site : come)
+    changes.push_back({site.position, true});
+  const bool has_ghosts = ghosts_are_here_;
+  const FormerGhosts former(points_);
+  std::vector<LocalIndex> new_index;
+  const mesh::IndexShift shift = points_.edit(std::move(gone), come, new_index);
+  halo_.refresh(points_);
+  ghosts_are_here_ = true;
+  carried_.clear();
+  if (!sizes_.is_uniform()) {
+    std::vector<double>& values = sizes_.values();
+    values.resize(at(shift.before())); // without the ghosts
+    shift.move(values);
+    for (std::size_t k = 0; k < come.size(); ++k)
+      if (new_index[k] >= 0)
+        values[at(new_index[k])] = sizes[k];
+  }
+  const std::vector<LocalIndex> ghosts = former.find_in(points_, changes);
+  stars_.renumber(shift, has_ghosts ? ghosts : std::span<const LocalIndex>{});
+  if (has_ghosts && !grid_.periods().any())
+    doubt_stars(points_, sizes_, builder, std::move(changes), stars_);
+  else
+    for (LocalIndex i = 0; i < points_.owned(); ++i)
+      stars_.set_certain(i, false);
   count_sites();
 }
 
@@ -220,7 +255,8 @@ void SiteState::evaluate_sizes(const sizing::SizeField& size, LocalIndex end) {
   }
   const geometry::Periods& periods = grid_.periods();
   std::vector<double>& values = sizes_.values();
-  const LocalIndex first = std::min(end, sizes_.known(0) ? points_.owned() : 0);
+  const LocalIndex known = static_cast<LocalIndex>(values.size()); // ghosts among them: as old as those of their owners
+  const LocalIndex first = std::min(end, known >= points_.owned() ? known : 0);
   values.resize(static_cast<std::size_t>(end));
   thread_loop(end - first, size_chunk, [&](std::ptrdiff_t k, int) {
     const LocalIndex i = first + static_cast<LocalIndex>(k);

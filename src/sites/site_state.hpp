@@ -7,6 +7,7 @@
 #include "delaunay/star_builder.hpp"
 #include "mesh/binned_points.hpp"
 #include "mesh/local_sizes.hpp"
+#include "sites/saved_sites.hpp"
 #include "sites/star_view.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/sizing/size_field.hpp"
@@ -24,7 +25,8 @@ struct Disc {
   double radius;
 };
 
-/// @brief Owned and ghost sites with their stars. After each change of sites (distribute, move_sites): compute_stars.
+/// @brief Owned and ghost sites with their stars. After each change of sites (distribute, move_sites,
+/// edit_sites): compute_stars.
 class SiteState {
 public:
   /// @param box that holds all sites, now and later
@@ -39,9 +41,23 @@ public:
   /// First sites, from any ranks: fits the tiles to them and partitions these by their counts. Collective.
   /// @throws ConfigError on all ranks if one would own more sites than a local index can count
   void distribute(mesh::SiteList sites);
+  /// @brief The sites of a checkpoint, with the tiles and bins that they had, shared out among these ranks. Their stars
+  /// are not known. Collective.
+  /// @throws FileError on all ranks as `load`, or if the sites do not fit the tiles; ConfigError as distribute
+  void restore(const SavedTiles& saved, const SiteLoader& load, const sizing::SizeField& size);
   /// @brief The owned sites go to BinnedPoints::next, but for those that are gone (by local index; empty:
   /// none); more sites come, whoever owns their places. Migrates, sorts, keeps the rings. Collective.
   void move_sites(std::vector<std::uint8_t> gone = {}, mesh::SiteList more = {});
+
+  /// @brief What move_sites comes to where few of the owned sites go, and a few come to the own tiles: their order, h
+  /// and rings are kept in place. Without periods, stars that nothing near has changed stay certain. Fetches the
+  /// ghosts. Collective among neighbours. O(edits log edits), and a pass at the speed of memory over the owned sites.
+  /// @param builder of the stars that are certain
+  /// @param gone ascending, each once
+  /// @param sizes h at each that comes, that of the stage
+  /// @pre sites were sorted and have not moved since; their leads are released, and h of the owned ones is known
+  void edit_sites(const delaunay::StarBuilder& builder, std::vector<LocalIndex> gone, mesh::SiteList come,
+                  std::span<const double> sizes);
 
   /// @brief Refreshes the halo and the sizes and computes the wanted stars, asking for more bins until every one is
   /// certain. Collective.
@@ -80,6 +96,7 @@ public:
   void release_work_space();
 
 private:
+  void check_counts(std::span<const std::int64_t> weights) const;
   void count_sites() const;
   void wrap(mesh::SiteList& sites) const;
   void wrap_next();
@@ -89,6 +106,9 @@ private:
   void remember_sizes();
   void carry_sizes(std::span<const LocalIndex> new_index);
   void evaluate_sizes(const sizing::SizeField& size, LocalIndex end);
+  void restore_drifts(const SavedTiles& saved);
+  void restore_sizes(const std::vector<double>& sizes, std::span<const LocalIndex> new_index,
+                     const sizing::SizeField& size);
 
   const comm::Communicator& comm_;
   mesh::TileGrid grid_;

@@ -196,10 +196,10 @@ std::vector<LatticeRun> LatticeStart::runs_in(const mesh::TileGrid& grid, LocalI
 
 LatticeRuns LatticeStart::runs(const mesh::TileRange& tiles, double spacing) const {
   LatticeRuns all{spacing, {}};
+  all.of_tile.resize(static_cast<std::size_t>(tiles.last - tiles.first));
   const RowLattice rows = rows_of(spacing);
   if (!(rows.spacing > 0))
     return all;
-  all.of_tile.resize(static_cast<std::size_t>(tiles.last - tiles.first));
   thread_loop(tiles.last - tiles.first, 1, [&](std::ptrdiff_t t, int) {
     all.of_tile[static_cast<std::size_t>(t)] =
         runs_in(tiles.grid, tiles.first + static_cast<LocalIndex>(t), rows, spacing);
@@ -232,6 +232,14 @@ std::int64_t LatticeRuns::count() const {
   for (const std::vector<LatticeRun>& runs : of_tile)
     n += count_of(runs);
   return n;
+}
+
+std::vector<std::int64_t> LatticeRuns::counts() const {
+  std::vector<std::int64_t> counts;
+  counts.reserve(of_tile.size());
+  for (const std::vector<LatticeRun>& runs : of_tile)
+    counts.push_back(count_of(runs));
+  return counts;
 }
 
 } // namespace trime::start

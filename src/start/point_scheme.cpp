@@ -112,10 +112,19 @@ Stage PointScheme::first_of_lattice() {
   shortage_ = std::move(fit.shortage);
   const auto time = context_->timers.scope("start");
   const LatticeStart start(context_->given_boundary, *fit.stage.guard, context_->lattice);
-  if (fit.runs.of_tile.empty())
-    fit.runs = start.runs(own_share(fit.stage), fit.spacing);
+  share_runs(start, fit);
   place_sites(*context_, fit.stage, start.sites(fit.runs, static_cast<std::size_t>(fit.stage.placed_first())));
   return std::move(fit.stage);
+}
+
+/// The runs of this rank, once all of them are shared out evenly: the density has told only about how many there are.
+void PointScheme::share_runs(const LatticeStart& start, LatticeFit& fit) const {
+  if (fit.runs.of_tile.empty())
+    fit.runs = start.runs(own_share(fit.stage), fit.spacing);
+  for (bool shared = context_->comm.size() == 1; !shared;) {
+    shared = share_by_count(fit.stage, fit.runs.counts());
+    fit.runs = start.runs(own_share(fit.stage), fit.runs.spacing);
+  }
 }
 
 Stage PointScheme::first_of_insertion() {
@@ -220,11 +229,31 @@ Stage PointScheme::next(const Stage& previous) {
   return scheme_ == Scheme::insertion ? insert(previous) : divide(previous);
 }
 
+void PointScheme::visit(StateFields& fields) {
+  fields.field("stage", stage_);
+  fields.field("last_stage", last_stage_);
+  fields.field("points_now", points_now_);
+  fields.field("expected", expected_);
+}
+
+Stage PointScheme::lay_again_from(Stage first) {
+  return stage_ == 0                    ? std::move(first)
+         : scheme_ == Scheme::insertion ? lay_insertion()
+                                        : lay_division(laid_last_, expected_);
+}
+
+/// A stage of insertions after the first.
+Stage PointScheme::lay_insertion() {
+  const double coarsening = is_last() ? 1 : std::fmax(1, std::sqrt(expected_points() / points_now_));
+  return lay_coarsened(coarsening, points_now_);
+}
+
 Stage PointScheme::divide(const Stage& previous) {
   const comm::Communicator& comm = context_->comm;
   const StageView old = previous.view(context_->lattice);
   const GlobalId before = comm.sum(std::int64_t{previous.state->points().owned()});
-  Stage stage = lay_division(laid_last_, 4 * static_cast<double>(before));
+  expected_ = 4 * static_cast<double>(before);
+  Stage stage = lay_division(laid_last_, expected_);
   const auto time = context_->timers.scope("start");
   mesh::SiteList sites = split_edges(old);
   clear_strip(stage, sites);
@@ -248,8 +277,7 @@ Stage PointScheme::insert(const Stage& previous) {
   if (is_last() && 2 * grown < all && stage_ < StartRules::most_insertions)
     ++last_stage_; // too few triangles for the rest: the boundary took the points of the first stages
   points_now_ = is_last() ? all : std::min(all, std::max(grown, std::floor(StartRules::growth * points_now_)));
-  const double coarsening = is_last() ? 1 : std::fmax(1, std::sqrt(expected_points() / points_now_));
-  Stage stage = lay_coarsened(coarsening, points_now_);
+  Stage stage = lay_insertion();
   const auto time = context_->timers.scope("start");
   mesh::SiteList sites = inner_sites(*previous.state);
   clear_strip(stage, sites);

@@ -2,6 +2,7 @@
 // How the points come into the mesh: all at once, from a coarse mesh that is divided, or in insertions.
 #pragma once
 
+#include "core/state_fields.hpp"
 #include "start/layout.hpp"
 #include "start/start.hpp"
 
@@ -10,6 +11,8 @@
 #include <string>
 
 namespace trime::start {
+
+struct LatticeFit;
 
 /// A uniform size that the boundary lowers here and there.
 class LevelSize final : public sizing::SizeField {
@@ -34,6 +37,11 @@ public:
   sites::Stage first();
   /// Next stage from the last one. @pre !is_last(), and the stars of all sites of `previous` are certain. Collective.
   sites::Stage next(const sites::Stage& previous);
+  /// @brief The present stage of a run that goes on from a checkpoint, laid out as it was, but for its sites.
+  /// @param first what first() has returned @pre visit() has restored the numbers since. Collective.
+  sites::Stage lay_again_from(sites::Stage first);
+  /// What a checkpoint keeps of it.
+  void visit(StateFields& fields);
   /// No further stage comes.
   bool is_last() const { return stage_ == last_stage_; }
   int stage() const { return stage_; }
@@ -57,10 +65,12 @@ private:
   double expected_points() const;
   sites::Stage first_of_scheme();
   sites::Stage first_of_lattice();
+  void share_runs(const LatticeStart& start, LatticeFit& fit) const;
   sites::Stage first_of_insertion();
   sites::Stage first_of_divisions();
   sites::Stage lay_coarsened(double coarsening, double expected);
   sites::Stage lay_division(sites::Stage& last, double expected);
+  sites::Stage lay_insertion();
   std::unique_ptr<const HilbertStart> along_curve(const sites::Stage& stage, double expected, double coarsening) const;
   void place_along_curve(sites::Stage& stage, double inner, const HilbertStart& start) const;
   /// The next stages after `previous`.
@@ -76,6 +86,7 @@ private:
   FittedSize fitted_;      // what the size of all stages follows from
   sites::Stage laid_last_; // the last stage of divisions, until it begins
   double points_now_ = 0;  // that the current stage aims at (insertion)
+  double expected_ = 0;    // that the current stage was laid for (division)
   std::string reason_, shortage_;
 };
 

@@ -31,6 +31,8 @@ struct LatticeRuns {
 
   /// Number of sites.
   std::int64_t count() const;
+  /// The same of each tile.
+  std::vector<std::int64_t> counts() const;
 };
 
 /// @brief Hexagonal lattice of a given spacing whose rows run along the longest straight side of the boundary, the

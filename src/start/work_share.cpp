@@ -2,9 +2,11 @@
 #include "start/work_share.hpp"
 
 #include "comm/agree.hpp"
+#include "comm/shared_work.hpp"
 #include "core/angle.hpp"
 #include "core/thread_loop.hpp"
 #include "mesh/tile_fit.hpp"
+#include "trime/core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -110,6 +112,20 @@ void share_by_density(sites::Stage& stage, const sizing::SizeField& size, const 
     weights.push_back(leaf.weight + static_cast<std::int64_t>(weight_of_site)); // it takes time even if it is empty
   }
   stage.state->share_out(std::move(shared), weights);
+}
+
+bool share_by_count(sites::Stage& stage, std::vector<std::int64_t> inside) {
+  const mesh::TileRange tiles = own_share(stage);
+  TRIME_ASSERT(std::ssize(inside) == tiles.last - tiles.first, "{} counts, {} tiles", inside.size(),
+               tiles.last - tiles.first);
+  for (const polygon::BoundarySite& site : stage.polygon.sites)
+    if (const LocalIndex tile = tiles.grid.place(site.position).tile; tile >= tiles.first && tile < tiles.last)
+      ++inside[at(tile - tiles.first)];
+  const std::vector<std::int64_t> weights = comm::gather_everywhere(stage.state->comm(), std::move(inside));
+  const std::int64_t all = std::accumulate(weights.begin(), weights.end(), std::int64_t{0});
+  mesh::WeightedTiles fit = mesh::fit_tiles(tiles.grid, weights, mesh::most_per_tile(static_cast<double>(all)));
+  stage.state->share_out(std::move(fit.tiles), fit.weights);
+  return !fit.divided;
 }
 
 mesh::TileRange own_share(const sites::Stage& stage) {

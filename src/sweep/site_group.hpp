@@ -24,12 +24,13 @@ struct Group {
   V degree{};
 };
 
-TRIME_INLINE Group group_at(const SweepTask& task, LocalIndex i, LocalIndex end) {
+/// @param wanted a bit for each lane; others count as not local
+TRIME_INLINE Group group_at(const SweepTask& task, LocalIndex i, LocalIndex end, unsigned wanted = ~0U) {
   Group group;
   LocalIndex any = -1;
   for (int l = 0; l < width; ++l) {
     group.site[l] = -1;
-    if (i + l < end && task.classes[i + l] >= task.least_class) {
+    if (i + l < end && (wanted >> l & 1) && task.classes[i + l] >= task.least_class) {
       group.site[l] = any = i + l;
       group.local |= 1U << l;
       group.bordered |= task.classes[i + l] == SiteClass::bordered;

@@ -2,6 +2,7 @@
 // When the sweeps sort their sites, and when they evaluate h anew.
 #pragma once
 
+#include "core/state_fields.hpp"
 #include "mesh/drifts.hpp"
 #include "sweep/rules.hpp"
 
@@ -34,6 +35,14 @@ public:
       return false;
     age_of_sizes_ = 0;
     return true;
+  }
+  /// What a checkpoint keeps of it.
+  void visit(StateFields& fields) {
+    fields.field("drift", drift_.distance);
+    fields.field("drift_in_sides", drift_.in_sides);
+    fields.field("drift_in_sizes", drift_in_sizes_);
+    fields.field("age_of_sizes", age_of_sizes_);
+    fields.field("moves_since_sort", moves_since_sort_);
   }
   /// The sites have been sorted, and h evaluated.
   void reset() { *this = {}; }

@@ -40,7 +40,7 @@ void StarCertifier::begin_sweep() {
 void StarCertifier::mark(std::span<const LocalIndex> sites, std::vector<LocalIndex>& list) {
   for (const LocalIndex i : sites)
     if (!marked_[at(i)] && classes_[i] != SiteClass::held) {
-      marked_[at(i)] = 1;
+      marked_[at(i)] = checked;
       list.push_back(i);
     }
 }
@@ -61,11 +61,13 @@ void StarCertifier::settle(std::vector<LocalIndex>& certified, std::vector<Local
       (state_.stars().certain(i) ? certified : uncertain).push_back(i);
     checked_.insert(checked_.end(), suspects_.begin(), suspects_.end());
     suspects_.clear();
-    for (const delaunay::AffectedStar& star : affected)
+    for (const delaunay::AffectedStar& star : affected) {
+      marked_[at(star.cause)] = changed;
       if (star.site < state_.points().owned())
         beside.push_back(star.site);
       else
         note_ghost(star);
+    }
     mark(beside, suspects_);
   }
 }

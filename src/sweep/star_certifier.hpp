@@ -64,6 +64,8 @@ public:
   void go_on(const Open& all, int round);
   /// Was the star of site i looked at in this sweep?
   bool was_checked(LocalIndex i) const { return marked_[static_cast<std::size_t>(i)]; }
+  /// Is it another star than at the begin of this sweep?
+  bool has_changed(LocalIndex i) const { return marked_[static_cast<std::size_t>(i)] == changed; }
   /// Stars of this sweep that were not right any more, and those beside borders that were lost; on this rank.
   std::int64_t rebuilt() const { return rebuilt_; }
   void end_sweep();
@@ -83,7 +85,8 @@ private:
   const delaunay::StarBuilder& builder_;
   const MoveContext context_;
   SiteClasses classes_;
-  std::vector<std::uint8_t> marked_;           // by site: its star has been looked at in this sweep
+  static constexpr std::uint8_t checked = 1, changed = 2;
+  std::vector<std::uint8_t> marked_;           // by site: its star has been looked at in this sweep, and has changed
   std::vector<LocalIndex> suspects_;           // to be certified by emptiness
   std::vector<LocalIndex> checked_;            // all that were suspects in this sweep
   std::vector<mesh::BinRef> missing_;          // bins that suspects miss, ascending

@@ -72,6 +72,14 @@ void SweepControl::begin_stage(bool inserts, bool is_last) {
     use(mover_); // without the momentum of the stage before
 }
 
+void SweepControl::visit(StateFields& fields) {
+  fields.field("mover", mover_);
+  fields.field("first_record", first_record_);
+  if (fields.restores())
+    use(mover_);
+  rule_->visit(fields);
+}
+
 Patience SweepControl::patience() const {
   Patience patience{.tolerance = tolerance()};
   if (mover_ == Mover::triangles) {

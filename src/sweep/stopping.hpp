@@ -63,6 +63,8 @@ public:
   /// Sites are moved by another rule from now on, which counts its gains from the last record.
   void switch_to(Mover mover);
   UpdateRule& rule() { return *rule_; }
+  /// What a checkpoint keeps of it. @pre begin_stage()
+  void visit(StateFields& fields);
   Mover mover() const { return mover_; }
 
 private:

@@ -5,8 +5,36 @@
 
 #include "sweep/site_group.hpp"
 
+#include <cstring>
+
 namespace trime::sweep {
 namespace {
+
+/// What their flags ask of some sites in a row, a bit for each.
+struct Waking {
+  unsigned awake = 0;  // the rule may move it
+  unsigned wanted = 0; // that, or its star is to be certified
+};
+
+TRIME_INLINE Waking waking_at(const SweepTask& task, LocalIndex i, LocalIndex end) {
+  Waking waking;
+  for (int l = 0; l < width && i + l < end; ++l) {
+    waking.awake |= static_cast<unsigned>((task.flags[i + l] & SiteFlags::awake) != 0) << l;
+    waking.wanted |= static_cast<unsigned>(!SiteFlags::is_asleep(task.flags[i + l])) << l;
+  }
+  return waking;
+}
+
+/// Is there nothing to do for the sites of the group at i? False for the last ones of a range.
+TRIME_INLINE bool is_copied(const SweepTask& task, LocalIndex i, LocalIndex end) {
+  std::uint64_t found = 0, copied = 0;
+  static_assert(width <= sizeof found);
+  if (i + width > end)
+    return false;
+  std::memcpy(&found, task.flags + i, width);
+  std::memset(&copied, SiteFlags::copied, width);
+  return found == copied;
+}
 
 /// Where the sites of a group are to go.
 struct GroupMove {
@@ -14,6 +42,7 @@ struct GroupMove {
   lanes::Pairs<V> lead{};     // leads before the move
   V next_lead_x, next_lead_y; // and after it
   M is_short;                 // neither move nor move and lead exceed the cap
+  M rests;                    // surely, see surely_rests
 };
 
 TRIME_INLINE V clamped(V v, double low, double high) {
@@ -25,9 +54,9 @@ TRIME_INLINE V snapped(const SweepTask& task, V v) {
   return lanes::nearest(v * task.inverse_lattice_step) * task.lattice_step;
 }
 
-/// The move of a rule with its momentum, onto the lattice; short moves rest.
+/// The move of a rule with its momentum, onto the lattice; short moves rest, and so do sites that are not awake.
 TRIME_INLINE GroupMove next_places(const SweepTask& task, const Group& group, const lanes::Pairs<V>& p, V own,
-                                   const Move<V>& move) {
+                                   const Move<V>& move, M awake) {
   GroupMove next;
   if (task.leads)
     next.lead = load_sites(task.leads, group);
@@ -36,8 +65,9 @@ TRIME_INLINE GroupMove next_places(const SweepTask& task, const Group& group, co
   const V limit = (SweepRules::move_cap * own) * (SweepRules::move_cap * own);
   const V way_x = move.x + next_lead_x, way_y = move.y + next_lead_y;
   const V squared_way = way_x * way_x + way_y * way_y;
-  next.is_short = (move.x * move.x + move.y * move.y <= limit) & (squared_way <= limit);
-  const M rests = squared_way < (SweepRules::rest * own) * (SweepRules::rest * own);
+  next.is_short = ~awake | ((move.x * move.x + move.y * move.y <= limit) & (squared_way <= limit));
+  const M rests = ~awake | (squared_way < (SweepRules::rest * own) * (SweepRules::rest * own));
+  next.rests = rests & surely_rests(move.x, move.y, own);
   next.x = lanes::select(rests, p.x, snapped(task, clamped(p.x + way_x, task.box.min.x, task.box.max.x)));
   next.y = lanes::select(rests, p.y, snapped(task, clamped(p.y + way_y, task.box.min.y, task.box.max.y)));
   next.next_lead_x = lanes::select(rests, V{}, next_lead_x);
@@ -83,6 +113,19 @@ TRIME_INLINE M store_moves(const SweepTask& task, LocalIndex begin, unsigned cer
   return counted;
 }
 
+/// Says of the local sites of a group what the next pass has to do with them.
+TRIME_INLINE void store_flags(const SweepTask& task, LocalIndex begin, unsigned local, unsigned certified,
+                              unsigned resting) {
+  for (int l = 0; l < width; ++l) {
+    if (!(local >> l & 1))
+      continue;
+    std::uint8_t& flags = task.flags[begin + l];
+    const bool stays_awake = (flags & SiteFlags::awake) && !((certified & resting) >> l & 1),
+               is_watched = !(certified >> l & 1) || task.classes[begin + l] != SiteClass::local;
+    flags = static_cast<std::uint8_t>((stays_awake ? SiteFlags::awake : 0) | (is_watched ? SiteFlags::watched : 0));
+  }
+}
+
 /// What the moves of a range add up to, lane by lane.
 struct LaneTally {
   std::int64_t moving = 0;
@@ -105,9 +148,17 @@ struct LaneTally {
   }
 };
 
-/// Moves the local sites of a group; returns those whose stars it cannot certify, a bit for each.
+/// A bit for each lane as a mask.
+TRIME_INLINE M mask_of(unsigned lanes) {
+  M mask;
+  for (int l = 0; l < width; ++l)
+    mask[l] = -static_cast<std::int64_t>(lanes >> l & 1);
+  return mask;
+}
+
+/// Moves the local sites of a group that are awake; returns those whose stars it cannot certify, a bit for each.
 template <template <class, bool> class Formula, bool graded>
-TRIME_INLINE unsigned sweep_group(const SweepTask& task, const Group& group, LocalIndex begin,
+TRIME_INLINE unsigned sweep_group(const SweepTask& task, const Group& group, unsigned awake, LocalIndex begin,
                                   SweepLeftovers& leftovers, LaneTally& tally) {
   const lanes::Pairs<V> p = load_sites(task.positions, group);
   const V own = sizes_of<graded>(task, group);
@@ -117,24 +168,28 @@ TRIME_INLINE unsigned sweep_group(const SweepTask& task, const Group& group, Loc
   load_spokes<graded>(task, group, p, own, spoke);
   visit_triangles(group, spoke, test, formula);
 
-  const GroupMove next = next_places(task, group, p, own, formula.move());
+  const GroupMove next = next_places(task, group, p, own, formula.move(), mask_of(awake));
   const unsigned certified = group.local & test.good();
   const unsigned moved = certified & lanes::bits(next.is_short);
   const M counted = store_moves(task, begin, certified, moved, next, leftovers);
   tally.add({next.x - p.x, next.y - p.y, next.lead.x, next.lead.y, next.next_lead_x, next.next_lead_y, own}, counted);
+  store_flags(task, begin, group.local, certified, lanes::bits(next.rests));
   return group.local & ~certified;
 }
 
-/// Those of [begin, end) that are not local stay where they are; returns those with stars, a bit for each.
+/// Those of [begin, end) that are asleep or not local stay where they are; returns those whose stars are to be
+/// certified, a bit for each.
 TRIME_INLINE unsigned hold_others(const SweepTask& task, const Group& group, LocalIndex begin, LocalIndex end) {
   unsigned with_stars = 0;
   for (LocalIndex i = begin; i < begin + width && i < end; ++i) {
-    if (group.local >> (i - begin) & 1)
+    if (group.local >> (i - begin) & 1 || task.flags[i] == SiteFlags::copied)
       continue;
     task.next_positions[i] = task.positions[i];
     if (task.next_leads)
       task.next_leads[i] = {};
-    if (task.classes[i] != SiteClass::held)
+    if (SiteFlags::is_asleep(task.flags[i]))
+      task.flags[i] = SiteFlags::copied;
+    else if (task.classes[i] != SiteClass::held)
       with_stars |= 1U << (i - begin);
   }
   return with_stars;
@@ -151,10 +206,14 @@ template <template <class, bool> class Formula, bool graded>
 SweepTally sweep_range(const SweepTask& task, LocalIndex begin, LocalIndex end, SweepLeftovers& leftovers) {
   LaneTally tally;
   for (LocalIndex i = begin; i < end; i += width) {
-    const Group group = group_at(task, i, end);
+    if (is_copied(task, i, end))
+      continue;
+    const Waking waking = waking_at(task, i, end);
+    leftovers.awake_count += __builtin_popcount(waking.awake);
+    const Group group = group_at(task, i, end, waking.wanted);
     unsigned suspects = hold_others(task, group, i, end);
     if (group.local)
-      suspects |= sweep_group<Formula, graded>(task, group, i, leftovers, tally);
+      suspects |= sweep_group<Formula, graded>(task, group, waking.awake, i, leftovers, tally);
     append(i, suspects, leftovers.suspects, leftovers.suspect_count);
   }
   return tally.sum();

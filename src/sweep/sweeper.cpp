@@ -13,6 +13,7 @@
 namespace trime::sweep {
 namespace {
 
+using geometry::Vec2;
 using sites::SiteState;
 using sites::StarView;
 using sites::view_of;
@@ -25,12 +26,15 @@ constexpr int chunk = 64; // sites that one thread treats in a row
 struct Sweeper::TileLeftovers {
   std::vector<LocalIndex> suspects, irregular; // of all tiles
   std::vector<LocalIndex> guarded;             // of one tile
+  std::int64_t awake = 0;                      // sites of all tiles
 };
 
-Sweeper::Sweeper(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context, LemmaReach reach)
-    : state_(state), builder_(builder), context_(context), certifier_(state, builder, context, reach),
-      activity_(state, builder), outcomes_(state, certifier_.classes()) {
+Sweeper::Sweeper(SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context, LemmaReach reach,
+                 Sleep sleep)
+    : state_(state), builder_(builder), context_(context), sleep_(sleep), certifier_(state, builder, context, reach),
+      activity_(state, builder), site_activity_(state, certifier_.classes()), outcomes_(state, certifier_.classes()) {
   activity_.reset(certifier_.classes().around());
+  site_activity_.reset();
   outcomes_.reset();
 }
 
@@ -38,6 +42,7 @@ Sweeper::Sweeper(SiteState& state, const delaunay::StarBuilder& builder, const M
 void Sweeper::reset() {
   certifier_.reset();
   activity_.reset(certifier_.classes().around());
+  site_activity_.reset();
   outcomes_.reset();
   measures_.reset();
   schedule_.reset();
@@ -71,8 +76,9 @@ void Sweeper::stay(const SweepTask& task, std::size_t t) {
 /// The pass of the kernel over an awake tile, and the treatment of those that it moves near the boundary.
 void Sweeper::sweep_tile(const SweepTask& task, std::size_t t, TileLeftovers& mine) {
   activity_.note_moves(t);
-  measures_.forget(t);
   const LocalIndex tile = state_.points().first_tile() + static_cast<LocalIndex>(t);
+  if (activity_.wakes_all())
+    site_activity_.wake_tile(tile);
   const auto [begin, end] = state_.points().tile_range(tile);
   const std::size_t suspects = mine.suspects.size(), irregular = mine.irregular.size(), n = at(end - begin);
   mine.suspects.resize(suspects + n);
@@ -84,6 +90,9 @@ void Sweeper::sweep_tile(const SweepTask& task, std::size_t t, TileLeftovers& mi
   outcomes_.set_tally(t, sweep_kernels().sweep(here, begin, end, leftovers));
   mine.suspects.resize(suspects + static_cast<std::size_t>(leftovers.suspect_count));
   mine.irregular.resize(irregular + static_cast<std::size_t>(leftovers.irregular_count));
+  mine.awake += leftovers.awake_count;
+  if (leftovers.awake_count > 0)
+    measures_.forget(t);
   const bool pushes = treat_guarded(std::span(mine.guarded).first(static_cast<std::size_t>(leftovers.guarded_count)));
   if (pushes || leftovers.suspect_count + leftovers.irregular_count > 0)
     outcomes_.tally_again(t);
@@ -93,6 +102,7 @@ void Sweeper::sweep_tile(const SweepTask& task, std::size_t t, TileLeftovers& mi
 void Sweeper::run_kernel(const UpdateRule& rule, TilePlace which) {
   SweepTask task = make_sweep_task(state_, builder_, context_, certifier_.classes());
   task.rule = rule.parameters();
+  task.flags = site_activity_.flags();
   const TilesAround& around = certifier_.classes().around();
   activity_.wake(task.rule, which, around);
   PerThread<TileLeftovers> of_thread;
@@ -105,23 +115,26 @@ void Sweeper::run_kernel(const UpdateRule& rule, TilePlace which) {
     else
       stay(task, t);
   });
+  std::int64_t awake = 0;
   for (const TileLeftovers& mine : of_thread) {
+    awake += mine.awake;
     certifier_.suspect(mine.suspects);
     irregular_.insert(irregular_.end(), mine.irregular.begin(), mine.irregular.end());
   }
+  count_sites(which, awake);
 }
 
-/// Those of the awake tiles that lie so, and of the sleeping ones.
-void Sweeper::count_sites(TilePlace which) const {
+/// Of the sites of the tiles that lie so, so many were awake.
+void Sweeper::count_sites(TilePlace which, std::int64_t awake) const {
   const TilesAround& around = certifier_.classes().around();
-  std::array<std::int64_t, 2> sites{}; // asleep, awake
+  std::int64_t all = 0;
   for (std::size_t t = 0; t < around.size(); ++t)
     if (around.place(t) == which) {
       const auto [begin, end] = state_.points().tile_range(state_.points().first_tile() + static_cast<LocalIndex>(t));
-      sites[activity_.is_awake(t)] += end - begin;
+      all += end - begin;
     }
-  state_.comm().counters().add(Counter::sites_slept, sites[0]);
-  state_.comm().counters().add(Counter::sites_swept, sites[1]);
+  state_.comm().counters().add(Counter::sites_slept, all - awake);
+  state_.comm().counters().add(Counter::sites_swept, awake);
 }
 
 /// Pushes those that the kernel has moved into a disc; true if there are any.
@@ -134,10 +147,17 @@ bool Sweeper::treat_guarded(std::span<const LocalIndex> sites) {
                     next_site(points, i).lead, SweepRules::pushes_allowed);
     if (treated.pushed || treated.deleted) {
       outcomes_.record(i, treated);
+      site_activity_.wake(i);
       any = true;
     }
   }
   return any;
+}
+
+/// Is it the turn of the rule to move site i, whose star was certified by emptiness? That must not depend on which
+/// certificate was used: it is where the star has changed, or where the kernel would have moved it.
+bool Sweeper::may_move(LocalIndex i, std::size_t t) const {
+  return certifier_.has_changed(i) || (activity_.is_awake(t) && site_activity_.is_awake(i));
 }
 
 /// The moves that the kernel has left, with all that can happen to a site.
@@ -147,11 +167,27 @@ void Sweeper::move_one_by_one(const UpdateRule& rule, std::span<const LocalIndex
   thread_loop(static_cast<std::ptrdiff_t>(sites.size()), chunk, [&](std::ptrdiff_t k, int) {
     const LocalIndex i = sites[static_cast<std::size_t>(k)];
     const LocalIndex tile = tile_of_site(points, i);
-    if (certifier_.classes().update(i, tile) == SiteClass::fixed)
-      return;
-    outcomes_.record(i, treat_step(context_, state_.grid(), points.site(i), view.size(i), rule.step(view, i),
-                                   SweepRules::pushes_allowed));
     const std::size_t t = at(tile - points.first_tile());
+    const SiteClass site_class = certifier_.classes().update(i, tile);
+    site_activity_.watch(i);
+    if (certifier_.has_changed(i))
+      measures_.forget(t);
+    if (site_class == SiteClass::fixed) {
+      site_activity_.set_rest(i, true);
+      return;
+    }
+    const mesh::Site site = points.site(i);
+    if (!may_move(i, t)) {
+      outcomes_.record(i, {site.position, {}, site.pushes});
+      return;
+    }
+    const Step step = rule.step(view, i);
+    const double h = view.size(i);
+    const Treated treated = treat_step(context_, state_.grid(), site, h, step, SweepRules::pushes_allowed);
+    outcomes_.record(i, treated);
+    const bool rests = treated.position == site.position && treated.lead == Vec2{} && !treated.pushed &&
+                       !treated.deleted && surely_rests(step.move.x, step.move.y, h);
+    site_activity_.set_rest(i, rests);
     outcomes_.tally_again(t);
     activity_.note_moves(t);
     measures_.forget(t);
@@ -166,6 +202,7 @@ void Sweeper::move_others(const UpdateRule& rule) {
       to_move.push_back(i);
   irregular_.clear();
   move_one_by_one(rule, to_move);
+  site_activity_.note_rings(to_move);
 }
 
 /// Counts what all ranks have done in this sweep, in one packed reduction; returns what is left to be done.
@@ -175,9 +212,10 @@ StarCertifier::Open Sweeper::sum_over_ranks() {
   const StarCertifier::Open open = certifier_.open();
   std::array<std::int64_t, 8> sums{open.uncertain, certifier_.rebuilt(),    mine.moving,      mine.pushed,
                                    mine.deleted,   mine.power & 0xffffffff, mine.power >> 32, open.untold};
-  std::array<double, 3> largest{
+  std::array<double, 4> largest{
       mine.squared_ratio, mine.squared_distance,
-      TileActivity::largest_drift(state_.points(), certifier_.classes().around(), outcomes_.tallies())};
+      TileActivity::largest_drift(state_.points(), certifier_.classes().around(), outcomes_.tallies()),
+      static_cast<double>(wish_)};
   state_.comm().sum_and_max(sums, largest);
   counts_ = {};
   counts_.rebuilt = sums[1];
@@ -188,16 +226,19 @@ StarCertifier::Open Sweeper::sum_over_ranks() {
   counts_.max_move = std::sqrt(largest[0]);
   largest_distance_ = std::sqrt(largest[1]);
   drift_in_tiles_ = largest[2];
+  largest_wish_ = static_cast<int>(largest[3]);
   return {sums[0], sums[7]};
 }
 
-void Sweeper::prepare(const UpdateRule& rule) {
+void Sweeper::prepare(const UpdateRule& rule, int wish) {
+  wish_ = wish;
   state_.points().prepare_advance();
   certifier_.begin_sweep();
   irregular_.clear();
+  if (sleep_ == Sleep::never)
+    activity_.wake_all();
   for (const TilePlace which : {TilePlace::inner, TilePlace::at_border}) {
     run_kernel(rule, which);
-    count_sites(which);
     finish_move(); // the ghosts have been on their way
   }
   activity_.end_waking();
@@ -246,6 +287,7 @@ Sweeper::Counts Sweeper::commit() {
   note_pushes();
   counts_.deleted = 0; // they wait
   activity_.begin_move(state_.points(), outcomes_.tallies());
+  site_activity_.begin_move(outcomes_.tallies());
   const bool new_sizes = schedule_.advance();
   state_.begin_advance(context_.size, schedule_.drift(), new_sizes);
   under_way_ = true;
@@ -262,6 +304,7 @@ void Sweeper::finish_move() {
   under_way_ = false;
   state_.finish_advance(context_.size);
   activity_.finish_move();
+  site_activity_.finish_move();
 }
 
 /// @param deleted empty: none
@@ -271,6 +314,27 @@ void Sweeper::move_and_sort(std::vector<std::uint8_t> deleted) {
   state_.refresh(context_.size);
   sorted_ = true;
   reset();
+}
+
+void Sweeper::visit(StateFields& fields) {
+  schedule_.visit(fields);
+  activity_.visit(fields);
+  fields.field("moves", moves_);
+  fields.field("sorted", sorted_);
+}
+
+std::vector<std::uint64_t> Sweeper::saved_activity() const {
+  std::vector<std::uint64_t> saved(certifier_.classes().around().size());
+  for (std::size_t t = 0; t < saved.size(); ++t)
+    saved[t] = activity_.saved(t);
+  return saved;
+}
+
+void Sweeper::restore(StateFields& fields, std::span<const std::uint64_t> activity) {
+  visit(fields);
+  activity_.restore(activity);
+  for (std::size_t t = 0; t < certifier_.classes().around().size(); ++t) // the stars are to be found anew, all of them
+    site_activity_.wake_tile(state_.points().first_tile() + static_cast<LocalIndex>(t));
 }
 
 void Sweeper::discard() {

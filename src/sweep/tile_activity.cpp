@@ -37,6 +37,23 @@ void TileActivity::reset(const TilesAround& around) {
   all_awake_ = true;
 }
 
+void TileActivity::visit(StateFields& fields) {
+  fields.field("all_awake", all_awake_);
+  fields.field("waking_mover", waking_rule_.mover);
+  fields.field("waking_length_scale", waking_rule_.length_scale);
+  fields.field("waking_area_scale", waking_rule_.area_scale);
+}
+
+void TileActivity::restore(std::span<const std::uint64_t> activity) {
+  const mesh::BinnedPoints& points = state_.points();
+  for (std::size_t tile = 0; tile < activity.size(); ++tile)
+    if (const LocalIndex known = points.known_tile(static_cast<LocalIndex>(tile)); known >= 0)
+      active_[at(known)] = (activity[tile] & active_bit) != 0;
+  const std::size_t first = at(points.first_tile());
+  for (std::size_t t = 0; t < wide_.size(); ++t)
+    wide_[t] = (activity[first + t] & wide_bit) != 0;
+}
+
 void TileActivity::wake(const RuleParameters& rule, TilePlace which, const TilesAround& around) {
   const auto changed = [](double a, double b) { return std::fabs(a - b) > SweepRules::scale_change * b; };
   if (which == TilePlace::inner) {

@@ -2,6 +2,7 @@
 // Which tiles take part in a sweep: where nothing moves, nothing is done.
 #pragma once
 
+#include "core/state_fields.hpp"
 #include "sites/site_state.hpp"
 #include "sweep/sweep_kernel.hpp"
 #include "sweep/tiles_around.hpp"
@@ -30,6 +31,8 @@ public:
   /// All tiles have been asked: from now on they may fall asleep.
   void end_waking() { all_awake_ = false; }
   bool is_awake(std::size_t t) const { return awake_[t]; }
+  /// Does this sweep wake all tiles, whatever has moved?
+  bool wakes_all() const { return all_awake_; }
 
   /// Do the next places of a sleeping tile hold those of the last sweep, not yet the present ones? Asked once a sweep.
   bool needs_copy(std::size_t t) {
@@ -40,6 +43,12 @@ public:
   /// Sites of this tile have got next places of their own. May be called concurrently.
   void note_moves(std::size_t t) { std::atomic_ref(copied_[t]).store(0, std::memory_order_relaxed); }
 
+  /// What a checkpoint keeps of it: of all tiles, and of owned tile t. Between a move and the next waking.
+  void visit(StateFields& fields);
+  std::uint64_t saved(std::size_t t) const { return (active_[t] ? active_bit : 0) | (wide_[t] ? wide_bit : 0); }
+  /// The same as what was saved. @param activity of all tiles of the container @pre reset(), visit()
+  void restore(std::span<const std::uint64_t> activity);
+
   /// How far sites will have come with their next move: the largest share of the narrowest() of their tile.
   static double largest_drift(const mesh::BinnedPoints& points, const TilesAround& around,
                               std::span<const SweepTally> tallies);
@@ -49,6 +58,7 @@ public:
   void finish_move();
 
 private:
+  static constexpr std::uint64_t active_bit = 1, wide_bit = 2; // of what is saved of a tile
   const sites::SiteState& state_;
   const delaunay::StarBuilder& builder_;
   std::vector<std::uint8_t> awake_;   // by owned tile

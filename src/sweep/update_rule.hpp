@@ -2,6 +2,7 @@
 // The update rules: where a sweep wants each inner site to go.
 #pragma once
 
+#include "core/state_fields.hpp"
 #include "sites/star_view.hpp"
 #include "sweep/rule_parameters.hpp"
 #include "sweep/sweep_sums.hpp"
@@ -26,6 +27,8 @@ public:
   virtual Step step(const sites::StarView& view, LocalIndex i) const = 0;
   /// The same for the vector kernels, which move most sites: they give the same bits.
   virtual RuleParameters parameters() const = 0;
+  /// What a checkpoint keeps of it, before begin_sweep.
+  virtual void visit(StateFields&) {}
 };
 
 /// @brief DistMesh (Persson and Strang 2004) as in TriMe++: bars repel where they are shorter than
@@ -50,6 +53,7 @@ public:
   /// The step of site i whose plain move is `move`.
   Step step(const sites::StarView& view, LocalIndex i, geometry::Vec2 move) const;
   double factor() const { return factor_; }
+  void visit(StateFields& fields) { fields.field("momentum_age", age_); }
 
 private:
   int age_ = 0; // sweeps since the last restart
@@ -74,6 +78,7 @@ public:
   void begin_sweep(const SweepSums& sums) override;
   Step step(const sites::StarView& view, LocalIndex i) const override;
   RuleParameters parameters() const override;
+  void visit(StateFields& fields) override { momentum_.visit(fields); }
   /// Centroid of the cell of site i, relative to the site; zero if the star has a gap.
   geometry::Vec2 centroid(const sites::StarView& view, LocalIndex i) const;
 
@@ -102,6 +107,7 @@ public:
   void begin_sweep(const SweepSums& sums) override;
   Step step(const sites::StarView& view, LocalIndex i) const override;
   RuleParameters parameters() const override;
+  void visit(StateFields& fields) override { momentum_.visit(fields); }
 
 private:
   Momentum momentum_;

@@ -99,10 +99,11 @@ class BadInput(unittest.TestCase):
             rf"case\.ini:{line_of(text, 'sed =')}:.*'sed'.*\[meshing\].*'seed'",
             rf"case\.ini:{line_of(text, 'siizing')}:.*siizing.*sizing"], ranks_tried=ON_THREE_TOO)
 
-    def test_keys_of_later_versions_are_refused_by_name(self):
-        for key, extra in (("keep", "checkpoint.keep=3"), ("interval", "checkpoint.interval=60")):
+    def test_checkpoints_that_nobody_can_keep(self):
+        for key, extra in (("keep", "checkpoint.keep=0"), ("interval", "checkpoint.interval=-60"),
+                           ("time-limit", "--time-limit=soon")):
             with self.subTest(key=key):
-                self.refused(GOOD, USAGE, [rf"command line: .*{key}"], extra=[extra])
+                self.refused(GOOD, USAGE, [rf"command line: .*{key}|{key}.*HH:MM:SS"], extra=[extra])
 
     def test_duplicate_key(self):
         text = GOOD + "points = 600\n"

@@ -30,7 +30,8 @@ DATASETS = {
     "VTKHDF/PointData/size": ("float32", (N,)), "VTKHDF/PointData/fixed": ("uint8", (N,)),
     "Mesh/mesh/geometry": ("float64", (N, 2)), "Mesh/mesh/topology": ("int64", (M, 3)),
     "Mesh/facets/topology": ("int64", (B, 2)), "Mesh/facets/values": ("int32", (B,)),
-    "Mesh/facets/parts": ("int32", (B,)), "Mesh/facets/asked_size": ("float32", (B,)),
+    "Mesh/facets/parts": ("int32", (B,)), "Mesh/facets/labels": ("int32", (B,)),
+    "Mesh/facets/asked_size": ("float32", (B,)),
 }
 ATTRIBUTES = ["format", "format_version", "program_version", "git_commit", "build_type", "compiler", "mpi_library",
               "hdf5_library", "created_utc", "command_line", "host", "seed", "mpi_ranks", "omp_threads", "stop_reason",

@@ -13,10 +13,14 @@ import h5py
 import meshio
 import numpy as np
 import vtk
-from trime_run import ROOT, Workspace, run
+from osgeo import ogr
 
-WORDS = "gmsh gmsh2 medit freefem triangle vtu 2dm fort14"
-ENDINGS = ["msh", "msh2", "mesh", "freefem", "node", "vtu", "2dm", "14"]
+from trime_run import MPIEXEC, ROOT, Workspace, run
+
+ogr.UseExceptions()
+
+WORDS = "gmsh gmsh2 medit freefem triangle vtu 2dm fort14 geojson"
+ENDINGS = ["msh", "msh2", "mesh", "freefem", "node", "vtu", "2dm", "14", "geojson"]
 OWN = """[shape]
 region = difference(union(open_sea, bay), island)
 [shape.open_sea]
@@ -49,7 +53,9 @@ class Expected:
             self.points = file["/Mesh/mesh/geometry"][:]
             self.triangles = file["/Mesh/mesh/topology"][:]
             self.edges = file["/Mesh/facets/topology"][:]
-            self.labels = file["/Mesh/facets/parts"][:] + 1
+            self.labels = file["/Mesh/facets/labels"][:]
+            if not np.array_equal(self.labels, file["/Mesh/facets/parts"][:] + 1):
+                raise AssertionError("labels are numbers of parts, from 1")
             tags = file["/trime_mpi/tags"]
             self.parts = {name.decode(): int(number) + 1 for name, number in zip(tags["part_name"], tags["part_id"])}
             self.regions = {name.decode(): int(number) for name, number in zip(tags["region_name"], tags["region_id"])}
@@ -74,6 +80,11 @@ class Expected:
 def rows(edges, labels):
     """Edges with their label as sorted rows."""
     return sorted(map(tuple, np.column_stack([edges, labels]).tolist()))
+
+
+def in_order(table):
+    """Its rows, sorted by what they round to."""
+    return table[np.lexsort(np.round(table, 9).T)]
 
 
 def with_name(numbers, lines):
@@ -149,6 +160,16 @@ class Formats(unittest.TestCase):
                         self.assertEqual(set(nodes - 1), set(expected.edges[expected.labels == label].ravel()))
                     gmsh.clear()
 
+    def by_dolfinx(self, reader, path, ranks=1):
+        """The words that a script prints on rank 0."""
+        environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                           XDG_CACHE_HOME=str(self.work), OMP_NUM_THREADS="1")
+        start = [] if ranks == 1 else [MPIEXEC, "-np", str(ranks)]
+        done = subprocess.run([*start, sys.executable, "-c", reader, path], env=environment, capture_output=True,
+                              text=True, timeout=300, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout.split()
+
     def test_gmsh_by_dolfinx(self):
         reader = ("import sys, gmsh, numpy as np\nfrom mpi4py import MPI\nfrom dolfinx.io import gmshio\n"
                   "gmsh.initialize()\ngmsh.option.setNumber('General.Terminal', 0)\ngmsh.open(sys.argv[1])\n"
@@ -157,14 +178,69 @@ class Formats(unittest.TestCase):
                   "      *np.unique(facets.values, return_counts=True)[1])\n")
         for path, expected in self.each("msh"):
             with self.subTest(file=path.name):
-                environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                                   XDG_CACHE_HOME=str(self.work))
-                done = subprocess.run([sys.executable, "-c", reader, path], env=environment, capture_output=True,
-                                      text=True, timeout=300, check=False)
-                self.assertEqual(done.returncode, 0, done.stderr)
                 counts = [int((expected.labels == label).sum()) for label in sorted(expected.parts.values())]
-                self.assertEqual([int(word) for word in done.stdout.split()],
+                self.assertEqual([int(word) for word in self.by_dolfinx(reader, path)],
                                  [len(expected.points), len(expected.triangles)] + [count for count in counts if count])
+
+    def test_xdmf_by_dolfinx(self):
+        """Mesh and mesh tags, on 1 and 2 ranks: points, and the middle of each edge with its label."""
+        reader = ("import sys, numpy as np\nfrom mpi4py import MPI\nfrom dolfinx.io import XDMFFile\n"
+                  "from dolfinx.mesh import compute_midpoints\nworld = MPI.COMM_WORLD\n"
+                  "with XDMFFile(world, sys.argv[1] + '.xdmf', 'r') as file:\n    mesh = file.read_mesh(name='mesh')\n"
+                  "mesh.topology.create_connectivity(1, 2)\n"
+                  "with XDMFFile(world, sys.argv[1] + '.xmf', 'r') as file:\n"
+                  "    tags = file.read_meshtags(mesh, name='facets')\n"
+                  "own = tags.indices < mesh.topology.index_map(1).size_local\n"
+                  "places = compute_midpoints(mesh, 1, tags.indices[own])[:, :2]\n"
+                  "edges = world.gather(np.column_stack([places, tags.values[own]]))\n"
+                  "points = world.gather(mesh.geometry.x[:mesh.geometry.index_map().size_local, :2])\n"
+                  "if world.rank == 0:\n"
+                  "    print(mesh.topology.index_map(2).size_global)\n"
+                  "    np.savez(sys.argv[1], points=np.vstack(points), edges=np.vstack(edges))\n"
+                  "else:\n    mesh.topology.index_map(2).size_global\n")
+        for stem, expected in self.expected.items():
+            for ranks in (1, 2):
+                with self.subTest(stem=stem, ranks=ranks):
+                    words = self.by_dolfinx(reader, self.work / stem, ranks)
+                    self.assertEqual([int(word) for word in words], [len(expected.triangles)])
+                    with np.load(self.work / f"{stem}.npz") as found:
+                        self.assertEqual(len(found["points"]), len(expected.points))
+                        self.assertLessEqual(np.abs(in_order(found["points"]) - in_order(expected.points)).max(), 1e-15)
+                        middles = expected.points[expected.edges].mean(axis=1)
+                        wanted = in_order(np.column_stack([middles, expected.labels]))
+                        np.testing.assert_allclose(in_order(found["edges"]), wanted, atol=1e-15)
+
+    def test_xdmf_facets_by_meshio(self):
+        for stem, expected in self.expected.items():
+            mesh = meshio.read(self.work / f"{stem}.xmf")
+            self.assertEqual(rows(mesh.cells[0].data, mesh.cell_data["labels"][0]), expected.edge_rows())
+            self.assertLessEqual(np.abs(mesh.points[:, :2] - expected.points).max(), 1e-15)
+
+    def test_geojson_by_gdal(self):
+        """Without a reference system the coordinates are those of the mesh."""
+        for path, expected in self.each("geojson"):
+            with self.subTest(file=path.name):
+                source = ogr.Open(str(path))
+                layer = source.GetLayer(0)
+                self.assertEqual(layer.GetFeatureCount(), len(expected.triangles) + len(expected.edges))
+                corners, ends, labels, regions, names = [], [], [], set(), {}
+                for number, feature in enumerate(layer):
+                    shape, kind = feature.GetGeometryRef(), feature["kind"]
+                    if kind == "triangle":
+                        self.assertEqual(feature["number"], number)
+                        corners.append(shape.GetGeometryRef(0).GetPoints(2))
+                        regions.add((feature["name"], feature["region"]))
+                    else:
+                        self.assertEqual((kind, feature["number"]), ("edge", number - len(expected.triangles)))
+                        ends.append(shape.GetPoints(2))
+                        labels.append(feature["label"])
+                        names[feature["name"]] = feature["label"]
+                np.testing.assert_allclose(np.array(corners)[:, :3], expected.points[expected.triangles], rtol=1e-15)
+                np.testing.assert_array_equal(np.array(corners)[:, 3], np.array(corners)[:, 0])
+                np.testing.assert_allclose(np.array(ends), expected.points[expected.edges], rtol=1e-15)
+                np.testing.assert_array_equal(labels, expected.labels)
+                self.assertEqual(names, {name: label for name, label in expected.parts.items() if label in labels})
+                self.assertEqual(regions, set(expected.regions.items()))
 
     def test_medit_by_meshio(self):
         for path, expected in self.each("mesh"):

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Contours as users have them: dirty files of every format, read or refused with file and line, the same on 1 and 3
-ranks; markers of segments on the edges of the mesh; a coast in longitude and latitude that is meshed in a plane, written
-back, and found at the right place by GDAL."""
+ranks; markers of segments and attributes of maps on the edges of the mesh; a coast in longitude and latitude that is
+meshed in a plane, written back, and found at the right place by GDAL."""
 import json
 import math
 import re
@@ -108,7 +108,9 @@ REFUSED = [
     ("empty", "a.xy", "", GEOMETRY, r"a\.xy: .*no vertex"),
     ("cut off", "a.geojson", geojson(SQUARE)[:-9], GEOMETRY, r"a\.geojson:\d+: expected JSON"),
     ("a word", "a.geojson", geojson(SQUARE).replace("0.9", '"0.9"', 1), GEOMETRY, r"a\.geojson:\d+: .*numbers"),
-    ("open line", "a.geojson", geojson(SQUARE, kind="LineString"), GEOMETRY, r"a\.geojson:\d+: .*ends where it starts"),
+    ("open line", "a.geojson", geojson(SQUARE, kind="LineString"), GEOMETRY, r"a\.geojson:\d+: .*ends where it starts.*\(0\.1, 0\.1\) alone"),
+    ("crossing", "a.geojson", geojson([SQUARE[0], SQUARE[2], SQUARE[1], SQUARE[3]]), GEOMETRY,
+     r"a\.geojson:\d+: .*crosses.*ogr2ogr -makevalid"),
     ("points only", "a.geojson", '{"type": "Point", "coordinates": [1, 2]}', GEOMETRY, r"a\.geojson: .*Polygon"),
     ("missing vertex", "a.poly", POLY.replace("8 8 5 7", "8 8 9 7"), GEOMETRY, r"a\.poly:19: expected vertices from 1 to 8"),
     ("open ring", "a.poly", POLY.replace("8 1\n1", "7 1\n1", 1).replace("8 8 5 7\n", ""), GEOMETRY,
@@ -233,6 +235,78 @@ class Markers(unittest.TestCase):
                                    numpy.where(x > 0.9 - 1e-9, 2, numpy.where((y < 0.1 + 1e-9) & (x > 0.5), -4, 1)))
             numpy.testing.assert_array_equal(markers, expected)
             self.assertIn(b'"land.-4"', (work / "case.msh2").read_bytes())
+
+
+class Names(unittest.TestCase):
+    """Attributes of the features of a map: a bay of two lines, with an island that has no kind."""
+    LINES = [([[0.1, 0.1], [0.9, 0.1]], "open sea", 5), ([[0.9, 0.1], [0.9, 0.9], [0.1, 0.9], [0.1, 0.1]], "Küste", -2)]
+    ISLAND = [[0.4, 0.4], [0.6, 0.4], [0.6, 0.6], [0.4, 0.6], [0.4, 0.4]]
+
+    def collection(self):
+        features = [({"type": "LineString", "coordinates": line}, {"kind": kind, "tag": tag})
+                    for line, kind, tag in self.LINES] + [({"type": "LineString", "coordinates": self.ISLAND}, {"id": 1})]
+        return json.dumps({"type": "FeatureCollection", "features": [
+            {"type": "Feature", "geometry": geometry, "properties": properties}
+            for geometry, properties in features]}, indent=1, ensure_ascii=False)
+
+    def check(self, work, name, attribute, names, ranks):
+        """Names and markers of the parts, and the edges that have them. Returns the hash of the mesh."""
+        (work / "case.ini").write_text(CONFIG.format(name, 800) + f"[output]\ndirectory = {work}\n")
+        done = run(work / "case.ini", f"shape.land.attribute={attribute}", "output.overwrite=true",
+                   "output.formats=xdmf gmsh2 fort14", ranks=ranks)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        with h5py.File(work / "case.h5") as file:
+            points, edges = file["Mesh/mesh/geometry"][:], file["Mesh/facets/topology"][:]
+            tags = file["trime_mpi/tags"]
+            self.assertEqual({name.decode(): int(marker) for name, marker in zip(tags["part_name"], tags["part_marker"])},
+                             names)
+            of_edge = [tags["part_name"][part].decode() for part in file["Mesh/facets/parts"][:]]
+            found = int(file["trime_mpi"].attrs["mesh_hash"])
+        by_marker = {marker: part for part, marker in names.items()}
+        x, y = points[edges].mean(axis=1).T
+        expected = numpy.where((numpy.abs(x - 0.5) < 0.2) & (numpy.abs(y - 0.5) < 0.2), by_marker[0],
+                               numpy.where(y < 0.1 + 1e-9, by_marker[self.sea(names)], by_marker[self.coast(names)]))
+        self.assertEqual(of_edge, list(expected))
+        return found
+
+    def sea(self, names):
+        return 5 if 5 in names.values() else 1
+
+    def coast(self, names):
+        return -2 if -2 in names.values() else 2
+
+    def test_texts_are_names_and_integers_markers(self):
+        with Workspace() as work:
+            (work / "a.geojson").write_text(self.collection())
+            shapefile(work / "a.shp", self.collection())
+            gdal("ogr2ogr", "-f", "ESRI Shapefile", "-lco", "ENCODING=ISO-8859-1", work / "latin.shp", work / "a.geojson")
+            texts = {"land": 0, "land.open sea": 1, "land.Küste": 2}
+            numbers = {"land": 0, "land.5": 5, "land.-2": -2}
+            found = {self.check(work, name, "kind", texts, ranks)
+                     for name, ranks in (("a.geojson", 3), ("a.shp", 1), ("latin.shp", 1))}
+            self.assertIn("= open boundaries", (work / "case.14").read_text())
+            self.assertRegex((work / "case.14").read_text(), r"1 = open boundaries\n.*\n\d+ = land\.open sea\n")
+            self.assertIn('"land.Küste"'.encode(), (work / "case.msh2").read_bytes())
+            found |= {self.check(work, name, "tag", numbers, ranks) for name, ranks in (("a.geojson", 1), ("a.shp", 3))}
+            self.assertEqual(len(found), 1)
+
+    def test_refused(self):
+        with Workspace() as work:
+            (work / "a.geojson").write_text(self.collection())
+            shapefile(work / "a.shp", self.collection())
+            (work / "a.xy").write_text(xy(SQUARE))
+            for name, message in (("a.geojson", r"a\.geojson: .*attribute 'sort', found only id, kind, tag"),
+                                  ("a.shp", r"a\.shp: .*attribute 'sort', found only id, kind, tag"),
+                                  ("a.xy", r"a\.xy: expected a \.geojson or \.shp")):
+                (work / "case.ini").write_text(CONFIG.format(name, 500))
+                for ranks in (1, 3):
+                    done = run(work / "case.ini", "--validate", "shape.land.attribute=sort", ranks=ranks)
+                    self.assertEqual(done.returncode, USAGE, done.stdout + done.stderr)
+                    self.assertRegex(done.stderr, message)
+            (work / "a.dbf").unlink()
+            done = run(work / "case.ini", "--validate", f"shape.land.file={work}/a.shp", "shape.land.attribute=kind")
+            self.assertEqual(done.returncode, FILE, done.stdout + done.stderr)
+            self.assertRegex(done.stderr, r"a\.dbf, which has the attributes of .*a\.shp")
 
 
 class Maps(unittest.TestCase):

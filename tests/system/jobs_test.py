@@ -8,6 +8,7 @@ import pathlib
 import shutil
 import subprocess
 import tempfile
+import time
 import unittest
 
 import h5py
@@ -66,6 +67,39 @@ class Jobs(unittest.TestCase):
         job, log = self.submit("jobs/single_node.sbatch", SMALL)
         self.assertEqual(self.hash_of(self.work / "out" / job / "square.h5"), self.expected)
         self.assertIn("2 ranks x 1 threads", log)
+
+    def test_restartable(self):
+        """The signal comes as SLURM sends it before the limit, but when the sweeps have begun: its clock is coarse."""
+        points = "meshing.points=1500000"
+        done = run(ROOT / "configs" / "square.ini", points, f"output.directory={self.work / 'long'}", ranks=2)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        environment = dict(os.environ, SLURM_CONF=str(self.slurm / "slurm.conf"), TRIME_PROGRAM=PROGRAM)
+        done = subprocess.run(["sbatch", "--parsable", "jobs/restartable.sbatch", points], cwd=self.work,
+                              env=environment, text=True, capture_output=True, check=False, timeout=60)
+        job = done.stdout.split(";")[0].strip()
+        self.assertTrue(job.isdigit(), done.stdout + done.stderr)
+        log, end = self.work / f"trime_mpi-{job}.log", time.monotonic() + 120
+        while not (log.exists() and "sweep stage" in log.read_text(encoding="utf-8")) and time.monotonic() < end:
+            time.sleep(0.05)
+        subprocess.run(["scancel", "--batch", "--signal=USR1", job], env=environment, check=True)
+        log = self.wait_for_end(job)
+        self.assertIn("start 0", log)
+        self.assertIn("stopped at the checkpoint", log)
+        self.assertIn("start 1", log)
+        self.assertIn("restart: from", log)
+        self.assertEqual(self.hash_of(self.work / "out" / job / "square.h5"), self.hash_of(self.work / "long" / "square.h5"))
+
+    def wait_for_end(self, job):
+        """Of a job that may be queued again; the text of its log."""
+        environment = dict(os.environ, SLURM_CONF=str(self.slurm / "slurm.conf"))
+        end = time.monotonic() + 240
+        while time.monotonic() < end:
+            state = subprocess.run(["squeue", "-h", "-j", job, "-o", "%T"], env=environment, text=True,
+                                   capture_output=True, check=False).stdout.strip()
+            if state in ("", "COMPLETED", "FAILED", "TIMEOUT", "CANCELLED"):
+                break
+            time.sleep(1)
+        return (self.work / f"trime_mpi-{job}.log").read_text(encoding="utf-8")
 
     def test_multi_node(self):
         job, log = self.submit("--nodes=1", "--ntasks-per-node=1", "--ntasks-per-socket=1", "--cpus-per-task=2",

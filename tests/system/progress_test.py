@@ -138,7 +138,7 @@ class Report(unittest.TestCase):
             report = json.loads((work / "r.json").read_text(encoding="utf-8"))
             self.assertEqual(set(report), {"format", "format_version", "exit_code", "files", "attributes", "groups"})
             self.assertEqual((report["format"], report["format_version"]), ("trime_mpi-report", 1))
-            self.assertEqual(report["files"], [f"{work}/spade.{ending}" for ending in ("h5", "xdmf", "vtkhdf")])
+            self.assertEqual(report["files"], [f"{work}/spade.{ending}" for ending in ("h5", "xdmf", "xmf", "vtkhdf")])
             for name in ("points", "triangles", "mesh_hash_hex", "stop_reason", "seconds_total", "complete"):
                 self.assertIn(name, report["attributes"])
             for name in ("history", "quality", "checks", "timers", "counters", "tags"):

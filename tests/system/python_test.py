@@ -61,6 +61,15 @@ class Reading(unittest.TestCase):
         self.assertTrue((np.cross(b - a, c - a) > 0).all())
         self.assertEqual(mesh.hash, self.mesh.hash)
 
+    def test_arrays_in_place_are_the_same_and_leave_the_file_alone(self):
+        mesh, in_place = trime_mpi.read(self.file), trime_mpi.read(self.file, in_place=True)
+        for name, value in vars(mesh).items():
+            if isinstance(value, np.ndarray):
+                np.testing.assert_array_equal(getattr(in_place, name), value)
+        in_place.points[3] = 7
+        np.testing.assert_array_equal(trime_mpi.read(self.file).points, mesh.points)
+        self.assertEqual(list(in_place.boundaries), list(mesh.boundaries))
+
     def test_boundaries_by_name(self):
         found = self.mesh.boundaries
         self.assertEqual(set(found), {"disc", "hole"})

@@ -12,18 +12,19 @@ namespace trime {
 
 /// Of a rank. A sum adds up over time. A peak is the largest value that was noted, such as a number of sites.
 enum class Counter : std::uint8_t {
-  messages,           ///< sum: sent to another rank; those of more than 1 GiB count once for each GiB
-  bytes,              ///< sum: of these messages
-  collectives,        ///< sum: calls in which all ranks take part
-  neighbours,         ///< peak: other ranks that messages went to in one call of a section
-  sites_started,      ///< sum: sites that a stage began with
-  points,             ///< peak: owned sites
-  densest_tile,       ///< peak: sites of the owned tile with most
-  ghosts,             ///< peak: sites of others that the rank knows
+  messages,      ///< sum: sent to another rank; those of more than 1 GiB count once for each GiB
+  bytes,         ///< sum: of these messages
+  collectives,   ///< sum: calls in which all ranks take part
+  wait_ns,       ///< sum: nanoseconds in calls of MPI that end when another rank has come; a collective of HDF5 is none
+  neighbours,    ///< peak: other ranks that messages went to in one call of a section
+  sites_started, ///< sum: sites that a stage began with
+  points,        ///< peak: owned sites
+  densest_tile,  ///< peak: sites of the owned tile with most
+  ghosts,        ///< peak: sites of others that the rank knows
   sites_migrated,     ///< sum: sites that came from another rank
   passes,             ///< sum: searches for the next places of all sites; a sweep takes one, or two if the rule changes
-  sites_swept,        ///< sum: sites of awake tiles, each in each pass; their stars were tested by the lemma
-  sites_slept,        ///< sum: sites of sleeping tiles, each in each pass; nothing was computed for them
+  sites_swept,        ///< sum: sites that were awake, each in each pass: the rule was asked where they go
+  sites_slept,        ///< sum: all other sites, each in each pass; they stayed
   sites_moved,        ///< sum: sites that a sweep has moved by more than a little
   stars_by_emptiness, ///< sum: stars computed from the sites around
   stars_rebuilt,      ///< sum: of these, those that came out other than they were

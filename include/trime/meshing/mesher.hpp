@@ -26,6 +26,9 @@ struct Snapshot {
 /// Called on all ranks together; may communicate.
 using SnapshotObserver = std::function<void(const Snapshot&)>;
 
+class Checkpoints;
+struct SavedRun;
+
 class Mesher {
 public:
   /// @brief Keeps references: all arguments must outlive the object. `boundary` and `size` are replicated: the same
@@ -38,9 +41,16 @@ public:
   /// observer. Call it before run.
   void on_snapshot(SnapshotObserver observer);
 
+  /// Sets who keeps checkpoints of the run; outlives this object. Call it before run.
+  void keep_checkpoints(Checkpoints& checkpoints);
+  /// @brief The run goes on from a checkpoint, to the mesh that it would have made. Call it before run.
+  /// @param saved outlives this object; of a run with the same boundary, size and options, on any ranks
+  void go_on_from(const SavedRun& saved);
+
   /// @brief Makes the mesh. @note Collective.
   /// @throws GeometryError on all ranks together if the shape cannot be meshed at this resolution
   /// @throws ConfigError on all ranks together for options that no mesh can meet
+  /// @throws FileError on all ranks together if the checkpoint does not fit this run
   MeshResult run();
 
   /// @brief What run() will do to the boundary, about; no mesh is made. Takes as long as a mesh of 10^5 points needs

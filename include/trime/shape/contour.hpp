@@ -27,20 +27,23 @@ struct Contour {
   std::string source; ///< name used in messages, for example the path
   std::vector<ContourRing> rings;
   std::vector<std::string> warnings; ///< for the user, one sentence each
-  std::string crs{};                 ///< reference system of the coordinates as the file tells it; empty: it does not
+  /// Names of the markers 1, 2, ...; empty: markers have none.
+  std::vector<std::string> marker_names{};
+  std::string crs{}; ///< reference system of the coordinates as the file tells it; empty: it does not
 };
 
 /// @brief The rings of a file; its name ends in `.poly` (Triangle), `.shp` (ESRI), `.msh` (JIGSAW), `.geojson` or
 /// `.json`, else it is `.xy` text. Of a shapefile NAME.shx is read, too, and NAME.prj if there is one; of a `.poly`
 /// without vertices NAME.node.
 /// @param hint ends the message if the file cannot be opened
-/// @throws ConfigError for formats that are known and not read; FileError if a file cannot be read; GeometryError
-/// `source:line: ...` as the functions below
+/// @param attribute of the features of a map that names the boundary, see parse_geojson; empty: none
+/// @throws ConfigError for formats that are known and not read, or have no attributes; FileError if a file cannot be
+/// read; GeometryError `source:line: ...` as the functions below
 /// @note Serial.
-Contour read_contour(const std::string& path, const std::string& hint = "");
+Contour read_contour(const std::string& path, const std::string& hint = "", const std::string& attribute = "");
 
 /// The same for a text, by the ending of `source`.
-Contour parse_contour(std::string_view text, const std::string& source);
+Contour parse_contour(std::string_view text, const std::string& source, const std::string& attribute = "");
 
 /// @brief Rings of `.xy` text: one `x y` a line, a blank line or one that starts with `>` ends a ring, `#` and `;`
 /// start comments. A comma may stand between the numbers.
@@ -62,12 +65,17 @@ struct FilePoint {
 /// @throws GeometryError `source:line: ...` for a line that is not two finite numbers, or without any point
 std::vector<FilePoint> parse_points(std::string_view text, const std::string& source);
 
-/// @brief Rings of the polygons of a GeoJSON text (RFC 7946): a geometry, a feature, or a collection of them. Closed
-/// lines are rings, too. Points and what lies outside of `coordinates` mean nothing, but for the name of a `crs`.
+/// @brief Rings of the polygons of a GeoJSON text (RFC 7946): a geometry, a feature, or a collection of them. Lines
+/// that end where they start are rings, too, and so are lines that join in their ends.
+///
+/// Points mean nothing, nor does what lies outside of `coordinates`, but for the name of a `crs` and the attribute.
 /// Numbers are taken as they are.
+/// @param attribute property of the features that marks their rings or lines; empty: none. If all its values are
+/// integers these are the markers. Else markers count the values in the order of the file, and the values are their
+/// names. Features without it have the marker 0
 /// @throws GeometryError `source:line: ...` for text that is no JSON, a position without two numbers, an open line, a
-/// text without polygons
-Contour parse_geojson(std::string_view text, const std::string& source);
+/// text without polygons; ConfigError if no feature has the attribute
+Contour parse_geojson(std::string_view text, const std::string& source, const std::string& attribute = "");
 
 /// @brief Rings of the segments of a `.poly` file of Triangle, with their markers. Numbers begin with 0 or 1. Commas
 /// part numbers, too.

@@ -9,8 +9,9 @@
 
 namespace trime::shape {
 
-/// Pieces of a part whose segments have a marker other than 0 are of a part of their own, "NAME.MARKER", behind all
-/// others in Boundary::part_names. Where two such parts meet on one curve there is a corner.
+/// Pieces of a part whose segments have a marker other than 0 are of a part of their own, behind all others in
+/// Boundary::part_names. It is called "NAME.MARKER", or "NAME.TEXT" where the file has a name for the marker. Where two
+/// such parts meet on one curve there is a corner.
 struct MarkedBoundary {
   geometry::Boundary boundary;
   std::vector<std::int32_t> part_markers; ///< for each of Boundary::part_names; 0: none

@@ -7,6 +7,7 @@
 #include "trime/geometry/vec2.hpp"
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace trime::shape {
@@ -26,7 +27,8 @@ struct Polygon {
   };
   geometry::SegmentGrid grid; ///< segments ring by ring, each starting where the one before it ends
   std::vector<Ring> rings;
-  std::vector<int> markers{}; ///< of each segment; empty: all are 0, which means none
+  std::vector<int> markers{};              ///< of each segment; empty: all are 0, which means none
+  std::vector<std::string> marker_names{}; ///< Contour::marker_names
 };
 
 /// The four vertices of a circle at angles 0, pi/2, pi, 3 pi/2; exact.

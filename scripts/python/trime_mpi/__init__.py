@@ -12,12 +12,13 @@
 read: a mesh file as NumPy arrays. mesh: runs the program, and raises what it says as exceptions. plot: pictures.
 """
 from .errors import (ConfigError, FileError, GeometryError, IncompleteError, InternalError, InterruptedRun, MemoryLimit,
-                     ProgramMissing, TrimeError)
+                     ProgramMissing, StoppedAtCheckpoint, TrimeError)
 from .read import Boundary, Check, Mesh, read
 from .run import mesh
 
 __all__ = ["Boundary", "Check", "ConfigError", "FileError", "GeometryError", "IncompleteError", "InternalError",
-           "InterruptedRun", "MemoryLimit", "Mesh", "ProgramMissing", "TrimeError", "mesh", "plot", "read"]
+           "InterruptedRun", "MemoryLimit", "Mesh", "ProgramMissing", "StoppedAtCheckpoint", "TrimeError", "mesh",
+           "plot", "read"]
 __version__ = "0.1.0"
 
 

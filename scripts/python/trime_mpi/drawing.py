@@ -48,7 +48,14 @@ def plain_ticks(axes):
 
 def box_of(mesh):
     """Lower left and upper right corner."""
-    return mesh.points.min(axis=0), mesh.points.max(axis=0)
+    columns = mesh.points.T
+    return np.array([column.min() for column in columns]), np.array([column.max() for column in columns])
+
+
+def sides_of(mesh):
+    """Width and height, never 0."""
+    low, high = box_of(mesh)
+    return np.maximum(high - low, 1e-300)
 
 
 def header(figure, title, text, tall):
@@ -69,7 +76,7 @@ def summary(mesh):
 def panel_figure(mesh, beside=2.9):
     """A figure with one map at the left, as wide and tall as its shape wants, and `beside` inches at the right. Returns
     figure, axes of the map, and its height in inches."""
-    width, height = np.maximum(np.ptp(mesh.points, axis=0), 1e-300)
+    width, height = sides_of(mesh)
     scale = min(9.6 / width, 8.2 / height)
     across, up = max(scale * width, 4.6), max(scale * height, 2.6)
     wide, tall = max(across + 0.8 + beside, 9.2), up + 1.4

@@ -44,6 +44,11 @@ class MemoryLimit(TrimeError, MemoryError):
     code = 6
 
 
+class StoppedAtCheckpoint(TrimeError):
+    """Exit code 75: the run stopped at a checkpoint, from which `trime_mpi --restart auto` goes on."""
+    code = 75
+
+
 class InterruptedRun(TrimeError):
     """The program was ended by a signal, whose number is `signal`."""
     code = 128
@@ -65,5 +70,6 @@ def error_of(code, messages, output=""):
         code = 128 - code
     if code > 128:
         return InterruptedRun(messages, code, output)
-    kinds = {kind.code: kind for kind in (ConfigError, GeometryError, FileError, IncompleteError, MemoryLimit)}
+    kinds = {kind.code: kind for kind in (ConfigError, GeometryError, FileError, IncompleteError, MemoryLimit,
+                                          StoppedAtCheckpoint)}
     return kinds.get(code, InternalError)(messages, code, output)

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
-from . import drawing
+from . import drawing, raster
 from .drawing import ALPHA_COLOURS, ALPHA_RANGE, INK, SIZE_COLOURS
 from .history import draw_history
 from .read import read
@@ -19,21 +19,35 @@ MOST_NAMES = 24       # in a legend
 TRIANGLE_HEIGHT = 0.866  # of an equilateral triangle, over its side
 
 
+def worst_of(alpha):
+    """The row of the largest value; one that is no number is larger than all others."""
+    rows = [part.start + int(np.argmax(np.nan_to_num(alpha[part], nan=np.inf))) for part in raster.slices(len(alpha))]
+    return rows[int(np.argmax(np.nan_to_num(alpha[rows], nan=np.inf)))]
+
+
+def triangles_near(mesh, centre, reach):
+    """Triangles whose first vertex lies in a window, and facets that begin there."""
+    is_near = np.empty(len(mesh.points), bool)
+    for part in raster.slices(len(mesh.points)):
+        away = np.abs(mesh.points[part] - centre)
+        is_near[part] = (away[:, 0] <= reach) & (away[:, 1] <= reach)
+    chosen = [part.start + np.flatnonzero(is_near[mesh.triangles[part, 0]])
+              for part in raster.slices(len(mesh.triangles))]
+    return np.concatenate(chosen), np.flatnonzero(is_near[mesh.facets[:, 0]])
+
+
 def draw_zoom(axes, mesh):
     """The window around the worst triangle; returns its middle and half its side."""
-    worst = int(np.argmax(np.nan_to_num(mesh.alpha, nan=np.inf)))
+    worst = worst_of(mesh.alpha)
     place = mesh.corners([worst]).mean(axis=1)[0]
     low, high = drawing.box_of(mesh)
     height = float(mesh.size[mesh.triangles[worst]].mean()) * TRIANGLE_HEIGHT
     reach = min(np.sqrt(ZOOM_TRIANGLES * height * height / TRIANGLE_HEIGHT / 2) / 2, (high - low).min() / 2)
     centre = np.clip(place, low + reach, high - reach)  # a window beyond the mesh shows nothing
-    near = np.ones(len(mesh.points), bool)
-    for axis in range(2):
-        near &= np.abs(mesh.points[:, axis] - centre[axis]) <= 1.3 * reach
-    chosen = np.flatnonzero(near[mesh.triangles[:, 0]])
+    chosen, rows = triangles_near(mesh, centre, 1.3 * reach)
     drawing.draw_polygons(axes, mesh, chosen, 0.35,
                           {"array": mesh.alpha[chosen], "cmap": ALPHA_COLOURS, "norm": Normalize(*ALPHA_RANGE)})
-    drawing.draw_facets(axes, mesh, 1.0, rows=np.flatnonzero(near[mesh.facets[:, 0]]))
+    drawing.draw_facets(axes, mesh, 1.0, rows=rows)
     drawing.frame(axes, centre - reach, centre + reach)
     axes.set_title(f"around the worst triangle ({place[0]:.4g}, {place[1]:.4g})", fontsize=9, color=INK)
     return centre, reach
@@ -41,11 +55,14 @@ def draw_zoom(axes, mesh):
 
 def draw_histogram(axes, alpha):
     """Counts of alpha, logarithmic."""
-    top = max(1.2, min(float(np.nanmax(alpha)), 3.0))
+    largest = float(np.nanmax(alpha))
+    top = max(1.2, min(largest, 3.0))
     bins = 80
     edges = np.linspace(1, top, bins + 1)
-    counts = np.bincount(np.clip((np.nan_to_num(alpha, nan=top) - 1) * (bins / (top - 1)), 0, bins - 1).astype(np.int32),
-                         minlength=bins)
+    counts = np.zeros(bins, int)
+    for part in raster.slices(len(alpha)):
+        place = (np.nan_to_num(alpha[part], nan=top) - 1) * (bins / (top - 1))
+        counts += np.bincount(np.clip(place, 0, bins - 1).astype(np.int32), minlength=bins)
     shade = 0.12 + 0.88 * np.clip((edges[:-1] - ALPHA_RANGE[0]) / (ALPHA_RANGE[1] - ALPHA_RANGE[0]), 0, 1)
     axes.bar(edges[:-1], counts, np.diff(edges), align="edge", color=ALPHA_COLOURS(shade), edgecolor="#8a939b",
              linewidth=0.3, log=True)
@@ -55,7 +72,7 @@ def draw_histogram(axes, alpha):
     axes.text(min(middle, top), counts.max() * 1.3, f"  median {middle:.4f}  ", fontsize=8, color=INK,
               horizontalalignment="right" if right else "left")
     axes.set_ylim(0.7, counts.max() * 4)
-    axes.set_xlabel("alpha = R / 2r" + ("   (last bar: all beyond)" if np.nanmax(alpha) > top else ""), fontsize=8)
+    axes.set_xlabel("alpha = R / 2r" + ("   (last bar: all beyond)" if largest > top else ""), fontsize=8)
     axes.set_ylabel("triangles", fontsize=8)
     drawing.plain_ticks(axes)
     for side in ("top", "right"):
@@ -101,7 +118,7 @@ def draw_size(axes, mesh, norm):
 
 def size_figure(mesh, name):
     """The mesh and its size field, side by side or, where the shape is wide, one above the other."""
-    width, height = np.maximum(np.ptp(mesh.points, axis=0), 1e-300)
+    width, height = drawing.sides_of(mesh)
     rows, columns = (1, 2) if width < 1.8 * height else (2, 1)
     tall = 13 / columns * float(np.clip(height / width, 0.2, 1.4)) * rows + 1.1
     figure = Figure(figsize=(14, tall), facecolor="white")
@@ -135,13 +152,19 @@ def shortened(name, longest=26):
     return name if len(name) <= longest else name[:longest - 1] + "…"
 
 
+def numbers_in(values):
+    """Those that occur, ascending; most meshes have one region, and sorting many equal numbers takes seconds."""
+    return np.unique(values[:1]) if (values == values[0]).all() else np.unique(values)
+
+
 def parts_figure(mesh, name):
     """The boundary, coloured by the part of the shape that it follows; regions; fixed points and corners."""
     figure, axes, tall = drawing.panel_figure(mesh)
-    numbers = np.unique(mesh.region)
+    numbers = numbers_in(mesh.region)
     tints = [drawing.LAND] if len(numbers) == 1 else [
         tuple(0.75 + 0.25 * np.asarray(drawing.name_colour(k + 4))) for k in range(len(numbers))]
-    drawing.draw_numbers(axes, mesh, np.searchsorted(numbers, mesh.region), [to_rgb(tint) for tint in tints])
+    rows = np.searchsorted(numbers, mesh.region) if len(numbers) > 1 else np.broadcast_to(0, len(mesh.triangles))
+    drawing.draw_numbers(axes, mesh, rows, [to_rgb(tint) for tint in tints])
     entries = []
     order = sorted(mesh.boundaries.values(), key=lambda boundary: -len(boundary.rows))
     for number, boundary in enumerate(order):
@@ -205,7 +228,7 @@ def plot(mesh, what="quality", file=None, dpi=130):
     if what not in FIGURES:
         raise ValueError(f"what={what!r}: expected one of {', '.join(FIGURES)}")
     if isinstance(mesh, (str, os.PathLike)):
-        mesh = read(mesh)
+        mesh = read(mesh, in_place=True)
     if len(mesh.triangles) == 0:
         raise ValueError(f"{mesh.path} holds no triangles")
     if what == "history" and len(mesh.history.get("sweep", ())) == 0:

@@ -7,9 +7,14 @@ Triangles of many pixels are left to polygons: there cannot be many of them.
 """
 import numpy as np
 
-CHUNK = 1 << 20     # triangles at a time: 100 MB
+CHUNK = 1 << 18     # rows at a time: their temporary arrays are used again, larger ones come from the system each time
 LARGEST_LEVEL = 3   # triangles of more than 2^3 pixels become polygons
 LONGEST_EDGE = 1.5  # [h] of nearly all triangles
+
+
+def slices(count):
+    """Slices of so many rows, CHUNK at a time."""
+    return (slice(first, min(first + CHUNK, count)) for first in range(0, count, CHUNK))
 
 
 class Canvas:
@@ -22,6 +27,13 @@ class Canvas:
         columns, rows = np.maximum(np.ceil(span / self.side - 1e-9).astype(int), 1)
         self.shape = int(rows), int(columns)
         self.extent = (self.low[0], self.low[0] + columns * self.side, self.low[1], self.low[1] + rows * self.side)
+
+    def pixels_of_points(self, places):
+        """The same of places [N,2]."""
+        found = np.empty(len(places), np.int32)
+        for rows in slices(len(places)):
+            found[rows] = self.pixels_of(places[rows, 0], places[rows, 1])
+        return found
 
     def pixels_of(self, x, y):
         """Flat indices of the pixels that hold points; those beyond the box go to its rim."""
@@ -49,9 +61,9 @@ def levels_of(x, y, side):
     return level
 
 
-def corners_of(mesh, first, last):
+def corners_of(mesh, rows):
     """x and y [3, k] of the corners of some triangles, images that lie together."""
-    place = mesh.points[mesh.triangles[first:last].T]
+    place = mesh.points[mesh.triangles[rows].T]
     both = [place[:, :, 0], place[:, :, 1]]
     for axis, period in zip(both, mesh.periods):
         if period > 0:
@@ -66,14 +78,13 @@ def samples(mesh, canvas, polygons):
     Where all triangles are smaller than a pixel, their first vertex is as good a place as any other. Triangles are
     sorted by it, which makes this several times faster.
     """
-    at_points = canvas.pixels_of(mesh.points[:, 0], mesh.points[:, 1])
-    for first in range(0, len(mesh.triangles), CHUNK):
-        last = min(first + CHUNK, len(mesh.triangles))
-        vertices = mesh.triangles[first:last, 0]
+    at_points = canvas.pixels_of_points(mesh.points)
+    for rows in slices(len(mesh.triangles)):
+        first, vertices = rows.start, mesh.triangles[rows, 0]
         if LONGEST_EDGE * mesh.size[vertices].max() < canvas.side:
-            yield slice(first, last), at_points[vertices]
+            yield rows, at_points[vertices]
             continue
-        x, y = corners_of(mesh, first, last)
+        x, y = corners_of(mesh, rows)
         level = levels_of(x, y, canvas.side)
         for depth in np.unique(level):
             chosen = np.flatnonzero(level == depth)
@@ -90,8 +101,11 @@ def mean_image(mesh, canvas, value):
     polygons = []
     count, total = np.zeros(canvas.shape[0] * canvas.shape[1]), np.zeros(canvas.shape[0] * canvas.shape[1])
     for triangles, pixels in samples(mesh, canvas, polygons):
-        count += np.bincount(pixels, minlength=len(count))
-        total += np.bincount(pixels, weights=value[triangles], minlength=len(count))
+        first = pixels.min()
+        pixels = pixels - first  # triangles that follow each other lie together: few rows of pixels
+        counted = np.bincount(pixels)
+        count[first:first + len(counted)] += counted
+        total[first:first + len(counted)] += np.bincount(pixels, weights=value[triangles])
     with np.errstate(invalid="ignore"):
         return (total / count).reshape(canvas.shape), np.array(polygons, int)
 

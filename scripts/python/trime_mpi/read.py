@@ -204,30 +204,45 @@ def read_tables(group):
     return tables
 
 
-def read_open(file, path):
-    """The mesh of an open file."""
+def loaded(dataset):
+    """The values in memory."""
+    return dataset[:]
+
+
+def mapped(dataset):
+    """The values in the file, which come to memory where they are touched; changes of them stay in memory."""
+    offset = dataset.id.get_offset()  # None if they are in chunks
+    if offset is None or dataset.size == 0 or not dataset.dtype.isnative:
+        return loaded(dataset)
+    return np.memmap(dataset.file.filename, dataset.dtype, "c", offset, dataset.shape).view(np.ndarray)
+
+
+def read_open(file, path, take):
+    """The mesh of an open file. take: values of a dataset."""
     about = file["trime_mpi"]
     if "Mesh/mesh" in file:
-        points, triangles = file["Mesh/mesh/geometry"][:], file["Mesh/mesh/topology"][:]
+        points, triangles = take(file["Mesh/mesh/geometry"]), take(file["Mesh/mesh/topology"])
     else:  # written for ParaView only
-        points, triangles = file["VTKHDF/Points"][:, :2].copy(), file["VTKHDF/Connectivity"][:].reshape(-1, 3)
+        points, triangles = take(file["VTKHDF/Points"])[:, :2], take(file["VTKHDF/Connectivity"]).reshape(-1, 3)
     fields = file["VTKHDF" if "VTKHDF/PointData" in file else "Mesh"]
     cells, nodes, facets = fields["CellData"], fields["PointData"], file["Mesh/facets"]
     tables = read_tables(about)
     first = np.asarray(tables.pop("ranks", {}).get("first_point", [0]))
     return Mesh(
-        path=os.fspath(path), points=points, triangles=triangles, alpha=cells["alpha"][:], beta=cells["beta"][:],
-        region=cells["region"][:], boundary=nodes["boundary"][:], size=nodes["size"][:],
-        fixed=nodes["fixed"][:].astype(bool), facets=facets["topology"][:], facet_tags=facets["values"][:],
-        facet_parts=facets["parts"][:],
-        facet_size=facets["asked_size"][:] if "asked_size" in facets else np.zeros(0, np.float32), first_point=first,
+        path=os.fspath(path), points=points, triangles=triangles, alpha=take(cells["alpha"]), beta=take(cells["beta"]),
+        region=take(cells["region"]), boundary=take(nodes["boundary"]), size=take(nodes["size"]),
+        fixed=take(nodes["fixed"]).astype(bool), facets=take(facets["topology"]), facet_tags=take(facets["values"]),
+        facet_parts=take(facets["parts"]),
+        facet_size=take(facets["asked_size"]) if "asked_size" in facets else np.zeros(0, np.float32), first_point=first,
         attributes={key: python_value(value) for key, value in about.attrs.items()}, tables=tables,
         config=text_of(about, "config_text"), config_resolved=text_of(about, "config_resolved"))
 
 
-def read(file):
+def read(file, in_place=False):
     """The mesh in a file NAME.h5 (or NAME.vtkhdf) that trime_mpi has written.
 
+    in_place: arrays stay in the file, and come to memory where they are touched. It must not be written to meanwhile; a
+    run that makes it anew does no harm, since it makes another file of this name.
     Raises FileError if there is no such file, or if it is not a mesh of trime_mpi. About 100 bytes a point.
     """
     path = os.fspath(file)
@@ -235,6 +250,6 @@ def read(file):
         raise FileError([f"there is no {path}"])
     try:
         with h5py.File(path, "r") as opened:
-            return read_open(opened, path)
+            return read_open(opened, path, mapped if in_place else loaded)
     except (OSError, KeyError) as error:
         raise FileError([f"{path} is not a mesh file of trime_mpi: {error}"]) from error

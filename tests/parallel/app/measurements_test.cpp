@@ -79,6 +79,8 @@ TEST(Measurements, TrafficIsWhatGoesToOtherRanks) {
   EXPECT_EQ(talk[Counter::messages].min, 0);
   EXPECT_EQ(talk[Counter::bytes].sum, 50 * others * comm.size());
   EXPECT_EQ(talk[Counter::collectives].max, 1);
+  EXPECT_GT(talk[Counter::wait_ns].min, 0);
+  EXPECT_LE(static_cast<double>(talk[Counter::wait_ns].max), 1e9 * measured.phases[0].max) << "nobody waits longer";
   EXPECT_EQ(talk[Counter::neighbours].sum, others);
   EXPECT_EQ(talk[Counter::neighbours].max, others > 0 ? 1 : 0);
   EXPECT_EQ(talk[Counter::rank_bytes].max, comm.size() * static_cast<std::int64_t>(sizeof(std::int64_t)));

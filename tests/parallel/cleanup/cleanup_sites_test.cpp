@@ -128,6 +128,43 @@ TEST(CleanupSites, AllSitesOfACrowdRest) {
     EXPECT_EQ(site.rests != 0, is_in_crowd(site.position));
 }
 
+/// Pushes stay with a site until the clean-up moves it, to whichever rank: else settling would depend on the ranks.
+TEST(CleanupSites, AMovedSiteBeginsAnewOnAnyRanks) {
+  const comm::Communicator world = comm::Communicator::world();
+  const sizing::UniformSize size(0.02);
+  const mesh::SiteList all = testing::random_sites(2000, 5);
+  testing::PatchSites on(world, all, size, 0.02, {});
+  for (LocalIndex i = 0; i < on.state.points().owned(); ++i)
+    on.state.points().set_pushes(i, 3);
+  on.state.points().release_leads();
+  std::vector<SiteEdit> edits;
+  for (std::size_t k = 0; k < all.size(); k += 20) {
+    const Vec2 p = all[k].position;
+    edits.push_back({p, testing::unit_lattice().snap({p.y, p.x})}); // many to other ranks
+    edits.back().size = 0.02;
+  }
+  on.sites->apply(edits, {});
+  on.sites->finish(on.state, delaunay::StarBuilder(testing::unit_lattice(), 0.08));
+  const auto owned_at = [&](Vec2 p) {
+    LocalIndex found = -1;
+    for (LocalIndex i = 0; i < on.state.points().owned(); ++i)
+      if (on.state.points().position(i) == p)
+        found = i;
+    return found;
+  };
+  EXPECT_EQ(world.sum(std::int64_t{on.state.points().owned()}), 2000);
+  std::int64_t at_new_places = 0, pushed = 0;
+  for (const SiteEdit& edit : edits)
+    if (const LocalIndex i = owned_at(edit.to); i >= 0) {
+      ++at_new_places;
+      EXPECT_EQ(on.state.points().pushes(i), 0);
+    }
+  for (LocalIndex i = 0; i < on.state.points().owned(); ++i)
+    pushed += on.state.points().pushes(i) == 3;
+  EXPECT_EQ(world.sum(at_new_places), 100);
+  EXPECT_EQ(world.sum(pushed), 1900);
+}
+
 TEST(CleanupSites, SurroundingsAreWholeOnAnyRanks) {
   expect_whole({});
 }

@@ -193,8 +193,8 @@ TEST(MeshFile, KeepsItsContractOnAnyDistribution) {
     const WrittenFiles written = write_mesh(options, make_mesh(comm, seed), make_metadata(comm), comm);
     if (!comm.is_root())
       continue;
-    EXPECT_EQ(written.paths.size(), 3u);
-    EXPECT_EQ(std::distance(fs::directory_iterator(options.directory), {}), 3) << "something was left behind";
+    EXPECT_EQ(written.paths.size(), 4u);
+    EXPECT_EQ(std::distance(fs::directory_iterator(options.directory), {}), 4) << "something was left behind";
     EXPECT_EQ(fs::read_symlink(options.path(".vtkhdf")), "a&b.h5");
     const Hdf5File file(H5Fopen(options.path(".vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "open");
     expect_vtkhdf(file);

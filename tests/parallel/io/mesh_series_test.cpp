@@ -165,9 +165,9 @@ TEST(MeshSeries, WritesStepsFinalMeshAndCollections) {
   if (!comm.is_root())
     return;
   const std::string stem = directory.path() + "/mesh";
-  EXPECT_EQ(written.paths,
-            (std::vector<std::string>{stem + ".h5", stem + ".xdmf", stem + ".vtkhdf", stem + "_step_*.h5 (2 of them)",
-                                      stem + "/mesh_*.txt", stem + "_series.xdmf", stem + ".vtkhdf.series"}));
+  EXPECT_EQ(written.paths, (std::vector<std::string>{stem + ".h5", stem + ".xdmf", stem + ".xmf", stem + ".vtkhdf",
+                                                     stem + "_step_*.h5 (2 of them)", stem + "/mesh_*.txt",
+                                                     stem + "_series.xdmf", stem + ".vtkhdf.series"}));
   auto texts = texts_in(directory.path());
   for (const char* name :
        {"mesh_step_000001.h5", "mesh_step_000012.h5", "mesh.h5", "mesh_step_000012.xdmf", "mesh_series.xdmf",

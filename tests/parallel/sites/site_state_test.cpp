@@ -252,5 +252,75 @@ TEST(SiteState, OnlyTheStarsThatAreWishedForAreComputed) {
   EXPECT_TRUE(testing::triangles_of(state.points(), state.stars()) == testing::triangles_of(all.points(), all.stars()));
 }
 
+/// The ring of a site as places.
+std::vector<Vec2> ring_places(const SiteState& state, LocalIndex i) {
+  std::vector<Vec2> ring;
+  for (const LocalIndex j : state.stars().ring(i))
+    ring.push_back(j == delaunay::gap ? Vec2{-1, -1} : state.points().position(j));
+  return ring;
+}
+
+/// Edits of some places, in several rounds: a state that is edited, and one that is sorted and computed anew.
+void expect_edits_as_moves(const geometry::Periods& periods, const sizing::SizeField& size) {
+  const comm::Communicator world = comm::Communicator::world();
+  const mesh::GridOptions options{{}, {}, 0.02, periods};
+  const SiteList sites = testing::random_sites(4000, 4);
+  SiteState edited(world, square, options), moved(world, square, options);
+  const StarBuilder builder(unit_lattice(), 2.5, 0.08);
+  for (SiteState* of : {&edited, &moved}) {
+    of->distribute(testing::dealt(world, sites));
+    of->compute_stars(builder, size, Wanted::all_sites);
+    of->points().release_leads();
+  }
+  std::int64_t kept = 0, doubted = 0;
+  for (std::uint64_t round = 0; round < 3; ++round) {
+    const auto is_near = [&](Vec2 p) {
+      return geometry::length(p - Vec2{0.5, 0.45}) < 0.06 || geometry::length(p - Vec2{0.02, 0.8}) < 0.05;
+    };
+    std::vector<std::uint8_t> deleted;
+    std::vector<LocalIndex> gone;
+    for (LocalIndex i = 0; i < edited.points().owned(); ++i) {
+      const Vec2 p = edited.points().position(i);
+      deleted.push_back(is_near(p) && edited.grid().point_key(p) % 3 == round);
+      if (deleted.back())
+        gone.push_back(i);
+    }
+    SiteList come;
+    std::vector<double> sizes;
+    for (const mesh::Site& site : testing::random_sites(4000, 70 + round))
+      if (is_near(site.position) && edited.partition().owner(edited.grid().tile_at(site.position)) == world.rank()) {
+        come.push_back(site);
+        sizes.push_back(size.size(site.position));
+      }
+    edited.edit_sites(builder, gone, come, sizes);
+    prepare_to_stay(moved.points());
+    moved.move_sites(deleted, come);
+    moved.compute_stars(builder, size, Wanted::all_sites);
+    ASSERT_EQ(edited.points().owned(), moved.points().owned());
+    for (LocalIndex i = 0; i < edited.points().owned(); ++i) {
+      EXPECT_EQ(edited.points().position(i), moved.points().position(i));
+      EXPECT_EQ(edited.sizes()[i], moved.sizes()[i]);
+      ++(edited.stars().certain(i) ? kept : doubted);
+      if (edited.stars().certain(i)) {
+        EXPECT_EQ(ring_places(edited, i), ring_places(moved, i));
+      }
+    }
+    edited.compute_stars(builder, size, Wanted::all_sites);
+    for (LocalIndex i = 0; i < edited.points().owned(); ++i)
+      EXPECT_EQ(ring_places(edited, i), ring_places(moved, i));
+  }
+  kept = world.sum(kept);
+  doubted = world.sum(doubted);
+  EXPECT_GT(doubted, 200);
+  EXPECT_EQ(kept > 5 * doubted, !periods.any());
+  EXPECT_EQ(kept == 0, periods.any()); // images are not looked at
+}
+
+TEST(SiteState, EditsComeToWhatAMoveComesTo) {
+  expect_edits_as_moves({}, GrowingSize());
+  expect_edits_as_moves({}, sizing::UniformSize(0.016));
+  expect_edits_as_moves(testing::unit_torus().periods(), sizing::UniformSize(0.016));
+}
+
 } // namespace
 } // namespace trime::sites

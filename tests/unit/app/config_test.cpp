@@ -228,17 +228,23 @@ TEST(Config, AChangedTypeShowsTheKeysThatNoLongerBelong) {
             std::string::npos);
 }
 
-TEST(Config, RefusesByNameWhatThisVersionCannotDo) {
+TEST(Config, RefusesWhatMeansNothing) {
   expect_refused("meshing.fixed_points_normalize_with=box", "means nothing without 'fixed_points'");
-  expect_refused("checkpoint.interval=60", "not supported yet; leave it 0");
-  expect_refused("checkpoint.keep=3", "not supported yet; leave it 2");
+  expect_refused("checkpoint.interval=-1", "'interval = -1' in [checkpoint]");
+  expect_refused("checkpoint.keep=0", "'keep = 0' in [checkpoint]");
 }
 
-TEST(Config, TheHelpSaysWhichValuesThisVersionRefuses) {
-  const std::string help = help_config();
-  for (const char* values : {"| `[checkpoint] interval` | 0; others are refused by this version (0) |",
-                             "| `[checkpoint] keep` | 2; others are refused by this version (2) |"})
-    EXPECT_NE(help.find(values), std::string::npos) << values;
+TEST(Config, Checkpoints) {
+  const CheckpointOptions none = parse_config(good, "c.ini", {}).checkpoint;
+  EXPECT_EQ(none.interval, 0);
+  EXPECT_EQ(none.keep, 2);
+  EXPECT_EQ(none.stop_file, "");
+  const CheckpointOptions some =
+      parse_config(good, "c.ini", {"checkpoint.interval=60", "checkpoint.keep=3", "checkpoint.stop_file=stop now"})
+          .checkpoint;
+  EXPECT_EQ(some.interval, 60);
+  EXPECT_EQ(some.keep, 3);
+  EXPECT_EQ(some.stop_file, "stop now");
 }
 
 TEST(Config, TakesTheDefaultsWhenTheyAreSpeltOut) {

@@ -32,6 +32,38 @@ SiteList in_tiles(const TileGrid& grid, const SiteList& sites, LocalIndex first,
   return chosen;
 }
 
+TEST(BinnedPoints, RestoredSitesStayInTheTilesThatTheyHaveLeft) {
+  const TileGrid grid = small_grid();
+  SiteList sites;
+  std::vector<std::int64_t> counts(static_cast<std::size_t>(grid.tile_count()), 0);
+  std::vector<LocalIndex> tiles;
+  for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile)
+    for (const Site& site : in_tiles(grid, testing::random_sites(2000, 1), tile, tile + 1)) {
+      const double away = 0.3 * grid.side_of(tile);
+      const Vec2 moved = site.position + Vec2{away, -away};
+      sites.push_back({moved.x < 1 && moved.y > 0 ? moved : site.position});
+      ++counts[static_cast<std::size_t>(tile)];
+      tiles.push_back(tile);
+    }
+  BinnedPoints points(grid);
+  std::vector<LocalIndex> new_index;
+  points.restore_owned(sites, counts, 0, grid.tile_count(), new_index);
+  ASSERT_EQ(points.owned(), std::ssize(sites));
+  int left = 0;
+  for (std::size_t k = 0; k < sites.size(); ++k) {
+    const LocalIndex i = new_index[k];
+    EXPECT_EQ(points.position(i), sites[k].position);
+    const auto [begin, end] = points.tile_range(tiles[k]);
+    EXPECT_TRUE(i >= begin && i < end);
+    left += grid.tile_at(sites[k].position) != tiles[k];
+    const TileGrid::TileBin home = grid.place(grid.nearest_in(tiles[k], sites[k].position));
+    EXPECT_EQ(home.tile, tiles[k]);
+    const auto bin = points.bin_range({home.tile, home.bin});
+    EXPECT_TRUE(i >= bin.begin && i < bin.end);
+  }
+  EXPECT_GT(left, 100);
+}
+
 TEST(BinnedPoints, EverySiteIsInItsBinAndKnowsItsNewIndex) {
   const TileGrid grid = small_grid();
   const SiteList sites = testing::random_sites(2000, 1);
@@ -325,6 +357,61 @@ TEST(BinnedPoints, MovedSitesAreSortedAsAListIs) {
       EXPECT_EQ(new_index[k], -1);
     else
       EXPECT_EQ(points.position(new_index[k]), list[next++].position);
+}
+
+/// Few sites that go and come: also to places of others, of each other, and of those that go.
+TEST(BinnedPoints, EditedSitesLieAsIfAllHadBeenSorted) {
+  const TileGrid grid(square, {{}, {}, 0.02});
+  const SiteList sites = testing::random_sites(3000, 3);
+  for (const bool is_sparse : {true, false}) {
+    BinnedPoints points(grid), expected(grid);
+    std::vector<LocalIndex> gone;
+    std::vector<std::uint8_t> is_gone;
+    SiteList come = testing::random_sites(is_sparse ? 20 : 900, 4);
+    for (BinnedPoints* of : {&points, &expected}) {
+      of->assign_owned(sites, 0, grid.tile_count());
+      for (LocalIndex i = 0; i < of->owned(); ++i) {
+        of->set_pushes(i, i % 3);
+        of->set_boundary(i, i % 5 == 0 ? i : free_site);
+      }
+      of->release_leads();
+    }
+    for (LocalIndex i = 0; i < points.owned(); ++i) {
+      is_gone.push_back(i % (is_sparse ? 211 : 5) == 1);
+      if (is_gone.back())
+        gone.push_back(i);
+    }
+    for (const LocalIndex i : {0, 10, 11, 12, 212, 213, 2999}) // 212 goes if edits are sparse
+      come.push_back({points.position(i), free_site, 3 - (i + 1) % 3});
+    come.push_back({come[3].position, free_site, 1}); // no two are equal
+    come.push_back({come[4].position, 17});
+    std::vector<LocalIndex> new_index, expected_index;
+    prepare_to_stay(expected);
+    expected.sort_moved(is_gone, come, expected_index);
+    const LocalIndex before = points.owned();
+    const IndexShift shift = points.edit(gone, come, new_index);
+    ASSERT_EQ(points.owned(), expected.owned());
+    EXPECT_EQ(shift.before(), before);
+    EXPECT_EQ(shift.after(), points.owned());
+    const std::vector<LocalIndex> stay = shift.new_indices();
+    for (std::size_t k = 0; k < stay.size(); ++k)
+      EXPECT_EQ(stay[k], expected_index[k]);
+    for (std::size_t k = 0; k < come.size(); ++k)
+      EXPECT_EQ(new_index[k], expected_index[stay.size() + k]);
+    for (LocalIndex i = 0; i < points.owned(); ++i) {
+      EXPECT_EQ(points.position(i), expected.position(i));
+      EXPECT_EQ(points.boundary(i), expected.boundary(i));
+      EXPECT_EQ(points.pushes(i), expected.pushes(i));
+    }
+    for (LocalIndex tile = 0; tile < grid.tile_count(); ++tile) {
+      EXPECT_EQ(points.tile_range(tile).begin, expected.tile_range(tile).begin);
+      EXPECT_EQ(points.tile_range(tile).end, expected.tile_range(tile).end);
+      for (int bin = 0; bin < grid.bins_per_tile(tile); ++bin) {
+        EXPECT_EQ(points.bin_range({tile, bin}).begin, expected.bin_range({tile, bin}).begin);
+        EXPECT_EQ(points.bin_range({tile, bin}).end, expected.bin_range({tile, bin}).end);
+      }
+    }
+  }
 }
 
 } // namespace

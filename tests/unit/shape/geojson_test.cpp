@@ -78,10 +78,63 @@ TEST(GeoJson, MistakesAreLocated) {
   expect(geometry_of("Polygon", "[[[0, 0],\n[\"1\", 2], [1, 1]]]"), "a.geojson:3: ", "expected numbers");
   expect(geometry_of("Polygon", "[[[0, 0], [1, 0], [0, 0]]]"), "a.geojson:2: ", "2 distinct vertices");
   expect(geometry_of("Polygon", "[[[0, 0],\n\n[1e31, 0], [0, 1]]]"), "a.geojson:4: ", "1e+31");
-  expect(geometry_of("LineString", "[[0, 0], [1, 0],\n[0, 1]]"), "a.geojson:3: ", "close it, or make a polygon");
+  expect(geometry_of("LineString", "[[0, 0], [1, 0],\n[0, 1]]"),
+         "a.geojson:2: ", "end at (0, 0) alone: close the ring, or make a polygon");
   expect(geometry_of("Point", "[0, 0]"), "a.geojson: ", "found no vertex at all");
   expect("[1, 2]", "a.geojson: ", "found no vertex at all");
   expect("{\"type\": \"Topology\", \"arcs\": [[[0, 0], [1, 1]]]}", "a.geojson: ", "Polygon or MultiPolygon");
+}
+
+std::string feature(const std::string& properties, const std::string& type, const std::string& coordinates) {
+  return R"({"type": "Feature", "geometry": )" + geometry_of(type, coordinates) + R"(, "properties": {)" + properties +
+         "}}";
+}
+std::string collection(const std::string& features) {
+  return R"({"type": "FeatureCollection", "crs": {"properties": {"name": "EPSG:4326"}}, "features": [)" + features +
+         "]}";
+}
+
+TEST(GeoJson, AnAttributeNamesTheRingsOfAFeature) {
+  const std::string square = "[[[0, 0], [9, 0], [9, 9], [0, 9]]]", lake = "[[[1, 1], [2, 1], [1, 2]]]",
+                    pond = "[[[4, 4], [5, 4], [4, 5]]]";
+  const Contour named =
+      parse_geojson(collection(feature(R"("name": " coast\nof ice", "id": 5)", "Polygon", square) + "," +
+                               feature(R"("a": {"name": "deep"}, "name": null)", "Polygon", lake) + "," +
+                               feature(R"("name": 7)", "Polygon", pond)),
+                    "a", "name");
+  EXPECT_EQ(named.marker_names, (std::vector<std::string>{"coast of ice", "7"}));
+  EXPECT_EQ(named.rings[0].markers, (std::vector<int>{1, 1, 1, 1}));
+  EXPECT_TRUE(named.rings[1].markers.empty());
+  EXPECT_EQ(named.rings[2].markers, (std::vector<int>{2, 2, 2}));
+  const Contour numbered = parse_geojson(collection(feature(R"("tag": -7)", "Polygon", square) + "," +
+                                                    feature(R"("tag": "12")", "Polygon", lake) + "," +
+                                                    feature(R"("tag": 0)", "Polygon", pond)),
+                                         "a", "tag");
+  EXPECT_TRUE(numbered.marker_names.empty());
+  EXPECT_EQ(numbered.rings[0].markers, (std::vector<int>{-7, -7, -7, -7}));
+  EXPECT_EQ(numbered.rings[1].markers, (std::vector<int>{12, 12, 12}));
+  EXPECT_TRUE(numbered.rings[2].markers.empty());
+  EXPECT_TRUE(parse_geojson(feature(R"("tag": 3)", "Polygon", square), "a").rings[0].markers.empty());
+}
+
+TEST(GeoJson, OpenLinesThatJoinInTheirEndsAreOneRing) {
+  const Contour contour =
+      parse_geojson(collection(feature(R"("kind": "land")", "LineString", "[[0, 0], [0, 1], [1, 1]]") + "," +
+                               feature(R"("kind": "open")", "LineString", "[[0, 0], [1, 0], [1, 1]]")),
+                    "a", "kind");
+  ASSERT_EQ(contour.rings.size(), 1u);
+  EXPECT_EQ(contour.rings[0].points, (std::vector<Vec2>{{0, 0}, {0, 1}, {1, 1}, {1, 0}}));
+  EXPECT_EQ(contour.rings[0].markers, (std::vector<int>{1, 1, 2, 2}));
+  EXPECT_EQ(contour.marker_names, (std::vector<std::string>{"land", "open"}));
+}
+
+TEST(GeoJson, AnAttributeThatNoFeatureHasIsRefused) {
+  const std::string one = collection(feature(R"("kind": "land", "id": 3)", "Polygon", "[[[0, 0], [1, 0], [0, 1]]]"));
+  const auto refused = [](const std::string& text, const std::string& source) {
+    return message_of<ConfigError>([&] { parse_contour(text, source, "name"); });
+  };
+  EXPECT_EQ(refused(one, "a.json"), "a.json: expected features with the attribute 'name', found only id, kind");
+  EXPECT_NE(refused("0 0\n1 0\n0 1\n", "a.xy").find("expected a .geojson or .shp"), std::string::npos);
 }
 
 } // namespace

@@ -90,8 +90,10 @@ TEST(Contour, GoesThroughBytes) {
   Contour contour = parse_poly(nested("2\n0 1.5 4\n1 4 4\n"), "a.poly");
   contour.crs = "EPSG:32633";
   contour.warnings = {"one", ""};
+  contour.marker_names = {"land", "open sea"};
   contour.rings[0].in_file = contour.rings[1].points;
   const Contour read = contour_of_bytes(to_bytes(contour));
+  EXPECT_EQ(read.marker_names, contour.marker_names);
   ASSERT_EQ(read.rings.size(), contour.rings.size());
   for (std::size_t k = 0; k < read.rings.size(); ++k) {
     EXPECT_EQ(read.rings[k].points, contour.rings[k].points);

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/checkpoint_keeper.hpp"
+
+#include "app/config_difference.hpp"
+#include "comm/agree.hpp"
+#include "trime/core/error.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+namespace trime::app {
+namespace {
+
+using meshing::CheckpointWish;
+
+constexpr double look_interval = 1; // [s] a stop file is looked for so often: file systems of many nodes are slow
+
+bool exists(const std::string& path) {
+  struct stat status {};
+  return stat(path.c_str(), &status) == 0;
+}
+
+} // namespace
+
+CheckpointKeeper::CheckpointKeeper(const KeeperContext& context, const CheckpointOptions& options, double time_limit,
+                                   checkpoint::Origin origin)
+    : context_(context), options_(options), time_limit_(time_limit), origin_(std::move(origin)) {}
+
+std::string CheckpointKeeper::path(std::int64_t number) const {
+  return context_.output.path(fmt::format(".checkpoint-{}.h5", number % options_.keep + 1));
+}
+
+/// Files of this name, as rank 0 finds them. What cannot be read comes first: it may have been the newest.
+std::vector<std::string> CheckpointKeeper::newest_first() const {
+  std::vector<std::pair<std::int64_t, std::string>> found;
+  for (int k = 0; k < options_.keep; ++k)
+    if (const std::string file = path(k); exists(file)) {
+      const std::int64_t number = checkpoint::checkpoint_number(file);
+      found.emplace_back(number < 0 ? std::numeric_limits<std::int64_t>::max() : number, file);
+    }
+  std::sort(found.rbegin(), found.rend());
+  std::vector<std::string> files;
+  for (const auto& [number, file] : found)
+    files.push_back(file);
+  return files;
+}
+
+std::optional<meshing::SavedRun> CheckpointKeeper::find(const std::string& restart) {
+  if (restart.empty())
+    return std::nullopt;
+  if (restart != "auto")
+    return checked(checkpoint::read_checkpoint(restart, context_.comm), restart);
+  std::string list;
+  comm::run_agreed(context_.comm, [&] {
+    if (context_.comm.is_root())
+      for (const std::string& file : newest_first())
+        list += file + "\n";
+  });
+  list = context_.comm.broadcast(list);
+  for (std::size_t at = 0, end; at < list.size(); at = end + 1) {
+    end = list.find('\n', at);
+    const std::string file = list.substr(at, end - at);
+    try {
+      return checked(checkpoint::read_checkpoint(file, context_.comm), file);
+    } catch (const FileError& error) { // on all ranks together
+      context_.log.warning("{}; it is left out", error.what());
+    }
+  }
+  context_.log.info("restart: no checkpoint of {} is there; the run starts at its beginning", context_.output.path(""));
+  return std::nullopt;
+}
+
+/// The same on all ranks.
+meshing::SavedRun CheckpointKeeper::checked(checkpoint::Found found, const std::string& file) {
+  if (const std::vector<std::string> keys = differing_keys(found.title.origin.config, origin_.config); !keys.empty())
+    throw ConfigError(fmt::format("{} is of a run with another config: {}; start anew without --restart, or give that "
+                                  "config",
+                                  file, fmt::join(keys, "; ")));
+  if (found.title.origin.program != origin_.program)
+    throw FileError(
+        fmt::format("{} was written by {}, and this is {}: expected the same program, since others may make "
+                    "another mesh",
+                    file, found.title.origin.program, origin_.program));
+  number_ = found.title.number;
+  context_.log.info("restart: from {}", file);
+  return std::move(found.run);
+}
+
+void CheckpointKeeper::remove_all() {
+  alarm(0);
+  context_.signals.set_last(false);
+  if (!has_written_ && number_ < 0)
+    return;
+  if (context_.comm.is_root())
+    for (int k = 0; k < options_.keep; ++k)
+      unlink(path(k).c_str()); // a mesh that is written needs none
+}
+
+/// The last checkpoint stands: a signal ends the run at once from now on, and so does the time limit.
+void CheckpointKeeper::end_in_time() {
+  context_.signals.set_last(true);
+  if (time_limit_ > 0)
+    alarm(static_cast<unsigned>(std::fmax(1, std::ceil(time_limit_ - context_.timers.total()))));
+}
+
+// --- when ------------------------------------------------------------------------------------------------------------
+
+bool CheckpointKeeper::finds_stop_file() {
+  const double now = context_.timers.total();
+  if (options_.stop_file.empty() || now < looked_ + look_interval)
+    return false;
+  looked_ = now;
+  return exists(options_.stop_file);
+}
+
+CheckpointWish CheckpointKeeper::wish_of_root() {
+  const double now = context_.timers.total();
+  sweep_ = asked_ > 0 ? std::fmax(now - asked_, sweep_ / 2) : 0; // the start of a stage is forgotten after a while
+  asked_ = now;
+  if (time_limit_ > 0 && now + 2 * sweep_ + longest_writing_ >= time_limit_) {
+    reason_ = "the time limit is near";
+    return CheckpointWish::stop;
+  }
+  if (finds_stop_file()) {
+    reason_ = "found " + options_.stop_file;
+    return CheckpointWish::stop;
+  }
+  return options_.interval > 0 && now - written_ >= options_.interval ? CheckpointWish::write : CheckpointWish::none;
+}
+
+CheckpointWish CheckpointKeeper::wish() {
+  SignalRequests& signals = context_.signals;
+  signals.set_stops_in_order(is_configured());
+  const CheckpointWish of_root = context_.comm.is_root() ? wish_of_root() : CheckpointWish::none;
+  if (signals.asks_to_stop())
+    return CheckpointWish::stop;
+  return std::max(of_root, signals.asks_to_write() ? CheckpointWish::write : CheckpointWish::none);
+}
+
+/// With an interval or a limit, one is written at any rate: the clean-up may take long.
+CheckpointWish CheckpointKeeper::wish_before_cleanup() {
+  CheckpointWish mine = wish();
+  if (is_configured())
+    mine = std::max(mine, CheckpointWish::write);
+  const auto all = static_cast<CheckpointWish>(context_.comm.max(std::int64_t{static_cast<int>(mine)}));
+  is_last_ = true;
+  if (all == CheckpointWish::none)
+    context_.signals.set_last(false);
+  return all;
+}
+
+// --- writing ---------------------------------------------------------------------------------------------------------
+
+/// The first one of a run comes after those that older runs have left.
+void CheckpointKeeper::set_number() {
+  std::int64_t newest = 0;
+  comm::run_agreed(context_.comm, [&] {
+    if (!context_.comm.is_root())
+      return;
+    std::filesystem::create_directories(context_.output.directory);
+    for (const std::string& file : newest_first())
+      newest = std::max(newest, checkpoint::checkpoint_number(file));
+  });
+  number_ = context_.comm.max(newest);
+}
+
+void CheckpointKeeper::write(CheckpointWish wish, const meshing::RunState& state, const sites::SiteState& sites,
+                             std::span<const std::uint64_t> activity) {
+  const double begin = context_.timers.total();
+  if (number_ < 0)
+    set_number();
+  const std::string file = path(number_ + 1);
+  try {
+    checkpoint::write_checkpoint(file, context_.output.run_files, {origin_, number_ + 1}, state, sites, activity);
+  } catch (const FileError& error) { // on all ranks together
+    written_ = context_.timers.total();
+    context_.signals.forget_writing();
+    if (wish == CheckpointWish::stop)
+      throw;
+    if (is_last_)
+      context_.signals.set_last(false);
+    context_.log.warning("no checkpoint: {}; the run goes on", error.what());
+    return;
+  }
+  ++number_;
+  has_written_ = true;
+  context_.signals.forget_writing();
+  written_ = context_.timers.total();
+  longest_writing_ = std::max(longest_writing_, written_ - begin);
+  context_.log.info("checkpoint: {}, {:.2g} s", file, written_ - begin);
+  if (wish != CheckpointWish::stop) {
+    if (is_last_)
+      end_in_time();
+    return;
+  }
+  if (context_.comm.is_root() && !options_.stop_file.empty())
+    unlink(options_.stop_file.c_str()); // the next run shall not stop by it
+  throw meshing::StoppedAtCheckpoint(fmt::format("stopped at the checkpoint {}{}; go on with --restart {}", file,
+                                                 reason_.empty() ? "" : " (" + reason_ + ")", file));
+}
+
+} // namespace trime::app

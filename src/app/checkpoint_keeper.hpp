@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// When checkpoints are written, and into which files: by interval, signal, stop file and time limit.
+#pragma once
+
+#include "app/options.hpp"
+#include "app/signal_requests.hpp"
+#include "checkpoint/checkpoint_file.hpp"
+#include "trime/core/log.hpp"
+#include "trime/core/timer.hpp"
+#include "trime/io/mesh_file.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trime::app {
+
+/// What the keeper is given. @pre all outlive it
+struct KeeperContext {
+  const comm::Communicator& comm;
+  const io::MeshFileOptions& output; ///< directory, name, and who is told of temporary files
+  SignalRequests& signals;
+  TimerTable& timers;
+  Log& log;
+};
+
+/// Clocks and files count on rank 0 alone; the ranks agree on what they want in the reduction of each sweep.
+class CheckpointKeeper final : public meshing::Checkpoints {
+public:
+  /// @param time_limit seconds since the start of the program; 0: none
+  CheckpointKeeper(const KeeperContext& context, const CheckpointOptions& options, double time_limit,
+                   checkpoint::Origin origin);
+
+  /// @brief The checkpoint to go on from, if any. Of `auto` the newest that is whole; those that are not are warned of.
+  /// @param restart a path, `auto`, or empty
+  /// @throws FileError on all ranks if the file named cannot be used; ConfigError if it is of another config: says
+  /// which key differs. Collective.
+  std::optional<meshing::SavedRun> find(const std::string& restart);
+  /// The mesh is written, and the checkpoints are of no more use. Collective.
+  void remove_all();
+
+  meshing::CheckpointWish wish() override;
+  meshing::CheckpointWish wish_before_cleanup() override;
+  void write(meshing::CheckpointWish wish, const meshing::RunState& state, const sites::SiteState& sites,
+             std::span<const std::uint64_t> activity) override;
+
+private:
+  bool is_configured() const { return options_.interval > 0 || time_limit_ > 0 || !options_.stop_file.empty(); }
+  meshing::CheckpointWish wish_of_root();
+  bool finds_stop_file();
+  std::string path(std::int64_t number) const;
+  std::vector<std::string> newest_first() const;
+  meshing::SavedRun checked(checkpoint::Found found, const std::string& file);
+  void set_number();
+  void end_in_time();
+
+  const KeeperContext context_;
+  const CheckpointOptions options_;
+  const double time_limit_;
+  const checkpoint::Origin origin_;
+  std::int64_t number_ = -1; // of the last checkpoint; -1: not known yet
+  bool has_written_ = false, is_last_ = false;
+  double asked_ = 0, sweep_ = 0, written_ = 0, longest_writing_ = 0,
+         looked_ = -1e9; // seconds of rank 0
+  std::string reason_;   // of the last wish of rank 0
+};
+
+} // namespace trime::app

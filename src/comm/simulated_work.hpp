@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the ranks of a simulated cluster compute, in simulated seconds. SimGrid's ranks take turns on one core, and each
+// step of them all ends with the slowest. So whatever holds that core up for a moment holds all simulated ranks up, and
+// by the share of P cores what a real one would feel. Hence a run is repeated, and each stretch of work between two
+// calls of MPI takes the least of its times: the calls of a rank are the same in each run.
+#pragma once
+
+#include "trime/comm/communicator.hpp"
+
+namespace trime::comm {
+
+/// While it lives, a rank is in MPI, and its work stands still. May be nested. Does nothing in real runs.
+class InMpi {
+public:
+#ifdef TRIME_SIMULATE
+  InMpi();
+  ~InMpi();
+#else
+  InMpi() {}
+  ~InMpi() {}
+#endif
+  InMpi(const InMpi&) = delete;
+  InMpi& operator=(const InMpi&) = delete;
+};
+
+/// Begins and ends the measurement of the work of this rank. The environment variable TRIME_SIMULATED_WORK names a
+/// directory, which keeps the least times of each rank from run to run; without it each run counts as it is. Do nothing
+/// in real runs.
+void begin_simulated_work();
+void end_simulated_work();
+
+} // namespace trime::comm
