@@ -131,6 +131,12 @@ void add_described(std::span<const std::byte> bytes, std::span<const BinRef> bin
   }
 }
 
+/// What is told of a tile with the places of its sites.
+struct TileNews {
+  double drift;
+  std::uint64_t mark;
+};
+
 } // namespace
 
 Halo::Halo(const comm::Communicator& comm, const mesh::TileGrid& grid)
@@ -335,11 +341,11 @@ std::vector<GhostNews> Halo::tell_owners(const mesh::BinnedPoints& points, std::
   return concatenate<GhostNews>(comm::exchange_among(*comm_, peers(), outgoing));
 }
 
-/// The drifts of all tiles of a peer, then the positions of its sites.
+/// The news of all tiles of a peer, then the positions of its sites.
 void Halo::begin_positions(const mesh::BinnedPoints& points) {
   TRIME_ASSERT(!grid_->periods().any() && !exchange_.is_open());
   const auto bytes_of = [](const Route& route) {
-    return route.tiles.size() * sizeof(double) + route.site_count * sizeof(geometry::Vec2);
+    return route.tiles.size() * sizeof(TileNews) + route.site_count * sizeof(geometry::Vec2);
   };
   std::vector<Message> outgoing;
   for (const Route& route : outward_) {
@@ -347,7 +353,7 @@ void Halo::begin_positions(const mesh::BinnedPoints& points) {
     std::vector<std::byte>& data = outgoing.back().data;
     data.reserve(bytes_of(route));
     for (const LocalIndex tile : route.tiles)
-      append(data, points.drifts().of(tile));
+      append(data, TileNews{points.drifts().of(tile), points.marks().of(tile)});
     for (const auto [begin, end] : route.ranges)
       append(data, points.positions().subspan(at(begin), at(end - begin)));
   }
@@ -365,8 +371,11 @@ void Halo::finish_positions(mesh::BinnedPoints& points) {
   comm_->counters().note(Counter::ghosts, std::ssize(ghosts));
   for (std::size_t m = 0; m < positions_.size(); ++m) {
     Reader reader(positions_[m].data);
-    for (const LocalIndex tile : inward_[m].tiles)
-      points.drifts().set(tile, reader.take<double>());
+    for (const LocalIndex tile : inward_[m].tiles) {
+      const auto news = reader.take<TileNews>();
+      points.drifts().set(tile, news.drift);
+      points.marks().set(tile, news.mark != 0);
+    }
     for (const auto [begin, end] : inward_[m].ranges)
       reader.take(ghosts.subspan(at(begin - points.owned()), at(end - begin)));
   }

@@ -115,6 +115,7 @@ template <class Sites>
 LocalIndex BinnedPoints::sort(const Sites& sites) {
   bins_.own(first_tile(), last_tile());
   drifts_.forget(bins_.owned_tiles());
+  marks_.forget(bins_.owned_tiles());
   state_ = State::sorted;
   const LocalIndex dropped = order_.sort(sites, bins_);
   owned_ = order_.size();
@@ -126,6 +127,7 @@ void BinnedPoints::assign_ghosts(std::span<const BinRef> bins, std::span<const s
   TRIME_ASSERT(state_ == State::sorted || state_ == State::prepared, "ghosts before owned sites, or after their end");
   bins_.forget_foreign();
   drifts_.make_room(bins_.owned_tiles());
+  marks_.make_room(bins_.owned_tiles());
   positions_.resize(at(owned_));
   boundary_.resize(positions_.size());
   add_ghosts(bins, counts, sites);
@@ -150,6 +152,7 @@ void BinnedPoints::add_ghosts(std::span<const BinRef> bins, std::span<const std:
     next += counts[k];
   }
   drifts_.make_room(bins_.known_tiles());
+  marks_.make_room(bins_.known_tiles());
 }
 
 void BinnedPoints::prepare_advance() {

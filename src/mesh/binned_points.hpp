@@ -10,6 +10,7 @@
 #include "mesh/site.hpp"
 #include "mesh/site_order.hpp"
 #include "mesh/tile_grid.hpp"
+#include "mesh/tile_marks.hpp"
 #include "trime/core/types.hpp"
 #include "trime/core/unset_vector.hpp"
 #include "trime/geometry/vec2.hpp"
@@ -63,6 +64,7 @@ public:
   geometry::Vec2 position(LocalIndex i) const { return positions_[at(i)]; }
   /// Index of the boundary site that site i is, or -1.
   std::int32_t boundary(LocalIndex i) const { return boundary_[at(i)]; }
+  std::span<const std::int32_t> boundaries() const { return boundary_; }
   /// @pre site i is owned
   Site site(LocalIndex i) const {
     const std::size_t at = static_cast<std::size_t>(i);
@@ -125,6 +127,8 @@ public:
   /// How far sites have come since they were sorted; searches go so much farther.
   const Drifts& drifts() const { return drifts_; }
   Drifts& drifts() { return drifts_; }
+  const TileMarks& marks() const { return marks_; }
+  TileMarks& marks() { return marks_; }
   void set_pushes(LocalIndex i, std::int32_t pushes) {
     pushes_[at(i)] = static_cast<std::uint8_t>(std::min(pushes, 255));
   }
@@ -160,6 +164,7 @@ private:
   State state_ = State::empty;
   KnownBins bins_;
   Drifts drifts_;
+  TileMarks marks_;
   SiteOrder order_;
   LocalIndex owned_ = 0;
   UnsetVector<geometry::Vec2> positions_;

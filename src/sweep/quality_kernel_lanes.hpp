@@ -33,7 +33,7 @@ TRIME_INLINE void measure_group(const SweepTask& task, const Group& group, doubl
     M after = (a.x > 0.0) | ((a.x == 0.0) & (a.y > 0.0));
     if (group.bordered)
       for (int l = 0; l < width; ++l)
-        if (task.classes[task.rings[slots * std::ptrdiff_t{group.site[l]} + slot]] == SiteClass::held)
+        if (task.boundary[task.rings[slots * std::ptrdiff_t{group.site[l]} + slot]] >= 0)
           after[l] = -1;
     return after;
   };

@@ -84,8 +84,7 @@ SiteClass SiteClasses::class_of(LocalIndex i, LocalIndex tile) const {
 /// end that would vouch for them.
 bool SiteClasses::may_be_bordered(LocalIndex i, LocalIndex tile) const {
   const mesh::BinnedPoints& points = state_.points();
-  if (reach_ != LemmaReach::up_to_chords || state_.grid().periods().any() ||
-      around_.place(at(tile - points.first_tile())) != TilePlace::inner)
+  if (reach_ != LemmaReach::up_to_chords || state_.grid().periods().any())
     return false;
   const std::span<const LocalIndex> ring = state_.stars().ring(i);
   for (std::size_t k = 0; k < ring.size(); ++k) {
@@ -124,15 +123,13 @@ void SiteClasses::find_encroached_tiles() {
   });
 }
 
-/// Sites beside chords may be certified where no owned site near the tile is in the disc of a chord, nor any other
-/// site: that is known of inner tiles only.
+/// Sites beside chords may be certified where no site near the tile is in the disc of a chord. Of tiles of other ranks
+/// that is known once their sites have come (TileMarks).
 SiteClass SiteClasses::least_certified(LocalIndex tile) const {
-  const std::size_t t = at(tile - state_.points().first_tile());
-  if (around_.place(t) != TilePlace::inner)
-    return SiteClass::local;
-  const std::span<const LocalIndex> tiles = around_.of(t);
-  const bool trusts =
-      std::none_of(tiles.begin(), tiles.end(), [&](LocalIndex other) { return encroached_[at(other)]; });
+  const std::span<const LocalIndex> tiles = around_.of(at(tile - state_.points().first_tile()));
+  const bool trusts = std::none_of(tiles.begin(), tiles.end(), [&](LocalIndex other) {
+    return at(other) < encroached_.size() ? encroached_[at(other)] != 0 : state_.points().marks().of(other);
+  });
   return trusts ? SiteClass::bordered : SiteClass::local;
 }
 

@@ -38,6 +38,7 @@ public:
   SiteClass least_certified(LocalIndex tile) const;
   /// Some site of owned tile t may be in the disc of a chord, or none is.
   void set_encroached(std::size_t t, bool encroached) { encroached_[t] = encroached; }
+  bool is_encroached(std::size_t t) const { return encroached_[t] != 0; }
 
 private:
   SiteClass class_of(LocalIndex i, LocalIndex tile) const;

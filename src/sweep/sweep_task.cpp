@@ -42,6 +42,7 @@ SweepTask make_sweep_task(SiteState& state, const delaunay::StarBuilder& builder
   task.rings = state.stars().all_slots();
   task.degrees = state.stars().degrees();
   task.classes = classes.data();
+  task.boundary = points.boundaries().data();
   set_sizes(task, state);
   task.next_positions = points.next().positions().data();
   task.next_leads = points.next().leads().data();

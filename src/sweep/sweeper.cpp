@@ -258,12 +258,15 @@ void Sweeper::prepare(const UpdateRule& rule, int wish) {
 // --- commit --------------------------------------------------------------------------------------------------------
 
 /// Counts pushes, and notes where sites that were pushed go into a disc all the same: only these can be in one, and in
-/// tiles that sleep nothing changes.
+/// tiles that sleep nothing changes. Other ranks hear of it with the places.
 void Sweeper::note_pushes() {
   const std::vector<std::uint8_t> encroached = outcomes_.count_pushes(context_.guard);
-  for (std::size_t t = 0; t < encroached.size(); ++t)
+  SiteClasses& classes = certifier_.classes();
+  for (std::size_t t = 0; t < encroached.size(); ++t) {
     if (activity_.is_awake(t) || encroached[t])
-      certifier_.classes().set_encroached(t, encroached[t]);
+      classes.set_encroached(t, encroached[t]);
+    state_.points().marks().set(static_cast<LocalIndex>(t), classes.is_encroached(t));
+  }
 }
 
 bool Sweeper::must_sort() const {

@@ -88,6 +88,7 @@ struct Cloud {
     task.rings = stars.all_slots();
     task.degrees = stars.degrees();
     task.classes = classes.data();
+    task.boundary = points.boundaries().data();
     task.sizes = sizes.is_uniform() ? nullptr : sizes.values().data();
     task.uniform_size = spacing;
     task.next_positions = points.next().positions().data();
