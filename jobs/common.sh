@@ -73,7 +73,7 @@ job_run() {
 # job_restartable CONFIG [section.key=value ...]: runs that from the newest checkpoint, if there is one. The signal USR1
 # to this script stops the program at a checkpoint, and the job is queued again. Returns the exit code of the program.
 job_restartable() {
-  local code=138 pid
+  local code=0 pid
   job_command "$@" --restart auto
   "${command_line[@]}" &
   pid=$!
@@ -81,10 +81,15 @@ job_restartable() {
   if [ -n "${asked_early:-}" ]; then # the launcher must be up before it can hand the signal on
     (sleep 5; kill -USR1 "$pid") &
   fi
-  while [ "$code" -eq 138 ]; do # USR1 ends `wait`, not the program
+  wait "$pid" || code=$?
+  while [ "$code" -eq 138 ] && kill -0 "$pid" 2>/dev/null; do # USR1 ended `wait`, not the program
     code=0
     wait "$pid" || code=$?
   done
+  if [ "$code" -eq 138 ]; then # the program ended meanwhile, or by USR1
+    code=0
+    wait "$pid" || code=$?
+  fi
   [ "$code" -ne 75 ] || scontrol requeue "$SLURM_JOB_ID"
   return "$code"
 }

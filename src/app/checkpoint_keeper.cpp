@@ -91,6 +91,12 @@ meshing::SavedRun CheckpointKeeper::checked(checkpoint::Found found, const std::
   return std::move(found.run);
 }
 
+void CheckpointKeeper::go_to_the_end() {
+  alarm(0);
+  context_.signals.set_last(false);
+  context_.comm.barrier(); // a rank that has left before keeps the others from writing
+}
+
 void CheckpointKeeper::remove_all() {
   alarm(0);
   context_.signals.set_last(false);
@@ -110,12 +116,15 @@ void CheckpointKeeper::end_in_time() {
 
 // --- when ------------------------------------------------------------------------------------------------------------
 
+/// Once found it counts until a checkpoint stops the run: the wish of the last sweep of a stage is not carried out.
 bool CheckpointKeeper::finds_stop_file() {
+  if (found_stop_file_)
+    return true;
   const double now = context_.timers.total();
   if (options_.stop_file.empty() || now < looked_ + look_interval)
     return false;
   looked_ = now;
-  return exists(options_.stop_file);
+  return found_stop_file_ = exists(options_.stop_file);
 }
 
 CheckpointWish CheckpointKeeper::wish_of_root() {
@@ -144,6 +153,7 @@ CheckpointWish CheckpointKeeper::wish() {
 
 /// With an interval or a limit, one is written at any rate: the clean-up may take long.
 CheckpointWish CheckpointKeeper::wish_before_cleanup() {
+  looked_ = -look_interval; // the last look
   CheckpointWish mine = wish();
   if (is_configured())
     mine = std::max(mine, CheckpointWish::write);
@@ -194,9 +204,11 @@ void CheckpointKeeper::write(CheckpointWish wish, const meshing::RunState& state
   longest_writing_ = std::max(longest_writing_, written_ - begin);
   context_.log.info("checkpoint: {}, {:.2g} s", file, written_ - begin);
   if (wish != CheckpointWish::stop) {
-    if (is_last_)
-      end_in_time();
-    return;
+    if (!is_last_)
+      return;
+    end_in_time();
+    if (context_.comm.max(std::int64_t{context_.signals.asks_to_stop()}) == 0) // since the wish, and nobody looks again
+      return;
   }
   if (context_.comm.is_root() && !options_.stop_file.empty())
     unlink(options_.stop_file.c_str()); // the next run shall not stop by it

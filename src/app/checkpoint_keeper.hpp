@@ -36,6 +36,9 @@ public:
   /// @throws FileError on all ranks if the file named cannot be used; ConfigError if it is of another config: says
   /// which key differs. Collective.
   std::optional<meshing::SavedRun> find(const std::string& restart);
+  /// From here on the run goes on to its end, whatever signals ask for: to be called before files are written, so that
+  /// no rank leaves while others write them. Collective.
+  void go_to_the_end();
   /// The mesh is written, and the checkpoints are of no more use. Collective.
   void remove_all();
 
@@ -59,7 +62,7 @@ private:
   const double time_limit_;
   const checkpoint::Origin origin_;
   std::int64_t number_ = -1; // of the last checkpoint; -1: not known yet
-  bool has_written_ = false, is_last_ = false;
+  bool has_written_ = false, is_last_ = false, found_stop_file_ = false;
   double asked_ = 0, sweep_ = 0, written_ = 0, longest_writing_ = 0,
          looked_ = -1e9; // seconds of rank 0
   std::string reason_;   // of the last wish of rank 0

@@ -60,13 +60,13 @@ void end_in_order(int number) {
   _exit(static_cast<int>(ExitCode::checkpointed));
 }
 
-/// In the clean-up and after it nothing is written any more.
+/// In the clean-up no checkpoint is written any more; while files are written, the run goes on to its end.
 void stop_at_checkpoint(int) {
   if (!requests->writes_no_more()) {
     requests->ask_to_stop();
     return;
   }
-  if (requests->last_stands() && !run_files->final_mesh_written())
+  if (requests->last_stands())
     leave_at_checkpoint();
   constexpr char text[] = "trime_mpi: no checkpoint is written so late; the run goes on to its end\n";
   if (tells != 0 && write(STDERR_FILENO, text, sizeof text - 1) < 0)

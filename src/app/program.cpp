@@ -225,6 +225,7 @@ ExitCode make_mesh(const Job& job) {
   const meshing::MeshResult result = run_mesher(job, provenance, *size.field, mesh_options, series, keeper);
   const SizeSummary sizes = summarize_size(size.description, result.mesh, comm);
   io::WrittenFiles files;
+  keeper.go_to_the_end();
   if (options.write) {
     const io::Metadata metadata = describe_run(provenance, result, sizes, gather_measurements(timers, comm));
     const auto timing = timers.scope("output");

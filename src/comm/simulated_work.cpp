@@ -28,6 +28,7 @@ double thread_seconds() {
 /// The stretches of a rank.
 struct RankWork {
   std::vector<double> least; // [s] of each stretch, over the runs so far
+  std::size_t known = 0;     // stretches of an earlier run; 0: there was none
   std::size_t next = 0;      // stretch
   double start = 0;          // [s] of the present one
   int depth = 1;             // of InMpi; before it begins the rank is as good as in MPI
@@ -91,6 +92,7 @@ void begin_simulated_work() {
       for (double seconds = 0; std::fread(&seconds, sizeof seconds, 1, file) == 1;)
         work.least.push_back(seconds);
       std::fclose(file);
+      work.known = work.least.size();
     }
   work.depth = 0;
   work.start = thread_seconds();
@@ -100,9 +102,9 @@ void end_simulated_work() {
   RankWork& work = own_work();
   end_stretch(work);
   work.depth = 1;
-  if (work.next != work.least.size()) {
+  if (work.known > 0 && work.next != work.known) {
     fmt::print(stderr, "trime_mpi: rank {} worked in {} stretches, and in {} in an earlier run: times mean nothing\n",
-               world_rank(), work.next, work.least.size());
+               world_rank(), work.next, work.known);
     abort_job(static_cast<int>(ExitCode::internal_error));
   }
   const std::string name = file_of_rank();

@@ -30,7 +30,8 @@ class Run {
 public:
   /// @param saved where to go on; null: from the start
   Run(const RunContext& run, const SnapshotObserver& observer, Checkpoints* checkpoints, const SavedRun* saved)
-      : run_(run), saved_(saved), input_(check_same_input(run.given_boundary, run.relative_size, run.comm)),
+      : run_(run), saved_(saved),
+        input_(check_same_input(run.given_boundary, run.options.fixed_points, run.relative_size, run.comm)),
         boundary_(run), layout_{run.comm, run.given_boundary, run.relative_size, run.start, run.lattice,
                                 run.log,  run.timers,         boundary_.fixed()},
         scheme_(layout_), stars_(run), snapshots_(run, boundary_, stars_, observer),
@@ -152,7 +153,7 @@ void Run::check_input(const SavedRun& saved) const {
                                   "{:016x}; an input file has changed since, or the program; start anew",
                                   what, static_cast<std::uint64_t>(kept), static_cast<std::uint64_t>(now)));
   };
-  check(then.shape, input_.shape, "shape");
+  check(then.shape, input_.shape, "shape or other fixed points");
   check(then.sizes, input_.sizes, "size");
 }
 

@@ -139,6 +139,7 @@ void Relaxation::resume(sites::Stage& stage, const StageNumber& number, const Sa
     stage.state->points().release_leads();
     return;
   }
+  stars_.compute(stage, sites::Wanted::inner_sites); // also those in tiles that sleep: no sweep would find them
   Sweeper sweeper(*stage.state, stars_.builder(), sweep::move_context(stage, run_.lattice),
                   stars_.allowed(sweep::LemmaReach::up_to_chords), sleep());
   sweeper.restore(fields, saved.tiles.activity);

@@ -31,13 +31,15 @@ private:
   std::uint64_t value_ = 0;
 };
 
-std::int64_t hash_of(const Boundary& boundary) {
+std::int64_t hash_of(const Boundary& boundary, std::span<const boundary::FixedPoint> fixed) {
   Hash hash;
   hash.add({boundary.periods.x, boundary.periods.y});
   for (const Loop& loop : boundary.loops)
     for (const Piece& piece : loop.pieces) {
       hash.add(piece.start);
       hash.add(piece.end);
+      hash.add(piece.part);
+      hash.add(piece.corner ? 1 : 0);
       if (!piece.circular)
         continue;
       hash.add(piece.center);
@@ -45,6 +47,8 @@ std::int64_t hash_of(const Boundary& boundary) {
       hash.add(piece.start_angle);
       hash.add(piece.sweep);
     }
+  for (const boundary::FixedPoint& point : fixed)
+    hash.add(point.position);
   return hash.value();
 }
 
@@ -74,14 +78,15 @@ void check_same(std::int64_t hash, const char* what, const comm::Communicator& c
 
 } // namespace
 
-InputHashes check_same_input(const Boundary& boundary, const sizing::SizeField& size, const comm::Communicator& comm) {
+InputHashes check_same_input(const Boundary& boundary, std::span<const boundary::FixedPoint> fixed,
+                             const sizing::SizeField& size, const comm::Communicator& comm) {
   std::int64_t sizes = 0;
   comm::run_agreed(comm, [&] {
     if (const std::string fault = arithmetic_fault(); !fault.empty())
       throw InternalError("the arithmetic of this program would make other meshes here: " + fault);
     sizes = hash_of_sizes(boundary, size);
   });
-  const std::int64_t shape = hash_of(boundary);
+  const std::int64_t shape = hash_of(boundary, fixed);
   check_same(shape, "shape", comm);
   check_same(sizes, "size field", comm);
   return {shape, sizes};

@@ -60,6 +60,8 @@ void FeatureRings::end_feature(const std::optional<std::string>& value) {
     return;
   const int number = number_of(value);
   for (Chain& chain : of_feature_) {
+    for (const FilePoint& vertex : chain.vertices) // before ends are compared
+      check_coordinates(vertex.position, contour_.source, vertex.line);
     if (chain.kind == Kind::line && chain.vertices.front().position != chain.vertices.back().position) {
       open_lines_.push_back(std::move(chain));
       open_markers_.push_back(number);
@@ -106,6 +108,7 @@ void FeatureRings::check_ends() const {
   });
   const FilePoint* first = nullptr;
   for (std::size_t k = 0, next = 0; k < ends.size(); k = next) {
+    next = k + 1;
     while (next < ends.size() && ends[next].position == ends[k].position)
       ++next;
     if ((next - k) % 2 != 0 && (first == nullptr || ends[k].line < first->line))
@@ -124,7 +127,6 @@ void FeatureRings::join_lines() {
   for (std::size_t line = 0; line < open_lines_.size(); ++line)
     for (std::size_t k = 0; k < open_lines_[line].vertices.size(); ++k) {
       const FilePoint& vertex = open_lines_[line].vertices[k];
-      check_coordinates(vertex.position, contour_.source, vertex.line);
       const int index = static_cast<int>(vertices.size());
       if (k > 0)
         segments.push_back({index - 1, index, open_markers_[line], vertex.line});

@@ -152,7 +152,7 @@ private:
 
   template <class Text>
   void take_attribute(const Text& text) {
-    if (is_property() && objects_.back().key == attribute_)
+    if (!attribute_.empty() && is_property() && objects_.back().key == attribute_)
       objects_[objects_.size() - 2].attribute = text();
   }
 

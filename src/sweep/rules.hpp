@@ -62,7 +62,8 @@ struct SweepRules {
   /// [sides of the narrowest tile around] Sites are sorted again when one may have come so far since: what lies around
   /// a tile is found in the tiles beside it.
   static constexpr double drift_in_tiles = 0.25;
-  /// [1] All tiles wake when a scale of the rule (of the lengths of bars) has changed by this share.
+  /// [1] A scale of the rule (of the lengths of bars) stays as it is until it would change by this share; then all
+  /// tiles wake.
   static constexpr double scale_change = 1e-3;
   /// [1] Factor by which bounds on distances are raised, far above the rounding of the sums in them.
   static constexpr double drift_rounding = 1 + 1e-9;

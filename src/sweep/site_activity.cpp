@@ -37,6 +37,14 @@ void SiteActivity::wake_tile(LocalIndex tile) {
   }
 }
 
+bool SiteActivity::any_awake(LocalIndex tile) const {
+  const auto [begin, end] = state_.points().tile_range(tile);
+  std::uint8_t all = 0;
+  for (LocalIndex i = begin; i < end; ++i)
+    all |= flags_[at(i)];
+  return (all & SiteFlags::awake) != 0;
+}
+
 bool SiteActivity::has_ghost(LocalIndex i) const {
   return std::ranges::any_of(state_.stars().ring(i),
                              [owned = state_.points().owned()](LocalIndex neighbour) { return neighbour >= owned; });

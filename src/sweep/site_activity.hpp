@@ -31,6 +31,8 @@ public:
   /// The flags of all owned sites, for the kernel.
   std::uint8_t* flags() { return flags_.data(); }
   bool is_awake(LocalIndex i) const { return (flags_[at(i)] & SiteFlags::awake) != 0; }
+  /// Is any site of this tile awake?
+  bool any_awake(LocalIndex tile) const;
   void wake(LocalIndex i) { flags_[at(i)] |= SiteFlags::awake; }
   /// The class of site i has been found anew. Different sites may be set concurrently.
   void watch(LocalIndex i) { flags_[at(i)] |= SiteFlags::watched; }

@@ -90,8 +90,8 @@ struct SiteTally {
   }
 };
 
-/// Does a site that the rule would move so rest whatever its momentum, and after small changes of scale? Then it need
-/// not be looked at again before it, a neighbour or its star changes.
+/// Does a site that the rule would move so rest whatever its momentum? Then it need not be looked at again before it, a
+/// neighbour, its star or the rule changes.
 template <class V>
 TRIME_INLINE auto surely_rests(V move_x, V move_y, V h) {
   static_assert((1 + SweepRules::largest_momentum) * SweepRules::rest_share < 1);

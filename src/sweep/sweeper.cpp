@@ -269,6 +269,16 @@ void Sweeper::note_pushes() {
   }
 }
 
+/// Where some site may move once there is momentum, its tile stays awake. Before moves wake their neighbours.
+void Sweeper::note_restless() {
+  const LocalIndex first_tile = state_.points().first_tile();
+  thread_loop(static_cast<std::ptrdiff_t>(certifier_.classes().around().size()), 4, [&](std::ptrdiff_t t, int) {
+    if (activity_.is_awake(static_cast<std::size_t>(t)))
+      activity_.set_restless(static_cast<std::size_t>(t),
+                             site_activity_.any_awake(first_tile + static_cast<LocalIndex>(t)));
+  });
+}
+
 bool Sweeper::must_sort() const {
   return (counts_.deleted > 0 && schedule_.may_sort_to_delete()) || state_.grid().periods().any() ||
          schedule_.is_sort_due();
@@ -289,6 +299,7 @@ Sweeper::Counts Sweeper::commit() {
   }
   note_pushes();
   counts_.deleted = 0; // they wait
+  note_restless();
   activity_.begin_move(state_.points(), outcomes_.tallies());
   site_activity_.begin_move(outcomes_.tallies());
   const bool new_sizes = schedule_.advance();

@@ -84,6 +84,7 @@ private:
   bool must_sort() const;
   void finish_move();
   void note_pushes();
+  void note_restless();
   void move_and_sort(std::vector<std::uint8_t> deleted);
 
   sites::SiteState& state_;

@@ -31,6 +31,7 @@ void TileActivity::reset(const TilesAround& around) {
         2 * std::min(largest_cap, builder_.cap(largest)) >
         (1 - 2 * SweepRules::drift_in_tiles) * around.narrowest(static_cast<std::size_t>(t));
   });
+  restless_.assign(static_cast<std::size_t>(tiles), 0);
   copied_.assign(static_cast<std::size_t>(tiles), 0);
   awake_.assign(static_cast<std::size_t>(tiles), 1);
   active_.assign(static_cast<std::size_t>(points.known_tiles()), 1);
@@ -50,16 +51,16 @@ void TileActivity::restore(std::span<const std::uint64_t> activity) {
     if (const LocalIndex known = points.known_tile(static_cast<LocalIndex>(tile)); known >= 0)
       active_[at(known)] = (activity[tile] & active_bit) != 0;
   const std::size_t first = at(points.first_tile());
-  for (std::size_t t = 0; t < wide_.size(); ++t)
+  for (std::size_t t = 0; t < wide_.size(); ++t) {
     wide_[t] = (activity[first + t] & wide_bit) != 0;
+    restless_[t] = (activity[first + t] & restless_bit) != 0;
+  }
 }
 
 void TileActivity::wake(const RuleParameters& rule, TilePlace which, const TilesAround& around) {
-  const auto changed = [](double a, double b) { return std::fabs(a - b) > SweepRules::scale_change * b; };
   if (which == TilePlace::inner) {
-    all_awake_ = all_awake_ || rule.mover != waking_rule_.mover ||
-                 changed(rule.length_scale, waking_rule_.length_scale) ||
-                 changed(rule.area_scale, waking_rule_.area_scale);
+    all_awake_ = all_awake_ || rule.mover != waking_rule_.mover || rule.length_scale != waking_rule_.length_scale ||
+                 rule.area_scale != waking_rule_.area_scale;
     if (all_awake_)
       waking_rule_ = rule;
   }
@@ -67,7 +68,7 @@ void TileActivity::wake(const RuleParameters& rule, TilePlace which, const Tiles
     if (around.place(t) != which)
       continue;
     const std::span<const LocalIndex> tiles = around.of(t);
-    awake_[t] = all_awake_ || wide_[t] ||
+    awake_[t] = all_awake_ || wide_[t] || restless_[t] ||
                 std::any_of(tiles.begin(), tiles.end(), [&](LocalIndex tile) { return active_[at(tile)]; });
   }
 }

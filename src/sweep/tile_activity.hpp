@@ -13,9 +13,10 @@
 
 namespace trime::sweep {
 
-/// @brief A tile sleeps while no site of it and of the tiles around it has moved in the last sweep, and the rule stays
-/// as it is. Tiles are the same on any ranks, so that no result depends on which of them sleep. Tiles
-/// have the numbers of KnownBins here: owned ones (`t`) first, then those of which ghosts are known.
+/// @brief A tile sleeps while no site of it and of the tiles around it has moved in the last sweep, none of its sites
+/// may move once there is momentum, and the rule stays as it is. So a sleeping tile is where an awake one would be.
+/// Tiles are the same on any ranks, so that no result depends on which of them sleep. Tiles have the numbers of
+/// KnownBins here: owned ones (`t`) first, then those of which ghosts are known.
 class TileActivity {
 public:
   /// Both arguments outlive this object.
@@ -43,9 +44,14 @@ public:
   /// Sites of this tile have got next places of their own. May be called concurrently.
   void note_moves(std::size_t t) { std::atomic_ref(copied_[t]).store(0, std::memory_order_relaxed); }
 
+  /// Some site of tile t does not surely rest, or all do. Different tiles may be set concurrently.
+  void set_restless(std::size_t t, bool restless) { restless_[t] = restless; }
+
   /// What a checkpoint keeps of it: of all tiles, and of owned tile t. Between a move and the next waking.
   void visit(StateFields& fields);
-  std::uint64_t saved(std::size_t t) const { return (active_[t] ? active_bit : 0) | (wide_[t] ? wide_bit : 0); }
+  std::uint64_t saved(std::size_t t) const {
+    return (active_[t] ? active_bit : 0) | (wide_[t] ? wide_bit : 0) | (restless_[t] ? restless_bit : 0);
+  }
   /// The same as what was saved. @param activity of all tiles of the container @pre reset(), visit()
   void restore(std::span<const std::uint64_t> activity);
 
@@ -58,16 +64,17 @@ public:
   void finish_move();
 
 private:
-  static constexpr std::uint64_t active_bit = 1, wide_bit = 2; // of what is saved of a tile
+  static constexpr std::uint64_t active_bit = 1, wide_bit = 2, restless_bit = 4; // of what is saved of a tile
   const sites::SiteState& state_;
   const delaunay::StarBuilder& builder_;
-  std::vector<std::uint8_t> awake_;   // by owned tile
-  std::vector<std::uint8_t> copied_;  // by owned tile: its sites have the same places now and next
-  std::vector<std::uint8_t> wide_;    // by owned tile: triangles may reach beyond the tiles around it
-  std::vector<std::uint8_t> active_;  // by known tile: sites were moved by the last sweep
-  std::vector<double> drifts_before_; // by tile with ghosts: before the last move
-  RuleParameters waking_rule_;        // of the last sweep with all tiles awake
-  bool all_awake_ = true;             // in the next sweep
+  std::vector<std::uint8_t> awake_;    // by owned tile
+  std::vector<std::uint8_t> copied_;   // by owned tile: its sites have the same places now and next
+  std::vector<std::uint8_t> wide_;     // by owned tile: triangles may reach beyond the tiles around it
+  std::vector<std::uint8_t> restless_; // by owned tile: some site may move, though nothing beside it does
+  std::vector<std::uint8_t> active_;   // by known tile: sites were moved by the last sweep
+  std::vector<double> drifts_before_;  // by tile with ghosts: before the last move
+  RuleParameters waking_rule_;         // of the last sweep with all tiles awake
+  bool all_awake_ = true;              // in the next sweep
 };
 
 } // namespace trime::sweep

@@ -29,6 +29,12 @@ Vec2 move_by_triangles(const StarView& view, LocalIndex i, Formula formula) {
   return {move.x, move.y};
 }
 
+/// A scale stays as it is until it would change by a share that counts: where nothing moves a rule then wants the same
+/// in each sweep, bit for bit.
+double steadied(double before, double now) {
+  return std::fabs(now - before) > SweepRules::scale_change * before ? now : before;
+}
+
 /// Adds the bars of site i to a formula.
 template <class Formula>
 Vec2 force(const StarView& view, LocalIndex i, Formula formula) {
@@ -56,8 +62,9 @@ Step Momentum::step(const StarView& view, LocalIndex i, Vec2 move) const {
 
 void DistMeshRule::begin_sweep(const SweepSums& sums) {
   const double sizes = sums.squared_size_ratio.value();
-  length_scale_ = sizes > 0 ? SweepRules::bar_pressure * std::sqrt(sums.squared_length_ratio.value() / sizes)
-                            : SweepRules::bar_pressure;
+  length_scale_ = steadied(length_scale_,
+                           sizes > 0 ? SweepRules::bar_pressure * std::sqrt(sums.squared_length_ratio.value() / sizes)
+                                     : SweepRules::bar_pressure);
 }
 
 Step DistMeshRule::step(const StarView& view, LocalIndex i) const {
@@ -98,7 +105,7 @@ RuleParameters CvdRule::parameters() const {
 
 void TriangleRule::begin_sweep(const SweepSums& sums) {
   const double sizes = sums.squared_size_ratio.value(), lengths = sums.squared_length_ratio.value();
-  area_scale_ = sizes > 0 && lengths > 0 ? lengths / sizes : 1;
+  area_scale_ = steadied(area_scale_, sizes > 0 && lengths > 0 ? lengths / sizes : 1);
   momentum_.begin_sweep(sums);
 }
 

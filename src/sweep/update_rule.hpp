@@ -39,6 +39,7 @@ public:
   void begin_sweep(const SweepSums& sums) override;
   Step step(const sites::StarView& view, LocalIndex i) const override;
   RuleParameters parameters() const override;
+  void visit(StateFields& fields) override { fields.field("length_scale", length_scale_); }
 
 private:
   double length_scale_ = SweepRules::bar_pressure; // L0 / h
@@ -107,7 +108,10 @@ public:
   void begin_sweep(const SweepSums& sums) override;
   Step step(const sites::StarView& view, LocalIndex i) const override;
   RuleParameters parameters() const override;
-  void visit(StateFields& fields) override { momentum_.visit(fields); }
+  void visit(StateFields& fields) override {
+    momentum_.visit(fields);
+    fields.field("area_scale", area_scale_);
+  }
 
 private:
   Momentum momentum_;

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace trime::meshing {
 namespace {
@@ -27,9 +28,10 @@ geometry::Boundary disc() {
   return shape::RegionShape({shape::Part::circle("disc", {0.5, 0.5}, 0.3, frame)}, "disc", frame).boundary();
 }
 
-std::string error_of(const geometry::Boundary& boundary, const sizing::SizeField& size) {
+std::string error_of(const geometry::Boundary& boundary, const sizing::SizeField& size,
+                     const std::vector<boundary::FixedPoint>& fixed = {}) {
   try {
-    check_same_input(boundary, size, world());
+    check_same_input(boundary, fixed, size, world());
     return "";
   } catch (const InternalError& error) {
     return error.what();
@@ -38,6 +40,29 @@ std::string error_of(const geometry::Boundary& boundary, const sizing::SizeField
 
 TEST(SameInput, OfAllRanksIsAccepted) {
   EXPECT_EQ(error_of(disc(), sizing::UniformSize(0.1)), "");
+}
+
+/// A checkpoint is refused by these hashes.
+TEST(SameInput, ThePartsTheCornersAndTheFixedPointsCount) {
+  const sizing::UniformSize size(0.1);
+  const geometry::Boundary whole = disc();
+  const std::int64_t hash = check_same_input(whole, {}, size, world()).shape;
+  EXPECT_EQ(check_same_input(disc(), {}, size, world()).shape, hash);
+  geometry::Boundary other = whole;
+  other.loops[0].pieces[0].part = 1;
+  EXPECT_NE(check_same_input(other, {}, size, world()).shape, hash);
+  other = whole;
+  other.loops[0].pieces[0].corner = true;
+  EXPECT_NE(check_same_input(other, {}, size, world()).shape, hash);
+  const std::vector<boundary::FixedPoint> fixed{{{0.5, 0.5}, "here"}};
+  EXPECT_NE(check_same_input(whole, fixed, size, world()).shape, hash);
+}
+
+TEST(SameInput, AFixedPointOfOneRankIsFound) {
+  std::vector<boundary::FixedPoint> fixed;
+  if (is_last())
+    fixed.push_back({{0.5, 0.5}, "here"});
+  EXPECT_EQ(error_of(disc(), sizing::UniformSize(0.1), fixed).empty(), world().size() == 1);
 }
 
 TEST(SameInput, ABitOfTheShapeIsFound) {

@@ -38,7 +38,7 @@ struct Case {
   bool graded = false, cleanup = false;
 };
 
-enum class Stars { by_lemma, verified, by_emptiness, sleepless };
+enum class Stars { by_lemma, verified, by_emptiness };
 
 MeshResult run(const comm::Communicator& comm, const Case& c, GlobalId points, Stars stars) {
   const RegionShape shape(c.parts, c.region, c.frame);
@@ -51,7 +51,6 @@ MeshResult run(const comm::Communicator& comm, const Case& c, GlobalId points, S
   options.cleanup = c.cleanup;
   options.star_tests.verify = stars == Stars::verified;
   options.star_tests.by_emptiness = stars == Stars::by_emptiness;
-  options.star_tests.sleepless = stars == Stars::sleepless;
   const sizing::UniformSize uniform;
   const GradedSize graded;
   const sizing::SizeField& size = c.graded ? static_cast<const sizing::SizeField&>(graded) : uniform;

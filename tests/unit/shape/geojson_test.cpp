@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // GeoJSON as maps have it: rings with their lines, and what a user reads when it is something else.
+#include "shape/feature_rings.hpp"
 #include "trime/core/error.hpp"
 #include "trime/shape/contour.hpp"
 #include "unit/shape/boundary_checks.hpp"
 
+#include <limits>
 #include <string>
 
 namespace trime::shape {
@@ -126,6 +128,20 @@ TEST(GeoJson, OpenLinesThatJoinInTheirEndsAreOneRing) {
   EXPECT_EQ(contour.rings[0].points, (std::vector<Vec2>{{0, 0}, {0, 1}, {1, 1}, {1, 0}}));
   EXPECT_EQ(contour.rings[0].markers, (std::vector<int>{1, 1, 2, 2}));
   EXPECT_EQ(contour.marker_names, (std::vector<std::string>{"land", "open"}));
+}
+
+/// Shapefiles may hold them. Once the search for lines that stay open never came past such an end.
+TEST(FeatureRings, EndsThatAreNoNumbersAreRefused) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Contour contour;
+  contour.source = "a.shp";
+  FeatureRings rings(contour, "");
+  rings.add(FeatureRings::Kind::line, {{{nan, 0}, 7}, {{1, 0}, 7}, {{1, 1}, 7}});
+  const std::string message = message_of<GeometryError>([&] {
+    rings.end_feature();
+    rings.finish("rings");
+  });
+  EXPECT_NE(message.find("a.shp:7: expected finite coordinates"), std::string::npos) << message;
 }
 
 TEST(GeoJson, AnAttributeThatNoFeatureHasIsRefused) {

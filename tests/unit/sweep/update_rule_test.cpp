@@ -55,6 +55,25 @@ SiteList lattice(double jitter = 0) {
   return sites;
 }
 
+/// Sums whose bars are so long, over h.
+SweepSums sums_of_lengths(double ratio) {
+  SweepSums sums;
+  sums.squared_length_ratio.add(1000 * ratio * ratio);
+  sums.squared_size_ratio.add(1000);
+  return sums;
+}
+
+/// Else a site that sleeps might be wanted elsewhere by now.
+TEST(DistMeshRule, ItsScaleStaysUntilItWouldChangeByAShareThatCounts) {
+  DistMeshRule rule;
+  rule.begin_sweep(sums_of_lengths(0.9));
+  const double first = rule.parameters().length_scale;
+  rule.begin_sweep(sums_of_lengths(0.9 * (1 + 0.9 * SweepRules::scale_change)));
+  EXPECT_EQ(rule.parameters().length_scale, first);
+  rule.begin_sweep(sums_of_lengths(0.9 * (1 + 1.1 * SweepRules::scale_change)));
+  EXPECT_GT(rule.parameters().length_scale, first);
+}
+
 TEST(SweepSums, OfAPerfectLattice) {
   const Cloud cloud(lattice());
   const SweepSums sums = measure(cloud.view(), spacing);
