@@ -76,6 +76,17 @@ const std::vector<T>& tags(const Metadata& metadata, const char* name) {
   return io::column_of<T>(metadata, "tags", name);
 }
 
+/// Row k of a column that has as many rows as another one of its table. @throws FileError if it has not
+template <class T>
+const T& row(const Metadata& metadata, const char* group, const char* name, std::size_t k) {
+  const std::vector<T>& column = io::column_of<T>(metadata, group, name);
+  if (k >= column.size())
+    throw FileError(fmt::format("/trime_mpi/{}/{} has {} rows, and other columns beside it have more: expected columns "
+                                "of one length; the file is damaged",
+                                group, name, column.size()));
+  return column[k];
+}
+
 /// The loops of each name together: a coast may have thousands of islands.
 std::string boundary_text(const Metadata& metadata) {
   struct Loops {
@@ -83,12 +94,12 @@ std::string boundary_text(const Metadata& metadata) {
     double length = 0;
   };
   std::map<std::pair<std::string, std::string>, Loops> named;
-  const auto &names = tags<std::string>(metadata, "edge_name"), &kinds = tags<std::string>(metadata, "edge_kind");
+  const auto& names = tags<std::string>(metadata, "edge_name");
   for (std::size_t k = 0; k < names.size(); ++k) {
-    Loops& loops = named[{names[k], kinds.at(k)}];
+    Loops& loops = named[{names[k], row<std::string>(metadata, "tags", "edge_kind", k)}];
     ++loops.count;
-    loops.edges += tags<std::int64_t>(metadata, "edge_count").at(k);
-    loops.length += tags<double>(metadata, "edge_length_sum").at(k);
+    loops.edges += row<std::int64_t>(metadata, "tags", "edge_count", k);
+    loops.length += row<double>(metadata, "tags", "edge_length_sum", k);
   }
   std::string text = "\nboundary      kind    loops      edges  length\n";
   for (const auto& [name, loops] : named)
@@ -104,10 +115,9 @@ std::string checks_text(const Metadata& metadata) {
   if (!io::find_group(metadata, "checks"))
     return "\nno checks: a step of a run\n";
   const auto& names = io::column_of<std::string>(metadata, "checks", "name");
-  const auto& passed = io::column_of<std::int32_t>(metadata, "checks", "passed");
   std::string failed;
   for (std::size_t k = 0; k < names.size(); ++k)
-    if (passed.at(k) == 0)
+    if (row<std::int32_t>(metadata, "checks", "passed", k) == 0)
       failed += " " + names[k];
   return failed.empty() ? fmt::format("\nall {} checks passed\n", names.size())
                         : fmt::format("\nof {} checks these FAILED:{}\n", names.size(), failed);

@@ -55,6 +55,17 @@ std::optional<Column> small_values(const std::string& name, hid_t type, std::siz
   }
 }
 
+/// Before memory is asked for: does the file hold as much as a dataset claims to have?
+void check_claim(const Hdf5Dataset& dataset, double bytes, const std::string& what) {
+  constexpr double most_packed = 1032; // bytes that deflate makes one of, at most
+  const auto stored = static_cast<double>(H5Dget_storage_size(dataset));
+  if (bytes > most_packed * stored)
+    throw FileError(
+        fmt::format("{} claims to have {:.3g} bytes, and the file holds {:.3g} of them: it is damaged or cut "
+                    "off",
+                    what, bytes, stored));
+}
+
 } // namespace
 
 Hdf5Input::Hdf5Input(const std::string& path) : path_(path), file_(open_file(path)) {}
@@ -113,6 +124,9 @@ std::vector<Column> Hdf5Input::columns(const std::string& group) const {
     const Hdf5Space space(H5Dget_space(dataset), "read " + path);
     if (H5Sget_simple_extent_ndims(space) != 1)
       continue;
+    check_claim(dataset,
+                static_cast<double>(H5Sget_simple_extent_npoints(space)) * static_cast<double>(H5Tget_size(type)),
+                path + " in " + path_);
     auto values = small_values(
         name, type, static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)), [&](hid_t memory, void* to) {
           checked(H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, to), "read " + path + " in " + path_);

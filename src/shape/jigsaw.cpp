@@ -21,6 +21,9 @@ public:
     if (!is_jigsaw_)
       throw GeometryError(
           fmt::format("{}: expected a .msh of JIGSAW, with a line 'mshid=3;EUCLIDEAN-MESH', found none", source_));
+    if (vertices_.empty() && !segments_.empty())
+      throw GeometryError(fmt::format("{}: expected points (a section 'point=N') for the {} edges, found none", source_,
+                                      segments_.size()));
     for (const FileSegment& s : segments_)
       for (const int end : {s.from, s.to})
         if (end < 0 || end >= static_cast<int>(vertices_.size()))

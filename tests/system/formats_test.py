@@ -4,6 +4,7 @@
 as in the HDF5 file; the same bytes from a run and from `trime_mpi convert`, on any ranks."""
 import os
 import re
+import shutil
 import subprocess
 import sys
 import unittest
@@ -413,6 +414,20 @@ class Formats(unittest.TestCase):
         for words in (r"island +hole +1 ", r"open_sea|bay +outer", "1 open_sea, 2 bay, 3 island",
                       r"all \d+ checks passed", r"mesh hash +[0-9a-f]{16}", "smallest angle"):
             self.assertRegex(done.stdout, words)
+
+    def test_info_of_damaged_tables(self):
+        """Columns of unlike length, and one that claims far more rows than the file holds."""
+        for name, rows, words in (("edge_kind", 0, "edge_kind has 0 rows"), ("edge_count", 10**13, "claims to have")):
+            damaged = self.work / f"{name}.h5"
+            shutil.copyfile(self.work / "own.h5", damaged)
+            with h5py.File(damaged, "r+") as file:
+                tags = file["trime_mpi/tags"]
+                kind = tags[name].dtype
+                del tags[name]
+                tags.create_dataset(name, shape=(rows,), dtype=kind, chunks=(64,), maxshape=(None,))
+            done = run("info", damaged)
+            self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
+            self.assertIn(words, done.stderr)
 
 
 if __name__ == "__main__":

@@ -86,6 +86,15 @@ TEST(Jigsaw, ReadsEdgesWithTheirTags) {
   EXPECT_EQ(contour.rings[0].markers, (std::vector<int>{0, 4, 0}));
 }
 
+TEST(Jigsaw, EdgesWithoutPointsAreRefused) {
+  try {
+    parse_jigsaw("mshid=3\nedge2=1\n0;1;0\n", "a.msh");
+    ADD_FAILURE() << "no points, and no error";
+  } catch (const GeometryError& error) {
+    EXPECT_NE(std::string(error.what()).find("a.msh: expected points"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Contour, GoesThroughBytes) {
   Contour contour = parse_poly(nested("2\n0 1.5 4\n1 4 4\n"), "a.poly");
   contour.crs = "EPSG:32633";
