@@ -100,6 +100,8 @@ void CheckpointKeeper::go_to_the_end() {
 void CheckpointKeeper::remove_all() {
   alarm(0);
   context_.signals.set_last(false);
+  if (found_stop_file_)
+    unlink(options_.stop_file.c_str()); // found when nothing was left to stop; the next run shall not stop by it
   if (!has_written_ && number_ < 0)
     return;
   if (context_.comm.is_root())
@@ -152,13 +154,19 @@ CheckpointWish CheckpointKeeper::wish() {
 }
 
 /// With an interval or a limit, one is written at any rate: the clean-up may take long.
-CheckpointWish CheckpointKeeper::wish_before_cleanup() {
+CheckpointWish CheckpointKeeper::wish_before_cleanup(bool stands) {
   looked_ = -look_interval; // the last look
   CheckpointWish mine = wish();
   if (is_configured())
     mine = std::max(mine, CheckpointWish::write);
   const auto all = static_cast<CheckpointWish>(context_.comm.max(std::int64_t{static_cast<int>(mine)}));
   is_last_ = true;
+  if (stands) {
+    end_in_time();
+    if (context_.comm.max(std::int64_t{context_.signals.asks_to_stop()}) > 0)
+      stop_at(path(number_));
+    return CheckpointWish::none;
+  }
   if (all == CheckpointWish::none)
     context_.signals.set_last(false);
   return all;
@@ -210,6 +218,11 @@ void CheckpointKeeper::write(CheckpointWish wish, const meshing::RunState& state
     if (context_.comm.max(std::int64_t{context_.signals.asks_to_stop()}) == 0) // since the wish, and nobody looks again
       return;
   }
+  stop_at(file);
+}
+
+/// On all ranks together.
+void CheckpointKeeper::stop_at(const std::string& file) const {
   if (context_.comm.is_root() && !options_.stop_file.empty())
     unlink(options_.stop_file.c_str()); // the next run shall not stop by it
   throw meshing::StoppedAtCheckpoint(fmt::format("stopped at the checkpoint {}{}; go on with --restart {}", file,

@@ -43,7 +43,7 @@ public:
   void remove_all();
 
   meshing::CheckpointWish wish() override;
-  meshing::CheckpointWish wish_before_cleanup() override;
+  meshing::CheckpointWish wish_before_cleanup(bool stands) override;
   void write(meshing::CheckpointWish wish, const meshing::RunState& state, const sites::SiteState& sites,
              std::span<const std::uint64_t> activity) override;
 
@@ -56,6 +56,7 @@ private:
   meshing::SavedRun checked(checkpoint::Found found, const std::string& file);
   void set_number();
   void end_in_time();
+  [[noreturn]] void stop_at(const std::string& file) const;
 
   const KeeperContext context_;
   const CheckpointOptions options_;

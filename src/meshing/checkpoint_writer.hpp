@@ -27,8 +27,10 @@ public:
 
   /// What this rank wants: a CheckpointWish.
   int wish() const { return checkpoints_ ? static_cast<int>(checkpoints_->wish()) : 0; }
-  /// What all ranks together want before the clean-up. Collective.
-  int wish_before_cleanup() const { return checkpoints_ ? static_cast<int>(checkpoints_->wish_before_cleanup()) : 0; }
+  /// What all ranks together want before the clean-up, see Checkpoints. Collective.
+  int wish_before_cleanup(bool stands) const {
+    return checkpoints_ ? static_cast<int>(checkpoints_->wish_before_cleanup(stands)) : 0;
+  }
   /// @brief Writes one. @param wish of all ranks @param activity of the owned tiles. Collective.
   /// @throws as Checkpoints::write
   void write(RunPoint point, int wish, RunState state, const sites::SiteState& sites,

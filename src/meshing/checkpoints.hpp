@@ -31,7 +31,9 @@ public:
   /// What this rank wants. Asked once a sweep, local.
   virtual CheckpointWish wish() = 0;
   /// What all ranks together want before the clean-up, after which no wish is asked for. Collective.
-  virtual CheckpointWish wish_before_cleanup() = 0;
+  /// @param stands the run goes on from a checkpoint of this very moment: then none is wanted, or it would never get on
+  /// @throws StoppedAtCheckpoint if there is one, and a signal has asked to stop
+  virtual CheckpointWish wish_before_cleanup(bool stands) = 0;
   /// @brief Writes one. @param activity of the owned tiles. Collective.
   /// @throws StoppedAtCheckpoint if the wish was to stop
   virtual void write(CheckpointWish wish, const RunState& state, const sites::SiteState& sites,

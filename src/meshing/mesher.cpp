@@ -49,7 +49,8 @@ public:
       start_next_stage();
       relaxation_.relax(stage_, number());
     }
-    if (const int wish = checkpoints_.wish_before_cleanup(); wish > 0)
+    const bool stands = saved_ && point_of(*saved_) == RunPoint::relaxed;
+    if (const int wish = checkpoints_.wish_before_cleanup(stands); wish > 0)
       checkpoints_.write(RunPoint::relaxed, wish, relaxation_.state(), *stage_.state, quiet_tiles());
     empty_discs();
     const bool mended = clean_up();

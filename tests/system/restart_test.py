@@ -69,6 +69,7 @@ class Restart(unittest.TestCase):
                 self.assertFalse((directory / "mesh.h5").exists())
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             self.assertGreater(runs, 5)
+            self.assertFalse(stop.exists(), "the next run would stop by it")
             self.assertEqual(hash_and_history(directory), expected)
             self.assertEqual(checkpoints(directory), [], "a mesh that is written needs none")
 
