@@ -92,12 +92,13 @@ class Restart(unittest.TestCase):
         """A run that is up: it has said its first word, so that mpirun hands signals on, and the ranks know what to do
         with them. A process group of its own, so that a test can end all of it."""
         arguments = [CIRCLE, f"meshing.points={MANY}", "sizing.type=automatic", *places(directory), *more]
-        with tempfile.TemporaryFile() as said:
-            started = subprocess.Popen(command(arguments, ranks), env=environment(1), stdout=said,
-                                       stderr=subprocess.PIPE, text=True, start_new_session=True)
-            end = time.monotonic() + PATIENCE
-            while os.fstat(said.fileno()).st_size == 0 and started.poll() is None and time.monotonic() < end:
-                time.sleep(0.005)
+        self.said = tempfile.TemporaryFile()
+        self.addCleanup(self.said.close)
+        started = subprocess.Popen(command(arguments, ranks), env=environment(1), stdout=self.said,
+                                   stderr=subprocess.PIPE, text=True, start_new_session=True)
+        end = time.monotonic() + PATIENCE
+        while os.fstat(self.said.fileno()).st_size == 0 and started.poll() is None and time.monotonic() < end:
+            time.sleep(0.005)
         return started
 
     def finish(self, directory, ranks):
@@ -149,12 +150,12 @@ class Restart(unittest.TestCase):
             going = self.start(directory, 2)
             end = time.monotonic() + PATIENCE
             while not checkpoints(directory) and going.poll() is None and time.monotonic() < end:
-                time.sleep(0.2)
                 going.send_signal(signal.SIGUSR2)
-            written = bool(checkpoints(directory))
+                time.sleep(0.02)
             told = going.communicate(timeout=PATIENCE)[1]
             self.assertEqual(going.returncode, 0, told)
-            self.assertTrue(written)
+            self.said.seek(0)
+            self.assertIn(b"checkpoint: ", self.said.read())  # its file goes at the end of the run
             self.assertTrue((directory / "mesh.h5").exists())
 
     def test_usr1_after_the_sweeps(self):
