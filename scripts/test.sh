@@ -74,13 +74,12 @@ stage() {
   fi
 }
 
-# tests PRESET [ctest options]: runs the tests of a preset and adds up what ctest counts.
+# tests PRESET SLOTS: runs the tests of a preset, each in as many slots as it has ranks, and adds up what ctest counts.
 tests() {
-  local preset=$1 status=0 total bad
-  shift
+  local preset=$1 slots=$2 status=0 total bad
   echo "-- ctest, preset $preset"
   start_clock
-  ${fixed_addresses[@]+"${fixed_addresses[@]}"} ctest --preset "$preset" "$@" 2>&1 | tee "$output" || status=$?
+  ${fixed_addresses[@]+"${fixed_addresses[@]}"} ctest --preset "$preset" -j "$slots" 2>&1 | tee "$output" || status=$?
   read -r bad total < <(sed -n 's/^.*% tests passed, \([0-9]*\) tests failed out of \([0-9]*\).*/\1 \2/p' "$output") ||
     { bad=1 total=1; }
   [ "$total" -gt 0 ] && { [ "$status" -eq 0 ] || [ "$bad" -gt 0 ]; } || { bad=1 total=1; } # no test at all is a failure
@@ -109,7 +108,7 @@ export -f check_format
 stage format bash -euo pipefail -c check_format || true
 stage layers /usr/bin/python3 scripts/check_layers.py || true
 if build ci; then
-  tests ci -j "$jobs"
+  tests ci "$((2 * jobs))" # for half of their time most of them wait for mpirun
 fi
 if [ "$quick" = no ]; then
   # The one file of which sanitizers leave out a part: without them, by the second compiler.
@@ -117,7 +116,7 @@ if [ "$quick" = no ]; then
     -Wno-sign-conversion -Werror -Iinclude -Isrc src/app/large_arrays.cpp || true
   for preset in mpich asan tsan; do
     if build "$preset"; then
-      tests "$preset" -j "$jobs"
+      tests "$preset" "$jobs"
     fi
   done
 fi

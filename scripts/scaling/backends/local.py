@@ -51,7 +51,10 @@ class Local:
     def run(self, case, record, limit):
         """One run; `record` is where its numbers go. Raises RunError."""
         environment = {"OMP_NUM_THREADS": str(case.threads), "OMP_PLACES": "cores",
-                       "OMP_PROC_BIND": "false" if self.oversubscribed(case) else "close"}
+                       "OMP_PROC_BIND": "false" if self.oversubscribed(case) else "close",
+                       # A fixed number of sweeps ends with an exit code. Open MPI then gives ranks that have ended two
+                       # seconds to end in.
+                       "OMPI_MCA_odls_base_sigkill_timeout": "0"}
         if os.geteuid() == 0:
             environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
         return run_command(self.command(case, record), record, environment, limit)
