@@ -167,21 +167,20 @@ private:
   std::vector<char> sharp_; // for each site, whether its chords meet sharply
 };
 
-/// Without limits that another of those next to them in the list implies. What that one implies the limit that implied
-/// it does, too.
-std::vector<sizing::SizeLimit> without_implied(const std::vector<sizing::SizeLimit>& limits, double gradation) {
+/// Lists limit k unless another of those next to it in the list implies it. What that one implies the limit that
+/// implied it does, too.
+void keep_unless_implied(std::span<const sizing::SizeLimit> limits, double gradation, std::ptrdiff_t k,
+                         std::vector<sizing::SizeLimit>& kept) {
   constexpr std::ptrdiff_t neighbours = 32; // to each side
-  const std::ptrdiff_t n = std::ssize(limits);
-  return gather_in_order<sizing::SizeLimit>(n, sites_in_a_row, [&](std::ptrdiff_t k, auto& kept) {
-    const sizing::SizeLimit& limit = limits[static_cast<std::size_t>(k)];
-    for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(0, k - neighbours); j < std::min(n, k + neighbours + 1); ++j) {
-      const sizing::SizeLimit& other = limits[static_cast<std::size_t>(j)];
-      const double reach = limit.size - other.size;
-      if (reach > 0 && gradation * gradation * geometry::squared_length(limit.place - other.place) <= reach * reach)
-        return;
-    }
-    kept.push_back(limit);
-  });
+  const sizing::SizeLimit& limit = limits[static_cast<std::size_t>(k)];
+  const std::ptrdiff_t last = std::min(std::ssize(limits), k + neighbours + 1);
+  for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(0, k - neighbours); j < last; ++j) {
+    const sizing::SizeLimit& other = limits[static_cast<std::size_t>(j)];
+    const double reach = limit.size - other.size;
+    if (reach > 0 && gradation * gradation * geometry::squared_length(limit.place - other.place) <= reach * reach)
+      return;
+  }
+  kept.push_back(limit);
 }
 
 } // namespace
@@ -189,7 +188,10 @@ std::vector<sizing::SizeLimit> without_implied(const std::vector<sizing::SizeLim
 std::vector<sizing::SizeLimit> size_limits(const BoundarySites& boundary, const sizing::SizeField& size,
                                            const sizing::SizeField& asked, double gradation) {
   const auto chords = static_cast<LocalIndex>(boundary.sites.size());
-  return without_implied(LimitFinder(boundary, size, asked, 0, chords).run(), gradation);
+  const std::vector<sizing::SizeLimit> all = LimitFinder(boundary, size, asked, 0, chords).run();
+  return gather_in_order<sizing::SizeLimit>(
+      std::ssize(all), sites_in_a_row,
+      [&](std::ptrdiff_t k, std::vector<sizing::SizeLimit>& kept) { keep_unless_implied(all, gradation, k, kept); });
 }
 
 std::vector<sizing::SizeLimit> size_limits(const comm::Communicator& comm, const BoundarySites& boundary,
@@ -197,10 +199,11 @@ std::vector<sizing::SizeLimit> size_limits(const comm::Communicator& comm, const
                                            double gradation) {
   const auto chords = static_cast<std::int64_t>(boundary.sites.size());
   const auto share_of = [&](int rank) { return static_cast<LocalIndex>(chords * rank / comm.size()); };
-  std::vector<sizing::SizeLimit> mine;
-  comm::run_agreed(
-      comm, [&] { mine = LimitFinder(boundary, size, asked, share_of(comm.rank()), share_of(comm.rank() + 1)).run(); });
-  return without_implied(comm::gather_everywhere(comm, std::move(mine)), gradation);
+  const std::vector<sizing::SizeLimit> all = comm::gather_agreed<sizing::SizeLimit>(
+      comm, [&] { return LimitFinder(boundary, size, asked, share_of(comm.rank()), share_of(comm.rank() + 1)).run(); });
+  return comm::gather_shared<sizing::SizeLimit>(
+      comm, std::ssize(all), sites_in_a_row,
+      [&](std::ptrdiff_t k, std::vector<sizing::SizeLimit>& kept) { keep_unless_implied(all, gradation, k, kept); });
 }
 
 } // namespace trime::boundary

@@ -231,9 +231,17 @@ std::vector<double> Communicator::all_gather(double value) const {
 }
 
 std::vector<std::byte> Communicator::all_gather(std::span<const std::byte> bytes) const {
+  return *all_gather_unless(false, bytes);
+}
+
+std::optional<std::vector<std::byte>> Communicator::all_gather_unless(bool failed,
+                                                                      std::span<const std::byte> bytes) const {
   if (size_ == 1)
-    return {bytes.begin(), bytes.end()};
-  const std::vector<std::int64_t> sizes = all_gather(std::ssize(bytes));
+    return failed ? std::nullopt : std::optional<std::vector<std::byte>>({bytes.begin(), bytes.end()});
+  constexpr std::int64_t no_size = -1; // of a rank that has failed
+  const std::vector<std::int64_t> sizes = all_gather(failed ? no_size : std::ssize(bytes));
+  if (std::find(sizes.begin(), sizes.end(), no_size) != sizes.end())
+    return std::nullopt;
   const std::int64_t own_start = std::accumulate(sizes.begin(), sizes.begin() + rank_, std::int64_t{0});
   const std::int64_t total = std::accumulate(sizes.begin() + rank_, sizes.end(), own_start);
   std::vector<std::byte> all(static_cast<std::size_t>(total));

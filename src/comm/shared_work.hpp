@@ -3,10 +3,12 @@
 #pragma once
 
 #include "comm/agree.hpp"
+#include "core/gather.hpp"
 #include "core/thread_loop.hpp"
 #include "trime/comm/communicator.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +22,33 @@ std::vector<T> gather_everywhere(const Communicator& comm, std::vector<T> mine) 
   return from_bytes<T>(comm.all_gather(std::as_bytes(std::span<const T>(mine))));
 }
 
+/// @brief What work() returns on each rank, a std::vector<T>, one after the other on every rank. Collective.
+/// @param work does not communicate; what it throws, all ranks throw
+template <class T, class Work>
+std::vector<T> gather_agreed(const Communicator& comm, const Work& work) {
+  std::vector<T> mine;
+  const std::optional<Error> error = error_of([&] { mine = work(); });
+  if (comm.size() == 1 && !error)
+    return mine;
+  const auto all = comm.all_gather_unless(error.has_value(), std::as_bytes(std::span<const T>(mine)));
+  if (!all)
+    agree(comm, error); // throws
+  return from_bytes<T>(*all);
+}
+
+/// @brief gather_in_order, shared among the ranks: the lists that make(k, list) appends to, for k = 0 .. n-1, joined by
+/// rising k, on every rank. Each rank makes a contiguous share. Collective.
+/// @param chunk one thread takes so many k in a row
+/// @param make thread-safe, does not communicate; what it throws, all ranks throw
+template <class T, class Make>
+std::vector<T> gather_shared(const Communicator& comm, std::ptrdiff_t n, std::ptrdiff_t chunk, const Make& make) {
+  const std::ptrdiff_t first = n * comm.rank() / comm.size(), last = n * (comm.rank() + 1) / comm.size();
+  return gather_agreed<T>(comm, [&] {
+    return gather_in_order<T>(last - first, chunk,
+                              [&](std::ptrdiff_t k, std::vector<T>& list) { make(first + k, list); });
+  });
+}
+
 /// @brief n results of type T on every rank: work(first, last, results) for runs of `run` results, so that what one of
 /// them leaves for the next does not depend on ranks and threads. Each rank computes a contiguous share. Collective.
 /// @param work thread-safe, does not communicate; what it throws, all ranks throw
@@ -27,15 +56,14 @@ template <class T, class Work>
 std::vector<T> compute_shared_runs(const Communicator& comm, std::size_t n, std::size_t run, const Work& work) {
   const auto ranks = static_cast<std::size_t>(comm.size()), rank = static_cast<std::size_t>(comm.rank());
   const std::size_t runs = (n + run - 1) / run, first = runs * rank / ranks, last = runs * (rank + 1) / ranks;
-  std::vector<T> mine;
-  run_agreed(comm, [&] {
-    mine.resize(std::min(n, last * run) - std::min(n, first * run));
+  return gather_agreed<T>(comm, [&] {
+    std::vector<T> mine(std::min(n, last * run) - std::min(n, first * run));
     thread_loop(static_cast<std::ptrdiff_t>(last - first), 1, [&](std::ptrdiff_t k, int) {
       const std::size_t from = (first + static_cast<std::size_t>(k)) * run;
       work(from, std::min(n, from + run), &mine[from - first * run]);
     });
+    return mine;
   });
-  return gather_everywhere(comm, std::move(mine));
 }
 
 /// @brief work(k) for k = 0 .. n-1, of type T, on every rank. Collective.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cones/size_quadtree.hpp"
 
+#include "comm/parcel.hpp"
 #include "comm/shared_work.hpp"
 
 #include <algorithm>
@@ -106,43 +107,25 @@ void SizeQuadtree::assemble(const comm::Communicator& comm, std::vector<CellPart
 
 /// Those of all ranks, by group, on every rank. Collective.
 std::vector<CellPart> SizeQuadtree::gather_parts(const comm::Communicator& comm, std::vector<CellPart> mine) const {
-  struct Summary {
-    std::size_t roots, children, numbers;
-    double least, largest;
-  };
-  std::vector<Summary> summaries;
-  CellPart joined;
-  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  comm::Parcel own;
   for (CellPart& part : mine) {
-    summaries.push_back({part.roots.size(), part.children.size(), part.numbers.size(), part.least, part.largest});
-    append(joined.roots, part.roots);
-    append(joined.children, part.children);
-    append(joined.numbers, part.numbers);
+    own.add(part.roots);
+    own.add(part.children);
+    own.add(part.numbers);
+    own.add(std::vector{part.least, part.largest});
     part = {};
   }
-  summaries = comm::gather_everywhere(comm, std::move(summaries));
-  joined.roots = comm::gather_everywhere(comm, std::move(joined.roots));
-  joined.children = comm::gather_everywhere(comm, std::move(joined.children));
-  joined.numbers = comm::gather_everywhere(comm, std::move(joined.numbers));
-  auto summary = summaries.begin();
-  auto root = joined.roots.begin();
-  auto child = joined.children.begin();
-  auto number = joined.numbers.begin();
-  const auto take = [](auto& to, auto& from, std::size_t count) {
-    const auto end = from + static_cast<std::ptrdiff_t>(count);
-    to.assign(from, end);
-    from = end;
-  };
+  comm::Parcel all(comm.all_gather(own.release()));
   std::vector<CellPart> parts(groups_x_ * groups_y_);
   for (std::size_t rank = 0; rank < static_cast<std::size_t>(comm.size()); ++rank)
     for (std::size_t group = rank; group < parts.size(); group += static_cast<std::size_t>(comm.size())) {
       CellPart& part = parts[group];
-      take(part.roots, root, summary->roots);
-      take(part.children, child, summary->children);
-      take(part.numbers, number, summary->numbers);
-      part.least = summary->least;
-      part.largest = summary->largest;
-      ++summary;
+      part.roots = all.take<CellNode>();
+      part.children = all.take<CellChildren>();
+      part.numbers = all.take<double>();
+      const std::vector<double> range = all.take<double>();
+      part.least = range.at(0);
+      part.largest = range.at(1);
     }
   return parts;
 }

@@ -2,8 +2,8 @@
 #include "start/count_estimate.hpp"
 
 #include "comm/agree.hpp"
+#include "comm/shared_work.hpp"
 #include "core/angle.hpp"
-#include "core/thread_loop.hpp"
 #include "start/density_integral.hpp"
 #include "start/density_sampler.hpp"
 #include "start/rules.hpp"
@@ -19,7 +19,8 @@ using geometry::Vec2;
 using polygon::BoundarySite;
 using polygon::BoundarySites;
 
-constexpr double arc_step = pi / 8; // of the polygon along a circular piece
+constexpr double arc_step = pi / 8;            // of the polygon along a circular piece
+constexpr std::ptrdiff_t chords_in_a_row = 16; // by one thread
 
 /// A vertex of the polygon on the unrolled loop, and the length of the curve up to it from the one before.
 struct Vertex {
@@ -109,8 +110,7 @@ std::optional<double> CountEstimate::points(double factor) {
   if (!reference_.guard)
     return std::nullopt;
   const sizing::ScaledSize size = scaled(factor);
-  std::optional<double> on_boundary;
-  comm::run_agreed(context_.comm, [&] { on_boundary = boundary_points(size); });
+  const std::optional<double> on_boundary = boundary_points(size);
   if (!on_boundary)
     return std::nullopt;
   const double placed = *on_boundary + static_cast<double>(context_.fixed.inside().size());
@@ -129,28 +129,24 @@ sizing::ScaledSize CountEstimate::scaled(double factor) const {
 }
 
 double CountEstimate::crowding(double factor) const {
-  const sizing::ScaledSize size = scaled(factor);
-  std::optional<double> sites;
-  comm::run_agreed(context_.comm, [&] { sites = boundary_points(size); });
+  const std::optional<double> sites = boundary_points(scaled(factor));
   if (!sites || !(*sites > 0))
     return 1;
   const double share = corners_ / (FitRules::sparse_corners * *sites);
   return std::clamp(share * share, 1.0, FitRules::most_crowding);
 }
 
-/// Simpson's rule, in steps of about the local size.
+/// Simpson's rule, in steps of about the local size. Collective.
 std::optional<double> CountEstimate::boundary_points(const sizing::SizeField& size) const {
   const BoundarySites& polygon = reference_.polygon;
-  std::vector<double> counts(polygon.sites.size());
   const double most = FitRules::far_too_many * points_;
-  thread_loop(std::ssize(counts), 64, [&](std::ptrdiff_t k, int) {
+  const auto count_on = [&](std::ptrdiff_t k, std::vector<double>& counts) {
     const geometry::Segment chord = polygon.chord(static_cast<LocalIndex>(k));
     const auto inverse = [&](double share) {
       return 1 / size.size(polygon.periods.wrap(chord.a + share * (chord.b - chord.a)));
     };
     const double length = lengths_[static_cast<std::size_t>(k)];
-    double& count = counts[static_cast<std::size_t>(k)];
-    double share = 0, first = inverse(0);
+    double count = 0, share = 0, first = inverse(0);
     while (share < 1 && count < most && std::isfinite(first)) {
       double step = std::max(FitRules::integral_step / (first * length), 1e-9);
       step = share + 1.25 * step < 1 ? step : 1 - share;
@@ -159,9 +155,10 @@ std::optional<double> CountEstimate::boundary_points(const sizing::SizeField& si
       share = step < 1 - share ? share + step : 1;
       first = last;
     }
-    if (!std::isfinite(first))
-      count = NAN;
-  });
+    counts.push_back(std::isfinite(first) ? count : NAN);
+  };
+  const std::vector<double> counts =
+      comm::gather_shared<double>(context_.comm, std::ssize(polygon.sites), chords_in_a_row, count_on);
   double all = 0;
   for (std::size_t loop = 0; loop + 1 < polygon.loop_start.size(); ++loop) {
     double sites = 0;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -85,6 +86,8 @@ public:
   std::vector<double> all_gather(double value) const;
   /// The bytes of all ranks on every rank, by rank. O(all bytes) memory. Collective.
   std::vector<std::byte> all_gather(std::span<const std::byte> bytes) const;
+  /// The same, or nothing if any rank says that it has failed. Collective.
+  std::optional<std::vector<std::byte>> all_gather_unless(bool failed, std::span<const std::byte> bytes) const;
   /// The text of `root` on every rank. Collective.
   std::string broadcast(std::string text, int root = 0) const;
   /// The text of each rank on rank 0 (empty elsewhere). Collective.
