@@ -16,6 +16,7 @@ trime_run_packages=(
 trime_test_packages=(
   libgtest-dev libbenchmark-dev                   # unit tests, benchmarks
   libcgal-dev libboost-dev                        # oracles of the tests, and trime_check: CGAL, big integers of Boost
+  libmpfr-dev libgmp-dev                          # oracle of the elementary functions
   hdf5-tools python3-vtk9 python3-meshio          # h5diff, and two foreign readers of the mesh file
   python3-gmsh python3-dolfinx freefem++          # readers of the formats of other programs
   gdal-bin python3-gdal                           # reads and writes maps: ogr2ogr, ogrinfo; Python too
