@@ -4,7 +4,7 @@
 #pragma once
 
 /// Only + - * /, sqrt, comparisons and the bits of a double go in, so compilers, levels of optimisation and processors
-/// make no difference. Errors are below 0.6 units in the last place of the result, mostly below 0.52. Special values
+/// make no difference. Errors are below 0.52 units in the last place of the result. Special values
 /// (infinities, NaN, zeros with their sign, the table of pow) are those of the C standard, annex F. No flag of the
 /// floating-point environment is promised, errno is not set, and rounding must be to nearest.
 namespace trime::elementary {

@@ -44,7 +44,7 @@ constexpr std::array<DoubleDouble, steps> powers = [] {
 constexpr double part_1 = 0x1.62e42fefp-8, part_2 = (ln2_doubled.hi - 0x1.62e42fefp-1) / steps + ln2_doubled.lo / steps;
 
 constexpr double small = 0x1p-28; // below, the second term of every odd series is less than half a unit
-constexpr double series_end = 0.25;
+constexpr double series_end = 0.125;
 constexpr double saturated = 22; // exp(-2 x) is below 2^-63
 
 /// exp(x) as a sum, for 0 <= x < 25.

@@ -18,7 +18,7 @@ namespace trime::elementary {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double bound = 0.53; // of the errors, in units in the last place
+constexpr double bound = 0.52; // of the errors, in units in the last place
 constexpr int tries = 1000;    // in each range
 
 /// A number of MPFR with 200 bits.
@@ -218,7 +218,7 @@ TEST(Elementary, NeighboursOfBorderlinesAreInOrder) {
     EXPECT_TRUE(rises(asin, k / 128.0)) << k;
     EXPECT_TRUE(rises(tan, (k + 0.5) * 0x1.921fb54442d18p-5)) << k;
   }
-  for (const double border : {0x1p-28, 0.125, 0.25, 22.0}) {
+  for (const double border : {0x1p-28, 0.125, 22.0}) {
     EXPECT_TRUE(rises(sinh, border)) << border;
     EXPECT_TRUE(rises(tanh, border)) << border;
     EXPECT_TRUE(rises(asinh, border)) << border;
