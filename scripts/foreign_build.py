@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A build of the program for AArch64 on another processor: Debian's cross compiler, Debian's arm64 packages unpacked into
-a directory, and qemu-user. For same_bits.py."""
+"""A build of the program for AArch64 on another processor: Debian's cross compiler, Debian's arm64 packages unpacked
+into a directory, and qemu-user. For same_bits.py."""
 import os
 import pathlib
 import shutil
@@ -30,7 +30,8 @@ def call(command, **options):
     """Runs a command; ForeignError with the end of its output if it fails."""
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, **options)
     if done.returncode != 0:
-        raise ForeignError(f"exit code {done.returncode}: {' '.join(map(str, command))}\n{(done.stdout + done.stderr)[-2000:]}")
+        text = (done.stdout + done.stderr)[-2000:]
+        raise ForeignError(f"exit code {done.returncode}: {' '.join(map(str, command))}\n{text}")
     return done.stdout
 
 

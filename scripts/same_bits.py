@@ -9,21 +9,24 @@ in Markdown. A row that differs from the first one says so. Packages: the lists 
   scripts/same_bits.py                                    # all builds, in a temporary directory
   scripts/same_bits.py --builds gcc-O3,clang-O2 --keep DIR
   scripts/same_bits.py --builds aarch64 --keep DIR        # beside gcc-O3, which is always built
+  scripts/same_bits.py --program ci=build/ci/trime_mpi --program mpich=build/mpich/trime_mpi     # builds nothing
 
 AArch64 is compiled by Debian's cross compiler and runs under qemu-user. Its libraries are fetched as Debian packages
 (130 MB) and unpacked into DIR/sysroot; nothing is installed, and no right of root is needed.
 
-A build takes 5 to 10 minutes on one core, or one with ccache and all objects in it; --jobs N builds on N cores. The runs
-of a build take 10 s, those of AArch64 some 5 minutes.
+A build takes 5 to 10 minutes on one core, or one with ccache and all objects in it; --jobs N builds on N cores. The
+runs of a build take 10 s, those of AArch64 some 5 minutes.
 
 Exit codes: 0 all hashes are equal, 1 some differ, 2 bad use, 4 a build or a run failed.
 """
 import argparse
 import dataclasses
+import functools
 import json
 import os
 import pathlib
 import platform
+import shlex
 import shutil
 import subprocess
 import sys
@@ -45,7 +48,7 @@ y_min = 0.2
 y_max = 0.8
 [sizing]
 type = expression
-expression = 0.4 + exp(-3*x)*sin(9*y)^2 + 0.3*x^1.7 + 0.1*log(1+x+y) + 0.05*tanh(4*x-2)*cos(1e5*y) + abs(atan(x/y))/20
+expression = 0.4 + exp(-3*x)*sin(9*y)^2 + 0.3*x^1.7 + 0.1*log(1+x+y) + 0.05*tanh(4*x-2)*cos(30*y) + atan(x/y)/20
 """
 REGION = """[shape]
 region = difference(flower, hole)
@@ -139,20 +142,26 @@ def hash_of_case(case, command, environment, directory):
     return json.loads(report.read_text(encoding="utf-8"))["attributes"]["mesh_hash_hex"]
 
 
+def row_of(what, command, environment, cases, directory):
+    """A row of the table: (what, [hash of each case])."""
+    print(f"Running {what} ...", file=sys.stderr, flush=True)
+    return what, [hash_of_case(case, command, environment, directory) for case in cases]
+
+
+def rows_of_program(what, command, cases, directory):
+    """The row of a program that exists, as a list."""
+    return [row_of(what, shlex.split(command), {}, cases, directory)]
+
+
 def rows_of(name, directory, jobs, more, cases):
-    """The rows of a build: [(what, [hash of each case])]."""
+    """The rows of a build."""
     build = BUILDS[name]
     program = build_program(name, directory, jobs, more)
     command, environment = [program], {}
     if name == "aarch64":
         command, environment = foreign_run(directory, program)
-    rows = []
-    for level in build.levels:
-        what = build.what + (f", TRIME_SIMD={level}" if level else "")
-        print(f"Running {what} ...", file=sys.stderr, flush=True)
-        level_environment = environment | ({"TRIME_SIMD": level} if level else {})
-        rows.append((what, [hash_of_case(case, command, level_environment, directory) for case in cases]))
-    return rows
+    return [row_of(build.what + (f", TRIME_SIMD={level}" if level else ""), command,
+                   environment | ({"TRIME_SIMD": level} if level else {}), cases, directory) for level in build.levels]
 
 
 def chosen(text, known, what):
@@ -165,15 +174,15 @@ def chosen(text, known, what):
     return names
 
 
-def compare(builds, cases, directory, jobs, more):
-    """Builds and runs everything, prints the table; the exit code."""
+def compare(sources, cases):
+    """Prints the table of all sources, pairs of a name and a function that makes its rows; the exit code."""
     print("| build | " + " | ".join(cases) + " | |\n|---|" + "---|" * (len(cases) + 1))
     first, code = None, 0
-    for name in builds:
+    for name, make_rows in sources:
         try:
-            rows = rows_of(name, directory, jobs, more, cases)
-        except (Failure, ForeignError) as error:
-            print(f"| {BUILDS[name].what} |" + " |" * len(cases) + " FAILED |", flush=True)
+            rows = make_rows()
+        except (Failure, ForeignError, OSError) as error:
+            print(f"| {name} |" + " |" * len(cases) + " FAILED |", flush=True)
             sys.stderr.write(f"same_bits.py: {name}: {error}\n")
             if first is None:
                 return 4  # nothing to compare with
@@ -188,26 +197,45 @@ def compare(builds, cases, directory, jobs, more):
     return code
 
 
+def sources_of(options, cases, directory):
+    """What is compared: programs that exist, then builds."""
+    sources = []
+    for text in options.program:
+        what, equals, command = text.partition("=")
+        if not equals or not command:
+            sys.stderr.write(f"same_bits.py: expected --program WHAT=COMMAND, found '{text}'\n")
+            sys.exit(2)
+        sources.append((what, functools.partial(rows_of_program, what, command, cases, directory)))
+    builds = chosen(options.builds if options.builds or options.program else ",".join(BUILDS), BUILDS, "build")
+    if builds and not options.program:
+        builds = [REFERENCE] + [name for name in builds if name != REFERENCE]
+    for name in builds:
+        sources.append((name, functools.partial(rows_of, name, directory, options.jobs, options.cmake, cases)))
+    return sources
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--builds", default=",".join(BUILDS), help=f"which ones, divided by commas: {', '.join(BUILDS)}")
-    parser.add_argument("--cases", default=",".join(CASES), help=f"which configs: {', '.join(CASES)}")
-    parser.add_argument("--keep", metavar="DIR", type=pathlib.Path, help="builds there, and leaves them for the next time")
+    parser.add_argument("--builds", default="", metavar="LIST", help=f"which ones (all): {', '.join(BUILDS)}")
+    parser.add_argument("--program", metavar="WHAT=COMMAND", action="append", default=[],
+                        help="a program that exists; without --builds nothing is built; may be repeated")
+    parser.add_argument("--cases", default=",".join(CASES), metavar="LIST",
+                        help=f"which configs (all): {', '.join(CASES)}")
+    parser.add_argument("--keep", metavar="DIR", type=pathlib.Path,
+                        help="builds there, and leaves them for the next time")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="so many compilers at once (one per core)")
     parser.add_argument("--cmake", metavar="ARGUMENT", action="append", default=[],
                         help="for all builds, such as --cmake=-DTRIME_PRECOMPILE=ON; may be repeated")
     options = parser.parse_args()
-    builds = chosen(options.builds, BUILDS, "build")
-    builds = [REFERENCE] + [name for name in builds if name != REFERENCE]
     cases = chosen(options.cases, CASES, "config")
     if not cases:
         parser.error("no configs are named")
-    print(f"{platform.machine()}, {POINTS} points asked for, one rank and thread:\n", flush=True)
-    if options.keep:
-        options.keep.mkdir(parents=True, exist_ok=True)
-        return compare(builds, cases, options.keep.resolve(), options.jobs, options.cmake)
-    with tempfile.TemporaryDirectory(prefix="trime-same-bits-") as directory:
-        return compare(builds, cases, pathlib.Path(directory), options.jobs, options.cmake)
+    with tempfile.TemporaryDirectory(prefix="trime-same-bits-") as temporary:
+        directory = (options.keep or pathlib.Path(temporary)).resolve()
+        directory.mkdir(parents=True, exist_ok=True)
+        sources = sources_of(options, cases, directory)
+        print(f"{platform.machine()}, {POINTS} points asked for, one rank and thread:\n", flush=True)
+        return compare(sources, cases)
 
 
 if __name__ == "__main__":
