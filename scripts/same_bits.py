@@ -15,7 +15,7 @@ AArch64 is compiled by Debian's cross compiler and runs under qemu-user. Its lib
 (130 MB) and unpacked into DIR/sysroot; nothing is installed, and no right of root is needed.
 
 A build takes 5 to 10 minutes on one core, or one with ccache and all objects in it; --jobs N builds on N cores. The
-runs of a build take 10 s, those of AArch64 some 5 minutes.
+runs of a build take 10 s, those of AArch64 a minute.
 
 Exit codes: 0 all hashes are equal, 1 some differ, 2 bad use, 4 a build or a run failed.
 """
