@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The one list of the Debian packages that this project needs, and a function that installs those that are missing.
-# To be sourced by run.sh, test.sh and simulate_cluster.sh; does nothing by itself.
+# To be sourced by run.sh, test.sh, simulate_cluster.sh and same_bits.py; does nothing by itself.
 # shellcheck shell=bash disable=SC2034
 
 # To build and run the program, and to draw its mesh.
@@ -16,6 +16,7 @@ trime_run_packages=(
 trime_test_packages=(
   libgtest-dev libbenchmark-dev                   # unit tests, benchmarks
   libcgal-dev libboost-dev                        # oracles of the tests, and trime_check: CGAL, big integers of Boost
+  libmpfr-dev libgmp-dev                          # oracle of the elementary functions
   hdf5-tools python3-vtk9 python3-meshio          # h5diff, and two foreign readers of the mesh file
   python3-gmsh python3-dolfinx freefem++          # readers of the formats of other programs
   gdal-bin python3-gdal                           # reads and writes maps: ogr2ogr, ogrinfo; Python too
@@ -33,6 +34,17 @@ trime_test_packages=(
 # To run the program on a simulated cluster, beside the first list: scripts/simulate_cluster.sh.
 trime_simulation_packages=(
   libsimgrid-dev                                  # SimGrid: MPI, cores and network, simulated in one process
+)
+
+# To build and run the program for AArch64 on another processor, beside the first list: scripts/same_bits.py.
+trime_aarch64_packages=(
+  g++-aarch64-linux-gnu qemu-user-static          # cross compiler; runs its programs
+)
+# The arm64 packages that same_bits.py unpacks for it; they are not installed.
+trime_aarch64_libraries=(
+  libc6-dev libstdc++-12-dev libgcc-12-dev libgomp1
+  libopenmpi-dev libhdf5-openmpi-dev libfmt-dev libcli11-dev libmuparser-dev nlohmann-json3-dev
+  libshp-dev libproj-dev libcurl4-openssl-dev     # PROJ's CMake files ask for curl
 )
 
 # Prints those of its arguments that are not installed.

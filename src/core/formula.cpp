@@ -2,6 +2,7 @@
 #include "trime/core/formula.hpp"
 
 #include "core/angle.hpp"
+#include "core/formula_functions.hpp"
 #include "core/nearest_name.hpp"
 #include "core/thread_loop.hpp"
 #include "trime/core/error.hpp"
@@ -27,11 +28,12 @@ struct alignas(64) Slot {
   mu::Parser parser;
 
   explicit Slot(const std::string& text) {
+    define_functions(parser);
     parser.DefineVar("x", &x);
     parser.DefineVar("y", &y);
     parser.DefineConst("pi", pi);
     parser.DefineConst("e", 0x1.5bf0a8b145769p+1);
-    parser.SetExpr(text);
+    parser.SetExpr(with_our_power(text));
   }
 };
 
@@ -44,9 +46,11 @@ std::vector<std::string> known_names(const mu::Parser& parser) {
 
 /// What is wrong, without position and text.
 std::string complaint(const mu::Parser& parser, const mu::ParserError& error) {
-  const std::string token = error.GetToken();
+  const std::string token = with_usual_power(error.GetToken());
   switch (error.GetCode()) {
   case mu::ecUNASSIGNABLE_TOKEN: {
+    if (!token.empty() && token.front() == '^') // as for the operators of muParser
+      return "operator '^' cannot stand here";
     if (!token.empty() && std::isalpha(static_cast<unsigned char>(token.front())) == 0)
       return fmt::format("'{}' cannot stand here", token);
     const std::vector<std::string> names = known_names(parser);
@@ -71,7 +75,7 @@ std::string complaint(const mu::Parser& parser, const mu::ParserError& error) {
   case mu::ecTOO_FEW_PARAMS:
     return fmt::format("too few arguments for '{}'", token);
   default:
-    return error.GetMsg();
+    return with_usual_power(error.GetMsg());
   }
 }
 

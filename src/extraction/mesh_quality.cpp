@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "extraction/mesh_quality.hpp"
 #include "core/angle.hpp"
+#include "core/elementary.hpp"
 #include "extraction/rules.hpp"
 
 #include <algorithm>
@@ -156,7 +157,7 @@ mesh::QualitySummary summarize(const comm::Communicator& comm, QualitySums& sums
   quality.alpha = detail.alpha;
   quality.beta = detail.beta;
   quality.alpha_histogram = alpha.histogram();
-  quality.min_angle_degrees = std::min(60.0, std::asin(std::min(1.0, -largest[2])) * (180 / pi));
+  quality.min_angle_degrees = std::min(60.0, elementary::asin(std::min(1.0, -largest[2])) * (180 / pi));
   quality.worst_place = detail.worst_place;
   sums.bad.gather(comm, first.bad);
   sums.bad.tell(quality);

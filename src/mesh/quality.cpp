@@ -2,6 +2,7 @@
 #include "trime/mesh/quality.hpp"
 
 #include "core/angle.hpp"
+#include "core/elementary.hpp"
 
 #include <algorithm>
 #include <array>
@@ -72,7 +73,7 @@ double edge_ratio(Vec2 p, Vec2 q, Vec2 r) {
 }
 
 double min_angle_degrees(Vec2 p, Vec2 q, Vec2 r) {
-  return std::asin(std::min(1.0, measure_triangle(p, q, r).least_sine)) * degrees_per_radian;
+  return elementary::asin(std::min(1.0, measure_triangle(p, q, r).least_sine)) * degrees_per_radian;
 }
 
 RatioStatistics::RatioStatistics() : bins_(padded_bins, 0) {}

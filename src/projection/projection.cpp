@@ -113,7 +113,7 @@ std::string local_plane(std::span<const Vec2> degrees_east_north) {
   // To a hundredth of a degree: the last bits of sums and functions do not matter, and people can read it.
   const auto rounded = [](double angle) { return std::round(angle * degrees_per_radian * 100) / 100 + 0.0; };
   const double east = rounded(angle_of(middle[1], middle[0])),
-               north = rounded(angle_of(middle[2], std::hypot(middle[0], middle[1])));
+               north = rounded(angle_of(middle[2], std::sqrt(middle[0] * middle[0] + middle[1] * middle[1])));
   const std::array<double, 3> center = direction({east, north});
   for (const Vec2 p : degrees_east_north) {
     const std::array<double, 3> d = direction(p);

@@ -52,6 +52,26 @@ class Scripts(unittest.TestCase):
         self.assertIn(table, (ROOT / "configs" / "README.md").read_text(encoding="utf-8"),
                       "put the output of trime_mpi --help-config into configs/README.md")
 
+    def test_unlike_hashes_of_builds_are_told(self):
+        with Workspace() as work:
+            programs = []
+            for name, value in (("one", "aa"), ("two", "aa"), ("three", "bb")):
+                fake = work / name
+                report = f'{{"attributes": {{"mesh_hash_hex": "{value}"}}}}'
+                fake.write_text(f"#!/bin/sh\nfor last; do :; done\necho '{report}' > \"$last\"\n", encoding="utf-8")
+                fake.chmod(0o755)
+                programs += ["--program", f"{name}={fake}"]
+            done = call(SCRIPTS / "same_bits.py", "--cases", "torus,formula size", *programs[:4])
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(done.stdout.count("| same |"), 2, done.stdout)
+            done = call(SCRIPTS / "same_bits.py", "--cases", "torus", *programs)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("| three | bb | DIFFERENT |", done.stdout)
+            done = call(SCRIPTS / "same_bits.py", "--cases", "torus", *programs[:2], "--program", "gone=/no/program")
+            self.assertEqual(done.returncode, 4)
+            self.assertIn("gone", done.stderr)
+            self.assertEqual(call(SCRIPTS / "same_bits.py", "--builds", "nonsense").returncode, 2)
+
     def test_first_commands_say_what_they_would_install(self):
         with Workspace() as work:
             fake = work / "dpkg-query"

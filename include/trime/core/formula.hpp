@@ -11,10 +11,10 @@ namespace trime {
 ///
 /// Operators are those of muParser: `+ - * / ^`, comparisons, `&& ||`, `condition ? a : b`. So are the functions:
 /// `sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp ln log2 log10 sqrt sign rint abs min max sum
-/// avg`, and `log`, which is the natural one.
+/// avg`, and `log`, which is the natural one. `rint` sends halves up.
 ///
-/// The same text gives the same bits on every rank and thread of one machine. The only foreign code is the C library's
-/// sin, exp and the like; they may differ in the last bit between C libraries.
+/// The same text gives the same bits on every machine: functions and `^` are those of core/elementary, and operations
+/// are done as they are written, one after the other.
 class Formula {
 public:
   /// @param where what the text belongs to, for messages, such as `config.ini:17: [sizing] expression`
