@@ -109,7 +109,7 @@ class RandomConfig:
             rings.append(self.ring(x + far * math.cos(angle), y + far * math.sin(angle), radius * rng.uniform(0.003, 0.25)))
         if rng.random() < 0.1:  # touching in a vertex
             rings.append([rings[0][0]] + self.ring(*rings[0][0], radius / 10)[1:])
-        digits = rng.choice([3, 17])
+        digits = rng.choice([4, 17])
         places = [[self.place(*p) for p in ring] for ring in rings]
         self.vertices += [p for ring in places for p in ring]
         self.files[f"{name}.xy"] = "\n".join("".join(f"{px:.{digits}g} {py:.{digits}g}\n" for px, py in ring)
