@@ -199,9 +199,10 @@ void Hdf5Input::check_claim(const Hdf5Dataset& dataset, const std::string& name)
   // Of an array in one piece HDF5 believes what it claims, be the file as short as it may.
   const auto stored = static_cast<double>(std::min(H5Dget_storage_size(dataset), of_file));
   if (bytes > most_packed * stored)
-    throw FileError(fmt::format("{} in {} claims to have {:.3g} bytes, and the file holds {:.3g} of them: it is damaged "
-                                "or cut off",
-                                name, path_, bytes, stored));
+    throw FileError(
+        fmt::format("{} in {} claims to have {:.3g} bytes, and the file holds {:.3g} of them: it is damaged "
+                    "or cut off",
+                    name, path_, bytes, stored));
 }
 
 std::vector<std::string> Hdf5Input::members(const std::string& group, H5O_type_t kind) const {

@@ -54,9 +54,10 @@ void check_index(const std::string& path) {
   for (std::size_t k = length_at; k < length_at + 4 && k < bytes.size(); ++k)
     told = told << 8 | static_cast<unsigned char>(bytes[k]);
   if (bytes.size() < head || 2 * told != bytes.size() || (bytes.size() - head) % row != 0)
-    throw FileError(fmt::format("{} is damaged or cut off: expected {} bytes, a head of {} and {} for each record, as its "
-                                "head tells; found {}",
-                                path, 2 * told, head, row, bytes.size()));
+    throw FileError(
+        fmt::format("{} is damaged or cut off: expected {} bytes, a head of {} and {} for each record, as its "
+                    "head tells; found {}",
+                    path, 2 * told, head, row, bytes.size()));
 }
 
 /// @param bytes of the file

@@ -49,8 +49,9 @@ void run(const std::string& directory, const comm::Communicator& comm, bool stop
 
 /// A type by number: those of the program's files, and others.
 Hdf5Type some_type(FuzzedDataProvider& input) {
-  const std::array<hid_t, 9> plain{H5T_NATIVE_INT32, H5T_NATIVE_INT64,  H5T_NATIVE_UINT64, H5T_NATIVE_DOUBLE, H5T_NATIVE_FLOAT,
-                                   H5T_NATIVE_UINT8, H5T_NATIVE_LDOUBLE, H5T_NATIVE_SHORT,  H5T_STD_REF_OBJ};
+  const std::array<hid_t, 9> plain{H5T_NATIVE_INT32,   H5T_NATIVE_INT64, H5T_NATIVE_UINT64,
+                                   H5T_NATIVE_DOUBLE,  H5T_NATIVE_FLOAT, H5T_NATIVE_UINT8,
+                                   H5T_NATIVE_LDOUBLE, H5T_NATIVE_SHORT, H5T_STD_REF_OBJ};
   const auto choice = input.ConsumeIntegralInRange<std::size_t>(0, plain.size() + 1);
   if (choice < plain.size())
     return Hdf5Type(H5Tcopy(plain[choice]));
@@ -62,7 +63,8 @@ Hdf5Type some_type(FuzzedDataProvider& input) {
 
 /// A scalar, or up to three dimensions, some of them huge.
 Hdf5Space some_space(FuzzedDataProvider& input) {
-  constexpr std::array<hsize_t, 10> extents{0, 1, 2, 3, 60, 97, 1000, hsize_t{1} << 31, hsize_t{1} << 40, hsize_t{1} << 61};
+  constexpr std::array<hsize_t, 10> extents{
+      0, 1, 2, 3, 60, 97, 1000, hsize_t{1} << 31, hsize_t{1} << 40, hsize_t{1} << 61};
   const int rank = input.ConsumeIntegralInRange(0, 3);
   std::array<hsize_t, 3> extent{};
   for (int k = 0; k < rank; ++k)
@@ -129,8 +131,8 @@ void replace_attribute(FuzzedDataProvider& input, hid_t file, const std::string&
   const Hdf5Space space = some_space(input);
   const auto value = input.ConsumeIntegral<std::int64_t>();
   const Hdf5Type type(H5Tcopy(input.ConsumeBool() ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE));
-  const Hdf5Attribute made(H5Acreate_by_name(file, group.c_str(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT,
-                                             H5P_DEFAULT));
+  const Hdf5Attribute made(
+      H5Acreate_by_name(file, group.c_str(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   if (made >= 0 && H5Sget_simple_extent_npoints(space) == 1)
     H5Awrite(made, type, &value);
 }

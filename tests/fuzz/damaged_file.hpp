@@ -22,8 +22,8 @@ public:
   explicit DamagedFile(bool is_checkpoint);
 
   /// @brief Writes a copy with the changes that `data` describes: datasets and attributes that are replaced by ones of
-  /// another type, shape or layout, values that are overwritten, objects that are moved or gone, a file that is cut off,
-  /// and bytes outside of what HDF5 needs to find its way.
+  /// another type, shape or layout, values that are overwritten, objects that are moved or gone, a file that is cut
+  /// off, and bytes outside of what HDF5 needs to find its way.
   /// @return its path, the same each time
   const std::string& damage(const std::uint8_t* data, std::size_t size);
   const comm::Communicator& comm() const { return comm_; }

@@ -11,9 +11,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::survives([&] { app::info(path, file.comm()); });
   const auto formats = formats::all_formats();
   const auto& format = formats[size == 0 ? 0 : data[0] % formats.size()];
-  const app::CommandLine line{.action = app::Action::convert,
-                              .files = {path, file.directory() + "/out" + format.ending},
-                              .overwrite = true};
+  const app::CommandLine line{
+      .action = app::Action::convert, .files = {path, file.directory() + "/out" + format.ending}, .overwrite = true};
   fuzz::survives([&] {
     Log log(LogLevel::silent, true);
     app::convert(line, nullptr, file.comm(), log);

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The whole program on random configs: each on 1 and 3 ranks, every star compared with one computed anew, and the same
-hash, or the same error, from both. What differs, crashes, hangs, leaves a failed check or takes much memory is a finding.
+"""The whole program on random configs: each on 1 and 3 ranks, every star compared with one computed anew. Both give the
+same hash, or the same error. What differs, crashes, hangs, leaves a failed check or takes much memory is a finding.
 
 Usage: random_runs.py [--seed S] [--first K] [--count N] [--keep DIRECTORY] [--slow SECONDS]
   --keep D   each finding goes there as a config with its files; `trime_mpi D/S-K/case.ini` repeats it

@@ -8,7 +8,8 @@ SIZES = ["1+3*{x}+3*{y}", "max(0.02,sqrt(({x}-0.5)^2+({y}-0.5)^2))", "0.1+{x}*{x
          "1+0.9*sin(9*{x})*cos(7*{y})", "max(1e-6,abs({x}-{y}))", "1", "{x}-0.4", "1/(0.05+({x}-0.3)^2)"]
 PERIODIC_SIZES = ["2+sin(2*pi*{x})", "1+0.8*sin(2*pi*{x})*sin(2*pi*{y})", "1.1+cos(4*pi*({x}+{y}))", "1+{x}"]
 CURVES = ["sqrt(({x}-{a})^2+({y}-{b})^2)-{r}", "max(abs({x}-{a}),abs({y}-{b}))-{r}",
-          "abs(sqrt(({x}-{a})^2+({y}-{b})^2)-{r})-{r}/3", "sqrt(({x}-{a})^2+({y}-{b})^2)-{r}*(1+0.3*cos(5*atan2({y}-{b},{x}-{a})))",
+          "abs(sqrt(({x}-{a})^2+({y}-{b})^2)-{r})-{r}/3",
+          "sqrt(({x}-{a})^2+({y}-{b})^2)-{r}*(1+0.3*cos(5*atan2({y}-{b},{x}-{a})))",
           "min(sqrt(({x}-{a})^2+({y}-{b})^2),abs({x}-{b})+abs({y}-{a}))-{r}", "sin(2*pi*{x})*sin(2*pi*{y})-{a}",
           "({x}-{a})*({y}-{b})-{r}/4"]
 
@@ -20,7 +21,9 @@ class RandomConfig:
     def __init__(self, rng):
         self.rng, self.files, self.parts = rng, {}, []
         self.scale = 1.0 if rng.random() < 0.6 else 10 ** rng.uniform(-4, 4)
-        self.shift = (0.0, 0.0) if rng.random() < 0.6 else (rng.uniform(-5, 5) * self.scale, rng.uniform(-5, 5) * self.scale)
+        self.shift = (0.0, 0.0)
+        if rng.random() < 0.4:
+            self.shift = (rng.uniform(-5, 5) * self.scale, rng.uniform(-5, 5) * self.scale)
         self.periodic = [rng.random() < 0.2 for _ in range(2)]
         self.vertices = []
         sections = [("shape", self.shape())] + self.parts + [("domain", self.domain()), ("sizing", self.sizing()),
@@ -106,7 +109,8 @@ class RandomConfig:
         rings = [self.ring(x, y, radius)]
         for _ in range(rng.choice([0, 0, 1, 3, 8])):  # lakes and islands
             angle, far = rng.uniform(0, 2 * math.pi), radius * rng.uniform(0, 1.2)
-            rings.append(self.ring(x + far * math.cos(angle), y + far * math.sin(angle), radius * rng.uniform(0.003, 0.25)))
+            rings.append(self.ring(x + far * math.cos(angle), y + far * math.sin(angle),
+                                   radius * rng.uniform(0.003, 0.25)))
         if rng.random() < 0.1:  # touching in a vertex
             rings.append([rings[0][0]] + self.ring(*rings[0][0], radius / 10)[1:])
         digits = rng.choice([4, 17])
@@ -159,8 +163,8 @@ class RandomConfig:
 
     def spoil(self, sections):
         """One number becomes another one; what decides how large the mesh is stays."""
-        numbers = [(values, key) for _, values in sections for key in values
-                   if key not in ("points", "edge_length", "type", "region", "file", "method", "sdf", "expression", "narrow")]
+        stay = ("points", "edge_length", "type", "region", "file", "method", "sdf", "expression", "narrow")
+        numbers = [(values, key) for _, values in sections for key in values if key not in stay]
         if numbers:
             values, key = self.rng.choice(numbers)
             words = str(values[key]).split()
