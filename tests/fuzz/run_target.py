@@ -32,16 +32,18 @@ def main():
     name = arguments.program.name.removesuffix("_fuzz")
     corpus, words = HERE / "corpus" / name, HERE / "words" / f"{name}.dict"
     arguments.keep.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix="trime-fuzz-") as work:
+    in_memory = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None  # no disk to wait for
+    with tempfile.TemporaryDirectory(prefix="trime-fuzz-", dir=in_memory) as work:
         grown = arguments.grow or pathlib.Path(work) / "grown"
         grown.mkdir(parents=True, exist_ok=True)
         command = [arguments.program.resolve(), grown.resolve(), corpus, "-seed=1", f"-max_len={LARGEST_INPUT}",
                    f"-max_total_time={arguments.seconds}", f"-timeout={SLOWEST}", f"-rss_limit_mb={MEBIBYTES}",
                    f"-malloc_limit_mb={LARGEST_ARRAY}", f"-artifact_prefix={arguments.keep.resolve()}/{name}-",
-                   "-print_final_stats=1", f"-detect_leaks={int(name not in WITH_MPI)}"]
+                   "-print_final_stats=1"]
         command += [f"-dict={words}"] if words.exists() else []
         environment = dict(os.environ, TMPDIR=work, OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
                            OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+        environment["ASAN_OPTIONS"] = f"detect_leaks={int(name not in WITH_MPI)}:" + os.environ.get("ASAN_OPTIONS", "")
         done = subprocess.run([str(word) for word in command], cwd=work, env=environment, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, errors="replace", check=False)
         left = [path.name for path in pathlib.Path(work).iterdir() if path != grown and not path.is_dir()]

@@ -5,13 +5,15 @@ import math
 
 EXTREME = ["0", "-1", "1", "3", "0.5", "1e-9", "1e-30", "1e-300", "1e9", "1e30", "1e300", "nan", "inf", "-1e15", "90"]
 SIZES = ["1+3*{x}+3*{y}", "max(0.02,sqrt(({x}-0.5)^2+({y}-0.5)^2))", "0.1+{x}*{x}", "exp(-4*{x})", "{x}>0.5 ? 1 : 3",
-         "1+0.9*sin(9*{x})*cos(7*{y})", "max(1e-6,abs({x}-{y}))", "1", "{x}-0.4", "1/(0.05+({x}-0.3)^2)"]
+         "1+0.9*sin(9*{x})*cos(7*{y})", "max(1e-6,abs({x}-{y}))", "1", "{x}-0.4", "1/(0.05+({x}-0.3)^2)",
+         "abs(sin(50*{x}))+1e-7"]
 PERIODIC_SIZES = ["2+sin(2*pi*{x})", "1+0.8*sin(2*pi*{x})*sin(2*pi*{y})", "1.1+cos(4*pi*({x}+{y}))", "1+{x}"]
 CURVES = ["sqrt(({x}-{a})^2+({y}-{b})^2)-{r}", "max(abs({x}-{a}),abs({y}-{b}))-{r}",
           "abs(sqrt(({x}-{a})^2+({y}-{b})^2)-{r})-{r}/3",
           "sqrt(({x}-{a})^2+({y}-{b})^2)-{r}*(1+0.3*cos(5*atan2({y}-{b},{x}-{a})))",
           "min(sqrt(({x}-{a})^2+({y}-{b})^2),abs({x}-{b})+abs({y}-{a}))-{r}", "sin(2*pi*{x})*sin(2*pi*{y})-{a}",
-          "({x}-{a})*({y}-{b})-{r}/4"]
+          "({x}-{a})*({y}-{b})-{r}/4", "sin(60*{x})*sin(60*{y})-{a}", "sin(1/({x}-{a}+1e-9))*{r}-({y}-{b})^2"]
+FORMATS = ["vtkhdf", "xdmf", "text", "gmsh", "gmsh2", "medit", "freefem", "triangle", "vtu", "2dm", "fort14", "geojson"]
 
 
 class RandomConfig:
@@ -26,8 +28,10 @@ class RandomConfig:
             self.shift = (rng.uniform(-5, 5) * self.scale, rng.uniform(-5, 5) * self.scale)
         self.periodic = [rng.random() < 0.2 for _ in range(2)]
         self.vertices = []
-        sections = [("shape", self.shape())] + self.parts + [("domain", self.domain()), ("sizing", self.sizing()),
-                                                             ("meshing", self.meshing())]
+        sections = [("shape", self.shape())] + self.parts + [
+            ("domain", self.domain()), ("sizing", self.sizing()), ("meshing", self.meshing()),
+            ("parallel", {"mesh_threads": rng.choice([1, 2, 7, 100])} if rng.random() < 0.1 else {}),
+            ("output", self.output())]
         if rng.random() < 0.12:
             self.spoil(sections)
         self.text = "".join(f"[{name}]\n" + "".join(f"{key} = {value}\n" for key, value in values.items())
@@ -53,7 +57,7 @@ class RandomConfig:
             values = {"x_min": repr(low[0]), "x_max": repr(high[0]), "y_min": repr(low[1]), "y_max": repr(high[1])}
         values |= {f"periodic_{axis}": "true" for axis, is_on in zip("xy", self.periodic) if is_on}
         if rng.random() < 0.1:
-            values |= {"cells_x": rng.choice([1, 3, 40, 1000]), "cells_y": rng.choice([1, 7, 40])}
+            values |= {"cells_x": rng.choice([1, 3, 40, 10**6]), "cells_y": rng.choice([1, 7, 40, 10**6])}
         return values
 
     def shape(self):
@@ -148,6 +152,14 @@ class RandomConfig:
         values |= {key: rng.choice(some) for key, some in choices.items() if rng.random() < 0.12}
         if rng.random() < 0.2:
             self.fix_points(values)
+        return values
+
+    def output(self):
+        rng, values = self.rng, {}
+        if rng.random() < 0.15:
+            values["formats"] = " ".join(rng.sample(FORMATS, rng.randint(1, 4)))
+        if rng.random() < 0.1:
+            values["interval"] = rng.choice([-2, 0, 7])
         return values
 
     def fix_points(self, values):
