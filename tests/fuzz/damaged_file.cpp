@@ -6,8 +6,8 @@
 #include "app/user_places.hpp"
 #include "core/read_file.hpp"
 #include "io/hdf5_handle.hpp"
+#include "meshing/checkpoints.hpp"
 #include "trime/io/run_files.hpp"
-#include "trime/meshing/mesher.hpp"
 
 #include <fuzzer/FuzzedDataProvider.h>
 
