@@ -17,8 +17,8 @@ FORMATS = ["vtkhdf", "xdmf", "text", "gmsh", "gmsh2", "medit", "freefem", "trian
 
 
 class RandomConfig:
-    """One config: `text`, and `files` by name. Lengths are those of a container [0, 1] x [0, 1], which is then moved and
-    scaled."""
+    """One config: `text`, and `files` by name. Lengths are those of a container [0, 1] x [0, 1], which is moved and
+    scaled at the end."""
 
     def __init__(self, rng):
         self.rng, self.files, self.parts = rng, {}, []
@@ -111,13 +111,13 @@ class RandomConfig:
         x, y = self.middle()
         radius = rng.uniform(0.1, 0.3)
         rings = [self.ring(x, y, radius)]
-        for _ in range(rng.choice([0, 0, 1, 3, 8])):  # lakes and islands
+        for _ in range(rng.choice([0, 0, 0, 1, 4])):  # lakes and islands
             angle, far = rng.uniform(0, 2 * math.pi), radius * rng.uniform(0, 1.2)
             rings.append(self.ring(x + far * math.cos(angle), y + far * math.sin(angle),
                                    radius * rng.uniform(0.003, 0.25)))
         if rng.random() < 0.1:  # touching in a vertex
             rings.append([rings[0][0]] + self.ring(*rings[0][0], radius / 10)[1:])
-        digits = rng.choice([4, 17])
+        digits = rng.choice([4, 17, 17, 17])
         places = [[self.place(*p) for p in ring] for ring in rings]
         self.vertices += [p for ring in places for p in ring]
         self.files[f"{name}.xy"] = "\n".join("".join(f"{px:.{digits}g} {py:.{digits}g}\n" for px, py in ring)
@@ -150,7 +150,7 @@ class RandomConfig:
                    "feature_tolerance": [0, 0.02, 0.3], "seed": [0, 7, 2**53], "max_sweeps": [0, 1, 7, 40],
                    "stop_tolerance": [1e-3, 0.3], "cleanup": ["false"], "worst_alpha": [1.05, 1000]}
         values |= {key: rng.choice(some) for key, some in choices.items() if rng.random() < 0.12}
-        if rng.random() < 0.2:
+        if rng.random() < 0.12:
             self.fix_points(values)
         return values
 
@@ -175,7 +175,8 @@ class RandomConfig:
 
     def spoil(self, sections):
         """One number becomes another one; what decides how large the mesh is stays."""
-        stay = ("points", "edge_length", "type", "region", "file", "method", "sdf", "expression", "narrow")
+        stay = ("points", "edge_length", "type", "region", "file", "fixed_points", "method", "sdf", "expression",
+                "narrow")
         numbers = [(values, key) for _, values in sections for key in values if key not in stay]
         if numbers:
             values, key = self.rng.choice(numbers)
