@@ -279,6 +279,14 @@ class BadInput(unittest.TestCase):
         self.assertEqual(done.returncode, USAGE, done.stdout + done.stderr)
         self.assertRegex(done.stderr, r"(?i)config")
 
+    def test_more_threads_than_a_machine_has(self):
+        """They took 1.4 GB, or ended the run where the system starts no more of them."""
+        with Workspace() as work:
+            (work / "case.ini").write_text(GOOD, encoding="utf-8")
+            done = run(work / "case.ini", f"output.directory={work}/result", "parallel.mesh_threads=4096", timeout=300)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertRegex(done.stdout + done.stderr, r"warning: 4096 threads were asked for, and a rank uses \d+:")
+
     def test_output_exists(self):
         with Workspace() as work:
             (work / "case.ini").write_text(GOOD, encoding="utf-8")

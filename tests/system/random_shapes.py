@@ -30,7 +30,7 @@ class RandomConfig:
         self.vertices = []
         sections = [("shape", self.shape())] + self.parts + [
             ("domain", self.domain()), ("sizing", self.sizing()), ("meshing", self.meshing()),
-            ("parallel", {"mesh_threads": rng.choice([1, 2, 7, 100])} if rng.random() < 0.1 else {}),
+            ("parallel", {"mesh_threads": rng.choice([1, 2, 7, 4096])} if rng.random() < 0.1 else {}),
             ("output", self.output())]
         if rng.random() < 0.12:
             self.spoil(sections)
