@@ -15,6 +15,9 @@ if(TRIME_SANITIZE)
   add_compile_options(-fsanitize=${sanitizers} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${sanitizers})
 endif()
+if(TRIME_FUZZ) # all code tells libFuzzer where it has been
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -g1 -DNDEBUG")
 
 # trime_precompile(TARGET HEADER...): parses the headers that most sources include, and those given, once a target. Not

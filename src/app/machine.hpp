@@ -13,6 +13,7 @@ namespace trime::app {
 struct Placement {
   int ranks = 1;
   int setup_threads = 1, threads = 1; ///< of this rank: while shape and size field are made, and from then on
+  int asked = 1;                      ///< the larger number as it was asked for: this rank may use fewer
   int nodes = 1;
   int cores = 1;   ///< processors that this rank may use
   int sharing = 1; ///< ranks of this node with exactly these processors
@@ -20,7 +21,8 @@ struct Placement {
 };
 
 /// @brief Where the ranks are, and how many threads each uses: those asked for if positive, else OMP_NUM_THREADS, else
-/// all processors that the rank may use, divided among the ranks that share them.
+/// all processors that the rank may use, divided among the ranks that share them. There is an end at 16 threads a
+/// processor, or 64: each thread has tables of its own.
 /// @note Collective.
 Placement place_threads(int setup_threads, int mesh_threads, const comm::Communicator& comm);
 

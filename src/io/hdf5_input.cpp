@@ -21,6 +21,9 @@ std::vector<hsize_t> shape_of(hid_t space) {
   return shape;
 }
 
+/// HDF5 itself has an end at 64 KiB.
+constexpr std::size_t most_attribute_bytes = std::size_t{1} << 16;
+
 std::string without_padding(const std::string& text) {
   return text.substr(0, text.find('\0'));
 }
@@ -55,17 +58,6 @@ std::optional<Column> small_values(const std::string& name, hid_t type, std::siz
   }
 }
 
-/// Before memory is asked for: does the file hold as much as a dataset claims to have?
-void check_claim(const Hdf5Dataset& dataset, double bytes, const std::string& what) {
-  constexpr double most_packed = 1032; // bytes that deflate makes one of, at most
-  const auto stored = static_cast<double>(H5Dget_storage_size(dataset));
-  if (bytes > most_packed * stored)
-    throw FileError(
-        fmt::format("{} claims to have {:.3g} bytes, and the file holds {:.3g} of them: it is damaged or cut "
-                    "off",
-                    what, bytes, stored));
-}
-
 } // namespace
 
 Hdf5Input::Hdf5Input(const std::string& path) : path_(path), file_(open_file(path)) {}
@@ -93,6 +85,10 @@ std::vector<Attribute> Hdf5Input::attributes(const std::string& group) const {
     const Hdf5Space space(H5Aget_space(attribute), action);
     if (H5Sget_simple_extent_npoints(space) != 1)
       continue;
+    if (const std::size_t bytes = H5Tget_size(type); bytes > most_attribute_bytes)
+      throw FileError(fmt::format("the attribute {} of {} in {} claims to have {} bytes, expected {} at most: the file "
+                                  "is damaged",
+                                  name, group, path_, bytes, most_attribute_bytes));
     const auto values =
         small_values(name, type, 1, [&](hid_t memory, void* to) { checked(H5Aread(attribute, memory, to), action); });
     if (!values)
@@ -124,9 +120,7 @@ std::vector<Column> Hdf5Input::columns(const std::string& group) const {
     const Hdf5Space space(H5Dget_space(dataset), "read " + path);
     if (H5Sget_simple_extent_ndims(space) != 1)
       continue;
-    check_claim(dataset,
-                static_cast<double>(H5Sget_simple_extent_npoints(space)) * static_cast<double>(H5Tget_size(type)),
-                path + " in " + path_);
+    check_claim(dataset, path);
     auto values = small_values(
         name, type, static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)), [&](hid_t memory, void* to) {
           checked(H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, to), "read " + path + " in " + path_);
@@ -146,6 +140,7 @@ std::vector<Text> Hdf5Input::texts(const std::string& group) const {
     const Hdf5Space space(H5Dget_space(dataset), "read " + path);
     if (H5Sget_simple_extent_ndims(space) != 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0)
       continue;
+    check_claim(dataset, path);
     std::string text(H5Tget_size(type), '\0');
     checked(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), "read " + path + " in " + path_);
     found.push_back({name, without_padding(text)});
@@ -159,8 +154,11 @@ std::vector<std::string> Hdf5Input::groups(const std::string& group) const {
 
 std::int64_t Hdf5Input::rows(const std::string& dataset) const {
   const Hdf5Dataset opened = open_dataset(dataset);
+  check_claim(opened, dataset);
   const Hdf5Space space(H5Dget_space(opened), "read " + dataset);
   const std::vector<hsize_t> shape = shape_of(space);
+  if (std::find(shape.begin(), shape.end(), 0) != shape.end()) // rows without columns are none
+    return 0;
   return shape.empty() ? 1 : static_cast<std::int64_t>(shape[0]);
 }
 
@@ -186,6 +184,25 @@ Hdf5Dataset Hdf5Input::open_dataset(const std::string& dataset) const {
   if (!has(dataset))
     throw FileError(fmt::format("{} has no {}: expected a mesh file of trime_mpi", path_, dataset));
   return Hdf5Dataset(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), "open " + dataset + " in " + path_);
+}
+
+void Hdf5Input::check_claim(const Hdf5Dataset& dataset, const std::string& name) const {
+  constexpr double most_packed = 1032; // bytes that deflate makes one of, at most
+  const std::string action = "read " + name + " in " + path_;
+  const Hdf5Type type(H5Dget_type(dataset), action);
+  const Hdf5Space space(H5Dget_space(dataset), action);
+  auto bytes = static_cast<double>(H5Tget_size(type));
+  for (const hsize_t extent : shape_of(space)) // HDF5's own product may overflow
+    bytes *= static_cast<double>(extent);
+  hsize_t of_file = 0;
+  checked(H5Fget_filesize(file_, &of_file), action);
+  // Of an array in one piece HDF5 believes what it claims, be the file as short as it may.
+  const auto stored = static_cast<double>(std::min(H5Dget_storage_size(dataset), of_file));
+  if (bytes > most_packed * stored)
+    throw FileError(
+        fmt::format("{} in {} claims to have {:.3g} bytes, and the file holds {:.3g} of them: it is damaged "
+                    "or cut off",
+                    name, path_, bytes, stored));
 }
 
 std::vector<std::string> Hdf5Input::members(const std::string& group, H5O_type_t kind) const {

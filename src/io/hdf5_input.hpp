@@ -23,7 +23,8 @@ public:
   std::vector<Text> texts(const std::string& group) const;
   std::vector<std::string> groups(const std::string& group) const;
 
-  /// Rows of a dataset over the whole file.
+  /// @brief Rows of a dataset over the whole file. @throws FileError if the file cannot hold so many: memory is asked
+  /// for by this number.
   std::int64_t rows(const std::string& dataset) const;
   /// @brief Reads rows [first, first + count) into `out`, which has room for them.
   /// @param columns as the dataset must have them; 0: one-dimensional
@@ -32,6 +33,8 @@ public:
 
 private:
   Hdf5Dataset open_dataset(const std::string& dataset) const;
+  /// Before memory is asked for: does the file hold as much as a dataset claims to have? @throws FileError
+  void check_claim(const Hdf5Dataset& dataset, const std::string& name) const;
   std::vector<std::string> members(const std::string& group, H5O_type_t kind) const;
 
   std::string path_;

@@ -95,11 +95,10 @@ private:
 
   int vertex_at(std::size_t column) const {
     constexpr const char* what = "'NUMBER VERTEX VERTEX MARKER' of a segment";
-    const int number = lines_.integer_at(column, what), index = number - first_number_;
-    if (index < 0 || index >= static_cast<int>(vertices_.size()))
-      lines_.refuse(
-          fmt::format("vertices from {} to {}", first_number_, first_number_ + static_cast<int>(vertices_.size()) - 1));
-    return index;
+    const int number = lines_.integer_at(column, what), count = static_cast<int>(vertices_.size());
+    if (number < first_number_ || number - first_number_ >= count)
+      lines_.refuse(fmt::format("vertices from {} to {}", first_number_, first_number_ + count - 1));
+    return number - first_number_;
   }
 
   void read_segments() {

@@ -46,6 +46,20 @@ SAHooks hooks_of_libshp() {
   return hooks;
 }
 
+/// libshp believes the length that the head of NAME.shx tells, and asks for memory for so many records.
+void check_index(const std::string& path) {
+  constexpr std::size_t head = 100, row = 8, length_at = 24; // [bytes]
+  const std::string bytes = read_file(path);
+  std::size_t told = 0; // in words of 16 bits, the first byte the highest
+  for (std::size_t k = length_at; k < length_at + 4 && k < bytes.size(); ++k)
+    told = told << 8 | static_cast<unsigned char>(bytes[k]);
+  if (bytes.size() < head || 2 * told != bytes.size() || (bytes.size() - head) % row != 0)
+    throw FileError(
+        fmt::format("{} is damaged or cut off: expected {} bytes, a head of {} and {} for each record, as its "
+                    "head tells; found {}",
+                    path, 2 * told, head, row, bytes.size()));
+}
+
 /// @param bytes of the file
 File open(const std::string& path, std::string_view bytes) {
   SAHooks hooks = hooks_of_libshp();
@@ -55,6 +69,7 @@ File open(const std::string& path, std::string_view bytes) {
                                 beside(path, ".shx", ".shx")));
   if (!bytes.starts_with(std::string_view("\0\0\x27\x0a", 4))) // libshp reads anything as an empty shapefile
     throw FileError(fmt::format("{} is no shapefile: expected the file code 9994 in its first 4 bytes", path));
+  check_index(beside(path, ".shx", ".SHX"));
   File file(SHPOpenLL(path.c_str(), "rb", &hooks));
   if (!file)
     throw FileError(fmt::format("{} is no shapefile, or damaged: expected one that libshp opens, found: {}", path,

@@ -429,6 +429,18 @@ class Formats(unittest.TestCase):
             self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
             self.assertIn(words, done.stderr)
 
+    def test_convert_of_an_array_that_claims_too_much(self):
+        """Memory is asked for by what the file can hold, in chunks or in one piece."""
+        for chunks in (None, (64, 2)):
+            damaged = self.work / "claims.h5"
+            shutil.copyfile(self.work / "own.h5", damaged)
+            with h5py.File(damaged, "r+") as file:
+                del file["Mesh/mesh/geometry"]
+                file["Mesh/mesh"].create_dataset("geometry", shape=(10**13, 2), dtype="f8", chunks=chunks)
+            done = run("convert", damaged, self.work / "claims.vtu", ranks=2)
+            self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
+            self.assertRegex(done.stderr, r"/Mesh/mesh/geometry in .*claims\.h5 claims to have 1\.6e\+14 bytes")
+
 
 if __name__ == "__main__":
     unittest.main()

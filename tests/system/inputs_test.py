@@ -211,6 +211,13 @@ class DirtyInputs(unittest.TestCase):
                 done = run(work / "case.ini", "--validate", ranks=ranks)
                 self.assertEqual(done.returncode, FILE, done.stdout + done.stderr)
                 self.assertRegex(done.stderr, r"a\.shp is no shapefile")
+                (work / "a.shp").write_bytes(whole)
+                index = (work / "a.shx").read_bytes()  # says that it has 200 million records
+                (work / "a.shx").write_bytes(index[:24] + (50 + 4 * 200_000_000).to_bytes(4, "big") + index[28:])
+                done = run(work / "case.ini", "--validate", ranks=ranks)
+                self.assertEqual(done.returncode, FILE, done.stdout + done.stderr)
+                self.assertRegex(done.stderr, r"a\.shx is damaged or cut off: expected 1600000100 bytes.*found 108")
+                (work / "a.shx").write_bytes(index)
 
 
 class Markers(unittest.TestCase):

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fuzz.hpp"
+
+#include "trime/geometry/frame.hpp"
+#include "trime/shape/part.hpp"
+#include "trime/shape/region_shape.hpp"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace trime::fuzz {
+
+void use(const shape::Contour& contour) {
+  constexpr std::size_t most_vertices = 300; // a few milliseconds under sanitizers
+  std::size_t vertices = 0;
+  for (const shape::ContourRing& ring : contour.rings) {
+    vertices += ring.points.size();
+    TRIME_ASSERT(ring.points.size() >= 3 && ring.lines.size() == ring.points.size(), "{} vertices, {} lines",
+                 ring.points.size(), ring.lines.size());
+    TRIME_ASSERT(ring.markers.empty() || ring.markers.size() == ring.points.size(), "{} markers", ring.markers.size());
+    for (const geometry::Vec2 p : ring.points)
+      TRIME_ASSERT(std::isfinite(p.x) && std::isfinite(p.y), "({}, {})", p.x, p.y);
+  }
+  TRIME_ASSERT(!contour.rings.empty(), "a contour without a ring");
+  const std::string bytes = shape::to_bytes(contour);
+  TRIME_ASSERT(shape::to_bytes(shape::contour_of_bytes(bytes)) == bytes, "{} bytes", bytes.size());
+  if (vertices > most_vertices)
+    return;
+  for (const bool is_periodic : {false, true})
+    survives([&] {
+      const geometry::Frame frame({{0, 0}, {1, 1}}, is_periodic, false);
+      std::vector<shape::Part> parts;
+      parts.push_back(
+          shape::Part::contour("part", contour, shape::fit_to_container(contour, frame.container()), frame));
+      const shape::RegionShape shape(std::move(parts), "part", frame);
+      TRIME_ASSERT(shape.boundary().area > 0, "area {}", shape.boundary().area);
+      TRIME_ASSERT(std::isfinite(shape.signed_distance({0.5, 0.5})), "distance");
+    });
+}
+
+} // namespace trime::fuzz

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contours and lists of points as `.xy` text.
+#include "fuzz.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace trime;
+  const std::string_view text = fuzz::text_of(data, size);
+  fuzz::survives([&] { fuzz::use(shape::parse_xy(text, "a.xy")); });
+  fuzz::survives([&] { shape::parse_points(text, "points.xy"); });
+  return 0;
+}
