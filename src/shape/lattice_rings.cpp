@@ -94,7 +94,7 @@ std::vector<SegmentPair> find_meetings(const std::vector<LatticeRing>& rings, co
       box.include(segments[at(i)].a);
       box.include(segments[at(i)].b);
       const auto start = static_cast<std::ptrdiff_t>(pairs.size());
-      grid.for_each_near(box, [&](LocalIndex j) {
+      grid.for_each_near(box, segments[at(i)], 0, [&](LocalIndex j) {
         if (j > i && j != after[at(i)] && i != after[at(j)] &&
             meeting_of(segments[at(i)], segments[at(j)]) != Meeting::none)
           pairs.push_back({i, j});
