@@ -3,8 +3,8 @@
 """Inputs on which a careless algorithm takes a time that grows as a square: seconds and memory at n, 2n and 4n.
 
 Usage: worst_cases.py PROGRAM [--only NAME ...] [--scale S] [--limit SECONDS] [--cpu]     PROGRAM: trime_mpi
-Prints a table. Each run is one rank; OMP_NUM_THREADS says how many threads (default 1). The exponent is that of n between
-the last two runs: 1 where the time grows as n or n log n, 2 where it grows as a square. --scale multiplies all n.
+Prints a table. Each run is one rank; OMP_NUM_THREADS says how many threads (default 1). The exponent is that of n from
+the first to the last run: 1 where the time grows as n or n log n, 2 where it grows as a square. --scale multiplies all n.
 """
 import argparse
 import math
@@ -265,7 +265,8 @@ def row(program, name, scale, limit, cpu):
             break
         if code != 0:
             remark = f"exit {code}: {said[-1][:100] if said else ''}"
-    exponent = f"{math.log2(times[-1] / times[-2]):.1f}" if len(times) > 1 else ""
+    steps = len(times) - 1
+    exponent = f"{math.log2(times[-1] / times[0]) / steps:.1f}" if steps > 0 else ""
     cells = [f"{seconds:.2f}" for seconds in times] + [""] * (3 - len(times))
     return f"| {name} | {n} | {' | '.join(cells)} | {max(peaks):.0f} | {exponent} | {remark} |"
 

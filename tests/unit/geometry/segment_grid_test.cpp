@@ -201,5 +201,37 @@ TEST(SegmentGrid, EmptyGridAnswers) {
   });
 }
 
+/// Long needles side by side: each is found by what comes near it, and few others are looked at.
+TEST(SegmentGrid, ASlantedSegmentLooksAlongItselfOnly) {
+  constexpr int count = 500;
+  std::vector<Segment> needles;
+  for (int k = 0; k < count; ++k) {
+    const Vec2 a = lattice.snap({0.1 + 0.3 * k / count, 0.4 - 0.3 * k / count}), b = a + Vec2{0.5, 0.5};
+    needles.push_back({a, lattice.snap(b + Vec2{1e-4 * uniform(1, static_cast<std::uint64_t>(k)), 0})});
+  }
+  const SegmentGrid grid(needles);
+  const double margin = 1e-3;
+  std::size_t looked_at = 0;
+  for (const Segment& s : needles) {
+    Box box;
+    for (const Vec2 p : {s.a, s.b}) {
+      box.include(p - Vec2{margin, margin});
+      box.include(p + Vec2{margin, margin});
+    }
+    std::set<LocalIndex> found;
+    grid.for_each_near(box, s, margin, [&](LocalIndex k) {
+      found.insert(k);
+      return true;
+    });
+    looked_at += found.size();
+    for (LocalIndex k = 0; k < count; ++k)
+      if (const Segment& t = needles[static_cast<std::size_t>(k)];
+          squared_distance(t.a, s) <= margin * margin || squared_distance(t.b, s) <= margin * margin) {
+        EXPECT_TRUE(found.contains(k));
+      }
+  }
+  EXPECT_LT(looked_at, std::size_t{40} * count);
+}
+
 } // namespace
 } // namespace trime::geometry
