@@ -11,6 +11,7 @@ import math
 import os
 import pathlib
 import random
+import resource
 import subprocess
 import sys
 import tempfile
@@ -18,6 +19,7 @@ import threading
 import time
 
 CASES = {}
+MOST_MEMORY = 8 << 30  # bytes
 MESH = "[meshing]\nmethod = cvd\npoints = {points}\n[output]\nname = mesh\nformats = {formats}\n"
 
 
@@ -230,13 +232,18 @@ def graded_torus(directory, n):
             "region = domain\n[sizing]\ntype = expression\nexpression = 1+0.8*sin(2*pi*x)*sin(2*pi*y)\n" + tail(n))
 
 
+def limit_memory():
+    """No case may take the whole machine."""
+    resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
+
+
 def measured(program, config, validate, limit, cpu):
     """Seconds, peak memory in MB and exit code; seconds of the clock above the limit: ended there."""
     line = [program, str(config)] + (["--validate"] if validate else [f"output.directory={config.parent}"])
     environment = dict(os.environ, OMP_NUM_THREADS=os.environ.get("OMP_NUM_THREADS", "1"))
     begin = time.monotonic()
     with open(config.parent / "said", "w", encoding="utf-8") as said, \
-            subprocess.Popen(line, env=environment, stdout=said, stderr=said) as run:
+            subprocess.Popen(line, env=environment, stdout=said, stderr=said, preexec_fn=limit_memory) as run:
         end = threading.Timer(limit, run.kill)
         end.start()
         _, status, usage = os.wait4(run.pid, 0)

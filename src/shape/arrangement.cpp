@@ -196,7 +196,6 @@ void Arrangement::cross_polygons(std::size_t a, std::size_t b) {
   for (LocalIndex s = first_line_[a]; s < first_line_[a] + count; ++s) {
     const Segment moved{segment(s).a - parts_[b].shift, segment(s).b - parts_[b].shift};
     other.for_each_near(inflated(box_of(moved), margin), moved, safe_steps * frame_.step(), [&](LocalIndex t) {
-      ++compared_;
       cross_lines(s, first_line_[b] + t);
       return true;
     });

@@ -47,9 +47,8 @@ public:
   const std::vector<Twin>& twins() const { return twins_; }
   const std::vector<Circle>& circles() const { return circles_; }
   const VertexTable& vertices() const { return vertices_; }
-  /// The work that it was: pairs of parts that were crossed with each other, pairs of their segments.
+  /// The work that it was: pairs of parts that were crossed with each other.
   std::int64_t pairs() const { return pairs_; }
-  std::int64_t compared() const { return compared_; }
 
 private:
   struct Line {
@@ -91,7 +90,7 @@ private:
   std::vector<Split> splits_;
   std::vector<Piece> pieces_;
   std::vector<Twin> twins_;
-  std::int64_t pairs_ = 0, compared_ = 0;
+  std::int64_t pairs_ = 0;
 };
 
 } // namespace trime::shape

@@ -43,7 +43,7 @@ TEST(BoxTree, FindsWhatMeetsABox) {
 
 TEST(PieceTree, FindsThePiecesWithinADistance) {
   Boundary boundary;
-  boundary.periods = Periods{1, 0};
+  boundary.periods.x = 1;
   Loop& loop = boundary.loops.emplace_back();
   for (std::uint64_t k = 0; k < 101; ++k) {
     Piece piece;
