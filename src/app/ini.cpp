@@ -70,11 +70,11 @@ private:
     }
     skip_ = false;
     std::vector<int>& lines = opened_[std::string(name)];
+    for (const int line : lines)
+      problems_.add(number,
+                    fmt::format("section [{}] was opened before, on line {}; put its keys together", name, line));
     if (lines.size() < most_told)
-      for (const int line : lines)
-        problems_.add(number,
-                      fmt::format("section [{}] was opened before, on line {}; put its keys together", name, line));
-    lines.push_back(number);
+      lines.push_back(number);
     document_.sections.push_back({std::string(name), number});
   }
 

@@ -71,8 +71,8 @@ struct Closeness {
 
 FixedPoints::FixedPoints(const geometry::Boundary& boundary, const geometry::Box& box,
                          std::span<const FixedPoint> given, const geometry::Lattice& lattice, Log& log)
-    : given_(given), lattice_(lattice),
-      tolerance_(BoundaryRules::on_boundary * std::max(box.width(), box.height())), tree_({}) {
+    : given_(given), lattice_(lattice), tolerance_(BoundaryRules::on_boundary * std::max(box.width(), box.height())),
+      tree_({}) {
   std::vector<Vec2> places;
   for (const FixedPoint& point : given) {
     const Vec2 p = point.position;

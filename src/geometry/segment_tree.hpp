@@ -14,8 +14,8 @@ namespace trime::geometry {
 
 /// @brief Turned boxes around segments of like direction, in a binary hierarchy.
 ///
-/// In square cells n parallel segments, thin against their length, are all in each other's company. A group of them here
-/// has a box along their mean direction, and is divided by direction, across or along it, whatever makes its parts
+/// In square cells n parallel segments, thin against their length, are all in each other's company. A group of them
+/// here has a box along their mean direction, and is divided by direction, across or along it, whatever makes its parts
 /// smaller. O(n log n) to build, O(n) memory; immutable and thread-safe after.
 class SegmentTree {
 public:

@@ -73,8 +73,7 @@ public:
   bool start_object(std::size_t) {
     other_value();
     Object object;
-    object.is_property =
-        !objects_.empty() && (objects_.back().is_property || objects_.back().key == "properties");
+    object.is_property = !objects_.empty() && (objects_.back().is_property || objects_.back().key == "properties");
     objects_.push_back(std::move(object));
     return true;
   }

@@ -27,8 +27,7 @@ RegionState::RegionState(const Region& region, std::size_t parts)
 /// Has the operand the value that decides its operation? One that is true decides a union, a false one the others.
 bool RegionState::is_deciding(int node) const {
   const auto k = static_cast<std::size_t>(node);
-  const bool decides =
-      region_.nodes_[static_cast<std::size_t>(parent_[k])].operation == Region::Operation::unite;
+  const bool decides = region_.nodes_[static_cast<std::size_t>(parent_[k])].operation == Region::Operation::unite;
   return ((values_[k] != 0) != (negates_[k] != 0)) == decides;
 }
 

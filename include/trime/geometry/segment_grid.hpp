@@ -125,12 +125,14 @@ void SegmentGrid::visit_wanted(const Box& box, const Wanted& wanted, const Visit
 
 template <class Visit>
 void SegmentGrid::for_each_near(const Box& box, const Visit& visit) const {
-  visit_wanted(box, [](const Placed&) { return true; }, visit);
+  visit_wanted(
+      box, [](const Placed&) { return true; }, visit);
 }
 
 template <class Visit>
 void SegmentGrid::for_each_near(const Box& box, const Segment& segment, double margin, const Visit& visit) const {
-  visit_wanted(box, [&](const Placed& cell) { return cell.may_be_near(segment, margin); }, visit);
+  visit_wanted(
+      box, [&](const Placed& cell) { return cell.may_be_near(segment, margin); }, visit);
 }
 
 } // namespace trime::geometry

@@ -130,8 +130,9 @@ Part polygon(const std::vector<Vec2>& points, const Frame& frame) {
 TEST(CorneredBoundary, IsThatOfALookAtEveryPiece) {
   const Frame plane(geometry::Box{{0, 0}, {1, 1}}), torus(geometry::Box{{0, 0}, {1, 1}}, true, true);
   const RegionShape shapes[] = {
-      RegionShape({Part::rectangle("r", {{0.25, 0.25}, {0.75, 0.75}}, plane), Part::circle("c", {0.5, 0.5}, 0.125, plane)},
-                  "difference(r, c)", plane),
+      RegionShape(
+          {Part::rectangle("r", {{0.25, 0.25}, {0.75, 0.75}}, plane), Part::circle("c", {0.5, 0.5}, 0.125, plane)},
+          "difference(r, c)", plane),
       RegionShape({polygon(circle_of_vertices(37), plane)}, "p", plane),
       RegionShape({Part::circle("c", {0.95, 0.02}, 0.2, torus)}, "difference(domain, c)", torus),
       RegionShape({Part::rectangle("r", {{-0.5, 0.3}, {1.5, 0.6}}, torus)}, "r", torus)};

@@ -19,7 +19,8 @@ double uniform(std::uint64_t key, std::uint64_t slot) {
 }
 
 bool cross_each_other(const Segment& s, const Segment& t) {
-  return orient2d(s.a, s.b, t.a) * orient2d(s.a, s.b, t.b) <= 0 && orient2d(t.a, t.b, s.a) * orient2d(t.a, t.b, s.b) <= 0;
+  return orient2d(s.a, s.b, t.a) * orient2d(s.a, s.b, t.b) <= 0 &&
+         orient2d(t.a, t.b, s.a) * orient2d(t.a, t.b, s.b) <= 0;
 }
 
 TEST(SegmentTree, FindsWhatMeets) {
