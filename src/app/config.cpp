@@ -110,7 +110,7 @@ void read_region(const Settings& settings, RunOptions& options, Diagnostics& pro
   try {
     const shape::Region region = shape::Region::parse(options.region, settings.parts());
     for (int part = 0; part < static_cast<int>(settings.parts().size()); ++part)
-      if (std::find(region.parts().begin(), region.parts().end(), part) == region.parts().end())
+      if (!std::binary_search(region.parts().begin(), region.parts().end(), part))
         options.warnings.push_back(fmt::format("part '{}' does not occur in the region '{}'",
                                                settings.parts()[static_cast<std::size_t>(part)], options.region));
   } catch (const Error& error) {

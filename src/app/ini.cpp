@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
 namespace trime::app {
 namespace {
@@ -68,10 +69,12 @@ private:
       return;
     }
     skip_ = false;
-    for (const IniSection& known : document_.sections)
-      if (known.name == name)
-        problems_.add(
-            number, fmt::format("section [{}] was opened before, on line {}; put its keys together", name, known.line));
+    std::vector<int>& lines = opened_[std::string(name)];
+    for (const int line : lines)
+      problems_.add(number,
+                    fmt::format("section [{}] was opened before, on line {}; put its keys together", name, line));
+    if (lines.size() < most_told)
+      lines.push_back(number);
     document_.sections.push_back({std::string(name), number});
   }
 
@@ -96,15 +99,20 @@ private:
   }
 
   void store(IniEntry entry) {
-    if (const IniEntry* first = document_.find(entry.section, entry.key))
-      problems_.add(entry.line, fmt::format("key '{}' is set twice in [{}], first on line {}; keep one of them",
-                                            entry.key, entry.section, first->line));
-    else
+    const auto [first, is_first] = first_lines_.emplace(IniKey{entry.section, entry.key}, entry.line);
+    if (is_first)
       document_.entries.push_back(std::move(entry));
+    else
+      problems_.add(entry.line, fmt::format("key '{}' is set twice in [{}], first on line {}; keep one of them",
+                                            entry.key, entry.section, first->second));
   }
+
+  static constexpr std::size_t most_told = 30; // earlier places of one section: as many as Diagnostics::text shows
 
   IniDocument& document_;
   Diagnostics& problems_;
+  std::map<IniKey, int> first_lines_;              // of keys
+  std::map<std::string, std::vector<int>> opened_; // lines of each section
   bool in_section_ = false, skip_ = false;
 };
 

@@ -23,6 +23,9 @@ struct IniEntry {
   int line = whole_file; ///< from 1; command_line_origin for overrides
 };
 
+/// Section and key.
+using IniKey = std::pair<std::string, std::string>;
+
 struct IniSection {
   std::string name;
   int line = whole_file;
@@ -63,7 +66,7 @@ struct IniDocument {
 };
 
 /// @brief Reads a text. Duplicates, repeated sections, keys before the first section, empty values and lines that are
-/// none of these go to `problems`; reading goes on behind them. O(characters + entries^2).
+/// none of these go to `problems`; reading goes on behind them. O(characters + entries log(entries)).
 IniDocument parse_ini(std::string_view text, Diagnostics& problems);
 
 /// @brief Sets one value as given on the command line: `section.key=value`, the section being all before the last dot

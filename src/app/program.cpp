@@ -13,6 +13,7 @@
 #include "app/size_builder.hpp"
 #include "boundary/fixed_points.hpp"
 #include "core/free_memory.hpp"
+#include "core/state_fields.hpp"
 #include "core/thread_loop.hpp"
 #include "io/report_file.hpp"
 #include "sites/rules.hpp"
@@ -131,8 +132,14 @@ meshing::MeshResult run_mesher(const Job& job, const Provenance& provenance, con
     series.write_step({snapshot.retriangulation, snapshot.mesh, snapshot.quality, describe_step(provenance, snapshot)});
   });
   const std::optional<meshing::SavedRun> saved = keeper.find(job.line.restart);
-  if (saved)
+  if (saved) {
     mesher.go_on_from(*saved);
+    int triangulations = 0;
+    StateFields::restoring(saved->state.numbers).field("triangulations", triangulations);
+    if (job.options.write)
+      for (const std::string& warning : series.go_on_after(triangulations))
+        job.log.warning("{}", warning);
+  }
   mesher.keep_checkpoints(keeper);
   return mesher.run();
 }

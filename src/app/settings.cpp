@@ -13,6 +13,7 @@ namespace trime::app {
 namespace {
 
 constexpr std::string_view part_prefix = "shape.";
+constexpr int most_misspelt = 100; // names for which the nearest known one is sought: more than Diagnostics::text shows
 const std::vector<std::string> reserved_names{"domain", "union", "intersection", "difference"};
 
 bool is_part_name(std::string_view name) {
@@ -38,13 +39,15 @@ std::string other_home(const std::string& section, const std::string& key) {
 
 } // namespace
 
-Settings::Settings(const IniDocument& document, Diagnostics& problems) : document_(document) {
-  check_sections(problems);
+Settings::Settings(const IniDocument& document, Diagnostics& problems) {
+  for (const IniEntry& entry : document.entries)
+    lines_.emplace(IniKey{entry.section, entry.key}, entry.line);
+  check_sections(document, problems);
   for (const IniEntry& entry : document.entries)
     if (is_known_section(entry.section))
       check_entry(entry, problems);
-    else
-      meant_.push_back({nearest_name(entry.section, section_names()), entry.key, entry.value, entry.line});
+    else if (++misspelt_ <= most_misspelt)
+      meant_.insert({nearest_name(entry.section, section_names()), entry.key});
   for (const Option& option : option_table())
     check_default(option, problems);
   for (const std::string& part : parts_)
@@ -53,17 +56,19 @@ Settings::Settings(const IniDocument& document, Diagnostics& problems) : documen
 
 bool Settings::is_known_section(const std::string& section) const {
   if (section.starts_with(part_prefix))
-    return std::find(parts_.begin(), parts_.end(), section.substr(part_prefix.size())) != parts_.end();
-  const std::vector<std::string> known = section_names();
+    return part_names_.contains(section.substr(part_prefix.size()));
+  static const std::vector<std::string> known = section_names();
   return section != part_section && std::find(known.begin(), known.end(), section) != known.end();
 }
 
-void Settings::check_sections(Diagnostics& problems) {
-  for (const IniSection& section : document_.sections) {
+void Settings::check_sections(const IniDocument& document, Diagnostics& problems) {
+  for (const IniSection& section : document.sections) {
+    section_lines_.emplace(section.name, section.line);
     if (!section.name.starts_with(part_prefix)) {
       if (!is_known_section(section.name))
         problems.add(section.line,
-                     fmt::format("unknown section [{}]{}", section.name, suggestion(section.name, section_names())));
+                     fmt::format("unknown section [{}]{}", section.name,
+                                 ++misspelt_ <= most_misspelt ? suggestion(section.name, section_names()) : ""));
       continue;
     }
     const std::string name = section.name.substr(part_prefix.size());
@@ -73,7 +78,7 @@ void Settings::check_sections(Diagnostics& problems) {
     else if (!is_part_name(name))
       problems.add(section.line,
                    fmt::format("'{}' cannot name a part: use letters, digits and '_', a letter first", name));
-    else if (std::find(parts_.begin(), parts_.end(), name) == parts_.end())
+    else if (part_names_.insert(name).second)
       parts_.push_back(name);
   }
 }
@@ -81,8 +86,11 @@ void Settings::check_sections(Diagnostics& problems) {
 void Settings::check_entry(const IniEntry& entry, Diagnostics& problems) {
   const Option* option = find_option(entry.section, entry.key);
   if (!option) {
-    const std::string near = suggestion(entry.key, key_names(entry.section));
-    meant_.push_back({entry.section, nearest_name(entry.key, key_names(entry.section)), entry.value, entry.line});
+    std::string near;
+    if (++misspelt_ <= most_misspelt) {
+      near = suggestion(entry.key, key_names(entry.section));
+      meant_.insert({entry.section, nearest_name(entry.key, key_names(entry.section))});
+    }
     problems.add(entry.line, fmt::format("unknown key '{}' in [{}]{}", entry.key, entry.section,
                                          near.empty() ? other_home(entry.section, entry.key) : near));
     return;
@@ -92,9 +100,14 @@ void Settings::check_entry(const IniEntry& entry, Diagnostics& problems) {
     meant.value = without_quotes(entry.value);
   const std::string problem = value_problem(*option, entry.section, meant.value);
   if (problem.empty())
-    good_.push_back(std::move(meant));
+    keep(meant);
   else
     problems.add(entry.line, problem);
+}
+
+void Settings::keep(const IniEntry& entry) {
+  good_.emplace(IniKey{entry.section, entry.key}, entry.value);
+  own_[entry.section].push_back(entry);
 }
 
 /// A key that the user left out may have a default that this version does not obey: that must be said, too.
@@ -109,7 +122,7 @@ void Settings::check_default(const Option& option, Diagnostics& problems) const 
 }
 
 /// The keys of a part against its type. A line that was refused already is not reported again.
-void Settings::check_part(const std::string& section, Diagnostics& problems) const {
+void Settings::check_part(const std::string& section, Diagnostics& problems) {
   if (!is_set(section, "type")) {
     problems.add(section_line(section),
                  fmt::format("[{}] needs a type: {}", section, expectation(*find_option(section, "type"))));
@@ -118,9 +131,9 @@ void Settings::check_part(const std::string& section, Diagnostics& problems) con
   const std::string type = text(section, "type");
   if (type.empty())
     return;
-  for (const IniEntry& entry : good_) {
-    const Option* option = entry.section == section ? find_option(section, entry.key) : nullptr;
-    bool belongs = option == nullptr || *option->part_type == '\0';
+  for (const IniEntry& entry : own_[section]) {
+    const Option* option = find_option(section, entry.key);
+    bool belongs = *option->part_type == '\0';
     for (const Option& other : option_table()) // x_min stands in the table once per type that has it
       belongs = belongs || (other.section == part_section && other.key == entry.key && other.part_type == type);
     if (!belongs)
@@ -135,27 +148,21 @@ void Settings::check_part(const std::string& section, Diagnostics& problems) con
 }
 
 int Settings::section_line(const std::string& section) const {
-  for (const IniSection& known : document_.sections)
-    if (known.name == section)
-      return known.line;
-  return whole_file;
+  const auto found = section_lines_.find(section);
+  return found == section_lines_.end() ? whole_file : found->second;
 }
 
 bool Settings::is_set(const std::string& section, const std::string& key) const {
-  return document_.find(section, key) != nullptr ||
-         std::any_of(meant_.begin(), meant_.end(),
-                     [&](const IniEntry& entry) { return entry.section == section && entry.key == key; });
+  return lines_.contains({section, key}) || meant_.contains({section, key});
 }
 
 bool Settings::was_refused(const std::string& section, const std::string& key) const {
-  return is_set(section, key) && std::none_of(good_.begin(), good_.end(), [&](const IniEntry& entry) {
-           return entry.section == section && entry.key == key;
-         });
+  return is_set(section, key) && !good_.contains({section, key});
 }
 
 int Settings::line(const std::string& section, const std::string& key) const {
-  const IniEntry* entry = document_.find(section, key);
-  return entry ? entry->line : whole_file;
+  const auto found = lines_.find({section, key});
+  return found == lines_.end() ? whole_file : found->second;
 }
 
 int Settings::later_line(const std::string& section, const std::string& a, const std::string& b) const {
@@ -165,9 +172,8 @@ int Settings::later_line(const std::string& section, const std::string& a, const
 }
 
 std::string Settings::text(const std::string& section, const std::string& key) const {
-  for (const IniEntry& entry : good_)
-    if (entry.section == section && entry.key == key)
-      return entry.value;
+  if (const auto found = good_.find({section, key}); found != good_.end())
+    return found->second;
   const Option* option = find_option(section, key);
   TRIME_ASSERT(option != nullptr, "[{}] {} is not in the option table", section, key);
   return option->fallback;

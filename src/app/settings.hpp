@@ -7,15 +7,18 @@
 #include "app/option_table.hpp"
 #include "trime/geometry/vec2.hpp"
 
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace trime::app {
 
+/// Look-ups are O(log(entries)), so that there may be very many parts.
 class Settings {
 public:
-  /// Entries with problems are told to `problems` and read as if they were absent.
+  /// Entries with problems are told to `problems` and read as if they were absent. Copies what it needs.
   Settings(const IniDocument& document, Diagnostics& problems);
 
   /// Names of the sections [shape.NAME], in the order of the file.
@@ -48,16 +51,21 @@ public:
   std::string resolved(const std::string& directory) const;
 
 private:
-  void check_sections(Diagnostics& problems);
+  void check_sections(const IniDocument& document, Diagnostics& problems);
   void check_entry(const IniEntry& entry, Diagnostics& problems);
   void check_default(const Option& option, Diagnostics& problems) const;
-  void check_part(const std::string& section, Diagnostics& problems) const;
+  void check_part(const std::string& section, Diagnostics& problems);
   bool is_known_section(const std::string& section) const;
+  void keep(const IniEntry& entry);
 
-  const IniDocument& document_;
+  std::map<std::string, int> section_lines_; ///< where each section is opened first
+  std::map<IniKey, int> lines_;              ///< of the entries of the document
   std::vector<std::string> parts_;
-  std::vector<IniEntry> good_;
-  std::vector<IniEntry> meant_; ///< what misspelt sections and keys were probably meant to set
+  std::set<std::string> part_names_;                 ///< parts_, to find them
+  std::map<IniKey, std::string> good_;               ///< values in force that the user has set
+  std::map<std::string, std::vector<IniEntry>> own_; ///< the same by section, in the order of the file
+  std::set<IniKey> meant_;                           ///< what misspelt sections and keys were probably meant to set
+  int misspelt_ = 0;                                 ///< names that are not known
 };
 
 } // namespace trime::app

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "boundary/fixed_points.hpp"
 
+#include "boundary/cornered_boundary.hpp"
 #include "boundary/rules.hpp"
-#include "core/angle.hpp"
 #include "core/thread_loop.hpp"
 #include "trime/core/error.hpp"
 #include "trime/geometry/piece_tree.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 namespace trime::boundary {
 
@@ -20,16 +23,6 @@ using polygon::BoundaryGuard;
 
 namespace {
 
-/// The shifts under which a point may be seen from the container and next to it.
-std::vector<Vec2> images_of(const geometry::Periods& periods) {
-  std::vector<Vec2> shifts{{0, 0}};
-  for (const double x : {-periods.x, 0.0, periods.x})
-    for (const double y : {-periods.y, 0.0, periods.y})
-      if (std::find(shifts.begin(), shifts.end(), Vec2{x, y}) == shifts.end())
-        shifts.push_back({x, y});
-  return shifts;
-}
-
 SiteTree tree_of(const std::vector<Vec2>& points) {
   std::vector<SiteTree::Entry> items;
   for (std::size_t k = 0; k < points.size(); ++k)
@@ -37,24 +30,33 @@ SiteTree tree_of(const std::vector<Vec2>& points) {
   return SiteTree(std::move(items));
 }
 
-/// The part of a piece before p, or the one after it. @pre p lies on the piece
-std::array<geometry::Piece, 2> divided(const geometry::Piece& piece, Vec2 p) {
-  std::array<geometry::Piece, 2> parts{piece, piece};
-  parts[0].end = parts[1].start = p;
-  if (piece.circular) {
-    const Vec2 from = piece.start - piece.center, to = p - piece.center;
-    double sweep = angle_of(cross(from, to), dot(from, to));
-    if (piece.sweep > 0 && sweep < 0)
-      sweep += 2 * pi;
-    if (piece.sweep < 0 && sweep > 0)
-      sweep -= 2 * pi;
-    parts[0].sweep = sweep;
-    parts[1].sweep = piece.sweep - sweep;
-    parts[1].start_angle = angle_of(to.y, to.x);
+/// Points in square cells of one side, to find those nearer than it.
+class NearPoints {
+public:
+  explicit NearPoints(double side) : side_(side) {}
+  void add(Vec2 p) { cells_[cell_of(p)].push_back(p); }
+  /// The first one in lexicographic order that is at most the side from p.
+  std::optional<Vec2> first_near(Vec2 p) const {
+    std::optional<Vec2> first;
+    const auto [i, j] = cell_of(p);
+    for (const std::int64_t column : {i - 1, i, i + 1})
+      for (const std::int64_t row : {j - 1, j, j + 1})
+        if (const auto cell = cells_.find({column, row}); cell != cells_.end())
+          for (const Vec2 q : cell->second)
+            if (geometry::length(q - p) <= side_ && (!first || lexicographically_less(q, *first)))
+              first = q;
+    return first;
   }
-  parts[1].corner = true;
-  return parts;
-}
+
+private:
+  using Cell = std::pair<std::int64_t, std::int64_t>;
+  Cell cell_of(Vec2 p) const {
+    return {static_cast<std::int64_t>(std::floor(p.x / side_)), static_cast<std::int64_t>(std::floor(p.y / side_))};
+  }
+
+  double side_;
+  std::map<Cell, std::vector<Vec2>> cells_;
+};
 
 /// A point is nearer than the local size to something else.
 struct Closeness {
@@ -69,8 +71,8 @@ struct Closeness {
 
 FixedPoints::FixedPoints(const geometry::Boundary& boundary, const geometry::Box& box,
                          std::span<const FixedPoint> given, const geometry::Lattice& lattice, Log& log)
-    : given_(given), lattice_(lattice), boundary_(boundary),
-      tolerance_(BoundaryRules::on_boundary * std::max(box.width(), box.height())), tree_({}) {
+    : given_(given), lattice_(lattice), tolerance_(BoundaryRules::on_boundary * std::max(box.width(), box.height())),
+      tree_({}) {
   std::vector<Vec2> places;
   for (const FixedPoint& point : given) {
     const Vec2 p = point.position;
@@ -97,68 +99,31 @@ FixedPoints::FixedPoints(const geometry::Boundary& boundary, const geometry::Box
     all_.push_back(places[k]);
     source_.push_back(k);
   }
-  const geometry::PieceTree pieces(boundary);
-  const std::vector<Vec2> images = images_of(boundary.periods);
-  for (const Vec2 p : all_) {
-    const bool on_curve =
-        std::any_of(images.begin(), images.end(), [&](Vec2 s) { return pieces.distance(p + s) <= tolerance_; });
-    if (on_curve) {
-      check_apart(p);
-      add_corner(p);
-      on_curve_.push_back(p);
-    } else {
-      inside_.push_back(p);
-    }
-  }
+  take_corners(boundary);
   tree_ = tree_of(inside_);
 }
 
-/// Where two points on the boundary are nearer than what counts as on it, only one of them could be a corner.
-void FixedPoints::check_apart(Vec2 p) const {
-  // The earlier ones stand in the order of x, but images may be anywhere.
-  for (const Vec2 shift : images_of(boundary_.periods)) {
-    const double from = p.x + shift.x - tolerance_;
-    for (auto q = std::lower_bound(on_curve_.begin(), on_curve_.end(), Vec2{from, -INFINITY},
-                                   geometry::lexicographically_less);
-         q != on_curve_.end() && q->x <= p.x + shift.x + tolerance_; ++q)
-      if (const double distance = geometry::length(*q - (p + shift)); distance <= tolerance_)
+/// Divides the points into those on the boundary, which become corners of it, and the others.
+void FixedPoints::take_corners(const geometry::Boundary& boundary) {
+  const geometry::PieceTree pieces(boundary);
+  CorneredBoundary cornered(boundary, pieces, tolerance_);
+  NearPoints on_curve(tolerance_);
+  for (const Vec2 p : all_) {
+    if (pieces.distance(p) > tolerance_) {
+      inside_.push_back(p);
+      continue;
+    }
+    // Of two points nearer to each other than what counts as on the boundary only one could be a corner.
+    for (const Vec2 shift : images_of(boundary.periods))
+      if (const std::optional<Vec2> q = on_curve.first_near(p + shift))
         throw GeometryError(fmt::format(
             "{}: the fixed point ({:.12g}, {:.12g}) on the boundary is {:.2g} from that of {}: expected the same point "
             "or a distance above {:.2g}; take out one of them",
-            label(p), p.x, p.y, distance, label(*q), tolerance_));
+            label(p), p.x, p.y, geometry::length(*q - (p + shift)), label(*q), tolerance_));
+    cornered.add_corner(p);
+    on_curve.add(p);
   }
-}
-
-/// The nearest piece of all is divided at p, or its end moved there if that is as near.
-void FixedPoints::add_corner(Vec2 p) {
-  double least = std::numeric_limits<double>::infinity();
-  geometry::Loop* loop = nullptr;
-  std::size_t index = 0;
-  Vec2 q;
-  for (geometry::Loop& candidate : boundary_.loops)
-    for (std::size_t k = 0; k < candidate.pieces.size(); ++k)
-      for (const Vec2 shift : images_of(boundary_.periods))
-        if (const double distance = candidate.pieces[k].distance(p + shift); distance < least) {
-          least = distance;
-          loop = &candidate;
-          index = k;
-          q = p + shift;
-        }
-  std::vector<geometry::Piece>& pieces = loop->pieces;
-  const bool at_start = geometry::length(q - pieces[index].start) <= tolerance_;
-  const bool at_end = geometry::length(q - pieces[index].end) <= tolerance_;
-  if (!at_start && !at_end) {
-    const auto parts = divided(pieces[index], q);
-    pieces[index] = parts[1];
-    pieces.insert(pieces.begin() + static_cast<std::ptrdiff_t>(index), parts[0]);
-    return;
-  }
-  const std::size_t n = pieces.size(), after = at_start ? index : (index + 1) % n, before = (after + n - 1) % n;
-  // Where the loop closes, its end is its start moved by the winding.
-  const Vec2 moved = q - (at_start ? pieces[index].start : pieces[index].end);
-  pieces[after].start = pieces[after].start + moved;
-  pieces[before].end = pieces[before].end + moved;
-  pieces[after].corner = true;
+  boundary_ = cornered.result();
 }
 
 const std::string& FixedPoints::label(Vec2 p) const {
@@ -226,6 +191,7 @@ void FixedPoints::place_among(mesh::SiteList& sites, const mesh::TileRange& tile
 void FixedPoints::warn_of_close_ones(const BoundaryGuard& guard, const sizing::SizeField& size, Log& log) const {
   Closeness close;
   std::vector<std::uint8_t> is_close(inside_.size(), 0);
+  std::vector<std::size_t> near;
   const auto note = [&](Vec2 p, Vec2 other, double distance, double h, bool to_boundary) {
     if (distance / h < close.least)
       close = {0, distance / h, distance, p, other, to_boundary};
@@ -237,8 +203,13 @@ void FixedPoints::warn_of_close_ones(const BoundaryGuard& guard, const sizing::S
       is_close[k] = 1;
       note(p, p, distance, h, true);
     }
-    // They stand in the order of x.
-    for (std::size_t j = k + 1; j < inside_.size() && inside_[j].x - p.x < h; ++j)
+    near.clear();
+    tree_.for_each_within(p, h * (1 + 1e-12), [&](const SiteTree::Entry& other) {
+      if (const auto j = static_cast<std::size_t>(other.index); j > k)
+        near.push_back(j);
+    });
+    std::sort(near.begin(), near.end());
+    for (const std::size_t j : near)
       if (const double distance = geometry::length(inside_[j] - p); distance < h) {
         is_close[k] = is_close[j] = 1;
         note(p, inside_[j], distance, h, false);

@@ -23,7 +23,8 @@ namespace trime::boundary {
 /// of points that it is made from must outlive it.
 class FixedPoints {
 public:
-  /// @brief Points that the lattice makes equal are kept once, with a warning. O(points x log(pieces)).
+  /// @brief Points that the lattice makes equal are kept once, with a warning. O((points + pieces) log(points +
+  /// pieces)).
   /// @throws GeometryError if a point is not finite or lies outside of the container, and if two on the boundary
   /// differ but are nearer to each other than what counts as on it
   FixedPoints(const geometry::Boundary& boundary, const geometry::Box& container, std::span<const FixedPoint> given,
@@ -47,18 +48,17 @@ public:
   void warn_of_close_ones(const polygon::BoundaryGuard& guard, const sizing::SizeField& size, Log& log) const;
 
 private:
-  void check_apart(geometry::Vec2 p) const;
-  void add_corner(geometry::Vec2 p);
+  void take_corners(const geometry::Boundary& boundary);
   bool is_near(geometry::Vec2 p, double distance) const;
   const std::string& label(geometry::Vec2 p) const;
 
   std::span<const FixedPoint> given_;
   const geometry::Lattice lattice_;
   geometry::Boundary boundary_;
-  double tolerance_;                                    ///< how near to a curve counts as on it
-  std::vector<geometry::Vec2> all_, inside_, on_curve_; ///< in lexicographic order
-  std::vector<std::size_t> source_;                     ///< of each point of all_: its number in given_
-  SiteTree tree_;                                       ///< of inside_
+  double tolerance_;                         ///< how near to a curve counts as on it
+  std::vector<geometry::Vec2> all_, inside_; ///< in lexicographic order
+  std::vector<std::size_t> source_;          ///< of each point of all_: its number in given_
+  SiteTree tree_;                            ///< of inside_
 };
 
 } // namespace trime::boundary

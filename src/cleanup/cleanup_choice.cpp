@@ -117,7 +117,8 @@ private:
 
   /// The own ones that lie in the separation of a caller and have not called it.
   std::map<int, std::vector<std::int32_t>> find_answers() const {
-    const PlaceIndex index(periods_, places());
+    const std::vector<Vec2> all_places = places();
+    const PlaceIndex index(periods_, all_places);
     std::map<int, std::vector<std::int32_t>> answers;
     for (const ChosenContender& caller : callers_)
       index.for_each_near(caller.contender.place, caller.contender.separation,

@@ -53,7 +53,7 @@ void StarTable::store(LocalIndex i, std::span<const LocalIndex> ring) {
       free_overflow_.push_back(static_cast<LocalIndex>(overflow_.size()));
       overflow_.emplace_back();
     }
-    rings_[at][0] = free_overflow_.back();
+    rings_[at] = {free_overflow_.back()}; // no index of before, which may go without a word
     free_overflow_.pop_back();
   }
   overflow_[static_cast<std::size_t>(rings_[at][0])].assign(ring.begin(), ring.end());

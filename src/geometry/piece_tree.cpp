@@ -50,34 +50,68 @@ PieceTree::PieceTree(const Boundary& boundary) : periods_(boundary.periods) {
       }
 }
 
+double PieceTree::squared_distance_of(std::size_t piece, Vec2 p) const {
+  const Ends& ends = ends_[piece];
+  if (ends.arc < 0)
+    return squared_distance(p, {ends.a, ends.b});
+  const double distance = arcs_[ends.arc].distance(p);
+  return distance * distance;
+}
+
 /// Within this file Nearest::distance is squared.
 void PieceTree::look_at_run(std::size_t run, Vec2 p, Nearest& best) const {
   const std::size_t last = std::min(ends_.size(), (run + 1) * run_length);
-  for (std::size_t k = run * run_length; k < last; ++k) {
-    double squared = 0;
-    if (ends_[k].arc < 0) {
-      squared = squared_distance(p, {ends_[k].a, ends_[k].b});
-    } else {
-      const double distance = arcs_[ends_[k].arc].distance(p);
-      squared = distance * distance;
-    }
-    if (squared < best.distance)
+  for (std::size_t k = run * run_length; k < last; ++k)
+    if (const double squared = squared_distance_of(k, p); squared < best.distance)
       best = {squared, k};
-  }
+}
+
+/// Pieces lie in the container, the nearest is at most half a period away: one image to each side is enough.
+template <class Visit>
+void PieceTree::for_each_image(Vec2 p, const Visit& visit) const {
+  const Vec2 canonical = periods_.any() ? periods_.wrap(p) : p;
+  for (const int i : {0, -1, 1})
+    for (const int j : {0, -1, 1})
+      if ((i == 0 || periods_.x > 0) && (j == 0 || periods_.y > 0))
+        visit(canonical + Vec2{i * periods_.x, j * periods_.y});
 }
 
 PieceTree::Nearest PieceTree::nearest(Vec2 p) const {
   Nearest best{std::numeric_limits<double>::infinity(), 0};
   if (ends_.empty())
     return best;
-  // Pieces lie in the container, the nearest is at most half a period away: one image to each side is enough.
-  const Vec2 canonical = periods_.any() ? periods_.wrap(p) : p;
-  for (const int i : {0, -1, 1})
-    for (const int j : {0, -1, 1})
-      if ((i == 0 || periods_.x > 0) && (j == 0 || periods_.y > 0))
-        search(canonical + Vec2{i * periods_.x, j * periods_.y}, best);
+  for_each_image(p, [&](Vec2 image) { search(image, best); });
   best.distance = std::sqrt(best.distance);
   return best;
+}
+
+std::vector<std::size_t> PieceTree::within(Vec2 p, double distance) const {
+  std::vector<std::size_t> found;
+  if (ends_.empty())
+    return found;
+  const double squared = distance * distance;
+  const std::size_t leaves = boxes_.size() / 2;
+  std::vector<std::size_t> open;
+  for_each_image(p, [&](Vec2 image) {
+    open.push_back(1);
+    while (!open.empty()) {
+      const std::size_t node = open.back();
+      open.pop_back();
+      if (!(boxes_[node].squared_distance(image) <= squared))
+        continue;
+      if (node < leaves) {
+        open.insert(open.end(), {2 * node, 2 * node + 1});
+        continue;
+      }
+      const std::size_t first = (node - leaves) * run_length, last = std::min(ends_.size(), first + run_length);
+      for (std::size_t k = first; k < last; ++k)
+        if (squared_distance_of(k, image) <= squared)
+          found.push_back(k);
+    }
+  });
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 /// Goes over to the nearest piece to p if that is nearer than `best`.

@@ -37,12 +37,13 @@ bool crosses_vertical(const Segment& s, double x, double y0, double y1) {
   return (s.a.x > x) != (s.b.x > x) && perturbed_side(s, {x, y0}) != perturbed_side(s, {x, y1});
 }
 
-/// May the segment meet the closed cell? Its bounding box does; never false if it does.
-bool may_meet(const Segment& s, Vec2 corner, double side) {
+/// May the segment, made thicker by `margin` on each side, meet the closed cell? Its bounding box does; never false if
+/// it does.
+bool may_meet(const Segment& s, Vec2 corner, double side, double margin) {
   const double half = 0.5 * side;
   const Vec2 d = s.b - s.a, c{corner.x + half - s.a.x, corner.y + half - s.a.y};
   const double left = d.x * c.y, right = d.y * c.x;
-  const double reach = half * (std::fabs(d.x) + std::fabs(d.y));
+  const double reach = (half + margin) * (std::fabs(d.x) + std::fabs(d.y));
   return std::fabs(left - right) <= reach + 1e-14 * (reach + std::fabs(left) + std::fabs(right));
 }
 
@@ -59,6 +60,10 @@ double SegmentGrid::Placed::squared_distance(Vec2 p) const {
   const double dx = std::max(0.0, std::max(corner.x - p.x, p.x - (corner.x + side)));
   const double dy = std::max(0.0, std::max(corner.y - p.y, p.y - (corner.y + side)));
   return dx * dx + dy * dy;
+}
+
+bool SegmentGrid::Placed::may_be_near(const Segment& segment, double margin) const {
+  return may_meet(segment, corner, side, margin);
 }
 
 /// Splits cells depth first; keeps one set of 16 lists per depth.
@@ -133,7 +138,7 @@ private:
       for (int j = j0; j <= j1; ++j)
         for (int i = i0; i <= i1; ++i) {
           const Placed child = place.child(0, i, j);
-          if (!straight && !may_meet(s, child.corner, child.side))
+          if (!straight && !may_meet(s, child.corner, child.side, 0))
             continue;
           children[4 * j + i].push_back(k);
           ++entries;

@@ -242,8 +242,7 @@ std::int64_t file_bytes(const MeshFileOptions& options, const mesh::DistributedM
 void write_hdf5(const std::string& path, const MeshFileOptions& options, const mesh::DistributedMesh& mesh,
                 const Metadata& metadata, const comm::Communicator& comm) {
   const auto markers = facet_markers(options, mesh);
-  SlabFile file(comm, path);
-  file.reserve(file_bytes(options, mesh, metadata));
+  SlabFile file(comm, path, file_bytes(options, mesh, metadata));
   file.group("/Mesh");
   if (options.vtkhdf)
     write_vtkhdf(file, mesh);

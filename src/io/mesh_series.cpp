@@ -6,15 +6,53 @@
 #include "io/output_files.hpp"
 #include "io/temporary_file.hpp"
 #include "io/xdmf.hpp"
+#include "trime/core/error.hpp"
+#include "trime/io/stored_mesh.hpp"
 
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <set>
 
 namespace trime::io {
 namespace {
 
 const std::string final_label = "final"; // of the last mesh of a run, in the names of files
+
+/// The number that stands behind `start` in the name of a file; -1 if none does.
+int number_behind(const std::string& start, const std::string& path) {
+  const std::string file = std::filesystem::path(path).filename().string();
+  int number = -1;
+  if (file.starts_with(start))
+    std::from_chars(file.data() + start.size(), file.data() + file.size(), number);
+  return number;
+}
+
+double quality_attribute(const Metadata& metadata, const std::string& name) {
+  if (const MetadataGroup* group = find_group(metadata, "quality"))
+    for (const Attribute& attribute : group->attributes)
+      if (const double* value = std::get_if<double>(&attribute.value); value && attribute.name == name)
+        return *value;
+  throw FileError(fmt::format("no quality/{} of a mesh", name));
+}
+
+mesh::RatioSummary ratios_of(const Metadata& metadata, const std::string& name) {
+  const auto value = [&](const char* of) { return quality_attribute(metadata, name + of); };
+  return {value("_median"), value("_mean"), value("_max"), value("_half_mean"), value("_std")};
+}
+
+/// What the collections say of a mesh, from its file. Of the quality the ratios only.
+TextQuality quality_of(const Metadata& metadata) {
+  TextQuality found;
+  found.retriangulation = static_cast<int>(attribute_of<std::int64_t>(metadata, "retriangulation"));
+  found.points = attribute_of<std::int64_t>(metadata, "points");
+  found.triangles = attribute_of<std::int64_t>(metadata, "triangles");
+  found.quality.alpha = ratios_of(metadata, "alpha");
+  found.quality.beta = ratios_of(metadata, "beta");
+  return found;
+}
 
 } // namespace
 
@@ -40,6 +78,38 @@ std::vector<std::string> MeshSeries::look(double expected_points) const {
   return warnings;
 }
 
+std::vector<std::string> MeshSeries::go_on_after(int retriangulation) {
+  std::vector<std::string> warnings;
+  if (!options_.steps)
+    return warnings;
+  const std::string& name = options_.file.name;
+  std::string list;
+  comm::run_agreed(comm_, [&] {
+    if (!comm_.is_root())
+      return;
+    std::set<int> numbers;
+    for (const std::string& path : files_of_series(options_))
+      if (const int number = number_behind(step_name_start(name), path);
+          path.ends_with(".h5") && number >= 0 && number <= retriangulation)
+        numbers.insert(number);
+    for (const int number : numbers)
+      list += fmt::format("{} ", number);
+  });
+  list = comm_.broadcast(std::move(list));
+  for (const char *at = list.data(), *end = at + list.size(); at < end; ++at) {
+    int number = 0;
+    at = std::from_chars(at, end, number).ptr;
+    const std::string stem = step_name(name, number);
+    try { // what is thrown is the same on all ranks
+      members_.push_back({stem, quality_of(read_metadata(options_.file.directory + "/" + stem + ".h5", comm_))});
+    } catch (const FileError& error) {
+      warnings.push_back(fmt::format("{}.h5: a step of the run before the restart cannot be read: {}; it is left out",
+                                     stem, error.what()));
+    }
+  }
+  return warnings;
+}
+
 void MeshSeries::write_step(const SeriesMesh& mesh) {
   write(mesh, step_name(options_.file.name, mesh.retriangulation), std::to_string(mesh.retriangulation));
 }
@@ -60,7 +130,8 @@ WrittenFiles MeshSeries::write(const SeriesMesh& mesh, const std::string& name, 
   file.name = name;
   file.is_final = label == final_label;
   const WrittenFiles written = write_mesh(file, mesh.mesh, mesh.metadata, comm_);
-  const bool first = members_.empty();
+  const bool first = !is_cleared_;
+  is_cleared_ = true;
   members_.push_back(
       {name, {mesh.retriangulation, mesh.mesh.point_slab.total, mesh.mesh.triangle_slab.total, mesh.quality}});
   comm::run_agreed(comm_, [&] {
@@ -77,10 +148,17 @@ WrittenFiles MeshSeries::write(const SeriesMesh& mesh, const std::string& name, 
   return written;
 }
 
-/// What an older run of the same name has left would be taken for part of this one.
+/// What an older run of the same name has left would be taken for part of this one. After a restart the steps from
+/// before it are no such files.
 void MeshSeries::remove_stale(const std::vector<std::string>& written) const {
+  std::set<int> kept;
+  for (const Member& member : members_)
+    if (member.name != options_.file.name)
+      kept.insert(member.quality.retriangulation);
+  const std::string& name = options_.file.name;
   for (const std::string& path : files_of_series(options_))
-    if (std::find(written.begin(), written.end(), path) == written.end())
+    if (std::find(written.begin(), written.end(), path) == written.end() &&
+        !kept.contains(number_behind(step_name_start(name), path)) && !kept.contains(number_behind(name + "_", path)))
       unlink(path.c_str());
 }
 

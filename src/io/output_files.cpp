@@ -67,7 +67,7 @@ void check_absent(const std::string& path, bool overwrite) {
 
 /// "NAME_step_000012.h5" and its views.
 bool is_step_file(const std::string& file, const std::string& name) {
-  const std::string start = name + step_infix;
+  const std::string start = step_name_start(name);
   if (!file.starts_with(start))
     return false;
   const std::size_t end = file.find_first_not_of("0123456789", start.size());
@@ -135,8 +135,12 @@ std::vector<std::string> warnings_for(const SeriesOptions& options, double expec
 
 } // namespace
 
+std::string step_name_start(const std::string& name) {
+  return name + step_infix;
+}
+
 std::string step_name(const std::string& name, int retriangulation) {
-  return fmt::format("{}{}{:06d}", name, step_infix, retriangulation);
+  return fmt::format("{}{:06d}", step_name_start(name), retriangulation);
 }
 
 std::string facet_view(const MeshFileOptions& options) {

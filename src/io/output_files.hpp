@@ -11,6 +11,8 @@ namespace trime::io {
 
 /// "NAME_step_000012".
 std::string step_name(const std::string& name, int retriangulation);
+/// "NAME_step_", before the number.
+std::string step_name_start(const std::string& name);
 /// The view of the facets of a mesh.
 std::string facet_view(const MeshFileOptions& options);
 /// The collections of a series.

@@ -5,6 +5,7 @@
 #include "comm/native.hpp"
 #include "core/thread_loop.hpp"
 #include "io/hdf5_values.hpp"
+#include "io/lone_failure.hpp"
 #include "io/temporary_file.hpp"
 
 #include <algorithm>
@@ -42,12 +43,13 @@ Hdf5Properties dataset_properties() {
   return properties;
 }
 
-Hdf5Properties file_access(const comm::Communicator& comm) {
+/// @param alone by the plain driver
+Hdf5Properties file_access(const comm::Communicator& comm, bool alone) {
   constexpr hsize_t large = hsize_t{16} << 20, alignment = hsize_t{1} << 20;
   Hdf5Properties properties(H5Pcreate(H5P_FILE_ACCESS), "make HDF5 properties");
   checked(H5Pset_alignment(properties, large, alignment), "set HDF5 properties"); // stripes of parallel file systems
   checked(H5Pset_sieve_buf_size(properties, 0), "set HDF5 properties"); // or rows would be read back from memory
-  if (comm.size() > 1) {
+  if (!alone) {
     checked(H5Pset_fapl_mpio(properties, comm::native_handle(comm), MPI_INFO_NULL), "set HDF5 properties");
     // Reading metadata collectively is broken in HDF5 1.10.5 to 1.10.8; writing it so is right.
     checked(H5Pset_coll_metadata_write(properties, true), "set HDF5 properties");
@@ -79,34 +81,58 @@ void SlabFile::agreed(const Work& work) const {
   comm::run_agreed(comm_, std::cref(work));
 }
 
-void SlabFile::agree_on(hid_t code, const std::string& action) const {
-  agreed([&] { checked(code, action); });
+/// The same for work that is a collective call of HDF5, or tells of one: if it fails here, the others may not come out
+/// of it.
+template <class Work>
+void SlabFile::agreed_after(const Work& collective) const {
+  LoneFailure failure(path_); // ends when all ranks have come
+  comm::run_agreed(comm_, [&] {
+    try {
+      collective();
+    } catch (const Error& error) {
+      if (comm_.size() > 1)
+        failure.begin(error.what());
+      throw;
+    }
+  });
 }
 
-SlabFile::SlabFile(const comm::Communicator& comm, std::string path)
+void SlabFile::agree_on(hid_t code, const std::string& action) const {
+  agreed_after([&] { checked(code, action); });
+}
+
+/// The room is taken before MPI-IO comes to see the file. Rank 0 makes it, empty: to make it together would be to write
+/// its first bytes together, on a disk that may be full.
+SlabFile::SlabFile(const comm::Communicator& comm, std::string path, std::int64_t bytes)
     : comm_(comm), path_(std::move(path)), write_back_(path_) {
-  Hdf5Properties access, creation;
-  std::string creating;
+  const bool alone = comm_.size() == 1;
+  Hdf5Properties access;
+  std::string opening;
   agreed([&] {
     silence_hdf5();
-    access = file_access(comm_);
-    creation = Hdf5Properties(H5Pcreate(H5P_FILE_CREATE), "make HDF5 properties");
+    access = file_access(comm_, alone);
+    opening = "open " + path_;
+    if (!comm_.is_root())
+      return;
+    const Hdf5Properties creation(H5Pcreate(H5P_FILE_CREATE), "make HDF5 properties");
     checked(H5Pset_obj_track_times(creation, false), "set HDF5 properties");
-    creating = "create " + path_;
+    const Hdf5Properties plain = file_access(comm_, true);
+    Hdf5File made(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, creation, plain), "create " + path_);
+    if (alone)
+      file_ = std::move(made);
+    else
+      checked(made.close(), "create " + path_);
+    if (bytes > 0)
+      reserve_space(path_, bytes);
   });
-  file_ = Hdf5File(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, creation, access));
-  agree_on(file_, creating);
+  if (alone)
+    return;
+  file_ = Hdf5File(H5Fopen(path_.c_str(), H5F_ACC_RDWR, access));
+  agree_on(file_, opening);
 }
 
 std::string SlabFile::action(const std::string& verb, const std::string& what) const {
   return fmt::format("{} {} in {}", verb, what, path_);
-}
-
-void SlabFile::reserve(std::int64_t bytes) {
-  agreed([&] {
-    if (comm_.is_root())
-      reserve_space(path_, bytes);
-  });
 }
 
 void SlabFile::group(const std::string& path) {
@@ -262,7 +288,7 @@ void SlabFile::write_slices(hid_t dataset, const SlabArray& array) {
   else
     for (std::int64_t first = 0; first < longest; first += slice_rows) {
       agreed([&] { select_slice(first); });
-      agreed([&] { write_slice(first); });
+      agreed_after([&] { write_slice(first); });
     }
 }
 

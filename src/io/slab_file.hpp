@@ -38,13 +38,11 @@ struct SlabArray {
 /// All functions are collective and throw FileError on all ranks together. Errors name the file by `path`.
 class SlabFile {
 public:
-  /// Creates or empties the file. One rank uses the plain driver, several MPI-IO.
-  SlabFile(const comm::Communicator& comm, std::string path);
-
-  /// @brief Sees that the file system has room for `bytes`, and takes it where it can be taken. When a disk fills up
-  /// inside a collective write, Open MPI tells only some of the ranks and the others wait for ever: better to know
-  /// before.
-  void reserve(std::int64_t bytes);
+  /// @brief Creates or empties the file. One rank uses the plain driver, several MPI-IO.
+  /// @param bytes the size that it will have: the file system is asked for this room before anything is written, where
+  /// it can be. When a disk fills up inside a collective write, Open MPI tells only some of the ranks and the others
+  /// wait for ever: better to know before.
+  SlabFile(const comm::Communicator& comm, std::string path, std::int64_t bytes = 0);
 
   void group(const std::string& path);
   void hard_link(const std::string& existing, const std::string& path);
@@ -66,6 +64,8 @@ private:
   // is made ready that may throw, then all ranks make the call with nothing before it, then they agree on its result.
   template <class Work>
   void agreed(const Work& work) const;
+  template <class Work>
+  void agreed_after(const Work& collective) const;
   void agree_on(hid_t code, const std::string& action) const;
 
   template <class Make>

@@ -54,8 +54,7 @@ std::int64_t file_bytes(const Metadata& metadata, const std::vector<StateArray>&
 
 void write_hdf5(const std::string& path, const Metadata& metadata, const std::vector<StateArray>& arrays,
                 const comm::Communicator& comm) {
-  SlabFile file(comm, path);
-  file.reserve(file_bytes(metadata, arrays));
+  SlabFile file(comm, path, file_bytes(metadata, arrays));
   file.group(root_group);
   for (const Attribute& attribute : metadata.attributes)
     file.attribute(root_group, attribute);

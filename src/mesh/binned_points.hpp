@@ -47,7 +47,8 @@ public:
                           std::vector<LocalIndex>* new_index = nullptr);
 
   /// @brief The same for sites that have moved since they were sorted: they belong to their tiles all the same, and to
-  /// the bin of such a tile that is nearest. @param counts sites of each of the tiles, in whose order they come
+  /// the bin of such a tile that is nearest. None is dropped.
+  /// @param counts sites of each of the tiles, in whose order they come
   void restore_owned(std::span<const Site> sites, std::span<const std::int64_t> counts, LocalIndex first_tile,
                      LocalIndex last_tile, std::vector<LocalIndex>& new_index);
 

@@ -187,7 +187,7 @@ void SiteOrder::drop_duplicates(const Sites& sites, LocalIndex first, KnownBins:
     std::sort(low, high, before);
     bins.begin[b] = next;
     for (auto it = low; it != high; ++it)
-      if (it == low || !(sites.position(*it) == sites.position(*(it - 1))))
+      if (!Sites::drops_equal || it == low || !(sites.position(*it) == sites.position(*(it - 1))))
         order_[at(next++)] = *it;
     bins.end[b] = next;
   }

@@ -12,6 +12,7 @@ namespace trime::mesh {
 /// Sites of a list.
 class ListedSites {
 public:
+  static constexpr bool drops_equal = true; ///< of sites at one place one is kept
   explicit ListedSites(std::span<const Site> sites) : sites_(sites) {}
   LocalIndex size() const { return static_cast<LocalIndex>(sites_.size()); }
   bool stays(LocalIndex) const { return true; }
@@ -25,9 +26,11 @@ private:
   std::span<const Site> sites_;
 };
 
-/// Sites of a list that have moved since they were sorted into tiles: they are sorted into these again.
+/// Sites of a list that have moved since they were sorted into tiles: they are sorted into these again. Two that have
+/// met since then stay until a run without a break would drop one of them, when it sorts.
 class HomedSites : public ListedSites {
 public:
+  static constexpr bool drops_equal = false;
   /// @param homes a place for each in the tile that it belongs to
   HomedSites(std::span<const Site> sites, std::span<const geometry::Vec2> homes) : ListedSites(sites), homes_(homes) {}
   geometry::Vec2 home(LocalIndex i) const { return homes_[at(i)]; }
@@ -39,6 +42,7 @@ private:
 /// The owned sites at their next places, but for some that are gone, and after them new ones.
 class MovedSites {
 public:
+  static constexpr bool drops_equal = true;
   /// @param gone by local index; empty: none
   MovedSites(const BinnedPoints& points, std::span<const std::uint8_t> gone, std::span<const Site> more)
       : points_(points), next_positions_(points.next().positions()), next_leads_(points.next().leads()), gone_(gone),

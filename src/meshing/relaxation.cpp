@@ -92,7 +92,7 @@ void Relaxation::record(const sites::Stage& stage, int stage_number, Sweeper& sw
       sweep::summarize_sweep(*stage.state, sweeper, counts_, stage.typical_size, stage.placed_first());
   summary.record.sweep = sweeps_;
   summary.record.stage = stage_number;
-  summary.record.seconds = run_.timers.total();
+  summary.record.seconds = seconds_before_ + run_.timers.total();
   history_.push_back(summary.record);
   sums_ = summary.sums;
   counts_ = {};
@@ -131,6 +131,7 @@ RunState Relaxation::state() {
 
 void Relaxation::resume(sites::Stage& stage, const StageNumber& number, const SavedRun& saved) {
   history_ = saved.state.history;
+  seconds_before_ = history_.empty() ? 0 : history_.back().seconds - run_.timers.total();
   control_.begin_stage(number.inserts, number.is_last);
   StateFields fields = StateFields::restoring(saved.state.numbers);
   visit(fields);

@@ -63,6 +63,7 @@ private:
   sweep::SweepSums sums_;             // of the last record, with the power of the last move
   sweep::Sweeper::Counts counts_;     // of the moves since the last record
   int sweeps_ = 0;                    // moves made
+  double seconds_before_ = 0;         // of a run that was stopped, less those until this one took it up
   std::optional<sweep::Mover> begun_; // the rule that knows the sums for the next move
   sweep::StopReason stop_reason_ = sweep::StopReason::sweep_cap;
 };

@@ -2,17 +2,21 @@
 #include "arrangement.hpp"
 
 #include "crossings.hpp"
+#include "geometry/box_tree.hpp"
 #include "geometry/predicates.hpp"
+#include "part_images.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace trime::shape {
 
 namespace {
 
 using geometry::Box;
+using geometry::BoxTree;
 using geometry::Frame;
 using geometry::length;
 using geometry::orient2d;
@@ -29,14 +33,36 @@ std::size_t vertex_count(const std::vector<PlacedPart>& parts) {
   return count;
 }
 
-/// Around the segment moved by -shift.
-Box inflated_box(const Segment& s, Vec2 shift, double margin) {
+/// [lattice steps] Around what is looked for: more than vertices are moved by merging, plus what counts as on a curve.
+constexpr double safe_steps = 64;
+
+Box inflated(Box box, double margin) {
+  return {box.min - Vec2{margin, margin}, box.max + Vec2{margin, margin}};
+}
+
+Box box_of(const Segment& s) {
   Box box;
-  box.include(s.a - shift);
-  box.include(s.b - shift);
-  box.min = box.min - Vec2{margin, margin};
-  box.max = box.max + Vec2{margin, margin};
+  box.include(s.a);
+  box.include(s.b);
   return box;
+}
+
+Box box_of(const Circle& circle) {
+  const Vec2 radius{circle.radius, circle.radius};
+  return {circle.center - radius, circle.center + radius};
+}
+
+Box box_of(const PlacedPart& placed) {
+  const Box box = box_of(*placed.part);
+  return {box.min + placed.shift, box.max + placed.shift};
+}
+
+/// The numbers of list[k] for the boxes k that meet `box`, ascending like the list.
+std::vector<std::size_t> listed(const BoxTree& tree, const std::vector<std::size_t>& list, const Box& box) {
+  std::vector<std::size_t> found = tree.meeting(box);
+  for (std::size_t& k : found)
+    k = list[k];
+  return found;
 }
 
 /// Order by angle from 0 to 2 pi around the origin; exact.
@@ -59,43 +85,58 @@ Arrangement::Arrangement(const std::vector<PlacedPart>& parts, const Frame& fram
         first_line_[k] = static_cast<LocalIndex>(lines_.size());
         add_polygon(k);
       }
-  for (std::size_t k = 0; k < parts.size(); ++k)
-    if (parts[k].part->as_circle() != nullptr)
-      add_circle(k);
-
-  const auto cross_with_circles = [&](std::size_t a) {
-    for (LocalIndex circle = 0; circle < static_cast<LocalIndex>(circles_.size()); ++circle)
-      cross_polygon_circle(a, circle);
-  };
-  const std::size_t last = parts.empty() || parts.back().index >= 0 ? parts.size() : parts.size() - 1;
-  for (std::size_t a = 0; a < last; ++a)
-    if (parts[a].part->as_polygon() != nullptr) {
-      for (std::size_t b = a + 1; b < last; ++b)
-        if (parts[b].part->as_polygon() != nullptr)
-          cross_polygons(a, b);
-      cross_with_circles(a);
-    }
-  cross_circles();
-  if (last < parts.size()) {
-    for (std::size_t a = 0; a < last; ++a)
-      if (parts[a].part->as_polygon() != nullptr)
-        cross_polygons(a, last);
-    cross_with_circles(last);
-  }
+  add_circles();
+  cross_all();
   make_pieces();
   join_twins();
 }
 
-void Arrangement::cross_circles() {
-  for (LocalIndex a = 0; a < static_cast<LocalIndex>(circles_.size()); ++a)
-    for (LocalIndex b = a + 1; b < static_cast<LocalIndex>(circles_.size()); ++b) {
-      const Crossings crossings = circle_crossings(circles_[a], circles_[b], tolerance_);
-      for (int k = 0; k < crossings.count; ++k) {
-        const LocalIndex v = vertices_.insert(frame_.snap(crossings.at[k]), VertexTable::nobody);
-        split_circle(a, v);
-        split_circle(b, v);
-      }
+/// Pairs whose boxes are apart have nothing to do with each other. The others are crossed in the order of the parts,
+/// since a crossing may become a vertex that an earlier one has made.
+void Arrangement::cross_all() {
+  const std::size_t last = parts_.empty() || parts_.back().index >= 0 ? parts_.size() : parts_.size() - 1;
+  std::vector<std::size_t> polygons;
+  std::vector<Box> polygon_boxes, circle_boxes;
+  for (std::size_t k = 0; k < last; ++k)
+    if (parts_[k].part->as_polygon() != nullptr) {
+      polygons.push_back(k);
+      polygon_boxes.push_back(box_of(parts_[k]));
     }
+  for (const Circle& circle : circles_)
+    circle_boxes.push_back(box_of(circle));
+  const BoxTree polygon_tree(polygon_boxes), circle_tree(circle_boxes);
+  const double margin = safe_steps * frame_.step();
+  const auto cross_with_circles = [&](std::size_t a, const Box& around) {
+    for (const std::size_t circle : circle_tree.meeting(around))
+      cross_polygon_circle(a, static_cast<LocalIndex>(circle));
+  };
+  for (std::size_t k = 0; k < polygons.size(); ++k) {
+    const Box around = inflated(polygon_boxes[k], margin);
+    for (const std::size_t b : listed(polygon_tree, polygons, around))
+      if (b > polygons[k])
+        cross_polygons(polygons[k], b);
+    cross_with_circles(polygons[k], around);
+  }
+  for (std::size_t a = 0; a < circles_.size(); ++a)
+    for (const std::size_t b : circle_tree.meeting(inflated(circle_boxes[a], margin)))
+      if (b > a)
+        cross_circles(static_cast<LocalIndex>(a), static_cast<LocalIndex>(b));
+  if (last < parts_.size()) {
+    const Box around = inflated(box_of(parts_[last]), margin);
+    for (const std::size_t a : listed(polygon_tree, polygons, around))
+      cross_polygons(a, last);
+    cross_with_circles(last, around);
+  }
+}
+
+void Arrangement::cross_circles(LocalIndex a, LocalIndex b) {
+  ++pairs_;
+  const Crossings crossings = circle_crossings(circles_[a], circles_[b], tolerance_);
+  for (int k = 0; k < crossings.count; ++k) {
+    const LocalIndex v = vertices_.insert(frame_.snap(crossings.at[k]), VertexTable::nobody);
+    split_circle(a, v);
+    split_circle(b, v);
+  }
 }
 
 void Arrangement::add_polygon(std::size_t place) {
@@ -114,31 +155,51 @@ void Arrangement::add_polygon(std::size_t place) {
   }
 }
 
-void Arrangement::add_circle(std::size_t place) {
-  Circle circle = *parts_[place].part->as_circle();
-  circle.center = circle.center + parts_[place].shift;
-  const int part = static_cast<int>(place);
-  for (std::size_t k = 0; k < circles_.size(); ++k)
-    if (length(circles_[k].center - circle.center) <= tolerance_ &&
-        std::fabs(circles_[k].radius - circle.radius) <= tolerance_) {
-      circle_parts_[k].push_back(part);
-      return;
+/// Of equal circles the first one is kept.
+void Arrangement::add_circles() {
+  std::vector<Circle> all;
+  std::vector<int> places;
+  std::vector<Box> centers;
+  for (std::size_t k = 0; k < parts_.size(); ++k)
+    if (const Circle* given = parts_[k].part->as_circle()) {
+      all.push_back({given->center + parts_[k].shift, given->radius});
+      places.push_back(static_cast<int>(k));
+      centers.push_back(inflated({all.back().center, all.back().center}, tolerance_));
     }
-  circles_.push_back(circle);
-  circle_parts_.push_back({part});
+  const BoxTree tree(centers);
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> number(all.size(), none); // in circles_, of those that are kept
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    std::size_t same = none;
+    tree.for_each_meeting(centers[k], [&](std::size_t other) {
+      if (number[other] < same && length(all[other].center - all[k].center) <= tolerance_ &&
+          std::fabs(all[other].radius - all[k].radius) <= tolerance_)
+        same = number[other];
+    });
+    if (same != none) {
+      circle_parts_[same].push_back(places[k]);
+      continue;
+    }
+    number[k] = circles_.size();
+    circles_.push_back(all[k]);
+    circle_parts_.push_back({places[k]});
+  }
 }
 
 void Arrangement::cross_polygons(std::size_t a, std::size_t b) {
+  ++pairs_;
   if (parts_[a].part->as_polygon()->grid.segments().size() > parts_[b].part->as_polygon()->grid.segments().size())
     std::swap(a, b);
   const LocalIndex count = static_cast<LocalIndex>(parts_[a].part->as_polygon()->grid.segments().size());
   const SegmentGrid& other = parts_[b].part->as_polygon()->grid;
   const double margin = VertexTable::merge_steps * frame_.step();
-  for (LocalIndex s = first_line_[a]; s < first_line_[a] + count; ++s)
-    other.for_each_near(inflated_box(segment(s), parts_[b].shift, margin), [&](LocalIndex t) {
+  for (LocalIndex s = first_line_[a]; s < first_line_[a] + count; ++s) {
+    const Segment moved{segment(s).a - parts_[b].shift, segment(s).b - parts_[b].shift};
+    other.for_each_near(inflated(box_of(moved), margin), moved, safe_steps * frame_.step(), [&](LocalIndex t) {
       cross_lines(s, first_line_[b] + t);
       return true;
     });
+  }
 }
 
 bool Arrangement::touch(LocalIndex vertex, LocalIndex line) {
@@ -169,6 +230,7 @@ void Arrangement::cross_lines(LocalIndex s, LocalIndex t) {
 }
 
 void Arrangement::cross_polygon_circle(std::size_t a, LocalIndex circle) {
+  ++pairs_;
   const Circle& disc = circles_[circle];
   const double merged = VertexTable::merge_steps * frame_.step(); // how far vertices of the grid's segments have moved
   const auto around = [&](double reach) {

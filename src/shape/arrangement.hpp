@@ -6,6 +6,7 @@
 #include "trime/shape/part.hpp"
 #include "vertex_table.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace trime::shape {
@@ -17,7 +18,7 @@ struct PlacedPart {
   geometry::Vec2 shift; ///< on the lattice
 };
 
-/// @brief Built once; O(M log M) for M pieces and few crossings.
+/// @brief Built once; O(M log M) for M pieces of any number of parts, where few of them cross.
 ///
 /// Crossings are snapped to the lattice; nearer than VertexTable::merge_steps to a vertex they become that vertex.
 /// Vertices of contours keep their coordinates bit for bit. Pieces that coincide are kept once. A cutting rectangle
@@ -46,6 +47,8 @@ public:
   const std::vector<Twin>& twins() const { return twins_; }
   const std::vector<Circle>& circles() const { return circles_; }
   const VertexTable& vertices() const { return vertices_; }
+  /// The work that it was: pairs of parts that were crossed with each other.
+  std::int64_t pairs() const { return pairs_; }
 
 private:
   struct Line {
@@ -57,8 +60,9 @@ private:
   };
 
   void add_polygon(std::size_t place);
-  void add_circle(std::size_t place);
-  void cross_circles();
+  void add_circles();
+  void cross_all();
+  void cross_circles(LocalIndex a, LocalIndex b);
   void cross_polygons(std::size_t a, std::size_t b);
   void cross_polygon_circle(std::size_t a, LocalIndex circle);
   void cross_lines(LocalIndex s, LocalIndex t);
@@ -86,6 +90,7 @@ private:
   std::vector<Split> splits_;
   std::vector<Piece> pieces_;
   std::vector<Twin> twins_;
+  std::int64_t pairs_ = 0;
 };
 
 } // namespace trime::shape

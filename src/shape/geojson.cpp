@@ -60,7 +60,8 @@ public:
   bool number_float(double number, const std::string&) { return number_of(number); }
   bool binary(nlohmann::json::binary_t&) { return other_value(); }
   bool string(std::string& text) {
-    if (!objects_.empty() && objects_.back().arrays.empty() && objects_.back().key == "type")
+    if (!objects_.empty() && objects_.back().arrays.empty() && objects_.back().lists == 0 &&
+        objects_.back().key == "type")
       objects_.back().type = text;
     constexpr std::size_t depth = 3; // "crs": {"properties": {"name": ...}} of the whole, as GeoJSON had it before 2016
     if (objects_.size() == depth && objects_[0].key == "crs" && objects_[1].key == "properties" &&
@@ -71,35 +72,45 @@ public:
   }
   bool start_object(std::size_t) {
     other_value();
-    objects_.push_back({});
+    Object object;
+    object.is_property = !objects_.empty() && (objects_.back().is_property || objects_.back().key == "properties");
+    objects_.push_back(std::move(object));
     return true;
   }
   bool key(std::string& text) {
     objects_.back().key = text;
-    if (is_property())
-      rings_.has_attribute(text);
+    if (is_attribute())
+      objects_[objects_.size() - 2].attributes.push_back(text);
     return true;
   }
   bool end_object() {
     const Object object = std::move(objects_.back());
     objects_.pop_back();
-    add_rings(object);
-    if (object.type == "Feature")
+    if (!object.is_property)
+      add_rings(object);
+    if (object.type == "Feature" && is_feature_at(objects_.size())) {
+      for (const std::string& name : object.attributes)
+        rings_.has_attribute(name);
       rings_.end_feature(object.attribute);
+    }
     return true;
   }
   bool start_array(std::size_t) {
     if (objects_.empty())
       return true; // refused at the end: there is no polygon
-    if (Object& object = objects_.back(); object.key == "coordinates") {
+    if (Object& object = objects_.back(); object.key == "coordinates" && object.lists == 0 && !object.is_property) {
       object.has_coordinates = true;
       object.arrays.push_back({line_, 0, {}, {}});
-    }
+    } else
+      ++object.lists;
     return true;
   }
   bool end_array() {
-    if (!is_in_coordinates())
+    if (!is_in_coordinates()) {
+      if (!objects_.empty())
+        --objects_.back().lists;
       return true;
+    }
     Object& object = objects_.back();
     const Array array = std::move(object.arrays.back());
     object.arrays.pop_back();
@@ -129,8 +140,11 @@ private:
     std::string key, type;
     std::vector<Array> arrays; // that are open, inside `coordinates`
     std::vector<Chain> chains;
+    int lists = 0; // other arrays that are open
     bool has_coordinates = false;
-    std::optional<std::string> attribute; // of a feature: that of its properties which names the boundary
+    bool is_property = false;             // of something, or part of one: its type and coordinates are no geometry
+    std::vector<std::string> attributes;  // names of its properties, if it turns out to be a feature
+    std::optional<std::string> attribute; // that of them which names the boundary
   };
 
   [[noreturn]] void refuse(int line, const std::string& what) const {
@@ -142,17 +156,21 @@ private:
     return token.size() > most ? "..." + token.substr(token.size() - most) : token;
   }
 
-  /// Is the present value one of `properties` of an object that may be a feature, and is no `crs`?
-  bool is_property() const {
+  /// Would an object inside of this number of others be a feature? The whole may be, or a member of its `features`.
+  bool is_feature_at(std::size_t depth) const {
+    return depth == 0 || (depth == 1 && objects_[0].key == "features" && objects_[0].lists == 1);
+  }
+  /// Is the present value itself one of the `properties` of what may be a feature? Parts of such values are none.
+  bool is_attribute() const {
     const std::size_t depth = objects_.size();
-    return depth > 1 && objects_[depth - 2].key == "properties" && !is_in_coordinates() &&
-           (depth < 3 || objects_[depth - 3].key != "crs");
+    return depth > 1 && objects_[depth - 2].key == "properties" && objects_[depth - 2].lists == 0 &&
+           objects_[depth - 1].lists == 0 && is_feature_at(depth - 2);
   }
   bool is_in_coordinates() const { return !objects_.empty() && !objects_.back().arrays.empty(); }
 
   template <class Text>
   void take_attribute(const Text& text) {
-    if (!attribute_.empty() && is_property() && objects_.back().key == attribute_)
+    if (!attribute_.empty() && is_attribute() && objects_.back().key == attribute_)
       objects_[objects_.size() - 2].attribute = text();
   }
 

@@ -4,6 +4,7 @@
 #include "core/random.hpp"
 #include "core/thread_loop.hpp"
 #include "geometry/predicates.hpp"
+#include "geometry/segment_tree.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -82,6 +83,7 @@ std::vector<SegmentPair> find_meetings(const std::vector<LatticeRing>& rings, co
       after.push_back(first + k % static_cast<LocalIndex>(ring.points.size()));
     first += static_cast<LocalIndex>(ring.points.size());
   }
+  const geometry::SegmentTree tree(segments);
   constexpr LocalIndex chunk = 2048;
   constexpr std::size_t most_in_chunk = 4 * chunk;
   const LocalIndex chunks = (n + chunk - 1) / chunk;
@@ -90,18 +92,13 @@ std::vector<SegmentPair> find_meetings(const std::vector<LatticeRing>& rings, co
     std::vector<SegmentPair>& pairs = found[static_cast<std::size_t>(c)];
     const LocalIndex first = static_cast<LocalIndex>(c) * chunk, last = std::min(n, first + chunk);
     for (LocalIndex i = first; i < last && pairs.size() < most_in_chunk; ++i) {
-      Box box;
-      box.include(segments[at(i)].a);
-      box.include(segments[at(i)].b);
       const auto start = static_cast<std::ptrdiff_t>(pairs.size());
-      grid.for_each_near(box, [&](LocalIndex j) {
+      tree.for_each_near(segments[at(i)], [&](LocalIndex j) {
         if (j > i && j != after[at(i)] && i != after[at(j)] &&
             meeting_of(segments[at(i)], segments[at(j)]) != Meeting::none)
           pairs.push_back({i, j});
-        return true;
       });
       std::sort(pairs.begin() + start, pairs.end());
-      pairs.erase(std::unique(pairs.begin() + start, pairs.end()), pairs.end());
     }
   });
   std::vector<SegmentPair> all;

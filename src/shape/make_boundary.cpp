@@ -6,9 +6,11 @@
 
 #include "arrangement.hpp"
 #include "core/angle.hpp"
+#include "geometry/box_tree.hpp"
 #include "marked_pieces.hpp"
 #include "part_images.hpp"
 #include "quotient.hpp"
+#include "region_state.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -94,16 +96,13 @@ private:
     bool reversed;
   };
 
-  /// The parts that occur, ascending by index, with their images; the cutting part last. Fills first_place_.
+  /// The parts that occur, ascending by index, with their images; the cutting part last.
   std::vector<PlacedPart> place(std::span<const Part> parts) {
     std::vector<PlacedPart> placed;
-    first_place_.assign(parts.size() + 2, 0);
     for (const int index : region_.parts()) {
       const Part& part = index < static_cast<int>(parts.size()) ? parts[index] : domain_;
-      first_place_[index] = placed.size();
       for (const Vec2 shift : image_shifts(part, frame_))
         placed.push_back({&part, index, shift});
-      first_place_[index + 1] = placed.size();
     }
     if (frame_.periods().any())
       placed.push_back({&cut_, cut_index, {}});
@@ -111,12 +110,13 @@ private:
   }
 
   int index_of(const Arrangement::Piece& piece) const { return placed_[piece.part].index; }
-  bool region_holds(const std::vector<char>& in_place) const;
+  bool holds(RegionState& state, const std::vector<int>& places) const;
+  geometry::BoxTree tree_of_places() const;
   /// Where a vertex lies once it is an exact image of its node.
   Vec2 place_of(LocalIndex vertex) const { return nodes_->point(nodes_->node(vertex)) + nodes_->shift(vertex); }
   Vec2 middle(const Arrangement::Piece& piece) const;
   void classify();
-  void classify_sides(LocalIndex k, const std::vector<char>& left, const std::vector<char>& right);
+  void classify_sides(LocalIndex k, bool on_left, bool on_right, bool in_left, bool in_right);
   void check_container() const;
   void link();
   [[noreturn]] void report_node(LocalIndex node) const;
@@ -129,7 +129,6 @@ private:
   const Frame& frame_;
   const std::span<const Part> given_;
   const Part domain_, cut_;
-  std::vector<std::size_t> first_place_; // in placed_, of each part
   const std::vector<PlacedPart> placed_;
   const Arrangement arrangement_;
   std::vector<Kept> kept_;
@@ -148,47 +147,72 @@ Vec2 BoundaryMaker::middle(const Arrangement::Piece& piece) const {
   return frame_.lattice().snap(circle.center + (circle.radius / length(bisector)) * bisector);
 }
 
-/// Is the region where the placed parts with a set flag are? A part is where any of its images is.
-bool BoundaryMaker::region_holds(const std::vector<char>& in_place) const {
-  return region_.contains([&](int part) {
-    for (std::size_t k = first_place_[part]; k < first_place_[part + 1]; ++k)
-      if (in_place[k] != 0)
-        return true;
-    return false;
-  });
+/// Is the region where these placed parts are, and no others? A part is where any of its images is.
+/// @param state without parts; it is so after, too
+bool BoundaryMaker::holds(RegionState& state, const std::vector<int>& places) const {
+  for (const int place : places)
+    if (const int index = placed_[static_cast<std::size_t>(place)].index; index != cut_index)
+      state.enter(index);
+  const bool held = state.contains();
+  for (const int place : places)
+    if (const int index = placed_[static_cast<std::size_t>(place)].index; index != cut_index)
+      state.leave(index);
+  return held;
 }
 
+geometry::BoxTree BoundaryMaker::tree_of_places() const {
+  std::vector<Box> boxes;
+  for (const PlacedPart& placed : placed_) {
+    const Box box = box_of(*placed.part);
+    boxes.push_back({box.min + placed.shift, box.max + placed.shift});
+  }
+  return geometry::BoxTree(boxes);
+}
+
+/// Of the parts only those are asked whose box holds the middle of the piece: to all others it is outside.
 void BoundaryMaker::classify() {
-  std::vector<char> left(placed_.size(), 0), right = left;
+  const geometry::BoxTree tree = tree_of_places();
+  RegionState state(region_, given_.size() + 1);
+  std::vector<int> known, left, right;                  // placed parts
+  std::vector<std::size_t> known_to(placed_.size(), 0); // the number of the piece + 1
+  std::vector<char> is_left(placed_.size(), 0);
+  const auto set_sides = [&](std::size_t piece, int part, bool on_left) { // the last word holds
+    const auto place = static_cast<std::size_t>(part);
+    if (known_to[place] != piece + 1)
+      known.push_back(part);
+    known_to[place] = piece + 1;
+    is_left[place] = on_left ? 1 : 0;
+  };
   const std::vector<Arrangement::Piece>& pieces = arrangement_.pieces();
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const Arrangement::Piece& piece = pieces[k];
-    constexpr char unknown = 2;
-    std::fill(left.begin(), left.end(), unknown);
-    left[piece.part] = 1;
-    right[piece.part] = 0;
-    for (LocalIndex t = piece.first_twin; t < piece.first_twin + piece.twin_count; ++t) {
-      const Arrangement::Twin& twin = arrangement_.twins()[t];
-      left[twin.part] = twin.along ? 1 : 0;
-      right[twin.part] = twin.along ? 0 : 1;
-    }
+    known.clear();
+    set_sides(k, piece.part, true);
+    for (LocalIndex t = piece.first_twin; t < piece.first_twin + piece.twin_count; ++t)
+      set_sides(k, arrangement_.twins()[t].part, arrangement_.twins()[t].along);
+    left.clear();
+    right.clear();
+    for (const int part : known)
+      (is_left[static_cast<std::size_t>(part)] != 0 ? left : right).push_back(part);
     const Vec2 p = middle(piece);
-    for (std::size_t place = 0; place < placed_.size(); ++place)
-      if (left[place] == unknown)
-        left[place] = right[place] = placed_[place].part->inside(p - placed_[place].shift) ? 1 : 0;
-    classify_sides(static_cast<LocalIndex>(k), left, right);
+    tree.for_each_meeting({p, p}, [&](std::size_t place) {
+      if (known_to[place] == k + 1 || !placed_[place].part->inside(p - placed_[place].shift))
+        return;
+      left.push_back(static_cast<int>(place));
+      right.push_back(static_cast<int>(place));
+    });
+    const auto is_cut = [&](int place) { return placed_[static_cast<std::size_t>(place)].index == cut_index; };
+    const bool cuts = placed_.back().index == cut_index;
+    classify_sides(static_cast<LocalIndex>(k), holds(state, left), holds(state, right),
+                   !cuts || std::any_of(left.begin(), left.end(), is_cut),
+                   !cuts || std::any_of(right.begin(), right.end(), is_cut));
   }
 }
 
 /// Keeps pieces with the region on one side only; of a piece on the border of a periodic container and its image on
 /// the other side that one whose region lies in the container.
-void BoundaryMaker::classify_sides(LocalIndex k, const std::vector<char>& left, const std::vector<char>& right) {
+void BoundaryMaker::classify_sides(LocalIndex k, bool on_left, bool on_right, bool in_left, bool in_right) {
   const Arrangement::Piece& piece = arrangement_.pieces()[k];
-  const bool cuts = placed_.back().index == cut_index;
-  const bool in_left = !cuts || left.back() != 0, in_right = !cuts || right.back() != 0;
-  if (!in_left && !in_right)
-    return;
-  const bool on_left = region_holds(left), on_right = region_holds(right);
   if (on_left && !on_right && in_left)
     kept_.push_back({piece.from, piece.to, k, false});
   else if (on_right && !on_left && in_right)
@@ -340,10 +364,12 @@ void BoundaryMaker::finish_periodic_area() {
     return;
   if (loops.empty()) { // all of the torus, or nothing
     const Vec2 p = frame_.lattice().snap(0.5 * (frame_.inner().min + frame_.inner().max));
-    std::vector<char> in_place(placed_.size(), 0);
+    std::vector<int> around;
     for (std::size_t place = 0; place < placed_.size(); ++place)
-      in_place[place] = placed_[place].part->inside(p - placed_[place].shift) ? 1 : 0;
-    boundary_.covers_torus = region_holds(in_place);
+      if (placed_[place].part->inside(p - placed_[place].shift))
+        around.push_back(static_cast<int>(place));
+    RegionState state(region_, given_.size() + 1);
+    boundary_.covers_torus = holds(state, around);
     boundary_.area = boundary_.covers_torus ? torus : 0;
     return;
   }

@@ -16,15 +16,20 @@ using geometry::Loop;
 using geometry::Piece;
 using geometry::Vec2;
 
+using Shifts = std::map<std::size_t, std::vector<Vec2>>; // of the images of parts, once they were asked for
+
 /// Of the segment of its part that a piece follows.
-int marker_of(const Piece& piece, std::span<const Part> parts, const geometry::Frame& frame) {
+int marker_of(const Piece& piece, std::span<const Part> parts, const geometry::Frame& frame, Shifts& shifts) {
   const auto part = static_cast<std::size_t>(piece.part);
   const Polygon* polygon = part < parts.size() ? parts[part].as_polygon() : nullptr;
   if (polygon == nullptr || polygon->markers.empty())
     return 0;
+  auto found = shifts.find(part);
+  if (found == shifts.end())
+    found = shifts.emplace(part, image_shifts(parts[part], frame)).first;
   int marker = 0;
   double least = HUGE_VAL;
-  for (const Vec2 shift : image_shifts(parts[part], frame)) {
+  for (const Vec2 shift : found->second) {
     const geometry::SegmentGrid::Nearest nearest = polygon->grid.nearest(piece.point(piece.length() / 2) - shift);
     if (nearest.squared_distance < least) {
       least = nearest.squared_distance;
@@ -47,9 +52,10 @@ std::vector<std::int32_t> name_markers(geometry::Boundary& boundary, std::span<c
   std::vector<std::int32_t> markers(boundary.part_names.size(), 0);
   std::map<std::pair<int, int>, int> index_of; // by part and marker: in this order they are named
   std::vector<int> of_piece;                   // loop by loop
+  Shifts shifts;
   for (const Loop& loop : boundary.loops)
     for (const Piece& piece : loop.pieces)
-      if (of_piece.push_back(marker_of(piece, parts, frame)); of_piece.back() != 0)
+      if (of_piece.push_back(marker_of(piece, parts, frame, shifts)); of_piece.back() != 0)
         index_of[{piece.part, of_piece.back()}] = 0;
   for (auto& [key, index] : index_of) {
     index = static_cast<int>(boundary.part_names.size());

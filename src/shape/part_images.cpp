@@ -16,20 +16,6 @@ using geometry::Vec2;
 
 constexpr double margin_in_steps = 64; // around the container, far more than vertices are moved by merging
 
-Box box_of(const Part& part) {
-  Box box;
-  if (const Circle* circle = part.as_circle()) {
-    box.include(circle->center - Vec2{circle->radius, circle->radius});
-    box.include(circle->center + Vec2{circle->radius, circle->radius});
-    return box;
-  }
-  for (const Segment& segment : part.as_polygon()->grid.segments()) {
-    box.include(segment.a);
-    box.include(segment.b);
-  }
-  return box;
-}
-
 void check_periodic_reach(const Part& part, const Box& box, const Frame& frame) {
   const Periods& periods = frame.periods();
   const Vec2 low = frame.inner().min - Vec2{periods.x, periods.y};
@@ -46,6 +32,20 @@ void check_periodic_reach(const Part& part, const Box& box, const Frame& frame) 
 }
 
 } // namespace
+
+Box box_of(const Part& part) {
+  Box box;
+  if (const Circle* circle = part.as_circle()) {
+    box.include(circle->center - Vec2{circle->radius, circle->radius});
+    box.include(circle->center + Vec2{circle->radius, circle->radius});
+    return box;
+  }
+  for (const Segment& segment : part.as_polygon()->grid.segments()) {
+    box.include(segment.a);
+    box.include(segment.b);
+  }
+  return box;
+}
 
 Part domain_part(const Frame& frame) {
   const Vec2 periods{frame.periods().x, frame.periods().y};

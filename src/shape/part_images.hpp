@@ -12,6 +12,9 @@ namespace trime::shape {
 /// The container as a part; along periodic axes it has no border inside of the container or its neighbours.
 Part domain_part(const geometry::Frame& frame);
 
+/// The least box around a part. O(its segments)
+geometry::Box box_of(const Part& part);
+
 /// @brief Shifts by periods that carry the part to where it meets the container; {0, 0} alone without periods.
 /// Ascending by x, then y.
 /// @throws GeometryError if the part sticks out of a periodic side by more than one period

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <unordered_map>
 
 namespace trime::shape {
 
@@ -30,7 +31,10 @@ std::string unknown_part_message(const std::string& name, std::span<const std::s
 /// Recursive descent, at most max_depth deep.
 class Region::Parser {
 public:
-  Parser(Region& region, std::span<const std::string> names) : region_(region), names_(names), text_(region.text_) {}
+  Parser(Region& region, std::span<const std::string> names) : region_(region), names_(names), text_(region.text_) {
+    for (std::size_t k = 0; k < names.size(); ++k)
+      index_of_.emplace(names[k], static_cast<int>(k));
+  }
 
   void parse() {
     expression(0);
@@ -105,10 +109,10 @@ private:
     if (word == domain_name)
       index = static_cast<int>(names_.size());
     else {
-      const auto found = std::find(names_.begin(), names_.end(), word);
-      if (found == names_.end())
+      const auto found = index_of_.find(word);
+      if (found == index_of_.end())
         throw ConfigError(unknown_part_message(word, names_));
-      index = static_cast<int>(found - names_.begin());
+      index = found->second;
     }
     region_.parts_.push_back(index);
     return index;
@@ -116,6 +120,7 @@ private:
 
   Region& region_;
   std::span<const std::string> names_;
+  std::unordered_map<std::string, int> index_of_; // of each name
   std::string_view text_;
   std::size_t position_ = 0;
 };

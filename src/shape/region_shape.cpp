@@ -6,7 +6,7 @@
 #include "trime/core/error.hpp"
 #include "trime/shape/trace.hpp"
 
-#include <algorithm>
+#include <unordered_set>
 
 namespace trime::shape {
 
@@ -17,10 +17,11 @@ using geometry::Vec2;
 
 std::vector<std::string> names_of(const std::vector<Part>& parts) {
   std::vector<std::string> names;
+  std::unordered_set<std::string> known;
   for (const Part& part : parts) {
     if (part.name() == domain_name)
       throw ConfigError(fmt::format("a part must not be named '{}': this name means the container", domain_name));
-    if (std::find(names.begin(), names.end(), part.name()) != names.end())
+    if (!known.insert(part.name()).second)
       throw ConfigError(fmt::format("two parts are named '{}'; expected different names", part.name()));
     names.push_back(part.name());
   }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shape/ring_nesting.hpp"
 
+#include "geometry/box_tree.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 namespace trime::shape {
 namespace {
@@ -24,36 +26,65 @@ double area_of(const Ring& ring) {
   return std::fabs(twice) / 2;
 }
 
-bool encloses(const Ring& ring, Vec2 p) {
-  bool inside = false;
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    const Vec2 a = ring[k].position, b = ring[(k + 1) % ring.size()].position;
-    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y)))
-      inside = !inside;
+/// The edges of a ring, to find those right of a point.
+class RingEdges {
+public:
+  explicit RingEdges(const Ring& ring) : ring_(ring) {
+    std::vector<Box> boxes;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      Box& box = boxes.emplace_back();
+      box.include(ring[k].position);
+      box.include(ring[(k + 1) % ring.size()].position);
+      whole_ = geometry::united(whole_, box);
+    }
+    tree_ = geometry::BoxTree(boxes);
   }
-  return inside;
-}
+
+  /// Does the ring run around p? O(log(edges) + those right of p).
+  bool enclose(Vec2 p) const {
+    const double rounding = 1e-12 * std::fmax(std::fabs(whole_.min.x), std::fabs(whole_.max.x));
+    bool inside = false;
+    tree_.for_each_meeting({{p.x - rounding, p.y}, {whole_.max.x, p.y}}, [&](std::size_t k) {
+      const Vec2 a = ring_[k].position, b = ring_[(k + 1) % ring_.size()].position;
+      if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y)))
+        inside = !inside;
+    });
+    return inside;
+  }
+  const Box& box() const { return whole_; }
+
+private:
+  const Ring& ring_;
+  Box whole_;
+  geometry::BoxTree tree_;
+};
 
 class Nesting {
 public:
-  explicit Nesting(const std::vector<Ring>& rings) : rings_(rings), boxes_(rings.size()), areas_(rings.size()) {
+  explicit Nesting(const std::vector<Ring>& rings) : rings_(rings), areas_(rings.size()), rank_(rings.size()) {
+    std::vector<Box> boxes;
     for (std::size_t k = 0; k < rings.size(); ++k) {
-      for (const RingVertex& v : rings[k])
-        boxes_[k].include(v.position);
+      edges_.emplace_back(rings[k]);
+      boxes.push_back(edges_.back().box());
       areas_[k] = area_of(rings[k]);
     }
-    by_area_.resize(rings.size());
-    std::iota(by_area_.begin(), by_area_.end(), std::size_t{0});
-    std::stable_sort(by_area_.begin(), by_area_.end(),
+    tree_ = geometry::BoxTree(boxes);
+    std::vector<std::size_t> by_area(rings.size());
+    std::iota(by_area.begin(), by_area.end(), std::size_t{0});
+    std::stable_sort(by_area.begin(), by_area.end(),
                      [this](std::size_t a, std::size_t b) { return areas_[a] < areas_[b]; });
+    for (std::size_t k = 0; k < by_area.size(); ++k)
+      rank_[by_area[k]] = k;
   }
 
   /// The smallest ring around p that is larger than `above`.
   std::size_t around(Vec2 p, double above) const {
-    for (const std::size_t k : by_area_)
-      if (areas_[k] > above && boxes_[k].contains(p) && encloses(rings_[k], p))
-        return k;
-    return nowhere;
+    std::size_t smallest = nowhere;
+    tree_.for_each_meeting({p, p}, [&](std::size_t k) {
+      if (areas_[k] > above && (smallest == nowhere || rank_[k] < rank_[smallest]) && edges_[k].enclose(p))
+        smallest = k;
+    });
+    return smallest;
   }
   /// The smallest ring around ring k. Rings may meet in vertices, so the middle of an edge is asked.
   std::size_t around(std::size_t k) const {
@@ -62,9 +93,10 @@ public:
 
 private:
   const std::vector<Ring>& rings_;
-  std::vector<Box> boxes_;
+  std::vector<RingEdges> edges_;
   std::vector<double> areas_;
-  std::vector<std::size_t> by_area_;
+  std::vector<std::size_t> rank_; // by area
+  geometry::BoxTree tree_;        // of the boxes of the rings
 };
 
 } // namespace

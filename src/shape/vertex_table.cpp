@@ -12,7 +12,7 @@ namespace {
 using geometry::Lattice;
 using geometry::squared_length;
 using geometry::Vec2;
-constexpr double cell_steps = 0x1p12;
+constexpr double cell_steps = 0x1p7; // a few times merge_steps: crowded vertices share no cell, most searches see one
 } // namespace
 
 struct VertexMatch {

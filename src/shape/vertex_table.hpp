@@ -11,7 +11,7 @@
 
 namespace trime::shape {
 
-/// Open hash table over square cells of 2^12 steps. Never iterated, so that nothing depends on its order.
+/// Open hash table over square cells of 2^7 steps. Never iterated, so that nothing depends on its order.
 class VertexTable {
 public:
   static constexpr int merge_steps = 8; ///< points at most so far apart become one vertex

@@ -72,6 +72,9 @@ class Restart(unittest.TestCase):
             self.assertFalse(stop.exists(), "the next run would stop by it")
             self.assertEqual(hash_and_history(directory), expected)
             self.assertEqual(checkpoints(directory), [], "a mesh that is written needs none")
+            with h5py.File(directory / "mesh.h5", "r") as file:
+                seconds = file["trime_mpi/history/seconds"][:].tolist()
+            self.assertEqual(seconds, sorted(seconds), "the clock goes on where it was")
 
     def test_every_sweep_of_a_uniform_mesh(self):
         self.chain([1, 3, 2], CIRCLE, "meshing.points=2000")
@@ -85,6 +88,38 @@ class Restart(unittest.TestCase):
 
     def test_every_sweep_of_a_torus(self):
         self.chain([1, 2], ROOT / "configs" / "torus_hole.ini", "meshing.points=1500", threads=2)
+
+    def test_steps_from_before_the_break_stay(self):
+        arguments = [CIRCLE, "meshing.points=1500", "output.interval=3", "output.formats=vtkhdf xdmf text"]
+
+        def series(directory):
+            """Names of all files; what tells of more than one mesh."""
+            names = sorted(str(path.relative_to(directory)) for path in directory.rglob("*") if path.is_file())
+            told = [directory / "mesh.vtkhdf.series", directory / "mesh_series.xdmf",
+                    directory / "mesh" / "mesh_tria_quality_stat_overall.txt"]
+            return names, [path.read_text(encoding="utf-8") for path in told]
+
+        with Workspace() as once, Workspace() as directory:
+            done = run(*arguments, *places(once))
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            stop = directory / "stop"
+            for ranks in (1, 2, 1):
+                for _ in range(3):
+                    stop.touch()
+                    done = run(*arguments, *places(directory), f"checkpoint.stop_file={stop}", "--restart", "auto",
+                               ranks=ranks)
+                    self.assertEqual(done.returncode, STOPPED, done.stdout + done.stderr)
+                (directory / "mesh_step_000777.h5").write_bytes(b"of an older run")
+            damaged = directory / "mesh_step_000003.h5"
+            whole = damaged.read_bytes()
+            damaged.write_bytes(whole[:1000])
+            stop.touch()
+            done = run(*arguments, *places(directory), f"checkpoint.stop_file={stop}", "--restart", "auto", ranks=3)
+            self.assertIn("mesh_step_000003.h5: a step of the run before", done.stdout + done.stderr)
+            damaged.write_bytes(whole)
+            done = run(*arguments, *places(directory), "--restart", "auto", ranks=3)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertEqual(series(directory), series(once))
 
     # Signals
 

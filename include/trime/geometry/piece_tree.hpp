@@ -28,6 +28,8 @@ public:
   };
   /// The same with the piece, one of those equally near; O(log M) for curves, thread-safe.
   Nearest nearest(Vec2 p) const;
+  /// The pieces that p, or an image of it, is at most so far from: ascending, counted through all loops in their order.
+  std::vector<std::size_t> within(Vec2 p, double distance) const;
 
 private:
   static constexpr std::size_t run_length = 4;
@@ -35,8 +37,11 @@ private:
     Vec2 a, b;
     LocalIndex arc; ///< into arcs_, or -1 for a segment
   };
+  double squared_distance_of(std::size_t piece, Vec2 p) const;
   void look_at_run(std::size_t run, Vec2 p, Nearest& best) const;
   void search(Vec2 p, Nearest& best) const;
+  template <class Visit>
+  void for_each_image(Vec2 p, const Visit& visit) const;
 
   Periods periods_;
   std::vector<Ends> ends_;

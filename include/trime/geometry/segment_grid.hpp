@@ -42,6 +42,9 @@ public:
   /// than once over bins; stops when visit returns false.
   template <class Visit>
   void for_each_near(const Box& box, const Visit& visit) const;
+  /// The same for what may also lie within `margin` of `segment`: a long slanted one meets few of the bins of its box.
+  template <class Visit>
+  void for_each_near(const Box& box, const Segment& segment, double margin, const Visit& visit) const;
 
   std::span<const Segment> segments() const { return segments_; }
   std::size_t memory_bytes() const;
@@ -65,13 +68,17 @@ private:
     }
     /// Squared distance from p to the closed cell.
     double squared_distance(Vec2 p) const;
+    /// May a point of the closed cell lie within `margin` of the line through the segment? Never false if one does.
+    bool may_be_near(const Segment& segment, double margin) const;
   };
   class Builder;
 
   void look_in_leaf(const Cell& cell, Vec2 p, Nearest& best) const;
   void nearest_in(Placed place, Vec2 p, Nearest& best) const;
-  template <class Visit>
-  bool visit_near(const Placed& place, const Box& box, const Visit& visit) const;
+  template <class Wanted, class Visit>
+  bool visit_near(const Placed& place, const Box& box, const Wanted& wanted, const Visit& visit) const;
+  template <class Wanted, class Visit>
+  void visit_wanted(const Box& box, const Wanted& wanted, const Visit& visit) const;
 
   std::vector<Segment> segments_;
   Box box_;
@@ -80,8 +87,9 @@ private:
   std::vector<LocalIndex> cell_segment_; // segment indices, ascending in each leaf
 };
 
-template <class Visit>
-bool SegmentGrid::visit_near(const Placed& place, const Box& box, const Visit& visit) const {
+/// Looks into the cells that meet the box and are wanted.
+template <class Wanted, class Visit>
+bool SegmentGrid::visit_near(const Placed& place, const Box& box, const Wanted& wanted, const Visit& visit) const {
   const Cell& cell = cells_[place.cell];
   if (!cell.split) {
     for (LocalIndex k = 0; k < cell.count; ++k)
@@ -99,20 +107,32 @@ bool SegmentGrid::visit_near(const Placed& place, const Box& box, const Visit& v
     for (int i = i0; i <= i1; ++i) {
       const Placed child = place.child(cell.first, i, j);
       if (box.max.x < child.corner.x || box.min.x > child.corner.x + child.side || box.max.y < child.corner.y ||
-          box.min.y > child.corner.y + child.side)
+          box.min.y > child.corner.y + child.side || !wanted(child))
         continue;
-      if (!visit_near(child, box, visit))
+      if (!visit_near(child, box, wanted, visit))
         return false;
     }
   return true;
 }
 
-template <class Visit>
-void SegmentGrid::for_each_near(const Box& box, const Visit& visit) const {
+template <class Wanted, class Visit>
+void SegmentGrid::visit_wanted(const Box& box, const Wanted& wanted, const Visit& visit) const {
   if (segments_.empty() || box.max.x < box_.min.x || box.min.x > box_.max.x || box.max.y < box_.min.y ||
       box.min.y > box_.max.y)
     return;
-  visit_near(root_, box, visit);
+  visit_near(root_, box, wanted, visit);
+}
+
+template <class Visit>
+void SegmentGrid::for_each_near(const Box& box, const Visit& visit) const {
+  visit_wanted(
+      box, [](const Placed&) { return true; }, visit);
+}
+
+template <class Visit>
+void SegmentGrid::for_each_near(const Box& box, const Segment& segment, double margin, const Visit& visit) const {
+  visit_wanted(
+      box, [&](const Placed& cell) { return cell.may_be_near(segment, margin); }, visit);
 }
 
 } // namespace trime::geometry

@@ -47,6 +47,12 @@ public:
   /// @throws FileError on all ranks @note Collective.
   std::vector<std::string> look(double expected_points) const;
 
+  /// @brief The run goes on from a checkpoint: the steps that it had written until then belong to it, and stay.
+  /// @param retriangulation the last one before the checkpoint
+  /// @return warnings about files of steps that cannot be read, the same on all ranks
+  /// @note Collective. To be called before anything is written.
+  std::vector<std::string> go_on_after(int retriangulation);
+
   /// @brief Writes NAME_step_000012.h5 (12: the retriangulation) with its views, and the collections anew.
   /// @throws FileError on all ranks together
   /// @note Collective.
@@ -70,6 +76,7 @@ private:
   SeriesOptions options_;
   const comm::Communicator& comm_;
   std::vector<Member> members_;
+  bool is_cleared_ = false;              ///< files of an older run are gone
   std::vector<std::string> collections_; ///< files that speak of all members
 };
 

@@ -38,6 +38,7 @@ public:
   geometry::Box box(std::span<const geometry::Box> boxes) const { return box_of(0, boxes); }
 
 private:
+  friend class RegionState;
   enum class Operation { part, unite, intersect, subtract };
   struct Node {
     Operation operation;

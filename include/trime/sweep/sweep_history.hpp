@@ -28,7 +28,7 @@ struct SweepRecord {
   double max_move = 0;     ///< longest move over local h
   double moving_share = 0; ///< share of the sites that moved more than 0.005 h
   GlobalId rebuilt_stars = 0, pushed = 0, deleted = 0;
-  double seconds = 0; ///< since the start of the run; differs from run to run
+  double seconds = 0; ///< since the start; after a restart it goes on from the last record. Differs from run to run
 };
 
 } // namespace trime::sweep

@@ -103,5 +103,18 @@ TEST(Ini, DiagnosticsAreSortedByPlace) {
   EXPECT_EQ(problems.text(1), "a.ini:4: first\na.ini: 2 more errors");
 }
 
+/// Once each pair of lines made a message of its own: 25000 lines took 20 GB.
+TEST(Ini, MessagesDoNotGrowAsASquare) {
+  constexpr int count = 2000;
+  std::string text;
+  for (int k = 0; k < count; ++k)
+    text += "[meshing]\nseed = 1\n";
+  Diagnostics problems("a.ini");
+  parse_ini(text, problems);
+  EXPECT_GE(problems.size(), std::size_t{2 * count - 2}); // each section and key but the first
+  EXPECT_LE(problems.size(), std::size_t{32 * count});
+  EXPECT_NE(problems.text().find("a.ini:3: section [meshing] was opened before, on line 1"), std::string::npos);
+}
+
 } // namespace
 } // namespace trime::app

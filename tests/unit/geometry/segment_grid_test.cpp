@@ -201,5 +201,39 @@ TEST(SegmentGrid, EmptyGridAnswers) {
   });
 }
 
+/// What comes near a slanted segment is found, and less is looked at than in its box.
+TEST(SegmentGrid, ASlantedSegmentLooksAlongItself) {
+  constexpr int count = 500;
+  std::vector<Segment> chords;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    const Vec2 a{uniform(k, 1), uniform(k, 2)};
+    chords.push_back({lattice.snap(a), lattice.snap(a + 0.02 * Vec2{uniform(k, 3), uniform(k, 4)})});
+  }
+  const SegmentGrid grid(chords);
+  const double margin = 1e-3;
+  for (const Segment& s : {Segment{{0.1, 0.2}, {0.9, 0.8}}, Segment{{0.2, 0.9}, {0.7, 0.1}}}) {
+    Box box;
+    for (const Vec2 p : {s.a, s.b}) {
+      box.include(p - Vec2{margin, margin});
+      box.include(p + Vec2{margin, margin});
+    }
+    std::set<LocalIndex> found, in_box;
+    const auto into = [](std::set<LocalIndex>& set) {
+      return [&set](LocalIndex k) {
+        set.insert(k);
+        return true;
+      };
+    };
+    grid.for_each_near(box, s, margin, into(found));
+    grid.for_each_near(box, into(in_box));
+    EXPECT_LT(4 * found.size(), in_box.size());
+    for (LocalIndex k = 0; k < count; ++k)
+      if (const Segment& t = chords[static_cast<std::size_t>(k)];
+          squared_distance(t.a, s) <= margin * margin || squared_distance(t.b, s) <= margin * margin) {
+        EXPECT_TRUE(found.contains(k));
+      }
+  }
+}
+
 } // namespace
 } // namespace trime::geometry

@@ -64,6 +64,19 @@ TEST(BinnedPoints, RestoredSitesStayInTheTilesThatTheyHaveLeft) {
   EXPECT_GT(left, 100);
 }
 
+/// A run without a break drops one of them when it sorts, not before.
+TEST(BinnedPoints, RestoredSitesThatHaveMetAreKept) {
+  const TileGrid grid = small_grid();
+  SiteList sites{{{0.01, 0.01}}, {{0.01, 0.01}}, {{0.012, 0.01}}};
+  std::vector<std::int64_t> counts(static_cast<std::size_t>(grid.tile_count()), 0);
+  counts[static_cast<std::size_t>(grid.tile_at({0.01, 0.01}))] = 3;
+  BinnedPoints points(grid);
+  std::vector<LocalIndex> new_index;
+  points.restore_owned(sites, counts, 0, grid.tile_count(), new_index);
+  EXPECT_EQ(points.owned(), 3);
+  EXPECT_EQ(points.assign_owned(sites, 0, grid.tile_count()), 1);
+}
+
 TEST(BinnedPoints, EverySiteIsInItsBinAndKnowsItsNewIndex) {
   const TileGrid grid = small_grid();
   const SiteList sites = testing::random_sites(2000, 1);

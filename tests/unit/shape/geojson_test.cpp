@@ -119,6 +119,26 @@ TEST(GeoJson, AnAttributeNamesTheRingsOfAFeature) {
   EXPECT_TRUE(parse_geojson(feature(R"("tag": 3)", "Polygon", square), "a").rings[0].markers.empty());
 }
 
+/// Only values right inside of `properties` of a feature are attributes, and what stands in there is no geometry.
+TEST(GeoJson, WhatLooksLikeAnAttributeOrAFeatureIsNone) {
+  const std::string square = "[[[0, 0], [9, 0], [9, 9], [0, 9]]]", lake = "[[[1, 1], [2, 1], [1, 2]]]";
+  const std::string odd = R"("kind": "land", "type": "Feature", "names": ["x", {"kind": "no"}], "of": {"kind": "no"},
+    "was": {"type": "Polygon", "coordinates": [[[5, 5], [6, 5], ["six", 6]]]})";
+  const std::string text =
+      R"({"type": "FeatureCollection", "properties": {"kind": "whole", "date": "today"}, "features": [)" +
+      feature(odd, "Polygon", square) + "," + feature(R"("kind": ["a", "b"], "id": 7)", "Polygon", lake) + "]}";
+  const Contour named = parse_geojson(text, "a", "kind");
+  EXPECT_EQ(named.marker_names, std::vector<std::string>{"land"});
+  ASSERT_EQ(named.rings.size(), 2u);
+  EXPECT_EQ(named.rings[0].markers, (std::vector<int>{1, 1, 1, 1}));
+  EXPECT_TRUE(named.rings[1].markers.empty());
+  EXPECT_EQ(message_of<ConfigError>([&] { parse_geojson(text, "a", "date"); }),
+            "a: expected features with the attribute 'date', found only id, kind, names, of, type, was");
+  const std::string before = R"({"properties": {"kind": 3}, "style": {"type": "Feature"}, "geometry": )" +
+                             geometry_of("Polygon", square) + R"(, "style": {"type": "Feature"}, "type": "Feature"})";
+  EXPECT_EQ(parse_geojson(before, "a", "kind").rings.at(0).markers, (std::vector<int>{3, 3, 3, 3}));
+}
+
 TEST(GeoJson, OpenLinesThatJoinInTheirEndsAreOneRing) {
   const Contour contour =
       parse_geojson(collection(feature(R"("kind": "land")", "LineString", "[[0, 0], [0, 1], [1, 1]]") + "," +

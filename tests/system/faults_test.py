@@ -1,0 +1,230 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What fails beside the program: disks that fill up, directories that vanish, ranks that die. Each run ends soon, with a
+message and a code; no half file has a final name, and the mesh of an older run stays whole. Prints a table.
+
+File systems of its own need the right to mount (root in a container); without it those tests are skipped."""
+import hashlib
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import h5py
+
+from interrupted_test import processes_of
+from trime_run import PROGRAM, ROOT, Workspace, command, environment, run
+
+CONFIG = ROOT / "configs" / "square.ini"
+FILE = 4  # exit code
+SOON = 30  # seconds from the fault to the end
+PATIENCE = 120  # seconds for a run that nothing disturbs, on a machine that is busy
+POINTS = 40_000
+ROOM = "16m"  # the mesh needs 8 MB, and twice that while it replaces an older one
+TABLE = []
+
+
+class SmallDisk:
+    """A file system in memory, at a directory of its own."""
+
+    def __init__(self, test):
+        self.test = test
+
+    def __enter__(self):
+        self.path = tempfile.mkdtemp(prefix="trime-disk-")
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={ROOM}", "none", self.path], capture_output=True,
+                                 text=True, check=False)
+        if mounted.returncode != 0:
+            os.rmdir(self.path)
+            self.test.skipTest(f"no right to mount a file system: {mounted.stderr.strip()}")
+        return self
+
+    def fill(self):
+        """Somebody else takes all that is left."""
+        try:
+            with open(f"{self.path}/other", "ab", buffering=0) as other:
+                while other.write(bytes(1 << 16)):
+                    pass
+        except OSError:
+            pass
+
+    def make_read_only(self):
+        subprocess.run(["mount", "-o", "remount,ro", self.path], check=True)
+
+    def __exit__(self, *_):
+        subprocess.run(["umount", "-l", self.path], check=False)
+        os.rmdir(self.path)
+
+
+def digest(path):
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+class Faults(unittest.TestCase):
+    @classmethod
+    def tearDownClass(cls):
+        print("\n".join(["| fault | ranks | code | seconds |", "|---|---|---|---|"] +
+                        [f"| {what} | {ranks} | {code} | {seconds:.1f} |" for what, ranks, code, seconds in TABLE]))
+
+    def start(self, folder, ranks, *more, points=POINTS, limit=None):
+        """A run that has said its first word. Its group of processes is its own."""
+        arguments = [CONFIG, f"meshing.points={points}", f"output.directory={folder}", "output.name=mesh",
+                     "output.overwrite=true", *more]
+        self.said = tempfile.TemporaryFile()
+        self.addCleanup(self.said.close)
+        limits = None if limit is None else lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+        started = subprocess.Popen(command(arguments, ranks), env=environment(1), stdout=self.said,
+                                   stderr=subprocess.STDOUT, start_new_session=True, preexec_fn=limits)
+        self.wait_until(lambda: os.fstat(self.said.fileno()).st_size > 0 or started.poll() is not None)
+        return started
+
+    @staticmethod
+    def wait_until(is_due, seconds=PATIENCE):
+        end = time.monotonic() + seconds
+        while not is_due() and time.monotonic() < end:
+            time.sleep(0.002)
+
+    def end_of(self, what, ranks, started, since):
+        """Code and text of a run that ends soon after the fault."""
+        try:
+            code = started.wait(PATIENCE)
+        except subprocess.TimeoutExpired:
+            os.killpg(started.pid, signal.SIGKILL)
+            self.fail(f"{what}, {ranks} ranks: no end within {PATIENCE} s")
+        seconds = time.monotonic() - since
+        TABLE.append((what, ranks, code, seconds))
+        self.said.seek(0)
+        return code, self.said.read().decode(errors="replace")
+
+    def refused(self, what, ranks, started, since, words):
+        code, told = self.end_of(what, ranks, started, since)
+        self.assertEqual(code, FILE, told)
+        self.assertRegex(told, words)
+        self.assertRegex(told, r"trime_mpi: error: ")
+
+    def older(self, folder):
+        """A mesh of an older run, which has to stay."""
+        done = run(CONFIG, "meshing.points=1000", f"output.directory={folder}", "output.name=mesh")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return digest(folder / "mesh.h5")
+
+    def in_each_way(self, what, harm, words, *more):
+        """On a small disk, on 1 and 3 ranks: harm(disk) as soon as the run is up."""
+        for ranks in (1, 3):
+            with self.subTest(ranks=ranks), SmallDisk(self) as disk:
+                folder = type(CONFIG)(disk.path)
+                before = self.older(folder)
+                started = self.start(folder, ranks, *more)
+                since = time.monotonic()
+                harm(disk)
+                self.refused(what, ranks, started, since, words)
+                self.assertEqual(digest(folder / "mesh.h5"), before, "the older mesh is another one")
+                left = {path.name for path in folder.iterdir() if path.is_file() and path.name != "other"}
+                self.assertLessEqual(left - {"mesh.xmf", "mesh.xdmf", "mesh.vtkhdf"}, {"mesh.h5"}, "half a file")
+
+    def test_a_disk_that_fills_up(self):
+        self.in_each_way("the disk fills up", SmallDisk.fill, "No space left|are free")
+
+    def test_a_disk_that_fills_up_while_text_is_written(self):
+        def fill_late(disk):
+            text = type(CONFIG)(disk.path) / "mesh"
+            self.wait_until(lambda: any(text.glob("*")))
+            disk.fill()
+        for ranks in (1, 3):
+            with self.subTest(ranks=ranks), SmallDisk(self) as disk:
+                folder = type(CONFIG)(disk.path)
+                started = self.start(folder, ranks, "output.formats=text", points=20_000)
+                since = time.monotonic()
+                fill_late(disk)
+                code, told = self.end_of("it fills up among text files", ranks, started, since)
+                self.assertIn(code, (0, FILE), told)  # all were written before, or not
+                if code == FILE:
+                    self.assertRegex(told, "No space left|are free")
+                self.assertFalse(any(".tmp-" in path.name for path in folder.rglob("*")))
+                with h5py.File(folder / "mesh.h5", "r") as file:
+                    self.assertEqual(int(file["trime_mpi"].attrs["complete"]), 1)
+
+    def test_a_disk_that_becomes_read_only(self):
+        self.in_each_way("the disk becomes read-only", SmallDisk.make_read_only, "Read-only file system")
+
+    def test_a_directory_that_vanishes(self):
+        for ranks in (1, 3):
+            with self.subTest(ranks=ranks), Workspace() as work:
+                folder = work / "out"
+                folder.mkdir()
+                started = self.start(folder, ranks)
+                since = time.monotonic()
+                shutil.rmtree(folder)
+                # Before the look at it the run makes it anew: then there is a mesh.
+                code, told = self.end_of("the directory vanishes", ranks, started, since)
+                self.assertIn(code, (0, FILE), told)
+                if code == FILE:
+                    self.assertRegex(told, "trime_mpi: error: .*No such file or directory")
+                else:
+                    self.assertTrue((folder / "mesh.h5").exists())
+
+    def test_a_file_beyond_its_limit(self):
+        """MPI's own files need 20 MB, the mesh 34 MB."""
+        limit = 30_000_000
+        for ranks in (1, 3):
+            with self.subTest(ranks=ranks), Workspace() as folder:
+                started = self.start(folder, ranks, points=180_000, limit=limit)
+                self.refused("the file is beyond its limit", ranks, started, time.monotonic(), "File too large")
+                self.assertEqual(list(folder.iterdir()), [])
+
+    def test_a_rank_that_dies(self):
+        """At moments from the start to the writing."""
+        with Workspace() as folder:
+            before = self.older(folder)
+            whole = self.start(folder, 3, "output.name=whole")
+            begin = time.monotonic()
+            whole.wait(PATIENCE)
+            seconds = time.monotonic() - begin
+            for share in (0.0, 0.2, 0.4, 0.6, 0.8, None):
+                with self.subTest(share=share):
+                    started = self.start(folder, 3)
+                    if share is None:  # while the file is written
+                        self.wait_until(lambda: any("mesh.h5.tmp-" in path.name for path in folder.iterdir()) or
+                                        started.poll() is not None)
+                    else:
+                        time.sleep(share * seconds)
+                    ranks = self.ranks_of(folder)
+                    since = time.monotonic()
+                    if ranks:
+                        try:
+                            os.kill(ranks[-1], signal.SIGKILL)
+                        except ProcessLookupError:
+                            pass
+                    moment = "in the writing" if share is None else f"at {share:.0%}"
+                    code, told = self.end_of(f"a rank dies {moment}", 3, started, since)
+                    self.assertLess(time.monotonic() - since, SOON)
+                    self.wait_until(lambda: not processes_of(folder))
+                    self.assertEqual(processes_of(folder), [], "ranks survive their mpirun")
+                    if code == 0:  # the run was over
+                        self.assertNotEqual(digest(folder / "mesh.h5"), before)
+                        before = digest(folder / "mesh.h5")
+                    with h5py.File(folder / "mesh.h5", "r") as file:
+                        self.assertEqual(int(file["trime_mpi"].attrs["complete"]), 1, told)
+                    if code != 0 and digest(folder / "mesh.h5") != before:
+                        before = digest(folder / "mesh.h5")  # it died when its mesh had been given its name
+
+    @staticmethod
+    def ranks_of(folder):
+        """Processes of the program that write to this folder, without their mpirun."""
+        found = []
+        for number in processes_of(folder):
+            try:
+                with open(f"/proc/{number}/cmdline", "rb") as stream:
+                    if stream.read().startswith(os.fsencode(PROGRAM)):
+                        found.append(number)
+            except OSError:
+                pass
+        return sorted(found)
+
+
+if __name__ == "__main__":
+    unittest.main()

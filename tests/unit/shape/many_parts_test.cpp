@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Regions of very many parts, and long slanted edges: the work, and that nothing is missed.
+#include "core/random.hpp"
+#include "shape/arrangement.hpp"
+#include "shape/region_state.hpp"
+#include "unit/shape/boundary_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+namespace trime::shape {
+namespace {
+
+using geometry::Box;
+using geometry::Frame;
+using geometry::Segment;
+using geometry::Vec2;
+
+const Frame unit_frame(Box{{0, 0}, {1, 1}});
+constexpr int side = 24; // islands in a row
+
+std::vector<Part> islands() {
+  std::vector<Part> parts;
+  for (int k = 0; k < side * side; ++k) {
+    const Vec2 p{(k % side + 0.5) / side, (k / side + 0.5) / side}; // NOLINT(bugprone-integer-division)
+    const double r = 0.3 / side;
+    const std::string name = fmt::format("p{}", k);
+    parts.push_back(k % 2 == 0 ? Part::circle(name, p, r, unit_frame)
+                               : Part::rectangle(name, {p - Vec2{r, r}, p + Vec2{r, r}}, unit_frame));
+  }
+  return parts;
+}
+
+std::vector<PlacedPart> placed(const std::vector<Part>& parts) {
+  std::vector<PlacedPart> places;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    places.push_back({&parts[k], static_cast<int>(k), {}});
+  return places;
+}
+
+TEST(ManyParts, ThoseApartAreNotCrossed) {
+  const std::vector<Part> parts = islands();
+  EXPECT_EQ(Arrangement(placed(parts), unit_frame).pairs(), 0);
+  std::string names;
+  for (const Part& part : parts)
+    names += ", " + part.name();
+  const RegionShape shape(parts, "difference(domain" + names + ")", unit_frame);
+  EXPECT_EQ(shape.boundary().loops.size(), 1u + side * side);
+  EXPECT_EQ(shape.boundary().holes(), side * side);
+}
+
+/// n teeth, as long as the whole, turned by 45 degrees.
+std::vector<Vec2> comb(int n, Vec2 middle) {
+  std::vector<Vec2> points;
+  const double length = 0.4, width = 0.5 * length / n, turn = std::sqrt(0.5);
+  const auto add = [&](double u, double v) {
+    u -= length / 2;
+    v -= length / 2;
+    points.push_back(middle + Vec2{turn * (u - v), turn * (u + v)});
+  };
+  add(0, -0.05);
+  for (int k = 0; k < n; ++k) {
+    add(2 * k * width, 0);
+    add((2 * k + 0.5) * width, length);
+    add((2 * k + 1) * width, 0);
+  }
+  add(2 * n * width, -0.05);
+  return points;
+}
+
+Part comb_part(const std::string& name, int n, Vec2 middle) {
+  Contour contour;
+  contour.source = name;
+  contour.rings.push_back({comb(n, middle), std::vector<int>(3 * static_cast<std::size_t>(n) + 2, 1)});
+  return Part::contour(name, contour, {}, unit_frame);
+}
+
+TEST(ManyParts, CombsThatCrossEverywhere) {
+  constexpr int teeth = 100;
+  const double moved = 0.25 * 0.5 * 0.4 / teeth * std::sqrt(0.5); // half a tooth: the combs cross everywhere near
+  const std::vector<Part> parts{comb_part("a", teeth, {0.5, 0.5}), comb_part("b", teeth, {0.5 + moved, 0.5 + moved})};
+  const Arrangement made(placed(parts), unit_frame);
+  EXPECT_EQ(made.pairs(), 1);
+  std::set<std::pair<LocalIndex, LocalIndex>> pieces;
+  for (const Arrangement::Piece& piece : made.pieces())
+    pieces.insert({piece.from, piece.to});
+  EXPECT_GT(pieces.size(), 2u * 3 * teeth); // they were cut
+  expect_valid(RegionShape(parts, "union(a, b)", unit_frame).boundary());
+}
+
+std::string random_region(std::uint64_t key, int depth, int parts) {
+  const auto pick = [&](std::uint64_t slot, int count) {
+    return static_cast<int>(count * random_unit(3, RandomPurpose::test, key, slot));
+  };
+  if (depth == 0 || pick(0, 4) == 0)
+    return fmt::format("p{}", pick(1, parts));
+  constexpr const char* words[] = {"union", "intersection", "difference"};
+  std::string text = std::string(words[pick(2, 3)]) + "(";
+  const int operands = 2 + pick(3, 3);
+  for (int k = 0; k < operands; ++k) {
+    text += k > 0 ? "," : "";
+    text += random_region(5 * key + static_cast<std::uint64_t>(k) + 1, depth - 1, parts);
+  }
+  text += ")";
+  return text;
+}
+
+TEST(RegionState, IsTheRegionWhateverComesAndGoes) {
+  constexpr int parts = 6;
+  std::vector<std::string> names;
+  for (int k = 0; k < parts; ++k)
+    names.push_back(fmt::format("p{}", k));
+  for (std::uint64_t key = 1; key < 60; ++key) {
+    const Region region = Region::parse(random_region(key, 4, parts), names);
+    RegionState state(region, parts + 1);
+    std::vector<int> places(parts, 0);
+    for (std::uint64_t step = 0; step < 60; ++step) {
+      const auto part = static_cast<std::size_t>(parts * random_unit(4, RandomPurpose::test, key, 2 * step));
+      const bool leaves = places[part] > 0 && random_unit(4, RandomPurpose::test, key, 2 * step + 1) < 0.6;
+      places[part] += leaves ? -1 : 1;
+      if (leaves)
+        state.leave(static_cast<int>(part));
+      else
+        state.enter(static_cast<int>(part));
+      EXPECT_EQ(state.contains(), region.contains([&](int k) { return places[static_cast<std::size_t>(k)] > 0; }))
+          << region.text();
+    }
+  }
+}
+
+TEST(RegionState, AChangeDoesNotLookAtTheOtherParts) {
+  constexpr int parts = 10000;
+  std::vector<std::string> names;
+  std::string text = "difference(domain";
+  for (int k = 0; k < parts; ++k) {
+    names.push_back(fmt::format("p{}", k));
+    text += "," + names.back();
+  }
+  text += ")";
+  const Region region = Region::parse(text, names);
+  RegionState state(region, parts + 1);
+  for (int k = 0; k < parts; ++k) {
+    state.enter(k);
+    EXPECT_FALSE(state.contains());
+    state.enter(parts); // the domain
+    EXPECT_FALSE(state.contains());
+    state.leave(k);
+    EXPECT_TRUE(state.contains());
+    state.leave(parts);
+  }
+  EXPECT_LE(state.looked_at(), 8 * parts);
+}
+
+} // namespace
+} // namespace trime::shape
