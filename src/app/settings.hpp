@@ -50,7 +50,6 @@ public:
 private:
   void check_sections(Diagnostics& problems);
   void check_entry(const IniEntry& entry, Diagnostics& problems);
-  void check_default(const Option& option, Diagnostics& problems) const;
   void check_part(const std::string& section, Diagnostics& problems) const;
   bool is_known_section(const std::string& section) const;
 

@@ -290,6 +290,41 @@ class Names(unittest.TestCase):
             found |= {self.check(work, name, "tag", numbers, ranks) for name, ranks in (("a.geojson", 1), ("a.shp", 3))}
             self.assertEqual(len(found), 1)
 
+    def test_multipolygons_with_holes(self):
+        """As QGIS writes them: a reference system, several polygons of one name, holes, no name, no geometry."""
+        def ring(x, y, side):
+            return [[x, y], [x + side, y], [x + side, y + side], [x, y + side], [x, y]]
+        parts = [([[ring(0, 0, 40), ring(5, 5, 10), ring(20, 20, 15)], [ring(50, 0, 10)]], "Küste"),
+                 ([[ring(50, 20, 20), ring(55, 25, 8)]], "isle"), ([[ring(22, 22, 6)]], None)]
+        text = json.dumps({"type": "FeatureCollection", "name": "islands", "xy_coordinate_resolution": 1e-15,
+                           "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32632"}},
+                           "features": [{"type": "Feature", "properties": {"fid": 7, "name": name}, "geometry":
+                                         {"type": "MultiPolygon", "coordinates": polygons}} for polygons, name in parts] +
+                           [{"type": "Feature", "properties": {"fid": 9, "name": "gone"}, "geometry": None}]},
+                          ensure_ascii=False)
+        lengths = {"land": 4 * 6, "land.Küste": 4 * (40 + 10 + 15 + 10), "land.isle": 4 * (20 + 8)}
+        found = set()
+        with Workspace() as work:
+            (work / "a.geojson").write_text(text)
+            shapefile(work / "a.shp", text)
+            for name, ranks in (("a.geojson", 3), ("a.shp", 1)):
+                (work / "case.ini").write_text(CONFIG.format(name, 1500))
+                done = run(work / "case.ini", "shape.land.attribute=name", f"output.directory={work}",
+                           "output.overwrite=true", ranks=ranks)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                with h5py.File(work / "case.h5") as file:
+                    points, edges = file["Mesh/mesh/geometry"][:], file["Mesh/facets/topology"][:]
+                    parts_of_edges, tags = file["Mesh/facets/parts"][:], file["trime_mpi/tags"]
+                    names = [name.decode() for name in tags["part_name"]]
+                    self.assertEqual(set(names), {"land", "land.Küste", "land.isle"})
+                    self.assertEqual(sorted(tags["edge_kind"][:].tolist()), 3 * [b"hole"] + 4 * [b"outer"])
+                    found.add(int(file["trime_mpi"].attrs["mesh_hash"]))
+                    self.assertIn(b"32632", file["trime_mpi"].attrs["crs"])
+                long = numpy.linalg.norm(points[edges[:, 1]] - points[edges[:, 0]], axis=1)
+                for number, name in enumerate(names):
+                    self.assertAlmostEqual(long[parts_of_edges == number].sum(), lengths[name], 9)
+        self.assertEqual(len(found), 1)
+
     def test_refused(self):
         with Workspace() as work:
             (work / "a.geojson").write_text(self.collection())
