@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import unittest
+from xml.etree import ElementTree
 
 import gmsh
 import h5py
@@ -81,7 +82,7 @@ for stem in sys.argv[1:]:
 """
 BY_FREEFEM = """
 {
-  mesh Th = readmesh("FILE");
+  mesh Th READ;
   cout << "file FILE" << endl;
   for (int i = 0; i < Th.nv; ++i) cout << "vertex " << Th(i).x << " " << Th(i).y << " " << Th(i).label << endl;
   for (int t = 0; t < Th.nt; ++t)
@@ -108,6 +109,7 @@ class Expected:
                 raise AssertionError("labels are numbers of parts, from 1")
             tags = file["/trime_mpi/tags"]
             self.parts = {name.decode(): int(number) + 1 for name, number in zip(tags["part_name"], tags["part_id"])}
+            self.holes = list(tags["edge_kind"]).count(b"hole")
             self.regions = {name.decode(): int(number) for name, number in zip(tags["region_name"], tags["region_id"])}
 
     def edge_rows(self):
@@ -283,7 +285,9 @@ class Formats(unittest.TestCase):
         """All numbers as FreeFEM++ has them, and its integral along each label."""
         script, files = "cout.precision(17);\n", self.each("freefem") + self.each("mesh")
         for path, expected in files:
-            script += BY_FREEFEM.replace("FILE", str(path)).replace("LABELS", str(sorted(expected.parts.values())))
+            read = f'= readmesh("{path}")' if path.suffix == ".mesh" else f'("{path}")'
+            labels = str(sorted(expected.parts.values()))
+            script += BY_FREEFEM.replace("READ", read).replace("FILE", str(path)).replace("LABELS", labels)
         (self.work / "read.edp").write_text(script)
         done = subprocess.run(["FreeFem++", "-nw", "-v", "0", self.work / "read.edp"], capture_output=True, text=True,
                               timeout=120, check=False)
@@ -320,7 +324,39 @@ class Formats(unittest.TestCase):
                 lines = path.with_suffix(".ele").read_text().splitlines()
                 self.assertEqual(with_name("region", lines), expected.regions)
                 table = np.loadtxt(path.with_suffix(".edge"), skiprows=1, dtype=int)
-                self.assertEqual(rows(table[:, 1:3] - 1, table[:, 3]), expected.edge_rows())
+                edges = len(expected.points) + len(expected.triangles) - (1 - expected.holes)  # Euler's formula
+                self.assertEqual(len(table), edges)
+                np.testing.assert_array_equal(table[:, 0], np.arange(1, edges + 1))
+                on_rim = table[:, 3] > 0
+                self.assertEqual(rows(table[on_rim, 1:3] - 1, table[on_rim, 3]), expected.edge_rows())
+                sides = expected.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+                self.assertEqual(set(map(tuple, np.sort(table[:, 1:3] - 1).tolist())),
+                                 set(map(tuple, np.sort(sides).tolist())))
+                self.assertFalse(np.any(table[~on_rim, 3]))
+
+    def test_triangle_files_by_dolfin(self):
+        """The converter of FEniCS before dolfinx: points, triangles, and the marker of each side of each triangle."""
+        for path, expected in self.each("node"):
+            with self.subTest(file=path.name):
+                target = path.with_suffix(".xml")
+                done = subprocess.run(["dolfin-convert", path, target], text=True,
+                                      capture_output=True, timeout=60, check=False)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                tree = ElementTree.parse(target)
+                points = [[float(vertex.get(axis)) for axis in "xy"] for vertex in tree.iter("vertex")]
+                self.assertLessEqual(np.abs(np.array(points) - expected.points).max(), 1e-15)
+                corners = np.array([[int(cell.get(f"v{k}")) for k in range(3)] for cell in tree.iter("triangle")])
+                np.testing.assert_array_equal(corners, np.sort(expected.triangles))
+                marked = np.array([[int(value.get(name)) for name in ("cell_index", "local_entity", "value")]
+                                   for value in tree.iter("value")])
+                self.assertEqual(len(marked), 3 * len(corners))
+                opposite = np.array([[1, 2], [0, 2], [0, 1]])  # corners of each side
+                sides = corners[marked[:, 0][:, None], opposite[marked[:, 1]]]
+                on_rim = marked[:, 2] > 0
+                self.assertEqual(rows(sides[on_rim], marked[on_rim, 2]), rows(np.sort(expected.edges), expected.labels))
+                regions = ElementTree.parse(path.with_suffix(".attr0.xml"))
+                self.assertEqual({float(value.get("value")) for value in regions.iter("value")},
+                                 set(expected.regions.values()))
 
     def test_vtu_by_meshio_and_vtk(self):
         for path, expected in self.each("vtu"):
