@@ -90,6 +90,11 @@ class BadInput(unittest.TestCase):
         self.assertEqual(done.returncode, USAGE, done.stdout + done.stderr)
         self.assertRegex(done.stderr, r"(?i)config")
 
+    def test_a_contour_or_a_mesh_in_place_of_a_config(self):
+        self.refused("0 0\n1 0\n1 1\n", USAGE, [r"coast\.xy: expected a config, found a contour.*file = "],
+                     name="coast.xy", ranks_tried=ON_THREE_TOO)
+        self.refused("", USAGE, [r"a\.h5: expected a config, found a mesh file.*trime_mpi info .*a\.h5"], name="a.h5")
+
     # Keys and values
 
     def test_unknown_section_key_and_value_all_at_once(self):

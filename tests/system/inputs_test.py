@@ -11,9 +11,12 @@ import unittest
 
 import h5py
 import numpy
+from osgeo import osr
 
 from rough_coast import rough_coast
 from trime_run import Workspace, run
+
+osr.UseExceptions()
 
 CONFIG = "[shape]\nregion = land\n[shape.land]\ntype = contour\nfile = {}\n[meshing]\npoints = {}\n"
 GEOMETRY, FILE, USAGE = 3, 4, 2
@@ -144,6 +147,21 @@ def shapefile(path, text):
 def coast_in_degrees():
     """The made coast west of Norway, as rings of [longitude, latitude], closed; 1 degree high."""
     return [[[round(4 + x / 128, 6), round(60 + y / 256, 6)] for x, y in ring + ring[:1]] for ring in rough_coast(3)]
+
+
+def corners_of(rings, plane, angle=30):
+    """Vertices of rings in degrees that turn by more than `angle` degrees in a plane, by GDAL's projection."""
+    systems = osr.SpatialReference(), osr.SpatialReference()
+    systems[0].ImportFromEPSG(4326)
+    systems[1].ImportFromProj4(plane)
+    for system in systems:
+        system.SetAxisMappingStrategy(osr.OAMS_TRADITIONAL_GIS_ORDER)
+    transform, count = osr.CoordinateTransformation(*systems), 0
+    for ring in rings:
+        x, y, _ = numpy.array(transform.TransformPoints(ring[:-1])).T
+        steps = numpy.diff(numpy.append(x, x[0])) + 1j * numpy.diff(numpy.append(y, y[0]))
+        count += int((numpy.abs(numpy.angle(steps / numpy.roll(steps, 1), deg=True)) > angle).sum())
+    return count
 
 
 def fourfold(line):
@@ -347,7 +365,7 @@ class Names(unittest.TestCase):
 class Maps(unittest.TestCase):
     def mesh(self, work, name, *overrides, ranks=1):
         """The mesh of a contour file; its hash."""
-        (work / "case.ini").write_text(CONFIG.format(name, 6000))
+        (work / "case.ini").write_text(CONFIG.format(name, 3000))
         done = run(work / "case.ini", f"output.directory={work}", "output.overwrite=true", *overrides, ranks=ranks)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         with h5py.File(work / "case.h5") as file:
@@ -364,28 +382,35 @@ class Maps(unittest.TestCase):
     def test_a_coast_in_degrees(self):
         rings = coast_in_degrees()
         text = json.dumps({"type": "Polygon", "coordinates": rings}, indent=1)
-        auto = "shape.projection=auto"
+        auto = ["shape.projection=auto", "meshing.simplify_within=0", "meshing.points=6000"]  # every curve stays
         with Workspace() as work:
             (work / "coast.geojson").write_text(text)
             shapefile(work / "coast.shp", text)
             (work / "coast.xy").write_text("\n".join("".join(f"{x} {y}\n" for x, y in ring) for ring in rings))
-            hashes = {self.mesh(work, "coast.shp", auto, ranks=3)[0], self.mesh(work, "coast.xy", auto)[0]}
-            found, done = self.mesh(work, "coast.geojson", auto, "output.formats=xdmf geojson", ranks=3)
+            hashes = {self.mesh(work, "coast.shp", *auto, ranks=3)[0], self.mesh(work, "coast.xy", *auto)[0]}
+            found, done = self.mesh(work, "coast.geojson", *auto, "output.formats=vtkhdf xdmf geojson", ranks=3)
             self.assertEqual(hashes, {found})
             self.assertRegex(done.stdout, r"projection: \+proj=stere \+lat_0=60\.\d+ \+lon_0=[45]")
             self.assertRegex(done.stdout, r"worst triangle at .* \[.*coast\.geojson:\d+: \([456]\.\d+, 6[01]\.\d+\)\]")
             with h5py.File(work / "case.h5") as file:
                 self.assertTrue(file["trime_mpi"].attrs["crs"].startswith(b"+proj=stere"))
                 self.assertIn("Stereographic", file["trime_mpi/crs_wkt"][()].decode())
-                points = file["Mesh/mesh/geometry"][:]
+                points, ends = file["Mesh/mesh/geometry"][:], file["Mesh/facets/topology"][:]
+                is_corner = file["VTKHDF/PointData/fixed"][:] == 1
+                left_out = int(file["trime_mpi"].attrs["corners_left_out"])
+                self.assertEqual(set(file["trime_mpi/rings/state"][:]), {b"kept"})
+                plane = file["trime_mpi"].attrs["crs"].decode()
             self.assertLess(numpy.abs(points).max(), 1e5)  # metres from the middle
             triangles, edges = self.places(work / "case.geojson")
             vertices = numpy.concatenate([ring[:-1] for ring in rings])
-            corners = numpy.unique(edges.reshape(-1, 2), axis=0)
-            nearest = numpy.array([numpy.abs(vertices - place).max(axis=1).min() for place in corners])
-            kept = nearest[nearest < 1e-6]  # others were moved, by metres at least, where the coast was simplified
-            self.assertGreater(len(kept), 20)
-            self.assertLess(kept.max(), 1e-9)
+            corners = {point: place for points, places in zip(ends, edges) for point, place in zip(points, places)
+                       if is_corner[point]}  # each a vertex of the coast, and no other one a corner
+            nearest = [numpy.abs(vertices - place).max(axis=1) for place in corners.values()]
+            self.assertLess(max(distances.min() for distances in nearest), 1e-9)
+            self.assertEqual(len({int(distances.argmin()) for distances in nearest}), len(corners))
+            self.assertEqual(len(corners), is_corner.sum())
+            self.assertEqual(len(corners) + left_out, corners_of(rings, plane))
+            self.assertGreater(len(corners), 500)
             self.assertGreater(len(triangles), 8000)
             written = (work / "case.geojson").read_bytes()
             for ranks in (1, 2):
