@@ -25,9 +25,9 @@ struct Option {
   const char* key;
   const char* part_type = ""; ///< parts only: the type that the key belongs to; empty: all
   OptionKind kind = OptionKind::number;
-  const char* fallback = "";  ///< default; empty: the key must be given, or the meaning says what holds without it
-  const char* choices = "";   ///< words that may stand here (for numbers: besides a number)
-  Range range{};              ///< number, integer
+  const char* fallback = ""; ///< default; empty: the key must be given, or the meaning says what holds without it
+  const char* choices = "";  ///< words that may stand here (for numbers: besides a number)
+  Range range{};             ///< number, integer
   const char* meaning;
 };
 
