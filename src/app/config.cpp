@@ -311,6 +311,21 @@ void read_log(const Settings& settings, RunOptions& options) {
   options.log_interval = static_cast<int>(settings.integer("log", "interval"));
 }
 
+/// A contour or a mesh where a config belongs, which newcomers try.
+void refuse_other_files(const std::string& path) {
+  const std::string ending = fs::path(path).extension().string();
+  for (const char* contour : {".xy", ".geojson", ".json", ".shp", ".poly", ".msh"})
+    if (ending == contour)
+      throw ConfigError(fmt::format("{0}: expected a config, found a contour by its ending; name it in a config, as "
+                                    "'file = {0}' in a section [shape.NAME] with 'type = contour'; configs/coast.ini "
+                                    "is an example",
+                                    path));
+  if (ending == ".h5" || ending == ".vtkhdf")
+    throw ConfigError(fmt::format("{0}: expected a config, found a mesh file by its ending; 'trime_mpi info {0}' tells "
+                                  "what is in it, 'trime_mpi convert {0} OUT.ENDING' writes it for other programs",
+                                  path));
+}
+
 } // namespace
 
 std::string method_name(sweep::Method method) {
@@ -321,6 +336,7 @@ std::string method_name(sweep::Method method) {
 }
 
 RunOptions parse_config(std::string_view text, const std::string& path, const std::vector<std::string>& overrides) {
+  refuse_other_files(path);
   Diagnostics problems(path);
   IniDocument document = parse_ini(text, problems);
   for (const std::string& override_text : overrides)

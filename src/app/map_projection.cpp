@@ -67,11 +67,27 @@ std::string common_system(std::span<const Contour> contours) {
   return first == nullptr ? std::string() : first->crs;
 }
 
+/// A map that may be in degrees, though it does not say so; null: there is none.
+const Contour* map_without_system(std::span<const Contour> contours) {
+  for (const Contour& contour : contours)
+    if (contour.is_map && contour.crs.empty() &&
+        std::all_of(contour.rings.begin(), contour.rings.end(), [](const ContourRing& ring) {
+          return std::all_of(ring.points.begin(), ring.points.end(),
+                             [](Vec2 p) { return std::fabs(p.x) <= 360 && std::fabs(p.y) <= 90; });
+        }))
+      return &contour;
+  return nullptr;
+}
+
 /// Without a projection.
 MapSystem as_it_is(const RunOptions& options, std::span<const Contour> contours, Log& log) {
   const std::string crs = common_system(contours);
   const bool moved =
       std::any_of(options.parts.begin(), options.parts.end(), [](const PartOptions& part) { return part.normalize; });
+  if (const Contour* map = map_without_system(contours); map != nullptr && !moved)
+    log.info("{} tells no reference system: if it has longitude and latitude, 'projection = auto' in [shape] meshes "
+             "them in metres",
+             map->source);
   if (crs.empty() || moved)
     return {};
   try {

@@ -25,10 +25,9 @@ struct Option {
   const char* key;
   const char* part_type = ""; ///< parts only: the type that the key belongs to; empty: all
   OptionKind kind = OptionKind::number;
-  const char* fallback = "";  ///< default; empty: the key must be given, or the meaning says what holds without it
-  const char* choices = "";   ///< words that may stand here (for numbers: besides a number)
-  Range range{};              ///< number, integer
-  const char* supported = ""; ///< values that this version obeys; empty: all. The others are refused by name.
+  const char* fallback = ""; ///< default; empty: the key must be given, or the meaning says what holds without it
+  const char* choices = "";  ///< words that may stand here (for numbers: besides a number)
+  Range range{};             ///< number, integer
   const char* meaning;
 };
 
@@ -54,8 +53,8 @@ std::vector<std::string> split_words(std::string_view text);
 /// "a number > 0", "auto or an integer from 1 to 10": what may stand behind the key.
 std::string expectation(const Option& option);
 
-/// @brief Empty if `value` may stand behind the key and this version obeys it; else what is wrong with it, without
-/// place: `'radius = -1' in [shape.hole]: expected a number > 0`.
+/// Empty if `value` may stand behind the key; else what is wrong with it, without place: `'radius = -1' in
+/// [shape.hole]: expected a number > 0`.
 std::string value_problem(const Option& option, std::string_view section, const std::string& value);
 
 /// The table as Markdown, as `--help-config` prints it.

@@ -60,42 +60,12 @@ bool is_well_formed(const Option& option, const std::string& value) {
   return false;
 }
 
-/// Equal as written, or as numbers ("0" and "0.0").
-bool same_value(const std::string& a, const std::string& b) {
-  const std::optional<double> x = parse_number(a), y = parse_number(b);
-  return x && y ? *x == *y : a == b;
-}
-
-bool is_supported(const Option& option, const std::string& value) {
-  const std::vector<std::string> supported = split_words(option.supported);
-  if (supported.empty())
-    return true;
-  const std::vector<std::string> words =
-      option.kind == OptionKind::words ? split_words(value) : std::vector<std::string>{value};
-  return std::all_of(words.begin(), words.end(), [&](const std::string& word) {
-    return std::any_of(supported.begin(), supported.end(), [&](const std::string& s) { return same_value(word, s); });
-  });
-}
-
 /// The nearest allowed word to each word that is none.
 std::string word_suggestion(const Option& option, const std::string& value) {
   for (const std::string& word : split_words(value))
     if (!is_one_of(word, option.choices) && !parse_number(word))
       return suggestion(word, split_words(option.choices));
   return "";
-}
-
-/// What the help says of the values: which of them this version refuses, too.
-std::string help_values(const Option& option) {
-  const std::vector<std::string> supported = split_words(option.supported);
-  if (supported.empty())
-    return expectation(option);
-  if (option.kind != OptionKind::words)
-    return fmt::format("{}; others are refused by this version", fmt::join(supported, " or "));
-  std::vector<std::string> refused = split_words(option.choices);
-  std::erase_if(refused, [&](const std::string& word) { return is_one_of(word, option.supported); });
-  return fmt::format("a list of {}, separated by blanks; refused by this version: {}", fmt::join(supported, ", "),
-                     fmt::join(refused, ", "));
 }
 
 } // namespace
@@ -158,17 +128,10 @@ std::string expectation(const Option& option) {
 }
 
 std::string value_problem(const Option& option, std::string_view section, const std::string& value) {
-  const std::string what = fmt::format("'{} = {}' in [{}]", option.key, value, section);
-  if (!is_well_formed(option, value))
-    return fmt::format("{}: expected {}{}", what, expectation(option), word_suggestion(option, value));
-  if (is_supported(option, value))
+  if (is_well_formed(option, value))
     return "";
-  const std::vector<std::string> supported = split_words(option.supported);
-  const std::string remedy = supported.size() == 1 && supported[0] == option.fallback
-                                 ? fmt::format("leave it {}", supported[0])
-                             : option.kind == OptionKind::words ? fmt::format("use {}", fmt::join(supported, ", "))
-                                                                : fmt::format("use {}", fmt::join(supported, " or "));
-  return fmt::format("{} is not supported yet; {}", what, remedy);
+  return fmt::format("'{} = {}' in [{}]: expected {}{}", option.key, value, section, expectation(option),
+                     word_suggestion(option, value));
 }
 
 std::string help_config() {
@@ -176,7 +139,7 @@ std::string help_config() {
   for (const Option& option : option_table()) {
     const std::string fallback = *option.fallback ? fmt::format(" ({})", option.fallback) : "";
     const std::string type = *option.part_type ? fmt::format(" ({})", option.part_type) : "";
-    text += fmt::format("| `[{}] {}`{} | {}{} | {} |\n", option.section, option.key, type, help_values(option),
+    text += fmt::format("| `[{}] {}`{} | {}{} | {} |\n", option.section, option.key, type, expectation(option),
                         fallback, option.meaning);
   }
   return text;

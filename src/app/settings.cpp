@@ -48,8 +48,6 @@ Settings::Settings(const IniDocument& document, Diagnostics& problems) {
       check_entry(entry, problems);
     else if (++misspelt_ <= most_misspelt)
       meant_.insert({nearest_name(entry.section, section_names()), entry.key});
-  for (const Option& option : option_table())
-    check_default(option, problems);
   for (const std::string& part : parts_)
     check_part(std::string(part_prefix) + part, problems);
 }
@@ -108,17 +106,6 @@ void Settings::check_entry(const IniEntry& entry, Diagnostics& problems) {
 void Settings::keep(const IniEntry& entry) {
   good_.emplace(IniKey{entry.section, entry.key}, entry.value);
   own_[entry.section].push_back(entry);
-}
-
-/// A key that the user left out may have a default that this version does not obey: that must be said, too.
-void Settings::check_default(const Option& option, Diagnostics& problems) const {
-  const std::string fallback = option.fallback;
-  if (fallback.empty() || is_set(option.section, option.key) || value_problem(option, option.section, fallback).empty())
-    return;
-  const std::vector<std::string> supported = split_words(option.supported);
-  problems.add(whole_file, fmt::format("'{0}' in [{1}] is not set, and its default '{2}' is not supported yet; set "
-                                       "'{0} = {3}' in [{1}]",
-                                       option.key, option.section, fallback, supported.at(0)));
 }
 
 /// The keys of a part against its type. A line that was refused already is not reported again.

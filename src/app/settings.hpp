@@ -53,7 +53,6 @@ public:
 private:
   void check_sections(const IniDocument& document, Diagnostics& problems);
   void check_entry(const IniEntry& entry, Diagnostics& problems);
-  void check_default(const Option& option, Diagnostics& problems) const;
   void check_part(const std::string& section, Diagnostics& problems);
   bool is_known_section(const std::string& section) const;
   void keep(const IniEntry& entry);

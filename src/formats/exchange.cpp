@@ -35,7 +35,8 @@ void check_fits(Format format, const mesh::DistributedMesh& mesh, const Names& w
                                   "sides of {:.9g} and {:.9g} (0: not periodic); take vtkhdf, xdmf or text",
                                   word, with.period.x, with.period.y));
   constexpr GlobalId most = std::numeric_limits<std::int32_t>::max();
-  const GlobalId elements = mesh.triangle_slab.total + mesh.facet_slab.total;
+  const GlobalId triangles = mesh.triangle_slab.total, facets = mesh.facet_slab.total;
+  const GlobalId elements = format == Format::triangle ? (3 * triangles + facets) / 2 : triangles + facets; // .edge
   if (format != Format::gmsh && format != Format::vtu && format != Format::geojson && elements > most)
     throw ConfigError(fmt::format("the format '{}' counts with 32 bits: expected at most {} triangles and edges, found "
                                   "{}; take gmsh, vtu, vtkhdf or xdmf",

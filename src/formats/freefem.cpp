@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mesh file of FreeFEM++ ("mesh type msh" of its manual), for readmesh in two dimensions. It has no names.
+// The mesh file of FreeFEM++ ("mesh type msh" of its manual), in two dimensions: `mesh Th("NAME.freefem")` reads it;
+// `readmesh` takes the ending .msh only, which is Gmsh's here. It has no names.
 #include "formats/exchange_mesh.hpp"
 
 #include <fmt/format.h>

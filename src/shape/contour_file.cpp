@@ -86,6 +86,7 @@ public:
     visit(contour.warnings);
     visit(contour.marker_names);
     visit(contour.crs);
+    visit(contour.is_map);
   }
 
 private:

@@ -209,8 +209,11 @@ void Placement::report(const SegmentGrid& grid, const SegmentPair& pair) const {
                                   in_file(meeting_point(s, t)), remedy));
 }
 
-/// A warning for every ring that encloses a piece of its own, except the one of the largest area.
+/// A warning for every ring that encloses a piece of its own, except the one of the largest area. Maps mean such
+/// pieces.
 void Placement::tell_pieces(const Polygon& polygon, std::vector<std::string>& warnings) const {
+  if (contour_.is_map)
+    return;
   const std::span<const Segment> segments = polygon.grid.segments();
   std::vector<int> starts; // lines of the rings that are no holes
   double largest = 0;

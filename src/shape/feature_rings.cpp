@@ -37,7 +37,9 @@ std::string cleaned(std::string text) {
 } // namespace
 
 FeatureRings::FeatureRings(Contour& contour, std::string attribute)
-    : contour_(contour), builder_(contour), attribute_(std::move(attribute)) {}
+    : contour_(contour), builder_(contour), attribute_(std::move(attribute)) {
+  contour_.is_map = true;
+}
 
 void FeatureRings::add(Kind kind, std::vector<FilePoint> vertices) {
   of_feature_.push_back({kind, std::move(vertices)});

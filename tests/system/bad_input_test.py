@@ -111,6 +111,10 @@ class Rows:
     def no_config_file(self):
         yield Row(None, FILE, [r"missing\.ini"], name="missing.ini")
 
+    def a_contour_or_a_mesh_in_place_of_a_config(self):
+        yield Row("0 0\n1 0\n1 1\n", USAGE, [r"coast\.xy: expected a config, found a contour.*file = "], name="coast.xy")
+        yield Row("", USAGE, [r"a\.h5: expected a config, found a mesh file.*trime_mpi info .*a\.h5"], name="a.h5")
+
     def bad_values(self):
         for word in BAD_VALUES:
             section, key, value = re.fullmatch(r"(.*)\.(\w+)=(.*)", word).groups()

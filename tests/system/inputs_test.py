@@ -3,6 +3,7 @@
 """Contours as users have them: dirty files of every format, read or refused with file and line, the same on 1 and 3
 ranks; markers of segments and attributes of maps on the edges of the mesh; a coast in longitude and latitude that is
 meshed in a plane, written back, and found at the right place by GDAL."""
+import concurrent.futures
 import json
 import math
 import re
@@ -11,9 +12,12 @@ import unittest
 
 import h5py
 import numpy
+from osgeo import osr
 
 from rough_coast import rough_coast
 from trime_run import Workspace, run
+
+osr.UseExceptions()
 
 CONFIG = "[shape]\nregion = land\n[shape.land]\ntype = contour\nfile = {}\n[meshing]\npoints = {}\n"
 GEOMETRY, FILE, USAGE = 3, 4, 2
@@ -146,6 +150,21 @@ def coast_in_degrees():
     return [[[round(4 + x / 128, 6), round(60 + y / 256, 6)] for x, y in ring + ring[:1]] for ring in rough_coast(3)]
 
 
+def corners_of(rings, plane, angle=30):
+    """Vertices of rings in degrees that turn by more than `angle` degrees in a plane, by GDAL's projection."""
+    systems = osr.SpatialReference(), osr.SpatialReference()
+    systems[0].ImportFromEPSG(4326)
+    systems[1].ImportFromProj4(plane)
+    for system in systems:
+        system.SetAxisMappingStrategy(osr.OAMS_TRADITIONAL_GIS_ORDER)
+    transform, count = osr.CoordinateTransformation(*systems), 0
+    for ring in rings:
+        x, y, _ = numpy.array(transform.TransformPoints(ring[:-1])).T
+        steps = numpy.diff(numpy.append(x, x[0])) + 1j * numpy.diff(numpy.append(y, y[0]))
+        count += int((numpy.abs(numpy.angle(steps / numpy.roll(steps, 1), deg=True)) > angle).sum())
+    return count
+
+
 def fourfold(line):
     """`shape: area 0.64, ...` as (area, rest)."""
     return float(re.search(r"area (\S+),", line)[1]), line.split("boundary")[1]
@@ -169,17 +188,20 @@ class DirtyInputs(unittest.TestCase):
         self.assertEqual(said[0], said[1])
         return said[0]
 
+    def all_validated(self, table):
+        """The same for each row, two at a time."""
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            return list(pool.map(lambda row: self.validated(row[1], row[2]), table))
+
     def test_read(self):
-        for what, name, text, area in READ:
+        for (what, name, _, area), (code, shape, told) in zip(READ, self.all_validated(READ)):
             with self.subTest(what=what, file=name):
-                code, shape, told = self.validated(name, text)
                 self.assertEqual(code, 0, told)
                 self.assertAlmostEqual(fourfold(shape[0])[0], area, 9)
 
     def test_refused(self):
-        for what, name, text, code, message in REFUSED:
+        for (what, name, _, code, message), (found, _, told) in zip(REFUSED, self.all_validated(REFUSED)):
             with self.subTest(what=what, file=name):
-                found, _, told = self.validated(name, text)
                 self.assertEqual(found, code, told)
                 self.assertEqual(len(told), 1, told)
                 self.assertRegex(told[0], message)
@@ -297,6 +319,41 @@ class Names(unittest.TestCase):
             found |= {self.check(work, name, "tag", numbers, ranks) for name, ranks in (("a.geojson", 1), ("a.shp", 3))}
             self.assertEqual(len(found), 1)
 
+    def test_multipolygons_with_holes(self):
+        """As QGIS writes them: a reference system, several polygons of one name, holes, no name, no geometry."""
+        def ring(x, y, side):
+            return [[x, y], [x + side, y], [x + side, y + side], [x, y + side], [x, y]]
+        parts = [([[ring(0, 0, 40), ring(5, 5, 10), ring(20, 20, 15)], [ring(50, 0, 10)]], "Küste"),
+                 ([[ring(50, 20, 20), ring(55, 25, 8)]], "isle"), ([[ring(22, 22, 6)]], None)]
+        text = json.dumps({"type": "FeatureCollection", "name": "islands", "xy_coordinate_resolution": 1e-15,
+                           "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32632"}},
+                           "features": [{"type": "Feature", "properties": {"fid": 7, "name": name}, "geometry":
+                                         {"type": "MultiPolygon", "coordinates": polygons}} for polygons, name in parts] +
+                           [{"type": "Feature", "properties": {"fid": 9, "name": "gone"}, "geometry": None}]},
+                          ensure_ascii=False)
+        lengths = {"land": 4 * 6, "land.Küste": 4 * (40 + 10 + 15 + 10), "land.isle": 4 * (20 + 8)}
+        found = set()
+        with Workspace() as work:
+            (work / "a.geojson").write_text(text)
+            shapefile(work / "a.shp", text)
+            for name, ranks in (("a.geojson", 3), ("a.shp", 1)):
+                (work / "case.ini").write_text(CONFIG.format(name, 1500))
+                done = run(work / "case.ini", "shape.land.attribute=name", f"output.directory={work}",
+                           "output.overwrite=true", ranks=ranks)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                with h5py.File(work / "case.h5") as file:
+                    points, edges = file["Mesh/mesh/geometry"][:], file["Mesh/facets/topology"][:]
+                    parts_of_edges, tags = file["Mesh/facets/parts"][:], file["trime_mpi/tags"]
+                    names = [name.decode() for name in tags["part_name"]]
+                    self.assertEqual(set(names), {"land", "land.Küste", "land.isle"})
+                    self.assertEqual(sorted(tags["edge_kind"][:].tolist()), 3 * [b"hole"] + 4 * [b"outer"])
+                    found.add(int(file["trime_mpi"].attrs["mesh_hash"]))
+                    self.assertRegex(file["trime_mpi"].attrs["crs"].decode(), "32632|UTM_Zone_32N")
+                long = numpy.linalg.norm(points[edges[:, 1]] - points[edges[:, 0]], axis=1)
+                for number, name in enumerate(names):
+                    self.assertAlmostEqual(long[parts_of_edges == number].sum(), lengths[name], 9)
+        self.assertEqual(len(found), 1)
+
     def test_refused(self):
         with Workspace() as work:
             (work / "a.geojson").write_text(self.collection())
@@ -319,7 +376,7 @@ class Names(unittest.TestCase):
 class Maps(unittest.TestCase):
     def mesh(self, work, name, *overrides, ranks=1):
         """The mesh of a contour file; its hash."""
-        (work / "case.ini").write_text(CONFIG.format(name, 6000))
+        (work / "case.ini").write_text(CONFIG.format(name, 3000))
         done = run(work / "case.ini", f"output.directory={work}", "output.overwrite=true", *overrides, ranks=ranks)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         with h5py.File(work / "case.h5") as file:
@@ -336,28 +393,35 @@ class Maps(unittest.TestCase):
     def test_a_coast_in_degrees(self):
         rings = coast_in_degrees()
         text = json.dumps({"type": "Polygon", "coordinates": rings}, indent=1)
-        auto = "shape.projection=auto"
+        auto = ["shape.projection=auto", "meshing.simplify_within=0", "meshing.points=6000"]  # every curve stays
         with Workspace() as work:
             (work / "coast.geojson").write_text(text)
             shapefile(work / "coast.shp", text)
             (work / "coast.xy").write_text("\n".join("".join(f"{x} {y}\n" for x, y in ring) for ring in rings))
-            hashes = {self.mesh(work, "coast.shp", auto, ranks=3)[0], self.mesh(work, "coast.xy", auto)[0]}
-            found, done = self.mesh(work, "coast.geojson", auto, "output.formats=xdmf geojson", ranks=3)
+            hashes = {self.mesh(work, "coast.shp", *auto, ranks=3)[0], self.mesh(work, "coast.xy", *auto)[0]}
+            found, done = self.mesh(work, "coast.geojson", *auto, "output.formats=vtkhdf xdmf geojson", ranks=3)
             self.assertEqual(hashes, {found})
             self.assertRegex(done.stdout, r"projection: \+proj=stere \+lat_0=60\.\d+ \+lon_0=[45]")
             self.assertRegex(done.stdout, r"worst triangle at .* \[.*coast\.geojson:\d+: \([456]\.\d+, 6[01]\.\d+\)\]")
             with h5py.File(work / "case.h5") as file:
                 self.assertTrue(file["trime_mpi"].attrs["crs"].startswith(b"+proj=stere"))
                 self.assertIn("Stereographic", file["trime_mpi/crs_wkt"][()].decode())
-                points = file["Mesh/mesh/geometry"][:]
+                points, ends = file["Mesh/mesh/geometry"][:], file["Mesh/facets/topology"][:]
+                is_corner = file["VTKHDF/PointData/fixed"][:] == 1
+                left_out = int(file["trime_mpi"].attrs["corners_left_out"])
+                self.assertEqual(set(file["trime_mpi/rings/state"][:]), {b"kept"})
+                plane = file["trime_mpi"].attrs["crs"].decode()
             self.assertLess(numpy.abs(points).max(), 1e5)  # metres from the middle
             triangles, edges = self.places(work / "case.geojson")
             vertices = numpy.concatenate([ring[:-1] for ring in rings])
-            corners = numpy.unique(edges.reshape(-1, 2), axis=0)
-            nearest = numpy.array([numpy.abs(vertices - place).max(axis=1).min() for place in corners])
-            kept = nearest[nearest < 1e-6]  # others were moved, by metres at least, where the coast was simplified
-            self.assertGreater(len(kept), 20)
-            self.assertLess(kept.max(), 1e-9)
+            corners = {point: place for points, places in zip(ends, edges) for point, place in zip(points, places)
+                       if is_corner[point]}  # each a vertex of the coast, and no other one a corner
+            nearest = [numpy.abs(vertices - place).max(axis=1) for place in corners.values()]
+            self.assertLess(max(distances.min() for distances in nearest), 1e-9)
+            self.assertEqual(len({int(distances.argmin()) for distances in nearest}), len(corners))
+            self.assertEqual(len(corners), is_corner.sum())
+            self.assertEqual(len(corners) + left_out, corners_of(rings, plane))
+            self.assertGreater(len(corners), 500)
             self.assertGreater(len(triangles), 8000)
             written = (work / "case.geojson").read_bytes()
             for ranks in (1, 2):
@@ -393,7 +457,10 @@ class Maps(unittest.TestCase):
         with Workspace() as work:
             shapefile(work / "a.shp", geojson(SQUARE + SQUARE[:1]))
             (work / "case.ini").write_text(CONFIG.format("a.shp", 500))
-            self.assertIn("'projection = auto' in [shape]", run(work / "case.ini", "--validate").stdout)
+            self.assertRegex(run(work / "case.ini", "--validate").stdout, r"warning: .*'projection = auto' in \[shape\]")
+            (work / "a.prj").unlink()
+            self.assertRegex(run(work / "case.ini", "--validate").stdout,
+                             r"a\.shp tells no reference system: .* 'projection = auto' in \[shape\]")
 
     def test_fixed_points_are_projected_too(self):
         with Workspace() as work:

@@ -29,7 +29,8 @@ struct Contour {
   std::vector<std::string> warnings; ///< for the user, one sentence each
   /// Names of the markers 1, 2, ...; empty: markers have none.
   std::vector<std::string> marker_names{};
-  std::string crs{}; ///< reference system of the coordinates as the file tells it; empty: it does not
+  std::string crs{};   ///< reference system of the coordinates as the file tells it; empty: it does not
+  bool is_map = false; ///< of the features of a map: several polygons are what it means, coordinates may be degrees
 };
 
 /// @brief The rings of a file; its name ends in `.poly` (Triangle), `.shp` (ESRI), `.msh` (JIGSAW), `.geojson` or

@@ -1,0 +1,62 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""From a map to a solver, as configs/README.md tells it: its config, commands and scripts, word for word, on a
+shapefile of islands with a lake, in degrees."""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import unittest
+
+from trime_run import PROGRAM, ROOT, Workspace, environment
+
+PAGE = (ROOT / "configs" / "README.md").read_text(encoding="utf-8")
+TIMEOUT = 300  # seconds, of a command
+
+
+def blocks(title, language):
+    """The code of a section of the page."""
+    section = re.search(rf"^##+ {title}\n(.*?)(?=^##)", PAGE, re.MULTILINE | re.DOTALL)[1]
+    return re.findall(rf"^```{language}\n(.*?)^```", section, re.MULTILINE | re.DOTALL)
+
+
+def square(x, y, side):
+    return [[x, y], [x + 2 * side, y], [x + 2 * side, y + side], [x, y + side], [x, y]]
+
+
+class Recipe(unittest.TestCase):
+    def run_in(self, work, *command):
+        done = subprocess.run([str(word) for word in command], cwd=work, capture_output=True, text=True, check=False,
+                              timeout=TIMEOUT, env=dict(environment(1), XDG_CACHE_HOME=str(work)))
+        self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}{done.stderr}")
+        return done.stdout
+
+    def test_word_for_word(self):
+        features = [{"type": "Feature", "properties": {"name": name}, "geometry": {"type": "Polygon", "coordinates": rings}}
+                    for name, rings in (("Main", [square(10, 60, 0.5), square(10.3, 60.2, 0.1)]),
+                                        ("Isle", [square(11.3, 60.1, 0.2)]))]
+        with Workspace() as work:
+            (work / "map.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+            self.run_in(work, "ogr2ogr", "-f", "ESRI Shapefile", "coast.shp", "map.geojson")
+            (work / "coast.prj").unlink()
+            (work / "build").mkdir()
+            (work / "build" / "release").symlink_to(pathlib.Path(PROGRAM).parent)
+            (work / "scripts").symlink_to(ROOT / "scripts")
+            title = "From a map to a solver"
+            (work / "coast.ini").write_text(blocks(title, "ini")[0].replace("points = 20000", "points = 1000"))
+            told = [self.run_in(work, "sh", "-c", line) for line in blocks(title, "sh")[0].splitlines()]
+            self.assertIn("2 components, 1 hole", told[0])
+            self.assertIn("1 land, 2 land.Main, 3 land.Isle", told[-1])
+            self.assertGreater((work / "out" / "coast.png").stat().st_size, 10_000)
+            (work / "coast.edp").write_text(blocks(title, "cpp")[0] + 'cout << "found " << u[].max << endl;\n')
+            told = self.run_in(work, "FreeFem++", "-nw", "-v", "0", "coast.edp")
+            largest = float(re.search(r"found (\S+)", told)[1])
+            code = blocks("dolfinx", "python")[0].replace("spade", "coast") + blocks(title, "python")[0]
+            (work / "coast.py").write_text(code)
+            told = self.run_in(work, sys.executable, "coast.py")
+            self.assertAlmostEqual(float(told.split()[-1]) / largest, 1, delta=1e-3)  # dolfinx solves iteratively
+
+
+if __name__ == "__main__":
+    unittest.main()
