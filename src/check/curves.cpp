@@ -163,8 +163,9 @@ Source read_part(const ConfigText& config, const std::string& name) {
   return part;
 }
 
-/// The unit square where the shape fits in there, or does not say how large it is.
-Box container_of(const ConfigText& config, const std::vector<Source>& parts, const std::string& region) {
+/// The unit square where the shape fits in there, or does not say how large it is. Nothing if a contour that is not
+/// read would have to tell.
+std::optional<Box> container_of(const ConfigText& config, const std::vector<Source>& parts, const std::string& region) {
   Box box = unit_square;
   bool is_given = config.is_true("domain", "periodic_x") || config.is_true("domain", "periodic_y");
   for (const auto& [key, side] : {std::pair{"x_min", &box.min.x}, std::pair{"x_max", &box.max.x},
@@ -176,6 +177,9 @@ Box container_of(const ConfigText& config, const std::vector<Source>& parts, con
   if (is_given)
     return box;
   std::vector<std::pair<std::string, Box>> boxes{{"domain", unit_square}};
+  for (const Source& part : parts)
+    if (part.type == "contour" && !part.normalised && !part.reason.empty())
+      return std::nullopt;
   for (const Source& part : parts)
     boxes.emplace_back(part.name, part.normalised || !part.reason.empty() ? unit_square : part.box());
   const Box found = region_box(region, boxes);
@@ -225,7 +229,14 @@ bool Shape::matters(const Part& part, Point p) const {
   return with != evaluate_region(region, inside);
 }
 
-Shape make_shape(const ConfigText& config) {
+const Part* Shape::part_of_label(const std::string& label) const {
+  if (const Part* exact = part(label))
+    return exact;
+  const Part* whole = part(label.substr(0, label.find('.')));
+  return whole && !whole->curve ? whole : nullptr;
+}
+
+Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh) {
   Shape shape;
   shape.region = config.value("shape", "region");
   if (shape.region.empty())
@@ -233,7 +244,10 @@ Shape make_shape(const ConfigText& config) {
   std::vector<Source> sources;
   for (const std::string& name : config.parts())
     sources.push_back(read_part(config, name));
-  shape.container = container_of(config, sources, shape.region);
+  const std::optional<Box> container = container_of(config, sources, shape.region);
+  shape.container = container ? *container : box_of({mesh});
+  if (!container)
+    shape.container_reason = "it follows from a contour that is not read here";
   shape.step = lattice_step(shape);
   const auto period = [&](const char* key, double side) {
     return config.is_true("domain", key) ? std::round(side / shape.step) * shape.step : 0;

@@ -35,6 +35,7 @@ struct Part {
 struct Shape {
   std::vector<Part> parts;
   Box container;
+  std::string container_reason; ///< why it is not known; then `container` is the box of the mesh
   Periods periods;
   double step = 0; ///< of the lattice on which all coordinates lie
   std::string region;
@@ -43,14 +44,18 @@ struct Shape {
 
   double side() const { return std::fmax(container.max.x - container.min.x, container.max.y - container.min.y); }
   const Part* part(const std::string& name) const;
+  /// @brief The part that a name in a mesh file tells: its own, or that of a contour that is not read here and a name
+  /// or marker of its features behind a point. Null: there is none.
+  const Part* part_of_label(const std::string& label) const;
   /// Distance from a part, images of the container's periods too.
   double distance(const Part& part, Point p) const;
   /// Does the shape change at p where one is in this part or out of it? @pre all parts have curves
   bool matters(const Part& part, Point p) const;
 };
 
+/// @param mesh its points: their box stands for a container that follows from files that are not read here
 /// @throws Failure (exit 2) where the config says too little
-Shape make_shape(const ConfigText& config);
+Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh);
 
 /// A region of nested unions, intersections and differences: its value from that of its parts. @throws Failure (exit 2)
 bool evaluate_region(const std::string& region, const std::vector<std::pair<std::string, bool>>& inside);

@@ -50,7 +50,8 @@ private:
 class ShapeChecks {
 public:
   ShapeChecks(const StoredFile& file, const Mesh& mesh, const ConfigText& config, Report& report)
-      : file_(file), mesh_(mesh), config_(config), report_(report), shape_(make_shape(config)), fixed_(mesh, shape_) {}
+      : file_(file), mesh_(mesh), config_(config), report_(report), shape_(make_shape(config, mesh.points)),
+        fixed_(mesh, shape_) {}
 
   void run() {
     check_container();
@@ -75,6 +76,11 @@ private:
     const bool same = mesh_.periods.x == shape_.periods.x && mesh_.periods.y == shape_.periods.y;
     const auto text = [](Periods p) { return fmt::format("({:.12g}, {:.12g})", p.x, p.y); };
     report_.add("periods", same, text(shape_.periods), text(mesh_.periods), "periods of the container, 0 for none");
+    if (!shape_.container_reason.empty()) {
+      report_.skip("container", shape_.container_reason);
+      report_.skip("lattice", "its step follows from the container");
+      return;
+    }
     report_.none("container", outside,
                  fmt::format("points outside of the container from {} to {}", place_of(box.min), place_of(box.max)));
     report_.none("lattice", off,
@@ -173,7 +179,7 @@ private:
     std::int64_t judged = 0;
     for (std::size_t k = 0; k < mesh_.facets.size(); ++k) {
       const auto number = static_cast<std::size_t>(mesh_.facet_parts[k]);
-      const Part* part = number < names.size() ? shape_.part(names[number]) : nullptr;
+      const Part* part = number < names.size() ? shape_.part_of_label(names[number]) : nullptr;
       if (!part) {
         foreign.note([&] { return fmt::format("facet {}: {}", k, place_of(mesh_, mesh_.facets[k])); });
         continue;

@@ -21,9 +21,21 @@ std::string quoted(std::string name) {
   return '"' + name + '"';
 }
 
-std::string physical_names(const Names& names) {
-  std::string text = fmt::format("$PhysicalNames\n{}\n", names.parts.size() + names.regions.size());
-  for (std::size_t k = 0; k < names.parts.size(); ++k)
+/// @brief Parts of the boundary that have edges, ascending. The others are no curves of the file: meshio and dolfinx do
+/// not read an entity without elements.
+std::vector<std::size_t> parts_with_edges(const ExchangeMesh& mesh) {
+  std::vector<std::size_t> parts;
+  for (std::size_t part = 0; part < mesh.names().parts.size(); ++part)
+    if (mesh.facets_of_part(part) > 0)
+      parts.push_back(part);
+  return parts;
+}
+
+std::string physical_names(const ExchangeMesh& mesh) {
+  const Names& names = mesh.names();
+  const std::vector<std::size_t> parts = parts_with_edges(mesh);
+  std::string text = fmt::format("$PhysicalNames\n{}\n", parts.size() + names.regions.size());
+  for (const std::size_t k : parts)
     text += fmt::format("{} {} {}\n", curve, k + 1, quoted(names.parts[k]));
   for (std::size_t k = 0; k < names.regions.size(); ++k)
     text += fmt::format("{} {} {}\n", surface, k + 1, quoted(names.regions[k]));
@@ -49,16 +61,17 @@ void append_entity(std::string& text, const ExchangeMesh& mesh, std::size_t numb
 }
 
 std::string entities(const ExchangeMesh& mesh) {
-  const std::size_t curves = mesh.names().parts.size(), surfaces = mesh.names().regions.size();
+  const std::vector<std::size_t> parts = parts_with_edges(mesh);
+  const std::size_t surfaces = mesh.names().regions.size();
   std::string text = "$Entities\n";
-  for (const std::size_t count : {std::size_t{0}, curves, surfaces, std::size_t{0}})
+  for (const std::size_t count : {std::size_t{0}, parts.size(), surfaces, std::size_t{0}})
     append_bytes(text, static_cast<std::uint64_t>(count));
-  for (std::size_t k = 1; k <= curves; ++k)
-    append_entity(text, mesh, k, 0);
+  for (const std::size_t part : parts)
+    append_entity(text, mesh, part + 1, 0);
   for (std::size_t k = 1; k <= surfaces; ++k) {
-    append_entity(text, mesh, k, curves);
-    for (std::size_t bound = 1; bound <= curves; ++bound)
-      append_bytes(text, static_cast<std::int32_t>(bound));
+    append_entity(text, mesh, k, parts.size());
+    for (const std::size_t part : parts)
+      append_bytes(text, static_cast<std::int32_t>(part + 1));
   }
   return text + "\n$EndEntities\n";
 }
@@ -98,11 +111,12 @@ void add_nodes(const ExchangeMesh& mesh, std::vector<io::TextRows>& rows) {
 /// Edges come first and keep their numbers in the mesh; so do the triangles after them.
 void add_elements(const ExchangeMesh& mesh, std::vector<io::TextRows>& rows) {
   const GlobalId facets = mesh.facets(), elements = facets + mesh.triangles();
-  const std::size_t curves = mesh.names().parts.size(), surfaces = mesh.names().regions.size();
+  const std::vector<std::size_t> parts = parts_with_edges(mesh);
+  const std::size_t surfaces = mesh.names().regions.size();
   std::string text = "$Elements\n";
-  append_counts(text, {static_cast<std::int64_t>(curves + surfaces), elements, 1, elements});
+  append_counts(text, {static_cast<std::int64_t>(parts.size() + surfaces), elements, 1, elements});
   rows.push_back(mesh.once(text));
-  for (std::size_t part = 0; part < curves; ++part) {
+  for (const std::size_t part : parts) {
     rows.push_back(mesh.once(block(curve, part + 1, line_type, mesh.facets_of_part(part))));
     const auto label = static_cast<std::int64_t>(part) + 1;
     rows.push_back(mesh.facet_rows(
@@ -130,7 +144,7 @@ void append_numbers(std::string& text, std::initializer_list<std::int64_t> numbe
 } // namespace
 
 std::vector<FilePlan> plan_gmsh(const ExchangeMesh& mesh, const std::string& path) {
-  std::vector<io::TextRows> rows{mesh.once(header("4.1") + physical_names(mesh.names()) + entities(mesh))};
+  std::vector<io::TextRows> rows{mesh.once(header("4.1") + physical_names(mesh) + entities(mesh))};
   add_nodes(mesh, rows);
   add_elements(mesh, rows);
   return {{path, rows}};
@@ -144,7 +158,7 @@ std::vector<FilePlan> plan_gmsh2(const ExchangeMesh& mesh, const std::string& pa
   append_numbers(triangles, {triangle_type, mesh.triangles(), tags});
   return {
       {path,
-       {mesh.once(header("2.2") + physical_names(mesh.names()) + fmt::format("$Nodes\n{}\n", mesh.points())),
+       {mesh.once(header("2.2") + physical_names(mesh) + fmt::format("$Nodes\n{}\n", mesh.points())),
         mesh.point_rows([](std::int64_t, GlobalId id, geometry::Vec2 p, std::string& to) {
           append_numbers(to, {id + 1});
           append_place(to, p);

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """trime_check passes the meshes of all configs, and finds each kind of damage done to a file, by the check that must."""
+import json
 import os
 import pathlib
 import re
@@ -253,6 +254,27 @@ class Check(unittest.TestCase):
                     self.assertNotIn("WRONG", text)
                 if config.stem in ("square", "circle", "triangle", "rectangle", "spade", "boolean", "torus_hole"):
                     self.assertRegex(text, r"(?m)^ok +on_curve")
+
+    def test_passes_the_mesh_of_a_map(self):
+        """It does not read maps: what they alone tell is not checked, and the container is one of these things."""
+        ring = [[3000, 1000], [9000, 1000], [9000, 5000], [3000, 5000], [3000, 1000]]
+        (self.work / "map.geojson").write_text(json.dumps(
+            {"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:25833"}},
+             "features": [{"type": "Feature", "properties": {"name": "Isle"},
+                           "geometry": {"type": "Polygon", "coordinates": [ring]}}]}))
+        config = self.work / "map.ini"
+        config.write_text("[shape]\nregion = difference(land, pond)\n[shape.land]\ntype = contour\nfile = map.geojson\n"
+                          "attribute = name\n[shape.pond]\ntype = circle\ncenter = 6000 3000\nradius = 700\n"
+                          f"[meshing]\npoints = {POINTS}\n")
+        done = run(config, f"output.directory={self.work}")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        code, text = check(self.work / "map.h5")
+        self.assertEqual(code, 0, text)
+        self.assertRegex(text, r"(?m)^-- +container")
+        self.assertRegex(text, r"(?m)^ok +facet_parts")
+        code, text = check(self.work / "map.h5", ROOT / "configs" / "square.ini")
+        self.assertEqual(code, 5, text)
+        self.assertIn("facet_parts", self.wrong(text))
 
     def test_finds_every_damage(self):
         self.assertGreaterEqual(len(DAMAGES), 20)
