@@ -22,7 +22,8 @@ constexpr int chords_in_a_row = 64; // by one thread
 
 } // namespace
 
-/// Site k as the result has it, and its chord.
+/// Site k as the result has it, and its chord. A chord may be divided right at a corner that the layout had left out:
+/// that one is a corner again, else the clean-up would slide it away.
 BoundaryRefiner::ChordRecord BoundaryRefiner::chord_from(LocalIndex k, polygon::BoundarySite& result) const {
   const Site& site = sites_[k];
   const LoopMetric& metric = metrics_[site.loop];
@@ -30,7 +31,10 @@ BoundaryRefiner::ChordRecord BoundaryRefiner::chord_from(LocalIndex k, polygon::
   const Vec2 canonical = periods.wrap(site.position), end = end_of(site) + (canonical - site.position);
   const auto [piece, along] = metric.place(site.t);
   ChordRecord out;
-  result = {canonical, 0, 0, metric.loop().tag, site.kind != SiteKind::plain, end - periods.wrap(end), piece, along};
+  const SiteKind kind = site.kind == SiteKind::plain && along == 0
+                            ? kind_of_junction(metric.loop(), at(piece), corner_angle_)
+                            : site.kind;
+  result = {canonical, 0, 0, metric.loop().tag, kind != SiteKind::plain, end - periods.wrap(end), piece, along};
   out.squared_length = geometry::squared_length(end - canonical);
   if (tolerance_.share == 0 || metric.is_on_one_piece(site.t, end_t(site)))
     return out;
@@ -72,9 +76,8 @@ BoundarySites BoundaryRefiner::result() const {
       const ChordRecord& chord = chords[k];
       out.sites[static_cast<std::size_t>(k)].previous = k == first ? end - 1 : k - 1;
       out.sites[static_cast<std::size_t>(k)].next = k + 1 == end ? first : k + 1;
-      const SiteKind kind = sites_[order[k]].kind;
-      out.corners += kind != SiteKind::plain;
-      out.sharp_corners += kind == SiteKind::sharp_corner;
+      out.corners += out.sites[static_cast<std::size_t>(k)].corner;
+      out.sharp_corners += sites_[order[k]].kind == SiteKind::sharp_corner;
       out.left_out += chord.left_out;
       out.deviation = std::fmax(out.deviation, chord.deviation);
       shortest = std::fmin(shortest, chord.squared_length);

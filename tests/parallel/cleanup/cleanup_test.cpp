@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The clean-up on whole meshes: the tail is gone, all is certified, and the same on any ranks and threads.
+#include "core/angle.hpp"
+#include "core/random.hpp"
+#include "support/boundary_shapes.hpp"
 #include "support/distributed.hpp"
 #include "support/periodic_shapes.hpp"
 #include "support/plain_shapes.hpp"
@@ -151,6 +154,44 @@ TEST(Cleanup, ASmallCircleIsNoFeatureThatMayBeLeftOut) {
       const sizing::UniformSize uniform;
       expect_certified(mesh_silently(world, shape.boundary(), uniform, options));
     }
+}
+
+/// A circle whose radius jumps at random from vertex to vertex.
+geometry::Boundary ragged_circle(int n, std::uint64_t seed) {
+  std::vector<Vec2> points;
+  for (int k = 0; k < n; ++k) {
+    const SinCos to = sin_cos(2 * pi * k / n);
+    const double radius = 0.35 + 0.06 * (random_unit(seed, RandomPurpose::test, k, 0) - 0.5);
+    points.push_back(Vec2{0.5, 0.5} + radius * Vec2{to.cos, to.sin});
+  }
+  return testing::boundary_of({testing::polygon_loop(std::move(points))});
+}
+
+/// Corners that the layout leaves out, but on which a site comes to lie when a chord is halved: they stay.
+TEST(Cleanup, KeepsCornersOnWhichHalvingPutsSites) {
+  struct Curve {
+    int vertices;
+    std::uint64_t seed;
+    GlobalId points;
+  };
+  const comm::Communicator world = comm::Communicator::world();
+  const sizing::UniformSize uniform;
+  for (const Curve& curve : {Curve{150, 28, 400}, Curve{300, 12, 400}, Curve{300, 34, 800}}) {
+    SCOPED_TRACE(fmt::format("{} vertices, seed {}", curve.vertices, curve.seed));
+    MeshOptions options;
+    options.points = curve.points;
+    options.max_sweeps = 30;
+    options.features.corner_angle = 10;
+    const geometry::Boundary boundary = ragged_circle(curve.vertices, curve.seed);
+    const MeshResult result = mesh_silently(world, boundary, uniform, options);
+    expect_certified(result);
+    EXPECT_GT(result.features.corners_left_out, 0);
+    EXPECT_GT(result.features.segments_halved, 0);
+    EXPECT_GT(result.cleanup.on_boundary, 0);
+    if (world.is_root()) {
+      EXPECT_EQ(result.mesh.hash, mesh_silently(comm::Communicator::self(), boundary, uniform, options).mesh.hash);
+    }
+  }
 }
 
 /// Fixed points, on the boundary and inside, are still there.

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace trime::boundary {
 namespace {
@@ -98,6 +99,38 @@ TEST(FeatureRule, RaggedCurvesGetSitesAtAboutTheSizeOnTheCurveAndNearAllItsCorne
     for (const Vec2 p : points)
       EXPECT_LE(distance_to_polygon(ruled, p), 1.1 * tolerance * h);
   }
+}
+
+/// Two ragged curves so near to each other that chords are halved. Where one is divided right at a corner that had been
+/// left out, that one is a corner of the mesh again: else the clean-up would slide it away.
+TEST(FeatureRule, EachCornerIsLeftOutOrASiteThatSaysSo) {
+  constexpr double angle = 30;
+  LocalIndex halvings = 0, left_out = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    std::vector<Vec2> inner = ragged_circle(300, 0.33, 0.006, seed + 100);
+    std::reverse(inner.begin(), inner.end());
+    const Boundary boundary = boundary_of({polygon_loop(ragged_circle(300, 0.35, 0.006, seed)), polygon_loop(inner)});
+    const BoundarySites ruled = sites_of(boundary, 0.05);
+    LocalIndex turns = 0, sites = 0;
+    for (std::size_t l = 0; l < 2; ++l) {
+      const geometry::Loop& loop = boundary.loops[l];
+      for (std::size_t i = 0; i < loop.pieces.size(); ++i)
+        turns += loop.turn_degrees(i) > angle;
+      for (LocalIndex k = ruled.loop_start[l]; k < ruled.loop_start[l + 1]; ++k)
+        if (const BoundarySite& site = ruled.sites[at(k)];
+            site.along == 0 && loop.turn_degrees(at(site.piece)) > angle) {
+          EXPECT_TRUE(site.corner) << "seed " << seed << ", loop " << l << ", piece " << site.piece;
+          EXPECT_EQ(site.position, loop.pieces[at(site.piece)].start);
+          ++sites;
+        }
+    }
+    EXPECT_EQ(turns, sites + ruled.left_out) << "seed " << seed;
+    EXPECT_EQ(ruled.corners, std::count_if(ruled.sites.begin(), ruled.sites.end(), std::mem_fn(&BoundarySite::corner)));
+    halvings += ruled.halvings;
+    left_out += ruled.left_out;
+  }
+  EXPECT_GT(halvings, 100) << "else it asks nothing";
+  EXPECT_GT(left_out, 100);
 }
 
 TEST(FeatureRule, DetoursBeyondTheToleranceStay) {
