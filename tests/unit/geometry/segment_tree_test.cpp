@@ -54,19 +54,25 @@ TEST(SegmentTree, FindsWhatIsNearerThanItsMargin) {
   std::vector<Segment> segments;
   for (int k = 0; k < 40; ++k)
     segments.push_back({{0.1 * k, 0}, {0.1 * k + 1, 1}});
-  const SegmentTree tree(segments, 0.01);
-  const auto found = [&](const Segment& s) {
-    std::set<LocalIndex> all;
+  const auto finds = [](const SegmentTree& tree, const Segment& s, LocalIndex index) {
+    bool found = false;
     tree.for_each_near(s, [&](LocalIndex k) {
-      all.insert(k);
+      found |= k == index;
       return true;
     });
-    return all;
+    return found;
   };
-  for (LocalIndex k = 0; k < 40; ++k) { // beside the middle of one
-    const Vec2 p = Vec2{0.1 * k + 0.5, 0.5};
-    EXPECT_EQ(found({p + Vec2{0.006, -0.006}, p + Vec2{0.007, -0.007}}).count(k), 1u);
-    EXPECT_EQ(found({p + Vec2{0.02, -0.02}, p + Vec2{0.025, -0.025}}).count(k), 0u);
+  const SegmentTree tree(segments, 0.01);
+  for (LocalIndex k = 0; k < 40; ++k) { // beside the middle of one, at 0.0085 and at 0.028
+    const Segment& s = segments[static_cast<std::size_t>(k)];
+    const Vec2 p = s.a + 0.5 * (s.b - s.a);
+    const Segment near{p + Vec2{0.006, -0.006}, p + Vec2{0.007, -0.007}};
+    const Segment far{p + Vec2{0.02, -0.02}, p + Vec2{0.025, -0.025}};
+    const SegmentTree alone({&s, 1}, 0.01), narrow({&s, 1});
+    EXPECT_TRUE(finds(tree, near, k));
+    EXPECT_TRUE(finds(alone, near, 0));
+    EXPECT_FALSE(finds(alone, far, 0));
+    EXPECT_FALSE(finds(narrow, near, 0));
   }
 }
 
