@@ -47,6 +47,8 @@ std::optional<Error> error_of(const std::function<void()>& work) {
     return Error(ExitCode::out_of_memory, out_of_memory_text());
   } catch (const std::exception& e) {
     return InternalError(e.what());
+  } catch (...) { // a user's shape or size may throw anything; a rank that left with it would leave the others waiting
+    return InternalError("an exception that is no std::exception");
   }
   return std::nullopt;
 }

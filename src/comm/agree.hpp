@@ -15,7 +15,7 @@ namespace trime::comm {
 void agree(const Communicator& comm, const std::optional<Error>& error);
 
 /// @brief Runs `work`. @return what it threw. Anything that is not an Error becomes one: std::bad_alloc exit code 6,
-/// other exceptions exit code 1.
+/// anything else exit code 1.
 std::optional<Error> error_of(const std::function<void()>& work);
 
 /// @brief Runs `work` (which must not communicate) and agrees on what it threw, see error_of. Collective.

@@ -3,7 +3,7 @@
 // corner along cell edges, from a corner outside of everything; a query walks from its cell's corner to the point.
 #include "trime/geometry/segment_grid.hpp"
 
-#include "geometry/predicates.hpp"
+#include "geometry/perturbed_side.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -17,16 +17,6 @@ constexpr int max_depth = 20;        // the side of the smallest cell is 2^-40 o
 constexpr int enough_for_a_leaf = 4; // a cell with more segments is split
 constexpr double max_spread = 32;    // a segment is listed in at most so many cells, on average,
 constexpr double free_entries = 1e5; // or this many entries are made, if that is more
-
-/// Side of the line a-b on which the point moved by (epsilon^2, epsilon) from q lies; 0 only if a == b.
-int perturbed_side(const Segment& s, Vec2 q) {
-  const int sign = orient2d(s.a, s.b, q);
-  if (sign != 0)
-    return sign;
-  if (s.b.x != s.a.x)
-    return s.b.x > s.a.x ? 1 : -1;
-  return (s.a.y > s.b.y) - (s.a.y < s.b.y);
-}
 
 /// Does the segment cross the leg from (x0, y) to (x1, y), both moved by (epsilon^2, epsilon)?
 bool crosses_horizontal(const Segment& s, double y, double x0, double x1) {
@@ -181,9 +171,7 @@ SegmentGrid::SegmentGrid(std::vector<Segment> segments) : segments_(std::move(se
   cell_segment_.shrink_to_fit();
 }
 
-bool SegmentGrid::inside(Vec2 p) const {
-  if (segments_.empty() || !box_.contains(p))
-    return false;
+SegmentGrid::Placed SegmentGrid::bin_of(Vec2 p) const {
   Placed place = root_;
   while (cells_[place.cell].split) {
     const double inverse = 4 / place.side;
@@ -191,6 +179,17 @@ bool SegmentGrid::inside(Vec2 p) const {
     const int j = std::clamp(static_cast<int>((p.y - place.corner.y) * inverse), 0, 3);
     place = place.child(cells_[place.cell].first, i, j);
   }
+  return place;
+}
+
+LocalIndex SegmentGrid::looked_at_for(Vec2 p) const {
+  return segments_.empty() || !box_.contains(p) ? 0 : cells_[bin_of(p).cell].count;
+}
+
+bool SegmentGrid::inside(Vec2 p) const {
+  if (segments_.empty() || !box_.contains(p))
+    return false;
+  const Placed place = bin_of(p);
   const Cell& cell = cells_[place.cell];
   bool parity = cell.corner_inside;
   for (LocalIndex k = cell.first; k < cell.first + cell.count; ++k) {

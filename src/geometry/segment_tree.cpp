@@ -36,11 +36,14 @@ SegmentTree::Frame::Frame(const Segment& segment) {
   half = {0.5 * length(d), 0};
 }
 
-SegmentTree::SegmentTree(std::span<const Segment> segments) : segments_(segments), order_(segments.size()) {
+SegmentTree::SegmentTree(std::span<const Segment> segments, double margin)
+    : segments_(segments), order_(segments.size()), slack_(margin) {
   std::iota(order_.begin(), order_.end(), LocalIndex{0});
+  double largest = 0;
   for (const Segment& s : segments)
     for (const double v : {s.a.x, s.a.y, s.b.x, s.b.y})
-      slack_ = std::fmax(slack_, rounding * std::fabs(v));
+      largest = std::fmax(largest, std::fabs(v));
+  slack_ += rounding * largest;
   std::size_t leaves = 1;
   while (leaves * run_length < order_.size())
     leaves *= 2;

@@ -19,10 +19,11 @@ namespace trime::geometry {
 /// smaller. O(n log n) to build, O(n) memory; immutable and thread-safe after.
 class SegmentTree {
 public:
-  explicit SegmentTree(std::span<const Segment> segments);
+  /// @param margin how near a segment counts as one that is met
+  explicit SegmentTree(std::span<const Segment> segments, double margin = 0);
 
-  /// Calls visit(index) for every segment that may meet `segment`, each once; never misses one that does. For segments
-  /// that do not cross O(log n + found).
+  /// Calls visit(index) for every segment that may meet `segment`, each once, until it returns false; never misses one
+  /// that does meet it. For segments that do not cross O(log n + found).
   template <class Visit>
   void for_each_near(const Segment& segment, const Visit& visit) const {
     if (!order_.empty())
@@ -46,23 +47,23 @@ private:
   Vec2 mean_direction(Range range) const;
   bool may_meet(const Turned& a, const Turned& b) const;
   template <class Visit>
-  void visit_node(std::size_t node, Range range, const Frame& frame, const Visit& visit) const {
+  bool visit_node(std::size_t node, Range range, const Frame& frame, const Visit& visit) const {
     if (!may_meet(nodes_[node], frame))
-      return;
-    if (range.high - range.low > run_length) {
-      visit_node(2 * node, {range.low, range.middle()}, frame, visit);
-      visit_node(2 * node + 1, {range.middle(), range.high}, frame, visit);
-      return;
-    }
+      return true;
+    if (range.high - range.low > run_length)
+      return visit_node(2 * node, {range.low, range.middle()}, frame, visit) &&
+             visit_node(2 * node + 1, {range.middle(), range.high}, frame, visit);
     for (std::size_t k = range.low; k < range.high; ++k)
-      visit(order_[k]);
+      if (!visit(order_[k]))
+        return false;
+    return true;
   }
 
   static constexpr std::size_t run_length = 2;
   std::span<const Segment> segments_; // while it is built
   std::vector<LocalIndex> order_;
   std::vector<Turned> nodes_; // heap order: the root is 1, the children of k are 2k and 2k+1
-  double slack_ = 0;          // for rounding
+  double slack_;              // the margin, and for rounding
 };
 
 } // namespace trime::geometry

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/meshing/make_mesh.hpp"
 
+#include "comm/agree.hpp"
 #include "trime/core/timer.hpp"
 #include "trime/meshing/mesher.hpp"
+
+#include <optional>
 
 namespace trime::meshing {
 using sweep::StopReason;
@@ -15,7 +18,9 @@ MeshResult make_mesh(const comm::Communicator& comm, const shape::RegionShape& s
 
 MeshResult make_mesh(const comm::Communicator& comm, const shape::Shape& shape, const sizing::SizeField& size,
                      const MeshOptions& options, Log& log) {
-  return make_mesh(comm, shape::traced(shape, geometry::Frame(options.container)), size, options, log);
+  std::optional<shape::RegionShape> traced;
+  comm::run_agreed(comm, [&] { traced.emplace(shape::traced(shape, geometry::Frame(options.container))); });
+  return make_mesh(comm, *traced, size, options, log);
 }
 
 bool is_complete(const MeshResult& result) {

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace trime::shape {
 
@@ -23,6 +24,7 @@ using geometry::orient2d;
 using geometry::Piece;
 using geometry::Segment;
 using geometry::SegmentGrid;
+using geometry::SegmentTree;
 using geometry::squared_length;
 using geometry::Vec2;
 
@@ -32,6 +34,10 @@ std::size_t vertex_count(const std::vector<PlacedPart>& parts) {
     count += placed.part->as_polygon() != nullptr ? placed.part->as_polygon()->grid.segments().size() : 4;
   return count;
 }
+
+/// So many lines in the bins of a part may be looked at for each line of another part, and for each of its own, before
+/// the part gets a tree: that costs as much.
+constexpr std::int64_t enough_looks = 32;
 
 /// [lattice steps] Around what is looked for: more than vertices are moved by merging, plus what counts as on a curve.
 constexpr double safe_steps = 64;
@@ -95,6 +101,7 @@ Arrangement::Arrangement(const std::vector<PlacedPart>& parts, const Frame& fram
 /// since a crossing may become a vertex that an earlier one has made.
 void Arrangement::cross_all() {
   const std::size_t last = parts_.empty() || parts_.back().index >= 0 ? parts_.size() : parts_.size() - 1;
+  searches_.resize(parts_.size());
   std::vector<std::size_t> polygons;
   std::vector<Box> polygon_boxes, circle_boxes;
   for (std::size_t k = 0; k < last; ++k)
@@ -127,6 +134,7 @@ void Arrangement::cross_all() {
       cross_polygons(a, last);
     cross_with_circles(last, around);
   }
+  searches_ = {};
 }
 
 void Arrangement::cross_circles(LocalIndex a, LocalIndex b) {
@@ -192,39 +200,104 @@ void Arrangement::cross_polygons(std::size_t a, std::size_t b) {
     std::swap(a, b);
   const LocalIndex count = static_cast<LocalIndex>(parts_[a].part->as_polygon()->grid.segments().size());
   const SegmentGrid& other = parts_[b].part->as_polygon()->grid;
-  const double margin = VertexTable::merge_steps * frame_.step();
   for (LocalIndex s = first_line_[a]; s < first_line_[a] + count; ++s) {
-    const Segment moved{segment(s).a - parts_[b].shift, segment(s).b - parts_[b].shift};
-    other.for_each_near(inflated(box_of(moved), margin), moved, safe_steps * frame_.step(), [&](LocalIndex t) {
+    if (wants_tree(b)) {
+      cross_by_tree(s, b);
+      continue;
+    }
+    const Segment moved = moved_back(s, b);
+    const std::int64_t before = line_pairs_;
+    other.for_each_near(box_for(moved), moved, safe_steps * frame_.step(), [&](LocalIndex t) {
+      ++line_pairs_;
       cross_lines(s, first_line_[b] + t);
       return true;
     });
+    ++searches_[b].lines;
+    searches_[b].looked_at += line_pairs_ - before;
   }
 }
 
-bool Arrangement::touch(LocalIndex vertex, LocalIndex line) {
-  if (vertex == lines_[line].from || vertex == lines_[line].to)
+/// Where lines of a part may lie that meet this one: vertices have moved by merging.
+Box Arrangement::box_for(const Segment& moved) const {
+  return inflated(box_of(moved), VertexTable::merge_steps * frame_.step());
+}
+
+/// Long slanted lines side by side crowd the bins. True if that was so until now; the part has a tree then.
+bool Arrangement::wants_tree(std::size_t b) {
+  LineSearch& search = searches_[b];
+  if (search.tree)
     return true;
+  const std::span<const Segment> segments = parts_[b].part->as_polygon()->grid.segments();
+  if (search.looked_at <= enough_looks * (search.lines + std::ssize(segments)))
+    return false;
+  search.tree.emplace(segments, safe_steps * frame_.step());
+  return true;
+}
+
+/// What the bins would do, in the same order, but only with those lines of b for which it makes a difference: a
+/// crossing may become a vertex that an earlier one has made.
+void Arrangement::cross_by_tree(LocalIndex s, std::size_t b) {
+  const Segment moved = moved_back(s, b);
+  std::vector<LocalIndex> met;
+  searches_[b].tree->for_each_near(moved, [&](LocalIndex t) {
+    ++line_pairs_;
+    if (contact_of(s, first_line_[b] + t).any())
+      met.push_back(t);
+    return true;
+  });
+  if (met.empty())
+    return;
+  std::sort(met.begin(), met.end());
+  const SegmentGrid& other = parts_[b].part->as_polygon()->grid;
+  other.for_each_bin_near(box_for(moved), moved, safe_steps * frame_.step(),
+                          [&](std::span<const LocalIndex> bin) { // both are ascending
+                            const std::span<const LocalIndex> all(met), few = bin.size() < all.size() ? bin : all,
+                                                                        many = bin.size() < all.size() ? all : bin;
+                            line_pairs_ += std::ssize(few);
+                            for (const LocalIndex t : few)
+                              if (std::binary_search(many.begin(), many.end(), t))
+                                cross_lines(s, first_line_[b] + t);
+                            return true;
+                          });
+}
+
+Arrangement::Place Arrangement::place_on(LocalIndex line, LocalIndex vertex) const {
+  if (vertex == lines_[line].from || vertex == lines_[line].to)
+    return Place::at_end;
   const Segment s = segment(line);
   const Vec2 d = s.b - s.a, u = vertices_.point(vertex) - s.a;
   const double along = accurate_dot(u, d), whole = squared_length(d);
   if (along <= 0 || along >= whole || std::fabs(accurate_cross(d, u)) > tolerance_ * std::sqrt(whole))
-    return false;
-  split_line(line, vertex);
-  return true;
+    return Place::apart;
+  return Place::between;
+}
+
+Arrangement::Contact Arrangement::contact_of(LocalIndex s, LocalIndex t) const {
+  Contact contact;
+  const Line a = lines_[s], b = lines_[t];
+  if (a.from == a.to || b.from == b.to)
+    return contact;
+  const Place places[] = {place_on(t, a.from), place_on(t, a.to), place_on(s, b.from), place_on(s, b.to)};
+  for (std::size_t k = 0; k < 4; ++k)
+    contact.on[k] = places[k] == Place::between;
+  if (std::any_of(std::begin(places), std::end(places), [](Place place) { return place != Place::apart; }))
+    return contact;
+  const Segment p = segment(s), q = segment(t);
+  contact.crossing =
+      orient2d(p.a, p.b, q.a) * orient2d(p.a, p.b, q.b) < 0 && orient2d(q.a, q.b, p.a) * orient2d(q.a, q.b, p.b) < 0;
+  return contact;
 }
 
 void Arrangement::cross_lines(LocalIndex s, LocalIndex t) {
+  const Contact contact = contact_of(s, t);
   const Line a = lines_[s], b = lines_[t];
-  if (a.from == a.to || b.from == b.to)
+  const LocalIndex ends[] = {a.from, a.to, b.from, b.to};
+  for (std::size_t k = 0; k < 4; ++k)
+    if (contact.on[k])
+      split_line(k < 2 ? t : s, ends[k]);
+  if (!contact.crossing)
     return;
-  const bool touches[] = {touch(a.from, t), touch(a.to, t), touch(b.from, s), touch(b.to, s)};
-  if (std::any_of(std::begin(touches), std::end(touches), [](bool v) { return v; }))
-    return;
-  const Segment p = segment(s), q = segment(t);
-  if (orient2d(p.a, p.b, q.a) * orient2d(p.a, p.b, q.b) >= 0 || orient2d(q.a, q.b, p.a) * orient2d(q.a, q.b, p.b) >= 0)
-    return;
-  const LocalIndex v = vertices_.insert(frame_.snap(line_crossing(p, q)), VertexTable::nobody);
+  const LocalIndex v = vertices_.insert(frame_.snap(line_crossing(segment(s), segment(t))), VertexTable::nobody);
   split_line(s, v);
   split_line(t, v);
 }

@@ -2,11 +2,14 @@
 // The boundaries of several parts, cut at all their mutual crossings: pieces that meet at shared vertices only.
 #pragma once
 
+#include "geometry/segment_tree.hpp"
 #include "trime/geometry/frame.hpp"
 #include "trime/shape/part.hpp"
 #include "vertex_table.hpp"
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace trime::shape {
@@ -18,7 +21,8 @@ struct PlacedPart {
   geometry::Vec2 shift; ///< on the lattice
 };
 
-/// @brief Built once; O(M log M) for M pieces of any number of parts, where few of them cross.
+/// @brief Built once; O(M log M) for M pieces of any number of parts, where few of them cross, also for long slanted
+/// spikes side by side.
 ///
 /// Crossings are snapped to the lattice; nearer than VertexTable::merge_steps to a vertex they become that vertex.
 /// Vertices of contours keep their coordinates bit for bit. Pieces that coincide are kept once. A cutting rectangle
@@ -49,11 +53,26 @@ public:
   const VertexTable& vertices() const { return vertices_; }
   /// The work that it was: pairs of parts that were crossed with each other.
   std::int64_t pairs() const { return pairs_; }
+  /// Pairs of lines of two polygons that were looked at for that.
+  std::int64_t line_pairs() const { return line_pairs_; }
 
 private:
   struct Line {
     LocalIndex from, to;
     int part;
+  };
+  /// What two lines have to do with each other.
+  struct Contact {
+    std::array<bool, 4> on{}; ///< ends of the first line that lie on the second one, between its ends; and vice versa
+    bool crossing = false;
+    bool any() const { return on[0] || on[1] || on[2] || on[3] || crossing; }
+  };
+  enum class Place { apart, at_end, between };
+  /// How the lines near another one are found among those of a part.
+  struct LineSearch {
+    std::int64_t lines = 0;     ///< that others were looked at for
+    std::int64_t looked_at = 0; ///< in the bins of the part
+    std::optional<geometry::SegmentTree> tree;
   };
   struct Split {
     LocalIndex curve, vertex; // curve: a line, or lines_.size() + circle
@@ -65,8 +84,11 @@ private:
   void cross_circles(LocalIndex a, LocalIndex b);
   void cross_polygons(std::size_t a, std::size_t b);
   void cross_polygon_circle(std::size_t a, LocalIndex circle);
+  void cross_by_tree(LocalIndex s, std::size_t b);
+  bool wants_tree(std::size_t b);
   void cross_lines(LocalIndex s, LocalIndex t);
-  bool touch(LocalIndex vertex, LocalIndex line);
+  Contact contact_of(LocalIndex s, LocalIndex t) const;
+  Place place_on(LocalIndex line, LocalIndex vertex) const;
   void split_line(LocalIndex line, LocalIndex vertex);
   void split_circle(LocalIndex circle, LocalIndex vertex);
   void add_contact(LocalIndex line, LocalIndex circle);
@@ -78,6 +100,11 @@ private:
   geometry::Segment segment(LocalIndex line) const {
     return {vertices_.point(lines_[line].from), vertices_.point(lines_[line].to)};
   }
+  /// The line as the grid of a part that may be shifted sees it.
+  geometry::Segment moved_back(LocalIndex line, std::size_t part) const {
+    return {segment(line).a - parts_[part].shift, segment(line).b - parts_[part].shift};
+  }
+  geometry::Box box_for(const geometry::Segment& moved) const;
 
   const std::vector<PlacedPart>& parts_;
   const geometry::Frame& frame_;
@@ -90,7 +117,8 @@ private:
   std::vector<Split> splits_;
   std::vector<Piece> pieces_;
   std::vector<Twin> twins_;
-  std::int64_t pairs_ = 0;
+  std::vector<LineSearch> searches_; // of each part; only while they are crossed
+  std::int64_t pairs_ = 0, line_pairs_ = 0;
 };
 
 } // namespace trime::shape

@@ -97,6 +97,7 @@ std::vector<SegmentPair> find_meetings(const std::vector<LatticeRing>& rings, co
         if (j > i && j != after[at(i)] && i != after[at(j)] &&
             meeting_of(segments[at(i)], segments[at(j)]) != Meeting::none)
           pairs.push_back({i, j});
+        return true;
       });
       std::sort(pairs.begin() + start, pairs.end());
     }

@@ -7,6 +7,7 @@
 #include "arrangement.hpp"
 #include "core/angle.hpp"
 #include "geometry/box_tree.hpp"
+#include "inside_walk.hpp"
 #include "marked_pieces.hpp"
 #include "part_images.hpp"
 #include "quotient.hpp"
@@ -169,7 +170,8 @@ geometry::BoxTree BoundaryMaker::tree_of_places() const {
   return geometry::BoxTree(boxes);
 }
 
-/// Of the parts only those are asked whose box holds the middle of the piece: to all others it is outside.
+/// Of the parts only those are asked whose box holds the middle of the piece: to all others it is outside. Pieces come
+/// along the curves, so that their middles are near each other.
 void BoundaryMaker::classify() {
   const geometry::BoxTree tree = tree_of_places();
   RegionState state(region_, given_.size() + 1);
@@ -183,6 +185,9 @@ void BoundaryMaker::classify() {
     known_to[place] = piece + 1;
     is_left[place] = on_left ? 1 : 0;
   };
+  std::vector<InsideWalk> walks;
+  for (const PlacedPart& placed : placed_)
+    walks.emplace_back(*placed.part);
   const std::vector<Arrangement::Piece>& pieces = arrangement_.pieces();
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const Arrangement::Piece& piece = pieces[k];
@@ -196,7 +201,7 @@ void BoundaryMaker::classify() {
       (is_left[static_cast<std::size_t>(part)] != 0 ? left : right).push_back(part);
     const Vec2 p = middle(piece);
     tree.for_each_meeting({p, p}, [&](std::size_t place) {
-      if (known_to[place] == k + 1 || !placed_[place].part->inside(p - placed_[place].shift))
+      if (known_to[place] == k + 1 || !walks[place].inside(p - placed_[place].shift))
         return;
       left.push_back(static_cast<int>(place));
       right.push_back(static_cast<int>(place));

@@ -38,6 +38,8 @@ public:
   /// Even-odd rule with symbolic perturbation: exact; a point on the boundary gets the side of the point moved by
   /// (epsilon^2, epsilon). O(depth + segments in one bin).
   bool inside(Vec2 p) const;
+  /// How many segments inside(p) looks at: few, but for long slanted ones side by side. O(depth).
+  LocalIndex looked_at_for(Vec2 p) const;
   /// Calls visit(index) for every segment that may meet `box`, each once in ascending order per bin, possibly more
   /// than once over bins; stops when visit returns false.
   template <class Visit>
@@ -45,6 +47,9 @@ public:
   /// The same for what may also lie within `margin` of `segment`: a long slanted one meets few of the bins of its box.
   template <class Visit>
   void for_each_near(const Box& box, const Segment& segment, double margin, const Visit& visit) const;
+  /// The same bin by bin: calls visit(span of indices, ascending).
+  template <class Visit>
+  void for_each_bin_near(const Box& box, const Segment& segment, double margin, const Visit& visit) const;
 
   std::span<const Segment> segments() const { return segments_; }
   std::size_t memory_bytes() const;
@@ -73,8 +78,11 @@ private:
   };
   class Builder;
 
+  Placed bin_of(Vec2 p) const;
   void look_in_leaf(const Cell& cell, Vec2 p, Nearest& best) const;
   void nearest_in(Placed place, Vec2 p, Nearest& best) const;
+  template <class Visit>
+  static auto one_by_one(const Visit& visit);
   template <class Wanted, class Visit>
   bool visit_near(const Placed& place, const Box& box, const Wanted& wanted, const Visit& visit) const;
   template <class Wanted, class Visit>
@@ -87,16 +95,12 @@ private:
   std::vector<LocalIndex> cell_segment_; // segment indices, ascending in each leaf
 };
 
-/// Looks into the cells that meet the box and are wanted.
+/// Calls visit(segments of the cell) for cells that meet the box and are wanted.
 template <class Wanted, class Visit>
 bool SegmentGrid::visit_near(const Placed& place, const Box& box, const Wanted& wanted, const Visit& visit) const {
   const Cell& cell = cells_[place.cell];
-  if (!cell.split) {
-    for (LocalIndex k = 0; k < cell.count; ++k)
-      if (!visit(cell_segment_[cell.first + k]))
-        return false;
-    return true;
-  }
+  if (!cell.split)
+    return visit(std::span<const LocalIndex>(cell_segment_.data() + cell.first, static_cast<std::size_t>(cell.count)));
   // No child beyond these, which are a little too many for rounding, meets the box.
   const double inverse = 4 / place.side;
   const auto first = [&](double v) { return static_cast<int>(std::clamp(v * inverse - 0x1p-20, 0.0, 3.0)); };
@@ -123,14 +127,27 @@ void SegmentGrid::visit_wanted(const Box& box, const Wanted& wanted, const Visit
   visit_near(root_, box, wanted, visit);
 }
 
+/// Visits the segments of a bin one by one.
+template <class Visit>
+auto SegmentGrid::one_by_one(const Visit& visit) {
+  return [&visit](std::span<const LocalIndex> bin) {
+    return std::all_of(bin.begin(), bin.end(), [&](LocalIndex k) { return visit(k); });
+  };
+}
+
 template <class Visit>
 void SegmentGrid::for_each_near(const Box& box, const Visit& visit) const {
   visit_wanted(
-      box, [](const Placed&) { return true; }, visit);
+      box, [](const Placed&) { return true; }, one_by_one(visit));
 }
 
 template <class Visit>
 void SegmentGrid::for_each_near(const Box& box, const Segment& segment, double margin, const Visit& visit) const {
+  for_each_bin_near(box, segment, margin, one_by_one(visit));
+}
+
+template <class Visit>
+void SegmentGrid::for_each_bin_near(const Box& box, const Segment& segment, double margin, const Visit& visit) const {
   visit_wanted(
       box, [&](const Placed& cell) { return cell.may_be_near(segment, margin); }, visit);
 }

@@ -18,6 +18,8 @@ MeshResult make_mesh(const comm::Communicator& comm, const shape::RegionShape& s
 
 /// @brief Meshes a shape that is given by a function: traces it in options.container first. For periodic sides, trace
 /// it yourself in a Frame that has them (shape::traced), and hand in what comes out.
+/// @throws GeometryError on all ranks together, see shape::traced_part; for an exception of the shape's own, on any
+/// rank, an Error with its message on all ranks. Else as above
 /// @note Collective.
 MeshResult make_mesh(const comm::Communicator& comm, const shape::Shape& shape, const sizing::SizeField& size,
                      const MeshOptions& options, Log& log);

@@ -2,6 +2,7 @@
 // The few collectives that the program uses, on any number of ranks.
 #include "comm/agree.hpp"
 #include "trime/comm/communicator.hpp"
+#include "trime/core/error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -61,6 +62,20 @@ TEST(Agree, AllRanksThrowTheErrorOfTheLowestFailingRank) {
     EXPECT_EQ(error.code(), ExitCode::file);
     EXPECT_EQ(std::string(error.what()), failing == 0 ? "disk full" : fmt::format("disk full (rank {})", failing));
   }
+}
+
+TEST(Agree, WhatIsNoStandardExceptionEndsAllRanksToo) {
+  const Communicator comm = Communicator::world();
+  try {
+    run_agreed(comm, [&] {
+      if (comm.rank() == comm.size() - 1)
+        throw 42; // NOLINT(hicpp-exception-baseclass)
+    });
+    ADD_FAILURE() << "no error was thrown";
+  } catch (const InternalError& error) {
+    EXPECT_NE(std::string(error.what()).find("no std::exception"), std::string::npos) << error.what();
+  }
+  comm.barrier();
 }
 
 } // namespace

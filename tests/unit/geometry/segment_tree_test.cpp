@@ -36,7 +36,10 @@ TEST(SegmentTree, FindsWhatMeets) {
     const SegmentTree tree(some);
     for (const Segment& s : segments) {
       std::multiset<LocalIndex> found;
-      tree.for_each_near(s, [&](LocalIndex k) { found.insert(k); });
+      tree.for_each_near(s, [&](LocalIndex k) {
+        found.insert(k);
+        return true;
+      });
       for (std::size_t k = 0; k < some.size(); ++k) {
         EXPECT_LE(found.count(static_cast<LocalIndex>(k)), 1u);
         if (s.a != s.b && some[k].a != some[k].b && cross_each_other(s, some[k])) {
@@ -47,12 +50,49 @@ TEST(SegmentTree, FindsWhatMeets) {
   }
 }
 
+TEST(SegmentTree, FindsWhatIsNearerThanItsMargin) {
+  std::vector<Segment> segments;
+  for (int k = 0; k < 40; ++k)
+    segments.push_back({{0.1 * k, 0}, {0.1 * k + 1, 1}});
+  const auto finds = [](const SegmentTree& tree, const Segment& s, LocalIndex index) {
+    bool found = false;
+    tree.for_each_near(s, [&](LocalIndex k) {
+      found |= k == index;
+      return true;
+    });
+    return found;
+  };
+  const SegmentTree tree(segments, 0.01);
+  for (LocalIndex k = 0; k < 40; ++k) { // beside the middle of one, at 0.0085 and at 0.028
+    const Segment& s = segments[static_cast<std::size_t>(k)];
+    const Vec2 p = s.a + 0.5 * (s.b - s.a);
+    const Segment near{p + Vec2{0.006, -0.006}, p + Vec2{0.007, -0.007}};
+    const Segment far{p + Vec2{0.02, -0.02}, p + Vec2{0.025, -0.025}};
+    const SegmentTree alone({&s, 1}, 0.01), narrow({&s, 1});
+    EXPECT_TRUE(finds(tree, near, k));
+    EXPECT_TRUE(finds(alone, near, 0));
+    EXPECT_FALSE(finds(alone, far, 0));
+    EXPECT_FALSE(finds(narrow, near, 0));
+  }
+}
+
+TEST(SegmentTree, StopsWhenItIsTold) {
+  std::vector<Segment> segments(100, {{0, 0}, {1, 1}});
+  const SegmentTree tree(segments);
+  int visits = 0;
+  tree.for_each_near({{0, 1}, {1, 0}}, [&](LocalIndex) { return ++visits < 7; });
+  EXPECT_EQ(visits, 7);
+}
+
 /// Visits of all segments by themselves.
 std::size_t visits(const std::vector<Segment>& segments) {
   const SegmentTree tree(segments);
   std::size_t count = 0;
   for (const Segment& s : segments)
-    tree.for_each_near(s, [&](LocalIndex) { ++count; });
+    tree.for_each_near(s, [&](LocalIndex) {
+      ++count;
+      return true;
+    });
   return count;
 }
 

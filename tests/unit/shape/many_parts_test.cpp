@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Regions of very many parts, and long slanted edges: the work, and that nothing is missed.
 #include "core/random.hpp"
+#include "geometry/predicates.hpp"
 #include "shape/arrangement.hpp"
+#include "shape/inside_walk.hpp"
 #include "shape/region_state.hpp"
 #include "unit/shape/boundary_checks.hpp"
 
@@ -9,6 +11,7 @@
 
 #include <cmath>
 #include <set>
+#include <span>
 
 namespace trime::shape {
 namespace {
@@ -88,6 +91,64 @@ TEST(ManyParts, CombsThatCrossEverywhere) {
     pieces.insert({piece.from, piece.to});
   EXPECT_GT(pieces.size(), 2u * 3 * teeth); // they were cut
   expect_valid(RegionShape(parts, "union(a, b)", unit_frame).boundary());
+}
+
+/// The second one drawn back along the teeth and half a tooth aside: each tooth crosses another one and a base.
+std::vector<Part> combs_moved(int teeth) {
+  const double aside = 0.5 * 0.5 * 0.4 / teeth * std::sqrt(0.5);
+  return {comb_part("a", teeth, {0.5, 0.5}), comb_part("b", teeth, {0.62 + aside, 0.38 + aside})};
+}
+
+TEST(ManyParts, LongSpikesOfTwoPartsLookAtFewOthers) {
+  for (const int teeth : {1500, 6000}) {
+    const std::vector<Part> parts = combs_moved(teeth);
+    const Arrangement made(placed(parts), unit_frame);
+    EXPECT_EQ(made.pairs(), 1);
+    EXPECT_LT(made.line_pairs(), 60 * 2 * 3 * teeth) << teeth;
+    EXPECT_GT(made.pieces().size(), (2u * 3 + 2) * static_cast<std::size_t>(teeth)); // they were cut
+  }
+}
+
+/// All pairs one by one, against the tree: no crossing is missed, none is made up.
+TEST(ManyParts, LongSpikesOfTwoPartsAreCutWhereTheyCross) {
+  constexpr int teeth = 400;
+  const std::vector<Part> parts = combs_moved(teeth);
+  const std::span<const Segment> a = parts[0].as_polygon()->grid.segments(), b = parts[1].as_polygon()->grid.segments();
+  std::size_t crossings = 0;
+  for (const Segment& s : a)
+    for (const Segment& t : b)
+      crossings += geometry::orient2d(s.a, s.b, t.a) * geometry::orient2d(s.a, s.b, t.b) < 0 &&
+                           geometry::orient2d(t.a, t.b, s.a) * geometry::orient2d(t.a, t.b, s.b) < 0
+                       ? 1
+                       : 0;
+  EXPECT_GT(crossings, std::size_t{teeth});
+  EXPECT_EQ(Arrangement(placed(parts), unit_frame).pieces().size(), a.size() + b.size() + 2 * crossings);
+}
+
+TEST(InsideWalk, SaysWhatThePartSays) {
+  constexpr int teeth = 3000;
+  const Part part = comb_part("a", teeth, {0.5, 0.5});
+  const std::span<const Segment> segments = part.as_polygon()->grid.segments();
+  InsideWalk walk(part);
+  const auto expect_same = [&](Vec2 p) { EXPECT_EQ(walk.inside(p), part.inside(p)) << p.x << " " << p.y; };
+  int inside = 0;
+  const int rounds = 4;
+  for (int round = 0; round < rounds; ++round)
+    for (std::size_t k = 0; k < segments.size(); ++k) { // on vertices, along spikes, across them, and far jumps
+      const Segment& s = segments[k];
+      const Vec2 middle = unit_frame.snap(s.a + 0.3 * (s.b - s.a));
+      expect_same(middle);
+      expect_same({middle.x + unit_frame.step() * static_cast<double>(k % 5), middle.y});
+      if (k % 4 == 0)
+        expect_same(s.b);
+      if (k % 100 == 0)
+        expect_same(
+            unit_frame.snap({random_unit(5, RandomPurpose::test, k, 0), random_unit(5, RandomPurpose::test, k, 1)}));
+      inside += part.inside(middle) ? 1 : 0;
+    }
+  EXPECT_GT(inside, teeth / 2);
+  EXPECT_LT(inside, rounds * 3 * teeth - teeth / 2);
+  EXPECT_LT(walk.looked_at(), std::int64_t{60} * rounds * 3 * teeth);
 }
 
 std::string random_region(std::uint64_t key, int depth, int parts) {
