@@ -33,7 +33,8 @@ SiteTree tree_of(const std::vector<Vec2>& points) {
 /// Points in square cells of one side, to find those nearer than it.
 class NearPoints {
 public:
-  explicit NearPoints(double side) : side_(side) {}
+  /// @param origin so near to all points that they lie in fewer than 2^62 cells along each axis
+  NearPoints(Vec2 origin, double side) : origin_(origin), side_(side) {}
   void add(Vec2 p) { cells_[cell_of(p)].push_back(p); }
   /// The first one in lexicographic order that is at most the side from p.
   std::optional<Vec2> first_near(Vec2 p) const {
@@ -51,9 +52,11 @@ public:
 private:
   using Cell = std::pair<std::int64_t, std::int64_t>;
   Cell cell_of(Vec2 p) const {
-    return {static_cast<std::int64_t>(std::floor(p.x / side_)), static_cast<std::int64_t>(std::floor(p.y / side_))};
+    return {static_cast<std::int64_t>(std::floor((p.x - origin_.x) / side_)),
+            static_cast<std::int64_t>(std::floor((p.y - origin_.y) / side_))};
   }
 
+  Vec2 origin_;
   double side_;
   std::map<Cell, std::vector<Vec2>> cells_;
 };
@@ -107,7 +110,7 @@ FixedPoints::FixedPoints(const geometry::Boundary& boundary, const geometry::Box
 void FixedPoints::take_corners(const geometry::Boundary& boundary) {
   const geometry::PieceTree pieces(boundary);
   CorneredBoundary cornered(boundary, pieces, tolerance_);
-  NearPoints on_curve(tolerance_);
+  NearPoints on_curve(boundary.bounding_box().min, tolerance_);
   for (const Vec2 p : all_) {
     if (pieces.distance(p) > tolerance_) {
       inside_.push_back(p);

@@ -92,6 +92,19 @@ TEST(FixedPoints, TwoOnTheBoundaryThatAreOneToItAreRefused) {
   EXPECT_EQ(make(inside).inside().size(), 2u);
 }
 
+/// Numbers of cells a tolerance wide, counted from zero, would not fit into 64 bits there.
+TEST(FixedPoints, MayLieFarFromTheOrigin) {
+  const double far = 0x1p31;
+  const geometry::Frame frame(geometry::Box{{far, -far}, {far + 1, 1 - far}});
+  const RegionShape square({Part::rectangle("s", {{far + 0.25, 0.25 - far}, {far + 0.75, 0.75 - far}}, frame)}, "s",
+                           frame);
+  const std::vector<FixedPoint> given = with_points({{far + 0.25, 0.375 - far}, {far + 0.25, 0.5 - far}});
+  Log log(LogLevel::silent, false);
+  const FixedPoints fixed(square.boundary(), frame.container(), given, frame.lattice(), log);
+  EXPECT_TRUE(fixed.inside().empty());
+  EXPECT_EQ(fixed.cornered_boundary().loops.at(0).pieces.size(), 6u);
+}
+
 TEST(FixedPoints, NoDiscOfASegmentHoldsOne) {
   const std::vector<FixedPoint> options =
       with_points({{0.325, 0.2501}, {0.425, 0.252}, {0.51, 0.6251}, {0.625, 0.7499999}});
