@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "boundary/boundary_layout.hpp"
 
+#include "boundary/loop_stretches.hpp"
 #include "boundary/rules.hpp"
 #include "boundary/site_path.hpp"
 #include "core/gather.hpp"
 
 #include "core/angle.hpp"
-#include "core/thread_loop.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -18,27 +18,6 @@ using geometry::Vec2;
 
 namespace {
 
-struct Corner {
-  double t;
-  Vec2 position;
-  bool sharp;
-  std::vector<double> ahead, behind; // t of the shells on its two arms, from the corner outward; unwrapped
-};
-
-/// A vertex of the convex hull: it lies at the end of something.
-std::size_t outermost_junction(const geometry::Loop& loop) {
-  geometry::Box box;
-  for (const geometry::Piece& piece : loop.pieces)
-    box.include(piece.start);
-  const Vec2 middle = 0.5 * (box.min + box.max);
-  std::size_t outermost = 0;
-  for (std::size_t i = 1; i < loop.pieces.size(); ++i)
-    if (geometry::squared_length(loop.pieces[i].start - middle) >
-        geometry::squared_length(loop.pieces[outermost].start - middle))
-      outermost = i;
-  return outermost;
-}
-
 double extent_of(const geometry::Loop& loop) {
   geometry::Box box;
   for (const geometry::Piece& piece : loop.pieces)
@@ -46,186 +25,25 @@ double extent_of(const geometry::Loop& loop) {
   return std::fmax(box.width(), box.height());
 }
 
-/// Junctions of a loop by what becomes of them.
-struct Junctions {
-  std::vector<Corner> kept;   // for certain
-  std::vector<double> others; // t of those that turn as much but may be left out: features below the resolution
-};
-
-Corner corner_at(const LoopMetric& metric, std::size_t piece) {
-  return {metric.piece_t(piece),
-          metric.loop().pieces[piece].start,
-          metric.loop().turn_degrees(piece) > BoundaryRules::sharp_turn,
-          {},
-          {}};
-}
-
-/// A junction that turns by more than the corner angle.
-struct Turning {
-  std::size_t piece;
-  double t;
-  double turn; // signed, radians
-};
-
-std::vector<Turning> find_turnings(const LoopMetric& metric, double corner_angle) {
-  const double least = std::fmin(corner_angle, BoundaryRules::always_a_corner);
-  std::vector<Turning> turnings;
-  for (std::size_t i = 0; i < metric.loop().pieces.size(); ++i)
-    if (const double turn = metric.turn(i); std::fabs(turn) * (180 / pi) > least)
-      turnings.push_back({i, metric.piece_t(i), turn});
-  return turnings;
-}
-
-/// @brief Which of the junctions stand at a long arm on both sides, or at the two ends of a short way on which the
-/// curve turns back between two long arms: the end of a slit. Its sides get sites in pairs only if both corners stay;
-/// else they meet in a wedge that takes any number of sites.
-std::vector<char> find_clear_corners(const std::vector<Turning>& turnings, double total) {
-  const std::size_t n = turnings.size();
-  const auto way_ahead = [&](std::size_t k) {
-    return k + 1 < n ? turnings[k + 1].t - turnings[k].t : turnings.front().t + total - turnings.back().t;
+/// In sites of a plain stretch: so many junctions and places between them are looked at.
+std::int64_t work_of_ragged(const LoopMetric& metric, const Stretch& stretch) {
+  const auto junctions_before = [&](double t) {
+    const bool round = t >= metric.total();
+    return metric.first_junction_from(round ? t - metric.total() : t) + (round ? std::ssize(metric.loop().pieces) : 0);
   };
-  std::vector<char> clear(n, 0);
-  for (std::size_t k = 0; k < n; ++k) {
-    if (way_ahead((k + n - 1) % n) < BoundaryRules::long_arm)
-      continue;
-    double turn = 0, way = 0;
-    for (std::size_t hop = 0; hop < n && way < BoundaryRules::long_arm; ++hop) {
-      const std::size_t last = (k + hop) % n;
-      turn += turnings[last].turn;
-      if (way_ahead(last) >= BoundaryRules::long_arm) {
-        if (hop == 0 || std::fabs(turn) >= BoundaryRules::turned_back)
-          clear[k] = clear[last] = 1;
-        break;
-      }
-      way += way_ahead(last);
-    }
-  }
-  return clear;
+  return 1 + BoundaryRules::work_of_place * (std::lround((stretch.to - stretch.from) / BoundaryRules::place_spacing) +
+                                             junctions_before(stretch.to) - junctions_before(stretch.from));
 }
 
-Junctions find_junctions(const LoopMetric& metric, double corner_angle, double tolerance) {
-  const auto& pieces = metric.loop().pieces;
-  const std::vector<Turning> turnings = find_turnings(metric, corner_angle);
-  const std::vector<char> clear = find_clear_corners(turnings, metric.total());
-  Junctions found;
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const bool turns = next < turnings.size() && turnings[next].piece == i;
-    if (pieces[i].corner || (turns && (clear[next] || tolerance == 0)))
-      found.kept.push_back(corner_at(metric, i));
-    else if (turns)
-      found.others.push_back(metric.piece_t(i));
-    next += turns;
-  }
-  if (found.kept.empty() && !found.others.empty())
-    found.kept.push_back(corner_at(metric, outermost_junction(metric.loop())));
-  if (!found.kept.empty())
-    std::erase(found.others, found.kept.front().t);
-  return found;
-}
-
-/// The two neighbours of a corner along the loop, as places on its arms.
-struct Arms {
-  double ahead_end, behind_end;     // t of the next and the previous corner, unwrapped
-  double ahead_limit, behind_limit; // shells go no farther: half-way if the other corner is sharp too
+/// Sites of a stretch that one thread lays in a row, all of them if they are chosen.
+struct Job {
+  const Stretch* stretch;
+  std::int64_t first, last;
 };
-
-Arms arms_of(const std::vector<Corner>& corners, std::size_t k, double total) {
-  const std::size_t n = corners.size();
-  const Corner &next = corners[(k + 1) % n], &previous = corners[(k + n - 1) % n];
-  const double t = corners[k].t;
-  Arms arms{};
-  arms.ahead_end = k + 1 < n ? next.t : next.t + total;
-  arms.behind_end = k > 0 ? previous.t : previous.t - total;
-  arms.ahead_limit = next.sharp ? 0.5 * (t + arms.ahead_end) - 0.25 : arms.ahead_end - 0.5;
-  arms.behind_limit = previous.sharp ? 0.5 * (t + arms.behind_end) + 0.25 : arms.behind_end + 0.5;
-  return arms;
-}
-
-/// Sites at equal distances from the corner on both arms, one local size apart, until the arms are that far apart.
-void make_shells(const LoopMetric& metric, const Arms& arms, Corner& corner) {
-  double radius = 0, ahead = corner.t, behind = corner.t;
-  Vec2 ahead_point = corner.position, behind_point = corner.position;
-  const double longest = metric.total() + 2; // in local sizes: each turn of the loop covers about one
-  for (int shell = 0; shell < longest; ++shell) {
-    radius += 0.5 * (metric.size(ahead) + metric.size(behind));
-    const auto next_ahead = metric.first_at_radius(ahead, arms.ahead_end, corner.position, radius);
-    const auto next_behind = metric.first_at_radius(behind, arms.behind_end, corner.position, radius);
-    if (!next_ahead || !next_behind || *next_ahead > arms.ahead_limit || *next_behind < arms.behind_limit)
-      return;
-    corner.ahead.push_back(ahead = *next_ahead);
-    corner.behind.push_back(behind = *next_behind);
-    ahead_point = metric.point(ahead);
-    behind_point = metric.point(behind);
-    const double h = std::fmin(metric.size(ahead), metric.size(behind));
-    if (geometry::length(ahead_point - behind_point) >= h)
-      return;
-  }
-}
-
-/// A stretch between two fixed places that is divided at equal quantiles.
-struct Stretch {
-  double from, to;
-  long intervals;             // 0: not known yet
-  bool ragged = false;        // its sites are chosen, not quantiles
-  const Corner* at = nullptr; // the corner where it starts, if it does at one
-};
-
-long intervals_of(const LoopMetric& metric, double from, double to) {
-  const double by_turn = std::ceil(std::fabs(metric.summarize(from, to, {}, {}).turn) / BoundaryRules::largest_turn);
-  return std::max({1L, std::lround(to - from), std::lround(by_turn)});
-}
-
-std::vector<Stretch> stretches_of(const LoopMetric& metric, const Junctions& junctions) {
-  const std::vector<Corner>& corners = junctions.kept;
-  std::vector<Stretch> stretches;
-  const auto ragged = [&](double from, double to) {
-    const auto has = [&](double low, double high) {
-      const auto first = std::upper_bound(junctions.others.begin(), junctions.others.end(), low);
-      return first != junctions.others.end() && *first < high;
-    };
-    return has(from, to) || has(from - metric.total(), to - metric.total());
-  };
-  if (corners.empty())
-    return {{0, metric.total(), std::max(3L, intervals_of(metric, 0, metric.total())), false, nullptr}};
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const bool last = k + 1 == corners.size();
-    const Corner &corner = corners[k], &next = corners[last ? 0 : k + 1];
-    double from = corner.t;
-    const auto add = [&](double to, bool shell) {
-      const bool chosen = !shell && ragged(from, to);
-      stretches.push_back({from, to, shell || chosen ? 1 : 0, chosen, from == corner.t ? &corner : nullptr});
-      from = to;
-    };
-    const double shift = last ? metric.total() : 0;
-    for (const double t : corner.ahead)
-      add(t, true);
-    const double end = next.t + shift;
-    // The shells of `next` behind it are unwrapped relative to its own t.
-    add(next.behind.empty() ? end : next.behind.back() + shift, false);
-    for (std::size_t j = next.behind.size(); j > 0; --j)
-      add(j > 1 ? next.behind[j - 2] + shift : end, true);
-  }
-  thread_loop(std::ssize(stretches), 16, [&](std::ptrdiff_t k, int) {
-    Stretch& stretch = stretches[static_cast<std::size_t>(k)];
-    if (stretch.intervals == 0)
-      stretch.intervals = intervals_of(metric, stretch.from, stretch.to);
-  });
-  return stretches;
-}
-
-/// At least 3 sites: the stretches with the longest intervals get more.
-void ensure_polygon(std::vector<Stretch>& stretches) {
-  long sites = 0;
-  for (const Stretch& stretch : stretches)
-    sites += stretch.ragged ? 3 : stretch.intervals;
-  for (; sites < 3; ++sites) {
-    const auto length = [](const Stretch& s) { return (s.to - s.from) / static_cast<double>(s.intervals); };
-    ++std::max_element(stretches.begin(), stretches.end(), [&](const Stretch& a, const Stretch& b) {
-        return length(a) < length(b);
-      })->intervals;
-  }
-}
+constexpr std::int64_t sites_in_a_row = 256;
+// An absurd size is told by the first site, not by a lack of memory or of bits.
+constexpr std::int64_t most_jobs = 1024;                  // of a stretch
+constexpr std::int64_t most_work = std::int64_t{1} << 48; // of a stretch
 
 /// Appends the sites of a stretch to a list.
 class Layouter {
@@ -234,18 +52,18 @@ public:
            const FeatureTolerance& tolerance, std::vector<LoopSite>& sites)
       : metric_(metric), lattice_(lattice), tolerance_(tolerance), corner_angle_(corner_angle), sites_(sites) {}
 
-  /// The start of a stretch and what lies in it, without its end.
-  void add(const Stretch& stretch, bool closed) {
-    constexpr long most_ahead = 1 << 16; // an absurd size is told by the first site, not by a lack of memory
-    if (const std::size_t needed = sites_.size() + static_cast<std::size_t>(std::min(stretch.intervals, most_ahead));
-        needed > sites_.capacity())
-      sites_.reserve(std::max(needed, 2 * sites_.capacity()));
-    add_start(stretch);
-    if (stretch.ragged)
-      add_chosen(stretch, closed);
-    for (long j = 1; j < stretch.intervals && !stretch.ragged; ++j)
+  /// Sites [first, last) of a stretch, of which the first is its start; its end is none of them.
+  void add_plain(const Stretch& stretch, std::int64_t first, std::int64_t last) {
+    if (first == 0)
+      add_start(stretch);
+    for (std::int64_t j = std::max<std::int64_t>(1, first); j < last; ++j)
       add_site(stretch.from +
                (stretch.to - stretch.from) * (static_cast<double>(j) / static_cast<double>(stretch.intervals)));
+  }
+  /// All sites of a stretch on which they are chosen.
+  void add_ragged(const Stretch& stretch, bool closed) {
+    add_start(stretch);
+    add_chosen(stretch, closed);
   }
 
 private:
@@ -305,31 +123,75 @@ SiteKind kind_of_junction(const geometry::Loop& loop, std::size_t piece, double 
                                                                                                      : SiteKind::plain;
 }
 
-std::vector<LoopSite> lay_out_loop(const LoopMetric& metric, const geometry::Lattice& lattice, double corner_angle,
-                                   const FeatureTolerance& tolerance) {
-  Junctions junctions = find_junctions(metric, corner_angle, tolerance.share);
-  std::vector<Corner>& corners = junctions.kept;
-  thread_loop(std::ssize(corners), 16, [&](std::ptrdiff_t item, int) {
-    const auto k = static_cast<std::size_t>(item);
-    if (corners[k].sharp)
-      make_shells(metric, arms_of(corners, k, metric.total()), corners[k]);
-  });
-  std::vector<Stretch> stretches = stretches_of(metric, junctions);
-  ensure_polygon(stretches);
-  FeatureTolerance capped = tolerance;
-  capped.most = BoundaryRules::most_of_extent * extent_of(metric.loop());
-  const bool closed = stretches.size() == 1 && !metric.loop().winds();
-  constexpr std::ptrdiff_t few = 4; // stretches that one thread divides in a row
-  std::vector<LoopSite> sites =
-      gather_in_order<LoopSite>(std::ssize(stretches), few, [&](std::ptrdiff_t k, std::vector<LoopSite>& list) {
-        Layouter(metric, lattice, corner_angle, capped, list).add(stretches[static_cast<std::size_t>(k)], closed);
+struct LoopLayout::Plan {
+  Plan(const LoopMetric& metric, const geometry::Lattice& lattice, double corner_angle,
+       const FeatureTolerance& tolerance);
+
+  const LoopMetric& metric;
+  const geometry::Lattice& lattice;
+  double corner_angle;
+  FeatureTolerance tolerance;
+  LoopStretches stretches;
+  std::vector<std::int64_t> work_before; // each stretch, and of all
+  bool closed;                           // one stretch, back to its start
+};
+
+LoopLayout::Plan::Plan(const LoopMetric& measured, const geometry::Lattice& on, double angle,
+                       const FeatureTolerance& uncapped)
+    : metric(measured), lattice(on), corner_angle(angle), tolerance(uncapped),
+      stretches(cut_into_stretches(metric, corner_angle, tolerance.share)) {
+  tolerance.most = BoundaryRules::most_of_extent * extent_of(metric.loop());
+  closed = stretches.list.size() == 1 && !metric.loop().winds();
+  work_before.push_back(0);
+  for (const Stretch& stretch : stretches.list)
+    work_before.push_back(work_before.back() +
+                          std::min(most_work, stretch.ragged ? work_of_ragged(metric, stretch) : stretch.intervals));
+}
+
+LoopLayout::LoopLayout(const LoopMetric& metric, const geometry::Lattice& lattice, double corner_angle,
+                       const FeatureTolerance& tolerance)
+    : plan_(std::make_unique<const Plan>(metric, lattice, corner_angle, tolerance)) {}
+LoopLayout::LoopLayout(LoopLayout&&) noexcept = default;
+LoopLayout::~LoopLayout() = default;
+
+std::int64_t LoopLayout::work() const {
+  return plan_->work_before.back();
+}
+
+void LoopLayout::make(std::int64_t first, std::int64_t last, std::vector<LoopSite>& sites) const {
+  const std::vector<std::int64_t>& before = plan_->work_before;
+  std::vector<Job> jobs;
+  for (auto k =
+           static_cast<std::size_t>(std::upper_bound(before.begin(), before.end() - 1, first) - before.begin() - 1);
+       k < plan_->stretches.list.size() && before[k] < last; ++k) {
+    const std::int64_t from = std::max(first, before[k]), to = std::min(last, before[k + 1]);
+    if (plan_->stretches.list[k].ragged) {
+      if (from == before[k])
+        jobs.push_back({&plan_->stretches.list[k], 0, 0});
+      continue;
+    }
+    const std::int64_t row = std::max(sites_in_a_row, (to - from) / most_jobs + 1);
+    for (std::int64_t begin = from; begin < to; begin += row)
+      jobs.push_back({&plan_->stretches.list[k], begin - before[k], std::min(to, begin + row) - before[k]});
+  }
+  constexpr std::ptrdiff_t few = 4; // jobs that one thread does in a row
+  const std::vector<LoopSite> made =
+      gather_in_order<LoopSite>(std::ssize(jobs), few, [&](std::ptrdiff_t k, std::vector<LoopSite>& list) {
+        Layouter layouter(plan_->metric, plan_->lattice, plan_->corner_angle, plan_->tolerance, list);
+        if (const Job& job = jobs[static_cast<std::size_t>(k)]; job.stretch->ragged)
+          layouter.add_ragged(*job.stretch, plan_->closed);
+        else
+          layouter.add_plain(*job.stretch, job.first, job.last);
       });
+  sites.insert(sites.end(), made.begin(), made.end());
+}
+
+/// Mostly in order, but that the last ones lie behind the start of the loop.
+void sort_along(std::span<LoopSite> sites) {
   const auto before = [](const LoopSite& a, const LoopSite& b) { return a.t < b.t; };
-  // Mostly in order, but that the last ones lie behind the start of the loop.
   std::rotate(sites.begin(), std::is_sorted_until(sites.begin(), sites.end(), before), sites.end());
   if (!std::is_sorted(sites.begin(), sites.end(), before))
     std::sort(sites.begin(), sites.end(), before);
-  return sites;
 }
 
 } // namespace trime::boundary

@@ -33,24 +33,55 @@ BoundaryRefiner::BoundaryRefiner(const geometry::Boundary& boundary, const Bound
       inside_tree_(tree_of(inside)), dropped_(drop_small_loops(boundary, sizes.asked(), rule.least_perimeter, inside)),
       affordable_(affordable) {
   metrics_.reserve(boundary.loops.size());
-  for (std::size_t k = 0; k < boundary.loops.size(); ++k) {
-    if (dropped_.dropped[k])
-      continue;
-    metrics_.emplace_back(boundary, k, sizes);
-    add_loop(lay_out_loop(metrics_.back(), lattice, corner_angle, tolerance_));
-  }
-  most_sites_ = std::max(BoundaryRules::always_halved, BoundaryRules::halving_growth * sites_.size());
+  for (std::size_t k = 0; k < boundary.loops.size(); ++k)
+    if (!dropped_.dropped[k])
+      metrics_.emplace_back(boundary, k, sizes);
 }
 
-void BoundaryRefiner::run() {
-  std::vector<LocalIndex> fresh_sites(sites_.size());
+std::vector<LoopSite> BoundaryRefiner::lay_out(const Share& share) const {
+  std::vector<LoopLayout> layouts;
+  std::int64_t work = 0;
+  for (const LoopMetric& metric : metrics_) {
+    layouts.emplace_back(metric, lattice_, corner_angle_, tolerance_);
+    work += layouts.back().work();
+  }
+  std::vector<LoopSite> made;
+  std::int64_t first = share.first(work), last = share.last(work);
+  for (std::size_t loop = 0; loop < layouts.size(); ++loop) {
+    const std::size_t before = made.size();
+    if (last > 0 && first < layouts[loop].work())
+      layouts[loop].make(std::max<std::int64_t>(0, first), last, made);
+    for (std::size_t k = before; k < made.size(); ++k)
+      made[k].loop = static_cast<std::int32_t>(loop);
+    first -= layouts[loop].work();
+    last -= layouts[loop].work();
+  }
+  return made;
+}
+
+std::vector<BoundaryRefiner::Cut> BoundaryRefiner::begin(std::vector<LoopSite> laid, const Share& share) {
+  sites_.reserve(laid.size());
+  for (auto first = laid.begin(); first != laid.end();) {
+    const auto end = std::find_if(first, laid.end(), [&](const LoopSite& site) { return site.loop != first->loop; });
+    const std::span<LoopSite> of_loop(first, end);
+    sort_along(of_loop);
+    add_loop(of_loop);
+    first = end;
+  }
+  most_sites_ = std::max(BoundaryRules::always_halved, BoundaryRules::halving_growth * sites_.size());
+  std::vector<SiteTree::Entry> items(sites_.size());
   for (std::size_t k = 0; k < sites_.size(); ++k)
-    fresh_sites[k] = static_cast<LocalIndex>(k);
-  std::vector<LocalIndex> fresh_chords = fresh_sites;
-  for (rounds_ = 0; !fresh_sites.empty(); ++rounds_) {
-    const std::vector<Cut> cuts = find_cuts(fresh_sites, fresh_chords);
-    fresh_sites.clear();
-    fresh_chords.clear();
+    items[k] = {boundary_.periods.wrap(sites_[k].position), static_cast<LocalIndex>(k)};
+  trees_.emplace_back(std::move(items));
+  const std::ptrdiff_t first = share.first(std::ssize(sites_)), last = share.last(std::ssize(sites_));
+  return gather_in_order<Cut>(last - first, chords_in_a_row, [&](std::ptrdiff_t k, std::vector<Cut>& cuts) {
+    look_at_fresh(static_cast<LocalIndex>(first + k), cuts);
+  });
+}
+
+void BoundaryRefiner::run(std::vector<Cut> cuts) {
+  for (rounds_ = 0;; ++rounds_) {
+    std::vector<LocalIndex> fresh_sites, fresh_chords;
     for (const Cut& cut : cuts) {
       if (sites_.size() >= affordable_) {
         overfull_ = true;
@@ -63,17 +94,17 @@ void BoundaryRefiner::run() {
         fail(cut);
     }
     halvings_ += static_cast<LocalIndex>(cuts.size());
+    if (fresh_sites.empty())
+      break;
+    cuts = find_cuts(fresh_sites, fresh_chords);
   }
-  --rounds_;
   overfull_ = sites_.size() > affordable_;
 }
 
-void BoundaryRefiner::add_loop(const std::vector<LoopSite>& loop_sites) {
+void BoundaryRefiner::add_loop(std::span<const LoopSite> loop_sites) {
   const LocalIndex first = static_cast<LocalIndex>(sites_.size()), n = static_cast<LocalIndex>(loop_sites.size());
   loop_first_.push_back(first);
   const auto loop = static_cast<std::int32_t>(loop_first_.size() - 1);
-  if (const std::size_t needed = sites_.size() + loop_sites.size(); needed > sites_.capacity())
-    sites_.reserve(std::max(needed, 2 * sites_.capacity()));
   for (LocalIndex k = 0; k < n; ++k)
     sites_.push_back({loop_sites[k].t, loop_sites[k].position, first + (k + n - 1) % n, first + (k + 1) % n, loop,
                       loop_sites[k].kind});
@@ -86,23 +117,17 @@ std::vector<BoundaryRefiner::Cut> BoundaryRefiner::find_cuts(const std::vector<L
   items.reserve(fresh_sites.size());
   for (const LocalIndex k : fresh_sites)
     items.push_back({boundary_.periods.wrap(sites_[k].position), k});
-  const bool all_fresh = fresh_chords.size() >= sites_.size();
-  const SiteTree newest(all_fresh ? std::vector<SiteTree::Entry>{} : items); // for old chords
+  const SiteTree newest(items); // for old chords
   for (; !trees_.empty() && trees_.back().size() <= 2 * items.size(); trees_.pop_back())
     items.insert(items.end(), trees_.back().items().begin(), trees_.back().items().end());
   trees_.emplace_back(std::move(items));
   std::vector<LocalIndex> fresh = fresh_chords;
   std::sort(fresh.begin(), fresh.end());
   const auto look = [&](LocalIndex k, std::vector<Cut>& cuts) {
-    const bool is_fresh = all_fresh || std::binary_search(fresh.begin(), fresh.end(), k);
-    LocalIndex intruder = -1;
-    if (!is_fresh)
-      intruder = find_intruder(newest, k);
-    for (std::size_t tree = 0; is_fresh && tree < trees_.size() && intruder < 0; ++tree)
-      intruder = find_intruder(trees_[tree], k);
-    const LocalIndex point = is_fresh && intruder < 0 ? find_intruder(inside_tree_, k, true) : -1;
-    if (intruder >= 0 || point >= 0 || (is_fresh && curve_offends(k)))
-      cuts.push_back({k, intruder, point});
+    if (std::binary_search(fresh.begin(), fresh.end(), k))
+      look_at_fresh(k, cuts);
+    else if (const LocalIndex intruder = find_intruder(newest, k); intruder >= 0)
+      cuts.push_back({k, intruder});
   };
   if (rounds_ < BoundaryRules::full_rounds)
     return gather_in_order<Cut>(std::ssize(sites_), chords_in_a_row, [&](std::ptrdiff_t k, std::vector<Cut>& cuts) {
@@ -112,6 +137,16 @@ std::vector<BoundaryRefiner::Cut> BoundaryRefiner::find_cuts(const std::vector<L
   for (const LocalIndex k : candidates(fresh_sites, fresh))
     look(k, cuts);
   return cuts;
+}
+
+/// A new chord against everything.
+void BoundaryRefiner::look_at_fresh(LocalIndex k, std::vector<Cut>& cuts) const {
+  LocalIndex intruder = -1;
+  for (std::size_t tree = 0; tree < trees_.size() && intruder < 0; ++tree)
+    intruder = find_intruder(trees_[tree], k);
+  const LocalIndex point = intruder < 0 ? find_intruder(inside_tree_, k, true) : -1;
+  if (intruder >= 0 || point >= 0 || curve_offends(k))
+    cuts.push_back({k, intruder, point});
 }
 
 /// The new chords, and the others that a new site may encroach upon; ascending.

@@ -8,23 +8,48 @@
 #include "boundary/loop_metric.hpp"
 #include "boundary/segment_watch.hpp"
 #include "boundary/site_tree.hpp"
+#include "trime/comm/communicator.hpp"
 
+#include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace trime::boundary {
 
+/// The part of some work that this rank does: a contiguous one.
+struct Share {
+  int rank = 0, ranks = 1;
+  std::int64_t first(std::int64_t all) const { return all / ranks * rank + all % ranks * rank / ranks; }
+  std::int64_t last(std::int64_t all) const { return all / ranks * (rank + 1) + all % ranks * (rank + 1) / ranks; }
+};
+
 /// @brief The sites of a boundary laid out loop by loop, then divided in rounds: all chords that offend at once,
-/// until none does. See make_boundary_sites.
+/// until none does. Two steps may be shared among ranks; what they make is joined in the order of the ranks. See
+/// make_boundary_sites.
 class BoundaryRefiner {
 public:
   BoundaryRefiner(const geometry::Boundary& boundary, const BoundarySizes& sizes, const geometry::Lattice& lattice,
                   double corner_angle, std::span<const geometry::Vec2> inside, const FeatureRule& rule,
                   std::size_t affordable);
 
-  /// Ends, since each round adds a site: a change in one place may run through the whole boundary, a chord a round.
-  void run();
+  /// A chord to divide and why.
+  struct Cut {
+    LocalIndex chord;
+    LocalIndex intruder;   // site in its disc, -1: because of the curve itself or of a point inside
+    LocalIndex point = -1; // point inside the shape that lies in its disc
+  };
+
+  /// The first layout.
+  std::vector<LoopSite> lay_out(const Share& share) const;
+  /// Takes the sites of all shares. @return the chords among a share of them that offend
+  std::vector<Cut> begin(std::vector<LoopSite> laid, const Share& share);
+  /// @brief Ends, since each round adds a site: a change in one place may run through the whole boundary, a chord a
+  /// round.
+  /// @param cuts of all shares
+  void run(std::vector<Cut> cuts);
   polygon::BoundarySites result() const;
 
 private:
@@ -35,14 +60,8 @@ private:
     std::int32_t loop;
     SiteKind kind;
   };
-  /// A chord to divide and why.
-  struct Cut {
-    LocalIndex chord;
-    LocalIndex intruder;   // site in its disc, -1: because of the curve itself or of a point inside
-    LocalIndex point = -1; // point inside the shape that lies in its disc
-  };
-
-  void add_loop(const std::vector<LoopSite>& loop_sites);
+  void add_loop(std::span<const LoopSite> loop_sites);
+  void look_at_fresh(LocalIndex chord, std::vector<Cut>& cuts) const;
   std::vector<Cut> find_cuts(const std::vector<LocalIndex>& fresh_sites, const std::vector<LocalIndex>& fresh_chords);
   std::vector<LocalIndex> candidates(const std::vector<LocalIndex>& fresh_sites,
                                      const std::vector<LocalIndex>& fresh_chords);
@@ -100,5 +119,10 @@ private:
   LocalIndex halvings_ = 0;
   int rounds_ = 0;
 };
+
+/// @brief The same sites as of one refiner alone, by all ranks together. Collective. What any rank throws, all throw.
+/// @param make_ready the refiner of this rank: the same on all ranks; does not communicate
+polygon::BoundarySites make_boundary_sites(const comm::Communicator& comm,
+                                           const std::function<std::unique_ptr<BoundaryRefiner>()>& make_ready);
 
 } // namespace trime::boundary

@@ -2,6 +2,7 @@
 // What comes out of the layout of a boundary.
 
 #include "boundary/boundary_refiner.hpp"
+#include "comm/shared_work.hpp"
 #include "core/thread_loop.hpp"
 #include "polygon/chord_curve.hpp"
 
@@ -96,8 +97,26 @@ BoundarySites make_boundary_sites(const geometry::Boundary& boundary, const Boun
                                   const geometry::Lattice& lattice, double corner_angle, std::span<const Vec2> inside,
                                   const FeatureRule& rule, std::size_t affordable) {
   BoundaryRefiner refiner(boundary, sizes, lattice, corner_angle, inside, rule, affordable);
-  refiner.run();
+  refiner.run(refiner.begin(refiner.lay_out({}), {}));
   return refiner.result();
+}
+
+BoundarySites make_boundary_sites(const comm::Communicator& comm,
+                                  const std::function<std::unique_ptr<BoundaryRefiner>()>& make_ready) {
+  const Share share{comm.rank(), comm.size()};
+  std::unique_ptr<BoundaryRefiner> refiner;
+  std::vector<LoopSite> laid = comm::gather_agreed<LoopSite>(comm, [&] {
+    refiner = make_ready();
+    return refiner->lay_out(share);
+  });
+  std::vector<BoundaryRefiner::Cut> cuts =
+      comm::gather_agreed<BoundaryRefiner::Cut>(comm, [&] { return refiner->begin(std::move(laid), share); });
+  BoundarySites result;
+  comm::run_agreed(comm, [&] {
+    refiner->run(std::move(cuts));
+    result = refiner->result();
+  });
+  return result;
 }
 
 BoundarySites make_boundary_sites(const geometry::Boundary& boundary, const sizing::SizeField& size,

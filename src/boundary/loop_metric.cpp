@@ -72,6 +72,7 @@ LoopMetric::LoopMetric(const geometry::Boundary& boundary, std::size_t loop, con
     }
   });
   join(runs, at_start);
+  sort_into_buckets();
 }
 
 void LoopMetric::join(const std::vector<Run>& runs, SizePair at_start) {
@@ -138,8 +139,26 @@ SizePair LoopMetric::add_piece(LocalIndex i, SizePair sizes, Walk& walk, std::ve
   return sizes;
 }
 
+/// Equal lengths of t hold about as many knots: a look-up takes few steps, on average.
+void LoopMetric::sort_into_buckets() {
+  const std::size_t buckets = knots_.size();
+  buckets_per_t_ = static_cast<double>(buckets) / knots_.back().t;
+  first_in_bucket_.reserve(buckets + 1);
+  for (std::size_t k = 0; k < knots_.size(); ++k)
+    for (const std::size_t bucket = bucket_of(knots_[k].t); first_in_bucket_.size() <= bucket;)
+      first_in_bucket_.push_back(static_cast<LocalIndex>(k));
+  first_in_bucket_.resize(buckets + 1, static_cast<LocalIndex>(knots_.size()));
+}
+
+/// Never falls as t rises. @pre the loop has knots
+std::size_t LoopMetric::bucket_of(double t) const {
+  return static_cast<std::size_t>(std::fmin(std::fmax(t * buckets_per_t_, 0), static_cast<double>(knots_.size() - 1)));
+}
+
 LocalIndex LoopMetric::knot_before(double t) const {
-  const auto above = std::upper_bound(knots_.begin(), knots_.end(), t, [](double v, const Knot& k) { return v < k.t; });
+  const LocalIndex* of_bucket = &first_in_bucket_[bucket_of(t)];
+  const auto above = std::upper_bound(knots_.begin() + of_bucket[0], knots_.begin() + of_bucket[1], t,
+                                      [](double v, const Knot& k) { return v < k.t; });
   const auto index = std::clamp<std::ptrdiff_t>(above - knots_.begin() - 1, 0, std::ssize(knots_) - 2);
   return static_cast<LocalIndex>(index);
 }

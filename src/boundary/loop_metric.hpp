@@ -93,13 +93,18 @@ private:
   class Walk;
   SizePair add_piece(LocalIndex i, SizePair sizes, Walk& walk, std::vector<Knot>& knots) const;
   void join(const std::vector<Run>& runs, SizePair at_start);
+  void sort_into_buckets();
+  std::size_t bucket_of(double t) const;
   double arc(double t) const;
   LocalIndex piece_of_way(double t0, double t1) const;
   LocalIndex knot_before(double t) const;
 
   const geometry::Loop& loop_;
   geometry::Periods periods_;
-  std::vector<Knot> knots_;     // ascending in t; the last closes the loop
+  std::vector<Knot> knots_; // ascending in t; the last closes the loop
+  std::vector<LocalIndex>
+      first_in_bucket_; // the first knot in each bucket of equal lengths of t or behind it, and the end
+  double buckets_per_t_ = 0;
   std::vector<double> piece_t_; // pieces + 1
   std::vector<double> turn_;    // signed turn at the start of each piece, radians
 };

@@ -39,6 +39,9 @@ struct BoundaryRules {
   static constexpr double most_deviation = 1.25;
   /// [radians] A junction that turns by more becomes a site when its chord is divided.
   static constexpr double junction_turn = pi / 4;
+  /// [sites] What a place costs on a stretch whose sites are chosen, in sites of a plain stretch: chords to some ten
+  /// others are weighed. Shares the layout among ranks. Not measured.
+  static constexpr std::int64_t work_of_place = 8;
   /// [rounds] Later rounds of halving look only at chords near the new sites.
   static constexpr int full_rounds = 20;
   /// [extent of the shape] A vertex so near to a given curve lies on it: the lattice rounds by less. Not

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "start/layout.hpp"
 
+#include "boundary/boundary_refiner.hpp"
 #include "boundary/rules.hpp"
 #include "boundary/size_limits.hpp"
 #include "comm/agree.hpp"
@@ -15,6 +16,7 @@
 namespace trime::start {
 namespace {
 
+using boundary::BoundaryRefiner;
 using boundary::BoundaryRules;
 using boundary::BoundarySizes;
 using boundary::FeatureRule;
@@ -119,25 +121,25 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
   return curves.found->boundary;
 }
 
-void lay_sites(const LayoutContext& context, std::size_t affordable, FittedStage& laid) {
+/// What lays the sites of a stage. The sizes must outlive it. Local.
+/// @param asked of the stage
+std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std::size_t affordable,
+                                              const sizing::ScaledSize& asked, FittedStage& laid) {
   Stage& stage = laid.stage;
-  const sizing::ScaledSize asked(*stage.asked_size, stage.coarsening);
   const bool keeps_all = context.options.features.keep_all;
   const FeatureRule rule{keeps_all ? 0 : context.options.features.tolerance,
                          keeps_all ? 0 : BoundaryRules::least_perimeter, nullptr};
   const geometry::Boundary& curves = generalised_curves(context, laid);
   const auto make = [&](const BoundarySizes& sizes) {
-    return make_boundary_sites(curves, sizes, context.lattice, context.options.features.corner_angle,
-                               context.fixed.inside(), rule, affordable);
+    return std::make_unique<BoundaryRefiner>(curves, sizes, context.lattice, context.options.features.corner_angle,
+                                             context.fixed.inside(), rule, affordable);
   };
-  if (stage.size->is_uniform()) {
-    stage.polygon = make({*stage.size, asked});
-    return;
-  }
+  if (stage.size->is_uniform())
+    return make({*stage.size, asked});
   std::shared_ptr<const SizeSamples>& samples = stage.curves ? laid.fitted.curves.samples : laid.fitted.samples;
   if (!samples || !samples->serve(laid.fitted.factor))
     samples = std::make_shared<SizeSamples>(curves, context.relative_size, *stage.asked_size);
-  stage.polygon = make({*stage.size, asked, {*samples, *stage.asked_size, stage.lowered_size.get(), stage.coarsening}});
+  return make({*stage.size, asked, {*samples, *stage.asked_size, stage.lowered_size.get(), stage.coarsening}});
 }
 
 /// Edge length of so many equal triangles' vertices, the boundary not counted.
@@ -155,10 +157,11 @@ FittedStage lay_bare(const LayoutContext& context, const FittedSize& fitted, dou
   stage.coarsening = coarsening;
   stage.typical_size = typical_size(context, expected);
   set_sizes(context, fitted, stage);
-  comm::run_agreed(context.comm, [&] {
+  const sizing::ScaledSize asked(*stage.asked_size, coarsening);
+  stage.polygon = make_boundary_sites(context.comm, [&] {
     if (stage.asked_size->is_uniform())
       stage.typical_size = coarsening * sizing::checked_size(*stage.asked_size, {});
-    lay_sites(context, affordable, laid);
+    return make_refiner(context, affordable, asked, laid);
   });
   stage.fixed_inside = static_cast<GlobalId>(context.fixed.inside().size());
   return laid;
@@ -277,12 +280,10 @@ void place_sites(const LayoutContext& context, Stage& stage, mesh::SiteList inne
   if (context.given_boundary.periods.any())
     for (mesh::Site& site : inner)
       site.position = context.given_boundary.periods.wrap(site.position);
-  for (std::size_t b = 0; b < stage.polygon.sites.size(); ++b) {
-    const geometry::Vec2 p = stage.polygon.sites[b].position;
-    const LocalIndex tile = tiles.grid.place(p).tile;
-    if (tile >= tiles.first && tile < tiles.last)
-      inner.push_back({p, static_cast<std::int32_t>(b)});
-  }
+  const auto on_boundary = std::ssize(stage.polygon.sites), ranks = std::ptrdiff_t{context.comm.size()};
+  for (std::ptrdiff_t b = on_boundary * context.comm.rank() / ranks;
+       b < on_boundary * (context.comm.rank() + 1) / ranks; ++b)
+    inner.push_back({stage.polygon.sites[static_cast<std::size_t>(b)].position, static_cast<std::int32_t>(b)});
   comm::run_agreed(context.comm, [&] { context.fixed.place_among(inner, tiles, *stage.size); });
   stage.state->distribute(std::move(inner));
 }

@@ -31,6 +31,26 @@ TEST(LoopMetric, KnowsWaysOnOnePiece) {
   EXPECT_NEAR(last->turn, 0.5 * pi, 1e-9);
 }
 
+TEST(LoopMetric, FindsPlacesAmongPiecesOfAllLengths) {
+  std::vector<Vec2> corners; // hundreds on one h, and few on the rest
+  for (int k = 0; k < 300; ++k)
+    corners.push_back({0.1 + 1e-5 * k, 0.1 + (k % 2) * 1e-5});
+  corners.insert(corners.end(), {{0.9, 0.1}, {0.9, 0.9}, {0.5, 0.95}});
+  const geometry::Boundary boundary = testing::boundary_of({testing::polygon_loop(corners)});
+  const sizing::UniformSize size(0.01);
+  const LoopMetric metric(boundary, 0, BoundarySizes(size, size));
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double t = metric.piece_t(i), length = metric.piece_t(i + 1) - t;
+    EXPECT_EQ(metric.place(t).piece, static_cast<LocalIndex>(i));
+    EXPECT_EQ(metric.place(t).along, 0);
+    EXPECT_EQ(metric.place(t + 0.5 * length).piece, static_cast<LocalIndex>(i));
+    EXPECT_NEAR(metric.place(t + 0.5 * length).along, 0.005 * length, 1e-12);
+    if (i > 0) {
+      EXPECT_EQ(metric.place(std::nextafter(t, 0)).piece, static_cast<LocalIndex>(i - 1));
+    }
+  }
+}
+
 TEST(LoopMetric, GentleArcsStayInTheDiscsOfTheirChords) {
   const double moved = BoundaryRules::on_boundary; // an end, by a fixed point
   const geometry::Boundary boundary = testing::boundary_of({testing::circle_loop({0.5, 0.5}, 0.25)});
