@@ -22,14 +22,33 @@ using sites::Wanted;
 
 constexpr std::ptrdiff_t sites_in_a_row = 1024; // by one thread
 
-/// The largest alpha in the fan of a site if that is bad and finite, else 0.
+/// Whether no triangle of a fan is bad for certain, see mesh::squares_surely_below. Triangles share edges from the
+/// site; no branch: hardly a fan is not good.
+bool is_surely_good(const mesh::BinnedPoints& points, LocalIndex site, const Fan& fan) {
+  constexpr double largest = mesh::squares_surely_below(CleanupRules::bad_alpha);
+  const Vec2 p = points.position(site);
+  Vec2 u = points.position(fan.neighbour(0)) - p;
+  double u2 = geometry::squared_length(u);
+  bool good = true;
+  for (std::size_t k = 1; k <= fan.triangles; ++k) {
+    const Vec2 v = points.position(fan.neighbour(k)) - p;
+    const double v2 = geometry::squared_length(v);
+    good &= 2 * (u2 + v2 - geometry::dot(u, v)) < largest * geometry::cross(u, v);
+    u = v;
+    u2 = v2;
+  }
+  return good;
+}
+
+/// The largest alpha in the fan of a site if that is bad and finite, else 0. @pre the fan is complete
 double worst_alpha(const mesh::BinnedPoints& points, LocalIndex site, const Fan& fan) {
+  if (is_surely_good(points, site, fan))
+    return 0;
   const Vec2 p = points.position(site);
   double worst = 0;
   for (std::size_t k = 0; k < fan.triangles; ++k)
-    if (const Vec2 q = points.position(fan.neighbour(k)), r = points.position(fan.neighbour(k + 1));
-        !mesh::is_surely_below(CleanupRules::bad_alpha, p, q, r))
-      worst = std::max(worst, mesh::aspect_ratio(p, q, r));
+    worst = std::max(worst,
+                     mesh::aspect_ratio(p, points.position(fan.neighbour(k)), points.position(fan.neighbour(k + 1))));
   return worst > CleanupRules::bad_alpha && std::isfinite(worst) ? worst : 0;
 }
 

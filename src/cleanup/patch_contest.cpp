@@ -183,7 +183,7 @@ void PatchContest::try_operations(const Patch& now, const BadPlace& place, const
   const std::span<Runner> runners = best_of(runners_, Rules::few_runners),
                           finalists = best_of(finalists_, Rules::few_finalists);
   const double no_others_below = (is_thorough_ ? Rules::excellent_if_thorough : Rules::excellent) * bar.first;
-  const double patience = is_thorough_ ? Rules::patience : 1;
+  const double patience = !is_thorough_ ? 1 : budget.is_again ? Rules::patience_again : Rules::patience;
   for (const PatchOperation& operation : operations_.all()) {
     trial_ = now;
     const double handicap = operation.inserts() ? 1 : budget.deletion_handicap;

@@ -95,6 +95,7 @@ void PatchOptimizer::let_failures_rest() {
 void PatchOptimizer::move_bad_sites() {
   chords_.allow(Rules::bent_at_first);
   mover_.set_thorough(false);
+  alphas_.forget();
   AlphaScore before;
   if (!list_movers(before))
     return;
@@ -122,11 +123,12 @@ void PatchOptimizer::move_bad_sites() {
 bool PatchOptimizer::mark_bad(AlphaScore& score) {
   mark_.assign(at(now_.mesh.vertices()), 0);
   score = {};
+  alphas_.follow(now_);
   bool any = false;
   for (const PatchMesh::Triangle& triangle : now_.mesh.triangles()) {
     if (!now_.counts(triangle))
       continue;
-    const double alpha = now_.alpha(triangle.vertex);
+    const double alpha = alphas_.alpha(now_, triangle);
     score.add(alpha, options_.bad_alpha);
     if (alpha > options_.bad_alpha && !rests_.all_rest(triangle.vertex)) {
       any = true;
@@ -140,11 +142,12 @@ bool PatchOptimizer::mark_bad(AlphaScore& score) {
 /// @param score of the whole patch @return whether there are bad triangles that do not rest
 bool PatchOptimizer::list_movers(AlphaScore& score) {
   const bool any = mark_bad(score);
-  const auto is_of_bad_triangle = [&](LocalIndex v) { return mark_[at(v)] == of_bad_triangle; };
-  for (const PatchMesh::Triangle& triangle : now_.mesh.triangles())
-    if (triangle.vertex[0] >= 0 && std::any_of(triangle.vertex.begin(), triangle.vertex.end(), is_of_bad_triangle))
+  for (const PatchMesh::Triangle& triangle : now_.mesh.triangles()) {
+    const auto& [a, b, c] = triangle.vertex;
+    if (a >= 0 && std::max(mark_[at(a)], std::max(mark_[at(b)], mark_[at(c)])) == of_bad_triangle)
       for (const LocalIndex v : triangle.vertex)
         mark_[at(v)] = std::max(mark_[at(v)], beside_one);
+  }
   movers_.clear();
   for (LocalIndex v = PatchMesh::frame; v < now_.mesh.vertices(); ++v)
     if (mark_[at(v)] > 0 && now_.role[at(v)] == VertexRole::free)

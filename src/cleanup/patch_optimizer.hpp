@@ -2,6 +2,7 @@
 // The surroundings of bad triangles and the changes that are tried there. One thread; knows nothing of ranks.
 #pragma once
 
+#include "cleanup/known_alphas.hpp"
 #include "cleanup/patch_contest.hpp"
 #include "cleanup/patch_report.hpp"
 #include "cleanup/patch_worst.hpp"
@@ -59,6 +60,7 @@ private:
   PatchContest contest_;
   PatchReport report_;
   Patch now_, best_;
+  KnownAlphas alphas_;
   std::vector<std::uint8_t> mark_; // by vertex
   std::vector<LocalIndex> movers_; // sites of bad triangles, and their neighbours
 };

@@ -19,18 +19,21 @@ namespace trime::mesh {
 /// @brief alpha = abc / (8 (s-a)(s-b)(s-c)) = R/(2r), s half the perimeter: 1 for an equilateral triangle, infinity for
 /// a flat one.
 double aspect_ratio(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
-/// @brief Is the aspect ratio below a limit, by the sum of the squared edges over the area alone? Never true if it is
-/// not; false for a few that are, and beyond 1.13 for all of these. No root, no division: for most triangles of a good
-/// mesh it is all that is needed. @pre limit > 1
+/// @brief A triangle whose squared edges add up to less than this times twice its area has an aspect ratio below the
+/// limit. Only few others have, and beyond 1.13 all of these are left out. @pre limit > 1
 ///
 /// Let eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area). Of all triangles of one eta an isosceles one has the largest alpha.
 /// Up to eta = 1.1 it is less than 1 + 1.3 (eta - 1).
-inline bool is_surely_below(double limit, geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r) {
+constexpr double squares_surely_below(double limit) {
   constexpr double root_3 = 1.7320508075688772, steepness = 1.3, largest_excess = 0.1;
-  const double largest_eta = 1 + std::min((limit - 1) / steepness, largest_excess);
+  return (1 + std::min((limit - 1) / steepness, largest_excess)) * 2 * root_3;
+}
+/// @brief Is the aspect ratio below a limit, by squares_surely_below alone? Never true if it is not. No root, no
+/// division: for most triangles of a good mesh it is all that is needed.
+inline bool is_surely_below(double limit, geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r) {
   const geometry::Vec2 u = q - p, v = r - p;
   const double squares = geometry::squared_length(u) + geometry::squared_length(v) + geometry::squared_length(r - q);
-  return squares < largest_eta * 2 * root_3 * geometry::cross(u, v);
+  return squares < squares_surely_below(limit) * geometry::cross(u, v);
 }
 /// beta = longest edge / shortest edge.
 double edge_ratio(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
