@@ -146,6 +146,21 @@ def comb_cut_by_lines(directory, n):
             "[shape.b]\ntype = contour\nfile = b.xy\n" + tail())
 
 
+@case(10000)
+def circles_against_a_comb(directory, n):
+    """The comb less n circles, each a part of its own, among its teeth."""
+    write_rings(directory / "a.xy", [comb(n)])
+    turn, step = math.sqrt(0.5), 0.8 / n
+    names = ", ".join(f"p{k}" for k in range(n))
+    circles = []
+    for k in range(n):
+        u, v = (k + 0.3) * step - 0.4, 0.2 * (k % 3)
+        circles.append(f"[shape.p{k}]\ntype = circle\ncenter = {0.5 + turn * (u - v)} {0.5 + turn * (u + v)}\n"
+                       f"radius = {0.4 * step}\n")
+    return (f"[shape]\nregion = difference(a, union({names}))\n[shape.a]\ntype = contour\nfile = a.xy\n" +
+            "".join(circles) + tail())
+
+
 @case(100000)
 def crowded_vertices(directory, n):
     """Almost all vertices of a contour in a dent of 1e-8 of the container."""

@@ -79,15 +79,80 @@ const Contour* map_without_system(std::span<const Contour> contours) {
   return nullptr;
 }
 
+/// The longer side of all contours.
+double extent_of(std::span<const Contour> contours) {
+  geometry::Box box;
+  for (const Contour& contour : contours)
+    for (const ContourRing& ring : contour.rings)
+      for (const Vec2 p : ring.points)
+        box.include(p);
+  return std::fmax(box.width(), box.height());
+}
+
+/// Degrees where metres were meant would lose nearly all of the shape: edges of metres are longer than all of it.
+void tell_of_degrees(const RunOptions& options, const Contour& map, double extent, Log& log) {
+  const double edge = options.mesh.edge_length.value_or(0), least = options.mesh.min_size.value_or(0);
+  if (std::fmax(edge, least) > extent)
+    log.warning(
+        "{} = {:g} is longer than the whole shape, {:.3g}: the coordinates of {} are within 360 and 90, so they "
+        "are most likely longitude and latitude in degrees, while lengths of metres are asked for; set "
+        "'projection = auto' in [shape], which meshes them in metres",
+        edge >= least ? "edge_length" : "min_size", std::fmax(edge, least), extent, map.source);
+  else
+    log.info("{} tells no reference system: if it has longitude and latitude, 'projection = auto' in [shape] meshes "
+             "them in metres",
+             map.source);
+}
+
+/// Where a projection stretches lengths most, among vertices far from each other in the file.
+struct Stretch {
+  double most = 1; ///< times too long, or too short below 1
+  Vec2 place;      ///< longitude and latitude
+};
+
+Stretch stretch_of(std::span<const Contour> contours, const std::string& plane) {
+  constexpr std::size_t enough = 200; // of a contour: the distortion is smooth, and a look takes some microseconds
+  const projection::Distortion distortion(plane);
+  Stretch worst;
+  for (const Contour& contour : contours) {
+    if (contour.rings.empty())
+      continue;
+    std::size_t vertices = 0, number = 0;
+    for (const ContourRing& ring : contour.rings)
+      vertices += ring.points.size();
+    const std::size_t stride = vertices / enough + 1;
+    const projection::Transform to_degrees(system_of(contour), projection::lon_lat);
+    for (const ContourRing& ring : contour.rings)
+      for (const Vec2 p : ring.in_file)
+        if (const auto place = number++ % stride == 0 ? to_degrees.apply(p) : std::nullopt)
+          if (const double scale = distortion.scale(*place);
+              std::fabs(std::log(scale)) > std::fabs(std::log(worst.most)))
+            worst = {scale, *place};
+  }
+  return worst;
+}
+
+/// A zone beside the right one, or a system of another country, goes unnoticed else. @pre they are projected
+void warn_of_distortion(std::span<const Contour> contours, const std::string& plane, Log& log) {
+  constexpr double warned = 0.01; // 25 times what UTM has in its zone
+  const Stretch worst = stretch_of(contours, plane);
+  if (std::fabs(worst.most - 1) <= warned)
+    return;
+  const int zone = std::clamp(static_cast<int>(std::floor((worst.place.x + 180) / 6)) + 1, 1, 60);
+  log.warning(
+      "'projection = {}' makes lengths {:.3g} times as long as they are at longitude {:.6g}, latitude {:.6g}: it "
+      "is made for another place; 'projection = auto' suits the data, and EPSG:{} (UTM zone {}) what is near "
+      "that place",
+      plane, worst.most, worst.place.x, worst.place.y, (worst.place.y < 0 ? 32700 : 32600) + zone, zone);
+}
+
 /// Without a projection.
 MapSystem as_it_is(const RunOptions& options, std::span<const Contour> contours, Log& log) {
   const std::string crs = common_system(contours);
   const bool moved =
       std::any_of(options.parts.begin(), options.parts.end(), [](const PartOptions& part) { return part.normalize; });
   if (const Contour* map = map_without_system(contours); map != nullptr && !moved)
-    log.info("{} tells no reference system: if it has longitude and latitude, 'projection = auto' in [shape] meshes "
-             "them in metres",
-             map->source);
+    tell_of_degrees(options, *map, extent_of(contours), log);
   if (crs.empty() || moved)
     return {};
   try {
@@ -135,6 +200,8 @@ MapSystem project_contours(const RunOptions& options, std::span<Contour> contour
         project_contour(contour, map.crs);
       }
     map.well_known_text = projection::well_known_text(map.crs);
+    if (options.projection != "auto")
+      warn_of_distortion(contours, map.crs, log);
   } catch (const ConfigError& error) {
     throw ConfigError(fmt::format("'projection = {}' in [shape]: {}", options.projection, error.what()));
   }

@@ -7,6 +7,7 @@
 #include "trime/shape/region.hpp"
 #include "trime/shape/trace.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -15,6 +16,24 @@ namespace {
 
 std::string hint_of(bool is_relative) {
   return is_relative ? " (relative to the config file, not to the working directory)" : "";
+}
+
+/// Without parts of which nothing depends, which may lie anywhere: the config has warned of them. @throws ConfigError
+/// if the region is none
+RunOptions with_used_parts(const RunOptions& options) {
+  std::vector<std::string> names;
+  for (const PartOptions& part : options.parts)
+    names.push_back(part.name);
+  const std::vector<int> found = shape::Region::parse(options.region, names).parts();
+  RunOptions used = options;
+  used.parts.clear();
+  for (int k = 0; k < static_cast<int>(options.parts.size()); ++k) {
+    const PartOptions& part = options.parts[static_cast<std::size_t>(k)];
+    if (std::binary_search(found.begin(), found.end(), k) || part.name == options.fixed_points.normalize_with ||
+        part.name == shape::domain_name)
+      used.parts.push_back(part);
+  }
+  return used;
 }
 
 /// The rings of parts that are contours, by part, projected. Rank 0 reads. Collective.
@@ -104,7 +123,8 @@ std::string read_shared(const std::string& path, const comm::Communicator& comm)
 }
 
 /// All ranks build the same shape from the same numbers, so they throw the same errors without asking each other.
-ShapeInput read_shape(const RunOptions& options, const comm::Communicator& comm, Log& log, UserPlaces& places) {
+ShapeInput read_shape(const RunOptions& given, const comm::Communicator& comm, Log& log, UserPlaces& places) {
+  const RunOptions options = with_used_parts(given);
   MapSystem map;
   const std::vector<shape::Contour> contours = read_contours(options, comm, log, map);
   const geometry::Box container =

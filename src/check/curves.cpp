@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "curves.hpp"
 
+#include "inside.hpp"
 #include "report.hpp"
 
 #include <boost/geometry.hpp>
+#include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/segment.hpp>
 #include <boost/geometry/index/rtree.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 namespace trime_check {
@@ -19,12 +22,31 @@ constexpr double normalized_share = 0.8; // [shorter side of the container] long
 constexpr double margin = 0.05;          // [longer side of the shape] around it, where the container is automatic
 constexpr Box unit_square{{0, 0}, {1, 1}};
 constexpr double degrees_per_radian = 57.295779513082320877;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double box_slack = 1e-12; // [longer side of the container] rounding of what lies in a curve
+
+namespace index = boost::geometry::index;
+using Place = boost::geometry::model::d2::point_xy<double>;
+using Segment = boost::geometry::model::segment<Place>;
+using PlaceBox = boost::geometry::model::box<Place>;
+
+Box box_of(const std::vector<Ring>& rings) {
+  Box box{{infinity, infinity}, {-infinity, -infinity}};
+  for (const Ring& ring : rings)
+    for (const Point p : ring)
+      box = {{std::min(box.min.x, p.x), std::min(box.min.y, p.y)},
+             {std::max(box.max.x, p.x), std::max(box.max.y, p.y)}};
+  return box;
+}
 
 class Circle : public Curve {
 public:
   Circle(Point center, double radius) : center_(center), radius_(radius) {}
   double distance(Point p) const override { return std::fabs(std::hypot(p.x - center_.x, p.y - center_.y) - radius_); }
   bool contains(Point p) const override { return std::hypot(p.x - center_.x, p.y - center_.y) < radius_; }
+  Box box() const override {
+    return {{center_.x - radius_, center_.y - radius_}, {center_.x + radius_, center_.y + radius_}};
+  }
   std::vector<Point> corners(double) const override { return {}; }
 
 private:
@@ -35,7 +57,7 @@ private:
 /// Closed rings of straight sides, inside by even-odd.
 class Polygon : public Curve {
 public:
-  explicit Polygon(std::vector<Ring> rings) : rings_(std::move(rings)) {
+  explicit Polygon(std::vector<Ring> rings) : rings_(std::move(rings)), inside_(rings_) {
     std::vector<Segment> sides;
     for (const Ring& ring : rings_)
       for (std::size_t k = 0; k < ring.size(); ++k) {
@@ -47,21 +69,12 @@ public:
 
   double distance(Point p) const override {
     const Place place(p.x, p.y);
-    const auto nearest = tree_.qbegin(boost::geometry::index::nearest(place, 1));
-    return nearest == tree_.qend() ? std::numeric_limits<double>::infinity()
-                                   : boost::geometry::distance(place, *nearest);
+    const auto nearest = tree_.qbegin(index::nearest(place, 1));
+    return nearest == tree_.qend() ? infinity : boost::geometry::distance(place, *nearest);
   }
 
-  bool contains(Point p) const override {
-    bool inside = false;
-    for (const Ring& ring : rings_)
-      for (std::size_t k = 0; k < ring.size(); ++k) {
-        const Point a = ring[k], b = ring[(k + 1) % ring.size()];
-        if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) * (b.x - a.x) / (b.y - a.y))
-          inside = !inside;
-      }
-    return inside;
-  }
+  bool contains(Point p) const override { return inside_.contains(p); }
+  Box box() const override { return box_of(rings_); }
 
   std::vector<Point> corners(double degrees) const override {
     std::vector<Point> found;
@@ -77,23 +90,12 @@ public:
   }
 
 private:
-  using Place = boost::geometry::model::d2::point_xy<double>;
-  using Segment = boost::geometry::model::segment<Place>;
-  using Tree = boost::geometry::index::rtree<Segment, boost::geometry::index::rstar<16>>;
+  using Tree = index::rtree<Segment, index::rstar<16>>;
 
   std::vector<Ring> rings_;
+  InsideTest inside_;
   Tree tree_;
 };
-
-Box box_of(const std::vector<Ring>& rings) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Box box{{infinity, infinity}, {-infinity, -infinity}};
-  for (const Ring& ring : rings)
-    for (const Point p : ring)
-      box = {{std::min(box.min.x, p.x), std::min(box.min.y, p.y)},
-             {std::max(box.max.x, p.x), std::max(box.max.y, p.y)}};
-  return box;
-}
 
 std::vector<Ring> rectangle(const Box& box) {
   return {{box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}}};
@@ -163,9 +165,41 @@ Source read_part(const ConfigText& config, const std::string& name) {
   return part;
 }
 
+Box joined(const Box& a, const Box& b) {
+  return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y)},
+          {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y)}};
+}
+
+Box common(const Box& a, const Box& b) {
+  return {{std::max(a.min.x, b.min.x), std::max(a.min.y, b.min.y)},
+          {std::min(a.max.x, b.max.x), std::min(a.max.y, b.max.y)}};
+}
+
+/// A box of a region from those of its parts.
+Box region_box(const Region& region, const std::vector<Box>& parts) {
+  const std::vector<Region::Node>& nodes = region.nodes();
+  std::vector<Box> boxes(nodes.size());
+  std::vector<char> begun(nodes.size(), 0);
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (nodes[k].kind == Region::Kind::part)
+      boxes[k] = parts[nodes[k].part];
+    const std::size_t parent = nodes[k].parent;
+    if (parent == Region::none)
+      continue;
+    if (!begun[parent])
+      boxes[parent] = boxes[k];
+    else if (nodes[parent].kind == Region::Kind::unite)
+      boxes[parent] = joined(boxes[parent], boxes[k]);
+    else if (nodes[parent].kind == Region::Kind::intersect)
+      boxes[parent] = common(boxes[parent], boxes[k]);
+    begun[parent] = 1;
+  }
+  return boxes.back();
+}
+
 /// The unit square where the shape fits in there, or does not say how large it is. Nothing if a contour that is not
 /// read would have to tell.
-std::optional<Box> container_of(const ConfigText& config, const std::vector<Source>& parts, const std::string& region) {
+std::optional<Box> container_of(const ConfigText& config, const std::vector<Source>& parts, const Region& region) {
   Box box = unit_square;
   bool is_given = config.is_true("domain", "periodic_x") || config.is_true("domain", "periodic_y");
   for (const auto& [key, side] : {std::pair{"x_min", &box.min.x}, std::pair{"x_max", &box.max.x},
@@ -176,12 +210,13 @@ std::optional<Box> container_of(const ConfigText& config, const std::vector<Sour
     }
   if (is_given)
     return box;
-  std::vector<std::pair<std::string, Box>> boxes{{"domain", unit_square}};
   for (const Source& part : parts)
     if (part.type == "contour" && !part.normalised && !part.reason.empty())
       return std::nullopt;
+  std::vector<Box> boxes;
   for (const Source& part : parts)
-    boxes.emplace_back(part.name, part.normalised || !part.reason.empty() ? unit_square : part.box());
+    boxes.push_back(part.normalised || !part.reason.empty() ? unit_square : part.box());
+  boxes.push_back(unit_square); // `domain`
   const Box found = region_box(region, boxes);
   const double side = margin * std::fmax(found.max.x - found.min.x, found.max.y - found.min.y);
   const bool fits = found.min.x >= 0 && found.min.y >= 0 && found.max.x <= 1 && found.max.y <= 1;
@@ -201,32 +236,74 @@ double lattice_step(const Shape& shape) {
 
 } // namespace
 
+struct PartFinder::Tree {
+  index::rtree<std::pair<PlaceBox, std::size_t>, index::rstar<16>> boxes;
+};
+
+PartFinder::PartFinder(const std::vector<Part>& parts) : tree_(std::make_unique<Tree>()) {
+  std::vector<std::pair<PlaceBox, std::size_t>> boxes;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (parts[k].curve) {
+      const Box box = parts[k].curve->box();
+      boxes.emplace_back(PlaceBox({box.min.x, box.min.y}, {box.max.x, box.max.y}), k);
+    }
+  tree_->boxes = decltype(tree_->boxes)(boxes);
+}
+
+PartFinder::~PartFinder() = default;
+
+std::vector<std::size_t> PartFinder::near(Point p, double reach) const {
+  std::vector<std::size_t> found;
+  const PlaceBox around({p.x - reach, p.y - reach}, {p.x + reach, p.y + reach});
+  for (auto at = tree_->boxes.qbegin(index::intersects(around)); at != tree_->boxes.qend(); ++at)
+    found.push_back(at->second);
+  return found;
+}
+
 const Part* Shape::part(const std::string& name) const {
-  const auto found = std::ranges::find(parts, name, &Part::name);
-  return found == parts.end() ? nullptr : &*found;
+  const auto found = numbers.find(name);
+  return found == numbers.end() ? nullptr : &parts[found->second];
+}
+
+std::vector<Point> Shape::images(Point p) const {
+  std::vector<Point> images;
+  for (const int i : {0, -1, 1})
+    for (const int j : {0, -1, 1})
+      if ((i == 0 || periods.x > 0) && (j == 0 || periods.y > 0))
+        images.push_back({p.x + i * periods.x, p.y + j * periods.y});
+  return images;
 }
 
 double Shape::distance(const Part& part, Point p) const {
-  double least = part.curve->distance(p);
-  for (const int i : {-1, 0, 1})
-    for (const int j : {-1, 0, 1})
-      if ((i == 0 || periods.x > 0) && (j == 0 || periods.y > 0) && (i != 0 || j != 0))
-        least = std::min(least, part.curve->distance({p.x + i * periods.x, p.y + j * periods.y}));
+  double least = infinity;
+  for (const Point image : images(p))
+    least = std::min(least, part.curve->distance(image));
+  return least;
+}
+
+double Shape::distance_from_any(Point p, double limit) const {
+  double least = infinity;
+  for (const Point image : images(p))
+    for (const std::size_t number : finder->near(image, limit))
+      least = std::min(least, parts[number].curve->distance(image));
   return least;
 }
 
 bool Shape::matters(const Part& part, Point p) const {
-  std::vector<std::pair<std::string, bool>> inside;
-  std::size_t own = 0;
-  for (const Part& other : parts) {
-    if (&other == &part)
-      own = inside.size();
-    inside.emplace_back(other.name, other.curve->contains(p));
-  }
-  inside[own].second = true;
-  const bool with = evaluate_region(region, inside);
-  inside[own].second = false;
-  return with != evaluate_region(region, inside);
+  const auto own = static_cast<std::size_t>(&part - parts.data());
+  std::vector<std::size_t> around;
+  for (const std::size_t number : finder->near(p, box_slack * side()))
+    if (number != own && parts[number].curve->contains(p))
+      around.push_back(number);
+  for (const std::size_t number : around)
+    region->set(number, true);
+  const bool without = region->contains();
+  region->set(own, true);
+  const bool with = region->contains();
+  region->set(own, false);
+  for (const std::size_t number : around)
+    region->set(number, false);
+  return with != without;
 }
 
 const Part* Shape::part_of_label(const std::string& label) const {
@@ -238,13 +315,17 @@ const Part* Shape::part_of_label(const std::string& label) const {
 
 Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh) {
   Shape shape;
-  shape.region = config.value("shape", "region");
-  if (shape.region.empty())
+  const std::string region = config.value("shape", "region");
+  if (region.empty())
     throw Failure(ExitCode::usage, "the config has no 'region' in [shape]");
   std::vector<Source> sources;
-  for (const std::string& name : config.parts())
+  for (const std::string& name : config.parts()) {
+    shape.numbers.emplace(name, sources.size());
     sources.push_back(read_part(config, name));
-  const std::optional<Box> container = container_of(config, sources, shape.region);
+  }
+  shape.numbers.emplace("domain", sources.size());
+  shape.region = std::make_unique<Region>(region, shape.numbers);
+  const std::optional<Box> container = container_of(config, sources, *shape.region);
   shape.container = container ? *container : box_of({mesh});
   if (!container)
     shape.container_reason = "it follows from a contour that is not read here";
@@ -281,6 +362,7 @@ Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh) {
     shape.parts.push_back(std::move(part));
   }
   shape.parts.push_back({"domain", std::make_unique<Polygon>(rectangle(shape.container)), ""});
+  shape.finder = std::make_unique<PartFinder>(shape.parts);
   return shape;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "config_text.hpp"
+#include "region.hpp"
 
 #include <array>
 #include <memory>
@@ -21,6 +22,7 @@ public:
   virtual ~Curve() = default;
   virtual double distance(Point p) const = 0;
   virtual bool contains(Point p) const = 0;
+  virtual Box box() const = 0;
   /// Vertices that turn by more than so many degrees.
   virtual std::vector<Point> corners(double degrees) const = 0;
 };
@@ -31,34 +33,50 @@ struct Part {
   std::string reason;           ///< why there is none
 };
 
+/// Finds the parts near a place.
+class PartFinder {
+public:
+  explicit PartFinder(const std::vector<Part>& parts);
+  ~PartFinder();
+  /// Numbers of the parts with curves whose boxes come within `reach` of p.
+  std::vector<std::size_t> near(Point p, double reach) const;
+
+private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
 /// @brief The parts of a config in its container, `domain` behind the others.
 struct Shape {
   std::vector<Part> parts;
+  PartNumbers numbers; ///< of the parts, by name
+  std::unique_ptr<PartFinder> finder;
+  std::unique_ptr<Region> region;
   Box container;
   std::string container_reason; ///< why it is not known; then `container` is the box of the mesh
   Periods periods;
   double step = 0; ///< of the lattice on which all coordinates lie
-  std::string region;
   std::vector<Point> fixed_points;
   std::string fixed_points_reason; ///< why they are not known
 
   double side() const { return std::fmax(container.max.x - container.min.x, container.max.y - container.min.y); }
-  const Part* part(const std::string& name) const;
   /// @brief The part that a name in a mesh file tells: its own, or that of a contour that is not read here and a name
   /// or marker of its features behind a point. Null: there is none.
   const Part* part_of_label(const std::string& label) const;
   /// Distance from a part, images of the container's periods too.
   double distance(const Part& part, Point p) const;
+  /// Distance from the nearest part, if it is no more than `limit`; else something above it.
+  double distance_from_any(Point p, double limit) const;
   /// Does the shape change at p where one is in this part or out of it? @pre all parts have curves
   bool matters(const Part& part, Point p) const;
+
+private:
+  const Part* part(const std::string& name) const;
+  std::vector<Point> images(Point p) const;
 };
 
 /// @param mesh its points: their box stands for a container that follows from files that are not read here
 /// @throws Failure (exit 2) where the config says too little
 Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh);
-
-/// A region of nested unions, intersections and differences: its value from that of its parts. @throws Failure (exit 2)
-bool evaluate_region(const std::string& region, const std::vector<std::pair<std::string, bool>>& inside);
-Box region_box(const std::string& region, const std::vector<std::pair<std::string, Box>>& boxes);
 
 } // namespace trime_check

@@ -1,42 +1,59 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// union, intersection and difference of named parts, nested.
-#include "curves.hpp"
+#include "region.hpp"
+
 #include "report.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <functional>
 
 namespace trime_check {
 namespace {
 
-/// Reads a region from left to right and joins the values of its parts.
-template <class Value>
+/// Reads a region from left to right.
 class RegionReader {
 public:
-  using Join = std::function<Value(const std::string& operation, const std::vector<Value>&)>;
-  RegionReader(const std::string& text, const std::vector<std::pair<std::string, Value>>& parts, Join join)
-      : text_(text), parts_(parts), join_(std::move(join)) {}
+  RegionReader(const std::string& text, const PartNumbers& parts) : text_(text), parts_(parts) {}
 
-  Value read() {
+  std::vector<Region::Node> read() {
+    read_one();
+    return std::move(nodes_);
+  }
+
+private:
+  using Node = Region::Node;
+
+  /// @return the number of its node
+  std::size_t read_one() {
     const std::string name = word();
     if (next() != '(') {
-      const auto found = std::ranges::find(parts_, name, &std::pair<std::string, Value>::first);
+      const auto found = parts_.find(name);
       if (found == parts_.end())
         throw Failure(ExitCode::usage, fmt::format("region '{}': no part is called '{}'", text_, name));
-      return found->second;
+      nodes_.push_back({Region::Kind::part, found->second});
+      return nodes_.size() - 1;
     }
-    std::vector<Value> values;
+    std::vector<std::size_t> children;
     do {
       ++at_;
-      values.push_back(read());
+      children.push_back(read_one());
     } while (next() == ',');
     if (next() != ')')
       throw Failure(ExitCode::usage, fmt::format("region '{}': expected ')' at column {}", text_, at_ + 1));
     ++at_;
-    return join_(name, values);
+    for (const std::size_t child : children) {
+      nodes_[child].parent = nodes_.size();
+      nodes_[child].is_first = child == children.front();
+    }
+    Node node;
+    node.kind = name == "union"          ? Region::Kind::unite
+                : name == "intersection" ? Region::Kind::intersect
+                                         : Region::Kind::subtract;
+    node.children = children.size();
+    nodes_.push_back(node);
+    return nodes_.size() - 1;
   }
 
-private:
   char next() {
     at_ = std::min(text_.find_first_not_of(" \t", at_), text_.size());
     return at_ < text_.size() ? text_[at_] : '\0';
@@ -50,38 +67,48 @@ private:
   }
 
   const std::string& text_;
-  const std::vector<std::pair<std::string, Value>>& parts_;
-  Join join_;
+  const PartNumbers& parts_;
+  std::vector<Node> nodes_;
   std::size_t at_ = 0;
 };
 
 } // namespace
 
-bool evaluate_region(const std::string& region, const std::vector<std::pair<std::string, bool>>& inside) {
-  const auto join = [](const std::string& operation, const std::vector<bool>& values) {
-    const bool any_later = std::any_of(values.begin() + 1, values.end(), [](bool v) { return v; });
-    const bool all_later = std::all_of(values.begin() + 1, values.end(), [](bool v) { return v; });
-    return operation == "union"          ? values[0] || any_later
-           : operation == "intersection" ? values[0] && all_later
-                                         : values[0] && !any_later;
-  };
-  return RegionReader<bool>(region, inside, join).read();
+Region::Region(const std::string& text, const PartNumbers& parts) : nodes_(RegionReader(text, parts).read()) {
+  leaves_.resize(parts.size());
+  for (std::size_t k = 0; k < nodes_.size(); ++k)
+    if (nodes_[k].kind == Kind::part)
+      leaves_[nodes_[k].part].push_back(k);
 }
 
-Box region_box(const std::string& region, const std::vector<std::pair<std::string, Box>>& boxes) {
-  const auto join = [](const std::string& operation, const std::vector<Box>& values) {
-    Box box = values[0];
-    for (const Box& other : values) {
-      if (operation == "union")
-        box = {{std::min(box.min.x, other.min.x), std::min(box.min.y, other.min.y)},
-               {std::max(box.max.x, other.max.x), std::max(box.max.y, other.max.y)}};
-      else if (operation == "intersection")
-        box = {{std::max(box.min.x, other.min.x), std::max(box.min.y, other.min.y)},
-               {std::min(box.max.x, other.max.x), std::min(box.max.y, other.max.y)}};
+bool Region::holds(const Node& node) {
+  switch (node.kind) {
+  case Kind::intersect:
+    return node.set == node.children;
+  case Kind::subtract:
+    return node.first_is_set && node.set == 1;
+  default:
+    return node.set > 0;
+  }
+}
+
+void Region::set(std::size_t part, bool inside) {
+  for (const std::size_t leaf : leaves_[part]) {
+    if (holds(nodes_[leaf]) == inside)
+      continue;
+    nodes_[leaf].set = inside ? 1 : 0;
+    bool now = inside;
+    for (std::size_t child = leaf, k = nodes_[leaf].parent; k != none; child = k, k = nodes_[k].parent) {
+      Node& node = nodes_[k];
+      const bool before = holds(node);
+      node.set += now ? 1 : -std::size_t{1};
+      if (nodes_[child].is_first)
+        node.first_is_set = now;
+      if (holds(node) == before)
+        break;
+      now = !before;
     }
-    return box;
-  };
-  return RegionReader<Box>(region, boxes, join).read();
+  }
 }
 
 } // namespace trime_check

@@ -16,35 +16,46 @@ constexpr double on_lattice = 4;
 // [h asked for] Rounding of sizes, where the boundary was simplified.
 constexpr double slack = 1.01;
 
-/// Finds vertices that are marked as fixed.
+/// Finds vertices that are marked as fixed, sorted in columns of a few steps.
 class FixedVertices {
 public:
   FixedVertices(const Mesh& mesh, const Shape& shape) : periods_(shape.periods), reach_(on_lattice * shape.step) {
     for (std::size_t i = 0; i < mesh.points.size(); ++i)
       if (mesh.fixed[i] == 1)
-        points_.push_back(mesh.points[i]);
-    std::ranges::sort(points_, {}, &Point::x);
+        points_.push_back({column(mesh.points[i].x), mesh.points[i]});
+    std::ranges::sort(points_, {}, [](const Entry& entry) { return std::pair(entry.column, entry.place.y); });
   }
 
   bool has(Point p) const {
-    bool found = false;
-    for (const int i : {-1, 0, 1})
-      found = found || ((i == 0 || periods_.x > 0) && has_at(p, p.x + i * periods_.x));
-    return found;
+    for (const int i : {0, -1, 1})
+      for (const int j : {0, -1, 1})
+        if ((i == 0 || periods_.x > 0) && (j == 0 || periods_.y > 0) &&
+            has_at({p.x + i * periods_.x, p.y + j * periods_.y}))
+          return true;
+    return false;
   }
 
 private:
-  bool has_at(Point p, double x) const {
-    for (auto at = std::ranges::lower_bound(points_, x - reach_, {}, &Point::x);
-         at != points_.end() && at->x <= x + reach_; ++at)
-      if (std::fabs(periods_.near(*at, p).y - p.y) <= reach_)
-        return true;
+  struct Entry {
+    double column; // a whole number
+    Point place;
+  };
+
+  double column(double x) const { return std::floor(x / (2 * reach_)); }
+
+  bool has_at(Point p) const {
+    for (const double c : {column(p.x - reach_), column(p.x + reach_)})
+      for (auto at = std::ranges::lower_bound(points_, std::pair(c, p.y - reach_), {},
+                                              [](const Entry& e) { return std::pair(e.column, e.place.y); });
+           at != points_.end() && at->column == c && at->place.y <= p.y + reach_; ++at)
+        if (std::fabs(at->place.x - p.x) <= reach_)
+          return true;
     return false;
   }
 
   Periods periods_;
   double reach_;
-  std::vector<Point> points_;
+  std::vector<Entry> points_;
 };
 
 class ShapeChecks {
@@ -169,7 +180,9 @@ private:
   }
 
   void check_vertices() {
-    const std::vector<std::string> names = file_.names("/trime_mpi/tags/part_name");
+    std::vector<const Part*> named;
+    for (const std::string& name : file_.names("/trime_mpi/tags/part_name"))
+      named.push_back(shape_.part_of_label(name));
     bool any_changed = false;
     const std::set<std::int64_t> changed = changed_tags(any_changed);
     const double within = config_.number("meshing", "simplify_within").value_or(0.5) *
@@ -179,7 +192,7 @@ private:
     std::int64_t judged = 0;
     for (std::size_t k = 0; k < mesh_.facets.size(); ++k) {
       const auto number = static_cast<std::size_t>(mesh_.facet_parts[k]);
-      const Part* part = number < names.size() ? shape_.part_of_label(names[number]) : nullptr;
+      const Part* part = number < named.size() ? named[number] : nullptr;
       if (!part) {
         foreign.note([&] { return fmt::format("facet {}: {}", k, place_of(mesh_, mesh_.facets[k])); });
         continue;
@@ -191,9 +204,8 @@ private:
       ++judged;
       for (const std::int64_t id : mesh_.facets[k]) {
         double away = part->curve ? shape_.distance(*part, mesh_.at(id)) : 0;
-        for (const Part& other : shape_.parts) // what was joined may lie at another part
-          if (!strict && away > limit)
-            away = std::min(away, shape_.distance(other, mesh_.at(id)));
+        if (!strict && away > limit) // what was joined may lie at another part
+          away = std::min(away, shape_.distance_from_any(mesh_.at(id), limit));
         if (away > limit)
           off.note([&] {
             return fmt::format("point {} at {}: {:.3g} from {}, limit {:.3g}", id, place_of(mesh_.at(id)), away,

@@ -234,6 +234,9 @@ private:
     const std::size_t parts = file_.names("/trime_mpi/tags/part_name").size();
     Tally wrong, points;
     std::set<std::int64_t> seen;
+    std::map<double, std::size_t> rows;
+    for (std::size_t row = 0; row < ids.size(); ++row)
+      rows.emplace(ids[row], row);
     std::vector<std::int64_t> expected(mesh_.points.size(), 0);
     for (const Loop& loop : loops_) {
       const std::int64_t tag = mesh_.facet_tags[loop.facets[0]];
@@ -245,7 +248,8 @@ private:
         if (mesh_.facet_tags[k] != tag || part < 0 || part >= static_cast<std::int64_t>(parts))
           wrong.note([&] { return fmt::format("tag or part of facet {}: {}", k, place_of(mesh_, mesh_.facets[k])); });
       }
-      const auto row = static_cast<std::size_t>(std::ranges::find(ids, static_cast<double>(tag)) - ids.begin());
+      const auto known = rows.find(static_cast<double>(tag));
+      const std::size_t row = known == rows.end() ? ids.size() : known->second;
       if (row >= std::min({ids.size(), counts.size(), lengths.size()}) || !seen.insert(tag).second ||
           counts[row] != static_cast<double>(loop.facets.size()) || std::fabs(lengths[row] - length) > 1e-9 * length)
         wrong.note([&] {

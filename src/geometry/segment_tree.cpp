@@ -36,6 +36,11 @@ SegmentTree::Frame::Frame(const Segment& segment) {
   half = {0.5 * length(d), 0};
 }
 
+SegmentTree::Frame::Frame(const Box& box) {
+  half = {0.5 * box.width(), 0.5 * box.height()};
+  center = box.min + half;
+}
+
 SegmentTree::SegmentTree(std::span<const Segment> segments, double margin)
     : segments_(segments), order_(segments.size()), slack_(margin) {
   std::iota(order_.begin(), order_.end(), LocalIndex{0});

@@ -29,15 +29,22 @@ public:
     if (!order_.empty())
       visit_node(1, {0, order_.size()}, Frame(segment), visit);
   }
+  /// The same for segments that may meet a box, which is closed.
+  template <class Visit>
+  void for_each_in(const Box& box, const Visit& visit) const {
+    if (!order_.empty())
+      visit_node(1, {0, order_.size()}, Frame(box), visit);
+  }
 
 private:
   /// Of a node: all its segments lie in center + u along + v across, |u| <= half.x, |v| <= half.y.
   struct Turned {
     Vec2 center, along{1, 0}, half;
   };
-  /// A segment as such a box without width.
+  /// What is looked for: a segment as such a box without width, or a box that is not turned.
   struct Frame : Turned {
     explicit Frame(const Segment& segment);
+    explicit Frame(const Box& box);
   };
   struct Range {
     std::size_t low, high;

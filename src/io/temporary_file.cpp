@@ -19,12 +19,12 @@
 namespace trime::io {
 namespace {
 
-/// Brings a file or directory to the disk. File systems that cannot synchronise a directory are forgiven.
-void synchronise(const std::string& path, int flags) {
+/// Brings a file or directory to the disk, or by `syncfs` all of its file system. Those that cannot are forgiven.
+void synchronise(const std::string& path, int flags, int (*to_disk)(int descriptor)) {
   const int descriptor = open(path.c_str(), flags | O_CLOEXEC);
   if (descriptor < 0)
     throw FileError(fmt::format("cannot open {}: {}", path, system_error()));
-  const int result = fsync(descriptor);
+  const int result = to_disk(descriptor);
   const bool forgiven = errno == EINVAL || errno == ENOTSUP || errno == EROFS;
   const std::string reason = system_error();
   ::close(descriptor);
@@ -51,6 +51,16 @@ bool rename_to_absent(const std::string& path, const std::string& final_path) {
 std::string directory_of(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
+}
+
+void write_text(const TemporaryFile& temporary, const std::string& text) {
+  std::FILE* file = std::fopen(temporary.path().c_str(), "wb");
+  if (!file)
+    throw FileError(fmt::format("cannot create {}: {}", temporary.path(), system_error()));
+  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  const bool closed = std::fclose(file) == 0;
+  if (!written || !closed)
+    throw FileError(fmt::format("cannot write {}: {}", temporary.path(), system_error()));
 }
 
 } // namespace
@@ -88,13 +98,23 @@ void TemporaryFile::rename_to(const std::string& final_path, bool replaces) {
   struct stat status {};
   if (stat(path_.c_str(), &status) == 0 && truncate(path_.c_str(), status.st_size) != 0)
     throw FileError(fmt::format("cannot write {}: {}", path_, system_error()));
-  synchronise(path_, O_RDWR);
+  synchronise(path_, O_RDWR, fsync);
   if (!replaces && !rename_to_absent(path_, final_path))
     throw FileError(fmt::format("{} has come to exist since this run began, and output.overwrite = false; the new mesh "
                                 "is not written: set output.overwrite = true to replace it, or another output.name",
                                 final_path));
-  if (replaces && std::rename(path_.c_str(), final_path.c_str()) != 0)
+  if (replaces)
+    rename_before_disk(final_path);
+  has_its_name();
+}
+
+void TemporaryFile::rename_before_disk(const std::string& final_path) {
+  if (std::rename(path_.c_str(), final_path.c_str()) != 0)
     throw FileError(fmt::format("cannot rename {} to {}: {}", path_, final_path, system_error()));
+  has_its_name();
+}
+
+void TemporaryFile::has_its_name() {
   published_ = true;
   if (files_)
     files_->stop_writing();
@@ -106,7 +126,11 @@ FileSet::~FileSet() {
 }
 
 void synchronise_directory(const std::string& path) {
-  synchronise(directory_of(path), O_RDONLY | O_DIRECTORY);
+  synchronise(directory_of(path), O_RDONLY | O_DIRECTORY, fsync);
+}
+
+void synchronise_file_system(const std::string& path) {
+  synchronise(directory_of(path), O_RDONLY | O_DIRECTORY, syncfs);
 }
 
 std::string temporary_name(const std::string& final_path) {
@@ -147,14 +171,14 @@ void write_text_file(const std::string& final_path, const std::string& text, Run
 
 void write_one_text_file(const std::string& final_path, const std::string& text, RunFiles* files) {
   TemporaryFile temporary(temporary_name(final_path), files);
-  std::FILE* file = std::fopen(temporary.path().c_str(), "wb");
-  if (!file)
-    throw FileError(fmt::format("cannot create {}: {}", temporary.path(), system_error()));
-  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  const bool closed = std::fclose(file) == 0;
-  if (!written || !closed)
-    throw FileError(fmt::format("cannot write {}: {}", temporary.path(), system_error()));
+  write_text(temporary, text);
   temporary.rename_to(final_path);
+}
+
+void write_text_file_of_many(const std::string& final_path, const std::string& text, RunFiles* files) {
+  TemporaryFile temporary(temporary_name(final_path), files);
+  write_text(temporary, text);
+  temporary.rename_before_disk(final_path);
 }
 
 void replace_link(const std::string& target, const std::string& path) {

@@ -28,8 +28,13 @@ public:
   void rename_to(const std::string& final_path, bool replaces = true);
   /// The same, then brings the directory to the disk. @throws FileError
   void publish(const std::string& final_path);
+  /// @brief The rename alone, which replaces what has that name. @throws FileError
+  /// @post synchronise_file_system will do the rest
+  void rename_before_disk(const std::string& final_path);
 
 private:
+  void has_its_name();
+
   std::string path_;
   RunFiles* files_;
   bool published_ = false;
@@ -61,10 +66,17 @@ void reserve_space(const std::string& path, std::int64_t bytes);
 /// Brings the names of files beside this one to the disk. @throws FileError
 void synchronise_directory(const std::string& path);
 
+/// @brief Brings all files of the file system on which this one lies to the disk: sooner done than one by one where
+/// they are many. @throws FileError
+void synchronise_file_system(const std::string& path);
+
 /// Writes a text to `final_path`, whole or not at all. @param files may be null @throws FileError
 void write_text_file(const std::string& final_path, const std::string& text, RunFiles* files);
 /// The same as one of several files. @post synchronise_directory will do the rest
 void write_one_text_file(const std::string& final_path, const std::string& text, RunFiles* files);
+/// @brief The same as one of thousands of files. It appears whole, whatever becomes of the run. But where the machine
+/// fails before synchronise_file_system has done the rest, it may be cut off.
+void write_text_file_of_many(const std::string& final_path, const std::string& text, RunFiles* files);
 
 /// Makes or replaces the symbolic link `path` to `target` (relative to the directory of `path`). @throws FileError
 void replace_link(const std::string& target, const std::string& path);

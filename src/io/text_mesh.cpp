@@ -234,13 +234,13 @@ private:
         write_loop_file(loop_places + std::to_string(k), places);
       }
       if (!loops.empty())
-        synchronise_directory(path(loop_ids)); // once for all of them
+        synchronise_file_system(path(loop_ids)); // once for all of them
     });
   }
 
   void write_loop_file(const std::string& ending, const std::string& text) {
     files_.add(path(ending));
-    write_one_text_file(path(ending), text, place_.run_files);
+    write_text_file_of_many(path(ending), text, place_.run_files);
   }
 
   const TextPlace& place_;

@@ -199,7 +199,7 @@ void Run::report_boundary() {
   if (const std::string warning = loss_warning(features_); !warning.empty())
     run_.log.warning("{}", warning);
   comm::run_agreed(run_.comm, [this] {
-    start::warn_of_fine_features(stage_, run_.log);
+    start::warn_of_fine_features(stage_, run_.options.min_size.has_value(), run_.log);
     start::warn_of_steep_sizes(stage_, run_.given_boundary, run_.lattice, run_.log);
     if (!boundary_.fixed().empty())
       boundary_.fixed().warn_of_close_ones(*stage_.guard, *stage_.size, run_.log);

@@ -47,6 +47,14 @@ Object make_crs(const Context& context, const std::string& crs) {
   return object;
 }
 
+/// Without a shift to another datum around it.
+Object make_plain_crs(const Context& context, const std::string& crs) {
+  Object object = make_crs(context, crs);
+  while (proj_get_type(object.get()) == PJ_TYPE_BOUND_CRS)
+    object.reset(proj_get_source_crs(context.get(), object.get()));
+  return object;
+}
+
 } // namespace
 
 struct Transform::Handle {
@@ -85,11 +93,31 @@ std::optional<Vec2> Transform::undo(Vec2 p) const {
   return transformed(handle_->way.get(), PJ_INV, p);
 }
 
+struct Distortion::Handle {
+  Context context;
+  Object plane;
+};
+
+Distortion::Distortion(const std::string& plane) : handle_(std::make_unique<Handle>()) {
+  handle_->context = make_context();
+  handle_->plane = make_plain_crs(handle_->context, plane);
+}
+
+Distortion::~Distortion() = default;
+
+double Distortion::scale(Vec2 place) const {
+  const PJ_FACTORS factors = proj_factors(handle_->plane.get(), proj_coord(place.x * degrees, place.y * degrees, 0, 0));
+  const bool known = proj_errno_reset(handle_->plane.get()) == 0 && factors.tissot_semiminor > 0 &&
+                     std::isfinite(factors.tissot_semimajor);
+  if (!known)
+    return 1;
+  const double longest = factors.tissot_semimajor, shortest = factors.tissot_semiminor;
+  return longest * shortest >= 1 ? longest : shortest;
+}
+
 bool is_geographic(const std::string& crs) {
   const Context context = make_context();
-  Object object = make_crs(context, crs);
-  while (proj_get_type(object.get()) == PJ_TYPE_BOUND_CRS)
-    object.reset(proj_get_source_crs(context.get(), object.get()));
+  const Object object = make_plain_crs(context, crs);
   const PJ_TYPE type = proj_get_type(object.get());
   return type == PJ_TYPE_GEOGRAPHIC_2D_CRS || type == PJ_TYPE_GEOGRAPHIC_3D_CRS;
 }

@@ -34,6 +34,24 @@ private:
   std::unique_ptr<Handle> handle_;
 };
 
+/// @brief How much longer than on the Earth lengths are in a plane. Not thread-safe.
+class Distortion {
+public:
+  /// @throws ConfigError if PROJ does not know the system
+  explicit Distortion(const std::string& plane);
+  ~Distortion();
+  Distortion(const Distortion&) = delete;
+  Distortion& operator=(const Distortion&) = delete;
+
+  /// @brief Length in the plane over that on the Earth, in the direction in which it differs most from 1; 1 where that
+  /// is not known. Some microseconds. @param place longitude and latitude in degrees
+  double scale(geometry::Vec2 place) const;
+
+private:
+  struct Handle;
+  std::unique_ptr<Handle> handle_;
+};
+
 /// @brief Are its coordinates angles? @throws ConfigError if PROJ does not know it
 bool is_geographic(const std::string& crs);
 

@@ -35,8 +35,8 @@ std::size_t vertex_count(const std::vector<PlacedPart>& parts) {
   return count;
 }
 
-/// So many lines in the bins of a part may be looked at for each line of another part, and for each of its own, before
-/// the part gets a tree: that costs as much.
+/// So many lines in the bins of a part may be looked at for each line or circle of another part, and for each of its
+/// own, before the part gets a tree: that costs as much.
 constexpr std::int64_t enough_looks = 32;
 
 /// [lattice steps] Around what is looked for: more than vertices are moved by merging, plus what counts as on a curve.
@@ -294,6 +294,27 @@ void Arrangement::cross_lines(LocalIndex s, LocalIndex t) {
   split_line(t, v);
 }
 
+/// The lines of a polygon that may meet a box, ascending: vertices are numbered in the order of the lines.
+std::vector<LocalIndex> Arrangement::lines_near(std::size_t a, Box box) {
+  std::vector<LocalIndex> near;
+  const auto add = [&](LocalIndex s) {
+    near.push_back(first_line_[a] + s);
+    return true;
+  };
+  box = {box.min - parts_[a].shift, box.max - parts_[a].shift};
+  if (wants_tree(a)) {
+    searches_[a].tree->for_each_in(box, add);
+  } else {
+    parts_[a].part->as_polygon()->grid.for_each_near(box, add);
+    ++searches_[a].lines;
+    searches_[a].looked_at += std::ssize(near);
+  }
+  line_pairs_ += std::ssize(near);
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  return near;
+}
+
 void Arrangement::cross_polygon_circle(std::size_t a, LocalIndex circle) {
   ++pairs_;
   const Circle& disc = circles_[circle];
@@ -301,17 +322,8 @@ void Arrangement::cross_polygon_circle(std::size_t a, LocalIndex circle) {
   const auto around = [&](double reach) {
     return Box{disc.center - Vec2{reach, reach}, disc.center + Vec2{reach, reach}};
   };
-  std::vector<LocalIndex> near;
-  Box search = around(disc.radius + 2 * merged);
-  search = {search.min - parts_[a].shift, search.max - parts_[a].shift};
-  parts_[a].part->as_polygon()->grid.for_each_near(search, [&](LocalIndex s) {
-    near.push_back(first_line_[a] + s);
-    return true;
-  });
-  std::sort(near.begin(), near.end()); // vertices are numbered in the order of the lines, not of the bins
-  near.erase(std::unique(near.begin(), near.end()), near.end());
   const Box reach = around(disc.radius + merged);
-  for (const LocalIndex line : near) {
+  for (const LocalIndex line : lines_near(a, around(disc.radius + 2 * merged))) {
     const Segment s = segment(line);
     if (std::fmax(s.a.x, s.b.x) >= reach.min.x && std::fmin(s.a.x, s.b.x) <= reach.max.x &&
         std::fmax(s.a.y, s.b.y) >= reach.min.y && std::fmin(s.a.y, s.b.y) <= reach.max.y)

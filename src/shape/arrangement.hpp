@@ -53,7 +53,7 @@ public:
   const VertexTable& vertices() const { return vertices_; }
   /// The work that it was: pairs of parts that were crossed with each other.
   std::int64_t pairs() const { return pairs_; }
-  /// Pairs of lines of two polygons that were looked at for that.
+  /// Pairs of lines of two polygons, or of a line and a circle, that were looked at for that.
   std::int64_t line_pairs() const { return line_pairs_; }
 
 private:
@@ -70,7 +70,7 @@ private:
   enum class Place { apart, at_end, between };
   /// How the lines near another one are found among those of a part.
   struct LineSearch {
-    std::int64_t lines = 0;     ///< that others were looked at for
+    std::int64_t lines = 0;     ///< and circles, that others were looked at for
     std::int64_t looked_at = 0; ///< in the bins of the part
     std::optional<geometry::SegmentTree> tree;
   };
@@ -83,6 +83,7 @@ private:
   void cross_all();
   void cross_circles(LocalIndex a, LocalIndex b);
   void cross_polygons(std::size_t a, std::size_t b);
+  std::vector<LocalIndex> lines_near(std::size_t a, geometry::Box box);
   void cross_polygon_circle(std::size_t a, LocalIndex circle);
   void cross_by_tree(LocalIndex s, std::size_t b);
   bool wants_tree(std::size_t b);

@@ -38,21 +38,28 @@ void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary,
                 steepest, place.x, place.y);
 }
 
-void warn_of_fine_features(const Stage& stage, Log& log) {
+void warn_of_fine_features(const Stage& stage, bool has_least_size, Log& log) {
   const auto& sites = stage.polygon.sites;
-  double least = 1, length = 0, size = 0; // chord over local size
+  double least = StartRules::warned_chord, length = 0, size = 0; // chord over local size
+  geometry::Vec2 place;
+  std::size_t count = 0;
   for (std::size_t k = 0; k < sites.size(); ++k) {
     const geometry::Segment chord = stage.polygon.chord(static_cast<LocalIndex>(k));
     const double its_length = geometry::length(chord.b - chord.a), h = stage.size->size(chord.a);
+    count += its_length < StartRules::warned_chord * h ? 1 : 0;
     if (its_length < least * h) {
       least = its_length / h;
       length = its_length;
       size = h;
+      place = 0.5 * (chord.a + chord.b);
     }
   }
-  if (least < StartRules::warned_chord)
-    log.warning("the boundary has chords of {:.3g} where edges of {:.3g} are asked for: expect small angles there",
-                length, size);
+  const double share = has_least_size ? StartRules::warned_share_of_chords : 0;
+  if (static_cast<double>(count) > share * static_cast<double>(sites.size()))
+    log.warning("{} of {} chords of the boundary are far shorter than the edges that are asked for there: expect small "
+                "angles beside them; the worst, {:.3g} long where {:.3g} is asked for, is at ({:.6g}, {:.6g}){}",
+                count, sites.size(), length, size, place.x, place.y,
+                has_least_size ? "; a smaller min_size would help" : "");
 }
 
 } // namespace trime::start

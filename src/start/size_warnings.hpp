@@ -14,8 +14,9 @@ namespace trime::start {
 void warn_of_steep_sizes(const sites::Stage& stage, const geometry::Boundary& boundary,
                          const geometry::Lattice& lattice, Log& log);
 
-/// Warns of chords far shorter than the size. O(sites of the boundary). @throws whatever the size field
-/// throws
-void warn_of_fine_features(const sites::Stage& stage, Log& log);
+/// Warns of chords far shorter than the size, and says where. O(sites of the boundary).
+/// @param has_least_size the user wants no smaller triangles at narrow parts: only many such chords are told
+/// @throws whatever the size field throws
+void warn_of_fine_features(const sites::Stage& stage, bool has_least_size, Log& log);
 
 } // namespace trime::start

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """trime_check passes the meshes of all configs, and finds each kind of damage done to a file, by the check that must."""
 import json
+import math
 import os
 import pathlib
 import re
@@ -305,6 +306,47 @@ class Check(unittest.TestCase):
         code, text = check(self.mesh("square"), ROOT / "configs" / "triangle.ini")
         self.assertEqual(code, 5, text)
         self.assertIn("facet_parts", self.wrong(text))
+
+    def test_corners_of_contours_that_cross(self):
+        """A slanted comb less a star: how many corners there are is counted here without any cleverness."""
+        turn, teeth = 0.3, 8
+        comb = [(0.1, 0.2)]
+        for k in range(teeth):
+            comb += [(0.1 + 0.1 * (k + share), y) for share, y in ((0.1, 0.3), (0.45, 0.8), (0.8, 0.3))]
+        comb += [(0.9, 0.2)]
+        comb = [(0.5 + math.cos(turn) * (x - 0.5) - math.sin(turn) * (y - 0.5),
+                 0.5 + math.sin(turn) * (x - 0.5) + math.cos(turn) * (y - 0.5)) for x, y in comb]
+        star = [(0.52 + r * math.cos(math.pi * k / 9 + 0.1), 0.47 + r * math.sin(math.pi * k / 9 + 0.1))
+                for k in range(18) for r in [0.13 if k % 2 else 0.26]]
+        for name, ring in (("comb", comb), ("star", star)):
+            (self.work / f"{name}.xy").write_text("".join(f"{x!r} {y!r}\n" for x, y in ring), "ascii")
+        config = self.work / "crossing.ini"
+        config.write_text("[shape]\nregion = difference(comb, star)\n" +
+                          "".join(f"[shape.{name}]\ntype = contour\nfile = {name}.xy\n" for name in ("comb", "star")) +
+                          "[meshing]\npoints = 4000\nkeep_features = true\ncorner_angle = 3\n[output]\nname = crossing\n", "ascii")
+        done = run(config, f"output.directory={self.work}")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+        def inside(p, ring):
+            return sum((a[1] > p[1]) != (b[1] > p[1]) and p[0] < a[0] + (p[1] - a[1]) * (b[0] - a[0]) / (b[1] - a[1])
+                       for a, b in zip(ring, ring[1:] + ring[:1])) % 2 == 1
+
+        def turns(a, b, c):
+            u, v = (b[0] - a[0], b[1] - a[1]), (c[0] - b[0], c[1] - b[1])
+            return abs(math.degrees(math.atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]))) > 3
+
+        corners = [b for ring, other, wanted in ((comb, star, False), (star, comb, True))
+                   for a, b, c in zip(ring[-1:] + ring[:-1], ring, ring[1:] + ring[:1])
+                   if turns(a, b, c) and inside(b, other) == wanted]
+        self.assertGreater(len(corners), 15)
+        code, text = check(self.work / "crossing.h5")
+        self.assertEqual(code, 0, text)
+        self.assertRegex(text, rf"(?m)^ok +corners +expected {len(corners)}, found {len(corners)}:")
+        with h5py.File(self.work / "crossing.h5", "r+") as file:
+            places = file[GEOMETRY][:]
+            change(file, "VTKHDF/PointData/fixed", np.argmin(np.hypot(*(places - corners[-1]).T)), 0)
+        code, text = check(self.work / "crossing.h5")
+        self.assertIn("corners", self.wrong(text))
 
     def test_corners_of_the_config(self):
         path = self.work / "cornerless.h5"

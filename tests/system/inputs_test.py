@@ -351,6 +351,26 @@ class Maps(unittest.TestCase):
             (work / "a.prj").unlink()
             self.assertRegex(run(work / "case.ini", "--validate").stdout,
                              r"a\.shp tells no reference system: .* 'projection = auto' in \[shape\]")
+            self.assertRegex(run(work / "case.ini", "--validate", "sizing.min_size=200").stdout,
+                             r"warning: min_size = 200 is longer than the whole shape.*a\.shp.*'projection = auto'")
+
+    def test_a_projection_made_for_another_place_is_told(self):
+        with Workspace() as work:
+            (work / "a.geojson").write_text(geojson(["9 48", "9.4 48", "9.4 48.3", "9 48.3"]))
+            (work / "case.ini").write_text(CONFIG.format("a.geojson", 500))
+            for zone, told in ((32632, False), (32636, True)):
+                said = run(work / "case.ini", "--validate", f"shape.projection=EPSG:{zone}").stdout
+                (self.assertRegex if told else self.assertNotRegex)(
+                    said, r"warning: 'projection = EPSG:\d+' makes lengths 1\.0\d times .* EPSG:32632 \(UTM zone 32\)")
+
+    def test_a_part_that_is_not_used_may_lie_anywhere(self):
+        with Workspace() as work:
+            part = "[shape.{}]\ntype = circle\ncenter = {} {}\nradius = 0.4\n"
+            (work / "case.ini").write_text("[domain]\nx_max = 1\n[shape]\nregion = disc\n" + part.format("disc", 0.5, 0.5) +
+                                           part.format("far", 50, 50) + "[meshing]\npoints = 500\n")
+            done = run(work / "case.ini", "--validate")
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertRegex(done.stdout, "warning: part 'far' does not occur in the region 'disc' and is left out")
 
     def test_fixed_points_are_projected_too(self):
         with Workspace() as work:

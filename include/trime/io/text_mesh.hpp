@@ -33,7 +33,8 @@ struct TextQuality {
 };
 
 /// @brief Writes all files of one mesh but that of the overall quality. Each appears whole or not at all; files of the
-/// same name are replaced. Points, triangles and edges pass through rank 0 in slices, the boundary as a whole.
+/// same name are replaced. At the return all are on the disk. The machine that fails before may leave loops cut off.
+/// Points, triangles and edges pass through rank 0 in slices, the boundary as a whole.
 /// @throws FileError on all ranks together
 /// @note Collective.
 void write_text_mesh(const TextPlace& place, const mesh::DistributedMesh& mesh, const comm::Communicator& comm);

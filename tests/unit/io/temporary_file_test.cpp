@@ -33,6 +33,20 @@ TEST(TemporaryFile, ReplacesALargeFileThatOthersMayStillRead) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory.path()), {}), 1);
 }
 
+TEST(TemporaryFile, OneOfManyIsWholeAtOnceAndReplacesItsElder) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.path() + "/loop_1.txt";
+  RunFiles files;
+  write_text_file(path, "elder", &files);
+  write_text_file_of_many(path, "1 2 3", &files);
+  EXPECT_EQ(contents(path), "1 2 3");
+  synchronise_file_system(path);
+  EXPECT_EQ(contents(path), "1 2 3");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory.path()), {}), 1);
+  EXPECT_THROW(write_text_file_of_many(directory.path() + "/none/loop.txt", "", &files), FileError);
+  EXPECT_THROW(synchronise_file_system(directory.path() + "/none/loop.txt"), FileError);
+}
+
 TEST(TemporaryFile, IsKnownToASignalHandlerWhileItIsWritten) {
   const test::TemporaryDirectory directory;
   const std::string path = directory.path() + "/mesh.h5.tmp-1", final_path = directory.path() + "/mesh.h5";

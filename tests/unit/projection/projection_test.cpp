@@ -52,6 +52,14 @@ TEST(Projection, TheMiddleIsAcrossTheDateLineWherePointsAre) {
   EXPECT_THROW(local_plane(far), GeometryError);
 }
 
+TEST(Projection, TellsHowLengthsAreStretched) {
+  EXPECT_NEAR(Distortion("EPSG:32633").scale({15, 52}), 0.9996, 1e-6);
+  EXPECT_NEAR(Distortion("EPSG:32635").scale({5.5, 52}), 1.026, 2e-3); // two zones and more to the east
+  EXPECT_NEAR(Distortion("EPSG:3857").scale({5.5, 60}), 2, 1e-2);
+  EXPECT_NEAR(Distortion("+proj=stere +lat_0=52 +lon_0=5 +datum=WGS84").scale({5, 52}), 1, 1e-9);
+  EXPECT_THROW(Distortion("EPSG:1"), ConfigError);
+}
+
 TEST(Projection, SystemsAreKnownOrRefused) {
   EXPECT_TRUE(is_geographic(lon_lat));
   EXPECT_TRUE(is_geographic("EPSG:4326"));

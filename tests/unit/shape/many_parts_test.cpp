@@ -125,6 +125,47 @@ TEST(ManyParts, LongSpikesOfTwoPartsAreCutWhereTheyCross) {
   EXPECT_EQ(Arrangement(placed(parts), unit_frame).pieces().size(), a.size() + b.size() + 2 * crossings);
 }
 
+/// A comb first, and circles among its teeth, each so large that it crosses some of them.
+std::vector<Part> comb_with_circles(int teeth) {
+  std::vector<Part> parts{comb_part("a", teeth, {0.5, 0.5})};
+  const double turn = std::sqrt(0.5), length = 0.4, radius = 0.4 * length / teeth;
+  for (int k = 0; k < teeth; ++k) {
+    const double u = (k + 0.3) * length / teeth - length / 2, v = 0.3 * length * (k % 3) / 3;
+    parts.push_back(
+        Part::circle(fmt::format("c{}", k), Vec2{0.5, 0.5} + Vec2{turn * (u - v), turn * (u + v)}, radius, unit_frame));
+  }
+  return parts;
+}
+
+TEST(ManyParts, CirclesLookAtFewLongSpikes) {
+  for (const int teeth : {1500, 6000}) {
+    const std::vector<Part> parts = comb_with_circles(teeth);
+    const Arrangement made(placed(parts), unit_frame);
+    EXPECT_LT(made.line_pairs(), 60 * (3 + 1) * teeth) << teeth;
+  }
+}
+
+/// All pairs one by one, against the tree: the circles are cut wherever a line enters or leaves them.
+TEST(ManyParts, CirclesAreCutByLongSpikes) {
+  constexpr int teeth = 1500;
+  const std::vector<Part> parts = comb_with_circles(teeth);
+  const std::span<const Segment> lines = parts[0].as_polygon()->grid.segments();
+  std::size_t crossings = 0;
+  for (const Part& part : parts)
+    if (const Circle* circle = part.as_circle())
+      for (const Segment& s : lines) {
+        const Vec2 d = s.b - s.a, from = s.a - circle->center;
+        const double along = geometry::dot(from, d), whole = geometry::squared_length(d);
+        const double root = along * along - whole * (geometry::squared_length(from) - circle->radius * circle->radius);
+        for (const double sign : {-1.0, 1.0})
+          if (const double t = (-along + sign * std::sqrt(std::fmax(root, 0))) / whole; root > 0 && t > 0 && t < 1)
+            ++crossings;
+      }
+  EXPECT_GT(crossings, 2 * std::size_t{teeth});
+  const std::size_t quadrants = 4 * static_cast<std::size_t>(teeth); // of each circle, which are vertices
+  EXPECT_EQ(Arrangement(placed(parts), unit_frame).pieces().size(), lines.size() + quadrants + 2 * crossings);
+}
+
 TEST(InsideWalk, SaysWhatThePartSays) {
   constexpr int teeth = 3000;
   const Part part = comb_part("a", teeth, {0.5, 0.5});
