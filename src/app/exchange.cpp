@@ -166,7 +166,7 @@ void convert(const CommandLine& line, io::RunFiles* files, const comm::Communica
   const formats::Format format = format_of_output(to);
   if (!line.overwrite)
     refuse_to_replace(formats::paths_of(format, to), "add --overwrite to replace it", comm);
-  const Metadata metadata = io::read_metadata(from, comm);
+  const Metadata metadata = io::read_metadata(from, {"tags"}, comm);
   const formats::Names names = names_of(metadata);
   const mesh::DistributedMesh mesh = io::read_mesh(from, metadata, comm);
   if (is_marked(metadata))
@@ -177,7 +177,7 @@ void convert(const CommandLine& line, io::RunFiles* files, const comm::Communica
 }
 
 std::string info(const std::string& path, const comm::Communicator& comm) {
-  const Metadata metadata = io::read_metadata(path, comm);
+  const Metadata metadata = io::read_metadata(path, {"checks", "quality", "tags"}, comm);
   std::string text = fmt::format("{}: {} points, {} triangles{}\n", path, value_text(metadata, "points"),
                                  value_text(metadata, "triangles"), is_marked(metadata) ? "; NOT complete" : "");
   text += made_text(metadata);

@@ -2,6 +2,7 @@
 #include "io/hdf5_input.hpp"
 
 #include <algorithm>
+#include <new>
 #include <optional>
 
 namespace trime::io {
@@ -58,6 +59,24 @@ std::optional<Column> small_values(const std::string& name, hid_t type, std::siz
   }
 }
 
+/// For H5Literate and H5Aiterate2. No exception may pass through HDF5.
+template <class Info>
+herr_t keep_name(hid_t, const char* name, const Info*, void* names) {
+  try {
+    static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+    return 0;
+  } catch (const std::bad_alloc&) {
+    return -1;
+  }
+}
+
+/// In one pass: HDF5 makes a sorted list of all attributes for each that is opened by its number.
+std::vector<std::string> attribute_names(hid_t object, const std::string& action) {
+  std::vector<std::string> names;
+  checked(H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, keep_name<H5A_info_t>, &names), action);
+  return names;
+}
+
 } // namespace
 
 Hdf5Input::Hdf5Input(const std::string& path) : path_(path), file_(open_file(path)) {}
@@ -73,14 +92,10 @@ bool Hdf5Input::has(const std::string& object) const {
 
 std::vector<Attribute> Hdf5Input::attributes(const std::string& group) const {
   const std::string action = "read the attributes of " + group + " in " + path_;
-  H5O_info_t info;
-  checked(H5Oget_info_by_name2(file_, group.c_str(), &info, H5O_INFO_NUM_ATTRS, H5P_DEFAULT), action);
+  const Hdf5Group opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), action);
   std::vector<Attribute> found;
-  for (hsize_t k = 0; k < info.num_attrs; ++k) {
-    const Hdf5Attribute attribute(
-        H5Aopen_by_idx(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, k, H5P_DEFAULT, H5P_DEFAULT), action);
-    std::string name(static_cast<std::size_t>(checked(H5Aget_name(attribute, 0, nullptr), action)), '\0');
-    H5Aget_name(attribute, name.size() + 1, name.data());
+  for (const std::string& name : attribute_names(opened, action)) {
+    const Hdf5Attribute attribute(H5Aopen(opened, name.c_str(), H5P_DEFAULT), action);
     const Hdf5Type type(H5Aget_type(attribute), action);
     const Hdf5Space space(H5Aget_space(attribute), action);
     if (H5Sget_simple_extent_npoints(space) != 1)
@@ -113,14 +128,15 @@ std::vector<Attribute> Hdf5Input::attributes(const std::string& group) const {
 
 std::vector<Column> Hdf5Input::columns(const std::string& group) const {
   std::vector<Column> found;
-  for (const std::string& name : members(group, H5O_TYPE_DATASET)) {
+  const Hdf5Group opened = open_group(group);
+  for (const std::string& name : members(opened, group, H5O_TYPE_DATASET)) {
     const std::string path = group + "/" + name;
-    const Hdf5Dataset dataset = open_dataset(path);
+    const Hdf5Dataset dataset(H5Dopen2(opened, name.c_str(), H5P_DEFAULT), "open " + path + " in " + path_);
     const Hdf5Type type(H5Dget_type(dataset), "read " + path);
     const Hdf5Space space(H5Dget_space(dataset), "read " + path);
     if (H5Sget_simple_extent_ndims(space) != 1)
       continue;
-    check_claim(dataset, path);
+    check_claim(dataset, type, space, path);
     auto values = small_values(
         name, type, static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)), [&](hid_t memory, void* to) {
           checked(H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, to), "read " + path + " in " + path_);
@@ -133,14 +149,15 @@ std::vector<Column> Hdf5Input::columns(const std::string& group) const {
 
 std::vector<Text> Hdf5Input::texts(const std::string& group) const {
   std::vector<Text> found;
-  for (const std::string& name : members(group, H5O_TYPE_DATASET)) {
+  const Hdf5Group opened = open_group(group);
+  for (const std::string& name : members(opened, group, H5O_TYPE_DATASET)) {
     const std::string path = group + "/" + name;
-    const Hdf5Dataset dataset = open_dataset(path);
+    const Hdf5Dataset dataset(H5Dopen2(opened, name.c_str(), H5P_DEFAULT), "open " + path + " in " + path_);
     const Hdf5Type type(H5Dget_type(dataset), "read " + path);
     const Hdf5Space space(H5Dget_space(dataset), "read " + path);
     if (H5Sget_simple_extent_ndims(space) != 0 || H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0)
       continue;
-    check_claim(dataset, path);
+    check_claim(dataset, type, space, path);
     std::string text(H5Tget_size(type), '\0');
     checked(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), "read " + path + " in " + path_);
     found.push_back({name, without_padding(text)});
@@ -149,13 +166,14 @@ std::vector<Text> Hdf5Input::texts(const std::string& group) const {
 }
 
 std::vector<std::string> Hdf5Input::groups(const std::string& group) const {
-  return members(group, H5O_TYPE_GROUP);
+  return members(open_group(group), group, H5O_TYPE_GROUP);
 }
 
 std::int64_t Hdf5Input::rows(const std::string& dataset) const {
   const Hdf5Dataset opened = open_dataset(dataset);
-  check_claim(opened, dataset);
+  const Hdf5Type type(H5Dget_type(opened), "read " + dataset);
   const Hdf5Space space(H5Dget_space(opened), "read " + dataset);
+  check_claim(opened, type, space, dataset);
   const std::vector<hsize_t> shape = shape_of(space);
   if (std::find(shape.begin(), shape.end(), 0) != shape.end()) // rows without columns are none
     return 0;
@@ -186,11 +204,13 @@ Hdf5Dataset Hdf5Input::open_dataset(const std::string& dataset) const {
   return Hdf5Dataset(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), "open " + dataset + " in " + path_);
 }
 
-void Hdf5Input::check_claim(const Hdf5Dataset& dataset, const std::string& name) const {
+Hdf5Group Hdf5Input::open_group(const std::string& group) const {
+  return Hdf5Group(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), "list " + group + " in " + path_);
+}
+
+void Hdf5Input::check_claim(hid_t dataset, hid_t type, hid_t space, const std::string& name) const {
   constexpr double most_packed = 1032; // bytes that deflate makes one of, at most
   const std::string action = "read " + name + " in " + path_;
-  const Hdf5Type type(H5Dget_type(dataset), action);
-  const Hdf5Space space(H5Dget_space(dataset), action);
   auto bytes = static_cast<double>(H5Tget_size(type));
   for (const hsize_t extent : shape_of(space)) // HDF5's own product may overflow
     bytes *= static_cast<double>(extent);
@@ -205,22 +225,15 @@ void Hdf5Input::check_claim(const Hdf5Dataset& dataset, const std::string& name)
                     name, path_, bytes, stored));
 }
 
-std::vector<std::string> Hdf5Input::members(const std::string& group, H5O_type_t kind) const {
-  const std::string action = "list " + group + " in " + path_;
-  const Hdf5Group opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), action);
-  H5G_info_t info;
-  checked(H5Gget_info(opened, &info), action);
+std::vector<std::string> Hdf5Input::members(hid_t group, const std::string& name, H5O_type_t kind) const {
+  const std::string action = "list " + name + " in " + path_;
   std::vector<std::string> names;
-  for (hsize_t k = 0; k < info.nlinks; ++k) {
-    const ssize_t length = H5Lget_name_by_idx(opened, ".", H5_INDEX_NAME, H5_ITER_INC, k, nullptr, 0, H5P_DEFAULT);
-    checked(length < 0 ? -1 : 0, action);
-    std::string name(static_cast<std::size_t>(length), '\0');
-    H5Lget_name_by_idx(opened, ".", H5_INDEX_NAME, H5_ITER_INC, k, name.data(), name.size() + 1, H5P_DEFAULT);
+  checked(H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, keep_name<H5L_info_t>, &names), action);
+  std::erase_if(names, [&](const std::string& member) {
     H5O_info_t object;
-    checked(H5Oget_info_by_name2(opened, name.c_str(), &object, H5O_INFO_BASIC, H5P_DEFAULT), action);
-    if (object.type == kind)
-      names.push_back(name);
-  }
+    checked(H5Oget_info_by_name2(group, member.c_str(), &object, H5O_INFO_BASIC, H5P_DEFAULT), action);
+    return object.type != kind;
+  });
   return names;
 }
 

@@ -34,8 +34,10 @@ public:
 private:
   Hdf5Dataset open_dataset(const std::string& dataset) const;
   /// Before memory is asked for: does the file hold as much as a dataset claims to have? @throws FileError
-  void check_claim(const Hdf5Dataset& dataset, const std::string& name) const;
-  std::vector<std::string> members(const std::string& group, H5O_type_t kind) const;
+  void check_claim(hid_t dataset, hid_t type, hid_t space, const std::string& name) const;
+  Hdf5Group open_group(const std::string& group) const;
+  /// Names of the members of one kind, in their order. @param name of the group, for messages
+  std::vector<std::string> members(hid_t group, const std::string& name, H5O_type_t kind) const;
 
   std::string path_;
   Hdf5File file_;

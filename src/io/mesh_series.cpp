@@ -101,7 +101,8 @@ std::vector<std::string> MeshSeries::go_on_after(int retriangulation) {
     at = std::from_chars(at, end, number).ptr;
     const std::string stem = step_name(name, number);
     try { // what is thrown is the same on all ranks
-      members_.push_back({stem, quality_of(read_metadata(options_.file.directory + "/" + stem + ".h5", comm_))});
+      members_.push_back(
+          {stem, quality_of(read_metadata(options_.file.directory + "/" + stem + ".h5", {"quality"}, comm_))});
     } catch (const FileError& error) {
       warnings.push_back(fmt::format("{}.h5: a step of the run before the restart cannot be read: {}; it is left out",
                                      stem, error.what()));

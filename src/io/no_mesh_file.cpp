@@ -20,12 +20,12 @@ WrittenFiles write_mesh(const MeshFileOptions& options, const mesh::DistributedM
   return {};
 }
 
-Metadata read_metadata(const std::string& path, const comm::Communicator&) {
+Metadata read_metadata(const std::string& path, const std::vector<std::string>&, const comm::Communicator&) {
   throw FileError(fmt::format("{} is not read: this program is built for a simulated cluster and has no HDF5", path));
 }
 
 mesh::DistributedMesh read_mesh(const std::string& path, const Metadata&, const comm::Communicator& comm) {
-  read_metadata(path, comm);
+  read_metadata(path, {}, comm);
   return {};
 }
 
@@ -37,7 +37,7 @@ void write_state_file(const std::string& path, RunFiles*, const Metadata&, const
 }
 
 Metadata read_state_metadata(const std::string& path, const std::vector<std::string>&, const comm::Communicator& comm) {
-  return read_metadata(path, comm);
+  return read_metadata(path, {}, comm);
 }
 
 class StateFileReader::Implementation {};

@@ -99,7 +99,8 @@ private:
 
 } // namespace
 
-Metadata read_metadata(const std::string& path, const comm::Communicator& comm) {
+Metadata read_metadata(const std::string& path, const std::vector<std::string>& groups,
+                       const comm::Communicator& comm) {
   Metadata metadata;
   comm::run_agreed(comm, [&] {
     if (!comm.is_root())
@@ -110,9 +111,9 @@ Metadata read_metadata(const std::string& path, const comm::Communicator& comm) 
           fmt::format("{} is no mesh file of trime_mpi: expected the group {}, found none", path, root_group));
     metadata.attributes = file.attributes(root_group);
     metadata.texts = file.texts(root_group);
-    for (const std::string& group : file.groups(root_group))
-      metadata.groups.push_back(
-          {group, file.attributes(root_group + "/" + group), file.columns(root_group + "/" + group)});
+    for (const std::string& group : groups)
+      if (const std::string inside = root_group + "/" + group; file.has(inside))
+        metadata.groups.push_back({group, file.attributes(inside), file.columns(inside)});
   });
   return broadcast(metadata, comm);
 }

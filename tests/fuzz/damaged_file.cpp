@@ -155,6 +155,8 @@ void start_mpi() {
 
 DamagedFile::DamagedFile(bool is_checkpoint)
     : comm_((start_mpi(), comm::Communicator::self())), path_(directory_.path() + "/damaged.h5") {
+  constexpr int all = -1; // the table of each open file is kept for the next one, or pages would be cleared for it
+  H5set_free_list_limits(all, all, all, all, all, all);
   run(directory_.path(), comm_, is_checkpoint);
   std::string made;
   for (const auto& entry : std::filesystem::directory_iterator(directory_.path()))

@@ -6,6 +6,7 @@ Usage: run_target.py BUILD/tests/fuzz/NAME_fuzz [--seconds S] [--keep DIRECTORY]
   --seconds S   of new inputs (default: TRIME_FUZZ_SECONDS, else 10)
   --keep D      where an input that breaks the program is kept; it belongs into tests/fuzz/corpus/NAME once it is mended
   --grow D      keep what reaches new code there, and begin with it
+  --slowest S   seconds of one input, from which it is a finding (default 20; by the clock, so more on a busy machine)
 Exits with 1 if an input breaks the program, needs more memory than it should, or takes too long.
 """
 import argparse
@@ -28,6 +29,7 @@ def main():
     parser.add_argument("--seconds", type=int, default=int(os.environ.get("TRIME_FUZZ_SECONDS", "10")))
     parser.add_argument("--keep", type=pathlib.Path, default=pathlib.Path("findings"))
     parser.add_argument("--grow", type=pathlib.Path)
+    parser.add_argument("--slowest", type=int, default=SLOWEST)
     arguments = parser.parse_args()
     name = arguments.program.name.removesuffix("_fuzz")
     corpus, words = HERE / "corpus" / name, HERE / "words" / f"{name}.dict"
@@ -37,7 +39,7 @@ def main():
         grown = arguments.grow or pathlib.Path(work) / "grown"
         grown.mkdir(parents=True, exist_ok=True)
         command = [arguments.program.resolve(), grown.resolve(), corpus, "-seed=1", f"-max_len={LARGEST_INPUT}",
-                   f"-max_total_time={arguments.seconds}", f"-timeout={SLOWEST}", f"-rss_limit_mb={MEBIBYTES}",
+                   f"-max_total_time={arguments.seconds}", f"-timeout={arguments.slowest}", f"-rss_limit_mb={MEBIBYTES}",
                    f"-malloc_limit_mb={LARGEST_ARRAY}", f"-artifact_prefix={arguments.keep.resolve()}/{name}-",
                    "-print_final_stats=1"]
         command += [f"-dict={words}"] if words.exists() else []

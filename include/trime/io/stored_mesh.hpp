@@ -7,13 +7,15 @@
 #include "trime/mesh/distributed_mesh.hpp"
 
 #include <string>
+#include <vector>
 
 namespace trime::io {
 
 /// @brief The group /trime_mpi of a mesh file. Attributes of other types than those of Attribute are left out.
+/// @param groups of its groups those that are read, where the file has them: some are as long as the number of ranks
 /// @throws FileError on all ranks if this is no mesh file
 /// @note Collective. Rank 0 reads.
-Metadata read_metadata(const std::string& path, const comm::Communicator& comm);
+Metadata read_metadata(const std::string& path, const std::vector<std::string>& groups, const comm::Communicator& comm);
 
 /// @brief The mesh of a file: equal slabs of points, triangles and facets for each rank, whoever wrote it. Its hash is
 /// computed anew. Memory: the mesh.
