@@ -2,7 +2,8 @@
 // Waits that yield, for the tests of an MPI that never does: Debian's MPICH polls for a message without end, so where
 // there are more ranks than cores each message waits until the scheduler takes the core away, some 10 ms later.
 // By MPI's profiling interface (MPI 3.1, section 14.2) the calls that block, those of HDF5 too, become their
-// non-blocking forms and tests with a yield between two of them. Only the parallel tests link this (TRIME_YIELDING_WAITS).
+// non-blocking forms and tests with a yield between two of them. Only the parallel tests link this
+// (TRIME_YIELDING_WAITS).
 #include <mpi.h>
 
 #include <array>

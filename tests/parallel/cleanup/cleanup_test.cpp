@@ -107,6 +107,11 @@ TEST(Cleanup, MendsASquare) {
   expect_mended("square", {square(), 3000});
 }
 
+/// A triangle of 1.11 beside a side of it is hardly bad. The deletion that helps begins far above so low a bar.
+TEST(Cleanup, MendsWhereTheFirstSweepsOfATrialPromiseLittle) {
+  expect_mended("larger square", {square(), 19000, false, 500});
+}
+
 TEST(Cleanup, MendsADisc) {
   expect_mended("disc", {disc(), 1500});
 }
