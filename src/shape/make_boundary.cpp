@@ -84,6 +84,7 @@ public:
       finish_periodic_area();
     if (boundary_.loops.empty() && !boundary_.covers_torus)
       throw GeometryError(fmt::format("the region '{}' is empty: no part of the plane lies in it", region_.text()));
+    check_area();
     std::vector<std::int32_t> markers = name_markers(boundary_, given_, frame_);
     return {std::move(boundary_), std::move(markers)};
   }
@@ -125,6 +126,7 @@ private:
   Piece finished(const Kept& kept, Vec2 offset) const;
   void add_loop(std::vector<LocalIndex>& cycle);
   void finish_periodic_area();
+  void check_area() const;
 
   const Region& region_;
   const Frame& frame_;
@@ -381,6 +383,20 @@ void BoundaryMaker::finish_periodic_area() {
   const bool winds = std::any_of(loops.begin(), loops.end(), [](const Loop& loop) { return loop.winds(); });
   boundary_.covers_torus = !winds && boundary_.area < 0;
   boundary_.area -= torus * std::floor(boundary_.area / torus);
+}
+
+/// Loops that wind may be slivers only together: two that lie on each other enclose nothing but rounding errors.
+void BoundaryMaker::check_area() const {
+  double length = 0;
+  for (const Loop& loop : boundary_.loops)
+    length += loop.length();
+  if (const double least = 0.5 * VertexTable::merge_steps * frame_.step() * length; !(boundary_.area > least)) {
+    const Vec2 p = boundary_.loops.front().pieces.front().start;
+    throw GeometryError(fmt::format("the region '{}' is thinner than the resolution of the container: expected an area "
+                                    "above {:.3g} inside of a boundary of length {:.6g}, found {:.3g}; its boundary "
+                                    "begins at ({:.10g}, {:.10g})",
+                                    region_.text(), least, length, boundary_.area, p.x, p.y));
+  }
 }
 
 } // namespace
