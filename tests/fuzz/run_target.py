@@ -44,7 +44,7 @@ def main():
                    "-print_final_stats=1"]
         command += [f"-dict={words}"] if words.exists() else []
         environment = dict(os.environ, TMPDIR=work, OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
-                           OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+                           OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_ess_singleton_isolated="1")  # no daemon beside it
         environment["ASAN_OPTIONS"] = f"detect_leaks={int(name not in WITH_MPI)}:" + os.environ.get("ASAN_OPTIONS", "")
         done = subprocess.run([str(word) for word in command], cwd=work, env=environment, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, errors="replace", check=False)
