@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs a fuzz target: its corpus first, then new inputs for some seconds, always from the same seed.
+"""Runs a fuzz target: its corpus first, then new inputs for some seconds, always from the same seeds.
 
 Usage: run_target.py BUILD/tests/fuzz/NAME_fuzz [--seconds S] [--keep DIRECTORY] [--grow DIRECTORY]
   --seconds S   of new inputs (default: TRIME_FUZZ_SECONDS, else 10)
@@ -15,12 +15,55 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 LARGEST_INPUT = 4096  # bytes
 MEBIBYTES, LARGEST_ARRAY = 2048, 512  # of the process, sanitizers included, and of one allocation
 SLOWEST = 20  # seconds of one input; small ones take milliseconds
 WITH_MPI = {"mesh_file", "checkpoint"}  # Open MPI keeps some memory to the end
+# Of one process: HDF5 keeps a file whose chunks it could not read, with its communicator, and Open MPI has 2^16 of these.
+MOST_RUNS = 20000
+
+
+class Target:
+    """A fuzz target with its corpus and its limits."""
+
+    def __init__(self, arguments, work):
+        self.program, self.slowest, self.work = arguments.program.resolve(), arguments.slowest, work
+        self.name = arguments.program.name.removesuffix("_fuzz")
+        self.kept = arguments.keep.resolve()
+        self.grown = (arguments.grow or work / "grown").resolve()
+        for directory in (self.kept, self.grown):
+            directory.mkdir(parents=True, exist_ok=True)
+
+    def command(self, seed, seconds):
+        words = HERE / "words" / f"{self.name}.dict"
+        command = [self.program, self.grown, HERE / "corpus" / self.name, f"-seed={seed}", f"-max_len={LARGEST_INPUT}",
+                   f"-max_total_time={seconds}", f"-timeout={self.slowest}", f"-rss_limit_mb={MEBIBYTES}",
+                   f"-malloc_limit_mb={LARGEST_ARRAY}", f"-artifact_prefix={self.kept}/{self.name}-",
+                   "-print_final_stats=1"]
+        command += [f"-runs={MOST_RUNS}"] if self.name in WITH_MPI else []
+        return [str(word) for word in command + ([f"-dict={words}"] if words.exists() else [])]
+
+    def environment(self):
+        sanitizer = f"detect_leaks={int(self.name not in WITH_MPI)}:" + os.environ.get("ASAN_OPTIONS", "")
+        return dict(os.environ, TMPDIR=str(self.work), OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
+                    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", ASAN_OPTIONS=sanitizer,
+                    OMPI_MCA_ess_singleton_isolated="1")  # no daemon beside it
+
+    def run(self, seed, seconds):
+        """One process; true if it found nothing."""
+        done = subprocess.run(self.command(seed, seconds), cwd=self.work, env=self.environment(),
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", check=False)
+        left = [path.name for path in self.work.iterdir() if path != self.grown and not path.is_dir()]
+        lines = done.stdout.splitlines()
+        if done.returncode != 0 or left:
+            print("\n".join(lines[-80:]))
+            print(f"files left outside of a directory of their own: {left}" if left else "")
+            return False
+        print("\n".join(line for line in lines if "stat::" in line or line.startswith("Done")), flush=True)
+        return True
 
 
 def main():
@@ -31,31 +74,16 @@ def main():
     parser.add_argument("--grow", type=pathlib.Path)
     parser.add_argument("--slowest", type=int, default=SLOWEST)
     arguments = parser.parse_args()
-    name = arguments.program.name.removesuffix("_fuzz")
-    corpus, words = HERE / "corpus" / name, HERE / "words" / f"{name}.dict"
-    arguments.keep.mkdir(parents=True, exist_ok=True)
     in_memory = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None  # no disk to wait for
+    end = time.monotonic() + arguments.seconds
     with tempfile.TemporaryDirectory(prefix="trime-fuzz-", dir=in_memory) as work:
-        grown = arguments.grow or pathlib.Path(work) / "grown"
-        grown.mkdir(parents=True, exist_ok=True)
-        command = [arguments.program.resolve(), grown.resolve(), corpus, "-seed=1", f"-max_len={LARGEST_INPUT}",
-                   f"-max_total_time={arguments.seconds}", f"-timeout={arguments.slowest}", f"-rss_limit_mb={MEBIBYTES}",
-                   f"-malloc_limit_mb={LARGEST_ARRAY}", f"-artifact_prefix={arguments.keep.resolve()}/{name}-",
-                   "-print_final_stats=1"]
-        command += [f"-dict={words}"] if words.exists() else []
-        environment = dict(os.environ, TMPDIR=work, OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
-                           OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_ess_singleton_isolated="1")  # no daemon beside it
-        environment["ASAN_OPTIONS"] = f"detect_leaks={int(name not in WITH_MPI)}:" + os.environ.get("ASAN_OPTIONS", "")
-        done = subprocess.run([str(word) for word in command], cwd=work, env=environment, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True, errors="replace", check=False)
-        left = [path.name for path in pathlib.Path(work).iterdir() if path != grown and not path.is_dir()]
-    lines = done.stdout.splitlines()
-    if done.returncode != 0 or left:
-        print("\n".join(lines[-80:]))
-        print(f"files left outside of a directory of their own: {left}" if left else "")
-        return 1
-    print("\n".join(line for line in lines if "stat::" in line or line.startswith("Done")))
-    return 0
+        target = Target(arguments, pathlib.Path(work))
+        seed = 1
+        while target.run(seed, max(1, round(end - time.monotonic()))):
+            seed += 1
+            if end - time.monotonic() < 1:
+                return 0
+    return 1
 
 
 if __name__ == "__main__":
