@@ -7,11 +7,6 @@
 #include <iterator>
 
 namespace trime::sweep {
-namespace {
-
-constexpr int chunk = 256; // sites that one thread looks after in a row
-
-} // namespace
 
 void SiteActivity::reset() {
   const mesh::BinnedPoints& points = state_.points();
@@ -74,18 +69,23 @@ void SiteActivity::wake_ring(LocalIndex i) {
   }
 }
 
-/// Those that must look wake if a neighbour moves.
+/// Those that must look wake if a neighbour moves. Where no tile around has moves none does.
 template <class Moves>
-void SiteActivity::look(const Moves& moves) {
-  thread_loop(std::ssize(watchers_), chunk, [&](std::ptrdiff_t k, int) {
-    const LocalIndex i = watchers_[static_cast<std::size_t>(k)];
-    if (!is_awake(i) &&
-        std::ranges::any_of(state_.stars().ring(i), [&](LocalIndex j) { return j != delaunay::gap && moves(j); }))
-      wake(i);
+void SiteActivity::look(std::span<const std::uint8_t> near_moves, const Moves& moves) {
+  const mesh::BinnedPoints& points = state_.points();
+  thread_loop(std::ssize(near_moves), 1, [&](std::ptrdiff_t t, int) {
+    if (!near_moves[static_cast<std::size_t>(t)])
+      return;
+    const auto [begin, end] = points.tile_range(points.first_tile() + static_cast<LocalIndex>(t));
+    for (auto watcher = std::lower_bound(watchers_.begin(), watchers_.end(), begin);
+         watcher != watchers_.end() && *watcher < end; ++watcher)
+      if (!is_awake(*watcher) && std::ranges::any_of(state_.stars().ring(*watcher),
+                                                     [&](LocalIndex j) { return j != delaunay::gap && moves(j); }))
+        wake(*watcher);
   });
 }
 
-void SiteActivity::begin_move(std::span<const SweepTally> tallies) {
+void SiteActivity::begin_move(std::span<const SweepTally> tallies, std::span<const std::uint8_t> near_moves) {
   const mesh::BinnedPoints& points = state_.points();
   const std::span<const geometry::Vec2> next = points.next().positions();
   const auto moves = [&](LocalIndex i) { return !(next[at(i)] == points.position(i)); };
@@ -97,14 +97,14 @@ void SiteActivity::begin_move(std::span<const SweepTally> tallies) {
       if ((std::atomic_ref(flags_[at(i)]).load(std::memory_order_relaxed) & SiteFlags::awake) && moves(i))
         wake_ring(i);
   });
-  look([&](LocalIndex j) { return j < points.owned() && moves(j); });
+  look(near_moves, [&](LocalIndex j) { return j < points.owned() && moves(j); });
 }
 
 /// What was the next places before the move holds where sites and ghosts were.
-void SiteActivity::finish_move() {
+void SiteActivity::finish_move(std::span<const std::uint8_t> near_moves) {
   const mesh::BinnedPoints& points = state_.points();
   const std::span<const geometry::Vec2> before = points.next().positions();
-  look([&](LocalIndex j) { return j >= points.owned() && !(points.position(j) == before[at(j)]); });
+  look(near_moves, [&](LocalIndex j) { return j >= points.owned() && !(points.position(j) == before[at(j)]); });
 }
 
 } // namespace trime::sweep

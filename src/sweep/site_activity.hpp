@@ -45,15 +45,16 @@ public:
   void note_rings(std::span<const LocalIndex> sites);
   /// @brief Wakes the neighbours of the sites that are going to move.
   /// @param tallies of the moves of each owned tile
-  void begin_move(std::span<const SweepTally> tallies);
+  /// @param near_moves by owned tile, see TileActivity::near_moves
+  void begin_move(std::span<const SweepTally> tallies, std::span<const std::uint8_t> near_moves);
   /// Wakes the neighbours of ghosts that have moved, once these are here. @pre ghosts were not fetched since the move
-  void finish_move();
+  void finish_move(std::span<const std::uint8_t> near_moves);
 
 private:
   bool has_ghost(LocalIndex i) const;
   void wake_ring(LocalIndex i);
   template <class Moves>
-  void look(const Moves& moves);
+  void look(std::span<const std::uint8_t> near_moves, const Moves& moves);
 
   const sites::SiteState& state_;
   const SiteClasses& classes_;

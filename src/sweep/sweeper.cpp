@@ -300,8 +300,8 @@ Sweeper::Counts Sweeper::commit() {
   note_pushes();
   counts_.deleted = 0; // they wait
   note_restless();
-  activity_.begin_move(state_.points(), outcomes_.tallies());
-  site_activity_.begin_move(outcomes_.tallies());
+  activity_.begin_move(state_.points(), certifier_.classes().around(), outcomes_.tallies());
+  site_activity_.begin_move(outcomes_.tallies(), activity_.near_moves());
   const bool new_sizes = schedule_.advance();
   state_.begin_advance(context_.size, schedule_.drift(), new_sizes);
   under_way_ = true;
@@ -317,8 +317,8 @@ void Sweeper::finish_move() {
     return;
   under_way_ = false;
   state_.finish_advance(context_.size);
-  activity_.finish_move();
-  site_activity_.finish_move();
+  activity_.finish_move(certifier_.classes().around());
+  site_activity_.finish_move(activity_.near_moves());
 }
 
 /// @param deleted empty: none

@@ -67,10 +67,22 @@ void TileActivity::wake(const RuleParameters& rule, TilePlace which, const Tiles
   for (std::size_t t = 0; t < awake_.size(); ++t) {
     if (around.place(t) != which)
       continue;
-    const std::span<const LocalIndex> tiles = around.of(t);
-    awake_[t] = all_awake_ || wide_[t] || restless_[t] ||
-                std::any_of(tiles.begin(), tiles.end(), [&](LocalIndex tile) { return active_[at(tile)]; });
+    awake_[t] = all_awake_ || wide_[t] || restless_[t] || is_any_active(around.of(t));
   }
+}
+
+bool TileActivity::is_any_active(std::span<const LocalIndex> tiles) const {
+  return std::any_of(tiles.begin(), tiles.end(), [&](LocalIndex tile) { return active_[at(tile)]; });
+}
+
+/// Rings do not reach beyond the tiles around, unless the tile is wide.
+void TileActivity::find_near_moves(const TilesAround& around, bool foreign) {
+  const auto owned = static_cast<LocalIndex>(around.size());
+  near_moves_.resize(around.size());
+  for (std::size_t t = 0; t < around.size(); ++t)
+    near_moves_[t] = wide_[t] || std::ranges::any_of(around.of(t), [&](LocalIndex tile) {
+                       return (tile >= owned) == foreign && active_[at(tile)];
+                     });
 }
 
 double TileActivity::largest_drift(const mesh::BinnedPoints& points, const TilesAround& around,
@@ -81,20 +93,23 @@ double TileActivity::largest_drift(const mesh::BinnedPoints& points, const Tiles
   return largest;
 }
 
-void TileActivity::begin_move(mesh::BinnedPoints& points, std::span<const SweepTally> tallies) {
+void TileActivity::begin_move(mesh::BinnedPoints& points, const TilesAround& around,
+                              std::span<const SweepTally> tallies) {
   for (std::size_t t = 0; t < tallies.size(); ++t) {
     points.drifts().set(static_cast<LocalIndex>(t), drift_after(points, t, tallies[t]));
     active_[t] = tallies[t].squared_distance > 0;
   }
   const std::span<const double> foreign = points.drifts().of_tiles().subspan(tallies.size());
   drifts_before_.assign(foreign.begin(), foreign.end());
+  find_near_moves(around, false);
 }
 
-void TileActivity::finish_move() {
+void TileActivity::finish_move(const TilesAround& around) {
   const std::span<const double> foreign = state_.points().drifts().of_tiles().subspan(awake_.size());
   active_.resize(awake_.size() + foreign.size());
   for (std::size_t k = 0; k < foreign.size(); ++k)
     active_[awake_.size() + k] = foreign[k] > drifts_before_[k];
+  find_near_moves(around, true);
 }
 
 } // namespace trime::sweep

@@ -59,11 +59,17 @@ public:
   static double largest_drift(const mesh::BinnedPoints& points, const TilesAround& around,
                               std::span<const SweepTally> tallies);
   /// Notes that the sites of the owned tiles are going as far as their tallies say.
-  void begin_move(mesh::BinnedPoints& points, std::span<const SweepTally> tallies);
+  void begin_move(mesh::BinnedPoints& points, const TilesAround& around, std::span<const SweepTally> tallies);
   /// Notes which tiles of other ranks had moves, once their drifts are here.
-  void finish_move();
+  void finish_move(const TilesAround& around);
+  /// By owned tile: may a neighbour in the ring of one of its sites be among those that move? Of owned neighbours since
+  /// begin_move(), of ghosts since finish_move().
+  std::span<const std::uint8_t> near_moves() const { return near_moves_; }
 
 private:
+  bool is_any_active(std::span<const LocalIndex> tiles) const;
+  void find_near_moves(const TilesAround& around, bool foreign);
+
   static constexpr std::uint64_t active_bit = 1, wide_bit = 2, restless_bit = 4; // of what is saved of a tile
   const sites::SiteState& state_;
   const delaunay::StarBuilder& builder_;
@@ -72,9 +78,10 @@ private:
   std::vector<std::uint8_t> wide_;     // by owned tile: triangles may reach beyond the tiles around it
   std::vector<std::uint8_t> restless_; // by owned tile: some site may move, though nothing beside it does
   std::vector<std::uint8_t> active_;   // by known tile: sites were moved by the last sweep
-  std::vector<double> drifts_before_;  // by tile with ghosts: before the last move
-  RuleParameters waking_rule_;         // of the last sweep with all tiles awake
-  bool all_awake_ = true;              // in the next sweep
+  std::vector<std::uint8_t> near_moves_;
+  std::vector<double> drifts_before_; // by tile with ghosts: before the last move
+  RuleParameters waking_rule_;        // of the last sweep with all tiles awake
+  bool all_awake_ = true;             // in the next sweep
 };
 
 } // namespace trime::sweep
