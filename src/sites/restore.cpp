@@ -59,7 +59,7 @@ void SiteState::restore(const SavedTiles& saved, const SiteLoader& load, const s
   points_.drifts().set_largest(saved.largest);
   carried_.clear();
   stars_.reset(points_.owned());
-  halo_.reset(partition_, SiteRules::halo_margin);
+  halo_.reset(partition_, halo_margin());
   halo_.refresh(points_);
   ghosts_are_here_ = true;
   restore_drifts(saved);

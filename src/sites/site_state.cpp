@@ -65,6 +65,10 @@ void SiteState::wrap(mesh::SiteList& sites) const {
       site.position = periods.wrap(site.position);
 }
 
+int SiteState::halo_margin() const {
+  return points_.owned() < SiteRules::few_owned ? SiteRules::wide_halo_margin : SiteRules::halo_margin;
+}
+
 void SiteState::share_out(std::vector<mesh::Tile> tiles, std::span<const std::int64_t> weights) {
   grid_.set_tiles(std::move(tiles));
   partition_ = decomposition::Partition(weights, comm_.size());
@@ -83,7 +87,7 @@ void SiteState::distribute(mesh::SiteList sites) {
   sizes_.forget();
   carried_.clear();
   stars_.reset(points_.owned());
-  halo_.reset(partition_, SiteRules::halo_margin);
+  halo_.reset(partition_, halo_margin());
   comm_.counters().add(Counter::sites_started, points_.owned());
   count_sites();
 }

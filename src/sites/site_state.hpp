@@ -97,6 +97,7 @@ public:
 
 private:
   void check_counts(std::span<const std::int64_t> weights) const;
+  int halo_margin() const;
   void count_sites() const;
   void wrap(mesh::SiteList& sites) const;
   void wrap_next();
