@@ -90,7 +90,8 @@ def build(work, numbers):
     program and the names that can be set."""
     tree, target, fixed = work / "tree", work / "build", set()
     listed = subprocess.run(["git", "-C", ROOT, "ls-files", "-coz", "--exclude-standard", "CMakeLists.txt",
-                             "CMakePresets.json", "src", "include", "scripts"], capture_output=True, check=True, text=True)
+                             "CMakePresets.json", "LICENSE", "CHANGELOG.md", "README.md", "jobs", "configs", "src",
+                             "include", "scripts"], capture_output=True, check=True, text=True)
     for name in filter(None, listed.stdout.split("\0")):
         (tree / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(ROOT / name, tree / name)
