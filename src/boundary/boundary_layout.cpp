@@ -5,6 +5,7 @@
 #include "boundary/rules.hpp"
 #include "boundary/site_path.hpp"
 #include "core/gather.hpp"
+#include "polygon/junctions.hpp"
 
 #include "core/angle.hpp"
 #include "trime/core/error.hpp"
@@ -119,8 +120,10 @@ SiteKind kind_of_junction(const geometry::Loop& loop, std::size_t piece, double 
   const double turn = loop.turn_degrees(piece);
   if (turn > BoundaryRules::sharp_turn)
     return SiteKind::sharp_corner;
-  return turn > std::fmin(corner_angle, BoundaryRules::always_a_corner) || loop.pieces[piece].corner ? SiteKind::corner
-                                                                                                     : SiteKind::plain;
+  return turn > std::fmin(corner_angle, BoundaryRules::always_a_corner) || loop.pieces[piece].corner ||
+                 polygon::changes_part(loop, piece)
+             ? SiteKind::corner
+             : SiteKind::plain;
 }
 
 struct LoopLayout::Plan {

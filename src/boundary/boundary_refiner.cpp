@@ -204,7 +204,8 @@ bool BoundaryRefiner::curve_offends(LocalIndex chord) const {
                                  way->length > BoundaryRules::gentle_in_steps * lattice_.step())))
     return a.position == end_of(a);
   const PartSummary part = summarize(a);
-  if (part.leaves_disc || a.position == end_of(a))
+  const bool is_there_and_back = next(a).next == chord && !metrics_[a.loop].loop().winds(); // two sites enclose nothing
+  if (part.leaves_disc || is_there_and_back || a.position == end_of(a))
     return true;
   const double tolerance = this->tolerance(a);
   const bool strays = tolerance > 0 && part.sharpest_turn > corner_angle_ * (pi / 180) &&

@@ -40,10 +40,9 @@ BoundaryRefiner::ChordRecord BoundaryRefiner::chord_from(LocalIndex k, polygon::
   if (tolerance_.share == 0 || metric.is_on_one_piece(site.t, end_t(site)))
     return out;
   const double turn = corner_angle_ * (pi / 180);
-  if (const PartSummary part = summarize(site); part.sharpest_turn > turn) {
-    out.left_out = metric.corners_between(site.t, end_t(site), turn);
-    out.deviation = tolerance_.share * part.deviation / tolerance(site);
-  }
+  out.left_out = metric.corners_between(site.t, end_t(site), turn);
+  if (out.left_out > 0)
+    out.deviation = tolerance_.share * summarize(site).deviation / tolerance(site);
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include "boundary/rules.hpp"
 #include "core/angle.hpp"
 #include "core/thread_loop.hpp"
+#include "polygon/junctions.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -258,7 +259,9 @@ void LoopMetric::for_each_turn(double t0, double t1, const Visit& visit) const {
 
 LocalIndex LoopMetric::corners_between(double t0, double t1, double turn) const {
   LocalIndex corners = 0;
-  for_each_turn(t0, t1, [&](const Turn& one) { corners += one.junction >= 0 && std::fabs(one.amount) > turn; });
+  for_each_turn(t0, t1, [&](const Turn& one) {
+    corners += one.junction >= 0 && (std::fabs(one.amount) > turn || polygon::changes_part(loop_, at(one.junction)));
+  });
   return corners;
 }
 

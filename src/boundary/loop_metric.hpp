@@ -55,7 +55,8 @@ public:
   /// The first t on the way from t0 to t1 (either direction) at which the distance from `center` reaches `radius`.
   /// @pre the point at t0 is nearer than `radius`
   std::optional<double> first_at_radius(double t0, double t1, geometry::Vec2 center, double radius) const;
-  /// Junctions strictly between t0 < t1 <= t0 + total() that turn by more than `turn` radians.
+  /// Junctions strictly between t0 < t1 <= t0 + total() that turn by more than `turn` radians, or where
+  /// parts of the shape meet.
   LocalIndex corners_between(double t0, double t1, double turn) const;
   /// A way that lies within one piece: no junction strictly between.
   struct OnePiece {

@@ -4,6 +4,7 @@
 #include "boundary/rules.hpp"
 #include "core/angle.hpp"
 #include "core/thread_loop.hpp"
+#include "polygon/junctions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +32,7 @@ std::size_t outermost_junction(const geometry::Loop& loop) {
 /// Junctions of a loop by what becomes of them.
 struct Junctions {
   std::vector<LoopCorner> kept; // for certain
-  std::vector<double> others;   // t of those that turn as much but may be left out: features below the resolution
+  std::vector<double> others;   // t of those that may be left out: features below the resolution
 };
 
 LoopCorner corner_at(const LoopMetric& metric, std::size_t piece) {
@@ -42,7 +43,7 @@ LoopCorner corner_at(const LoopMetric& metric, std::size_t piece) {
           {}};
 }
 
-/// A junction that turns by more than the corner angle.
+/// A junction that turns by more than the corner angle, or where parts of the shape meet.
 struct Turning {
   std::size_t piece;
   double t;
@@ -53,7 +54,8 @@ std::vector<Turning> find_turnings(const LoopMetric& metric, double corner_angle
   const double least = std::fmin(corner_angle, BoundaryRules::always_a_corner);
   std::vector<Turning> turnings;
   for (std::size_t i = 0; i < metric.loop().pieces.size(); ++i)
-    if (const double turn = metric.turn(i); std::fabs(turn) * (180 / pi) > least)
+    if (const double turn = metric.turn(i);
+        std::fabs(turn) * (180 / pi) > least || polygon::changes_part(metric.loop(), i))
       turnings.push_back({i, metric.piece_t(i), turn});
   return turnings;
 }

@@ -7,6 +7,7 @@
 #include "comm/agree.hpp"
 #include "core/thread_loop.hpp"
 #include "polygon/chord_curve.hpp"
+#include "sizing/curve_distance.hpp"
 #include "trime/geometry/piece_tree.hpp"
 
 #include <algorithm>
@@ -92,8 +93,8 @@ private:
       thread_loop(static_cast<std::ptrdiff_t>(last - first), 256, [&](std::ptrdiff_t k, int thread) {
         const geometry::Piece& piece = loop.pieces[first + static_cast<std::size_t>(k)];
         double& largest = of_thread_[thread].moved;
-        for (const Vec2 p : {piece.start, piece.point(0.5 * piece.length())})
-          largest = std::max(largest, given.distance(p) / truth_.asked.size(truth_.meshed.periods.wrap(p)));
+        for (const auto& at_place : sizing::curve_distances(piece, given, truth_.asked, truth_.meshed.periods))
+          largest = std::max(largest, at_place.in_sizes());
       });
       before += n;
     }

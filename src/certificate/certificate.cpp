@@ -9,6 +9,7 @@
 #include "core/random.hpp"
 #include "core/thread_loop.hpp"
 #include "geometry/predicates.hpp"
+#include "polygon/junctions.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -220,13 +221,13 @@ private:
   Counts counts_;
 };
 
-/// @brief Where the curves turn by more than this, in lexicographic order: corners by the curves alone, whatever their
-/// layout says. Every rank holds them, as it does the pieces.
+/// @brief Where the curves turn by more than this or parts meet, in lexicographic order: corners by the curves alone,
+/// whatever their layout says. Every rank holds them, as it does the pieces.
 std::vector<Vec2> junctions_of(const geometry::Boundary& curves, double degrees) {
   std::vector<Vec2> places;
   for (const geometry::Loop& loop : curves.loops)
     for (std::size_t i = 0; i < loop.pieces.size(); ++i)
-      if (loop.turn_degrees(i) > degrees + CertificateRules::angle_slack)
+      if (polygon::is_corner(loop, i, degrees + CertificateRules::angle_slack))
         places.push_back(curves.periods.wrap(loop.pieces[i].start));
   std::sort(places.begin(), places.end(), geometry::lexicographically_less);
   return places;
@@ -335,9 +336,10 @@ mesh::Checks certify(const StageView& view, const decomposition::Numbering& numb
   checks.push_back(
       check("corners", view.polygon.corners, counts.corners, "corners that are vertices, bit for bit on the lattice"));
   const std::int64_t kept = std::ssize(junctions) - view.polygon.left_out;
-  checks.push_back({"turns_kept", static_cast<double>(std::max<std::int64_t>(0, kept)),
-                    static_cast<double>(counts.junctions), counts.junctions >= kept,
-                    "vertices where the curves turn by more than corner_angle: at least all but those left out"});
+  checks.push_back(
+      {"turns_kept", static_cast<double>(std::max<std::int64_t>(0, kept)), static_cast<double>(counts.junctions),
+       counts.junctions >= kept,
+       "vertices where the curves turn by more than corner_angle or parts meet: at least all but those left out"});
   if (!view.fixed.empty())
     checks.push_back(check("fixed_points", static_cast<std::int64_t>(view.fixed.size()), counts.fixed,
                            "fixed points that are vertices, bit for bit on the lattice"));

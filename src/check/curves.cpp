@@ -289,6 +289,14 @@ double Shape::distance_from_any(Point p, double limit) const {
   return least;
 }
 
+bool Shape::meets_another(const Part& part, Point p, double limit) const {
+  for (const Point image : images(p))
+    for (const std::size_t number : finder->near(image, limit))
+      if (&parts[number] != &part && region->uses(number) && parts[number].curve->distance(image) <= limit)
+        return true;
+  return false;
+}
+
 bool Shape::matters(const Part& part, Point p) const {
   const auto own = static_cast<std::size_t>(&part - parts.data());
   std::vector<std::size_t> around;

@@ -67,6 +67,9 @@ struct Shape {
   double distance(const Part& part, Point p) const;
   /// Distance from the nearest part, if it is no more than `limit`; else something above it.
   double distance_from_any(Point p, double limit) const;
+  /// Does the curve of another part of the region pass within `limit` of p? Then a corner of this part need not be one
+  /// of the shape.
+  bool meets_another(const Part& part, Point p, double limit) const;
   /// Does the shape change at p where one is in this part or out of it? @pre all parts have curves
   bool matters(const Part& part, Point p) const;
 

@@ -32,6 +32,7 @@ public:
 
   /// The place is in this part or out of it. At first it is in none.
   void set(std::size_t part, bool inside);
+  bool uses(std::size_t part) const { return !leaves_[part].empty(); }
   bool contains() const { return holds(nodes_.back()); }
   /// Children before their parents; the last one is the root.
   const std::vector<Node>& nodes() const { return nodes_; }

@@ -148,6 +148,11 @@ private:
   }
   std::vector<double> loops_of_file() const { return file_.column("/trime_mpi/tags/edge_id"); }
 
+  /// Corners below the resolution that the mesh passes over.
+  std::int64_t left_out() const {
+    return static_cast<std::int64_t>(file_.number("/trime_mpi", "corners_left_out").value_or(0));
+  }
+
   void check_corners() {
     if (const std::string reason = unknown_part(); !reason.empty()) {
       report_.skip("corners", reason);
@@ -161,12 +166,12 @@ private:
     for (const Part& part : shape_.parts)
       if (!(part.name == "domain" && shape_.periods.any())) // whose corners may be no corners
         for (const Point corner : part.curve->corners(angle))
-          if (shape_.matters(part, corner)) {
+          if (!shape_.meets_another(part, corner, on_lattice * shape_.step) && shape_.matters(part, corner)) {
             ++expected;
             if (!fixed_.has(corner))
               missing.note([&] { return place_of(corner); });
           }
-    const auto left_out = static_cast<std::int64_t>(file_.number("/trime_mpi", "corners_left_out").value_or(0));
+    const std::int64_t left_out = this->left_out();
     const std::string found = std::to_string(expected - missing.count);
     if (any_changed)
       report_.skip(
@@ -189,7 +194,7 @@ private:
                           file_.number("/trime_mpi", "coarseness").value_or(1) * slack;
     const std::string reason = unknown_part();
     Tally off, foreign;
-    std::int64_t judged = 0;
+    std::int64_t judged = 0, across = left_out(); // facets that pass over places where parts meet
     for (std::size_t k = 0; k < mesh_.facets.size(); ++k) {
       const auto number = static_cast<std::size_t>(mesh_.facet_parts[k]);
       const Part* part = number < named.size() ? named[number] : nullptr;
@@ -202,9 +207,12 @@ private:
         continue;
       const double limit = on_curve * shape_.side() + (strict ? 0 : within * mesh_.asked_sizes[k]);
       ++judged;
+      const auto distance = [&](std::int64_t id) { return part->curve ? shape_.distance(*part, mesh_.at(id)) : 0; };
+      const bool strays = std::ranges::any_of(mesh_.facets[k], [&](auto id) { return distance(id) > limit; });
+      const bool may_cross = !strict || (strays && across-- > 0);
       for (const std::int64_t id : mesh_.facets[k]) {
-        double away = part->curve ? shape_.distance(*part, mesh_.at(id)) : 0;
-        if (!strict && away > limit) // what was joined may lie at another part
+        double away = distance(id);
+        if (may_cross && away > limit) // what was joined, or lies beyond a corner left out, may lie at another part
           away = std::min(away, shape_.distance_from_any(mesh_.at(id), limit));
         if (away > limit)
           off.note([&] {

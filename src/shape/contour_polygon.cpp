@@ -49,8 +49,9 @@ public:
     for (const ContourRing& ring : contour_.rings)
       add_ring(ring, warnings);
     for (const RepeatedRing& ring : drop_repeated(rings_))
-      warnings.push_back(fmt::format("{}:{}: the ring that starts here was given before, at line {}; it is used once",
-                                     contour_.source, ring.line, ring.first_line));
+      warnings.push_back(fmt::format("{}:{}: the ring that starts here was given before, at line {}; it is used once{}",
+                                     contour_.source, ring.line, ring.first_line,
+                                     ring.loses_markers ? ", with the names or markers that stand there" : ""));
     SegmentGrid grid(segments_of(rings_));
     const std::vector<int> markers = markers_of_segments();
     const SegmentGrid given = markers.empty() ? SegmentGrid{} : grid;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <set>
 
 namespace trime::shape {
 
@@ -121,11 +122,14 @@ std::vector<RepeatedRing> drop_repeated(std::vector<LatticeRing>& rings) {
   std::vector<RepeatedRing> repeated;
   std::size_t kept = 0;
   std::vector<int> first_line;
-  for (const LatticeRing& ring : rings)
+  std::vector<std::set<int>> markers_of;
+  for (const LatticeRing& ring : rings) {
     first_line.push_back(ring.lines[0]);
+    markers_of.emplace_back(ring.markers.begin(), ring.markers.end());
+  }
   for (std::size_t k = 0; k < rings.size(); ++k)
-    if (first_of[k] >= 0)
-      repeated.push_back({first_line[k], first_line[static_cast<std::size_t>(first_of[k])]});
+    if (const auto first = static_cast<std::size_t>(first_of[k]); first_of[k] >= 0)
+      repeated.push_back({first_line[k], first_line[first], markers_of[k] != markers_of[first]});
     else if (kept++ != k)
       rings[kept - 1] = std::move(rings[k]);
   rings.resize(kept);

@@ -37,6 +37,7 @@ std::vector<geometry::Segment> segments_of(const std::vector<LatticeRing>& rings
 /// A ring that was given before, with its first line and that of the other.
 struct RepeatedRing {
   int line, first_line;
+  bool loses_markers; ///< it has others than the one before
 };
 
 /// @brief Keeps the first of rings that have the same edges, whatever their starts and directions.

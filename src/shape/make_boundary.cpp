@@ -5,6 +5,7 @@
 #include "make_boundary.hpp"
 
 #include "arrangement.hpp"
+#include "boundary_area.hpp"
 #include "core/angle.hpp"
 #include "geometry/box_tree.hpp"
 #include "inside_walk.hpp"
@@ -47,13 +48,6 @@ Part cutting_part(const Frame& frame) {
   return Part::rectangle("the border of the container", box, frame);
 }
 
-double twice_area_under(const Piece& piece, Vec2 origin) {
-  double area = cross(piece.start - origin, piece.end - origin);
-  if (piece.circular)
-    area += piece.radius * piece.radius * (piece.sweep - sin_cos(piece.sweep).sin);
-  return area;
-}
-
 Piece reversed_arc(Piece arc) {
   const Vec2 from = arc.end - arc.center;
   std::swap(arc.start, arc.end);
@@ -84,7 +78,7 @@ public:
       finish_periodic_area();
     if (boundary_.loops.empty() && !boundary_.covers_torus)
       throw GeometryError(fmt::format("the region '{}' is empty: no part of the plane lies in it", region_.text()));
-    check_area();
+    check_area(boundary_, region_.text(), frame_);
     std::vector<std::int32_t> markers = name_markers(boundary_, given_, frame_);
     return {std::move(boundary_), std::move(markers)};
   }
@@ -126,7 +120,6 @@ private:
   Piece finished(const Kept& kept, Vec2 offset) const;
   void add_loop(std::vector<LocalIndex>& cycle);
   void finish_periodic_area();
-  void check_area() const;
 
   const Region& region_;
   const Frame& frame_;
@@ -343,17 +336,15 @@ void BoundaryMaker::add_loop(std::vector<LocalIndex>& cycle) {
   std::rotate(cycle.begin(), smallest, cycle.end());
   Loop loop;
   loop.pieces.reserve(cycle.size());
-  double twice_area = 0;
   const Vec2 start = canonical_start(cycle.front());
   Vec2 at = start;
   for (const LocalIndex k : cycle) {
     loop.pieces.push_back(finished(kept_[k], at - place_of(kept_[k].from)));
     at = loop.pieces.back().end;
-    twice_area += twice_area_under(loop.pieces.back(), start);
   }
   loop.winding = at - start;
-  // Slivers of a few lattice steps, where sides of parts were meant to be equal, are no features.
-  if (!loop.winds() && std::fabs(twice_area) <= VertexTable::merge_steps * frame_.step() * loop.length())
+  double twice_area = twice_area_under(loop.pieces, start);
+  if (is_sliver(loop, twice_area, frame_))
     return;
   // What a winding loop lacks to a closed one; the sum over all loops does not depend on the origin.
   if (loop.winds())
@@ -363,13 +354,11 @@ void BoundaryMaker::add_loop(std::vector<LocalIndex>& cycle) {
   boundary_.loops.push_back(std::move(loop));
 }
 
-/// The areas under unrolled loops add up to the area of the region but for multiples of the area of the torus.
 void BoundaryMaker::finish_periodic_area() {
   const double torus = frame_.periods().x * frame_.periods().y;
-  const std::vector<Loop>& loops = boundary_.loops;
   if (torus == 0)
     return;
-  if (loops.empty()) { // all of the torus, or nothing
+  if (boundary_.loops.empty()) { // all of the torus, or nothing
     const Vec2 p = frame_.lattice().snap(0.5 * (frame_.inner().min + frame_.inner().max));
     std::vector<int> around;
     for (std::size_t place = 0; place < placed_.size(); ++place)
@@ -380,23 +369,7 @@ void BoundaryMaker::finish_periodic_area() {
     boundary_.area = boundary_.covers_torus ? torus : 0;
     return;
   }
-  const bool winds = std::any_of(loops.begin(), loops.end(), [](const Loop& loop) { return loop.winds(); });
-  boundary_.covers_torus = !winds && boundary_.area < 0;
-  boundary_.area -= torus * std::floor(boundary_.area / torus);
-}
-
-/// Loops that wind may be slivers only together: two that lie on each other enclose nothing but rounding errors.
-void BoundaryMaker::check_area() const {
-  double length = 0;
-  for (const Loop& loop : boundary_.loops)
-    length += loop.length();
-  if (const double least = 0.5 * VertexTable::merge_steps * frame_.step() * length; !(boundary_.area > least)) {
-    const Vec2 p = boundary_.loops.front().pieces.front().start;
-    throw GeometryError(fmt::format("the region '{}' is thinner than the resolution of the container: expected an area "
-                                    "above {:.3g} inside of a boundary of length {:.6g}, found {:.3g}; its boundary "
-                                    "begins at ({:.10g}, {:.10g})",
-                                    region_.text(), least, length, boundary_.area, p.x, p.y));
-  }
+  settle_area_on_torus(boundary_, torus);
 }
 
 } // namespace

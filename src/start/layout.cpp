@@ -82,23 +82,9 @@ void set_sizes(const LayoutContext& context, const FittedSize& fitted, Stage& st
   stage.size = std::make_unique<sizing::ScaledSize>(*within, stage.coarsening);
 }
 
-/// Simplifies the boundary for the size of a stage.
-void generalise_curves(const LayoutContext& context, const FittedStage& laid, CurvesAtSize& curves) {
-  const geometry::Boundary& given = context.fixed.cornered_boundary();
-  const sizing::ScaledSize size = generalised_size(context, *laid.stage.asked_size);
-  const double factor = laid.fitted.factor;
-  if (!(curves.thinned_factor * StartRules::thinned_ahead <= factor &&
-        factor <= curves.thinned_factor * StartRules::thinned_ahead * StartRules::thinned_ahead)) {
-    curves.thinned_factor = factor / StartRules::thinned_ahead;
-    curves.thinned = generalise::thinned(given, sizing::ScaledSize(size, 1 / StartRules::thinned_ahead),
-                                         context.lattice, context.fixed.inside());
-  }
-  curves.factor = factor;
-  curves.samples = nullptr;
-  curves.found = generalise::generalise(curves.thinned ? *curves.thinned : given, size, context.lattice,
-                                        generalise_choice(context), context.fixed.inside());
-  if (!curves.found && curves.thinned)
-    curves.found = std::make_shared<generalise::Generalised>(generalise::Generalised{*curves.thinned, {}});
+/// The size for which the curves were simplified, over the fitted one; at least 1.
+double coarseness(const FittedSize& fitted) {
+  return std::fmax(1, fitted.curves.factor / fitted.factor);
 }
 
 /// The curves on which the sites of a stage lie: those of the shape, without what is narrower than its last size, or
@@ -109,13 +95,12 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
   if (!generalises(context))
     return given;
   const double factor = laid.fitted.factor;
-  if (!curves.held && !(std::fabs(curves.factor - factor) <= StartRules::same_curves * factor))
-    generalise_curves(context, laid, curves);
+  simplify_curves(context, *laid.stage.asked_size, factor, curves);
   if (!curves.found)
     return given;
   laid.stage.curves = {curves.found, &curves.found->boundary};
   laid.stage.simplified = curves.found->counts;
-  laid.stage.simplified.coarseness = std::fmax(1, curves.factor / factor);
+  laid.stage.simplified.coarseness = coarseness(laid.fitted);
   if (curves.thinned)
     laid.stage.simplified.thinned += polygon::piece_count(given) - polygon::piece_count(*curves.thinned);
   return curves.found->boundary;
@@ -170,19 +155,6 @@ FittedStage lay_bare(const LayoutContext& context, const FittedSize& fitted, dou
 constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
 
 } // namespace
-
-generalise::Choice generalise_choice(const LayoutContext& context) {
-  const bool closes = context.options.features.narrow == boundary::NarrowOutside::close;
-  return {closes ? generalise::Narrow::close : generalise::Narrow::keep, context.cuts_thin_components};
-}
-
-bool generalises(const LayoutContext& context) {
-  return !context.options.features.keep_all && context.options.features.within > 0;
-}
-
-sizing::ScaledSize generalised_size(const LayoutContext& context, const sizing::SizeField& asked) {
-  return {asked, context.options.features.within / boundary::FeatureOptions{}.within};
-}
 
 double estimated_size(double area, double perimeter, double n) {
   const double a = 2 * area / std::sqrt(3.0), b = perimeter / 2;
@@ -273,6 +245,8 @@ void rescale(const LayoutContext& context, FittedStage& laid, double scale) {
   for (sizing::SizeLimit& limit : laid.fitted.limits)
     limit.size *= scale;
   set_sizes(context, laid.fitted, laid.stage);
+  if (laid.stage.curves)
+    laid.stage.simplified.coarseness = coarseness(laid.fitted);
 }
 
 void place_sites(const LayoutContext& context, Stage& stage, mesh::SiteList inner) {

@@ -4,9 +4,9 @@
 
 #include "boundary/boundary_sizes.hpp"
 #include "boundary/fixed_points.hpp"
-#include "generalise/generalise.hpp"
 #include "sites/stage.hpp"
 #include "sizing/lowered_size.hpp"
+#include "start/simplified_curves.hpp"
 #include "start/start_options.hpp"
 #include "trime/core/log.hpp"
 #include "trime/core/timer.hpp"
@@ -33,17 +33,6 @@ struct LayoutContext {
   bool is_level = false;              ///< the relative size is the same everywhere, though its class does not say so
 };
 
-/// The boundary at the resolution of a size, and what belongs to it.
-struct CurvesAtSize {
-  double factor = 0;                                    ///< of the relative size
-  std::shared_ptr<const generalise::Generalised> found; ///< null: nothing was narrower
-  std::shared_ptr<const boundary::SizeSamples> samples; ///< of the relative size on it; made when they are needed
-  double thinned_factor = 0;                            ///< at which the next one was made
-  std::shared_ptr<const geometry::Boundary> thinned{};  ///< the boundary without what is far below smaller sizes, null
-                                                        ///< if that is nothing: each trial begins with it
-  bool held = false;                                    ///< at other factors, too
-};
-
 /// What the size field of the last stage follows from.
 struct FittedSize {
   double factor = 1;                     ///< of the relative size; for a uniform field h itself
@@ -58,15 +47,6 @@ struct FittedStage {
   FittedSize fitted;
   sites::Stage stage;
 };
-
-/// How much the boundary is simplified.
-generalise::Choice generalise_choice(const LayoutContext& context);
-
-/// Is it at all?
-bool generalises(const LayoutContext& context);
-
-/// The h by whose shares that is done: the one asked for, unless the user wants another distance than the usual.
-sizing::ScaledSize generalised_size(const LayoutContext& context, const sizing::SizeField& asked);
 
 /// Edge length of n nearly equilateral triangles' vertices on area A inside perimeter P: from V = (T + B)/2 + 1 with
 /// T = A / (sqrt(3)/4 h^2) and B = P/h.

@@ -14,6 +14,12 @@ struct StartRules {
   static constexpr double thinned_ahead = 3;
   /// [1] While the factor of the size changes by a smaller share, the curves are not generalised anew. Not measured.
   static constexpr double same_curves = 0.04;
+  /// [1] Simplified curves stay by so much nearer to the shape than the certificate wants: factors of sizes are
+  /// rounded. Not measured.
+  static constexpr double distance_slack = 1e-9;
+  /// [rounds] So often curves that came too far from the shape are made again with smaller sizes at these places; then
+  /// nothing is simplified. Sizes like abs(sin(50 x)) + 1e-7 take 1 or 2. Not measured.
+  static constexpr int nearer_rounds = 8;
   /// [h] If the boundary asks for smaller triangles somewhere than this, a uniform size is lowered there. Not measured.
   static constexpr double lowering_pays = 0.6;
   /// [area of the shape] The grid covers so much of the container with cells as small as the triangles. In an emptier

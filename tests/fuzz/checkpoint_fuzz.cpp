@@ -6,24 +6,11 @@
 
 #include <numeric>
 
-namespace {
-
-trime::fuzz::DamagedFile& good_file() {
-  static trime::fuzz::DamagedFile file(true);
-  return file;
-}
-
-} // namespace
-
-/// Before the clock of the first input begins: MPI takes long to start on a busy machine.
-extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  good_file();
-  return 0;
-}
+const bool trime::fuzz::damages_checkpoints = true;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trime;
-  fuzz::DamagedFile& file = good_file();
+  fuzz::DamagedFile& file = fuzz::good_file();
   const std::string& path = file.damage(data, size);
   fuzz::survives([&] {
     const checkpoint::Found found = checkpoint::read_checkpoint(path, file.comm());

@@ -216,4 +216,14 @@ const std::string& DamagedFile::damage(const std::uint8_t* data, std::size_t siz
   return path_;
 }
 
+DamagedFile& good_file() {
+  static DamagedFile file(damages_checkpoints);
+  return file;
+}
+
 } // namespace trime::fuzz
+
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  trime::fuzz::good_file();
+  return 0;
+}

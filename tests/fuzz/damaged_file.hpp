@@ -39,4 +39,11 @@ private:
   std::vector<std::string> datasets_, groups_;
 };
 
+/// What a target damages: it says so itself.
+extern const bool damages_checkpoints;
+
+/// @brief The one of this process. A target with it has LLVMFuzzerInitialize from here: the run is made before the
+/// clock of the first input begins, since MPI takes long to start on a busy machine.
+DamagedFile& good_file();
+
 } // namespace trime::fuzz

@@ -5,24 +5,11 @@
 #include "damaged_file.hpp"
 #include "fuzz.hpp"
 
-namespace {
-
-trime::fuzz::DamagedFile& good_file() {
-  static trime::fuzz::DamagedFile file(false);
-  return file;
-}
-
-} // namespace
-
-/// Before the clock of the first input begins: MPI takes long to start on a busy machine.
-extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  good_file();
-  return 0;
-}
+const bool trime::fuzz::damages_checkpoints = false;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trime;
-  fuzz::DamagedFile& file = good_file();
+  fuzz::DamagedFile& file = fuzz::good_file();
   const std::string& path = file.damage(data, size);
   const auto formats = formats::all_formats();
   const std::size_t choice = size == 0 ? 0 : data[0] % (formats.size() + 1);

@@ -348,6 +348,34 @@ class Check(unittest.TestCase):
         code, text = check(self.work / "crossing.h5")
         self.assertIn("corners", self.wrong(text))
 
+    def test_places_where_parts_meet(self):
+        """Crossings below corner_angle, sides that go on in another part, and what is too small to be seen."""
+        def rectangle(x_min, x_max, y_min, y_max):
+            return f"type = rectangle\nx_min = {x_min}\nx_max = {x_max}\ny_min = {y_min}\ny_max = {y_max}\n"
+
+        def circle(x, radius):
+            return f"type = circle\ncenter = {x} 0.5\nradius = {radius}\n"
+
+        shapes = {  # two parts, corners, corners left out
+            "slanted": ((rectangle(0.1, 0.6, 0.3, 0.6), "type = triangle\np0 = 0.4 0.58\np1 = 0.4 0.2\np2 = 0.9 0.66\n"), 9, 0),
+            "circles": ((circle(0.4, 0.3), circle(0.43, 0.28)), 2, 0),
+            "one_side": ((rectangle(0.1, 0.49, 0.1, 0.6), rectangle(0.45, 0.9, 0.1, 0.6)), 6, 0),
+            "bump": ((rectangle(0.1, 0.9, 0.1, 0.6), "type = triangle\np0 = 0.48 0.599\np1 = 0.52 0.599\np2 = 0.5 0.6005\n"), 4, 2),
+        }
+        for name, (parts, corners, left_out) in shapes.items():
+            with self.subTest(shape=name):
+                config = self.work / f"{name}.ini"
+                config.write_text("[shape]\nregion = union(a, b)\n" +
+                                  "".join(f"[shape.{part}]\n{text}" for part, text in zip("ab", parts)) +
+                                  "[meshing]\npoints = 500\nsimplify_within = 0\n", "ascii")
+                done = run(config, f"output.directory={self.work}")
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                code, text = check(self.work / f"{name}.h5")
+                self.assertEqual(code, 0, text)
+                with h5py.File(self.work / f"{name}.h5") as file:
+                    self.assertEqual(np.count_nonzero(file["VTKHDF/PointData/fixed"][:]), corners)
+                    self.assertEqual(file["trime_mpi"].attrs["corners_left_out"], left_out)
+
     def test_corners_of_the_config(self):
         path = self.work / "cornerless.h5"
         shutil.copy(self.mesh("square"), path)

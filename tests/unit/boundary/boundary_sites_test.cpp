@@ -276,6 +276,62 @@ std::vector<Vec2> rough_coast(int depth, std::uint64_t seed) {
   return points;
 }
 
+/// Falls to nearly nothing on a line.
+class ValleySize final : public sizing::SizeField {
+public:
+  explicit ValleySize(double slope) : slope_(slope) {}
+  double size(Vec2 p) const override { return slope_ * std::fabs(p.x - 0.8796) + 1e-6; }
+
+private:
+  double slope_;
+};
+
+TEST(BoundarySites, ATinyTipOfWhichACornerIsLeftOutIsNoTwoSites) {
+  const Boundary tip = boundary_of({polygon_loop({{0.9, 0.45}, {0.857227, 0.449389}, {0.857227, 0.44694}})});
+  for (double slope = 0.5; slope < 64; slope *= 1.25) {
+    SCOPED_TRACE(slope);
+    const BoundarySites result =
+        make_boundary_sites(tip, ValleySize(slope), unit_lattice(), 30, {}, {0.1, 0});
+    expect_linked_loops(tip, result);
+  }
+}
+
+/// A square of two parts, whose boundary turns by so much where they meet.
+Boundary square_of_two_parts(double degrees) {
+  geometry::Loop loop = polygon_loop({{0.1, 0.1},
+                                      {0.5, 0.1 + 0.4 * std::tan(degrees * (3.14159265358979 / 180))},
+                                      {0.9, 0.1},
+                                      {0.9, 0.9},
+                                      {0.1, 0.9}});
+  loop.pieces[1].part = 1;
+  loop.pieces[2].part = 1;
+  return boundary_of({loop});
+}
+
+TEST(BoundarySites, PlacesWherePartsMeetAreCornersHoweverLittleTheyTurn) {
+  for (const double degrees : {0.0, 3.0}) {
+    const Boundary boundary = square_of_two_parts(degrees);
+    const BoundarySites result = make_boundary_sites(boundary, UniformSize(0.093), unit_lattice(), 30);
+    for (const std::size_t meeting : {1, 3})
+      EXPECT_TRUE(std::ranges::any_of(result.sites,
+                                      [&](const BoundarySite& site) {
+                                        return site.corner && site.position == boundary.loops[0].pieces[meeting].start;
+                                      }))
+          << degrees << " degrees, piece " << meeting;
+    EXPECT_EQ(result.corners, 5);
+    EXPECT_EQ(result.left_out, 0);
+  }
+}
+
+TEST(BoundarySites, PlacesBelowTheResolutionWherePartsMeetMayBeLeftOutAndAreCounted) {
+  geometry::Loop loop = polygon_loop({{0.1, 0.1}, {0.5, 0.1}, {0.5002, 0.1}, {0.9, 0.1}, {0.9, 0.9}, {0.1, 0.9}});
+  loop.pieces[1].part = 1;
+  const Boundary boundary = boundary_of({loop});
+  const BoundarySites result = make_boundary_sites(boundary, UniformSize(0.093), unit_lattice(), 30, {}, {0.1, 3});
+  EXPECT_EQ(result.corners, 4);
+  EXPECT_EQ(result.left_out, 2);
+}
+
 TEST(BoundarySites, RoughCoasts) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed)
     for (const double h : {0.2, 0.03, 0.004}) {

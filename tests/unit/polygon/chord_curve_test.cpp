@@ -144,10 +144,11 @@ TEST(ChordCurve, LargestDistanceIsThatOfADenseSample) {
 
 TEST(ChordCurve, AChordHasThePartInTheMiddleOfItsCurve) {
   Loop loop = polygon_loop({{0.1, 0.1}, {0.2, 0.09}, {0.8, 0.09}, {0.9, 0.1}, {0.9, 0.9}, {0.1, 0.9}});
+  BoundarySites coarse = sites_of(boundary_of({loop}), 100); // as if corners between parts were left out
   for (std::size_t k = 0; k < loop.pieces.size(); ++k)
     loop.pieces[k].part = static_cast<int>(k);
   const Boundary boundary = boundary_of({loop});
-  const BoundarySites coarse = sites_of(boundary, 100);
+  polygon::name_parts(boundary, coarse);
   ASSERT_EQ(coarse.sites.size(), 4u);
   for (const BoundarySite& site : coarse.sites) // pieces 0, 1, 2 make one chord, of which 1 is the middle
     EXPECT_EQ(site.part, site.position == loop.pieces[0].start ? 1 : site.piece);

@@ -119,6 +119,23 @@ TEST(GeoJson, AnAttributeNamesTheRingsOfAFeature) {
   EXPECT_TRUE(parse_geojson(feature(R"("tag": 3)", "Polygon", square), "a").rings[0].markers.empty());
 }
 
+TEST(GeoJson, ALakeThatIsAHoleAndAFeatureHasTheNameThatStandsFirst) {
+  const std::string lake = "[[1, 1], [2, 1], [2, 2], [1, 2], [1, 1]]",
+                    land = "[[[0, 0], [9, 0], [9, 9], [0, 9]], " + lake + "]";
+  const Frame frame(geometry::Box{{0, 0}, {9, 9}});
+  for (const std::string second : {"lake", "land"}) {
+    const Contour contour =
+        parse_geojson(collection(feature(R"("name": "land")", "Polygon", land) + ",\n" +
+                                 feature("\"name\": \"" + second + '"', "Polygon", "[" + lake + "]")),
+                      "a", "name");
+    const Part part = Part::contour("map", contour, fit_to_container(contour, frame.container()), frame);
+    EXPECT_EQ(part.boundary().size(), 2u);
+    ASSERT_EQ(part.warnings().size(), 1u);
+    EXPECT_NE(part.warnings()[0].find("used once"), std::string::npos) << part.warnings()[0];
+    EXPECT_EQ(part.warnings()[0].find("names or markers that stand there") != std::string::npos, second == "lake");
+  }
+}
+
 /// Only values right inside of `properties` of a feature are attributes, and what stands in there is no geometry.
 TEST(GeoJson, WhatLooksLikeAnAttributeOrAFeatureIsNone) {
   const std::string square = "[[[0, 0], [9, 0], [9, 9], [0, 9]]]", lake = "[[[1, 1], [2, 1], [1, 2]]]";

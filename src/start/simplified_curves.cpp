@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "start/simplified_curves.hpp"
+
+#include "boundary/rules.hpp"
+#include "core/thread_loop.hpp"
+#include "sizing/curve_distance.hpp"
+#include "sizing/lowered_size.hpp"
+#include "start/layout.hpp"
+#include "start/rules.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace trime::start {
+namespace {
+
+using boundary::BoundaryRules;
+using geometry::Boundary;
+using sizing::CurveDistance;
+using sizing::SizeLimit;
+
+/// Where curves lie too far from those of the shape.
+std::vector<CurveDistance> places_too_far(const Boundary& curves, const geometry::PieceTree& given,
+                                          const sizing::SizeField& asked, double within) {
+  std::vector<CurveDistance> found;
+  for (const geometry::Loop& loop : curves.loops) {
+    std::vector<std::array<CurveDistance, 2>> distances(loop.pieces.size());
+    thread_loop(std::ssize(loop.pieces), 256, [&](std::ptrdiff_t k, int) {
+      const auto piece = static_cast<std::size_t>(k);
+      distances[piece] = sizing::curve_distances(loop.pieces[piece], given, asked, curves.periods);
+    });
+    for (const auto& of_piece : distances)
+      for (const CurveDistance& one : of_piece)
+        if (one.in_sizes() > within)
+          found.push_back(one);
+  }
+  return found;
+}
+
+} // namespace
+
+generalise::Choice generalise_choice(const LayoutContext& context) {
+  const bool closes = context.options.features.narrow == boundary::NarrowOutside::close;
+  return {closes ? generalise::Narrow::close : generalise::Narrow::keep, context.cuts_thin_components};
+}
+
+bool generalises(const LayoutContext& context) {
+  return !context.options.features.keep_all && context.options.features.within > 0;
+}
+
+sizing::ScaledSize generalised_size(const LayoutContext& context, const sizing::SizeField& asked) {
+  return {asked, context.options.features.within / boundary::FeatureOptions{}.within};
+}
+
+void simplify_curves(const LayoutContext& context, const sizing::SizeField& asked, double factor,
+                     CurvesAtSize& curves) {
+  if (curves.held || std::fabs(curves.factor - factor) <= StartRules::same_curves * factor)
+    return;
+  const Boundary& given = context.fixed.cornered_boundary();
+  const sizing::ScaledSize size = generalised_size(context, asked);
+  const auto generalised = [&](const Boundary& from, const sizing::SizeField& h) {
+    return generalise::generalise(from, h, context.lattice, generalise_choice(context), context.fixed.inside());
+  };
+  if (!(curves.thinned_factor * StartRules::thinned_ahead <= factor &&
+        factor <= curves.thinned_factor * StartRules::thinned_ahead * StartRules::thinned_ahead)) {
+    curves.thinned_factor = factor / StartRules::thinned_ahead;
+    curves.thinned = generalise::thinned(given, sizing::ScaledSize(size, 1 / StartRules::thinned_ahead),
+                                         context.lattice, context.fixed.inside());
+  }
+  curves.factor = factor;
+  curves.samples = nullptr;
+  curves.found = generalised(curves.thinned ? *curves.thinned : given, size);
+  if (!curves.found && curves.thinned)
+    curves.found = std::make_shared<generalise::Generalised>(generalise::Generalised{*curves.thinned, {}});
+  if (curves.found && !curves.given)
+    curves.given = std::make_shared<geometry::PieceTree>(given);
+  const double within = (1 - StartRules::distance_slack) * context.options.features.within;
+  std::vector<SizeLimit> limits;
+  for (int round = 0; curves.found; ++round) {
+    const std::vector<CurveDistance> far = places_too_far(curves.found->boundary, *curves.given, asked, within);
+    if (far.empty())
+      break;
+    curves.thinned = nullptr;
+    for (const CurveDistance& one : far)
+      if (sizing::is_valid_size(one.size))
+        limits.push_back({one.place, one.size * std::fmin(1, within / one.in_sizes())});
+    curves.found = round < StartRules::nearer_rounds && !limits.empty()
+                       ? generalised(given, sizing::LoweredSize(size, limits, BoundaryRules::gradation, given.periods))
+                       : nullptr;
+  }
+}
+
+} // namespace trime::start

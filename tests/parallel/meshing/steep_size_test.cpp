@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sizes that fall to nearly nothing on a line: the boundary is simplified on both sides of it, but not across it.
+#include "support/plain_shapes.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::meshing {
+namespace {
+
+using geometry::Vec2;
+using shape::Part;
+using testing::mesh_silently;
+using testing::unit_frame;
+
+/// A bar with a long spit, narrower than most of the sizes.
+shape::RegionShape bar_with_spit() {
+  return shape::RegionShape({Part::rectangle("bar", {{0.1, 0.1}, {0.3, 0.9}}, unit_frame()),
+                             Part::triangle("spit", {Vec2{0.2, 0.4}, {0.2, 0.44}, {0.9, 0.45}}, unit_frame())},
+                            "union(bar, spit)", unit_frame());
+}
+
+/// Valleys with walls steeper than triangles can follow, on parallel lines.
+class Valleys final : public sizing::SizeField {
+public:
+  explicit Valleys(Vec2 across) : across_(across) {}
+  double size(Vec2 p) const override { return std::fabs(std::sin(geometry::dot(across_, p))) + 1e-3; }
+
+private:
+  Vec2 across_;
+};
+
+mesh::Check generalisation_of(const MeshResult& result) {
+  const auto found = std::ranges::find(result.checks, "generalisation", &mesh::Check::name);
+  return found == result.checks.end() ? mesh::Check{} : *found;
+}
+
+TEST(SteepSize, TheBoundaryStaysAsNearAsTheSizeInAValleyAsks) {
+  for (const Vec2 across : {Vec2{50, 0}, Vec2{25, 10}})
+    for (const GlobalId points : {200, 400}) {
+      SCOPED_TRACE(::testing::Message() << across.x << ", " << points << " points");
+      MeshOptions options;
+      options.points = points;
+      options.max_sweeps = 20;
+      const MeshResult result =
+          mesh_silently(comm::Communicator::world(), bar_with_spit().boundary(), Valleys(across), options);
+      const mesh::Check check = generalisation_of(result);
+      EXPECT_TRUE(check.passed) << check.found << " of " << check.expected;
+      testing::expect_certified(result);
+    }
+}
+
+} // namespace
+} // namespace trime::meshing
