@@ -119,7 +119,8 @@ std::optional<double> CountEstimate::points(double factor) {
   share_by_density(reference_, size, context_.lattice, coarsening_);
   const mesh::TileRange tiles = own_share(reference_);
   return placed + integrate_density(context_.comm, tiles,
-                                    DensitySampler(tiles.grid, *reference_.guard, size, context_.lattice, coarsening_))
+                                    DensitySampler(tiles.grid, *reference_.guard, size, context_.lattice, coarsening_,
+                                                   FitRules::far_too_many * points_))
                       .sites;
 }
 

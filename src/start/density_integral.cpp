@@ -39,11 +39,12 @@ DensityTotals integrate_density(const comm::Communicator& comm, const mesh::Tile
   return totals;
 }
 
-DensityTotals wanted_inside(const LayoutContext& context, const Stage& stage, double coarsening) {
+DensityTotals wanted_inside(const LayoutContext& context, const Stage& stage, double coarsening, double most_in_part) {
   const auto time = context.timers.scope("start");
   const mesh::TileRange tiles = own_share(stage);
-  return integrate_density(context.comm, tiles,
-                           DensitySampler(tiles.grid, *stage.guard, *stage.size, context.lattice, coarsening));
+  return integrate_density(
+      context.comm, tiles,
+      DensitySampler(tiles.grid, *stage.guard, *stage.size, context.lattice, coarsening, most_in_part));
 }
 
 } // namespace trime::start

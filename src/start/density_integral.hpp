@@ -18,7 +18,9 @@ struct DensityTotals {
 DensityTotals integrate_density(const comm::Communicator& comm, const mesh::TileRange& tiles,
                                 const DensitySampler& sampler);
 
-/// Inner sites that the size of a stage asks for. Collective. @throws GeometryError as integrate_density
-DensityTotals wanted_inside(const LayoutContext& context, const sites::Stage& stage, double coarsening = 1);
+/// Inner sites that the size of a stage asks for. @param most_in_part see DensitySampler: with more they are not
+/// counted to the end. Collective. @throws GeometryError as integrate_density
+DensityTotals wanted_inside(const LayoutContext& context, const sites::Stage& stage, double coarsening,
+                            double most_in_part);
 
 } // namespace trime::start

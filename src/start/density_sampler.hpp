@@ -29,11 +29,12 @@ class DensitySampler {
 public:
   static constexpr double weight_unit = 0x1p20; ///< integer weight of one site
 
+  /// @param most_in_part of sites: nothing more of a part that has got them is looked into
   DensitySampler(const mesh::TileGrid& grid, const polygon::BoundaryGuard& guard, const sizing::SizeField& size,
-                 const geometry::Lattice& lattice, double coarsening = 1)
+                 const geometry::Lattice& lattice, double coarsening = 1, double most_in_part = INFINITY)
       : grid_(grid), guard_(guard), size_(size), lattice_(lattice),
         most_inside_(StartRules::sites_in_cell * coarsening * coarsening),
-        most_near_(StartRules::sites_in_cell_near * coarsening * coarsening) {}
+        most_near_(StartRules::sites_in_cell_near * coarsening * coarsening), most_in_part_(most_in_part) {}
 
   /// A leaf with a weight.
   struct Cell {
@@ -80,6 +81,7 @@ private:
   };
   struct Work {
     std::int64_t cells = 0;
+    double sites = 0;               ///< that the leaves so far want
     std::vector<LocalIndex> chords; ///< a stack: those of a part lie on those of the larger ones around it
   };
 
@@ -135,6 +137,8 @@ private:
 
   template <class Visit>
   void divide(Part part, const Visit& visit, Work& work) const {
+    if (work.sites > most_in_part_)
+      return;
     const geometry::Box& box = part.box;
     const std::size_t chords_before = work.chords.size();
     const geometry::Vec2 p = lattice_.snap(0.5 * (box.min + box.max));
@@ -167,6 +171,7 @@ private:
     work.chords.resize(chords_before);
     if (!clear && (to_boundary < free || !inside))
       return;
+    work.sites += sites;
     if (grid_.container().contains(p))
       visit(Cell{box, part.square.key, part.square.level, h, std::llround(weight_unit * sites)});
   }
@@ -182,6 +187,7 @@ private:
   const sizing::SizeField& size_;
   const geometry::Lattice& lattice_;
   double most_inside_, most_near_; // sites in a leaf
+  double most_in_part_;            // sites
 };
 
 /// Calls body(item) for all items, over threads. What a size field throws becomes an error of all ranks. Collective.

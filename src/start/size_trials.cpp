@@ -52,7 +52,8 @@ SizeTrial SizeTrials::count(FittedStage laid, double coarsening) const {
   Stage& stage = trial.fit.laid.stage;
   complete(context_, stage, coarsening);
   if (!stage.polygon.overfull) {
-    trial.totals = wanted_inside(context_, stage, coarsening);
+    trial.totals = wanted_inside(context_, stage, coarsening,
+                                 context_.options.points ? FitRules::far_too_many * points_ : INFINITY);
     trial.fit.inner = std::floor(trial.totals.sites);
   }
   trial.points = trial.fit.inner + static_cast<double>(stage.placed_first());
