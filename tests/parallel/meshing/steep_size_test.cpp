@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 
 namespace trime::meshing {
 namespace {
@@ -23,14 +25,20 @@ shape::RegionShape bar_with_spit() {
                             "union(bar, spit)", unit_frame());
 }
 
-/// Valleys with walls steeper than triangles can follow, on parallel lines.
+/// Valleys with walls steeper than triangles can follow, on parallel lines. Counts how often it is asked.
 class Valleys final : public sizing::SizeField {
 public:
-  explicit Valleys(Vec2 across) : across_(across) {}
-  double size(Vec2 p) const override { return std::fabs(std::sin(geometry::dot(across_, p))) + 1e-3; }
+  explicit Valleys(Vec2 across, double least = 1e-3) : across_(across), least_(least) {}
+  double size(Vec2 p) const override {
+    asked_.fetch_add(1, std::memory_order_relaxed);
+    return std::fabs(std::sin(geometry::dot(across_, p))) + least_;
+  }
+  std::int64_t asked() const { return asked_; }
 
 private:
   Vec2 across_;
+  double least_;
+  mutable std::atomic<std::int64_t> asked_ = 0;
 };
 
 mesh::Check generalisation_of(const MeshResult& result) {
@@ -51,6 +59,16 @@ TEST(SteepSize, TheBoundaryStaysAsNearAsTheSizeInAValleyAsks) {
       EXPECT_TRUE(check.passed) << check.found << " of " << check.expected;
       testing::expect_certified(result);
     }
+}
+
+TEST(SteepSize, NarrowValleysAreNotLookedIntoToTheirGround) {
+  const Valleys narrow({50, 0}, 1e-7);
+  const shape::RegionShape bar({Part::rectangle("bar", {{0.1, 0.3}, {0.9, 0.7}}, unit_frame())}, "bar", unit_frame());
+  MeshOptions options;
+  options.points = 400;
+  options.max_sweeps = 20;
+  mesh_silently(comm::Communicator::world(), bar.boundary(), narrow, options);
+  EXPECT_LT(narrow.asked(), 20'000'000); // 6e8 where trials with far too many sites are counted to the end
 }
 
 } // namespace
