@@ -199,13 +199,16 @@ SiteTree BoundaryRefiner::tree_of(std::span<const Vec2> points) const {
 
 bool BoundaryRefiner::curve_offends(LocalIndex chord) const {
   const Site& a = sites_[chord];
-  if (const auto way = metrics_[a.loop].on_one_piece(a.t, end_t(a));
-      way && (way->turn == 0 || (way->turn < BoundaryRules::gentle_turn &&
-                                 way->length > BoundaryRules::gentle_in_steps * lattice_.step())))
+  const auto way = metrics_[a.loop].on_one_piece(a.t, end_t(a));
+  if (way && way->turn == 0)
     return a.position == end_of(a);
-  const PartSummary part = summarize(a);
   const bool is_there_and_back = next(a).next == chord && !metrics_[a.loop].loop().winds(); // two sites enclose nothing
-  if (part.leaves_disc || is_there_and_back || a.position == end_of(a))
+  if (is_there_and_back || a.position == end_of(a))
+    return true;
+  if (way && way->turn < BoundaryRules::gentle_turn && way->length > BoundaryRules::gentle_in_steps * lattice_.step())
+    return false;
+  const PartSummary part = summarize(a);
+  if (part.leaves_disc)
     return true;
   const double tolerance = this->tolerance(a);
   const bool strays = tolerance > 0 && part.sharpest_turn > corner_angle_ * (pi / 180) &&

@@ -71,8 +71,8 @@ herr_t keep_name(hid_t, const char* name, const Info*, void* names) {
 }
 
 /// In one pass: HDF5 makes a sorted list of all attributes for each that is opened by its number. HDF5 1.10 closes
-/// attributes of that list which it never opened if one in the middle cannot be decoded; asked for a name that none
-/// has, it decodes all and fails as it should.
+/// attributes of that list which it never opened if one in the middle cannot be decoded. Asked for a name that none has
+/// it decodes all of an object header, where ours are, and fails as it should.
 std::vector<std::string> attribute_names(hid_t object, const std::string& action) {
   checked(H5Aexists(object, "?"), action);
   std::vector<std::string> names;

@@ -120,7 +120,7 @@ std::optional<double> CountEstimate::points(double factor) {
   const mesh::TileRange tiles = own_share(reference_);
   return placed + integrate_density(context_.comm, tiles,
                                     DensitySampler(tiles.grid, *reference_.guard, size, context_.lattice, coarsening_,
-                                                   FitRules::far_too_many * points_))
+                                                   FitRules::hopelessly_many * points_))
                       .sites;
 }
 

@@ -127,7 +127,7 @@ private:
       if (found.accepted)
         return found;
       if (points > points_)
-        found.fewest.consider(trial.fit.laid.stage, points);
+        found.fewest.consider(trial.fit.laid.stage, points, trial.fit.inner <= FitRules::hopelessly_many * points_);
       const double guess = search_.next(factor, points);
       if (bracket.add(factor, points))
         found.best = std::move(trial);

@@ -81,7 +81,7 @@ private:
   };
   struct Work {
     std::int64_t cells = 0;
-    double sites = 0;               ///< that the leaves so far want
+    double sites = 0;               ///< that the leaves in the container want so far
     std::vector<LocalIndex> chords; ///< a stack: those of a part lie on those of the larger ones around it
   };
 
@@ -171,9 +171,10 @@ private:
     work.chords.resize(chords_before);
     if (!clear && (to_boundary < free || !inside))
       return;
+    if (!grid_.container().contains(p))
+      return;
     work.sites += sites;
-    if (grid_.container().contains(p))
-      visit(Cell{box, part.square.key, part.square.level, h, std::llround(weight_unit * sites)});
+    visit(Cell{box, part.square.key, part.square.level, h, std::llround(weight_unit * sites)});
   }
 
   [[noreturn]] static void fail_for_small_size(geometry::Vec2 p, double h) {

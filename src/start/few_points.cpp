@@ -13,11 +13,11 @@ bool is_jump(double points, double wanted) {
   return wanted > FitRules::many_points && points < FitRules::least_of_jump * wanted;
 }
 
-void Fewest::consider(const Stage& stage, double trial_points) {
+void Fewest::consider(const Stage& stage, double trial_points, bool all_counted) {
   if (trial_points >= points)
     return;
   points = trial_points;
-  counted = !stage.polygon.overfull;
+  counted = all_counted && !stage.polygon.overfull;
   double least = INFINITY;
   for (LocalIndex k = 0; k < std::ssize(stage.polygon.sites); ++k) {
     const geometry::Segment chord = stage.polygon.chord(k);
@@ -28,12 +28,12 @@ void Fewest::consider(const Stage& stage, double trial_points) {
   }
 }
 
-void fail_for_few_points(const LayoutContext& context, double fewest) {
+void fail_for_few_points(const LayoutContext& context, double fewest, bool counted) {
   const GlobalId points = context.options.points.value_or(0);
   if (context.options.max_size)
-    throw ConfigError(fmt::format("points = {} are too few for max_size = {}: expected at least {:.0f}; ask for more "
+    throw ConfigError(fmt::format("points = {} are too few for max_size = {}: expected {} {:.0f}; ask for more "
                                   "points or a larger max_size",
-                                  points, *context.options.max_size, fewest));
+                                  points, *context.options.max_size, counted ? "at least" : "far more than", fewest));
   if (const std::size_t inside = context.fixed.inside().size(); inside > 0)
     throw ConfigError(
         fmt::format("points = {} are too few for this shape: the {} fixed points inside and {:.0f} on its "
@@ -48,7 +48,7 @@ void fail_for_few_points(const LayoutContext& context, double fewest) {
 
 void fail_for_few_points(const LayoutContext& context, const Fewest& fewest) {
   if (context.options.max_size || context.fixed.inside().size() > 0)
-    fail_for_few_points(context, fewest.points);
+    fail_for_few_points(context, fewest.points, fewest.counted);
   const geometry::Vec2 place = 0.5 * (fewest.shortest.a + fewest.shortest.b);
   throw ConfigError(fmt::format(
       "points = {} are too few for this shape: its boundary alone needs {}{:.0f} (every corner, and every place where "

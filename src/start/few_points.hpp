@@ -14,11 +14,12 @@ struct Fewest {
   bool counted = true; ///< to the end; else there would be more
   geometry::Segment shortest{};
 
-  void consider(const sites::Stage& stage, double trial_points);
+  /// @param all_counted the points of the trial were counted to the end
+  void consider(const sites::Stage& stage, double trial_points, bool all_counted = true);
 };
 
-/// @throws ConfigError always
-[[noreturn]] void fail_for_few_points(const LayoutContext& context, double fewest);
+/// @param counted to the end; else there would be more @throws ConfigError always
+[[noreturn]] void fail_for_few_points(const LayoutContext& context, double fewest, bool counted = true);
 [[noreturn]] void fail_for_few_points(const LayoutContext& context, const Fewest& fewest);
 
 /// The boundary takes too many points at one size, and at the next larger there are less than half of those asked for:

@@ -17,6 +17,7 @@ namespace {
 
 using boundary::BoundaryRules;
 using geometry::Boundary;
+using geometry::Vec2;
 using sizing::CurveDistance;
 using sizing::SizeLimit;
 
@@ -77,17 +78,21 @@ void simplify_curves(const LayoutContext& context, const sizing::SizeField& aske
     curves.given = std::make_shared<geometry::PieceTree>(given);
   const double within = (1 - StartRules::distance_slack) * context.options.features.within;
   std::vector<SizeLimit> limits;
+  std::unique_ptr<const sizing::LoweredSize> lowered; // of the last round
   for (int round = 0; curves.found; ++round) {
     const std::vector<CurveDistance> far = places_too_far(curves.found->boundary, *curves.given, asked, within);
     if (far.empty())
       break;
     curves.thinned = nullptr;
     for (const CurveDistance& one : far)
-      if (sizing::is_valid_size(one.size))
-        limits.push_back({one.place, one.size * std::fmin(1, within / one.in_sizes())});
-    curves.found = round < StartRules::nearer_rounds && !limits.empty()
-                       ? generalised(given, sizing::LoweredSize(size, limits, BoundaryRules::gradation, given.periods))
-                       : nullptr;
+      if (const Vec2 p = given.periods.wrap(one.place); sizing::is_valid_size(one.size))
+        limits.push_back({p, (lowered ? lowered->size(p) : size.size(p)) * (within / one.in_sizes())});
+    if (round == StartRules::nearer_rounds || limits.empty()) {
+      curves.found = nullptr;
+      break;
+    }
+    lowered = std::make_unique<sizing::LoweredSize>(size, limits, BoundaryRules::gradation, given.periods);
+    curves.found = generalised(given, *lowered);
   }
 }
 

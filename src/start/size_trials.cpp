@@ -53,7 +53,7 @@ SizeTrial SizeTrials::count(FittedStage laid, double coarsening) const {
   complete(context_, stage, coarsening);
   if (!stage.polygon.overfull) {
     trial.totals = wanted_inside(context_, stage, coarsening,
-                                 context_.options.points ? FitRules::far_too_many * points_ : INFINITY);
+                                 context_.options.points ? FitRules::hopelessly_many * points_ : INFINITY);
     trial.fit.inner = std::floor(trial.totals.sites);
   }
   trial.points = trial.fit.inner + static_cast<double>(stage.placed_first());

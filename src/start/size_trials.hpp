@@ -33,7 +33,7 @@ public:
   FittedStage lay(double factor);
   /// Looks for more limits, a few times. True if there are any: for other trials, this one was laid without them.
   bool find_limits(const FittedStage& laid);
-  /// How many points a layout will have. @param coarsening of the integral
+  /// How many points a layout will have, or a number that is far too large if it is. @param coarsening of the integral
   SizeTrial count(FittedStage laid, double coarsening) const;
   /// Lays with all limits that the factor needs, and counts.
   SizeTrial run(double factor);

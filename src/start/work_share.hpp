@@ -14,8 +14,8 @@
 namespace trime::start {
 
 /// @brief Divides the tiles of a stage without sites until all want about equally many, by the size in the middle of
-/// their quarters, and shares them out over the ranks. No result depends on it, only who does what. The tiles are the
-/// same on any ranks. O(tiles) memory. Collective.
+/// their quarters, and shares them out over the ranks. No count depends on it but one that ends early (DensitySampler),
+/// only who does what. The tiles are the same on any ranks. O(tiles) memory. Collective.
 /// @param size that the sites will follow @param grid_coarsening see complete()
 void share_by_density(sites::Stage& stage, const sizing::SizeField& size, const geometry::Lattice& lattice,
                       double grid_coarsening);

@@ -305,8 +305,10 @@ Sweeper::Counts Sweeper::commit() {
   const bool new_sizes = schedule_.advance();
   state_.begin_advance(context_.size, schedule_.drift(), new_sizes);
   under_way_ = true;
-  if (new_sizes && !state_.sizes().is_uniform())
+  if (new_sizes && !state_.sizes().is_uniform()) {
     activity_.wake_all(); // h has changed where nothing moves, too
+    activity_.widen(certifier_.classes().around());
+  }
   sorted_ = false;
   return counts_;
 }

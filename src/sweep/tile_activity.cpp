@@ -19,23 +19,29 @@ double drift_after(const mesh::BinnedPoints& points, std::size_t t, const SweepT
 
 void TileActivity::reset(const TilesAround& around) {
   const mesh::BinnedPoints& points = state_.points();
-  const LocalIndex first_tile = points.first_tile(), tiles = points.last_tile() - first_tile;
-  const double largest_cap = std::min(builder_.cap(), delaunay::StarBuilder::largest_cap(state_.grid().periods()));
+  const LocalIndex tiles = points.last_tile() - points.first_tile();
   wide_.assign(static_cast<std::size_t>(tiles), 0);
-  thread_loop(tiles, 4, [&](std::ptrdiff_t t, int) { // edges are shorter than two caps, sites drift by a part of a tile
-    const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
-    double largest = 0;
-    for (LocalIndex i = begin; i < end; ++i)
-      largest = std::max(largest, state_.sizes()[i]);
-    wide_[static_cast<std::size_t>(t)] =
-        2 * std::min(largest_cap, builder_.cap(largest)) >
-        (1 - 2 * SweepRules::drift_in_tiles) * around.narrowest(static_cast<std::size_t>(t));
-  });
+  widen(around);
   restless_.assign(static_cast<std::size_t>(tiles), 0);
   copied_.assign(static_cast<std::size_t>(tiles), 0);
   awake_.assign(static_cast<std::size_t>(tiles), 1);
   active_.assign(static_cast<std::size_t>(points.known_tiles()), 1);
   all_awake_ = true;
+}
+
+void TileActivity::widen(const TilesAround& around) {
+  const mesh::BinnedPoints& points = state_.points();
+  const LocalIndex first_tile = points.first_tile(), tiles = points.last_tile() - first_tile;
+  const double largest_cap = std::min(builder_.cap(), delaunay::StarBuilder::largest_cap(state_.grid().periods()));
+  thread_loop(tiles, 4, [&](std::ptrdiff_t t, int) { // edges are shorter than two caps, sites drift by a part of a tile
+    const auto [begin, end] = points.tile_range(first_tile + static_cast<LocalIndex>(t));
+    double largest = 0;
+    for (LocalIndex i = begin; i < end; ++i)
+      largest = std::max(largest, state_.sizes()[i]);
+    if (2 * std::min(largest_cap, builder_.cap(largest)) >
+        (1 - 2 * SweepRules::drift_in_tiles) * around.narrowest(static_cast<std::size_t>(t)))
+      wide_[static_cast<std::size_t>(t)] = 1;
+  });
 }
 
 void TileActivity::visit(StateFields& fields) {

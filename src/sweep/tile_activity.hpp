@@ -25,6 +25,8 @@ public:
 
   /// All tiles wake; to be called after sites were sorted.
   void reset(const TilesAround& around);
+  /// h has been evaluated anew at the owned sites: triangles may be wider than before.
+  void widen(const TilesAround& around);
   /// All tiles wake in the next sweep.
   void wake_all() { all_awake_ = true; }
   /// Decides which of the tiles that lie so take part in this sweep: first for the inner ones, then for the others.

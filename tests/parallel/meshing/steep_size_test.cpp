@@ -61,6 +61,22 @@ TEST(SteepSize, TheBoundaryStaysAsNearAsTheSizeInAValleyAsks) {
     }
 }
 
+/// Simplified by less than the usual distance, the boundary is still simplified: it is not left as it was.
+TEST(SteepSize, ASmallerDistanceLeavesLessButSimplifiesAllTheSame) {
+  for (const double within : {0.5, 0.1}) {
+    SCOPED_TRACE(within);
+    MeshOptions options;
+    options.points = 400;
+    options.max_sweeps = 20;
+    options.features.within = within;
+    const MeshResult result =
+        mesh_silently(comm::Communicator::world(), bar_with_spit().boundary(), Valleys({25, 10}), options);
+    const mesh::Check check = generalisation_of(result);
+    EXPECT_TRUE(check.passed) << check.found << " of " << check.expected;
+    testing::expect_certified(result);
+  }
+}
+
 TEST(SteepSize, NarrowValleysAreNotLookedIntoToTheirGround) {
   const Valleys narrow({50, 0}, 1e-7);
   const shape::RegionShape bar({Part::rectangle("bar", {{0.1, 0.3}, {0.9, 0.7}}, unit_frame())}, "bar", unit_frame());
