@@ -290,8 +290,7 @@ TEST(BoundarySites, ATinyTipOfWhichACornerIsLeftOutIsNoTwoSites) {
   const Boundary tip = boundary_of({polygon_loop({{0.9, 0.45}, {0.857227, 0.449389}, {0.857227, 0.44694}})});
   for (double slope = 0.5; slope < 64; slope *= 1.25) {
     SCOPED_TRACE(slope);
-    const BoundarySites result =
-        make_boundary_sites(tip, ValleySize(slope), unit_lattice(), 30, {}, {0.1, 0});
+    const BoundarySites result = make_boundary_sites(tip, ValleySize(slope), unit_lattice(), 30, {}, {0.1, 0});
     expect_linked_loops(tip, result);
   }
 }
