@@ -14,6 +14,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 namespace trime::generalise {
 namespace {
@@ -70,8 +71,8 @@ void put(const NarrowPart& part, bool inside, std::vector<char>& labels) {
 
 /// Plans to take narrow parts out of the shape: the parts less wide than a share of h, or than a part of that if all of
 /// the shape is. Components that are narrow all over stay, unless they are small or all is to be cut.
-Plan plan_cuts(const CurveMap& map, const std::vector<char>& given, const Choice& choice, Corners& corners) {
-  const Regions regions(map, given);
+Plan plan_cuts(const CurveMap& map, const std::vector<char>& given, const Regions& regions, const Choice& choice,
+               Corners& corners) {
   const auto stays = [&](const NarrowPart& part) {
     return !choice.cuts_thin_components && part.lids.empty() &&
            regions.perimeter(regions.of(part.triangles[0])) >= GeneraliseRules::small_component;
@@ -131,8 +132,8 @@ void take_back(const std::vector<char>& which, Plan& plan) {
 }
 
 /// Plans to fill narrow parts of the outside. Those that would be narrow parts of the shape then are moved apart.
-Plan plan_closings(const CurveMap& map, const std::vector<char>& given, const Choice& choice, Corners& corners) {
-  const Regions regions(map, given);
+Plan plan_closings(const CurveMap& map, const std::vector<char>& given, const Regions& regions, const Choice& choice,
+                   Corners& corners) {
   Plan plan;
   for (NarrowPart& part : find_narrow_parts(map, given, false, GeneraliseRules::narrow_outside)) {
     if (part.holds_kept || !matters(map.mesh(), part) || corners.holds(part))
@@ -157,6 +158,8 @@ Plan plan_closings(const CurveMap& map, const std::vector<char>& given, const Ch
 /// The labels after the plan. What cannot be changed without a touch of two loops is moved apart instead. Empty if that
 /// does not end.
 std::vector<char> follow(const CurveMap& map, const std::vector<char>& given, Plan& plan) {
+  if (plan.changed.empty())
+    return given;
   for (;;) {
     std::vector<char> labels = given;
     for (const NarrowPart& part : plan.changed)
@@ -190,37 +193,67 @@ bool have_same_pieces(const Boundary& a, const Boundary& b) {
     std::sort(all.begin(), all.end());
     return all;
   };
-  return ends(a) == ends(b);
+  return polygon::piece_count(a) == polygon::piece_count(b) && ends(a) == ends(b);
 }
 
-/// The map of a boundary, or of the one without its ragged runs if there are any.
+/// A boundary without its ragged runs, and its map.
 struct ThinnedMap {
   std::unique_ptr<const Boundary> thinned; ///< null if nothing was ragged
   std::optional<CurveMap> map;
 };
 
-/// Thins less, then not at all, while that makes curves cross.
-ThinnedMap make_map(const Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
-                    std::span<const Vec2> inside) {
+/// A way to thin curves.
+struct ThinningTrial {
+  double share;
+  Thinning thinning;
+};
+
+/// The curves as the first trial leaves them that does not make them cross; nothing if there is none.
+ThinnedMap thinned_map(const Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
+                       std::span<const Vec2> inside, std::span<const ThinningTrial> trials) {
   ThinnedMap made;
-  double share = GeneraliseRules::thinned_share;
-  for (int round = 0; round <= GeneraliseRules::thinning_rounds; ++round, share *= GeneraliseRules::finer_thinning) {
-    made.thinned = round < GeneraliseRules::thinning_rounds ? without_ragged_runs(boundary, size, share) : nullptr;
-    made.map.emplace(made.thinned ? *made.thinned : boundary, size, lattice, inside);
-    if (made.map->is_valid() || !made.thinned)
+  std::int64_t last = 0; // pieces
+  for (const auto& [share, thinning] : trials) {
+    made.map.reset(); // before the curves that it refers to
+    made.thinned = without_ragged_runs(boundary, size, share, thinning);
+    if (!made.thinned)
       break;
+    const std::int64_t pieces = polygon::piece_count(*made.thinned);
+    if (std::exchange(last, pieces) == pieces)
+      continue; // the same curves
+    made.map.emplace(*made.thinned, size, lattice, inside);
+    if (made.map->is_valid())
+      return made;
   }
+  made.map.reset();
+  made.thinned = nullptr;
   return made;
 }
 
+/// Thins less, then not at all, while that makes curves cross.
+constexpr std::array<ThinningTrial, 4> thinning_trials{{
+    {GeneraliseRules::thinned_share, Thinning::to_the_end},
+    {GeneraliseRules::thinned_share, Thinning::once},
+    {GeneraliseRules::thinned_share * GeneraliseRules::finer_thinning, Thinning::once},
+    {GeneraliseRules::thinned_share * GeneraliseRules::finer_thinning * GeneraliseRules::finer_thinning,
+     Thinning::once},
+}};
+
+/// What a pass over the boundary has made.
+struct Passed {
+  std::unique_ptr<Generalised> result; ///< null if nothing was to be done
+  bool only_thinned;                   ///< narrow parts were none, or they could not be helped
+};
+
 /// Once over the boundary; null if nothing is to be done.
-std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::SizeField& size,
-                                       const geometry::Lattice& lattice, const Choice& choice,
-                                       std::span<const Vec2> inside, Corners& corners) {
-  ThinnedMap made = make_map(boundary, size, lattice, inside);
+Passed pass_over(const Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
+                 const Choice& choice, std::span<const Vec2> inside, Corners& corners) {
+  ThinnedMap made = thinned_map(boundary, size, lattice, inside, thinning_trials);
+  if (!made.thinned)
+    made.map.emplace(boundary, size, lattice, inside);
   CurveMap& map = *made.map;
   if (!map.is_valid())
-    return nullptr;
+    return {};
   add_nodes_to_narrow_parts(map);
   const std::vector<char> given = map.inside();
   auto result = std::make_unique<Generalised>();
@@ -228,27 +261,31 @@ std::unique_ptr<Generalised> pass_over(const Boundary& boundary, const sizing::S
   if (made.thinned)
     counts.thinned = polygon::piece_count(boundary) - polygon::piece_count(*made.thinned);
   std::vector<char> filled = given;
-  counts.filled = fill_small_holes(map, filled);
-  Plan plan = plan_cuts(map, filled, choice, corners);
+  std::optional<Regions> regions(std::in_place, map, given);
+  counts.filled = fill_small_holes(map, *regions, filled);
+  if (counts.filled > 0)
+    regions.emplace(map, filled);
+  Plan plan = plan_cuts(map, filled, *regions, choice, corners);
   if (plan.changed.empty()) { // slits are looked for once nothing narrow is left inside
-    Plan more = plan_closings(map, filled, choice, corners);
+    Plan more = plan_closings(map, filled, *regions, choice, corners);
     plan.changed = std::move(more.changed);
     std::move(more.apart.begin(), more.apart.end(), std::back_inserter(plan.apart));
   }
   const std::vector<char> labels = follow(map, filled, plan);
   if (labels.empty())
-    return nullptr;
+    return {};
   count(map.mesh(), plan, counts);
   VertexMoves moves(map, labels, lattice);
   counts.widened = moves.widen(std::move(plan.apart));
   moves.merge_close_corners();
   counts.largest_move = moves.largest_share();
-  if (labels == given && !moves.any() && !made.thinned)
-    return nullptr;
+  const bool is_as_given = labels == given && !moves.any();
+  if (is_as_given && !made.thinned)
+    return {};
   result->boundary = build_loops(map, labels, moves.any() ? moves.places() : MovedVertices{});
   if (result->boundary.loops.empty() || have_same_pieces(result->boundary, boundary))
-    return nullptr; // nothing is left, or vertices that were added went again
-  return result;
+    return {}; // nothing is left, or vertices that were added went again
+  return {std::move(result), is_as_given};
 }
 
 /// The boundary without ragged runs; null if there are none. Smooths less, then not at all, while curves cross.
@@ -283,15 +320,15 @@ std::unique_ptr<const Boundary> thinned(const Boundary& boundary, const sizing::
                                         const geometry::Lattice& lattice, std::span<const Vec2> inside) {
   if (boundary.periods.any())
     return nullptr;
-  std::unique_ptr<const Boundary> result = without_ragged_runs(boundary, size, GeneraliseRules::thinned_share);
-  if (result && !CurveMap(*result, size, lattice, those_inside(boundary, size, lattice, inside)).is_valid())
-    return nullptr;
-  return result;
+  constexpr std::size_t as_wide = 2; // trials
+  return thinned_map(boundary, size, lattice, those_inside(boundary, size, lattice, inside),
+                     std::span(thinning_trials).first(as_wide))
+      .thinned;
 }
 
-std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const sizing::SizeField& size,
-                                              const geometry::Lattice& lattice, const Choice& choice,
-                                              std::span<const Vec2> inside) {
+std::unique_ptr<Generalised> generalise(const Boundary& boundary, const sizing::SizeField& size,
+                                        const geometry::Lattice& lattice, const Choice& choice,
+                                        std::span<const Vec2> inside) {
   if (boundary.periods.any() || boundary.loops.empty())
     return nullptr;
   const std::vector<Vec2> held = those_inside(boundary, size, lattice, inside);
@@ -307,11 +344,12 @@ std::unique_ptr<const Generalised> generalise(const Boundary& boundary, const si
   Corners corners;
   const auto pass = [&](int most) { // what was moved apart may leave others narrow
     for (int k = 0; k < most; ++k) {
-      const bool changed =
-          follow_with(pass_over(result ? result->boundary : boundary, size, lattice, choice, held, corners));
+      Passed passed = pass_over(result ? result->boundary : boundary, size, lattice, choice, held, corners);
       corners.is_first_pass = false;
-      if (!changed)
+      if (!follow_with(std::move(passed.result)))
         break;
+      if (passed.only_thinned && !without_ragged_runs(result->boundary, size, GeneraliseRules::thinned_share))
+        break; // the next pass would see the same curves
     }
   };
   pass(GeneraliseRules::most_passes);
@@ -325,8 +363,8 @@ bool would_generalise(const Boundary& boundary, const sizing::SizeField& size, c
   if (boundary.periods.any() || boundary.loops.empty())
     return false;
   Corners corners;
-  return pass_over(boundary, size, lattice, choice, those_inside(boundary, size, lattice, inside), corners) ||
-         smooth_ragged_runs(boundary, size, lattice, GeneraliseRules::flow_reach);
+  return smooth_ragged_runs(boundary, size, lattice, GeneraliseRules::flow_reach) ||
+         pass_over(boundary, size, lattice, choice, those_inside(boundary, size, lattice, inside), corners).result;
 }
 
 } // namespace trime::generalise

@@ -47,9 +47,9 @@ std::unique_ptr<const geometry::Boundary> thinned(const geometry::Boundary& boun
 /// @param inside lattice points that must stay inside: a narrow part with one of them is not cut, and no curve moves
 /// over one. Those that are not inside the given boundary are left out.
 /// @throws GeometryError if a size is not positive and finite
-std::unique_ptr<const Generalised> generalise(const geometry::Boundary& boundary, const sizing::SizeField& size,
-                                              const geometry::Lattice& lattice, const Choice& choice,
-                                              std::span<const geometry::Vec2> inside);
+std::unique_ptr<Generalised> generalise(const geometry::Boundary& boundary, const sizing::SizeField& size,
+                                        const geometry::Lattice& lattice, const Choice& choice,
+                                        std::span<const geometry::Vec2> inside);
 
 /// Would generalise() change anything? Costs one pass of its several.
 bool would_generalise(const geometry::Boundary& boundary, const sizing::SizeField& size,

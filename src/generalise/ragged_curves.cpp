@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace trime::generalise {
 namespace {
@@ -31,21 +32,24 @@ public:
 
   /// True if any vertex goes.
   bool thin() {
-    std::vector<std::size_t> order(n_);
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return turn_[a] < turn_[b]; });
+    std::vector<LocalIndex> order(n_);
+    std::iota(order.begin(), order.end(), LocalIndex{0});
+    std::sort(order.begin(), order.end(), [&](LocalIndex a, LocalIndex b) {
+      return turn_[at(a)] != turn_[at(b)] ? turn_[at(a)] < turn_[at(b)] : a < b;
+    });
     next_.resize(n_);
     previous_.resize(n_);
     for (std::size_t k = 0; k < n_; ++k) {
-      next_[k] = (k + 1) % n_;
-      previous_[k] = (k + n_ - 1) % n_;
+      next_[k] = static_cast<LocalIndex>((k + 1) % n_);
+      previous_[k] = static_cast<LocalIndex>((k + n_ - 1) % n_);
     }
     std::size_t left = n_;
-    for (const std::size_t k : order)
-      if (ragged_[k] <= ragged && left > GeneraliseRules::least_vertices && may_go(k)) {
+    for (const LocalIndex vertex : order)
+      if (const std::size_t k = at(vertex);
+          ragged_[k] <= ragged && left > GeneraliseRules::least_vertices && may_go(k)) {
         ragged_[nearer_neighbour(k)] = stays;
-        next_[previous_[k]] = next_[k];
-        previous_[next_[k]] = previous_[k];
+        next_[at(previous_[k])] = next_[k];
+        previous_[at(next_[k])] = previous_[k];
         ragged_[k] = gone;
         --left;
       }
@@ -53,14 +57,13 @@ public:
   }
 
   Loop result() const {
-    Loop thinned = loop_;
-    thinned.pieces.clear();
+    Loop thinned{{}, loop_.outer, loop_.tag, loop_.winding};
     for (std::size_t k = 0; k < n_; ++k) {
       if (ragged_[k] == gone)
         continue;
       thinned.pieces.push_back(loop_.pieces[k]);
-      if (next_[k] != (k + 1) % n_)
-        thinned.pieces.back().end = loop_.pieces[next_[k]].start;
+      if (at(next_[k]) != (k + 1) % n_)
+        thinned.pieces.back().end = loop_.pieces[at(next_[k])].start;
     }
     return thinned;
   }
@@ -69,7 +72,8 @@ private:
   static constexpr char ragged = 1, stays = 2, gone = 3;
   std::size_t nearer_neighbour(std::size_t k) const {
     const Vec2 p = vertex(k);
-    return squared_length(p - vertex(previous_[k])) < squared_length(p - vertex(next_[k])) ? previous_[k] : next_[k];
+    const std::size_t before = at(previous_[k]), behind = at(next_[k]);
+    return squared_length(p - vertex(before)) < squared_length(p - vertex(behind)) ? before : behind;
   }
   Vec2 vertex(std::size_t k) const { return loop_.pieces[k].start; }
 
@@ -119,26 +123,53 @@ private:
   const std::size_t n_;
   std::vector<double> turn_, close_; // by vertex: 1 - cosine of the turn; the way on which raggedness counts
   std::vector<char> ragged_;         // by vertex
-  std::vector<std::size_t> next_, previous_;
+  std::vector<LocalIndex> next_, previous_;
 };
+
+/// The loop with fewer vertices; nothing if none goes.
+std::optional<Loop> thinned_once(const Loop& loop, const sizing::SizeField& size, double share) {
+  if (loop.pieces.size() <= GeneraliseRules::least_vertices)
+    return {};
+  LoopThinner thinner(loop, size, share);
+  if (!thinner.thin())
+    return {};
+  return thinner.result();
+}
+
+/// @brief The same, but of a dense loop all vertices go that may. Each time it loses about half of them, since each
+/// that goes has a neighbour that stays.
+std::optional<Loop> thinned_loop(const Loop& loop, const sizing::SizeField& size, double share, Thinning thinning) {
+  std::optional<Loop> result = thinned_once(loop, size, share);
+  const auto is_dense = [&] {
+    return static_cast<double>(result->pieces.size()) <
+           (1 - GeneraliseRules::dense_loss) * static_cast<double>(loop.pieces.size());
+  };
+  if (thinning == Thinning::once || !result || !is_dense())
+    return result;
+  for (int round = 1; round < GeneraliseRules::dense_rounds; ++round) {
+    std::optional<Loop> next = thinned_once(*result, size, share);
+    if (!next)
+      break;
+    result = std::move(next);
+  }
+  return result;
+}
 
 } // namespace
 
 std::unique_ptr<geometry::Boundary> without_ragged_runs(const geometry::Boundary& boundary,
-                                                        const sizing::SizeField& size, double share) {
-  std::unique_ptr<geometry::Boundary> result;
-  for (std::size_t k = 0; k < boundary.loops.size(); ++k) {
-    if (boundary.loops[k].pieces.size() <= GeneraliseRules::least_vertices)
-      continue;
-    LoopThinner thinner(boundary.loops[k], size, share);
-    if (!thinner.thin())
-      continue;
-    if (!result)
-      result = std::make_unique<geometry::Boundary>(boundary);
-    result->loops[k] = thinner.result();
-  }
-  if (result)
-    result->area = polygon::area_of_loops(*result);
+                                                        const sizing::SizeField& size, double share,
+                                                        Thinning thinning) {
+  std::vector<std::optional<Loop>> thinned;
+  for (const Loop& loop : boundary.loops)
+    thinned.push_back(thinned_loop(loop, size, share, thinning));
+  if (std::none_of(thinned.begin(), thinned.end(), [](const auto& loop) { return loop.has_value(); }))
+    return nullptr;
+  auto result = std::make_unique<geometry::Boundary>(
+      geometry::Boundary{{}, boundary.part_names, 0, boundary.periods, boundary.covers_torus});
+  for (std::size_t k = 0; k < thinned.size(); ++k)
+    result->loops.push_back(thinned[k] ? *std::move(thinned[k]) : boundary.loops[k]);
+  result->area = polygon::area_of_loops(*result);
   return result;
 }
 

@@ -9,12 +9,16 @@
 
 namespace trime::generalise {
 
+/// How often curves are thinned: once, or those with far too many vertices until none goes any more.
+enum class Thinning : char { once, to_the_end };
+
 /// @brief The boundary with straight pieces in place of runs of straight pieces that are ragged: that turn by more
 /// than GeneraliseRules::ragged_turn on a way of `share` h; and of smooth runs whose vertices are far closer to each
 /// other still. Vertices stay where they are or go; what goes lies within
-/// about share h of a vertex that stays. The sharpest turns stay. Curves may come to cross: the caller finds out. Null
-/// if there is nothing ragged. O(pieces log(pieces))
+/// about share h of a vertex that stays, or within a few times that if thinned to the end. The sharpest turns stay.
+/// Curves may come to cross: the caller finds out. Null if there is nothing ragged. O(pieces log(pieces))
 std::unique_ptr<geometry::Boundary> without_ragged_runs(const geometry::Boundary& boundary,
-                                                        const sizing::SizeField& size, double share);
+                                                        const sizing::SizeField& size, double share,
+                                                        Thinning thinning = Thinning::once);
 
 } // namespace trime::generalise

@@ -39,8 +39,7 @@ Regions::Regions(const CurveMap& map, const std::vector<char>& labels) : region_
   }
 }
 
-std::int64_t fill_small_holes(const CurveMap& map, std::vector<char>& labels) {
-  const Regions regions(map, labels);
+std::int64_t fill_small_holes(const CurveMap& map, const Regions& regions, std::vector<char>& labels) {
   const auto is_small_hole = [&](LocalIndex t) {
     const LocalIndex region = regions.of(t);
     return !labels[at(t)] && region != regions.around() && !regions.holds_kept(region) &&

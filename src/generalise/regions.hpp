@@ -31,6 +31,7 @@ private:
 };
 
 /// Makes holes inside whose perimeter is below GeneraliseRules::smallest_hole. Returns how many.
-std::int64_t fill_small_holes(const CurveMap& map, std::vector<char>& labels);
+/// @param regions of these labels
+std::int64_t fill_small_holes(const CurveMap& map, const Regions& regions, std::vector<char>& labels);
 
 } // namespace trime::generalise

@@ -101,8 +101,6 @@ const geometry::Boundary& generalised_curves(const LayoutContext& context, Fitte
   laid.stage.curves = {curves.found, &curves.found->boundary};
   laid.stage.simplified = curves.found->counts;
   laid.stage.simplified.coarseness = coarseness(laid.fitted);
-  if (curves.thinned)
-    laid.stage.simplified.thinned += polygon::piece_count(given) - polygon::piece_count(*curves.thinned);
   return curves.found->boundary;
 }
 
@@ -143,6 +141,7 @@ FittedStage lay_bare(const LayoutContext& context, const FittedSize& fitted, dou
   stage.typical_size = typical_size(context, expected);
   set_sizes(context, fitted, stage);
   const sizing::ScaledSize asked(*stage.asked_size, coarsening);
+  share_simplified_curves(context, *stage.asked_size, fitted.factor, laid.fitted.curves);
   stage.polygon = make_boundary_sites(context.comm, [&] {
     if (stage.asked_size->is_uniform())
       stage.typical_size = coarsening * sizing::checked_size(*stage.asked_size, {});

@@ -2,7 +2,9 @@
 #include "start/simplified_curves.hpp"
 
 #include "boundary/rules.hpp"
+#include "comm/agree.hpp"
 #include "core/thread_loop.hpp"
+#include "generalise/generalised_bytes.hpp"
 #include "sizing/curve_distance.hpp"
 #include "sizing/lowered_size.hpp"
 #include "start/layout.hpp"
@@ -39,6 +41,10 @@ std::vector<CurveDistance> places_too_far(const Boundary& curves, const geometry
   return found;
 }
 
+bool serve(const CurvesAtSize& curves, double factor) {
+  return curves.held || std::fabs(curves.factor - factor) <= StartRules::same_curves * factor;
+}
+
 } // namespace
 
 generalise::Choice generalise_choice(const LayoutContext& context) {
@@ -56,7 +62,7 @@ sizing::ScaledSize generalised_size(const LayoutContext& context, const sizing::
 
 void simplify_curves(const LayoutContext& context, const sizing::SizeField& asked, double factor,
                      CurvesAtSize& curves) {
-  if (curves.held || std::fabs(curves.factor - factor) <= StartRules::same_curves * factor)
+  if (serve(curves, factor))
     return;
   const Boundary& given = context.fixed.cornered_boundary();
   const sizing::ScaledSize size = generalised_size(context, asked);
@@ -66,34 +72,59 @@ void simplify_curves(const LayoutContext& context, const sizing::SizeField& aske
   if (!(curves.thinned_factor * StartRules::thinned_ahead <= factor &&
         factor <= curves.thinned_factor * StartRules::thinned_ahead * StartRules::thinned_ahead)) {
     curves.thinned_factor = factor / StartRules::thinned_ahead;
+    curves.thinned.reset(); // before there is another one
     curves.thinned = generalise::thinned(given, sizing::ScaledSize(size, 1 / StartRules::thinned_ahead),
                                          context.lattice, context.fixed.inside());
   }
   curves.factor = factor;
   curves.samples = nullptr;
-  curves.found = generalised(curves.thinned ? *curves.thinned : given, size);
-  if (!curves.found && curves.thinned)
-    curves.found = std::make_shared<generalise::Generalised>(generalise::Generalised{*curves.thinned, {}});
-  if (curves.found && !curves.given)
+  curves.found.reset();
+  std::unique_ptr<generalise::Generalised> found = generalised(curves.thinned ? *curves.thinned : given, size);
+  if (!found && curves.thinned)
+    found = std::make_unique<generalise::Generalised>(generalise::Generalised{*curves.thinned, {}});
+  if (found && !curves.given)
     curves.given = std::make_shared<geometry::PieceTree>(given);
   const double within = (1 - StartRules::distance_slack) * context.options.features.within;
   std::vector<SizeLimit> limits;
   std::unique_ptr<const sizing::LoweredSize> lowered; // of the last round
-  for (int round = 0; curves.found; ++round) {
-    const std::vector<CurveDistance> far = places_too_far(curves.found->boundary, *curves.given, asked, within);
+  for (int round = 0; found; ++round) {
+    const std::vector<CurveDistance> far = places_too_far(found->boundary, *curves.given, asked, within);
     if (far.empty())
       break;
     curves.thinned = nullptr;
     for (const CurveDistance& one : far)
       if (const Vec2 p = given.periods.wrap(one.place); sizing::is_valid_size(one.size))
         limits.push_back({p, (lowered ? lowered->size(p) : size.size(p)) * (within / one.in_sizes())});
-    if (round == StartRules::nearer_rounds || limits.empty()) {
-      curves.found = nullptr;
-      break;
-    }
+    if (round == StartRules::nearer_rounds || limits.empty())
+      return;
     lowered = std::make_unique<sizing::LoweredSize>(size, limits, BoundaryRules::gradation, given.periods);
-    curves.found = generalised(given, *lowered);
+    found = generalised(given, *lowered);
   }
+  if (found && curves.thinned)
+    found->counts.thinned += polygon::piece_count(given) - polygon::piece_count(*curves.thinned);
+  curves.found = std::move(found);
+}
+
+void share_simplified_curves(const LayoutContext& context, const sizing::SizeField& asked, double factor,
+                             CurvesAtSize& curves) {
+  const Boundary& given = context.fixed.cornered_boundary();
+  if (context.comm.size() == 1 || !generalises(context) || serve(curves, factor) ||
+      polygon::piece_count(given) < StartRules::many_pieces)
+    return;
+  const bool is_root = context.comm.is_root();
+  comm::run_agreed(context.comm, [&] {
+    if (is_root)
+      simplify_curves(context, asked, factor, curves);
+  });
+  const std::string bytes =
+      context.comm.broadcast(is_root && curves.found ? generalise::to_bytes(*curves.found) : std::string());
+  if (is_root)
+    return;
+  curves.factor = factor;
+  curves.samples = nullptr;
+  curves.found.reset();
+  if (!bytes.empty())
+    curves.found = std::make_shared<generalise::Generalised>(generalise::generalised_of_bytes(bytes, given));
 }
 
 } // namespace trime::start

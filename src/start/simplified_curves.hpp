@@ -19,11 +19,13 @@ struct CurvesAtSize {
   double factor = 0;                                    ///< of the relative size
   std::shared_ptr<const generalise::Generalised> found; ///< null: nothing was narrower
   std::shared_ptr<const boundary::SizeSamples> samples; ///< of the relative size on it; made when they are needed
-  double thinned_factor = 0;                            ///< at which the next one was made
-  std::shared_ptr<const geometry::Boundary> thinned{};  ///< the boundary without what is far below smaller sizes, null
-                                                        ///< if that is nothing: each trial begins with it
-  std::shared_ptr<const geometry::PieceTree> given{};   ///< over the boundary of the shape; made when it is needed
   bool held = false;                                    ///< at other factors, too
+
+  // Of the ranks that simplify, see share_simplified_curves.
+  double thinned_factor = 0;                           ///< at which the next one was made
+  std::shared_ptr<const geometry::Boundary> thinned{}; ///< the boundary without what is far below smaller sizes, null
+                                                       ///< if that is nothing: each trial begins with it
+  std::shared_ptr<const geometry::PieceTree> given{};  ///< over the boundary of the shape; made when it is needed
 };
 
 /// How much the boundary is simplified.
@@ -37,10 +39,16 @@ sizing::ScaledSize generalised_size(const LayoutContext& context, const sizing::
 
 /// @brief Simplifies the boundary for a size, unless it was for about the same factor, or is held. Where the result
 /// lies farther from the shape than the certificate allows (sizes may fall steeply on the way that a curve moves), it
-/// is made again with smaller sizes around these places; after some rounds nothing is simplified. Replicated. O(n log
-/// n) for n pieces.
+/// is made again with smaller sizes around these places; after some rounds nothing is simplified. Local: all ranks do
+/// the same. O(n log n) for n pieces.
 /// @param asked the size, `factor` times the relative one
 /// @throws GeometryError if a size is not positive and finite
 void simplify_curves(const LayoutContext& context, const sizing::SizeField& asked, double factor, CurvesAtSize& curves);
+
+/// @brief If the boundary has many pieces, rank 0 simplifies it for all ranks: the others need neither the memory nor
+/// the caches of their node for that. simplify_curves then finds it done. Collective.
+/// @throws GeometryError on all ranks, as simplify_curves does
+void share_simplified_curves(const LayoutContext& context, const sizing::SizeField& asked, double factor,
+                             CurvesAtSize& curves);
 
 } // namespace trime::start

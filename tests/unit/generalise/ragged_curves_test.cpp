@@ -3,6 +3,7 @@
 #include "generalise/ragged_curves.hpp"
 
 #include "boundary_properties.hpp"
+#include "core/angle.hpp"
 #include "generalise_shapes.hpp"
 
 #include <gtest/gtest.h>
@@ -41,6 +42,39 @@ TEST(RaggedCurves, ThinsTeethFarBelowTheSize) {
     vertices.insert({piece.start.x, piece.start.y});
   for (const geometry::Piece& piece : made->loops[0].pieces)
     EXPECT_TRUE(vertices.contains({piece.start.x, piece.start.y}));
+}
+
+TEST(RaggedCurves, ThinsDenseLoopsUntilNoVertexGoes) {
+  std::vector<Vec2> ring;
+  for (int k = 0; k < 20000; ++k) { // 16 of them on the way on which smooth curves are thinned
+    const SinCos turn = sin_cos(2 * pi * k / 20000);
+    ring.push_back(Vec2{0.5, 0.5} + 0.4 * Vec2{turn.cos, turn.sin});
+  }
+  const Boundary given = boundary_of({polygon_loop(ring)});
+  const auto once = without_ragged_runs(given, size, share, Thinning::once);
+  ASSERT_TRUE(once);
+  EXPECT_GE(once->loops[0].pieces.size(), ring.size() / 3);
+  const auto made = without_ragged_runs(given, size, share, Thinning::to_the_end);
+  ASSERT_TRUE(made);
+  expect_proper(*made);
+  EXPECT_LT(made->loops[0].pieces.size(), ring.size() / 8);
+  EXPECT_EQ(without_ragged_runs(*made, size, share), nullptr);
+  EXPECT_LT(largest_deviation(*made, given, 1e-4), share * 0.1);
+  EXPECT_NEAR(made->area, given.area, 1e-4 * given.area);
+}
+
+TEST(RaggedCurves, ThinsLoopsThatAreNotDenseOnceOnly) {
+  Boundary given = saw(0.02, 0.02); // nothing is near there
+  std::vector<geometry::Piece>& pieces = given.loops[0].pieces;
+  std::vector<Vec2> ring;
+  for (const geometry::Piece& piece : pieces)
+    ring.push_back(piece.start);
+  ring.insert(ring.begin() + 1, {ring[0] + Vec2{0.0002, 0.0001}, ring[0] + Vec2{0.0004, 0.0002}}); // three in a row
+  given = boundary_of({polygon_loop(ring)});
+  const auto once = without_ragged_runs(given, size, share, Thinning::once);
+  const auto made = without_ragged_runs(given, size, share, Thinning::to_the_end);
+  ASSERT_TRUE(once && made);
+  EXPECT_EQ(made->loops[0].pieces.size(), once->loops[0].pieces.size());
 }
 
 TEST(RaggedCurves, KeepsVerticesThatTheUserWants) {

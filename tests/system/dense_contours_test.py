@@ -1,0 +1,70 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contours with many more vertices than the mesh has: they are simplified, by one rank for all, and every number of
+ranks gives the same certified mesh."""
+import math
+import random
+import re
+import unittest
+
+import h5py
+
+from trime_run import Workspace, run
+
+VERTICES = 2**15  # StartRules::many_pieces is half of that
+CONFIG = ("[shape]\nregion = land\n[shape.land]\ntype = contour\nfile = land.xy\nnormalize = true\n"
+          "[sizing]\ntype = automatic\n[meshing]\npoints = 3000\n")
+
+
+def coast(seed, ruggedness):
+    """A closed curve around the origin: from level to level midpoints are displaced by a share of the way between."""
+    rng = random.Random(seed)
+    ring = [complex(math.cos(k * math.pi / 8), math.sin(k * math.pi / 8)) for k in range(16)]
+    while len(ring) < VERTICES:
+        ahead = ring[1:] + ring[:1]
+        middles = [(a + b) / 2 + 1j * (b - a) * rng.uniform(-ruggedness, ruggedness) for a, b in zip(ring, ahead)]
+        ring = [p for pair in zip(ring, middles) for p in pair]
+    return ring
+
+
+def filling(x, y, area):
+    """Share of the box around the points: the same at any scale."""
+    return area / ((max(x) - min(x)) * (max(y) - min(y)))
+
+
+def filling_of_ring(ring):
+    twice = sum((a.conjugate() * b).imag for a, b in zip(ring, ring[1:] + ring[:1]))
+    return filling([p.real for p in ring], [p.imag for p in ring], twice / 2)
+
+
+def filling_of_mesh(file):
+    points, (a, b, c) = file["Mesh/mesh/geometry"][:], file["Mesh/mesh/topology"][:].T
+    u, v = points[b] - points[a], points[c] - points[a]
+    return filling(*points.T, (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum() / 2)
+
+
+class DenseContours(unittest.TestCase):
+    def mesh(self, work, ranks):
+        done = run(work / "land.ini", f"output.directory={work}", f"output.name=on_{ranks}", ranks=ranks)
+        self.assertEqual(done.returncode, 0, f"{ranks} ranks:\n{done.stdout}{done.stderr}")
+        thinned = re.search(r"(\d+) pieces of ragged curves thinned", done.stdout)
+        self.assertTrue(thinned, done.stdout)
+        self.assertGreater(int(thinned[1]), 0.5 * VERTICES)
+        return h5py.File(work / f"on_{ranks}.h5", "r")
+
+    def test_one_rank_simplifies_for_all(self):
+        for seed, ruggedness in ((1, 0.12), (2, 0.02)):  # the second one is nearly smooth
+            with self.subTest(seed=seed), Workspace() as work:
+                ring = coast(seed, ruggedness)
+                (work / "land.xy").write_text("".join(f"{p.real!r} {p.imag!r}\n" for p in ring), "ascii")
+                (work / "land.ini").write_text(CONFIG, "ascii")
+                hashes = set()
+                for ranks in (1, 2, 3, 7):
+                    with self.mesh(work, ranks) as file:
+                        hashes.add(str(file["trime_mpi"].attrs["mesh_hash"]))
+                        self.assertAlmostEqual(filling_of_mesh(file), filling_of_ring(ring), delta=0.005)
+                self.assertEqual(len(hashes), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
