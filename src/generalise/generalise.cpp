@@ -320,10 +320,8 @@ std::unique_ptr<const Boundary> thinned(const Boundary& boundary, const sizing::
                                         const geometry::Lattice& lattice, std::span<const Vec2> inside) {
   if (boundary.periods.any())
     return nullptr;
-  constexpr std::size_t as_wide = 2; // trials
-  return thinned_map(boundary, size, lattice, those_inside(boundary, size, lattice, inside),
-                     std::span(thinning_trials).first(as_wide))
-      .thinned;
+  constexpr std::array<ThinningTrial, 1> trials{{{GeneraliseRules::thinned_share, Thinning::dense}}};
+  return thinned_map(boundary, size, lattice, those_inside(boundary, size, lattice, inside), trials).thinned;
 }
 
 std::unique_ptr<Generalised> generalise(const Boundary& boundary, const sizing::SizeField& size,

@@ -26,8 +26,8 @@ struct Generalised {
   polygon::Simplification counts;
 };
 
-/// @brief The boundary without vertices that are far below elements of this size, in ragged and in dense runs; null if
-/// there are none, in a periodic container, and where curves would cross. O(n log n)
+/// @brief The boundary without vertices that are far below elements of this size, in loops that have far too many of
+/// them; null if there are none, in a periodic container, and where curves would cross. O(n log n)
 /// @param size h
 /// @param inside lattice points that must stay inside, else it is null; those outside of the boundary are left out
 /// @throws GeometryError if a size is not positive and finite

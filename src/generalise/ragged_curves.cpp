@@ -144,8 +144,10 @@ std::optional<Loop> thinned_loop(const Loop& loop, const sizing::SizeField& size
     return static_cast<double>(result->pieces.size()) <
            (1 - GeneraliseRules::dense_loss) * static_cast<double>(loop.pieces.size());
   };
-  if (thinning == Thinning::once || !result || !is_dense())
+  if (thinning == Thinning::once || !result)
     return result;
+  if (!is_dense())
+    return thinning == Thinning::dense ? std::optional<Loop>() : result;
   for (int round = 1; round < GeneraliseRules::dense_rounds; ++round) {
     std::optional<Loop> next = thinned_once(*result, size, share);
     if (!next)

@@ -9,8 +9,12 @@
 
 namespace trime::generalise {
 
-/// How often curves are thinned: once, or those with far too many vertices until none goes any more.
-enum class Thinning : char { once, to_the_end };
+/// How curves are thinned.
+enum class Thinning : char {
+  once,
+  to_the_end, ///< loops with far too many vertices until none goes any more, others once
+  dense       ///< the same, and others not at all
+};
 
 /// @brief The boundary with straight pieces in place of runs of straight pieces that are ragged: that turn by more
 /// than GeneraliseRules::ragged_turn on a way of `share` h; and of smooth runs whose vertices are far closer to each
