@@ -2,29 +2,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Contours with many more vertices than the mesh has: they are simplified, by one rank for all, and every number of
 ranks gives the same certified mesh."""
-import math
-import random
 import re
 import unittest
 
 import h5py
 
+from dense_coast import dense_coast, text_of_coast
 from trime_run import Workspace, run
 
 VERTICES = 2**15  # StartRules::many_pieces is half of that
 CONFIG = ("[shape]\nregion = land\n[shape.land]\ntype = contour\nfile = land.xy\nnormalize = true\n"
           "[sizing]\ntype = automatic\n[meshing]\npoints = 3000\n")
-
-
-def coast(seed, ruggedness):
-    """A closed curve around the origin: from level to level midpoints are displaced by a share of the way between."""
-    rng = random.Random(seed)
-    ring = [complex(math.cos(k * math.pi / 8), math.sin(k * math.pi / 8)) for k in range(16)]
-    while len(ring) < VERTICES:
-        ahead = ring[1:] + ring[:1]
-        middles = [(a + b) / 2 + 1j * (b - a) * rng.uniform(-ruggedness, ruggedness) for a, b in zip(ring, ahead)]
-        ring = [p for pair in zip(ring, middles) for p in pair]
-    return ring
 
 
 def filling(x, y, area):
@@ -55,8 +43,8 @@ class DenseContours(unittest.TestCase):
     def test_one_rank_simplifies_for_all(self):
         for seed, ruggedness in ((1, 0.12), (2, 0.02)):  # the second one is nearly smooth
             with self.subTest(seed=seed), Workspace() as work:
-                ring = coast(seed, ruggedness)
-                (work / "land.xy").write_text("".join(f"{p.real!r} {p.imag!r}\n" for p in ring), "ascii")
+                ring = dense_coast(seed, ruggedness, VERTICES)
+                (work / "land.xy").write_text(text_of_coast(ring), "ascii")
                 (work / "land.ini").write_text(CONFIG, "ascii")
                 hashes = set()
                 for ranks in (1, 2, 3, 7):

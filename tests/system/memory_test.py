@@ -5,9 +5,11 @@ import re
 import sys
 
 import trime_run
+from dense_coast import dense_coast, text_of_coast
 
 # What a point may cost when it is added, from one run to a larger one: the fixed costs of the program cancel out.
 FEW, MANY = 200000, 800000
+SEGMENTS = 2**17  # of a contour
 CASES = (("uniform", ["[shape]", "region = domain"], 145),
          ("graded", ["[shape]", "region = domain", "[sizing]", "type = expression", "expression = 1+3*x+3*y"], 150))
 
@@ -39,6 +41,19 @@ def is_small(config, limit):
     return each <= limit and many_bytes <= 1.1 * foretold
 
 
+def is_foretold(directory):
+    """True if --dry-run knows what a contour takes that has many more vertices than the mesh has points."""
+    (directory / "coast.xy").write_text(text_of_coast(dense_coast(1, 0.12, SEGMENTS)), "ascii")
+    config = directory / "coast.ini"
+    config.write_text("[shape]\nregion = land\n[shape.land]\ntype = contour\nfile = coast.xy\nnormalize = true\n"
+                      "[sizing]\ntype = automatic\n[meshing]\npoints = 5000\n", "ascii")
+    foretold = float(re.search(r"over all ranks, ([\d.]+) per rank", output_of(config, "--dry-run"))[1])
+    report = output_of(config, f"output.directory={directory}")
+    taken = float(re.search(r"at most ([\d.]+) MiB per rank", report)[1])
+    print(f"contour of {SEGMENTS} segments: {taken:.0f} MiB, {foretold:.0f} MiB foretold")
+    return 0.5 * foretold < taken < 1.1 * foretold
+
+
 def main():
     """All cases; exit 1 if one needs more than it may."""
     with trime_run.Workspace() as workspace:
@@ -47,8 +62,9 @@ def main():
             config = workspace / f"{name}.ini"
             config.write_text("\n".join(text + ["[meshing]", f"points = {FEW}"]) + "\n")
             small &= is_small(config, limit)
+        small &= is_foretold(workspace)
         if not small:
-            sys.exit("more memory than allowed")
+            sys.exit("more memory than allowed, or than foretold")
 
 
 if __name__ == "__main__":
