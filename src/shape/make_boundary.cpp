@@ -184,6 +184,7 @@ void BoundaryMaker::classify() {
   for (const PlacedPart& placed : placed_)
     walks.emplace_back(*placed.part);
   const std::vector<Arrangement::Piece>& pieces = arrangement_.pieces();
+  kept_.reserve(pieces.size());
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const Arrangement::Piece& piece = pieces[k];
     known.clear();
@@ -248,6 +249,7 @@ void BoundaryMaker::check_container() const {
 
 void BoundaryMaker::link() {
   std::vector<LocalIndex> used;
+  used.reserve(2 * kept_.size());
   for (const Kept& kept : kept_)
     used.insert(used.end(), {kept.from, kept.to});
   nodes_.emplace(arrangement_.vertices(), used, frame_);

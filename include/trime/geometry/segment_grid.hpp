@@ -51,6 +51,15 @@ public:
   template <class Visit>
   void for_each_bin_near(const Box& box, const Segment& segment, double margin, const Visit& visit) const;
 
+  /// Number of cells. Bin k lists the segments that meet cell k, ascending; none if the cell is split. Segments that
+  /// meet are together in a bin.
+  std::size_t bins() const { return cells_.size(); }
+  std::span<const LocalIndex> bin(std::size_t k) const {
+    return cells_[k].split ? std::span<const LocalIndex>{}
+                           : std::span<const LocalIndex>(cell_segment_.data() + cells_[k].first,
+                                                         static_cast<std::size_t>(cells_[k].count));
+  }
+
   std::span<const Segment> segments() const { return segments_; }
   std::size_t memory_bytes() const;
 
