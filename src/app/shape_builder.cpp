@@ -2,7 +2,6 @@
 #include "app/shape_builder.hpp"
 
 #include "comm/agree.hpp"
-#include "core/free_memory.hpp"
 #include "core/read_file.hpp"
 #include "trime/shape/expression_shape.hpp"
 #include "trime/shape/region.hpp"
@@ -158,7 +157,6 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
     input.shape.emplace(std::move(parts), options.region, frame);
   else
     input.alone = shape::boundary_of(std::move(parts), options.region, frame);
-  return_free_memory();
   return input;
 }
 

@@ -68,11 +68,16 @@ public:
     boundary_.periods = frame.periods();
   }
 
-  MarkedBoundary make() {
+  /// @param owned the parts, to be freed; or null
+  MarkedBoundary make(std::vector<Part>* owned) {
     classify();
     if (!kept_.empty())
       check_container();
     link();
+    if (owned != nullptr && !frame_.periods().any() && !have_markers(given_)) {
+      given_ = {};
+      owned->clear(); // placed_ still knows their numbers
+    }
     chain();
     if (frame_.periods().any())
       finish_periodic_area();
@@ -123,7 +128,7 @@ private:
 
   const Region& region_;
   const Frame& frame_;
-  const std::span<const Part> given_;
+  std::span<const Part> given_;
   const Part domain_, cut_;
   const std::vector<PlacedPart> placed_;
   const Arrangement arrangement_;
@@ -377,7 +382,11 @@ void BoundaryMaker::finish_periodic_area() {
 } // namespace
 
 MarkedBoundary make_boundary(const Region& region, std::span<const Part> parts, const Frame& frame) {
-  return BoundaryMaker(region, parts, frame).make();
+  return BoundaryMaker(region, parts, frame).make(nullptr);
+}
+
+MarkedBoundary make_boundary(const Region& region, std::vector<Part>&& parts, const Frame& frame) {
+  return BoundaryMaker(region, parts, frame).make(&parts);
 }
 
 } // namespace trime::shape

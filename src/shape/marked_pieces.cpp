@@ -48,11 +48,16 @@ std::string name_of(int part, int marker, std::span<const Part> parts) {
 
 } // namespace
 
+bool have_markers(std::span<const Part> parts) {
+  return std::any_of(parts.begin(), parts.end(), [](const Part& part) {
+    return part.as_polygon() != nullptr && !part.as_polygon()->markers.empty();
+  });
+}
+
 std::vector<std::int32_t> name_markers(geometry::Boundary& boundary, std::span<const Part> parts,
                                        const geometry::Frame& frame) {
   std::vector<std::int32_t> markers(boundary.part_names.size(), 0);
-  const auto has_markers = [](const Part& part) { return part.as_polygon() && !part.as_polygon()->markers.empty(); };
-  if (std::none_of(parts.begin(), parts.end(), has_markers))
+  if (!have_markers(parts))
     return markers;
   std::map<std::pair<int, int>, int> index_of; // by part and marker: in this order they are named
   std::vector<int> of_piece;                   // loop by loop
