@@ -152,10 +152,10 @@ meshing::MeshResult run_mesher(const Job& job, const Provenance& provenance, con
   return mesher.run();
 }
 
-io::SeriesOptions series_options(const Job& job, const shape::RegionShape& shape) {
-  const geometry::Boundary& boundary = shape.boundary();
+io::SeriesOptions series_options(const Job& job, const ShapeInput& input) {
+  const geometry::Boundary& boundary = input.boundary();
   io::SeriesOptions options = job.options.output;
-  options.file.part_markers = shape.part_markers();
+  options.file.part_markers = input.part_markers();
   options.file.run_files = job.files;
   options.period = {boundary.periods.x, boundary.periods.y};
   return options;
@@ -184,17 +184,17 @@ ExitCode make_mesh(const Job& job) {
 
   const ShapeInput input = [&] {
     const auto timing = timers.scope("shape");
-    return read_shape(options, comm, log, job.places);
+    return read_shape(options, is_run ? ShapeUse::boundary : ShapeUse::queries, comm, log, job.places);
   }();
   if (const geometry::Box& box = input.container; options.container_is_automatic && box.max != unit_square.max)
     log.info("container: x from {:.9g} to {:.9g}, y from {:.9g} to {:.9g}, around the shape: [domain] gives no sides",
              box.min.x, box.max.x, box.min.y, box.max.y);
   options.mesh.container = input.container;
   log.set_rewriter([&places = job.places](const std::string& message) { return places.explain(message); });
-  const geometry::Boundary& boundary = input.shape.boundary();
+  const geometry::Boundary& boundary = input.boundary();
   meshing::MeshOptions mesh_options = options.mesh;
   mesh_options.fixed_points = read_fixed_points(options, input, comm);
-  io::MeshSeries series(series_options(job, input.shape), comm);
+  io::MeshSeries series(series_options(job, input), comm);
   if (const double points = expected_points(options, boundary); options.write)
     for (const std::string& warning : is_run ? series.check(points) : series.look(points))
       log.warning("{}", warning);
@@ -209,7 +209,7 @@ ExitCode make_mesh(const Job& job) {
     use_threads(placement, placement.threads);
   const bool is_dry_run = job.line.action == Action::dry_run;
   if (!is_run) {
-    check_fixed_points(mesh_options, input.shape, log);
+    check_fixed_points(mesh_options, *input.shape, log);
     print(comm, estimate(options, boundary, placement, is_dry_run));
   }
   check_share(expected_points(options, boundary), placement.ranks);
@@ -232,7 +232,7 @@ ExitCode make_mesh(const Job& job) {
                               input.normalized,
                               job.places.ring_lines(boundary),
                               input.map,
-                              input.shape.part_markers()};
+                              input.part_markers()};
   io::MeshFileOptions checkpoint_output = options.output.file;
   checkpoint_output.run_files = job.files;
   CheckpointKeeper keeper({comm, checkpoint_output, job.signals, timers, log}, options.checkpoint, job.line.time_limit,

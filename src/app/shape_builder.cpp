@@ -48,8 +48,12 @@ std::vector<shape::Contour> read_contours(const RunOptions& options, const comm:
         contours[k] = shape::read_contour(part.file, hint_of(part.file_is_relative), part.attribute);
     map = project_contours(options, contours, log);
   });
-  for (shape::Contour& contour : contours)
-    contour = shape::contour_of_bytes(comm.broadcast(shape::to_bytes(contour)));
+  if (comm.size() > 1)
+    for (shape::Contour& contour : contours) {
+      const std::string bytes = comm.broadcast(comm.is_root() ? shape::to_bytes(contour) : std::string());
+      if (!comm.is_root())
+        contour = shape::contour_of_bytes(bytes);
+    }
   for (std::string* text : {&map.crs, &map.well_known_text, &map.crs_of_files})
     *text = comm.broadcast(std::move(*text));
   return contours;
@@ -123,10 +127,11 @@ std::string read_shared(const std::string& path, const comm::Communicator& comm)
 }
 
 /// All ranks build the same shape from the same numbers, so they throw the same errors without asking each other.
-ShapeInput read_shape(const RunOptions& given, const comm::Communicator& comm, Log& log, UserPlaces& places) {
+ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communicator& comm, Log& log,
+                      UserPlaces& places) {
   const RunOptions options = with_used_parts(given);
   MapSystem map;
-  const std::vector<shape::Contour> contours = read_contours(options, comm, log, map);
+  std::vector<shape::Contour> contours = read_contours(options, comm, log, map);
   const geometry::Box container =
       options.container_is_automatic ? automatic_container(options, contours) : options.mesh.container;
   const geometry::Frame frame(container, options.periodic_x, options.periodic_y);
@@ -138,6 +143,7 @@ ShapeInput read_shape(const RunOptions& given, const comm::Communicator& comm, L
     const PartOptions& part = options.parts[k];
     shape::Normalization place;
     parts.push_back(build_part(part, contours[k], frame, comm, place, found));
+    contours[k] = {};
     if (part.name == options.fixed_points.normalize_with)
       fixed_points_place = place;
     if (part.normalize)
@@ -146,8 +152,12 @@ ShapeInput read_shape(const RunOptions& given, const comm::Communicator& comm, L
       log.warning("{}", warning);
   }
   places = std::move(found);
-  return {shape::RegionShape(std::move(parts), options.region, frame), container, fixed_points_place,
-          std::move(normalized), std::move(map)};
+  ShapeInput input{{}, {}, container, fixed_points_place, std::move(normalized), std::move(map)};
+  if (use == ShapeUse::queries)
+    input.shape.emplace(std::move(parts), options.region, frame);
+  else
+    input.alone = shape::boundary_of(std::move(parts), options.region, frame);
+  return input;
 }
 
 std::vector<boundary::FixedPoint> read_fixed_points(const RunOptions& options, const ShapeInput& input,

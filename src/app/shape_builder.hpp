@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the sections [shape.NAME] to a RegionShape on every rank. Files are read by rank 0 only.
+// From the sections [shape.NAME] to a shape, or its boundary, on every rank. Files are read by rank 0 only.
 #pragma once
 
 #include "app/map_projection.hpp"
@@ -9,6 +9,8 @@
 #include "trime/shape/contour.hpp"
 #include "trime/shape/region_shape.hpp"
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace trime::app {
@@ -16,9 +18,16 @@ namespace trime::app {
 /// Bytes of a file on every rank; rank 0 reads. @throws FileError on all ranks. @note Collective.
 std::string read_shared(const std::string& path, const comm::Communicator& comm);
 
+/// A run asks for nothing but the boundary; the parts of a large shape take as much memory again.
+enum class ShapeUse { boundary, queries };
+
 /// What the shape sections of a config and their files say.
 struct ShapeInput {
-  shape::RegionShape shape;
+  const geometry::Boundary& boundary() const { return shape ? shape->boundary() : alone.boundary; }
+  const std::vector<std::int32_t>& part_markers() const { return shape ? shape->part_markers() : alone.part_markers; }
+
+  std::optional<shape::RegionShape> shape; ///< for queries only
+  shape::MarkedBoundary alone;             ///< the boundary, if there is no shape
   geometry::Box container;                 ///< that of the options, or around the shape if that is automatic
   shape::Normalization fixed_points_place; ///< what fixed points undergo: that of the contour they are normalised with
   std::vector<NormalizedPart> normalized;  ///< in the order of the parts
@@ -29,7 +38,8 @@ struct ShapeInput {
 /// @param places gets the contours, on rank 0
 /// @throws GeometryError, ConfigError, FileError on all ranks together
 /// @note Collective.
-ShapeInput read_shape(const RunOptions& options, const comm::Communicator& comm, Log& log, UserPlaces& places);
+ShapeInput read_shape(const RunOptions& options, ShapeUse use, const comm::Communicator& comm, Log& log,
+                      UserPlaces& places);
 
 /// @brief The fixed points with labels `file:line`, normalised or projected as the contours; none if the options name
 /// no file.

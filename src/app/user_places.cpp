@@ -45,11 +45,15 @@ std::optional<FoundPlace> place_at(std::string_view text) {
 
 void UserPlaces::add(const shape::Contour& contour, const shape::Normalization& place) {
   OneContour one{contour.source, place, place.scale != 1 || place.from != place.to, {}, {}, {}, {}, {}};
+  std::size_t count = 0;
+  for (const shape::ContourRing& ring : contour.rings)
+    one.ring_ends.push_back(count += ring.points.size());
+  one.vertices.reserve(count);
+  one.lines.reserve(count);
   for (const shape::ContourRing& ring : contour.rings)
     for (std::size_t k = 0; k < ring.points.size(); ++k) {
       one.vertices.push_back(place.apply(ring.points[k]));
       one.lines.push_back(ring.lines[k]);
-      one.ring_lines.push_back(ring.lines[0]);
       if (!ring.in_file.empty())
         one.in_file.push_back(ring.in_file[k]);
       one.box.include(one.vertices.back());
@@ -91,8 +95,10 @@ std::vector<std::int32_t> UserPlaces::ring_lines(const geometry::Boundary& bound
   for (const OneContour& one : contours_) {
     const double own = same_place * std::fmax(one.box.width(), one.box.height());
     reach = std::fmax(reach, own);
-    for (std::size_t k = 0; k < one.vertices.size(); ++k)
-      vertices.push_back({one.vertices[k], own, one.ring_lines[k]});
+    std::size_t k = 0;
+    for (const std::size_t end : one.ring_ends)
+      for (const std::size_t first = k; k < end; ++k)
+        vertices.push_back({one.vertices[k], own, one.lines[first]});
   }
   std::stable_sort(vertices.begin(), vertices.end(),
                    [](const Vertex& a, const Vertex& b) { return a.place.x < b.place.x; });

@@ -46,7 +46,7 @@ private:
     geometry::Box box; ///< in the container
     std::vector<geometry::Vec2> vertices;
     std::vector<int> lines;
-    std::vector<int> ring_lines;         ///< where the ring of each vertex begins
+    std::vector<std::size_t> ring_ends;  ///< the vertex behind the last of each ring
     std::vector<geometry::Vec2> in_file; ///< of each vertex if they are projected, else empty
   };
   std::string name_of(geometry::Vec2 place) const;

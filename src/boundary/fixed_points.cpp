@@ -74,8 +74,8 @@ struct Closeness {
 
 FixedPoints::FixedPoints(const geometry::Boundary& boundary, const geometry::Box& box,
                          std::span<const FixedPoint> given, const geometry::Lattice& lattice, Log& log)
-    : given_(given), lattice_(lattice), tolerance_(BoundaryRules::on_boundary * std::max(box.width(), box.height())),
-      tree_({}) {
+    : given_boundary_(boundary), given_(given), lattice_(lattice),
+      tolerance_(BoundaryRules::on_boundary * std::max(box.width(), box.height())), tree_({}) {
   std::vector<Vec2> places;
   for (const FixedPoint& point : given) {
     const Vec2 p = point.position;
@@ -102,14 +102,16 @@ FixedPoints::FixedPoints(const geometry::Boundary& boundary, const geometry::Box
     all_.push_back(places[k]);
     source_.push_back(k);
   }
-  take_corners(boundary);
+  if (!all_.empty())
+    take_corners();
   tree_ = tree_of(inside_);
 }
 
 /// Divides the points into those on the boundary, which become corners of it, and the others.
-void FixedPoints::take_corners(const geometry::Boundary& boundary) {
+void FixedPoints::take_corners() {
+  const geometry::Boundary& boundary = given_boundary_;
   const geometry::PieceTree pieces(boundary);
-  CorneredBoundary cornered(boundary, pieces, tolerance_);
+  std::optional<CorneredBoundary> cornered; // takes more memory than the boundary
   NearPoints on_curve(boundary.bounding_box().min, tolerance_);
   for (const Vec2 p : all_) {
     if (pieces.distance(p) > tolerance_) {
@@ -123,10 +125,13 @@ void FixedPoints::take_corners(const geometry::Boundary& boundary) {
             "{}: the fixed point ({:.12g}, {:.12g}) on the boundary is {:.2g} from that of {}: expected the same point "
             "or a distance above {:.2g}; take out one of them",
             label(p), p.x, p.y, geometry::length(*q - (p + shift)), label(*q), tolerance_));
-    cornered.add_corner(p);
+    if (!cornered)
+      cornered.emplace(boundary, pieces, tolerance_);
+    cornered->add_corner(p);
     on_curve.add(p);
   }
-  boundary_ = cornered.result();
+  if (cornered)
+    cornered_ = cornered->result();
 }
 
 const std::string& FixedPoints::label(Vec2 p) const {
@@ -138,9 +143,9 @@ void FixedPoints::check_inside(const BoundaryGuard& guard) const {
   for (const Vec2 p : inside_) {
     if (guard.inside(p))
       continue;
-    const geometry::PieceTree pieces(boundary_);
+    const geometry::PieceTree pieces(cornered_boundary());
     double distance = std::numeric_limits<double>::infinity();
-    for (const Vec2 shift : images_of(boundary_.periods))
+    for (const Vec2 shift : images_of(given_boundary_.periods))
       distance = std::fmin(distance, pieces.distance(p + shift));
     throw GeometryError(
         fmt::format("{}: the fixed point ({:.9g}, {:.9g}) lies outside the shape, {:.6g} from its boundary; "
@@ -152,7 +157,7 @@ void FixedPoints::check_inside(const BoundaryGuard& guard) const {
 /// Is a point of inside_ nearer to p?
 bool FixedPoints::is_near(Vec2 p, double distance) const {
   const Vec2 across{distance, 0};
-  for (const Vec2 shift : images_of(boundary_.periods))
+  for (const Vec2 shift : images_of(given_boundary_.periods))
     if (tree_.find_in_disc(lattice_.snap(p + shift - across), lattice_.snap(p + shift + across), -1, -1) >= 0)
       return true;
   return false;

@@ -14,13 +14,14 @@
 #include "trime/sizing/size_field.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace trime::boundary {
 
-/// @brief Replicated: the same on every rank. Positions are canonical lattice points. Immutable; the list
-/// of points that it is made from must outlive it.
+/// @brief Replicated: the same on every rank. Positions are canonical lattice points. Immutable; the boundary and the
+/// list of points that it is made from must outlive it.
 class FixedPoints {
 public:
   /// @brief Points that the lattice makes equal are kept once, with a warning. O((points + pieces) log(points +
@@ -35,8 +36,8 @@ public:
   std::span<const geometry::Vec2> all() const { return all_; }
   /// Those not on the boundary.
   std::span<const geometry::Vec2> inside() const { return inside_; }
-  /// The boundary as it was given, with a corner at each point that lies on it.
-  const geometry::Boundary& cornered_boundary() const { return boundary_; }
+  /// The boundary as it was given, with a corner at each point that lies on it; itself, not a copy, if none does.
+  const geometry::Boundary& cornered_boundary() const { return cornered_ ? *cornered_ : given_boundary_; }
 
   /// @throws GeometryError for the first point that the boundary leaves outside: its label, and how far outside
   void check_inside(const polygon::BoundaryGuard& guard) const;
@@ -48,13 +49,14 @@ public:
   void warn_of_close_ones(const polygon::BoundaryGuard& guard, const sizing::SizeField& size, Log& log) const;
 
 private:
-  void take_corners(const geometry::Boundary& boundary);
+  void take_corners();
   bool is_near(geometry::Vec2 p, double distance) const;
   const std::string& label(geometry::Vec2 p) const;
 
+  const geometry::Boundary& given_boundary_;
+  std::optional<geometry::Boundary> cornered_; ///< only with points on the boundary
   std::span<const FixedPoint> given_;
   const geometry::Lattice lattice_;
-  geometry::Boundary boundary_;
   double tolerance_;                         ///< how near to a curve counts as on it
   std::vector<geometry::Vec2> all_, inside_; ///< in lexicographic order
   std::vector<std::size_t> source_;          ///< of each point of all_: its number in given_

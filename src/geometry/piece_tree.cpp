@@ -24,7 +24,16 @@ Piece wrapped(Piece piece, const Periods& periods) {
 } // namespace
 
 PieceTree::PieceTree(const Boundary& boundary) : periods_(boundary.periods) {
+  std::size_t count = 0;
+  bool has_arcs = false;
+  for (const Loop& loop : boundary.loops) {
+    count += loop.pieces.size();
+    has_arcs =
+        has_arcs || std::any_of(loop.pieces.begin(), loop.pieces.end(), [](const Piece& p) { return p.circular; });
+  }
+  ends_.reserve(count);
   std::vector<Box> runs;
+  runs.reserve((count + run_length - 1) / run_length);
   for (const Loop& loop : boundary.loops)
     for (const Piece& unrolled : loop.pieces) {
       const Piece piece = periods_.any() ? wrapped(unrolled, periods_) : unrolled;
@@ -33,7 +42,9 @@ PieceTree::PieceTree(const Boundary& boundary) : periods_(boundary.periods) {
       const Box box = piece.covering_box();
       runs.back().include(box.min);
       runs.back().include(box.max);
-      ends_.push_back({piece.start, piece.end, piece.circular ? static_cast<LocalIndex>(arcs_.size()) : -1});
+      ends_.push_back({piece.start, piece.end});
+      if (has_arcs)
+        arc_of_.push_back(piece.circular ? static_cast<LocalIndex>(arcs_.size()) : -1);
       if (piece.circular)
         arcs_.push_back(piece);
     }
@@ -51,10 +62,10 @@ PieceTree::PieceTree(const Boundary& boundary) : periods_(boundary.periods) {
 }
 
 double PieceTree::squared_distance_of(std::size_t piece, Vec2 p) const {
-  const Ends& ends = ends_[piece];
-  if (ends.arc < 0)
-    return squared_distance(p, {ends.a, ends.b});
-  const double distance = arcs_[ends.arc].distance(p);
+  const LocalIndex arc = arc_of_.empty() ? -1 : arc_of_[piece];
+  if (arc < 0)
+    return squared_distance(p, {ends_[piece].a, ends_[piece].b});
+  const double distance = arcs_[at(arc)].distance(p);
   return distance * distance;
 }
 

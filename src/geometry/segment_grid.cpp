@@ -13,10 +13,11 @@ namespace trime::geometry {
 
 namespace {
 
-constexpr int max_depth = 20;        // the side of the smallest cell is 2^-40 of the root's
-constexpr int enough_for_a_leaf = 4; // a cell with more segments is split
-constexpr double max_spread = 32;    // a segment is listed in at most so many cells, on average,
-constexpr double free_entries = 1e5; // or this many entries are made, if that is more
+constexpr int max_depth = 20;                         // the side of the smallest cell is 2^-40 of the root's
+constexpr int enough_for_a_leaf = 4;                  // a cell with more segments is split
+constexpr double max_spread = 32;                     // a segment is listed in at most so many cells, on average,
+constexpr double free_entries = 1e5;                  // or this many entries are made, if that is more
+constexpr std::uint32_t most_listed = (1u << 30) - 1; // more segments than there may be
 
 /// Does the segment cross the leg from (x0, y) to (x1, y), both moved by (epsilon^2, epsilon)?
 bool crosses_horizontal(const Segment& s, double y, double x0, double x1) {
@@ -95,14 +96,14 @@ private:
     }
     Cell& cell = grid_.cells_[place.cell];
     cell.first = static_cast<LocalIndex>(grid_.cell_segment_.size());
-    cell.count = static_cast<LocalIndex>(list.size());
+    cell.listed = static_cast<std::uint32_t>(list.size()) & most_listed;
     grid_.cell_segment_.insert(grid_.cell_segment_.end(), list.begin(), list.end());
   }
 
   void split(const Placed& place, const std::array<List, 16>& children, int depth, double spread) {
     const LocalIndex first = static_cast<LocalIndex>(grid_.cells_.size());
     grid_.cells_[place.cell].first = first;
-    grid_.cells_[place.cell].split = true;
+    grid_.cells_[place.cell].split = 1;
     grid_.cells_.resize(grid_.cells_.size() + 16);
     set_corners(place, first, children);
     for (int j = 0; j < 4; ++j)
@@ -139,12 +140,12 @@ private:
 
   /// Parity at the children's corners: up along the left edges, then right along the bottom edge of each row.
   void set_corners(const Placed& place, LocalIndex first, const std::array<List, 16>& children) {
-    bool row_start = grid_.cells_[place.cell].corner_inside;
+    bool row_start = grid_.cells_[place.cell].corner_inside != 0;
     for (int j = 0; j < 4; ++j) {
       bool parity = row_start;
       for (int i = 0; i < 4; ++i) {
         const Placed child = place.child(first, i, j);
-        grid_.cells_[child.cell].corner_inside = parity;
+        grid_.cells_[child.cell].corner_inside = parity ? 1 : 0;
         for (const LocalIndex k : children[4 * j + i]) {
           const Segment& s = grid_.segments_[k];
           parity ^= crosses_horizontal(s, child.corner.y, child.corner.x, child.corner.x + child.side);
@@ -183,7 +184,7 @@ SegmentGrid::Placed SegmentGrid::bin_of(Vec2 p) const {
 }
 
 LocalIndex SegmentGrid::looked_at_for(Vec2 p) const {
-  return segments_.empty() || !box_.contains(p) ? 0 : cells_[bin_of(p).cell].count;
+  return segments_.empty() || !box_.contains(p) ? 0 : cells_[bin_of(p).cell].count();
 }
 
 bool SegmentGrid::inside(Vec2 p) const {
@@ -191,8 +192,8 @@ bool SegmentGrid::inside(Vec2 p) const {
     return false;
   const Placed place = bin_of(p);
   const Cell& cell = cells_[place.cell];
-  bool parity = cell.corner_inside;
-  for (LocalIndex k = cell.first; k < cell.first + cell.count; ++k) {
+  bool parity = cell.corner_inside != 0;
+  for (LocalIndex k = cell.first; k < cell.last(); ++k) {
     const Segment& s = segments_[cell_segment_[k]];
     parity ^= crosses_horizontal(s, place.corner.y, place.corner.x, p.x);
     parity ^= crosses_vertical(s, p.x, place.corner.y, p.y);
@@ -201,7 +202,7 @@ bool SegmentGrid::inside(Vec2 p) const {
 }
 
 void SegmentGrid::look_in_leaf(const Cell& cell, Vec2 p, Nearest& best) const {
-  for (LocalIndex k = cell.first; k < cell.first + cell.count; ++k) {
+  for (LocalIndex k = cell.first; k < cell.last(); ++k) {
     const LocalIndex index = cell_segment_[k];
     const double d = geometry::squared_distance(p, segments_[index]);
     if (d < best.squared_distance || (d == best.squared_distance && (best.segment < 0 || index < best.segment)))
@@ -236,7 +237,7 @@ void SegmentGrid::nearest_in(Placed place, Vec2 p, Nearest& best) const {
   for (int j = j0; j <= j1; ++j)
     for (int i = i0; i <= i1; ++i) {
       const Placed child = place.child(cells_[place.cell].first, i, j);
-      if (!cells_[child.cell].split && cells_[child.cell].count == 0)
+      if (!cells_[child.cell].split && cells_[child.cell].listed == 0)
         continue;
       const Entry entry{child.squared_distance(p), child};
       int at = n++;

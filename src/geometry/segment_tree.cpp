@@ -20,8 +20,8 @@ Vec2 unit(Vec2 v) {
 struct Interval {
   double low = HUGE_VAL, high = -HUGE_VAL;
   void include(double v) {
-    low = std::fmin(low, v);
-    high = std::fmax(high, v);
+    low = std::min(low, v);
+    high = std::max(high, v);
   }
   double width() const { return high - low; }
   double middle() const { return low + 0.5 * (high - low); }
@@ -47,7 +47,7 @@ SegmentTree::SegmentTree(std::span<const Segment> segments, double margin)
   double largest = 0;
   for (const Segment& s : segments)
     for (const double v : {s.a.x, s.a.y, s.b.x, s.b.y})
-      largest = std::fmax(largest, std::fabs(v));
+      largest = std::max(largest, std::fabs(v));
   slack_ += rounding * largest;
   std::size_t leaves = 1;
   while (leaves * run_length < order_.size())
@@ -90,7 +90,7 @@ void SegmentTree::build(std::size_t node, Range range) {
     middles_u.include(dot(middle, along));
     middles_v.include(dot(middle, across));
     slopes.include(slope(order_[k]));
-    longest = std::fmax(longest, length(s.b - s.a));
+    longest = std::max(longest, length(s.b - s.a));
   }
   nodes_[node] = {u.middle() * along + v.middle() * across, along, {0.5 * u.width(), 0.5 * v.width()}};
   if (range.high - range.low <= run_length)

@@ -76,6 +76,7 @@ std::vector<std::size_t> listed(const BoxTree& tree, const std::vector<std::size
 Arrangement::Arrangement(const std::vector<PlacedPart>& parts, const Frame& frame)
     : parts_(parts), frame_(frame), tolerance_(on_curve_steps * frame.step()),
       vertices_(frame.lattice(), vertex_count(parts)), first_line_(parts.size(), 0) {
+  lines_.reserve(vertex_count(parts));
   // Contours first: the first vertex at a place keeps its coordinates.
   for (const bool contours : {true, false})
     for (std::size_t k = 0; k < parts.size(); ++k)
@@ -87,6 +88,9 @@ Arrangement::Arrangement(const std::vector<PlacedPart>& parts, const Frame& fram
   cross_all();
   make_pieces();
   join_twins();
+  lines_ = {};
+  splits_ = {};
+  vertices_.forget_search();
 }
 
 /// Pairs whose boxes are apart have nothing to do with each other. The others are crossed in the order of the parts,

@@ -111,7 +111,7 @@ private:
   const geometry::Frame& frame_;
   double tolerance_;
   VertexTable vertices_;
-  std::vector<Line> lines_;
+  std::vector<Line> lines_;            // as the splits, only until there are pieces
   std::vector<LocalIndex> first_line_; // of each polygon in parts_, else unused
   std::vector<Circle> circles_;
   std::vector<std::vector<int>> circle_parts_;

@@ -56,12 +56,15 @@ bool lacks_vertices(std::string_view text) {
   return false;
 }
 
+template <class T>
+constexpr bool is_plain = std::is_arithmetic_v<T> || std::is_same_v<T, geometry::Vec2>;
+
 /// Appends values to bytes, or takes them off in the same order.
 class Writer {
 public:
   template <class T>
   void operator()(const T& value) {
-    if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, geometry::Vec2>)
+    if constexpr (is_plain<T>)
       bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
     else
       list(value);
@@ -93,8 +96,12 @@ private:
   template <class List>
   void list(const List& values) {
     (*this)(static_cast<std::uint64_t>(values.size()));
-    for (const auto& value : values)
-      (*this)(value);
+    using Value = typename List::value_type;
+    if constexpr (is_plain<Value>)
+      bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value));
+    else
+      for (const auto& value : values)
+        (*this)(value);
   }
   std::string bytes_;
 };
@@ -104,22 +111,31 @@ public:
   explicit Reader(std::string_view bytes) : bytes_(bytes) {}
   template <class T>
   void operator()(T& value) {
-    if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, geometry::Vec2>) {
-      TRIME_ASSERT(sizeof value <= bytes_.size(), "{} bytes left", bytes_.size());
-      std::memcpy(&value, bytes_.data(), sizeof value);
-      bytes_.remove_prefix(sizeof value);
+    if constexpr (is_plain<T>) {
+      take(&value, sizeof value);
     } else {
       std::uint64_t size = 0;
       (*this)(size);
       value.resize(size);
-      for (auto& one : value)
-        (*this)(one);
+      using Value = typename T::value_type;
+      if constexpr (is_plain<Value>)
+        take(value.data(), size * sizeof(Value));
+      else
+        for (auto& one : value)
+          (*this)(one);
     }
   }
   void operator()(ContourRing& ring) { Writer::members(*this, ring); }
   void operator()(Contour& contour) { Writer::members(*this, contour); }
 
 private:
+  void take(void* place, std::size_t count) {
+    TRIME_ASSERT(count <= bytes_.size(), "{} bytes left", bytes_.size());
+    if (count > 0)
+      std::memcpy(place, bytes_.data(), count);
+    bytes_.remove_prefix(count);
+  }
+
   std::string_view bytes_;
 };
 

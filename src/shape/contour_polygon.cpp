@@ -97,6 +97,8 @@ private:
 /// Of all segments of the rings; empty if none has any.
 std::vector<int> Placement::markers_of_segments() const {
   std::vector<int> markers;
+  if (std::all_of(rings_.begin(), rings_.end(), [](const LatticeRing& ring) { return ring.markers.empty(); }))
+    return markers;
   for (const LatticeRing& ring : rings_) {
     markers.insert(markers.end(), ring.markers.begin(), ring.markers.end());
     if (ring.markers.empty())
@@ -123,7 +125,10 @@ std::string Placement::in_file(Vec2 p) const {
 void Placement::add_ring(const ContourRing& ring, std::vector<std::string>& warnings) {
   std::vector<Vec2> points;
   std::vector<int> lines, markers;
-  const auto marker = [&](std::size_t k) { return ring.markers.empty() ? 0 : ring.markers[k]; };
+  const bool marked = !ring.markers.empty();
+  points.reserve(ring.points.size());
+  lines.reserve(ring.points.size());
+  markers.reserve(ring.markers.size());
   for (std::size_t k = 0; k < ring.points.size(); ++k) {
     const Vec2 p = frame_.snap(normalization_.apply(ring.points[k]));
     if (!frame_.reach().contains(p))
@@ -133,12 +138,14 @@ void Placement::add_ring(const ContourRing& ring, std::vector<std::string>& warn
           contour_.source, ring.lines[k], ring.points[k].x, ring.points[k].y, frame_.container().min.x,
           frame_.container().max.x, frame_.container().min.y, frame_.container().max.y));
     if (!points.empty() && points.back() == p) {
-      markers.back() = marker(k);
+      if (marked)
+        markers.back() = ring.markers[k];
       continue;
     }
     points.push_back(p);
     lines.push_back(ring.lines[k]);
-    markers.push_back(marker(k));
+    if (marked)
+      markers.push_back(ring.markers[k]);
   }
   while (points.size() > 1 && points.front() == points.back())
     points.pop_back();
@@ -148,10 +155,9 @@ void Placement::add_ring(const ContourRing& ring, std::vector<std::string>& warn
                                    contour_.source, ring.lines[0], ring.points.size() - points.size(),
                                    frame_.step() / normalization_.scale));
   lines.resize(points.size());
-  markers.resize(points.size());
+  if (marked)
+    markers.resize(points.size());
   check_turns(points, lines);
-  if (ring.markers.empty())
-    markers.clear();
   rings_.push_back({std::move(points), std::move(lines), std::move(markers)});
 }
 

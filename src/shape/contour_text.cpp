@@ -54,6 +54,9 @@ bool is_number(std::string_view word, double& value) {
     word.remove_prefix(1);
   if (word.empty() || word.front() == '+')
     return false;
+  if (const auto plain = std::from_chars(word.data(), word.data() + word.size(), value);
+      plain.ec == std::errc{} && plain.ptr == word.data() + word.size())
+    return true;
   std::string with_e;
   if (const std::size_t d = word.find_first_of("dD"); d != std::string_view::npos && d > 0) {
     with_e = word;
@@ -92,7 +95,8 @@ bool are_columns(const std::array<std::string, 2>& names, bool swapped) {
 
 /// The first number of a line, taken off it: a comma, a blank or both follow.
 bool take_first(std::string_view& line, double& value) {
-  const std::size_t end = std::min(line.find_first_of(", \t"), line.size());
+  const auto after = std::find_if(line.begin(), line.end(), [](char c) { return c == ',' || c == ' ' || c == '\t'; });
+  const auto end = static_cast<std::size_t>(after - line.begin());
   if (!is_number(line.substr(0, end), value))
     return false;
   line = without_comma(line.substr(end));
@@ -137,9 +141,10 @@ void check_encoding(std::string_view text, const std::string& source) {
 }
 
 std::string_view take_line(std::string_view& text) {
-  std::size_t end = text.find_first_of("\r\n");
-  std::size_t next = end == std::string_view::npos ? text.size() : end + 1;
-  if (end != std::string_view::npos && text[end] == '\r') {
+  const auto at = std::find_if(text.begin(), text.end(), [](char c) { return c == '\r' || c == '\n'; });
+  const auto end = static_cast<std::size_t>(at - text.begin());
+  std::size_t next = std::min(end + 1, text.size());
+  if (end < text.size() && text[end] == '\r') {
     const std::size_t after = text.find_first_not_of('\r', end);
     if (after != std::string_view::npos && text[after] == '\n')
       next = after + 1;

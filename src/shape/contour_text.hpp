@@ -4,6 +4,7 @@
 
 #include "trime/geometry/vec2.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,7 +32,9 @@ void for_each_line(std::string_view text, const Visit& visit) {
   for (int number = 1; !text.empty(); ++number) {
     const std::string_view line = trimmed(take_line(text));
     const bool parts = line.empty() || line.front() == '>';
-    visit(parts ? std::string_view{} : trimmed(line.substr(0, line.find_first_of("#;"))), number, parts);
+    const auto comment = std::find_if(line.begin(), line.end(), [](char c) { return c == '#' || c == ';'; });
+    const auto length = static_cast<std::size_t>(comment - line.begin());
+    visit(parts ? std::string_view{} : trimmed(line.substr(0, length)), number, parts);
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "lattice_rings.hpp"
 
+#include "core/gather.hpp"
 #include "core/random.hpp"
 #include "core/thread_loop.hpp"
 #include "geometry/predicates.hpp"
@@ -8,7 +9,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
+#include <optional>
 #include <set>
 
 namespace trime::shape {
@@ -23,8 +24,8 @@ using geometry::SegmentGrid;
 using geometry::Vec2;
 
 bool in_box_of(const Segment& s, Vec2 p) {
-  return p.x >= std::fmin(s.a.x, s.b.x) && p.x <= std::fmax(s.a.x, s.b.x) && p.y >= std::fmin(s.a.y, s.b.y) &&
-         p.y <= std::fmax(s.a.y, s.b.y);
+  return p.x >= std::min(s.a.x, s.b.x) && p.x <= std::max(s.a.x, s.b.x) && p.y >= std::min(s.a.y, s.b.y) &&
+         p.y <= std::max(s.a.y, s.b.y);
 }
 
 /// Edges of a ring without direction, ascending: equal for equal rings, whatever their starts and directions.
@@ -51,8 +52,8 @@ std::uint64_t hash_of(const LatticeRing& ring) {
 } // namespace
 
 Meeting meeting_of(const Segment& s, const Segment& t) {
-  if (std::fmax(s.a.x, s.b.x) < std::fmin(t.a.x, t.b.x) || std::fmax(t.a.x, t.b.x) < std::fmin(s.a.x, s.b.x) ||
-      std::fmax(s.a.y, s.b.y) < std::fmin(t.a.y, t.b.y) || std::fmax(t.a.y, t.b.y) < std::fmin(s.a.y, s.b.y))
+  if (std::max(s.a.x, s.b.x) < std::min(t.a.x, t.b.x) || std::max(t.a.x, t.b.x) < std::min(s.a.x, s.b.x) ||
+      std::max(s.a.y, s.b.y) < std::min(t.a.y, t.b.y) || std::max(t.a.y, t.b.y) < std::min(s.a.y, s.b.y))
     return Meeting::none;
   const int ta = orient2d(s.a, s.b, t.a), tb = orient2d(s.a, s.b, t.b);
   if (ta * tb > 0)
@@ -68,25 +69,59 @@ Meeting meeting_of(const Segment& s, const Segment& t) {
 }
 
 std::vector<Segment> segments_of(const std::vector<LatticeRing>& rings) {
+  std::size_t count = 0;
+  for (const LatticeRing& ring : rings)
+    count += ring.points.size();
   std::vector<Segment> segments;
+  segments.reserve(count);
   for (const LatticeRing& ring : rings)
     for (std::size_t k = 0; k < ring.points.size(); ++k)
       segments.push_back({ring.points[k], ring.points[(k + 1) % ring.points.size()]});
   return segments;
 }
 
-std::vector<SegmentPair> find_meetings(const std::vector<LatticeRing>& rings, const SegmentGrid& grid) {
+namespace {
+
+/// Segments of so many chunks are looked at, one by one; of the meetings of one only so many and those of one more.
+constexpr LocalIndex chunk = 2048;
+constexpr std::size_t most_in_chunk = 4 * chunk;
+
+/// Pairs of segments in the bins, for each segment, that are looked at before a tree is built: that costs more.
+constexpr std::int64_t enough_pairs = 32;
+
+/// Is a pair of neighbours of one ring left out? @param after the segment behind each one
+bool are_neighbours(const std::vector<LocalIndex>& after, LocalIndex i, LocalIndex j) {
+  return j == after[at(i)] || i == after[at(j)];
+}
+
+/// @brief Two segments that meet are together in a bin. Nothing where bins are crowded, or very many meet.
+std::optional<std::vector<SegmentPair>> meetings_in_bins(const std::vector<LocalIndex>& after,
+                                                         const SegmentGrid& grid) {
   const std::span<const Segment> segments = grid.segments();
+  std::int64_t looks = 0;
+  for (std::size_t bin = 0; bin < grid.bins(); ++bin)
+    looks += std::ssize(grid.bin(bin)) * (std::ssize(grid.bin(bin)) - 1) / 2;
+  if (looks > enough_pairs * std::ssize(segments))
+    return std::nullopt;
+  std::vector<SegmentPair> pairs =
+      gather_in_order<SegmentPair>(static_cast<std::ptrdiff_t>(grid.bins()), chunk, [&](std::ptrdiff_t k, auto& list) {
+        const std::span<const LocalIndex> bin = grid.bin(static_cast<std::size_t>(k)); // ascending
+        for (std::size_t b = 1; b < bin.size(); ++b)
+          for (std::size_t a = 0; a < b; ++a)
+            if (!are_neighbours(after, bin[a], bin[b]) &&
+                meeting_of(segments[at(bin[a])], segments[at(bin[b])]) != Meeting::none)
+              list.push_back({bin[a], bin[b]});
+      });
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  if (pairs.size() >= most_in_chunk) // the tree takes only the first of each chunk
+    return std::nullopt;
+  return pairs;
+}
+
+std::vector<SegmentPair> meetings_by_tree(const std::vector<LocalIndex>& after, std::span<const Segment> segments) {
   const LocalIndex n = static_cast<LocalIndex>(segments.size());
-  std::vector<LocalIndex> after;
-  for (LocalIndex first = 0; const LatticeRing& ring : rings) {
-    for (LocalIndex k = 1; k <= std::ssize(ring.points); ++k)
-      after.push_back(first + k % static_cast<LocalIndex>(ring.points.size()));
-    first += static_cast<LocalIndex>(ring.points.size());
-  }
   const geometry::SegmentTree tree(segments);
-  constexpr LocalIndex chunk = 2048;
-  constexpr std::size_t most_in_chunk = 4 * chunk;
   const LocalIndex chunks = (n + chunk - 1) / chunk;
   std::vector<std::vector<SegmentPair>> found(at(chunks)); // what is found does not depend on the threads
   thread_loop(chunks, 1, [&](std::ptrdiff_t c, int) {
@@ -95,8 +130,7 @@ std::vector<SegmentPair> find_meetings(const std::vector<LatticeRing>& rings, co
     for (LocalIndex i = first; i < last && pairs.size() < most_in_chunk; ++i) {
       const auto start = static_cast<std::ptrdiff_t>(pairs.size());
       tree.for_each_near(segments[at(i)], [&](LocalIndex j) {
-        if (j > i && j != after[at(i)] && i != after[at(j)] &&
-            meeting_of(segments[at(i)], segments[at(j)]) != Meeting::none)
+        if (j > i && !are_neighbours(after, i, j) && meeting_of(segments[at(i)], segments[at(j)]) != Meeting::none)
           pairs.push_back({i, j});
         return true;
       });
@@ -107,6 +141,21 @@ std::vector<SegmentPair> find_meetings(const std::vector<LatticeRing>& rings, co
   for (const std::vector<SegmentPair>& pairs : found)
     all.insert(all.end(), pairs.begin(), pairs.end());
   return all;
+}
+
+} // namespace
+
+std::vector<SegmentPair> find_meetings(const std::vector<LatticeRing>& rings, const SegmentGrid& grid) {
+  std::vector<LocalIndex> after;
+  after.reserve(grid.segments().size());
+  for (LocalIndex first = 0; const LatticeRing& ring : rings) {
+    for (LocalIndex k = 1; k <= std::ssize(ring.points); ++k)
+      after.push_back(first + k % static_cast<LocalIndex>(ring.points.size()));
+    first += static_cast<LocalIndex>(ring.points.size());
+  }
+  if (std::optional<std::vector<SegmentPair>> found = meetings_in_bins(after, grid))
+    return std::move(*found);
+  return meetings_by_tree(after, grid.segments());
 }
 
 std::vector<RepeatedRing> drop_repeated(std::vector<LatticeRing>& rings) {

@@ -68,11 +68,16 @@ public:
     boundary_.periods = frame.periods();
   }
 
-  MarkedBoundary make() {
+  /// @param owned the parts, to be freed; or null
+  MarkedBoundary make(std::vector<Part>* owned) {
     classify();
     if (!kept_.empty())
       check_container();
     link();
+    if (owned != nullptr && !frame_.periods().any() && !have_markers(given_)) {
+      given_ = {};
+      owned->clear(); // placed_ still knows their numbers
+    }
     chain();
     if (frame_.periods().any())
       finish_periodic_area();
@@ -123,7 +128,7 @@ private:
 
   const Region& region_;
   const Frame& frame_;
-  const std::span<const Part> given_;
+  std::span<const Part> given_;
   const Part domain_, cut_;
   const std::vector<PlacedPart> placed_;
   const Arrangement arrangement_;
@@ -184,6 +189,7 @@ void BoundaryMaker::classify() {
   for (const PlacedPart& placed : placed_)
     walks.emplace_back(*placed.part);
   const std::vector<Arrangement::Piece>& pieces = arrangement_.pieces();
+  kept_.reserve(pieces.size());
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const Arrangement::Piece& piece = pieces[k];
     known.clear();
@@ -248,6 +254,7 @@ void BoundaryMaker::check_container() const {
 
 void BoundaryMaker::link() {
   std::vector<LocalIndex> used;
+  used.reserve(2 * kept_.size());
   for (const Kept& kept : kept_)
     used.insert(used.end(), {kept.from, kept.to});
   nodes_.emplace(arrangement_.vertices(), used, frame_);
@@ -375,7 +382,11 @@ void BoundaryMaker::finish_periodic_area() {
 } // namespace
 
 MarkedBoundary make_boundary(const Region& region, std::span<const Part> parts, const Frame& frame) {
-  return BoundaryMaker(region, parts, frame).make();
+  return BoundaryMaker(region, parts, frame).make(nullptr);
+}
+
+MarkedBoundary make_boundary(const Region& region, std::vector<Part>&& parts, const Frame& frame) {
+  return BoundaryMaker(region, parts, frame).make(&parts);
 }
 
 } // namespace trime::shape

@@ -8,6 +8,7 @@
 #include "trime/shape/region.hpp"
 
 #include <span>
+#include <vector>
 
 namespace trime::shape {
 
@@ -22,5 +23,7 @@ namespace trime::shape {
 /// @throws GeometryError if the region is empty, leaves the container, or its boundary touches itself, or if a part
 /// sticks out of a periodic side by more than one period
 MarkedBoundary make_boundary(const Region& region, std::span<const Part> parts, const geometry::Frame& frame);
+/// The same; frees the parts as soon as they are not needed, before there are loops.
+MarkedBoundary make_boundary(const Region& region, std::vector<Part>&& parts, const geometry::Frame& frame);
 
 } // namespace trime::shape

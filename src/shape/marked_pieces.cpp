@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -47,9 +48,17 @@ std::string name_of(int part, int marker, std::span<const Part> parts) {
 
 } // namespace
 
+bool have_markers(std::span<const Part> parts) {
+  return std::any_of(parts.begin(), parts.end(), [](const Part& part) {
+    return part.as_polygon() != nullptr && !part.as_polygon()->markers.empty();
+  });
+}
+
 std::vector<std::int32_t> name_markers(geometry::Boundary& boundary, std::span<const Part> parts,
                                        const geometry::Frame& frame) {
   std::vector<std::int32_t> markers(boundary.part_names.size(), 0);
+  if (!have_markers(parts))
+    return markers;
   std::map<std::pair<int, int>, int> index_of; // by part and marker: in this order they are named
   std::vector<int> of_piece;                   // loop by loop
   Shifts shifts;

@@ -12,6 +12,9 @@
 
 namespace trime::shape {
 
+/// Has any segment of these parts a marker?
+bool have_markers(std::span<const Part> parts);
+
 /// @brief Gives pieces whose segment has a marker a part of their own, see MarkedBoundary.
 /// @param parts those that Piece::part names; the boundary may have the domain behind them
 /// @return the marker of each name of a part, 0 for none

@@ -49,6 +49,10 @@ bool RegionShape::inside(Vec2 p) const {
   });
 }
 
+MarkedBoundary boundary_of(std::vector<Part> parts, std::string_view region, const Frame& frame) {
+  return make_boundary(Region::parse(region, names_of(parts)), std::move(parts), frame);
+}
+
 RegionShape traced(const Shape& shape, const Frame& frame, const std::string& name) {
   return RegionShape({traced_part(name, shape, frame)}, name, frame);
 }

@@ -41,7 +41,10 @@ void RingBuilder::end_ring() {
                                     contour_.source, ring_.lines[0], ring_.points[0].x, ring_.points[0].y, distinct,
                                     distinct == 1 ? "vertex" : "vertices"));
   if (std::all_of(ring_.markers.begin(), ring_.markers.end(), [](int marker) { return marker == 0; }))
-    ring_.markers.clear();
+    ring_.markers = {};
+  ring_.points.shrink_to_fit(); // they have grown by doubling
+  ring_.lines.shrink_to_fit();
+  ring_.markers.shrink_to_fit();
   contour_.rings.push_back(std::move(ring_));
   ring_ = {};
 }

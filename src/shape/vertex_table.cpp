@@ -26,6 +26,8 @@ VertexTable::VertexTable(const Lattice& lattice, std::size_t expected) : lattice
     slots *= 2;
   heads_.assign(slots, -1);
   points_.reserve(expected);
+  owners_.reserve(expected);
+  next_.reserve(expected);
 }
 
 VertexTable::Cell VertexTable::cell_of(Vec2 p) const {
@@ -69,6 +71,12 @@ LocalIndex VertexTable::insert(Vec2 p, int owner) {
   else
     link(fresh);
   return fresh;
+}
+
+void VertexTable::forget_search() {
+  owners_ = {};
+  next_ = {};
+  heads_ = {};
 }
 
 void VertexTable::link(LocalIndex v) {

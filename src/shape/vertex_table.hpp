@@ -30,6 +30,8 @@ public:
   geometry::Vec2 point(LocalIndex v) const { return points_[v]; }
   bool is_shared(LocalIndex v) const { return owners_[v] == shared; }
   void set_shared(LocalIndex v) { owners_[v] = shared; }
+  /// Frees what is needed to insert vertices and to know which are shared: points and size stay.
+  void forget_search();
   LocalIndex size() const { return static_cast<LocalIndex>(points_.size()); }
 
 private:

@@ -87,6 +87,10 @@ private:
   void place_first() {
     const double longest =
         std::max(images_.container().width(), images_.container().height()) / SizingRules::first_samples;
+    std::size_t pieces = 0;
+    for (const geometry::Loop& loop : boundary_.loops)
+      pieces += loop.pieces.size();
+    origins_.reserve(pieces);
     for (const geometry::Loop& loop : boundary_.loops) {
       const auto loop_start = static_cast<LocalIndex>(samples_.size());
       const std::vector<bool> kept = kept_vertices(loop);

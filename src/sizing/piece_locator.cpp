@@ -30,12 +30,21 @@ Vec2 nearest_on_arc(Vec2 p, const Piece& arc) {
 
 PieceLocator::PieceLocator(const geometry::Boundary& boundary, const Images& images)
     : kernel_(search_kernel(simd_level())) {
-  struct Segment {
-    Vec2 a, b;
-    Box box;
+  struct Segment { // little, since there may be very many
+    const Piece* piece;
+    const Vec2* shift;
+    Box box() const {
+      const Box given = piece->covering_box();
+      return {given.min + *shift, given.max + *shift};
+    }
   };
   std::vector<Segment> segments;
-  for (const Vec2 shift : images.shifts())
+  std::size_t pieces = 0;
+  for (const geometry::Loop& loop : boundary.loops)
+    pieces += loop.pieces.size();
+  segments.reserve(pieces);
+  const std::vector<Vec2> shifts = images.shifts();
+  for (const Vec2& shift : shifts)
     for (const geometry::Loop& loop : boundary.loops)
       for (const Piece& piece : loop.pieces) {
         Box box = piece.covering_box();
@@ -45,17 +54,17 @@ PieceLocator::PieceLocator(const geometry::Boundary& boundary, const Images& ima
         if (piece.circular)
           arcs_.push_back({piece, shift, box});
         else
-          segments.push_back({piece.start + shift, piece.end + shift, box});
+          segments.push_back({&piece, &shift});
       }
   arc_tree_ = BoxTree(arcs_.size(), [&](std::size_t k) { return BoxTree::Item{arcs_[k].box, 0}; });
-  segment_tree_ = BoxTree(segments.size(), [&](std::size_t k) { return BoxTree::Item{segments[k].box, 0}; });
+  segment_tree_ = BoxTree(segments.size(), [&](std::size_t k) { return BoxTree::Item{segments[k].box(), 0}; });
   SegmentLeaf none{};
   std::fill(std::begin(none.a_x), std::end(none.a_x), std::numeric_limits<double>::quiet_NaN());
   segments_.resize((segments.size() + BoxTree::width - 1) / BoxTree::width, none);
   for (std::size_t k = 0; k < segments.size(); ++k) {
     SegmentLeaf& leaf = segments_[k / BoxTree::width];
     const std::size_t place = k % BoxTree::width;
-    const Vec2 a = segments[k].a, d = segments[k].b - a;
+    const Vec2 a = segments[k].piece->start + *segments[k].shift, d = segments[k].piece->end + *segments[k].shift - a;
     const double square = squared_length(d);
     leaf.a_x[place] = a.x;
     leaf.a_y[place] = a.y;

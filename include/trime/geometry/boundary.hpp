@@ -13,13 +13,13 @@ namespace trime::geometry {
 /// A straight segment or a circular arc from `start` to `end`; both ends lie on the lattice.
 struct Piece {
   Vec2 start, end;
-  bool circular = false;
-  Vec2 center; ///< circular pieces only, as the rest
+  Vec2 center; ///< circular pieces only, as the three numbers below
   double radius = 0;
   double start_angle = 0; ///< radians
   double sweep = 0;       ///< signed angle from start to end, radians, counter-clockwise positive, |sweep| <= 2 pi
-  bool corner = false;    ///< the start is to be kept as a corner, however little the curve turns there
   int part = 0;           ///< index into Boundary::part_names of the part that the piece comes from
+  bool circular = false;
+  bool corner = false; ///< the start is to be kept as a corner, however little the curve turns there
 
   /// Arc length.
   double length() const;

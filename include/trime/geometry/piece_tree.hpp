@@ -16,7 +16,7 @@ namespace trime::geometry {
 class PieceTree {
 public:
   PieceTree() = default;
-  /// O(M) time, about 60 bytes per piece.
+  /// O(M) time, about 50 bytes per segment and more per arc.
   explicit PieceTree(const Boundary& boundary);
   /// @brief Distance from p to the nearest piece or image of one, infinity without pieces; O(log M) for curves,
   /// thread-safe.
@@ -35,7 +35,6 @@ private:
   static constexpr std::size_t run_length = 4;
   struct Ends {
     Vec2 a, b;
-    LocalIndex arc; ///< into arcs_, or -1 for a segment
   };
   double squared_distance_of(std::size_t piece, Vec2 p) const;
   void look_at_run(std::size_t run, Vec2 p, Nearest& best) const;
@@ -45,6 +44,7 @@ private:
 
   Periods periods_;
   std::vector<Ends> ends_;
+  std::vector<LocalIndex> arc_of_; // of each piece: into arcs_, or -1 for a segment; empty without arcs
   std::vector<Piece> arcs_;
   std::vector<Box> boxes_; // heap order: the root is 1, the children of k are 2k and 2k+1; the runs are the leaves
 };

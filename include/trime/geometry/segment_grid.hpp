@@ -51,16 +51,26 @@ public:
   template <class Visit>
   void for_each_bin_near(const Box& box, const Segment& segment, double margin, const Visit& visit) const;
 
+  /// Number of cells. Bin k lists the segments that meet cell k, ascending; none if the cell is split. Segments that
+  /// meet are together in a bin.
+  std::size_t bins() const { return cells_.size(); }
+  std::span<const LocalIndex> bin(std::size_t k) const {
+    return cells_[k].split ? std::span<const LocalIndex>{} : listed_in(cells_[k]);
+  }
+
   std::span<const Segment> segments() const { return segments_; }
   std::size_t memory_bytes() const;
 
 private:
   /// A leaf lists the segments that meet the closed cell; a split cell has 16 children, row by row from below.
   struct Cell {
-    LocalIndex first = 0; ///< into cell_segment_, or the first child in cells_
-    LocalIndex count = 0; ///< segments listed
-    bool split = false;
-    bool corner_inside = false; ///< parity at the lower-left corner, perturbed
+    LocalIndex first = 0;          ///< into cell_segment_, or the first child in cells_
+    std::uint32_t listed : 30 = 0; ///< segments
+    std::uint32_t split : 1 = 0;
+    std::uint32_t corner_inside : 1 = 0; ///< parity at the lower-left corner, perturbed
+
+    LocalIndex count() const { return static_cast<LocalIndex>(listed); }
+    LocalIndex last() const { return first + count(); }
   };
   /// A cell with its place: lower-left corner and side.
   struct Placed {
@@ -78,6 +88,9 @@ private:
   };
   class Builder;
 
+  std::span<const LocalIndex> listed_in(const Cell& cell) const {
+    return {cell_segment_.data() + cell.first, cell.listed};
+  }
   Placed bin_of(Vec2 p) const;
   void look_in_leaf(const Cell& cell, Vec2 p, Nearest& best) const;
   void nearest_in(Placed place, Vec2 p, Nearest& best) const;
@@ -100,7 +113,7 @@ template <class Wanted, class Visit>
 bool SegmentGrid::visit_near(const Placed& place, const Box& box, const Wanted& wanted, const Visit& visit) const {
   const Cell& cell = cells_[place.cell];
   if (!cell.split)
-    return visit(std::span<const LocalIndex>(cell_segment_.data() + cell.first, static_cast<std::size_t>(cell.count)));
+    return visit(listed_in(cell));
   // No child beyond these, which are a little too many for rounding, meets the box.
   const double inverse = 4 / place.side;
   const auto first = [&](double v) { return static_cast<int>(std::clamp(v * inverse - 0x1p-20, 0.0, 3.0)); };

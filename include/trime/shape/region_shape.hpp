@@ -52,6 +52,11 @@ private:
   geometry::PieceTree tree_;
 };
 
+/// @brief The boundary of the region alone, for those who ask nothing else of the shape: the parts and all that was
+/// built to find it are freed. Bit for bit that of a RegionShape.
+/// @throws ConfigError, GeometryError as RegionShape
+MarkedBoundary boundary_of(std::vector<Part> parts, std::string_view region, const geometry::Frame& frame);
+
 /// @brief A shape of one's own, traced: the region that consists of it alone. See traced_part for cost and errors.
 RegionShape traced(const Shape& shape, const geometry::Frame& frame, const std::string& name = "shape");
 

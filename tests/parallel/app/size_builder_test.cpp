@@ -20,7 +20,8 @@ const std::string plate = "[shape]\nregion = plate\n[shape.plate]\ntype = rectan
 struct Built {
   explicit Built(const std::vector<std::string>& overrides)
       : options(parse_config(plate, "c.ini", overrides)), log(LogLevel::silent, false),
-        boundary(read_shape(options, comm, log, places).shape.boundary()), size(build_size(options, boundary, comm)) {}
+        boundary(read_shape(options, ShapeUse::boundary, comm, log, places).boundary()),
+        size(build_size(options, boundary, comm)) {}
 
   double at(double x, double y) const { return size.field->size({x, y}); }
 

@@ -156,5 +156,13 @@ TEST(FixedPoints, FreeSitesKeepAway) {
   EXPECT_EQ(sites.size(), 101u - 15u);
 }
 
+TEST(FixedPoints, WithNoneOnTheBoundaryItIsNotCopied) {
+  EXPECT_EQ(&make({}).cornered_boundary(), &shape.boundary());
+  const std::vector<FixedPoint> inside = with_points({{0.3, 0.3}});
+  EXPECT_EQ(&make(inside).cornered_boundary(), &shape.boundary());
+  const std::vector<FixedPoint> both = with_points({{0.3, 0.3}, {0.25, 0.4}});
+  EXPECT_NE(&make(both).cornered_boundary(), &shape.boundary());
+}
+
 } // namespace
 } // namespace trime::boundary

@@ -235,5 +235,31 @@ TEST(SegmentGrid, ASlantedSegmentLooksAlongItself) {
   }
 }
 
+TEST(SegmentGrid, SegmentsThatMeetAreTogetherInABin) {
+  std::vector<Segment> segments;
+  for (std::uint64_t k = 0; k < 8; ++k) // stars that cross each other, and a vertex on a corner of cells
+    add_polygon(segments, star({0.3 + 0.05 * static_cast<double>(k), 0.5}, 0.25, 60, 100 + k));
+  add_polygon(segments, {{0.5, 0.5}, {0.75, 0.5}, {0.5, 0.75}});
+  const SegmentGrid grid(segments);
+  std::set<std::pair<LocalIndex, LocalIndex>> together;
+  for (std::size_t bin = 0; bin < grid.bins(); ++bin)
+    for (const LocalIndex a : grid.bin(bin))
+      for (const LocalIndex b : grid.bin(bin))
+        together.insert({a, b});
+  std::size_t meetings = 0;
+  for (LocalIndex a = 0; a < std::ssize(segments); ++a)
+    for (LocalIndex b = 0; b < std::ssize(segments); ++b) {
+      const Segment &s = segments[at(a)], &t = segments[at(b)];
+      if (orient2d(s.a, s.b, t.a) * orient2d(s.a, s.b, t.b) > 0 ||
+          orient2d(t.a, t.b, s.a) * orient2d(t.a, t.b, s.b) > 0)
+        continue;
+      if (a != b && orient2d(s.a, s.b, t.a) == 0 && orient2d(s.a, s.b, t.b) == 0 && s.a != t.b && s.b != t.a)
+        continue; // on one line, perhaps apart
+      ++meetings;
+      EXPECT_TRUE(together.count({a, b})) << a << ' ' << b;
+    }
+  EXPECT_GT(meetings, segments.size() * 4);
+}
+
 } // namespace
 } // namespace trime::geometry

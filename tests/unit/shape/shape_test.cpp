@@ -184,5 +184,38 @@ TEST(Shape, RaggedContourWithManyVerticesAndLakes) {
   }
 }
 
+void expect_same_boundary(const std::vector<Part>& parts, const std::string& region, const Frame& frame) {
+  const RegionShape shape(parts, region, frame);
+  const MarkedBoundary alone = boundary_of(parts, region, frame);
+  EXPECT_EQ(alone.part_markers, shape.part_markers());
+  EXPECT_EQ(alone.boundary.part_names, shape.boundary().part_names);
+  EXPECT_EQ(alone.boundary.area, shape.boundary().area);
+  ASSERT_EQ(alone.boundary.loops.size(), shape.boundary().loops.size());
+  for (std::size_t k = 0; k < alone.boundary.loops.size(); ++k) {
+    const Loop &a = alone.boundary.loops[k], &b = shape.boundary().loops[k];
+    ASSERT_EQ(a.pieces.size(), b.pieces.size());
+    for (std::size_t i = 0; i < a.pieces.size(); ++i) {
+      const Piece &p = a.pieces[i], &q = b.pieces[i];
+      EXPECT_EQ(std::tie(p.start, p.end, p.circular, p.center, p.radius, p.start_angle, p.sweep, p.corner, p.part),
+                std::tie(q.start, q.end, q.circular, q.center, q.radius, q.start_angle, q.sweep, q.corner, q.part));
+    }
+  }
+}
+
+TEST(Shape, TheBoundaryAloneIsThatOfTheShape) {
+  const Contour marked = parse_poly("4 2 0 0\n1 0.2 0.2\n2 0.8 0.2\n3 0.8 0.8\n4 0.2 0.8\n"
+                                    "4 1\n1 1 2 7\n2 2 3 0\n3 3 4 8\n4 4 1 7\n0\n",
+                                    "s.poly");
+  const Contour plain = parse_xy("0.2 0.2\n0.8 0.2\n0.8 0.8\n0.2 0.8\n", "s.xy");
+  const Frame torus(Box{{0, 0}, {1, 1}}, true, true);
+  for (const Frame& frame : {unit_frame, torus})
+    for (const Contour& contour : {marked, plain}) {
+      const std::vector<Part> parts{Part::contour("s", contour, {}, frame), Part::circle("c", {0.8, 0.5}, 0.1, frame)};
+      expect_same_boundary(parts, "difference(s, c)", frame);
+      expect_same_boundary(parts, "difference(domain, s, c)", frame);
+    }
+  EXPECT_THROW(boundary_of({}, "s", unit_frame), ConfigError);
+}
+
 } // namespace
 } // namespace trime::shape
