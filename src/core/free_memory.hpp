@@ -12,8 +12,8 @@ inline constexpr double bytes_per_point = 150;
 /// The same on each rank, for every point of the whole mesh: where all tiles are. Measured with 10^6 points: 0.07 on
 /// the disc, 0.15 where the size varies.
 inline constexpr double bytes_per_point_on_each_rank = 0.15;
-/// The same for each piece of the shape's boundary: while the shape is read. Measured: 540 with 10^6 segments.
-inline constexpr double bytes_per_piece = 560;
+/// The same for each piece of the shape's boundary: while the shape is read. Measured: 205 with 10^6 segments.
+inline constexpr double bytes_per_piece = 230;
 /// The same on the rank that simplifies the boundary for all. Measured with 10^6 segments: 80 where most of them are
 /// far below the triangles, 370 where all have to be looked at.
 inline constexpr double bytes_per_simplified_piece = 400;

@@ -58,6 +58,7 @@ public:
 
   Loop result() const {
     Loop thinned{{}, loop_.outer, loop_.tag, loop_.winding};
+    thinned.pieces.reserve(n_ - static_cast<std::size_t>(std::count(ragged_.begin(), ragged_.end(), gone)));
     for (std::size_t k = 0; k < n_; ++k) {
       if (ragged_[k] == gone)
         continue;
