@@ -19,6 +19,7 @@
 #include "polygon/simplification.hpp"
 #include "sites/rules.hpp"
 #include "start/points_of_length.hpp"
+#include "start/rules.hpp"
 #include "trime/io/mesh_series.hpp"
 #include "trime/meshing/mesher.hpp"
 
@@ -64,13 +65,18 @@ void check_share(double points, int ranks) {
 
 /// Bytes at the peak.
 struct MemoryEstimate {
-  double of_rank, of_first; // rank 0 simplifies the boundary for all
+  double of_rank, of_first; // rank 0 may simplify the boundary for all
   double of_all(int ranks) const { return of_first + (ranks - 1) * of_rank; }
 };
-MemoryEstimate estimate_memory(double points, double pieces, int ranks) {
+MemoryEstimate estimate_memory(const RunOptions& options, double points, const geometry::Boundary& boundary,
+                               int ranks) {
+  const auto pieces = static_cast<double>(polygon::piece_count(boundary));
+  const boundary::FeatureOptions& features = options.mesh.features;
+  const bool simplifies = !features.keep_all && features.within > 0 && !boundary.periods.any();
   const double of_rank = points / ranks * bytes_per_point + points * bytes_per_point_on_each_rank +
                          pieces * bytes_per_piece + bytes_per_process;
-  return {of_rank, of_rank + pieces * bytes_per_simplified_piece};
+  const double more = simplifies ? pieces * bytes_per_simplified_piece : 0;
+  return {pieces < static_cast<double>(start::StartRules::many_pieces) ? of_rank + more : of_rank, of_rank + more};
 }
 
 /// What --validate and --dry-run say in place of a mesh.
@@ -80,10 +86,10 @@ std::string estimate(const RunOptions& options, const geometry::Boundary& bounda
   std::string text = fmt::format(
       "shape: area {:.6g}, boundary length {:.6g}, {} component{}, {} hole{}\n", boundary.area, boundary.length(),
       boundary.components(), boundary.components() == 1 ? "" : "s", boundary.holes(), boundary.holes() == 1 ? "" : "s");
-  const MemoryEstimate memory =
-      estimate_memory(points, static_cast<double>(polygon::piece_count(boundary)), placement.ranks);
-  text += fmt::format("about {:.0f} points, {:.0f} triangles, {:.1f} MiB of memory over all ranks, {:.1f} per rank\n",
-                      points, 2 * points, memory.of_all(placement.ranks) / 0x1p20, memory.of_first / 0x1p20);
+  const MemoryEstimate memory = estimate_memory(options, points, boundary, placement.ranks);
+  text += fmt::format(
+      "about {:.0f} points, {:.0f} triangles, {:.1f} MiB of memory over all ranks, at most {:.1f} per rank\n", points,
+      2 * points, memory.of_all(placement.ranks) / 0x1p20, memory.of_first / 0x1p20);
   if (with_decomposition)
     text += fmt::format("{} rank{} x {} threads: about {:.0f} points per rank, {:.0f} per thread\n", placement.ranks,
                         placement.ranks == 1 ? "" : "s", placement.threads, points / placement.ranks,

@@ -263,15 +263,29 @@ std::optional<std::vector<std::byte>> Communicator::all_gather_unless(bool faile
   return all;
 }
 
+namespace {
+
+/// The list of `root`, of values of one byte, on every rank.
+template <class List>
+void broadcast_list(List& list, int root, const Communicator::Native& native) {
+  const Wait wait(native);
+  std::int64_t length = std::ssize(list);
+  check(MPI_Bcast(&length, 1, MPI_INT64_T, root, collective(native)));
+  list.resize(static_cast<std::size_t>(length));
+  for (std::size_t offset = 0; offset < list.size(); offset += piece_bytes)
+    check(MPI_Bcast(list.data() + offset, static_cast<int>(std::min(piece_bytes, list.size() - offset)), MPI_BYTE, root,
+                    collective(native)));
+}
+
+} // namespace
+
 std::string Communicator::broadcast(std::string text, int root) const {
-  const Wait wait(*native_);
-  std::int64_t length = static_cast<std::int64_t>(text.size());
-  check(MPI_Bcast(&length, 1, MPI_INT64_T, root, collective(*native_)));
-  text.resize(static_cast<std::size_t>(length));
-  for (std::size_t offset = 0; offset < text.size(); offset += piece_bytes)
-    check(MPI_Bcast(text.data() + offset, static_cast<int>(std::min(piece_bytes, text.size() - offset)), MPI_CHAR, root,
-                    collective(*native_)));
+  broadcast_list(text, root, *native_);
   return text;
+}
+std::vector<std::byte> Communicator::broadcast(std::vector<std::byte> bytes, int root) const {
+  broadcast_list(bytes, root, *native_);
+  return bytes;
 }
 
 std::vector<std::string> Communicator::gather(const std::string& text) const {

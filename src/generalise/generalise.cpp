@@ -7,6 +7,7 @@
 #include "generalise/ragged_curves.hpp"
 #include "generalise/regions.hpp"
 #include "generalise/rules.hpp"
+#include "generalise/thinned_map.hpp"
 #include "generalise/vertex_moves.hpp"
 
 #include <algorithm>
@@ -194,40 +195,6 @@ bool have_same_pieces(const Boundary& a, const Boundary& b) {
     return all;
   };
   return polygon::piece_count(a) == polygon::piece_count(b) && ends(a) == ends(b);
-}
-
-/// A boundary without its ragged runs, and its map.
-struct ThinnedMap {
-  std::unique_ptr<const Boundary> thinned; ///< null if nothing was ragged
-  std::optional<CurveMap> map;
-};
-
-/// A way to thin curves.
-struct ThinningTrial {
-  double share;
-  Thinning thinning;
-};
-
-/// The curves as the first trial leaves them that does not make them cross; nothing if there is none.
-ThinnedMap thinned_map(const Boundary& boundary, const sizing::SizeField& size, const geometry::Lattice& lattice,
-                       std::span<const Vec2> inside, std::span<const ThinningTrial> trials) {
-  ThinnedMap made;
-  std::int64_t last = 0; // pieces
-  for (const auto& [share, thinning] : trials) {
-    made.map.reset(); // before the curves that it refers to
-    made.thinned = without_ragged_runs(boundary, size, share, thinning);
-    if (!made.thinned)
-      break;
-    const std::int64_t pieces = polygon::piece_count(*made.thinned);
-    if (std::exchange(last, pieces) == pieces)
-      continue; // the same curves
-    made.map.emplace(*made.thinned, size, lattice, inside);
-    if (made.map->is_valid())
-      return made;
-  }
-  made.map.reset();
-  made.thinned = nullptr;
-  return made;
 }
 
 /// Thins less, then not at all, while that makes curves cross.

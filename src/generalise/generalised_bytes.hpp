@@ -4,15 +4,16 @@
 
 #include "generalise/generalise.hpp"
 
-#include <string>
+#include <cstddef>
+#include <vector>
 
 namespace trime::generalise {
 
 /// The curves and their counts, for a machine of the same kind. O(pieces)
-std::string to_bytes(const Generalised& all);
+std::vector<std::byte> to_bytes(const Generalised& all);
 
 /// What to_bytes() has packed. O(pieces)
 /// @param given the boundary that was generalised: names of parts and periods are its own
-Generalised generalised_of_bytes(const std::string& bytes, const geometry::Boundary& given);
+Generalised generalised_of_bytes(std::vector<std::byte> bytes, const geometry::Boundary& given);
 
 } // namespace trime::generalise

@@ -6,8 +6,10 @@
 #include "core/thread_loop.hpp"
 #include "geometry/predicates.hpp"
 #include "geometry/segment_tree.hpp"
+#include "shape/rules.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <optional>
 #include <set>
@@ -82,16 +84,19 @@ std::vector<Segment> segments_of(const std::vector<LatticeRing>& rings) {
 
 namespace {
 
-/// Segments of so many chunks are looked at, one by one; of the meetings of one only so many and those of one more.
-constexpr LocalIndex chunk = 2048;
-constexpr std::size_t most_in_chunk = 4 * chunk;
-
-/// Pairs of segments in the bins, for each segment, that are looked at before a tree is built: that costs more.
-constexpr std::int64_t enough_pairs = 32;
-
 /// Is a pair of neighbours of one ring left out? @param after the segment behind each one
 bool are_neighbours(const std::vector<LocalIndex>& after, LocalIndex i, LocalIndex j) {
   return j == after[at(i)] || i == after[at(j)];
+}
+
+/// Appends the pairs of a bin that meet.
+void add_meetings(const std::vector<LocalIndex>& after, std::span<const Segment> segments,
+                  std::span<const LocalIndex> bin, std::vector<SegmentPair>& pairs) {
+  for (std::size_t b = 1; b < bin.size(); ++b)
+    for (std::size_t a = 0; a < b; ++a)
+      if (!are_neighbours(after, bin[a], bin[b]) &&
+          meeting_of(segments[at(bin[a])], segments[at(bin[b])]) != Meeting::none)
+        pairs.push_back({bin[a], bin[b]});
 }
 
 /// @brief Two segments that meet are together in a bin. Nothing where bins are crowded, or very many meet.
@@ -101,20 +106,22 @@ std::optional<std::vector<SegmentPair>> meetings_in_bins(const std::vector<Local
   std::int64_t looks = 0;
   for (std::size_t bin = 0; bin < grid.bins(); ++bin)
     looks += std::ssize(grid.bin(bin)) * (std::ssize(grid.bin(bin)) - 1) / 2;
-  if (looks > enough_pairs * std::ssize(segments))
+  if (looks > ShapeRules::enough_pairs * std::ssize(segments))
     return std::nullopt;
-  std::vector<SegmentPair> pairs =
-      gather_in_order<SegmentPair>(static_cast<std::ptrdiff_t>(grid.bins()), chunk, [&](std::ptrdiff_t k, auto& list) {
+  std::atomic<bool> is_full = false; // some list: the same on any threads
+  std::vector<SegmentPair> pairs = gather_in_order<SegmentPair>(
+      static_cast<std::ptrdiff_t>(grid.bins()), ShapeRules::meeting_chunk, [&](std::ptrdiff_t k, auto& list) {
         const std::span<const LocalIndex> bin = grid.bin(static_cast<std::size_t>(k)); // ascending
-        for (std::size_t b = 1; b < bin.size(); ++b)
-          for (std::size_t a = 0; a < b; ++a)
-            if (!are_neighbours(after, bin[a], bin[b]) &&
-                meeting_of(segments[at(bin[a])], segments[at(bin[b])]) != Meeting::none)
-              list.push_back({bin[a], bin[b]});
+        if (list.size() >= ShapeRules::most_meetings)
+          is_full.store(true, std::memory_order_relaxed);
+        else
+          add_meetings(after, segments, bin, list);
       });
+  if (is_full)
+    return std::nullopt;
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  if (pairs.size() >= most_in_chunk) // the tree takes only the first of each chunk
+  if (pairs.size() >= ShapeRules::most_meetings) // the tree takes only the first of each chunk
     return std::nullopt;
   return pairs;
 }
@@ -122,12 +129,13 @@ std::optional<std::vector<SegmentPair>> meetings_in_bins(const std::vector<Local
 std::vector<SegmentPair> meetings_by_tree(const std::vector<LocalIndex>& after, std::span<const Segment> segments) {
   const LocalIndex n = static_cast<LocalIndex>(segments.size());
   const geometry::SegmentTree tree(segments);
+  constexpr LocalIndex chunk = ShapeRules::meeting_chunk;
   const LocalIndex chunks = (n + chunk - 1) / chunk;
   std::vector<std::vector<SegmentPair>> found(at(chunks)); // what is found does not depend on the threads
   thread_loop(chunks, 1, [&](std::ptrdiff_t c, int) {
     std::vector<SegmentPair>& pairs = found[static_cast<std::size_t>(c)];
     const LocalIndex first = static_cast<LocalIndex>(c) * chunk, last = std::min(n, first + chunk);
-    for (LocalIndex i = first; i < last && pairs.size() < most_in_chunk; ++i) {
+    for (LocalIndex i = first; i < last && pairs.size() < ShapeRules::most_meetings; ++i) {
       const auto start = static_cast<std::ptrdiff_t>(pairs.size());
       tree.for_each_near(segments[at(i)], [&](LocalIndex j) {
         if (j > i && !are_neighbours(after, i, j) && meeting_of(segments[at(i)], segments[at(j)]) != Meeting::none)

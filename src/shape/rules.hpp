@@ -2,8 +2,11 @@
 // The tuned numbers of the module shape: how formulas become curves, and what becomes one vertex.
 #pragma once
 
+#include "trime/core/types.hpp"
 #include <array>
+
 #include <cstddef>
+#include <cstdint>
 
 namespace trime::shape {
 
@@ -72,6 +75,14 @@ struct ShapeRules {
   static constexpr double same_place = 1e-9;
   /// [1] A piece of a contour at a periodic border finds its partner across within this share of the longer side.
   static constexpr double partner_reach = 1e-5;
+  /// [segments] Meetings of segments are looked for in chunks of so many: what is found does not depend on the threads.
+  /// Not measured.
+  static constexpr LocalIndex meeting_chunk = 2048;
+  /// [meetings] Of a chunk with so many, the rest is not looked for: it bounds the memory. Not measured.
+  static constexpr std::size_t most_meetings = 8192;
+  /// [pairs] With more for each segment in the bins of the grid a tree is built: that costs about as much. Measured:
+  /// with bins a ring of 10^6 segments is looked through in a quarter of the time.
+  static constexpr std::int64_t enough_pairs = 32;
   /// [steps] A circle has a radius of so many lattice steps at least.
   static constexpr int smallest_radius = 64;
 };

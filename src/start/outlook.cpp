@@ -49,12 +49,15 @@ double fitted_factor(const LayoutContext& context, double points) {
   return factor / (options.points ? scale_for(on_boundary, fewer - on_boundary, points) : longer);
 }
 
-/// Is nothing cut, closed, moved, thinned or dropped?
+/// Is nothing cut, closed, moved, thinned or dropped? Collective.
 bool keeps_all(const LayoutContext& context, double factor) {
   const StartOptions& options = context.options;
   const geometry::Boundary& given = context.fixed.cornered_boundary();
+  const bool by_one = one_rank_simplifies(context);
   bool keeps = false;
   comm::run_agreed(context.comm, [&] {
+    if (by_one && !context.comm.is_root())
+      return;
     const sizing::ScaledSize size(context.relative_size, factor, options.min_size.value_or(0),
                                   options.max_size.value_or(INFINITY));
     keeps =
@@ -63,7 +66,7 @@ bool keeps_all(const LayoutContext& context, double factor) {
         !(generalises(context) && generalise::would_generalise(given, generalised_size(context, size), context.lattice,
                                                                generalise_choice(context), context.fixed.inside()));
   });
-  return keeps;
+  return by_one ? context.comm.sum(std::int64_t{keeps}) > 0 : keeps;
 }
 
 /// Down by powers of ten, then halves of the last of them on a logarithmic scale.

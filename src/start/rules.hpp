@@ -14,7 +14,7 @@ struct StartRules {
   static constexpr double thinned_ahead = 3;
   /// [1] While the factor of the size changes by a smaller share, the curves are not generalised anew. Not measured.
   static constexpr double same_curves = 0.04;
-  /// [pieces] Boundaries with so many are simplified by one rank for all. With fewer that takes less than 5 MB of
+  /// [pieces] Boundaries with so many are simplified by one rank for all. With fewer that takes less than 7 MB of
   /// memory and about as long as the messages. Not measured.
   static constexpr std::int64_t many_pieces = 16384;
   /// [1] Simplified curves stay by so much nearer to the shape than the certificate wants: factors of sizes are

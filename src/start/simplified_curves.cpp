@@ -105,26 +105,35 @@ void simplify_curves(const LayoutContext& context, const sizing::SizeField& aske
   curves.found = std::move(found);
 }
 
+bool one_rank_simplifies(const LayoutContext& context) {
+  return context.comm.size() > 1 && generalises(context) &&
+         polygon::piece_count(context.fixed.cornered_boundary()) >= StartRules::many_pieces;
+}
+
 void share_simplified_curves(const LayoutContext& context, const sizing::SizeField& asked, double factor,
                              CurvesAtSize& curves) {
-  const Boundary& given = context.fixed.cornered_boundary();
-  if (context.comm.size() == 1 || !generalises(context) || serve(curves, factor) ||
-      polygon::piece_count(given) < StartRules::many_pieces)
+  if (!one_rank_simplifies(context) || serve(curves, factor))
     return;
   const bool is_root = context.comm.is_root();
+  std::vector<std::byte> bytes;
+  comm::run_agreed(context.comm, [&] {
+    if (!is_root)
+      return;
+    simplify_curves(context, asked, factor, curves);
+    if (curves.found)
+      bytes = generalise::to_bytes(*curves.found);
+  });
+  bytes = context.comm.broadcast(std::move(bytes));
   comm::run_agreed(context.comm, [&] {
     if (is_root)
-      simplify_curves(context, asked, factor, curves);
+      return;
+    curves.factor = factor;
+    curves.samples = nullptr;
+    curves.found.reset();
+    if (!bytes.empty())
+      curves.found = std::make_shared<generalise::Generalised>(
+          generalise::generalised_of_bytes(std::move(bytes), context.fixed.cornered_boundary()));
   });
-  const std::string bytes =
-      context.comm.broadcast(is_root && curves.found ? generalise::to_bytes(*curves.found) : std::string());
-  if (is_root)
-    return;
-  curves.factor = factor;
-  curves.samples = nullptr;
-  curves.found.reset();
-  if (!bytes.empty())
-    curves.found = std::make_shared<generalise::Generalised>(generalise::generalised_of_bytes(bytes, given));
 }
 
 } // namespace trime::start

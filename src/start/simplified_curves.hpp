@@ -37,16 +37,19 @@ bool generalises(const LayoutContext& context);
 /// The h by whose shares that is done: the one asked for, unless the user wants another distance than the usual.
 sizing::ScaledSize generalised_size(const LayoutContext& context, const sizing::SizeField& asked);
 
-/// @brief Simplifies the boundary for a size, unless it was for about the same factor, or is held. Where the result
-/// lies farther from the shape than the certificate allows (sizes may fall steeply on the way that a curve moves), it
+/// @brief Simplifies the boundary for a size, unless it was for about the same factor, or is held. The result may lie
+/// farther from the shape than the certificate allows, where sizes fall steeply on the way that a curve moves. Then it
 /// is made again with smaller sizes around these places; after some rounds nothing is simplified. Local: all ranks do
 /// the same. O(n log n) for n pieces.
 /// @param asked the size, `factor` times the relative one
 /// @throws GeometryError if a size is not positive and finite
 void simplify_curves(const LayoutContext& context, const sizing::SizeField& asked, double factor, CurvesAtSize& curves);
 
-/// @brief If the boundary has many pieces, rank 0 simplifies it for all ranks: the others need neither the memory nor
-/// the caches of their node for that. simplify_curves then finds it done. Collective.
+/// Does rank 0 simplify the boundary for all ranks, since it has many pieces? The same on all ranks.
+bool one_rank_simplifies(const LayoutContext& context);
+
+/// @brief If one rank simplifies for all, it does so here, and sends the result: the others need neither the memory nor
+/// the caches of their node for that. simplify_curves then finds it done. Else nothing happens. Collective.
 /// @throws GeometryError on all ranks, as simplify_curves does
 void share_simplified_curves(const LayoutContext& context, const sizing::SizeField& asked, double factor,
                              CurvesAtSize& curves);

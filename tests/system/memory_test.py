@@ -47,7 +47,7 @@ def is_foretold(directory):
     config = directory / "coast.ini"
     config.write_text("[shape]\nregion = land\n[shape.land]\ntype = contour\nfile = coast.xy\nnormalize = true\n"
                       "[sizing]\ntype = automatic\n[meshing]\npoints = 5000\n", "ascii")
-    foretold = float(re.search(r"over all ranks, ([\d.]+) per rank", output_of(config, "--dry-run"))[1])
+    foretold = float(re.search(r"over all ranks, at most ([\d.]+) per rank", output_of(config, "--dry-run"))[1])
     report = output_of(config, f"output.directory={directory}")
     taken = float(re.search(r"at most ([\d.]+) MiB per rank", report)[1])
     print(f"contour of {SEGMENTS} segments: {taken:.0f} MiB, {foretold:.0f} MiB foretold")

@@ -90,6 +90,8 @@ public:
   std::optional<std::vector<std::byte>> all_gather_unless(bool failed, std::span<const std::byte> bytes) const;
   /// The text of `root` on every rank. Collective.
   std::string broadcast(std::string text, int root = 0) const;
+  /// The same for bytes. Collective.
+  std::vector<std::byte> broadcast(std::vector<std::byte> bytes, int root = 0) const;
   /// The text of each rank on rank 0 (empty elsewhere). Collective.
   std::vector<std::string> gather(const std::string& text) const;
 

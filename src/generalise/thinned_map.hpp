@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Curves that are thinned as far as they do not come to cross, and the map that proves it.
+#pragma once
+
+#include "generalise/curve_map.hpp"
+#include "generalise/ragged_curves.hpp"
+
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace trime::generalise {
+
+/// A boundary without its ragged runs, and its map. The map refers to the boundary, and goes before it.
+struct ThinnedMap {
+  std::unique_ptr<const geometry::Boundary> thinned; ///< null if nothing was ragged
+  std::optional<CurveMap> map;
+};
+
+/// A way to thin curves, see without_ragged_runs.
+struct ThinningTrial {
+  double share; ///< of h
+  Thinning thinning;
+};
+
+/// @brief The curves as the first trial leaves them that does not make them cross; nothing if there is none. O(n log n)
+/// for each trial.
+/// @param inside lattice points that must stay inside, see CurveMap
+/// @throws GeometryError if a size is not positive and finite
+ThinnedMap thinned_map(const geometry::Boundary& boundary, const sizing::SizeField& size,
+                       const geometry::Lattice& lattice, std::span<const geometry::Vec2> inside,
+                       std::span<const ThinningTrial> trials);
+
+} // namespace trime::generalise
