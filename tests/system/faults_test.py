@@ -5,9 +5,11 @@ message and a code; no half file has a final name, and the mesh of an older run 
 
 File systems of its own need the right to mount (root in a container); without it those tests are skipped."""
 import hashlib
+import io
 import os
+import pty
 import resource
-import shutil
+import select
 import signal
 import subprocess
 import tempfile
@@ -17,6 +19,7 @@ import unittest
 import h5py
 
 from interrupted_test import processes_of
+from progress_test import ERASE
 from trime_run import PROGRAM, ROOT, Workspace, command, environment, run
 
 CONFIG = ROOT / "configs" / "square.ini"
@@ -25,6 +28,8 @@ SOON = 30  # seconds from the fault to the end
 PATIENCE = 120  # seconds for a run that nothing disturbs, on a machine that is busy
 POINTS = 40_000
 ROOM = "16m"  # the mesh needs 8 MB, and twice that while it replaces an older one
+# As the live line names them, in their order.
+PHASES = ("shape", "size field", "boundary", "points", "sweeps", "settle", "clean-up", "extract", "certificate", "output")
 TABLE = []
 
 
@@ -70,15 +75,19 @@ class Faults(unittest.TestCase):
         print("\n".join(["| fault | ranks | code | seconds |", "|---|---|---|---|"] +
                         [f"| {what} | {ranks} | {code} | {seconds:.1f} |" for what, ranks, code, seconds in TABLE]))
 
+    @staticmethod
+    def arguments(folder, points):
+        return [CONFIG, f"meshing.points={points}", f"output.directory={folder}", "output.name=mesh",
+                "output.overwrite=true"]
+
     def start(self, folder, ranks, *more, points=POINTS, limit=None):
         """A run that has said its first word. Its group of processes is its own."""
-        arguments = [CONFIG, f"meshing.points={points}", f"output.directory={folder}", "output.name=mesh",
-                     "output.overwrite=true", *more]
         self.said = tempfile.TemporaryFile()
         self.addCleanup(self.said.close)
         limits = None if limit is None else lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
-        started = subprocess.Popen(command(arguments, ranks), env=environment(1), stdout=self.said,
-                                   stderr=subprocess.STDOUT, start_new_session=True, preexec_fn=limits)
+        started = subprocess.Popen(command(self.arguments(folder, points) + list(more), ranks), env=environment(1),
+                                   stdout=self.said, stderr=subprocess.STDOUT, start_new_session=True,
+                                   preexec_fn=limits)
         self.wait_until(lambda: os.fstat(self.said.fileno()).st_size > 0 or started.poll() is not None)
         return started
 
@@ -158,7 +167,7 @@ class Faults(unittest.TestCase):
                 folder.mkdir()
                 started = self.start(folder, ranks)
                 since = time.monotonic()
-                shutil.rmtree(folder)
+                folder.rename(work / "elsewhere")  # in one step: the run may be making or removing a file in it
                 # Before the look at it the run makes it anew: then there is a mesh.
                 code, told = self.end_of("the directory vanishes", ranks, started, since)
                 self.assertIn(code, (0, FILE), told)
@@ -176,41 +185,65 @@ class Faults(unittest.TestCase):
                 self.refused("the file is beyond its limit", ranks, started, time.monotonic(), "File too large")
                 self.assertEqual(list(folder.iterdir()), [])
 
+    def dies_in(self, phase, folder, points):
+        """The exit code of a run on 3 ranks; one of them is killed as soon as the live line tells of the phase."""
+        mine, its = pty.openpty()
+        with subprocess.Popen(command(self.arguments(folder, points), 3), env=environment(1) | {"TERM": "xterm"},
+                              stdin=subprocess.DEVNULL, stdout=its, stderr=its, start_new_session=True) as started:
+            os.close(its)
+            live = (ERASE + phase).encode()
+            told = self.read_until(mine, lambda text: live in text)
+            since = time.monotonic()
+            ranks = self.ranks_of(folder)
+            if ranks:
+                try:
+                    os.kill(ranks[-1], signal.SIGKILL)
+                except ProcessLookupError:
+                    pass
+            told += self.read_until(mine, lambda text: False)
+            os.close(mine)
+            self.said = io.BytesIO(told)
+            self.assertIn(live, told)
+            code, text = self.end_of(f"a rank dies: {phase}", 3, started, since)
+        self.assertLess(time.monotonic() - since, SOON, text)
+        self.wait_until(lambda: not processes_of(folder))
+        self.assertEqual(processes_of(folder), [], "ranks survive their mpirun")
+        return code
+
+    @staticmethod
+    def read_until(terminal, is_enough):
+        """What a pseudo-terminal is given until it is enough, its writers are gone, or time is up."""
+        text = b""
+        end = time.monotonic() + PATIENCE
+        while not is_enough(text) and select.select([terminal], [], [], max(0.0, end - time.monotonic()))[0]:
+            try:
+                part = os.read(terminal, 1 << 16)
+            except OSError:  # what the reading end says when nobody can write any more
+                break
+            if not part:
+                break
+            text += part
+        return text
+
     def test_a_rank_that_dies(self):
-        """At moments from the start to the writing."""
+        """In each phase."""
         with Workspace() as folder:
             before = self.older(folder)
-            whole = self.start(folder, 3, "output.name=whole")
-            begin = time.monotonic()
-            whole.wait(PATIENCE)
-            seconds = time.monotonic() - begin
-            for share in (0.0, 0.2, 0.4, 0.6, 0.8, None):
-                with self.subTest(share=share):
-                    started = self.start(folder, 3)
-                    if share is None:  # while the file is written
-                        self.wait_until(lambda: any("mesh.h5.tmp-" in path.name for path in folder.iterdir()) or
-                                        started.poll() is not None)
-                    else:
-                        time.sleep(share * seconds)
-                    ranks = self.ranks_of(folder)
-                    since = time.monotonic()
-                    if ranks:
-                        try:
-                            os.kill(ranks[-1], signal.SIGKILL)
-                        except ProcessLookupError:
-                            pass
-                    moment = "in the writing" if share is None else f"at {share:.0%}"
-                    code, told = self.end_of(f"a rank dies {moment}", 3, started, since)
-                    self.assertLess(time.monotonic() - since, SOON)
-                    self.wait_until(lambda: not processes_of(folder))
-                    self.assertEqual(processes_of(folder), [], "ranks survive their mpirun")
-                    if code == 0:  # the run was over
-                        self.assertNotEqual(digest(folder / "mesh.h5"), before)
+            for phase in PHASES:
+                with self.subTest(phase=phase):
+                    for points in (POINTS, 4 * POINTS, 16 * POINTS):  # more, until the phase lasts long enough
+                        code = self.dies_in(phase, folder, points)
+                        is_new = digest(folder / "mesh.h5") != before
+                        with h5py.File(folder / "mesh.h5", "r") as file:
+                            self.assertEqual(int(file["trime_mpi"].attrs["complete"]), 1)
                         before = digest(folder / "mesh.h5")
-                    with h5py.File(folder / "mesh.h5", "r") as file:
-                        self.assertEqual(int(file["trime_mpi"].attrs["complete"]), 1, told)
-                    if code != 0 and digest(folder / "mesh.h5") != before:
-                        before = digest(folder / "mesh.h5")  # it died when its mesh had been given its name
+                        if code != 0:
+                            break
+                        self.assertTrue(is_new, "a run that was over has left no mesh")
+                        TABLE.pop()
+                    self.assertNotEqual(code, 0, "the run was over each time")
+                    # Only at its very end may it have given its mesh the name.
+                    self.assertTrue(phase == PHASES[-1] or not is_new)
 
     @staticmethod
     def ranks_of(folder):

@@ -83,16 +83,29 @@ class Interrupted(unittest.TestCase):
                 self.kill_when(directory, SHORT, written, number)
                 self.assert_nothing_or_whole(directory)
 
-    def interrupted(self, number, before):
-        """Sends the signal to a single rank without mpirun; returns its exit code and what it said."""
+    @staticmethod
+    def is_in(process, row, number):
+        """Whether the kernel has the signal in this set of the process: SigCgt, SigIgn (proc(5))."""
+        with open(f"/proc/{process.pid}/status", encoding="ascii") as stream:
+            words = next(line.split() for line in stream if line.startswith(f"{row}:"))
+        return int(words[1], 16) >> (number - 1) & 1 == 1
+
+    def interrupted(self, number, ignored=False):
+        """Sends the signal to a single rank without mpirun, as soon as it listens, or 1 s after the start where its
+        caller ignores the signal; returns its exit code and what it said."""
+        before = (lambda: signal.signal(number, signal.SIG_IGN)) if ignored else None
         with Workspace() as directory:
             arguments = [CONFIG, f"meshing.points={LONG}", f"output.directory={directory}", "output.name=mesh"]
             with subprocess.Popen(command(arguments, 1), env=environment(1), stdout=subprocess.DEVNULL,
                                   stderr=subprocess.PIPE, text=True, preexec_fn=before) as run:
+                end = time.monotonic() + PATIENCE
                 time.sleep(1)
+                while not ignored and not self.is_in(run, "SigCgt", number) and time.monotonic() < end:
+                    time.sleep(0.01)
+                self.assertEqual(self.is_in(run, "SigIgn", number), ignored)
                 run.send_signal(number)
                 try:
-                    run.wait(2)
+                    run.wait(2 if ignored else PATIENCE)
                     code = run.returncode
                 except subprocess.TimeoutExpired:
                     code = None  # it goes on
@@ -102,7 +115,7 @@ class Interrupted(unittest.TestCase):
     def test_a_word_is_said_on_every_signal_that_ends_a_program(self):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGABRT, signal.SIGXCPU):
             with self.subTest(signal=number):
-                code, told, left = self.interrupted(number, None)
+                code, told, left = self.interrupted(number)
                 self.assertEqual(code, -number)
                 self.assertEqual(told.count("trime_mpi: interrupted; the final mesh was not written\n"), 1, told)
                 self.assertEqual(left, [])
@@ -168,7 +181,7 @@ class Interrupted(unittest.TestCase):
     def test_a_signal_that_the_caller_ignores_stays_ignored(self):
         for number in (signal.SIGINT, signal.SIGHUP):
             with self.subTest(signal=number):
-                code, told, _ = self.interrupted(number, lambda ignored=number: signal.signal(ignored, signal.SIG_IGN))
+                code, told, _ = self.interrupted(number, ignored=True)
                 self.assertIsNone(code, told)
 
 
