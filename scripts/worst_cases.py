@@ -192,6 +192,26 @@ def text_of_islands(directory, n):
     return contour(directory, [circle(100, radius=0.49)] + islands, points=100000, formats="text")
 
 
+@case(500, validate=False)
+def fins_that_are_cut(directory, n):
+    """A comb of n fins far thinner than the triangles."""
+    width = 0.4 / n
+    ring = [(0.1, 0.1), (0.9, 0.1)]
+    for k in range(n):
+        x = 0.9 - 2 * k * width
+        ring += [(x, 0.8), (x - width, 0.8), (x - width, 0.3), (x - 2 * width if k < n - 1 else 0.1, 0.3)]
+    return contour(directory, [ring], points=500)
+
+
+@case(5000, validate=False)
+def spikes_that_are_smoothed(directory, n):
+    """A star of n spikes far thinner than the triangles."""
+    turns = [math.pi * k / n for k in range(2 * n)]
+    radii = [0.1 if k % 2 == 0 else 0.4 for k in range(2 * n)]
+    return contour(directory, [[(0.5 + r * math.cos(t), 0.5 + r * math.sin(t)) for r, t in zip(radii, turns)]],
+                   points=500)
+
+
 def koch(depth, every):
     """Each of `every` edges is divided once more than the others."""
     points = [(0.1, 0.3), (0.5, 0.3 + 0.8 * math.sqrt(0.75)), (0.9, 0.3)]

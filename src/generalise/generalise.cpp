@@ -242,7 +242,7 @@ Passed pass_over(const Boundary& boundary, const sizing::SizeField& size, const 
   if (labels.empty())
     return {};
   count(map.mesh(), plan, counts);
-  VertexMoves moves(map, labels, lattice);
+  VertexMoves moves(map, labels, lattice, choice.bounds);
   counts.widened = moves.widen(std::move(plan.apart));
   moves.merge_close_corners();
   counts.largest_move = moves.largest_share();

@@ -7,6 +7,7 @@
 #include "trime/geometry/lattice.hpp"
 #include "trime/sizing/size_field.hpp"
 
+#include <cmath>
 #include <memory>
 #include <span>
 
@@ -19,6 +20,8 @@ enum class Narrow { keep, close };
 struct Choice {
   Narrow narrow = Narrow::keep;
   bool cuts_thin_components = false; ///< components that are narrow all over are cut to pieces, not widened
+  geometry::Box bounds = {{-INFINITY, -INFINITY},
+                          {INFINITY, INFINITY}}; ///< lattice points; no vertex is moved out of it
 };
 
 struct Generalised {

@@ -14,6 +14,9 @@ namespace {
 using geometry::Vec2;
 using HalfEdge = Triangulation::HalfEdge;
 
+/// [1] Two numbers that differ by this factor differ by more than the rounding of a few operations.
+constexpr double beyond_rounding = 1.0001;
+
 /// Should the constrained edge e get a node, since the apex of its triangle is near?
 bool wants_node(const CurveMap& map, HalfEdge e) {
   const Triangulation& mesh = map.mesh();
@@ -138,16 +141,30 @@ private:
   /// Is the curve from a tip on, ahead or behind, as straight as a corner of such an opening needs it?
   bool is_straight(LocalIndex tip, bool ahead, double reach, double opening) const {
     const Vec2 from = mesh_.point(tip);
+    const auto leeway = [&](double distance) {
+      return GeneraliseRules::straight_arms * opening * std::fmax(distance, 0.05 * reach);
+    };
     std::vector<Vec2> arm;
+    Vec2 farthest; // from the tip
+    double most = 0;
     for (LocalIndex v = tip; arm.empty() || length(arm.back() - from) < reach;) {
       v = ahead ? map_.next_on_curve(v) : map_.previous_on_curve(v);
       if (v == tip)
         return false;
       arm.push_back(mesh_.point(v));
+      const Vec2 way = arm.back() - from;
+      const double distance = length(way);
+      // No line from the tip passes both within their leeways: the way ends here, not with the curve.
+      if (std::fabs(cross(farthest, way)) > beyond_rounding * (leeway(distance) * most + leeway(most) * distance))
+        return false;
+      if (distance > most) {
+        farthest = way;
+        most = distance;
+      }
     }
     for (std::size_t k = 0; k + 1 < arm.size(); ++k) {
-      const double leeway = GeneraliseRules::straight_arms * opening * std::fmax(length(arm[k] - from), 0.05 * reach);
-      if (squared_distance(arm[k], {from, arm.back()}) > leeway * leeway)
+      const double far = leeway(length(arm[k] - from));
+      if (squared_distance(arm[k], {from, arm.back()}) > far * far)
         return false;
     }
     return true;

@@ -13,8 +13,10 @@ namespace trime::generalise {
 
 using geometry::Vec2;
 
-VertexMoves::VertexMoves(const CurveMap& map, const std::vector<char>& labels, const geometry::Lattice& lattice)
-    : map_(map), mesh_(map.mesh()), rim_(mesh_, labels), lattice_(lattice), places_(at(mesh_.vertex_count())) {
+VertexMoves::VertexMoves(const CurveMap& map, const std::vector<char>& labels, const geometry::Lattice& lattice,
+                         const geometry::Box& bounds)
+    : map_(map), mesh_(map.mesh()), rim_(mesh_, labels), lattice_(lattice), bounds_(bounds),
+      places_(at(mesh_.vertex_count())) {
   root_.resize(places_.size());
   forget();
 }
@@ -36,6 +38,7 @@ bool VertexMoves::turns_over(LocalIndex t) const {
 
 VertexMoves::Sides VertexMoves::sides_of(const NarrowPart& part) const {
   Sides sides;
+  std::vector<geometry::Segment> ends;
   for (const LocalIndex t : part.triangles) {
     int constrained = 0;
     for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e) {
@@ -57,18 +60,21 @@ VertexMoves::Sides VertexMoves::sides_of(const NarrowPart& part) const {
     if (constrained == 2)
       for (HalfEdge e = 3 * t; e < 3 * t + 3; ++e)
         if (mesh_.is_constrained(e) && mesh_.is_constrained(Triangulation::previous(e)))
-          sides.ends.push_back(mesh_.point(mesh_.origin(e)));
+          ends.push_back({mesh_.point(mesh_.origin(e)), mesh_.point(mesh_.origin(e))});
   }
+  sides.ends = geometry::SegmentGrid(std::move(ends));
   return sides;
 }
 
-/// How far a vertex is to move: half of what is missing, less near the end of a slit; 0 or less if nothing is.
+/// How far a vertex is to move: half of what is missing, less near the end of a slit; 0 if nothing is.
 double VertexMoves::missing_way(const NarrowPart& part, const Sides& sides, LocalIndex v) const {
   const double width = part.inside ? GeneraliseRules::narrow_inside : GeneraliseRules::narrow_outside;
   double way = 0.5 * (width * map_.size(v) - sides.vertices.at(v).gap);
-  for (const Vec2 end : sides.ends)
-    way = std::fmin(way, GeneraliseRules::slit_taper * length(mesh_.point(v) - end));
-  return map_.is_kept(v) ? 0 : way;
+  if (way <= 0 || map_.is_kept(v))
+    return 0;
+  if (const auto end = sides.ends.nearest(mesh_.point(v), way / GeneraliseRules::slit_taper))
+    way = std::fmin(way, GeneraliseRules::slit_taper * std::sqrt(end->squared_distance));
+  return way;
 }
 
 bool VertexMoves::is_too_narrow(const NarrowPart& part) const {
@@ -119,7 +125,10 @@ std::int64_t VertexMoves::widen(std::vector<NarrowPart> parts) {
   for (const NarrowPart& part : parts)
     widen_one(part, shifts);
   calm(shifts);
-  const auto place = [&](LocalIndex v) { places_[at(v)] = lattice_.snap(mesh_.point(root(v)) + shifts[at(root(v))]); };
+  const auto place = [&](LocalIndex v) {
+    const Vec2 p = lattice_.snap(mesh_.point(root(v)) + shifts[at(root(v))]);
+    places_[at(v)] = {std::clamp(p.x, bounds_.min.x, bounds_.max.x), std::clamp(p.y, bounds_.min.y, bounds_.max.y)};
+  };
   for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v)
     place(v);
   for (int round = 0; round <= GeneraliseRules::displacement_rounds; ++round) {

@@ -7,6 +7,8 @@
 #include "generalise/narrow_parts.hpp"
 #include "generalise/rim.hpp"
 
+#include "trime/geometry/segment_grid.hpp"
+
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -19,7 +21,9 @@ namespace trime::generalise {
 class VertexMoves {
 public:
   /// @param labels by triangle: 1 inside; they may have changed since the map was made
-  VertexMoves(const CurveMap& map, const std::vector<char>& labels, const geometry::Lattice& lattice);
+  /// @param bounds lattice points; widen() moves no vertex out of it
+  VertexMoves(const CurveMap& map, const std::vector<char>& labels, const geometry::Lattice& lattice,
+              const geometry::Box& bounds);
 
   /// @brief Moves the sides of narrow parts apart, each half of what is missing, less towards the ends of a slit. What
   /// would turn a triangle over is moved less, or not at all. Parts of which no vertex misses much stay.
@@ -48,7 +52,7 @@ private:
       geometry::Vec2 away;   // from the middle of the part: sum of normals
     };
     std::map<LocalIndex, AtVertex> vertices;
-    std::vector<geometry::Vec2> ends;
+    geometry::SegmentGrid ends; // points
   };
   Sides sides_of(const NarrowPart& part) const;
   double missing_way(const NarrowPart& part, const Sides& sides, LocalIndex v) const;
@@ -64,6 +68,7 @@ private:
   const Triangulation& mesh_;
   const Rim rim_;
   geometry::Lattice lattice_;
+  geometry::Box bounds_;
   MovedVertices places_;
   std::vector<char> is_root_;    // by vertex: of others
   std::vector<LocalIndex> root_; // by vertex: the one to which it was moved, or itself

@@ -9,6 +9,7 @@
 #include "sizing/lowered_size.hpp"
 #include "start/layout.hpp"
 #include "start/rules.hpp"
+#include "trime/geometry/frame.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +50,8 @@ bool serve(const CurvesAtSize& curves, double factor) {
 
 generalise::Choice generalise_choice(const LayoutContext& context) {
   const bool closes = context.options.features.narrow == boundary::NarrowOutside::close;
-  return {closes ? generalise::Narrow::close : generalise::Narrow::keep, context.cuts_thin_components};
+  return {closes ? generalise::Narrow::close : generalise::Narrow::keep, context.cuts_thin_components,
+          geometry::Frame(context.options.container).inner()};
 }
 
 bool generalises(const LayoutContext& context) {

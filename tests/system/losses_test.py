@@ -31,6 +31,17 @@ def counts_of(text):
     return counts, int(told[2])
 
 
+def comb(fins, bottom):
+    """A bar on the bottom with thin fins to y = 0.8, as far from each other as they are thick."""
+    width = 0.4 / fins
+    lines = ["0.1 0.1", "0.9 0.1"]
+    for fin in range(fins):
+        x = 0.9 - 2 * fin * width
+        lines += [f"{x} 0.8", f"{x - width} 0.8", f"{x - width} {bottom}"]
+        lines.append(f"{x - 2 * width if fin < fins - 1 else 0.1} {bottom}")
+    return "\n".join(lines) + "\n"
+
+
 class Losses(unittest.TestCase):
     def prepare(self, work, rings):
         (work / "sea.xy").write_text(rings if isinstance(rings, str) else text_of(rings), "ascii")
@@ -87,6 +98,28 @@ class Losses(unittest.TestCase):
         self.assertEqual((columns["state"], set(columns["tag"])), (["kept"] * 2, tags))
         self.assertEqual(columns["shares"], [0, 0])
         self.assertEqual(list(columns["line"]), [1, 6])
+
+    def test_a_shape_of_which_nearly_nothing_would_be_left_is_refused(self):
+        with Workspace() as work:
+            for ranks in (1, 3):
+                done = run(self.prepare(work, comb(30, bottom=0.101)), f"output.directory={work}", "meshing.points=150",
+                           ranks=ranks)
+                self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+                self.assertRegex(done.stderr, "would lose 100 % of its area, expected at most 90 %; ask for more points")
+                self.assertFalse((work / "sea.h5").exists())
+
+    def test_a_mesh_of_what_is_left_lies_in_the_container(self):
+        """Fins that are moved apart have no room in it; a hole that touches a side of it."""
+        touching = "0 0\n1 0\n1 1\n0 1\n\n0.5 0\n0.7 0.3\n0.3 0.3\n"
+        for name, rings, points in (("fins", comb(30, bottom=0.101), 60), ("touching", touching, 900)):
+            with self.subTest(name=name), Workspace() as work:
+                done = run(self.prepare(work, rings), f"output.directory={work}", f"meshing.points={points}",
+                           "shape.sea.normalize=false")
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                with h5py.File(work / "sea.h5", "r") as file:
+                    positions = file["Mesh/mesh/geometry"][:]
+                self.assertGreaterEqual(positions.min(), 0)
+                self.assertLessEqual(positions.max(), 1)
 
     def test_a_lost_share_of_the_area_alone_is_a_warning(self):
         spit = "0 0\n1 0\n1 1\n0.55 1\n0.55 1.9\n0.545 1.9\n0.545 1\n0 1\n"

@@ -144,6 +144,23 @@ TEST(Generalise, KeepsABluntTipThatHoldsAPoint) {
   }
 }
 
+TEST(Generalise, MovesNothingOutOfItsBounds) {
+  // A hole that touches the side on which the shape ends: what lies between them is a slit, and is widened.
+  const std::vector<Vec2> hole{{0.5, 0}, {0.3, 0.3}, {0.7, 0.3}};
+  const Boundary given = boundary_of({box({0, 0}, {1, 1}), polygon_loop(hole, 2)});
+  Choice choice;
+  const auto anywhere = generalise(given, sizing::UniformSize(0.03), unit_lattice(), choice, {});
+  ASSERT_TRUE(anywhere);
+  EXPECT_LT(anywhere->boundary.bounding_box().min.y, 0) << "the test shows nothing";
+  choice.bounds = unit_box;
+  const auto made = generalise(given, sizing::UniformSize(0.03), unit_lattice(), choice, {});
+  ASSERT_TRUE(made);
+  expect_proper(made->boundary);
+  for (const Loop& loop : made->boundary.loops)
+    for (const geometry::Piece& piece : loop.pieces)
+      EXPECT_TRUE(unit_box.contains(piece.start)) << piece.start.x << " " << piece.start.y;
+}
+
 TEST(Thinned, KeepsPointsInside) {
   std::vector<Vec2> ring{{0.9, 0.1}, {0.9, 0.9}, {0.1, 0.9}};
   for (int k = 0; k < 100; ++k)
