@@ -192,7 +192,7 @@ def text_of_islands(directory, n):
     return contour(directory, [circle(100, radius=0.49)] + islands, points=100000, formats="text")
 
 
-@case(500, validate=False)
+@case(250, validate=False)
 def fins_that_are_cut(directory, n):
     """A comb of n fins far thinner than the triangles."""
     width = 0.4 / n
@@ -203,7 +203,7 @@ def fins_that_are_cut(directory, n):
     return contour(directory, [ring], points=500)
 
 
-@case(5000, validate=False)
+@case(1250, validate=False)
 def spikes_that_are_smoothed(directory, n):
     """A star of n spikes far thinner than the triangles."""
     turns = [math.pi * k / n for k in range(2 * n)]
