@@ -2,6 +2,7 @@
 // The look at the output directory before a run, so that no hour of work ends at a file that may not be written.
 #include "io/output_files.hpp"
 
+#include "core/file_kind.hpp"
 #include "io/temporary_file.hpp"
 #include "trime/core/error.hpp"
 
@@ -55,12 +56,17 @@ void check_could_be_made(const std::string& directory) {
                                 existing.string(), system_error()));
 }
 
-void check_absent(const std::string& path, bool overwrite) {
+/// A link to nothing, too.
+bool is_there(const std::string& path) {
   struct stat status {};
-  if (lstat(path.c_str(), &status) != 0)
+  return lstat(path.c_str(), &status) == 0;
+}
+
+void check_absent(const std::string& path, bool overwrite) {
+  if (!is_there(path))
     return;
-  if (S_ISDIR(status.st_mode))
-    throw FileError(fmt::format("{} is a directory; set output.name or output.directory", path));
+  if (const std::string kind = irregular_kind(path); !kind.empty())
+    throw FileError(fmt::format("{} is {}, which is not replaced; set output.name or output.directory", path, kind));
   if (!overwrite)
     throw FileError(fmt::format("{} exists; set output.overwrite = true to replace it, or another output.name", path));
 }
@@ -160,7 +166,7 @@ std::vector<std::string> files_of_series(const SeriesOptions& options) {
   std::vector<std::string> found =
       files_in(file.directory, [&](const std::string& name) { return is_step_file(name, file.name); });
   for (const std::string& path : {xdmf_collection(file), vtkhdf_collection(file)})
-    if (std::filesystem::exists(path))
+    if (is_there(path))
       found.push_back(path);
   const std::vector<std::string> texts =
       files_in(file.path(""), [&](const std::string& name) { return is_text_mesh_file(name, file.name); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/temporary_file.hpp"
 
+#include "core/file_kind.hpp"
 #include "trime/core/error.hpp"
 #include "trime/io/run_files.hpp"
 
@@ -30,6 +31,14 @@ void synchronise(const std::string& path, int flags, int (*to_disk)(int descript
   ::close(descriptor);
   if (result != 0 && !forgiven)
     throw FileError(fmt::format("cannot write {} to disk: {}", path, reason));
+}
+
+/// A pipe or a device is not for us to replace, nor is what a link to one stands for.
+void refuse_irregular(const std::string& path) {
+  if (const std::string kind = irregular_kind(path); !kind.empty())
+    throw FileError(fmt::format("cannot write {}: it is {}, and only regular files are replaced; remove it, or choose "
+                                "another name",
+                                path, kind));
 }
 
 /// False if there is something of that name, which stays.
@@ -109,6 +118,7 @@ void TemporaryFile::rename_to(const std::string& final_path, bool replaces) {
 }
 
 void TemporaryFile::rename_before_disk(const std::string& final_path) {
+  refuse_irregular(final_path);
   if (std::rename(path_.c_str(), final_path.c_str()) != 0)
     throw FileError(fmt::format("cannot rename {} to {}: {}", path_, final_path, system_error()));
   has_its_name();
@@ -182,6 +192,7 @@ void write_text_file_of_many(const std::string& final_path, const std::string& t
 }
 
 void replace_link(const std::string& target, const std::string& path) {
+  refuse_irregular(path);
   const std::string temporary = temporary_name(path);
   if (symlink(target.c_str(), temporary.c_str()) != 0 || std::rename(temporary.c_str(), path.c_str()) != 0) {
     const std::string reason = system_error();

@@ -23,7 +23,7 @@ public:
 
   const std::string& path() const { return path_; }
   /// @brief Gives back reserved space, brings the bytes to the disk, then renames. @param replaces what has that name
-  /// @throws FileError
+  /// @throws FileError also where that is no regular file, seen through links: a pipe or a device stays
   /// @post synchronise_directory will do the rest
   void rename_to(const std::string& final_path, bool replaces = true);
   /// The same, then brings the directory to the disk. @throws FileError

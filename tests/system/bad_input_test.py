@@ -7,6 +7,7 @@ tried at the same time."""
 import concurrent.futures
 import dataclasses
 import inspect
+import itertools
 import os
 import re
 import unittest
@@ -277,6 +278,42 @@ class BadInput(unittest.TestCase):
                 (work / "locked.ini").write_text(GOOD, encoding="utf-8")
                 (work / "locked.ini").chmod(0)
                 self.check(run(work / "locked.ini", cwd=work), FILE, [r"locked\.ini.*[Pp]ermission"])
+
+    def test_pipes_and_links_are_refused_and_stay(self):
+        """A file that gets its name by rename would replace them, and HDF5 would wait for ever for a writer."""
+        with Workspace() as work:
+            (work / "case.ini").write_text(GOOD, encoding="utf-8")
+            pipe, link, lost = work / "pipe.h5", work / "link", work / "lost"
+            outputs = [work / "result" / ("case" + ending) for ending in (".h5", ".xdmf", ".vtkhdf", ".xmf", ".msh")]
+            (work / "result").mkdir()
+            for path in (pipe, work / "pipe.msh", *outputs):
+                os.mkfifo(path)
+            link.symlink_to("case.ini")
+            lost.symlink_to("nothing")
+            (work / "to_pipe").symlink_to(pipe)
+            meshes = [work / "case.ini", f"output.directory={work}/other", "output.overwrite=true"]
+            commands = [([*meshes, "--report", pipe], r"pipe\.h5 is a named pipe"),
+                        ([*meshes, "--report", work / "to_pipe"], r"to_pipe is a named pipe"),
+                        ([*meshes, "--report", link], r"link is a link"), ([*meshes, "--report", lost], r"lost is a link"),
+                        ([*meshes, "--restart", pipe], r"pipe\.h5: expected a file.*named pipe"),
+                        (["info", pipe], r"pipe\.h5: expected a file.*named pipe"),
+                        (["info", work], r"expected a file.*a directory"),
+                        (["convert", pipe, work / "a.msh"], r"pipe\.h5: expected a file.*named pipe"),
+                        (["convert", pipe, work / "pipe.msh", "--overwrite"], r"pipe\.msh is a named pipe")]
+            for (words, expect), ranks in itertools.product(commands, (1, 3)):
+                with self.subTest(words=words, ranks=ranks):
+                    self.check(run(*words, ranks=ranks, cwd=work, timeout=60), FILE, [expect])
+            for path, mode in itertools.product(outputs, ([], ["--validate"])):
+                for other in outputs:
+                    other.unlink(missing_ok=True)
+                os.mkfifo(path)
+                with self.subTest(output=path.name, mode=mode):
+                    done = run(work / "case.ini", f"output.directory={work}/result", "output.overwrite=true",
+                               "output.formats=vtkhdf xdmf gmsh", *mode, timeout=60)
+                    self.check(done, FILE, [rf"case\{path.suffix} is a named pipe"])
+                    self.assertTrue(path.is_fifo())
+            self.assertTrue(pipe.is_fifo() and (work / "pipe.msh").is_fifo() and link.is_symlink() and lost.is_symlink())
+            self.assertEqual((work / "case.ini").read_text(encoding="utf-8"), GOOD)
 
     def test_no_argument_at_all(self):
         done = run()

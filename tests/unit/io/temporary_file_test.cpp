@@ -7,6 +7,7 @@
 #include "support/temporary_directory.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -45,6 +46,20 @@ TEST(TemporaryFile, OneOfManyIsWholeAtOnceAndReplacesItsElder) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory.path()), {}), 1);
   EXPECT_THROW(write_text_file_of_many(directory.path() + "/none/loop.txt", "", &files), FileError);
   EXPECT_THROW(synchronise_file_system(directory.path() + "/none/loop.txt"), FileError);
+}
+
+TEST(TemporaryFile, LeavesAPipeWhereItIs) {
+  const test::TemporaryDirectory directory;
+  const std::string pipe = directory.path() + "/pipe", link = directory.path() + "/link";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::filesystem::create_symlink(pipe, link);
+  EXPECT_THROW(write_text_file(pipe, "text", nullptr), FileError);
+  EXPECT_THROW(write_text_file(link, "text", nullptr), FileError);
+  EXPECT_THROW(write_text_file_of_many(pipe, "text", nullptr), FileError);
+  EXPECT_THROW(replace_link("mesh.h5", pipe), FileError);
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory.path()), {}), 2);
 }
 
 TEST(TemporaryFile, IsKnownToASignalHandlerWhileItIsWritten) {
