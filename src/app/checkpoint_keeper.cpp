@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/checkpoint_keeper.hpp"
 
+#include "app/checkpoint_names.hpp"
 #include "app/config_difference.hpp"
 #include "comm/agree.hpp"
 #include "trime/core/error.hpp"
@@ -32,17 +33,17 @@ CheckpointKeeper::CheckpointKeeper(const KeeperContext& context, const Checkpoin
     : context_(context), options_(options), time_limit_(time_limit), origin_(std::move(origin)) {}
 
 std::string CheckpointKeeper::path(std::int64_t number) const {
-  return context_.output.path(fmt::format(".checkpoint-{}.h5", number % options_.keep + 1));
+  return checkpoint_path(context_.output, static_cast<int>(number % options_.keep) + 1);
 }
 
-/// Files of this name, as rank 0 finds them. What cannot be read comes first: it may have been the newest.
+/// Checkpoints of this name, as rank 0 finds them; an earlier run may have kept more. What cannot be read comes first:
+/// it may have been the newest.
 std::vector<std::string> CheckpointKeeper::newest_first() const {
   std::vector<std::pair<std::int64_t, std::string>> found;
-  for (int k = 0; k < options_.keep; ++k)
-    if (const std::string file = path(k); exists(file)) {
-      const std::int64_t number = checkpoint::checkpoint_number(file);
-      found.emplace_back(number < 0 ? std::numeric_limits<std::int64_t>::max() : number, file);
-    }
+  for (const std::string& file : checkpoint_files(context_.output)) {
+    const std::int64_t number = checkpoint::checkpoint_number(file);
+    found.emplace_back(number < 0 ? std::numeric_limits<std::int64_t>::max() : number, file);
+  }
   std::sort(found.rbegin(), found.rend());
   std::vector<std::string> files;
   for (const auto& [number, file] : found)
@@ -105,8 +106,8 @@ void CheckpointKeeper::remove_all() {
   if (!has_written_ && number_ < 0)
     return;
   if (context_.comm.is_root())
-    for (int k = 0; k < options_.keep; ++k)
-      unlink(path(k).c_str()); // a mesh that is written needs none
+    for (const std::string& file : checkpoint_files(context_.output))
+      unlink(file.c_str()); // a mesh that is written needs none
 }
 
 /// The last checkpoint stands: a signal ends the run at once from now on, and so does the time limit.

@@ -307,6 +307,28 @@ class Restart(unittest.TestCase):
             self.assertIn("it is left out", done.stdout + done.stderr)
             self.assertEqual(hash_and_history(directory), expected)
 
+    def test_fewer_are_kept_from_now_on(self):
+        """The newest lies under a name that a smaller `keep` does not make."""
+        with Workspace() as directory:
+            arguments = [CIRCLE, "meshing.points=2000"]
+            expected = self.whole(directory, *arguments)
+            stop = f"checkpoint.stop_file={directory / 'stop'}"
+            for number in range(1, 7):
+                (directory / "stop").touch()
+                done = run(*arguments, *places(directory), stop, "checkpoint.keep=5", "--restart", "auto")
+                self.assertEqual(done.returncode, STOPPED, done.stdout + done.stderr)
+                self.assertEqual(len(checkpoints(directory)), min(number, 5))
+            (directory / "mesh.checkpoint-1001.h5").write_bytes(b"of nobody")
+            for ranks, number in ((2, 2), (1, 1)):  # six sweeps, then seven
+                (directory / "stop").touch()
+                done = run(*arguments, *places(directory), stop, "checkpoint.keep=1", "--restart", "auto", ranks=ranks)
+                self.assertEqual(done.returncode, STOPPED, done.stdout + done.stderr)
+                self.assertRegex(done.stdout, rf"restart: from .*/mesh.checkpoint-{number}\.h5")
+            done = run(*arguments, *places(directory), "checkpoint.keep=1", "--restart", "auto", ranks=3)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertEqual(hash_and_history(directory), expected)
+            self.assertEqual([path.name for path in checkpoints(directory)], ["mesh.checkpoint-1001.h5"])
+
 
 if __name__ == "__main__":
     unittest.main()
