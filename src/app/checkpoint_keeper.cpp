@@ -10,7 +10,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 
@@ -102,7 +104,7 @@ void CheckpointKeeper::remove_all() {
   alarm(0);
   context_.signals.set_last(false);
   if (found_stop_file_)
-    unlink(options_.stop_file.c_str()); // found when nothing was left to stop; the next run shall not stop by it
+    remove_stop_file(); // found when nothing was left to stop
   if (!has_written_ && number_ < 0)
     return;
   if (context_.comm.is_root())
@@ -222,10 +224,17 @@ void CheckpointKeeper::write(CheckpointWish wish, const meshing::RunState& state
   stop_at(file);
 }
 
+/// The next run shall not stop by it.
+void CheckpointKeeper::remove_stop_file() const {
+  if (unlink(options_.stop_file.c_str()) != 0 && errno != ENOENT)
+    context_.log.warning("cannot remove the stop file {}: {}; remove it, or the next run stops by it, too",
+                         options_.stop_file, std::strerror(errno));
+}
+
 /// On all ranks together.
 void CheckpointKeeper::stop_at(const std::string& file) const {
   if (context_.comm.is_root() && !options_.stop_file.empty())
-    unlink(options_.stop_file.c_str()); // the next run shall not stop by it
+    remove_stop_file();
   throw meshing::StoppedAtCheckpoint(fmt::format("stopped at the checkpoint {}{}; go on with --restart {}", file,
                                                  reason_.empty() ? "" : " (" + reason_ + ")", file));
 }

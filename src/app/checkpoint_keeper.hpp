@@ -56,6 +56,7 @@ private:
   meshing::SavedRun checked(checkpoint::Found found, const std::string& file);
   void set_number();
   void end_in_time();
+  void remove_stop_file() const;
   [[noreturn]] void stop_at(const std::string& file) const;
 
   const KeeperContext context_;

@@ -152,12 +152,16 @@ std::string quality_text(const Metadata& metadata) {
 
 } // namespace
 
-void check_exchange(const RunOptions& options, const comm::Communicator& comm) {
+std::vector<std::string> exchange_paths(const RunOptions& options) {
   std::vector<std::string> paths;
   for (const formats::Format format : options.exchange)
     for (const std::string& path : formats::paths_of(format, path_of(format, options.output.file)))
       paths.push_back(path);
-  refuse_to_replace(paths, options.output.file.overwrite,
+  return paths;
+}
+
+void check_exchange(const RunOptions& options, const comm::Communicator& comm) {
+  refuse_to_replace(exchange_paths(options), options.output.file.overwrite,
                     "set output.overwrite = true to replace it, or another output.name", comm);
 }
 

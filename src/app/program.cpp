@@ -11,6 +11,7 @@
 #include "app/run_report.hpp"
 #include "app/shape_builder.hpp"
 #include "app/size_builder.hpp"
+#include "app/stop_file.hpp"
 #include "boundary/fixed_points.hpp"
 #include "core/free_memory.hpp"
 #include "core/state_fields.hpp"
@@ -187,6 +188,7 @@ ExitCode make_mesh(const Job& job) {
   report_placement(placement, comm, log);
   for (const std::string& warning : options.warnings)
     log.warning("{}", warning);
+  check_stop_file(options, job.line, comm);
 
   const ShapeInput input = [&] {
     const auto timing = timers.scope("shape");

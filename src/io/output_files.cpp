@@ -21,6 +21,7 @@ namespace {
 
 constexpr const char* facet_ending = ".xmf";
 constexpr std::array<const char*, 4> view_endings{".h5", ".xdmf", ".vtkhdf", facet_ending};
+constexpr const char *xdmf_collection_ending = "_series.xdmf", *vtkhdf_collection_ending = ".vtkhdf.series";
 constexpr const char* step_infix = "_step_";
 
 void make_directory(const std::string& directory) {
@@ -154,11 +155,17 @@ std::string facet_view(const MeshFileOptions& options) {
 }
 
 std::string xdmf_collection(const MeshFileOptions& options) {
-  return options.path("_series.xdmf");
+  return options.path(xdmf_collection_ending);
 }
 
 std::string vtkhdf_collection(const MeshFileOptions& options) {
-  return options.path(".vtkhdf.series");
+  return options.path(vtkhdf_collection_ending);
+}
+
+bool is_file_of_run(const std::string& file, const std::string& name) {
+  const auto is = [&](const char* ending) { return file == name + ending; };
+  return std::any_of(view_endings.begin(), view_endings.end(), is) || is(xdmf_collection_ending) ||
+         is(vtkhdf_collection_ending) || is_step_file(file, name);
 }
 
 std::vector<std::string> files_of_series(const SeriesOptions& options) {

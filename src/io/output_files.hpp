@@ -23,6 +23,9 @@ std::string vtkhdf_collection(const MeshFileOptions& options);
 /// tell of an older run of the same name; sorted. The final mesh and its views are not among them.
 std::vector<std::string> files_of_series(const SeriesOptions& options);
 
+/// Has a file in the output directory such a name, steps of any number included? @param name stem of the run's files
+bool is_file_of_run(const std::string& file, const std::string& name);
+
 /// What MeshSeries::check() does on rank 0.
 std::vector<std::string> check_files(const SeriesOptions& options, double expected_points);
 /// What MeshSeries::look() does on rank 0.

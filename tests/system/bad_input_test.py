@@ -147,6 +147,23 @@ class Rows:
                            ("time-limit", "--time-limit=soon")):
             yield Row(GOOD, USAGE, [rf"command line: .*{key}|{key}.*HH:MM:SS"], extra=[extra])
 
+    def stop_files_that_are_something_else(self):
+        """The run would remove them."""
+        stop = "checkpoint.stop_file={}".format
+        yield Row(GOOD, FILE, [r"stop_file = \.' .*found a directory"], extra=[stop(".")])
+        for path in ("case.ini", "./result/../case.ini"):
+            yield Row(GOOD, USAGE, [rf"stop_file = {path}' .* is the config"], extra=[stop(path)])
+        for name in ("case.h5", "case.xmf", "case_series.xdmf", "case_step_000012.h5", "case.checkpoint-7.h5",
+                     "case/case_final_xy_id.txt", "case/case_tria_quality_stat_overall.txt", "case.ele",
+                     "report"):
+            yield Row(GOOD, USAGE, [rf"stop_file = .*{name}' .* is an output of the run"],
+                      extra=[stop("result/../result/" + name), "output.formats=vtkhdf text triangle", "--report=result/report"],
+                      modes=([],))
+        yield Row(GOOD.replace(RECTANGLE, CONTOUR), USAGE, [r"stop_file = ring\.xy' .* is an input of the run"],
+                  files={"ring.xy": SQUARE}, extra=[stop("ring.xy")])
+        yield Row(GOOD, USAGE, [r"stop_file = p\.xy' .* is an input of the run"], files={"p.xy": "0.5 0.5\n"},
+                  extra=[stop("p.xy"), "meshing.fixed_points=p.xy"])
+
     def duplicate_key(self):
         text = GOOD + "points = 600\n"
         yield Row(text, USAGE, [rf"case\.ini:{len(text.splitlines())}:.*points"])
@@ -295,6 +312,7 @@ class BadInput(unittest.TestCase):
             commands = [([*meshes, "--report", pipe], r"pipe\.h5 is a named pipe"),
                         ([*meshes, "--report", work / "to_pipe"], r"to_pipe is a named pipe"),
                         ([*meshes, "--report", link], r"link is a link"), ([*meshes, "--report", lost], r"lost is a link"),
+                        ([*meshes, f"checkpoint.stop_file={pipe}"], r"stop_file.*pipe\.h5'.*found a named pipe"),
                         ([*meshes, "--restart", pipe], r"pipe\.h5: expected a file.*named pipe"),
                         (["info", pipe], r"pipe\.h5: expected a file.*named pipe"),
                         (["info", work], r"expected a file.*a directory"),
