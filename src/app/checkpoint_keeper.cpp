@@ -136,11 +136,11 @@ CheckpointWish CheckpointKeeper::wish_of_root() {
   const double now = context_.timers.total();
   sweep_ = asked_ > 0 ? std::fmax(now - asked_, sweep_ / 2) : 0; // the start of a stage is forgotten after a while
   asked_ = now;
-  if (time_limit_ > 0 && now + 2 * sweep_ + longest_writing_ >= time_limit_) {
+  if (!stops_no_more_ && time_limit_ > 0 && now + 2 * sweep_ + longest_writing_ >= time_limit_) {
     reason_ = "the time limit is near";
     return CheckpointWish::stop;
   }
-  if (finds_stop_file()) {
+  if (!stops_no_more_ && finds_stop_file()) {
     reason_ = "found " + options_.stop_file;
     return CheckpointWish::stop;
   }
@@ -183,11 +183,36 @@ void CheckpointKeeper::set_number() {
   comm::run_agreed(context_.comm, [&] {
     if (!context_.comm.is_root())
       return;
-    std::filesystem::create_directories(context_.output.directory);
+    std::error_code error;
+    std::filesystem::create_directories(context_.output.directory, error); // else writing tells what is in the way
     for (const std::string& file : newest_first())
       newest = std::max(newest, checkpoint::checkpoint_number(file));
   });
   number_ = context_.comm.max(newest);
+}
+
+/// On all ranks together: a run that was asked to stop goes on, since a mesh is worth more than an end without one.
+void CheckpointKeeper::tell_unwritten(CheckpointWish wish, const std::string& reason) {
+  SignalRequests& signals = context_.signals;
+  const char* advice = "free some space in output.directory, or see that it can be written";
+  if (wish == CheckpointWish::stop && context_.comm.max(std::int64_t{signals.asks_to_end()}) > 0)
+    throw FileError(fmt::format("no checkpoint: {}; a signal ends the run, and its work is lost; next time {}, or send "
+                                "USR1: then a run without a checkpoint goes on",
+                                reason, advice));
+  signals.forget_writing();
+  if (is_last_)
+    signals.set_last(false);
+  if (wish != CheckpointWish::stop) {
+    context_.log.warning("no checkpoint: {}; the run goes on; {}", reason, advice);
+    return;
+  }
+  signals.forget_stopping();
+  stops_no_more_ = true; // else each sweep would try again, and fail
+  context_.log.warning(
+      "no checkpoint: {}; the run does not stop{}, but goes on to its end; to stop it at a checkpoint, "
+      "{}, then send USR1",
+      reason, reason_.empty() ? "" : " (" + reason_ + ")", advice);
+  reason_.clear();
 }
 
 void CheckpointKeeper::write(CheckpointWish wish, const meshing::RunState& state, const sites::SiteState& sites,
@@ -200,12 +225,7 @@ void CheckpointKeeper::write(CheckpointWish wish, const meshing::RunState& state
     checkpoint::write_checkpoint(file, context_.output.run_files, {origin_, number_ + 1}, state, sites, activity);
   } catch (const FileError& error) { // on all ranks together
     written_ = context_.timers.total();
-    context_.signals.forget_writing();
-    if (wish == CheckpointWish::stop)
-      throw;
-    if (is_last_)
-      context_.signals.set_last(false);
-    context_.log.warning("no checkpoint: {}; the run goes on", error.what());
+    tell_unwritten(wish, error.what());
     return;
   }
   ++number_;

@@ -46,7 +46,7 @@ void end_by_signal(int number) {
 /// Where checkpoints are written, the run stops at the next one; a second signal ends it at once.
 void end_in_order(int number) {
   if (requests->stops_in_order() && !requests->asks_to_stop())
-    requests->ask_to_stop();
+    requests->ask_to_end();
   else
     end_by_signal(number);
 }
