@@ -5,6 +5,8 @@
 #include "app/settings.hpp"
 #include "core/angle.hpp"
 #include "core/nearest_name.hpp"
+#include "core/quoted.hpp"
+#include "io/output_files.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/formula.hpp"
 #include "trime/shape/region.hpp"
@@ -261,6 +263,20 @@ void read_parallel(const Settings& settings, RunOptions& options) {
   options.mesh_threads = static_cast<int>(settings.integer("parallel", "mesh_threads"));
 }
 
+/// A stem that all file names of the run can begin with.
+void check_name(const Settings& settings, const std::string& name, Diagnostics& problems) {
+  if (name.find('/') != std::string::npos || name == "." || name == "..")
+    problems.add(settings.line("output", "name"),
+                 fmt::format("'name = {}' in [output]: expected the stem of a file name, without directory; set "
+                             "'directory' for that",
+                             shown(name)));
+  if (name.size() > io::longest_name)
+    problems.add(settings.line("output", "name"),
+                 fmt::format("'name = {}' in [output]: expected at most {} bytes, found {}: file systems hold names of "
+                             "{}, and files of the run need the rest behind it; set a shorter output.name",
+                             shown(name), io::longest_name, name.size(), io::longest_file_name));
+}
+
 void read_output(const Settings& settings, RunOptions& options, Diagnostics& problems) {
   io::MeshFileOptions& file = options.output.file;
   file.directory = settings.text("output", "directory");
@@ -285,11 +301,7 @@ void read_output(const Settings& settings, RunOptions& options, Diagnostics& pro
                              settings.text("output", "formats")));
   options.mesh.snapshot_interval = interval == -1 ? 0 : static_cast<int>(interval);
   options.output.steps = options.mesh.snapshot_interval != 0;
-  if (file.name.find('/') != std::string::npos || file.name == "." || file.name == "..")
-    problems.add(settings.line("output", "name"),
-                 fmt::format("'name = {}' in [output]: expected the stem of a file name, without directory; set "
-                             "'directory' for that",
-                             file.name));
+  check_name(settings, file.name, problems);
 }
 
 void read_checkpoint(const Settings& settings, CheckpointOptions& options) {

@@ -3,6 +3,8 @@
 
 #include "comm/agree.hpp"
 #include "core/file_kind.hpp"
+#include "core/quoted.hpp"
+#include "io/temporary_file.hpp"
 #include "trime/io/stored_mesh.hpp"
 
 #include <algorithm>
@@ -24,6 +26,8 @@ std::string path_of(formats::Format format, const io::MeshFileOptions& file) {
 /// Of a path that something has; a link to nothing is something, too.
 void refuse_to_replace(const std::string& path, bool overwrite, const char* advice) {
   std::error_code error;
+  if (const std::string problem = io::length_problem(path, io::longest_temporary_ending); !problem.empty())
+    throw FileError(fmt::format("{} cannot be written: {}; choose a shorter one", shown(path), problem));
   if (const std::string kind = irregular_kind(path); !kind.empty())
     throw FileError(fmt::format("{} is {}, which is not replaced; choose another name", path, kind));
   if (!overwrite && std::filesystem::exists(std::filesystem::symlink_status(path, error)))

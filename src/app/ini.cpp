@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/ini.hpp"
 
+#include "core/quoted.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -16,16 +17,6 @@ std::string_view trim(std::string_view text) {
   if (first == std::string_view::npos)
     return {};
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-/// Part of a foreign line for a message: short, and without bytes that could upset a terminal.
-std::string quoted(std::string_view text) {
-  constexpr std::size_t longest = 60;
-  std::string shown(text.substr(0, longest));
-  for (char& c : shown)
-    if (static_cast<unsigned char>(c) < 32 || c == 127)
-      c = '?';
-  return "'" + shown + (text.size() > longest ? "...'" : "'");
 }
 
 /// The line without its comment: `;` or `#` at the start or after a blank, so that a value may hold either.

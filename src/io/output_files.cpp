@@ -3,6 +3,7 @@
 #include "io/output_files.hpp"
 
 #include "core/file_kind.hpp"
+#include "core/quoted.hpp"
 #include "io/temporary_file.hpp"
 #include "trime/core/error.hpp"
 
@@ -24,10 +25,18 @@ constexpr std::array<const char*, 4> view_endings{".h5", ".xdmf", ".vtkhdf", fac
 constexpr const char *xdmf_collection_ending = "_series.xdmf", *vtkhdf_collection_ending = ".vtkhdf.series";
 constexpr const char* step_infix = "_step_";
 
+/// Files in it have a name, too.
+void check_length(const std::string& directory) {
+  if (const std::string problem = length_problem(directory + "/", longest_file_name); !problem.empty())
+    throw FileError(
+        fmt::format("cannot make the output directory {}: {}; set output.directory", shown(directory), problem));
+}
+
 void make_directory(const std::string& directory) {
-  std::error_code error;
+  check_length(directory);
+  std::error_code error, ignored;
   std::filesystem::create_directories(directory, error);
-  if (!std::filesystem::is_directory(directory))
+  if (!std::filesystem::is_directory(directory, ignored))
     throw FileError(fmt::format("cannot make the output directory {}: {}; set output.directory", directory,
                                 error ? error.message() : "a file of this name is in the way"));
 }
@@ -45,6 +54,7 @@ void check_writable(const std::string& directory, const std::string& name) {
 
 /// @brief Could make_directory and check_writable do their work? By permissions alone, since nothing is made.
 void check_could_be_made(const std::string& directory) {
+  check_length(directory);
   std::error_code error;
   std::filesystem::path existing = std::filesystem::absolute(directory, error).lexically_normal();
   while (!std::filesystem::exists(std::filesystem::symlink_status(existing, error)) && existing.has_relative_path())
@@ -194,6 +204,8 @@ std::vector<std::string> check_files(const SeriesOptions& options, double expect
 
 std::vector<std::string> look_at_files(const SeriesOptions& options, double expected_points) {
   check_could_be_made(options.file.directory);
+  if (options.text)
+    check_could_be_made(options.file.path(""));
   check_all_absent(options);
   return warnings_for(options, expected_points);
 }

@@ -3,6 +3,7 @@
 
 #include "comm/agree.hpp"
 #include "core/file_kind.hpp"
+#include "core/quoted.hpp"
 #include "io/temporary_file.hpp"
 
 #include <nlohmann/json.hpp>
@@ -51,6 +52,8 @@ void check_report_file(const std::string& path, const comm::Communicator& comm) 
     if (!comm.is_root())
       return;
     std::error_code error;
+    if (const std::string problem = length_problem(path, longest_temporary_ending); !problem.empty())
+      throw FileError(fmt::format("the report {} cannot be written: {}; choose a shorter one", shown(path), problem));
     if (const std::string kind = irregular_kind(path); !kind.empty())
       throw FileError(fmt::format("the report {} is {}, which a file would replace; name a regular file", path, kind));
     if (std::filesystem::is_symlink(path, error))

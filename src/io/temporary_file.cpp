@@ -2,6 +2,7 @@
 #include "io/temporary_file.hpp"
 
 #include "core/file_kind.hpp"
+#include "core/quoted.hpp"
 #include "trime/core/error.hpp"
 #include "trime/io/run_files.hpp"
 
@@ -11,8 +12,10 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <climits>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -143,13 +146,28 @@ void synchronise_file_system(const std::string& path) {
   synchronise(directory_of(path), O_RDONLY | O_DIRECTORY, syncfs);
 }
 
+std::string length_problem(const std::string& path, std::size_t added) {
+  if (path.size() + added >= PATH_MAX)
+    return fmt::format("its path has {} bytes, expected fewer than {}", path.size(), PATH_MAX - added);
+  for (std::size_t at = 0; at <= path.size();) {
+    const std::size_t end = std::min(path.find('/', at), path.size());
+    const std::size_t most = longest_file_name - (end == path.size() ? added : 0);
+    if (end - at > most)
+      return fmt::format("expected names of at most {} bytes{}, found {} with {}", most,
+                         added > 0 && end == path.size() ? ", since a file has a longer one while it is written" : "",
+                         quoted(path.substr(at, end - at)), end - at);
+    at = end + 1;
+  }
+  return {};
+}
+
 std::string temporary_name(const std::string& final_path) {
   const char* job = std::getenv("SLURM_JOB_ID");
   std::uint64_t random = 0;
   if (getrandom(&random, sizeof random, GRND_NONBLOCK) != sizeof random) // a machine that has just started
     random = static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
-  return fmt::format("{}.tmp-{}-{:016x}", final_path, job && *job ? std::string(job) : std::to_string(getpid()),
-                     random);
+  return fmt::format("{}.tmp-{}-{:016x}", final_path,
+                     job && *job ? std::string(job).substr(0, longest_job_id) : std::to_string(getpid()), random);
 }
 
 void reserve_space(const std::string& path, std::int64_t bytes) {

@@ -147,6 +147,18 @@ class Rows:
                            ("time-limit", "--time-limit=soon")):
             yield Row(GOOD, USAGE, [rf"command line: .*{key}|{key}.*HH:MM:SS"], extra=[extra])
 
+    def names_that_are_too_long(self):
+        """Some were told only by the file system, after the run."""
+        for name in ("x" * 163, "x" * 200, "x" * 250):
+            yield Row(GOOD, USAGE, [rf"name = x+\.\.\.' in \[output\]: expected at most 162 bytes, found {len(name)}:"],
+                      extra=[f"output.name={name}", "output.formats=text"])
+        for path in ("d" * 300, "a/" + "d" * 256 + "/b", "d/" * 2000):
+            yield Row(GOOD, FILE, [r"cannot make the output directory .*expected .* set output\.directory"],
+                      extra=[f"output.directory={path}"])
+        for path in ("r" * 300, "r" * 214, "r" * 256 + "/r"):
+            yield Row(GOOD, FILE, [r"the report r+\.\.\. cannot be written: expected names of at most \d+ bytes"],
+                      extra=["--report", path], modes=([],))
+
     def stop_files_that_are_something_else(self):
         """The run would remove them."""
         stop = "checkpoint.stop_file={}".format
@@ -286,6 +298,15 @@ class BadInput(unittest.TestCase):
             done = run(work / "case.ini", f"output.directory={work}/result", ranks=3)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
+    def test_the_longest_name(self):
+        """All files of a run have it in their names."""
+        with Workspace() as work:
+            (work / "case.ini").write_text(GOOD, encoding="utf-8")
+            done = run(work / "case.ini", f"output.directory={work}/result", "output.name=" + "x" * 162, "output.interval=5",
+                       "output.formats=vtkhdf xdmf text gmsh triangle geojson", "checkpoint.interval=1e-9", ranks=2)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertNotIn("no checkpoint", done.stdout + done.stderr)
+
     def test_unreadable_config_file(self):
         with Workspace() as work:
             for ranks in (1, 3):
@@ -315,6 +336,8 @@ class BadInput(unittest.TestCase):
                         ([*meshes, f"checkpoint.stop_file={pipe}"], r"stop_file.*pipe\.h5'.*found a named pipe"),
                         ([*meshes, "--restart", pipe], r"pipe\.h5: expected a file.*named pipe"),
                         (["info", pipe], r"pipe\.h5: expected a file.*named pipe"),
+                        (["convert", work / "case.ini", work / ("x" * 300 + ".msh")], r"expected names of at most 213"),
+                        (["info", work / ("x" * 300)], r"cannot open .*too long"),
                         (["info", work], r"expected a file.*a directory"),
                         (["convert", pipe, work / "a.msh"], r"pipe\.h5: expected a file.*named pipe"),
                         (["convert", pipe, work / "pipe.msh", "--overwrite"], r"pipe\.msh is a named pipe")]

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What users wrote, in messages: a line of a megabyte helps nobody.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace trime {
+
+/// The text, cut after 60 bytes and then with "..."; bytes that could upset a terminal become '?'.
+std::string shown(std::string_view text);
+
+/// The same between single quotes.
+std::string quoted(std::string_view text);
+
+} // namespace trime
