@@ -114,7 +114,8 @@ void read_region(const Settings& settings, RunOptions& options, Diagnostics& pro
     for (int part = 0; part < static_cast<int>(settings.parts().size()); ++part)
       if (!std::binary_search(region.parts().begin(), region.parts().end(), part))
         options.warnings.push_back(fmt::format("part '{}' does not occur in the region '{}' and is left out",
-                                               settings.parts()[static_cast<std::size_t>(part)], options.region));
+                                               shown(settings.parts()[static_cast<std::size_t>(part)]),
+                                               shown(options.region)));
   } catch (const Error& error) {
     problems.add(settings.line("shape", "region"), error.what());
   }

@@ -66,7 +66,8 @@ formats::Format format_of_output(const std::string& path) {
   std::string endings;
   for (const formats::FormatName& name : formats::all_formats())
     endings += fmt::format("{}{} ({})", endings.empty() ? "" : ", ", name.ending, name.word);
-  throw ConfigError(fmt::format("'{}' has none of the endings that tell the format: expected {}", path, endings));
+  throw ConfigError(
+      fmt::format("'{}' has none of the endings that tell the format: expected {}", shown(path), endings));
 }
 
 bool is_marked(const Metadata& metadata) {

@@ -6,6 +6,7 @@
 #include "app/user_places.hpp"
 #include "comm/departure.hpp"
 #include "core/free_memory.hpp"
+#include "core/quoted.hpp"
 #include "trime/core/log.hpp"
 #include "trime/io/mesh_file.hpp"
 #include "trime/io/run_files.hpp"
@@ -96,10 +97,11 @@ void handle_signals(bool tell) {
 
 /// Every line of the message as one line of error.
 void print_error(const std::string& message) {
+  constexpr std::size_t longest = 5000; // bytes: more than a path may have
   std::string text;
   for (std::size_t at = 0; at <= message.size();) {
     const std::size_t end = std::min(message.find('\n', at), message.size());
-    text += "trime_mpi: error: " + message.substr(at, end - at) + "\n";
+    text += "trime_mpi: error: " + trime::without_middle(message.substr(at, end - at), longest) + "\n";
     at = end + 1;
   }
   std::fflush(stdout);

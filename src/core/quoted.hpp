@@ -13,4 +13,7 @@ std::string shown(std::string_view text);
 /// The same between single quotes.
 std::string quoted(std::string_view text);
 
+/// A message whose length nobody has seen to: the middle is left out of one that has more bytes, by default five lines.
+std::string without_middle(const std::string& message, std::size_t longest = 600);
+
 } // namespace trime

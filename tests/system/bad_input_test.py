@@ -176,6 +176,18 @@ class Rows:
         yield Row(GOOD, USAGE, [r"stop_file = p\.xy' .* is an input of the run"], files={"p.xy": "0.5 0.5\n"},
                   extra=[stop("p.xy"), "meshing.fixed_points=p.xy"])
 
+    def texts_of_a_megabyte(self):
+        """Each line of the message is short."""
+        long = "x" * 10**6
+        short = r"^(?=.{1,1200}$)trime_mpi: error: .*case\.ini.*"
+        yield Row(GOOD + long + " = 1\n", USAGE, [short + r"unknown key 'x+\.\.\.' in \[meshing\]"])
+        for text in (GOOD.replace("points = 500", "points = " + long), GOOD + f"[{long}]\n", GOOD + f"[shape.{long}\n",
+                     GOOD + f"[shape.{long}]\n", GOOD.replace("region = part", "region = " + long),
+                     GOOD.replace("region = part", "region = " + "union(part, " * 60000 + "part" + ")" * 60000),
+                     GOOD + f"fixed_points = p.xy\nfixed_points_normalize_with = {long}\n", GOOD + f"{long} =\n",
+                     GOOD + f"[sizing]\ntype = expression\nexpression = {'1+' * 3000}\n"):
+            yield Row(text, USAGE, [short])
+
     def duplicate_key(self):
         text = GOOD + "points = 600\n"
         yield Row(text, USAGE, [rf"case\.ini:{len(text.splitlines())}:.*points"])

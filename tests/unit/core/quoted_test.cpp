@@ -17,5 +17,17 @@ TEST(Quoted, HasNoBytesThatUpsetATerminal) {
   EXPECT_EQ(shown("a\x1b[31m\n\x7f"), "a?[31m??");
 }
 
+TEST(Quoted, LeavesOutTheMiddleOfALongMessage) {
+  EXPECT_EQ(without_middle("short"), "short");
+  const std::string told = without_middle("key " + std::string(1000000, 'x') + " is bad; try y");
+  EXPECT_LT(told.size(), 600U);
+  EXPECT_TRUE(told.starts_with("key xxx") && told.ends_with("xx is bad; try y"));
+  std::string umlauts;
+  for (int k = 0; k < 1000; ++k)
+    umlauts += "\xc3\xa4";
+  for (const std::size_t longest : {400, 401, 402, 403, 404})
+    EXPECT_EQ(without_middle(umlauts, longest).find(" ... ") % 2, 0U); // whole characters only
+}
+
 } // namespace
 } // namespace trime
