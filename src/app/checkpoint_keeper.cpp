@@ -53,11 +53,23 @@ std::vector<std::string> CheckpointKeeper::newest_first() const {
   return files;
 }
 
+/// On all ranks together.
+checkpoint::Found CheckpointKeeper::named(const std::string& file) const {
+  try {
+    return checkpoint::read_checkpoint(file, context_.comm);
+  } catch (const FileError& error) {
+    throw FileError(
+        fmt::format("{}; '--restart auto' takes the newest whole checkpoint {}, and starts anew if there is "
+                    "none",
+                    error.what(), context_.output.path(".checkpoint-K.h5")));
+  }
+}
+
 std::optional<meshing::SavedRun> CheckpointKeeper::find(const std::string& restart) {
   if (restart.empty())
     return std::nullopt;
   if (restart != "auto")
-    return checked(checkpoint::read_checkpoint(restart, context_.comm), restart);
+    return checked(named(restart), restart);
   std::string list;
   comm::run_agreed(context_.comm, [&] {
     if (context_.comm.is_root())

@@ -54,6 +54,7 @@ private:
   bool finds_stop_file();
   std::string path(std::int64_t number) const;
   std::vector<std::string> newest_first() const;
+  checkpoint::Found named(const std::string& file) const;
   meshing::SavedRun checked(checkpoint::Found found, const std::string& file);
   void set_number();
   void tell_unwritten(meshing::CheckpointWish wish, const std::string& reason);

@@ -52,6 +52,21 @@ void check_side(const Settings& settings, const std::string& axis, Diagnostics& 
                              shortest_side, longest_side, side));
 }
 
+/// Coordinates have steps of 2^-44 of the longer side: of the shorter one there must be some.
+void check_aspect(const Settings& settings, const geometry::Box& container, Diagnostics& problems) {
+  constexpr double least_share = 1e-12;
+  const double width = container.width(), height = container.height();
+  const auto is_good = [](double side) { return side >= shortest_side && side <= longest_side; };
+  if (!is_good(width) || !is_good(height) || std::fmin(width, height) >= least_share * std::fmax(width, height))
+    return;
+  const bool is_x = settings.is_set("domain", "x_min") || settings.is_set("domain", "x_max");
+  problems.add(
+      is_x ? settings.later_line("domain", "x_min", "x_max") : settings.later_line("domain", "y_min", "y_max"),
+      fmt::format("[domain] has the sides {} and {}: expected the shorter to be at least {} of the longer; set "
+                  "x_min, x_max, y_min and y_max around the shape, or none of them",
+                  width, height, least_share));
+}
+
 geometry::Box box_of(const Settings& settings, const std::string& section) {
   return {{settings.number(section, "x_min"), settings.number(section, "y_min")},
           {settings.number(section, "x_max"), settings.number(section, "y_max")}};
@@ -165,6 +180,7 @@ void read_domain(const Settings& settings, RunOptions& options, Diagnostics& pro
       *side = *given;
       options.container_is_automatic = false;
     }
+  check_aspect(settings, mesh.container, problems);
   if (const auto cells = settings.optional_integer("domain", "cells_x"))
     mesh.cells_x = static_cast<int>(*cells);
   if (const auto cells = settings.optional_integer("domain", "cells_y"))
