@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/checkpoint_keeper.hpp"
 
+#include "app/checkpoint_names.hpp"
 #include "app/config_difference.hpp"
 #include "comm/agree.hpp"
 #include "trime/core/error.hpp"
@@ -9,7 +10,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 
@@ -32,17 +35,17 @@ CheckpointKeeper::CheckpointKeeper(const KeeperContext& context, const Checkpoin
     : context_(context), options_(options), time_limit_(time_limit), origin_(std::move(origin)) {}
 
 std::string CheckpointKeeper::path(std::int64_t number) const {
-  return context_.output.path(fmt::format(".checkpoint-{}.h5", number % options_.keep + 1));
+  return checkpoint_path(context_.output, static_cast<int>(number % options_.keep) + 1);
 }
 
-/// Files of this name, as rank 0 finds them. What cannot be read comes first: it may have been the newest.
+/// Checkpoints of this name, as rank 0 finds them; an earlier run may have kept more. What cannot be read comes first:
+/// it may have been the newest.
 std::vector<std::string> CheckpointKeeper::newest_first() const {
   std::vector<std::pair<std::int64_t, std::string>> found;
-  for (int k = 0; k < options_.keep; ++k)
-    if (const std::string file = path(k); exists(file)) {
-      const std::int64_t number = checkpoint::checkpoint_number(file);
-      found.emplace_back(number < 0 ? std::numeric_limits<std::int64_t>::max() : number, file);
-    }
+  for (const std::string& file : checkpoint_files(context_.output)) {
+    const std::int64_t number = checkpoint::checkpoint_number(file);
+    found.emplace_back(number < 0 ? std::numeric_limits<std::int64_t>::max() : number, file);
+  }
   std::sort(found.rbegin(), found.rend());
   std::vector<std::string> files;
   for (const auto& [number, file] : found)
@@ -50,11 +53,23 @@ std::vector<std::string> CheckpointKeeper::newest_first() const {
   return files;
 }
 
+/// On all ranks together.
+checkpoint::Found CheckpointKeeper::named(const std::string& file) const {
+  try {
+    return checkpoint::read_checkpoint(file, context_.comm);
+  } catch (const FileError& error) {
+    throw FileError(
+        fmt::format("{}; '--restart auto' takes the newest whole checkpoint {}, and starts anew if there is "
+                    "none",
+                    error.what(), context_.output.path(".checkpoint-K.h5")));
+  }
+}
+
 std::optional<meshing::SavedRun> CheckpointKeeper::find(const std::string& restart) {
   if (restart.empty())
     return std::nullopt;
   if (restart != "auto")
-    return checked(checkpoint::read_checkpoint(restart, context_.comm), restart);
+    return checked(named(restart), restart);
   std::string list;
   comm::run_agreed(context_.comm, [&] {
     if (context_.comm.is_root())
@@ -101,12 +116,12 @@ void CheckpointKeeper::remove_all() {
   alarm(0);
   context_.signals.set_last(false);
   if (found_stop_file_)
-    unlink(options_.stop_file.c_str()); // found when nothing was left to stop; the next run shall not stop by it
+    remove_stop_file(); // found when nothing was left to stop
   if (!has_written_ && number_ < 0)
     return;
   if (context_.comm.is_root())
-    for (int k = 0; k < options_.keep; ++k)
-      unlink(path(k).c_str()); // a mesh that is written needs none
+    for (const std::string& file : checkpoint_files(context_.output))
+      unlink(file.c_str()); // a mesh that is written needs none
 }
 
 /// The last checkpoint stands: a signal ends the run at once from now on, and so does the time limit.
@@ -133,11 +148,11 @@ CheckpointWish CheckpointKeeper::wish_of_root() {
   const double now = context_.timers.total();
   sweep_ = asked_ > 0 ? std::fmax(now - asked_, sweep_ / 2) : 0; // the start of a stage is forgotten after a while
   asked_ = now;
-  if (time_limit_ > 0 && now + 2 * sweep_ + longest_writing_ >= time_limit_) {
+  if (!stops_no_more_ && time_limit_ > 0 && now + 2 * sweep_ + longest_writing_ >= time_limit_) {
     reason_ = "the time limit is near";
     return CheckpointWish::stop;
   }
-  if (finds_stop_file()) {
+  if (!stops_no_more_ && finds_stop_file()) {
     reason_ = "found " + options_.stop_file;
     return CheckpointWish::stop;
   }
@@ -180,11 +195,36 @@ void CheckpointKeeper::set_number() {
   comm::run_agreed(context_.comm, [&] {
     if (!context_.comm.is_root())
       return;
-    std::filesystem::create_directories(context_.output.directory);
+    std::error_code error;
+    std::filesystem::create_directories(context_.output.directory, error); // else writing tells what is in the way
     for (const std::string& file : newest_first())
       newest = std::max(newest, checkpoint::checkpoint_number(file));
   });
   number_ = context_.comm.max(newest);
+}
+
+/// On all ranks together: a run that was asked to stop goes on, since a mesh is worth more than an end without one.
+void CheckpointKeeper::tell_unwritten(CheckpointWish wish, const std::string& reason) {
+  SignalRequests& signals = context_.signals;
+  const char* advice = "free some space in output.directory, or see that it can be written";
+  if (wish == CheckpointWish::stop && context_.comm.max(std::int64_t{signals.asks_to_end()}) > 0)
+    throw FileError(fmt::format("no checkpoint: {}; a signal ends the run, and its work is lost; next time {}, or send "
+                                "USR1: then a run without a checkpoint goes on",
+                                reason, advice));
+  signals.forget_writing();
+  if (is_last_)
+    signals.set_last(false);
+  if (wish != CheckpointWish::stop) {
+    context_.log.warning("no checkpoint: {}; the run goes on; {}", reason, advice);
+    return;
+  }
+  signals.forget_stopping();
+  stops_no_more_ = true; // else each sweep would try again, and fail
+  context_.log.warning(
+      "no checkpoint: {}; the run does not stop{}, but goes on to its end; to stop it at a checkpoint, "
+      "{}, then send USR1",
+      reason, reason_.empty() ? "" : " (" + reason_ + ")", advice);
+  reason_.clear();
 }
 
 void CheckpointKeeper::write(CheckpointWish wish, const meshing::RunState& state, const sites::SiteState& sites,
@@ -197,12 +237,7 @@ void CheckpointKeeper::write(CheckpointWish wish, const meshing::RunState& state
     checkpoint::write_checkpoint(file, context_.output.run_files, {origin_, number_ + 1}, state, sites, activity);
   } catch (const FileError& error) { // on all ranks together
     written_ = context_.timers.total();
-    context_.signals.forget_writing();
-    if (wish == CheckpointWish::stop)
-      throw;
-    if (is_last_)
-      context_.signals.set_last(false);
-    context_.log.warning("no checkpoint: {}; the run goes on", error.what());
+    tell_unwritten(wish, error.what());
     return;
   }
   ++number_;
@@ -221,10 +256,17 @@ void CheckpointKeeper::write(CheckpointWish wish, const meshing::RunState& state
   stop_at(file);
 }
 
+/// The next run shall not stop by it.
+void CheckpointKeeper::remove_stop_file() const {
+  if (unlink(options_.stop_file.c_str()) != 0 && errno != ENOENT)
+    context_.log.warning("cannot remove the stop file {}: {}; remove it, or the next run stops by it, too",
+                         options_.stop_file, std::strerror(errno));
+}
+
 /// On all ranks together.
 void CheckpointKeeper::stop_at(const std::string& file) const {
   if (context_.comm.is_root() && !options_.stop_file.empty())
-    unlink(options_.stop_file.c_str()); // the next run shall not stop by it
+    remove_stop_file();
   throw meshing::StoppedAtCheckpoint(fmt::format("stopped at the checkpoint {}{}; go on with --restart {}", file,
                                                  reason_.empty() ? "" : " (" + reason_ + ")", file));
 }

@@ -24,7 +24,8 @@ struct KeeperContext {
   Log& log;
 };
 
-/// Clocks and files count on rank 0 alone; the ranks agree on what they want in the reduction of each sweep.
+/// @brief Clocks and files count on rank 0 alone; the ranks agree on what they want in the reduction of each sweep. A
+/// checkpoint that cannot be written is told, and the run goes on; it ends only where a signal would have ended it.
 class CheckpointKeeper final : public meshing::Checkpoints {
 public:
   /// @param time_limit seconds since the start of the program; 0: none
@@ -53,9 +54,12 @@ private:
   bool finds_stop_file();
   std::string path(std::int64_t number) const;
   std::vector<std::string> newest_first() const;
+  checkpoint::Found named(const std::string& file) const;
   meshing::SavedRun checked(checkpoint::Found found, const std::string& file);
   void set_number();
+  void tell_unwritten(meshing::CheckpointWish wish, const std::string& reason);
   void end_in_time();
+  void remove_stop_file() const;
   [[noreturn]] void stop_at(const std::string& file) const;
 
   const KeeperContext context_;
@@ -63,7 +67,7 @@ private:
   const double time_limit_;
   const checkpoint::Origin origin_;
   std::int64_t number_ = -1; // of the last checkpoint; -1: not known yet
-  bool has_written_ = false, is_last_ = false, found_stop_file_ = false;
+  bool has_written_ = false, is_last_ = false, found_stop_file_ = false, stops_no_more_ = false;
   double asked_ = 0, sweep_ = 0, written_ = 0, longest_writing_ = 0,
          looked_ = -1e9; // seconds of rank 0
   std::string reason_;   // of the last wish of rank 0

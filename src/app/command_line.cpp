@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/command_line.hpp"
 
+#include "core/quoted.hpp"
 #include "trime/core/error.hpp"
 
 #include <CLI/CLI.hpp>
@@ -84,7 +85,7 @@ double seconds_of(const std::string& text) {
       seconds < 0 || seconds > 59 || hours + minutes + seconds == 0)
     throw ConfigError(fmt::format("'--time-limit {}': expected hours, minutes and seconds as HH:MM:SS, more than 0; "
                                   "say 00:55:00",
-                                  text));
+                                  shown(text)));
   return 3600.0 * hours + 60 * minutes + seconds;
 }
 
@@ -109,7 +110,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   CLI::App app("Distributed generator of large 2D triangle meshes.\n"
                "[mpirun -np RANKS] trime_mpi CONFIG [section.key=value ...] [OPTIONS]\n"
                "[mpirun -np RANKS] trime_mpi convert IN.h5 OUT.ENDING   a mesh in the format of another program:\n"
-               "                   .msh .msh2 .mesh .freefem .node .vtu .2dm .14, see configs/README.md\n"
+               "                   .msh .msh2 .mesh .freefem .node .vtu .2dm .14 .geojson, see configs/README.md\n"
                "trime_mpi info FILE.h5   what is in a mesh file",
                "trime_mpi");
   declare(app, line, flags);
@@ -122,7 +123,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     line.action = Action::help;
     line.help = app.help();
   } catch (const CLI::ParseError& error) {
-    throw ConfigError(fmt::format("command line: {}; see --help", error.what()));
+    throw ConfigError(fmt::format("command line: {}; see --help", without_middle(error.what())));
   }
   take_files(line, flags);
   if (flags.time_limit)

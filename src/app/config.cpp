@@ -5,6 +5,8 @@
 #include "app/settings.hpp"
 #include "core/angle.hpp"
 #include "core/nearest_name.hpp"
+#include "core/quoted.hpp"
+#include "io/output_files.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/formula.hpp"
 #include "trime/shape/region.hpp"
@@ -48,6 +50,21 @@ void check_side(const Settings& settings, const std::string& axis, Diagnostics& 
     problems.add(settings.later_line("domain", low, high),
                  fmt::format("[domain] needs {} - {} from {} to {}, found {}; use another unit of length", high, low,
                              shortest_side, longest_side, side));
+}
+
+/// Coordinates have steps of 2^-44 of the longer side: of the shorter one there must be some.
+void check_aspect(const Settings& settings, const geometry::Box& container, Diagnostics& problems) {
+  constexpr double least_share = 1e-12;
+  const double width = container.width(), height = container.height();
+  const auto is_good = [](double side) { return side >= shortest_side && side <= longest_side; };
+  if (!is_good(width) || !is_good(height) || std::fmin(width, height) >= least_share * std::fmax(width, height))
+    return;
+  const bool is_x = settings.is_set("domain", "x_min") || settings.is_set("domain", "x_max");
+  problems.add(
+      is_x ? settings.later_line("domain", "x_min", "x_max") : settings.later_line("domain", "y_min", "y_max"),
+      fmt::format("[domain] has the sides {} and {}: expected the shorter to be at least {} of the longer; set "
+                  "x_min, x_max, y_min and y_max around the shape, or none of them",
+                  width, height, least_share));
 }
 
 geometry::Box box_of(const Settings& settings, const std::string& section) {
@@ -112,7 +129,8 @@ void read_region(const Settings& settings, RunOptions& options, Diagnostics& pro
     for (int part = 0; part < static_cast<int>(settings.parts().size()); ++part)
       if (!std::binary_search(region.parts().begin(), region.parts().end(), part))
         options.warnings.push_back(fmt::format("part '{}' does not occur in the region '{}' and is left out",
-                                               settings.parts()[static_cast<std::size_t>(part)], options.region));
+                                               shown(settings.parts()[static_cast<std::size_t>(part)]),
+                                               shown(options.region)));
   } catch (const Error& error) {
     problems.add(settings.line("shape", "region"), error.what());
   }
@@ -162,6 +180,7 @@ void read_domain(const Settings& settings, RunOptions& options, Diagnostics& pro
       *side = *given;
       options.container_is_automatic = false;
     }
+  check_aspect(settings, mesh.container, problems);
   if (const auto cells = settings.optional_integer("domain", "cells_x"))
     mesh.cells_x = static_cast<int>(*cells);
   if (const auto cells = settings.optional_integer("domain", "cells_y"))
@@ -261,6 +280,20 @@ void read_parallel(const Settings& settings, RunOptions& options) {
   options.mesh_threads = static_cast<int>(settings.integer("parallel", "mesh_threads"));
 }
 
+/// A stem that all file names of the run can begin with.
+void check_name(const Settings& settings, const std::string& name, Diagnostics& problems) {
+  if (name.find('/') != std::string::npos || name == "." || name == "..")
+    problems.add(settings.line("output", "name"),
+                 fmt::format("'name = {}' in [output]: expected the stem of a file name, without directory; set "
+                             "'directory' for that",
+                             shown(name)));
+  if (name.size() > io::longest_name)
+    problems.add(settings.line("output", "name"),
+                 fmt::format("'name = {}' in [output]: expected at most {} bytes, found {}: file systems hold names of "
+                             "{}, and files of the run need the rest behind it; set a shorter output.name",
+                             shown(name), io::longest_name, name.size(), io::longest_file_name));
+}
+
 void read_output(const Settings& settings, RunOptions& options, Diagnostics& problems) {
   io::MeshFileOptions& file = options.output.file;
   file.directory = settings.text("output", "directory");
@@ -285,11 +318,7 @@ void read_output(const Settings& settings, RunOptions& options, Diagnostics& pro
                              settings.text("output", "formats")));
   options.mesh.snapshot_interval = interval == -1 ? 0 : static_cast<int>(interval);
   options.output.steps = options.mesh.snapshot_interval != 0;
-  if (file.name.find('/') != std::string::npos || file.name == "." || file.name == "..")
-    problems.add(settings.line("output", "name"),
-                 fmt::format("'name = {}' in [output]: expected the stem of a file name, without directory; set "
-                             "'directory' for that",
-                             file.name));
+  check_name(settings, file.name, problems);
 }
 
 void read_checkpoint(const Settings& settings, CheckpointOptions& options) {

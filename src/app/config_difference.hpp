@@ -8,7 +8,8 @@
 namespace trime::app {
 
 /// @brief One line for each key that is not the same in two resolved configs: "points in [meshing]: 1000 then, 2000
-/// now". Without keys that leave the mesh as it is: [parallel], [output], [checkpoint], [log], and paths of files.
+/// now". Numbers are compared as numbers. Without keys that leave the mesh as it is: [parallel], [output],
+/// [checkpoint], [log], and paths of files.
 std::vector<std::string> differing_keys(const std::string& then, const std::string& now);
 
 } // namespace trime::app

@@ -2,6 +2,9 @@
 #include "app/exchange.hpp"
 
 #include "comm/agree.hpp"
+#include "core/file_kind.hpp"
+#include "core/quoted.hpp"
+#include "io/temporary_file.hpp"
 #include "trime/io/stored_mesh.hpp"
 
 #include <algorithm>
@@ -20,12 +23,24 @@ std::string path_of(formats::Format format, const io::MeshFileOptions& file) {
   return {};
 }
 
+/// Of a path that something has; a link to nothing is something, too.
+void refuse_to_replace(const std::string& path, bool overwrite, const char* advice) {
+  std::error_code error;
+  if (const std::string problem = io::length_problem(path, io::longest_temporary_ending); !problem.empty())
+    throw FileError(fmt::format("{} cannot be written: {}; choose a shorter one", shown(path), problem));
+  if (const std::string kind = irregular_kind(path); !kind.empty())
+    throw FileError(fmt::format("{} is {}, which is not replaced; choose another name", path, kind));
+  if (!overwrite && std::filesystem::exists(std::filesystem::symlink_status(path, error)))
+    throw FileError(fmt::format("{} exists; {}", path, advice));
+}
+
 /// On rank 0, for all.
-void refuse_to_replace(const std::vector<std::string>& paths, const char* advice, const comm::Communicator& comm) {
+void refuse_to_replace(const std::vector<std::string>& paths, bool overwrite, const char* advice,
+                       const comm::Communicator& comm) {
   comm::run_agreed(comm, [&] {
-    for (const std::string& path : paths)
-      if (comm.is_root() && std::filesystem::exists(path))
-        throw FileError(fmt::format("{} exists; {}", path, advice));
+    if (comm.is_root())
+      for (const std::string& path : paths)
+        refuse_to_replace(path, overwrite, advice);
   });
 }
 
@@ -51,7 +66,8 @@ formats::Format format_of_output(const std::string& path) {
   std::string endings;
   for (const formats::FormatName& name : formats::all_formats())
     endings += fmt::format("{}{} ({})", endings.empty() ? "" : ", ", name.ending, name.word);
-  throw ConfigError(fmt::format("'{}' has none of the endings that tell the format: expected {}", path, endings));
+  throw ConfigError(
+      fmt::format("'{}' has none of the endings that tell the format: expected {}", shown(path), endings));
 }
 
 bool is_marked(const Metadata& metadata) {
@@ -141,13 +157,17 @@ std::string quality_text(const Metadata& metadata) {
 
 } // namespace
 
-void check_exchange(const RunOptions& options, const comm::Communicator& comm) {
+std::vector<std::string> exchange_paths(const RunOptions& options) {
   std::vector<std::string> paths;
   for (const formats::Format format : options.exchange)
     for (const std::string& path : formats::paths_of(format, path_of(format, options.output.file)))
       paths.push_back(path);
-  if (!options.output.file.overwrite)
-    refuse_to_replace(paths, "set output.overwrite = true to replace it, or another output.name", comm);
+  return paths;
+}
+
+void check_exchange(const RunOptions& options, const comm::Communicator& comm) {
+  refuse_to_replace(exchange_paths(options), options.output.file.overwrite,
+                    "set output.overwrite = true to replace it, or another output.name", comm);
 }
 
 std::vector<std::string> write_exchange(const RunOptions& options, const mesh::DistributedMesh& mesh,
@@ -164,8 +184,7 @@ std::vector<std::string> write_exchange(const RunOptions& options, const mesh::D
 void convert(const CommandLine& line, io::RunFiles* files, const comm::Communicator& comm, Log& log) {
   const std::string &from = line.files[0], &to = line.files[1];
   const formats::Format format = format_of_output(to);
-  if (!line.overwrite)
-    refuse_to_replace(formats::paths_of(format, to), "add --overwrite to replace it", comm);
+  refuse_to_replace(formats::paths_of(format, to), line.overwrite, "add --overwrite to replace it", comm);
   const Metadata metadata = io::read_metadata(from, {"tags"}, comm);
   const formats::Names names = names_of(metadata);
   const mesh::DistributedMesh mesh = io::read_mesh(from, metadata, comm);

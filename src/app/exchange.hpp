@@ -13,6 +13,9 @@
 
 namespace trime::app {
 
+/// Files of other formats that the run will write.
+std::vector<std::string> exchange_paths(const RunOptions& options);
+
 /// @throws FileError on all ranks if one of the files is there and may not be replaced @note Collective.
 void check_exchange(const RunOptions& options, const comm::Communicator& comm);
 

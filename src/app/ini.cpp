@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/ini.hpp"
 
+#include "core/quoted.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -16,16 +17,6 @@ std::string_view trim(std::string_view text) {
   if (first == std::string_view::npos)
     return {};
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-/// Part of a foreign line for a message: short, and without bytes that could upset a terminal.
-std::string quoted(std::string_view text) {
-  constexpr std::size_t longest = 60;
-  std::string shown(text.substr(0, longest));
-  for (char& c : shown)
-    if (static_cast<unsigned char>(c) < 32 || c == 127)
-      c = '?';
-  return "'" + shown + (text.size() > longest ? "...'" : "'");
 }
 
 /// The line without its comment: `;` or `#` at the start or after a blank, so that a value may hold either.
@@ -71,8 +62,8 @@ private:
     skip_ = false;
     std::vector<int>& lines = opened_[std::string(name)];
     for (const int line : lines)
-      problems_.add(number,
-                    fmt::format("section [{}] was opened before, on line {}; put its keys together", name, line));
+      problems_.add(
+          number, fmt::format("section [{}] was opened before, on line {}; put its keys together", shown(name), line));
     if (lines.size() < most_told)
       lines.push_back(number);
     document_.sections.push_back({std::string(name), number});
@@ -90,9 +81,9 @@ private:
     } else if (skip_) {
       return;
     } else if (!in_section_) {
-      problems_.add(number, fmt::format("key '{}' stands before the first [section]", key));
+      problems_.add(number, fmt::format("key {} stands before the first [section]", quoted(key)));
     } else if (value.empty()) {
-      problems_.add(number, fmt::format("key '{}' has no value; write one, or remove the line", key));
+      problems_.add(number, fmt::format("key {} has no value; write one, or remove the line", quoted(key)));
     } else {
       store({document_.sections.back().name, std::string(key), std::string(value), number});
     }
@@ -103,8 +94,8 @@ private:
     if (is_first)
       document_.entries.push_back(std::move(entry));
     else
-      problems_.add(entry.line, fmt::format("key '{}' is set twice in [{}], first on line {}; keep one of them",
-                                            entry.key, entry.section, first->second));
+      problems_.add(entry.line, fmt::format("key {} is set twice in [{}], first on line {}; keep one of them",
+                                            quoted(entry.key), shown(entry.section), first->second));
   }
 
   static constexpr std::size_t most_told = 30; // earlier places of one section: as many as Diagnostics::text shows
@@ -132,7 +123,7 @@ std::string Diagnostics::text(std::size_t limit) const {
   std::string result;
   for (std::size_t k = 0; k < std::min(limit, sorted.size()); ++k) {
     const auto& [line, message] = sorted[k];
-    result += fmt::format("{}{}: {}", k == 0 ? "" : "\n", place(line), message);
+    result += fmt::format("{}{}: {}", k == 0 ? "" : "\n", place(line), without_middle(message));
   }
   if (sorted.size() > limit)
     result += fmt::format("\n{}: {} more errors", file_, sorted.size() - limit);

@@ -6,6 +6,7 @@
 #include "app/user_places.hpp"
 #include "comm/departure.hpp"
 #include "core/free_memory.hpp"
+#include "core/quoted.hpp"
 #include "trime/core/log.hpp"
 #include "trime/io/mesh_file.hpp"
 #include "trime/io/run_files.hpp"
@@ -46,7 +47,7 @@ void end_by_signal(int number) {
 /// Where checkpoints are written, the run stops at the next one; a second signal ends it at once.
 void end_in_order(int number) {
   if (requests->stops_in_order() && !requests->asks_to_stop())
-    requests->ask_to_stop();
+    requests->ask_to_end();
   else
     end_by_signal(number);
 }
@@ -96,10 +97,11 @@ void handle_signals(bool tell) {
 
 /// Every line of the message as one line of error.
 void print_error(const std::string& message) {
+  constexpr std::size_t longest = 5000; // bytes: more than a path may have
   std::string text;
   for (std::size_t at = 0; at <= message.size();) {
     const std::size_t end = std::min(message.find('\n', at), message.size());
-    text += "trime_mpi: error: " + message.substr(at, end - at) + "\n";
+    text += "trime_mpi: error: " + trime::without_middle(message.substr(at, end - at), longest) + "\n";
     at = end + 1;
   }
   std::fflush(stdout);

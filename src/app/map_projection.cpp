@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/map_projection.hpp"
 
+#include "core/quoted.hpp"
 #include "projection/projection.hpp"
 #include "trime/core/error.hpp"
 
@@ -203,7 +204,8 @@ MapSystem project_contours(const RunOptions& options, std::span<Contour> contour
     if (options.projection != "auto")
       warn_of_distortion(contours, map.crs, log);
   } catch (const ConfigError& error) {
-    throw ConfigError(fmt::format("'projection = {}' in [shape]: {}", options.projection, error.what()));
+    throw ConfigError(
+        fmt::format("'projection = {}' in [shape]: {}", shown(options.projection), without_middle(error.what())));
   }
   log.info("projection: {}", map.crs);
   return map;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/option_table.hpp"
 
+#include "app/checkpoint_names.hpp"
 #include "app/options.hpp"
 
 #include <algorithm>
@@ -312,7 +313,7 @@ constexpr Option table[] = {
      .key = "keep",
      .kind = OptionKind::integer,
      .fallback = "2",
-     .range = {1, 1000},
+     .range = {1, most_checkpoints},
      .meaning = "files NAME.checkpoint-K.h5 that are written in turn; all go once the mesh is written"},
     {.section = "checkpoint",
      .key = "stop_file",

@@ -3,6 +3,7 @@
 
 #include "app/option_table.hpp"
 #include "core/nearest_name.hpp"
+#include "core/quoted.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -130,7 +131,7 @@ std::string expectation(const Option& option) {
 std::string value_problem(const Option& option, std::string_view section, const std::string& value) {
   if (is_well_formed(option, value))
     return "";
-  return fmt::format("'{} = {}' in [{}]: expected {}{}", option.key, value, section, expectation(option),
+  return fmt::format("'{} = {}' in [{}]: expected {}{}", option.key, shown(value), shown(section), expectation(option),
                      word_suggestion(option, value));
 }
 

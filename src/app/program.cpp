@@ -11,6 +11,7 @@
 #include "app/run_report.hpp"
 #include "app/shape_builder.hpp"
 #include "app/size_builder.hpp"
+#include "app/stop_file.hpp"
 #include "boundary/fixed_points.hpp"
 #include "core/free_memory.hpp"
 #include "core/state_fields.hpp"
@@ -140,12 +141,12 @@ struct Job {
 
 /// The mesher with what is written while it runs.
 meshing::MeshResult run_mesher(const Job& job, const Provenance& provenance, const sizing::SizeField& size,
-                               const meshing::MeshOptions& options, io::MeshSeries& series, CheckpointKeeper& keeper) {
+                               const meshing::MeshOptions& options, io::MeshSeries& series, CheckpointKeeper& keeper,
+                               const std::optional<meshing::SavedRun>& saved) {
   meshing::Mesher mesher(job.comm, provenance.boundary, size, options, job.log, job.timers);
   mesher.on_snapshot([&](const meshing::Snapshot& snapshot) { // timed by the mesher
     series.write_step({snapshot.retriangulation, snapshot.mesh, snapshot.quality, describe_step(provenance, snapshot)});
   });
-  const std::optional<meshing::SavedRun> saved = keeper.find(job.line.restart);
   if (saved) {
     mesher.go_on_from(*saved);
     int triangulations = 0;
@@ -187,6 +188,7 @@ ExitCode make_mesh(const Job& job) {
   report_placement(placement, comm, log);
   for (const std::string& warning : options.warnings)
     log.warning("{}", warning);
+  check_stop_file(options, job.line, comm);
 
   const ShapeInput input = [&] {
     const auto timing = timers.scope("shape");
@@ -200,6 +202,11 @@ ExitCode make_mesh(const Job& job) {
   const geometry::Boundary& boundary = input.boundary();
   meshing::MeshOptions mesh_options = options.mesh;
   mesh_options.fixed_points = read_fixed_points(options, input, comm);
+  io::MeshFileOptions checkpoint_output = options.output.file;
+  checkpoint_output.run_files = job.files;
+  CheckpointKeeper keeper({comm, checkpoint_output, job.signals, timers, log}, options.checkpoint, job.line.time_limit,
+                          {program_name(), options.resolved});
+  const std::optional<meshing::SavedRun> saved = keeper.find(job.line.restart); // before directories are made
   io::MeshSeries series(series_options(job, input), comm);
   if (const double points = expected_points(options, boundary); options.write)
     for (const std::string& warning : is_run ? series.check(points) : series.look(points))
@@ -239,11 +246,7 @@ ExitCode make_mesh(const Job& job) {
                               job.places.ring_lines(boundary),
                               input.map,
                               input.part_markers()};
-  io::MeshFileOptions checkpoint_output = options.output.file;
-  checkpoint_output.run_files = job.files;
-  CheckpointKeeper keeper({comm, checkpoint_output, job.signals, timers, log}, options.checkpoint, job.line.time_limit,
-                          {program_name(), options.resolved});
-  const meshing::MeshResult result = run_mesher(job, provenance, *size.field, mesh_options, series, keeper);
+  const meshing::MeshResult result = run_mesher(job, provenance, *size.field, mesh_options, series, keeper, saved);
   const SizeSummary sizes = summarize_size(size.description, result.mesh, comm);
   io::WrittenFiles files;
   keeper.go_to_the_end();

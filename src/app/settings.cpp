@@ -3,6 +3,7 @@
 
 #include "app/option_value.hpp"
 #include "core/nearest_name.hpp"
+#include "core/quoted.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -65,17 +66,17 @@ void Settings::check_sections(const IniDocument& document, Diagnostics& problems
     if (!section.name.starts_with(part_prefix)) {
       if (!is_known_section(section.name))
         problems.add(section.line,
-                     fmt::format("unknown section [{}]{}", section.name,
+                     fmt::format("unknown section [{}]{}", shown(section.name),
                                  ++misspelt_ <= most_misspelt ? suggestion(section.name, section_names()) : ""));
       continue;
     }
     const std::string name = section.name.substr(part_prefix.size());
     const bool reserved = std::find(reserved_names.begin(), reserved_names.end(), name) != reserved_names.end();
     if (reserved)
-      problems.add(section.line, fmt::format("'{}' cannot name a part: it has a meaning in region", name));
+      problems.add(section.line, fmt::format("'{}' cannot name a part: it has a meaning in region", shown(name)));
     else if (!is_part_name(name))
       problems.add(section.line,
-                   fmt::format("'{}' cannot name a part: use letters, digits and '_', a letter first", name));
+                   fmt::format("'{}' cannot name a part: use letters, digits and '_', a letter first", shown(name)));
     else if (part_names_.insert(name).second)
       parts_.push_back(name);
   }
@@ -89,7 +90,7 @@ void Settings::check_entry(const IniEntry& entry, Diagnostics& problems) {
       near = suggestion(entry.key, key_names(entry.section));
       meant_.insert({entry.section, nearest_name(entry.key, key_names(entry.section))});
     }
-    problems.add(entry.line, fmt::format("unknown key '{}' in [{}]{}", entry.key, entry.section,
+    problems.add(entry.line, fmt::format("unknown key '{}' in [{}]{}", shown(entry.key), shown(entry.section),
                                          near.empty() ? other_home(entry.section, entry.key) : near));
     return;
   }
@@ -112,7 +113,7 @@ void Settings::keep(const IniEntry& entry) {
 void Settings::check_part(const std::string& section, Diagnostics& problems) {
   if (!is_set(section, "type")) {
     problems.add(section_line(section),
-                 fmt::format("[{}] needs a type: {}", section, expectation(*find_option(section, "type"))));
+                 fmt::format("[{}] needs a type: {}", shown(section), expectation(*find_option(section, "type"))));
     return;
   }
   const std::string type = text(section, "type");
@@ -124,14 +125,14 @@ void Settings::check_part(const std::string& section, Diagnostics& problems) {
     for (const Option& other : option_table()) // x_min stands in the table once per type that has it
       belongs = belongs || (other.section == part_section && other.key == entry.key && other.part_type == type);
     if (!belongs)
-      problems.add(entry.line, fmt::format("'{}' in [{}] belongs to type {}, but the type is {}", entry.key, section,
-                                           option->part_type, type));
+      problems.add(entry.line, fmt::format("'{}' in [{}] belongs to type {}, but the type is {}", entry.key,
+                                           shown(section), option->part_type, type));
   }
   for (const Option& option : option_table())
     if (option.section == part_section && option.part_type == type && *option.fallback == '\0' &&
         !is_set(section, option.key))
-      problems.add(section_line(section),
-                   fmt::format("[{}] of type {} needs '{}': {}", section, type, option.key, expectation(option)));
+      problems.add(section_line(section), fmt::format("[{}] of type {} needs '{}': {}", shown(section), type,
+                                                      option.key, expectation(option)));
 }
 
 int Settings::section_line(const std::string& section) const {

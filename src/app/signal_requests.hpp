@@ -12,10 +12,18 @@ class SignalRequests {
 public:
   void ask_to_write() noexcept { write_ = true; }
   void ask_to_stop() noexcept { stop_ = true; }
+  /// By a signal that would end the program: it stops with a checkpoint or without.
+  void ask_to_end() noexcept {
+    end_ = true;
+    stop_ = true;
+  }
   bool asks_to_write() const noexcept { return write_; }
   bool asks_to_stop() const noexcept { return stop_; }
+  bool asks_to_end() const noexcept { return end_; }
   /// A checkpoint is written.
   void forget_writing() noexcept { write_ = false; }
+  /// None could be written, and the run goes on.
+  void forget_stopping() noexcept { stop_ = false; }
 
   /// May a run that is told to end stop at a checkpoint first? Only during the sweeps, if checkpoints are configured.
   void set_stops_in_order(bool stops) noexcept { stops_in_order_ = stops; }
@@ -30,7 +38,7 @@ public:
   bool last_stands() const noexcept { return stands_; }
 
 private:
-  std::atomic<bool> write_{false}, stop_{false}, stops_in_order_{false}, no_more_{false}, stands_{false};
+  std::atomic<bool> write_{false}, stop_{false}, end_{false}, stops_in_order_{false}, no_more_{false}, stands_{false};
   static_assert(std::atomic<bool>::is_always_lock_free);
 };
 

@@ -1,15 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/hdf5_input.hpp"
 
+#include "core/file_kind.hpp"
+
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <new>
 #include <optional>
 
 namespace trime::io {
 namespace {
 
+/// HDF5 would wait for ever for the writer of a pipe, and says little of a file that is not there.
+void check_is_a_file(const std::string& path) {
+  if (const std::string kind = irregular_kind(path); !kind.empty())
+    throw FileError(fmt::format("cannot read {}: expected a file of trime_mpi, found {}; check the path", path, kind));
+  if (access(path.c_str(), R_OK) != 0)
+    throw FileError(fmt::format("cannot open {}: {}; check the path and the permissions", path, std::strerror(errno)));
+}
+
 /// Opened for reading; file systems without locks do not matter.
 Hdf5File open_file(const std::string& path) {
+  check_is_a_file(path);
   silence_hdf5();
   const Hdf5Properties access(H5Pcreate(H5P_FILE_ACCESS), "make properties of HDF5");
   checked(H5Pset_file_locking(access, true, true), "set the locks of HDF5");

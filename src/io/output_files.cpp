@@ -2,6 +2,8 @@
 // The look at the output directory before a run, so that no hour of work ends at a file that may not be written.
 #include "io/output_files.hpp"
 
+#include "core/file_kind.hpp"
+#include "core/quoted.hpp"
 #include "io/temporary_file.hpp"
 #include "trime/core/error.hpp"
 
@@ -20,12 +22,21 @@ namespace {
 
 constexpr const char* facet_ending = ".xmf";
 constexpr std::array<const char*, 4> view_endings{".h5", ".xdmf", ".vtkhdf", facet_ending};
+constexpr const char *xdmf_collection_ending = "_series.xdmf", *vtkhdf_collection_ending = ".vtkhdf.series";
 constexpr const char* step_infix = "_step_";
 
+/// Files in it have a name, too.
+void check_length(const std::string& directory) {
+  if (const std::string problem = length_problem(directory + "/", longest_file_name); !problem.empty())
+    throw FileError(
+        fmt::format("cannot make the output directory {}: {}; set output.directory", shown(directory), problem));
+}
+
 void make_directory(const std::string& directory) {
-  std::error_code error;
+  check_length(directory);
+  std::error_code error, ignored;
   std::filesystem::create_directories(directory, error);
-  if (!std::filesystem::is_directory(directory))
+  if (!std::filesystem::is_directory(directory, ignored))
     throw FileError(fmt::format("cannot make the output directory {}: {}; set output.directory", directory,
                                 error ? error.message() : "a file of this name is in the way"));
 }
@@ -43,6 +54,7 @@ void check_writable(const std::string& directory, const std::string& name) {
 
 /// @brief Could make_directory and check_writable do their work? By permissions alone, since nothing is made.
 void check_could_be_made(const std::string& directory) {
+  check_length(directory);
   std::error_code error;
   std::filesystem::path existing = std::filesystem::absolute(directory, error).lexically_normal();
   while (!std::filesystem::exists(std::filesystem::symlink_status(existing, error)) && existing.has_relative_path())
@@ -55,12 +67,17 @@ void check_could_be_made(const std::string& directory) {
                                 existing.string(), system_error()));
 }
 
-void check_absent(const std::string& path, bool overwrite) {
+/// A link to nothing, too.
+bool is_there(const std::string& path) {
   struct stat status {};
-  if (lstat(path.c_str(), &status) != 0)
+  return lstat(path.c_str(), &status) == 0;
+}
+
+void check_absent(const std::string& path, bool overwrite) {
+  if (!is_there(path))
     return;
-  if (S_ISDIR(status.st_mode))
-    throw FileError(fmt::format("{} is a directory; set output.name or output.directory", path));
+  if (const std::string kind = irregular_kind(path); !kind.empty())
+    throw FileError(fmt::format("{} is {}, which is not replaced; set output.name or output.directory", path, kind));
   if (!overwrite)
     throw FileError(fmt::format("{} exists; set output.overwrite = true to replace it, or another output.name", path));
 }
@@ -148,11 +165,17 @@ std::string facet_view(const MeshFileOptions& options) {
 }
 
 std::string xdmf_collection(const MeshFileOptions& options) {
-  return options.path("_series.xdmf");
+  return options.path(xdmf_collection_ending);
 }
 
 std::string vtkhdf_collection(const MeshFileOptions& options) {
-  return options.path(".vtkhdf.series");
+  return options.path(vtkhdf_collection_ending);
+}
+
+bool is_file_of_run(const std::string& file, const std::string& name) {
+  const auto is = [&](const char* ending) { return file == name + ending; };
+  return std::any_of(view_endings.begin(), view_endings.end(), is) || is(xdmf_collection_ending) ||
+         is(vtkhdf_collection_ending) || is_step_file(file, name);
 }
 
 std::vector<std::string> files_of_series(const SeriesOptions& options) {
@@ -160,7 +183,7 @@ std::vector<std::string> files_of_series(const SeriesOptions& options) {
   std::vector<std::string> found =
       files_in(file.directory, [&](const std::string& name) { return is_step_file(name, file.name); });
   for (const std::string& path : {xdmf_collection(file), vtkhdf_collection(file)})
-    if (std::filesystem::exists(path))
+    if (is_there(path))
       found.push_back(path);
   const std::vector<std::string> texts =
       files_in(file.path(""), [&](const std::string& name) { return is_text_mesh_file(name, file.name); });
@@ -181,6 +204,8 @@ std::vector<std::string> check_files(const SeriesOptions& options, double expect
 
 std::vector<std::string> look_at_files(const SeriesOptions& options, double expected_points) {
   check_could_be_made(options.file.directory);
+  if (options.text)
+    check_could_be_made(options.file.path(""));
   check_all_absent(options);
   return warnings_for(options, expected_points);
 }

@@ -2,12 +2,18 @@
 // Names of the files of a run, and the look at what lies under these names already. Serial: rank 0 only.
 #pragma once
 
+#include "io/temporary_file.hpp"
 #include "trime/io/mesh_series.hpp"
 
 #include <string>
 #include <vector>
 
 namespace trime::io {
+
+/// Bytes that files of a run have behind NAME at most, "_2147483647_bdry_vertices_coords_CCW_1234567890.txt".
+inline constexpr std::size_t longest_ending = 51;
+/// Bytes of NAME, so that all files of a run can be written, under their temporary names first.
+inline constexpr std::size_t longest_name = longest_file_name - longest_temporary_ending - longest_ending;
 
 /// "NAME_step_000012".
 std::string step_name(const std::string& name, int retriangulation);
@@ -22,6 +28,9 @@ std::string vtkhdf_collection(const MeshFileOptions& options);
 /// @brief Files of steps, collections, and text files that lie in the way of a run with these options, or that would
 /// tell of an older run of the same name; sorted. The final mesh and its views are not among them.
 std::vector<std::string> files_of_series(const SeriesOptions& options);
+
+/// Has a file in the output directory such a name, steps of any number included? @param name stem of the run's files
+bool is_file_of_run(const std::string& file, const std::string& name);
 
 /// What MeshSeries::check() does on rank 0.
 std::vector<std::string> check_files(const SeriesOptions& options, double expected_points);

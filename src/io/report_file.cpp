@@ -2,6 +2,8 @@
 #include "io/report_file.hpp"
 
 #include "comm/agree.hpp"
+#include "core/file_kind.hpp"
+#include "core/quoted.hpp"
 #include "io/temporary_file.hpp"
 
 #include <nlohmann/json.hpp>
@@ -49,8 +51,13 @@ void check_report_file(const std::string& path, const comm::Communicator& comm) 
   comm::run_agreed(comm, [&] {
     if (!comm.is_root())
       return;
-    if (std::filesystem::is_directory(path))
-      throw FileError(fmt::format("the report {} is a directory; name a file", path));
+    std::error_code error;
+    if (const std::string problem = length_problem(path, longest_temporary_ending); !problem.empty())
+      throw FileError(fmt::format("the report {} cannot be written: {}; choose a shorter one", shown(path), problem));
+    if (const std::string kind = irregular_kind(path); !kind.empty())
+      throw FileError(fmt::format("the report {} is {}, which a file would replace; name a regular file", path, kind));
+    if (std::filesystem::is_symlink(path, error))
+      throw FileError(fmt::format("the report {} is a link, which a file would replace; name the file itself", path));
     const std::filesystem::path parent = std::filesystem::path(path).parent_path();
     const std::string directory = parent.empty() ? "." : parent.string();
     if (access(directory.c_str(), W_OK | X_OK) != 0)

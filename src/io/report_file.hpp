@@ -26,7 +26,8 @@ struct Outcome {
 /// no UTF-8 are replaced, since JSON cannot hold them.
 std::string report_json(const Metadata& metadata, const Outcome& outcome);
 
-/// @brief Sees that the file can be written; to be called before work starts that would be lost.
+/// @brief Sees that the file can be written, and that no link, pipe or device would be replaced by it; to be called
+/// before work starts that would be lost.
 /// @throws FileError on all ranks
 /// @note Collective.
 void check_report_file(const std::string& path, const comm::Communicator& comm);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/temporary_file.hpp"
 
+#include "core/file_kind.hpp"
+#include "core/quoted.hpp"
 #include "trime/core/error.hpp"
 #include "trime/io/run_files.hpp"
 
@@ -10,8 +12,10 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <climits>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -30,6 +34,14 @@ void synchronise(const std::string& path, int flags, int (*to_disk)(int descript
   ::close(descriptor);
   if (result != 0 && !forgiven)
     throw FileError(fmt::format("cannot write {} to disk: {}", path, reason));
+}
+
+/// A pipe or a device is not for us to replace, nor is what a link to one stands for.
+void refuse_irregular(const std::string& path) {
+  if (const std::string kind = irregular_kind(path); !kind.empty())
+    throw FileError(fmt::format("cannot write {}: it is {}, and only regular files are replaced; remove it, or choose "
+                                "another name",
+                                path, kind));
 }
 
 /// False if there is something of that name, which stays.
@@ -109,6 +121,7 @@ void TemporaryFile::rename_to(const std::string& final_path, bool replaces) {
 }
 
 void TemporaryFile::rename_before_disk(const std::string& final_path) {
+  refuse_irregular(final_path);
   if (std::rename(path_.c_str(), final_path.c_str()) != 0)
     throw FileError(fmt::format("cannot rename {} to {}: {}", path_, final_path, system_error()));
   has_its_name();
@@ -133,13 +146,28 @@ void synchronise_file_system(const std::string& path) {
   synchronise(directory_of(path), O_RDONLY | O_DIRECTORY, syncfs);
 }
 
+std::string length_problem(const std::string& path, std::size_t added) {
+  if (path.size() + added >= PATH_MAX)
+    return fmt::format("its path has {} bytes, expected fewer than {}", path.size(), PATH_MAX - added);
+  for (std::size_t at = 0; at <= path.size();) {
+    const std::size_t end = std::min(path.find('/', at), path.size());
+    const std::size_t most = longest_file_name - (end == path.size() ? added : 0);
+    if (end - at > most)
+      return fmt::format("expected names of at most {} bytes{}, found {} with {}", most,
+                         added > 0 && end == path.size() ? ", since a file has a longer one while it is written" : "",
+                         quoted(path.substr(at, end - at)), end - at);
+    at = end + 1;
+  }
+  return {};
+}
+
 std::string temporary_name(const std::string& final_path) {
   const char* job = std::getenv("SLURM_JOB_ID");
   std::uint64_t random = 0;
   if (getrandom(&random, sizeof random, GRND_NONBLOCK) != sizeof random) // a machine that has just started
     random = static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
-  return fmt::format("{}.tmp-{}-{:016x}", final_path, job && *job ? std::string(job) : std::to_string(getpid()),
-                     random);
+  return fmt::format("{}.tmp-{}-{:016x}", final_path,
+                     job && *job ? std::string(job).substr(0, longest_job_id) : std::to_string(getpid()), random);
 }
 
 void reserve_space(const std::string& path, std::int64_t bytes) {
@@ -182,6 +210,7 @@ void write_text_file_of_many(const std::string& final_path, const std::string& t
 }
 
 void replace_link(const std::string& target, const std::string& path) {
+  refuse_irregular(path);
   const std::string temporary = temporary_name(path);
   if (symlink(target.c_str(), temporary.c_str()) != 0 || std::rename(temporary.c_str(), path.c_str()) != 0) {
     const std::string reason = system_error();

@@ -23,7 +23,7 @@ public:
 
   const std::string& path() const { return path_; }
   /// @brief Gives back reserved space, brings the bytes to the disk, then renames. @param replaces what has that name
-  /// @throws FileError
+  /// @throws FileError also where that is no regular file, seen through links: a pipe or a device stays
   /// @post synchronise_directory will do the rest
   void rename_to(const std::string& final_path, bool replaces = true);
   /// The same, then brings the directory to the disk. @throws FileError
@@ -55,6 +55,17 @@ public:
 private:
   std::vector<std::string> paths_;
 };
+
+/// Bytes of the name of a file or directory, by the limit of Linux and of nearly all its file systems.
+inline constexpr std::size_t longest_file_name = 255;
+/// Bytes of the id of a job or process in a temporary name: a number of 64 bits.
+inline constexpr std::size_t longest_job_id = 20;
+/// Bytes that temporary_name adds at most: ".tmp-", the id, "-", 16 digits.
+inline constexpr std::size_t longest_temporary_ending = 5 + longest_job_id + 1 + 16;
+
+/// @brief What is wrong with a path that file systems cannot hold, as the end of a sentence; empty if they can.
+/// @param added bytes by which its last name becomes longer
+std::string length_problem(const std::string& path, std::size_t added);
 
 /// `final_path` + ".tmp-" + the job's id under SLURM, else the process id + a random part that nobody can foresee.
 std::string temporary_name(const std::string& final_path);

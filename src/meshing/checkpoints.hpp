@@ -35,7 +35,8 @@ public:
   /// @throws StoppedAtCheckpoint if there is one, and a signal has asked to stop
   virtual CheckpointWish wish_before_cleanup(bool stands) = 0;
   /// @brief Writes one. @param activity of the owned tiles. Collective.
-  /// @throws StoppedAtCheckpoint if the wish was to stop
+  /// @throws StoppedAtCheckpoint if the wish was to stop, and there is one now; else the run goes on
+  /// @throws FileError if there is none, and a signal ends the run
   virtual void write(CheckpointWish wish, const RunState& state, const sites::SiteState& sites,
                      std::span<const std::uint64_t> activity) = 0;
 };

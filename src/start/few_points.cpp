@@ -4,6 +4,7 @@
 #include "start/rules.hpp"
 #include "trime/core/error.hpp"
 
+#include <cmath>
 #include <optional>
 
 namespace trime::start {
@@ -31,9 +32,12 @@ void Fewest::consider(const Stage& stage, double trial_points, bool all_counted)
 void fail_for_few_points(const LayoutContext& context, double fewest, bool counted) {
   const GlobalId points = context.options.points.value_or(0);
   if (context.options.max_size)
-    throw ConfigError(fmt::format("points = {} are too few for max_size = {}: expected {} {:.0f}; ask for more "
-                                  "points or a larger max_size",
-                                  points, *context.options.max_size, counted ? "at least" : "far more than", fewest));
+    throw ConfigError(fmt::format("points = {} are too few for max_size = {}: expected {}; ask for more points or a "
+                                  "larger max_size",
+                                  points, *context.options.max_size,
+                                  std::isfinite(fewest)
+                                      ? fmt::format("{} {:.0f}", counted ? "at least" : "far more than", fewest)
+                                      : "more than numbers can tell"));
   if (const std::size_t inside = context.fixed.inside().size(); inside > 0)
     throw ConfigError(
         fmt::format("points = {} are too few for this shape: the {} fixed points inside and {:.0f} on its "

@@ -307,6 +307,68 @@ class Restart(unittest.TestCase):
             self.assertIn("it is left out", done.stdout + done.stderr)
             self.assertEqual(hash_and_history(directory), expected)
 
+    def test_without_a_checkpoint_a_run_goes_on(self):
+        """Whoever asked it to stop: its work would be lost. A directory is in the way of the file."""
+        with Workspace() as directory:
+            arguments = [CIRCLE, "meshing.points=2000"]
+            expected = self.whole(directory, *arguments)
+            (directory / "mesh.checkpoint-2.h5").mkdir()
+            (directory / "stop").touch()
+            for ranks in (1, 3):
+                done = run(*arguments, *places(directory), f"checkpoint.stop_file={directory / 'stop'}", ranks=ranks)
+                self.goes_on(done.returncode, done.stdout + done.stderr)
+                self.assertEqual(hash_and_history(directory), expected)
+                self.assertFalse((directory / "stop").exists())
+                (directory / "stop").touch()
+            done = run(CIRCLE, f"meshing.points={4 * MANY}", *places(directory), "--time-limit", "00:00:01")
+            self.goes_on(done.returncode, done.stdout + done.stderr)
+            self.assertIn("(the time limit is near)", done.stdout + done.stderr)
+            for ranks in (1, 2):
+                self.goes_on(*self.signalled(directory, ranks, signal.SIGUSR1))
+            code, told = self.signalled(directory, 1, signal.SIGTERM)
+            self.assertEqual(code, FILE, told)
+            self.assertRegex(told, "no checkpoint: .*is a directory.*its work is lost")
+
+    def goes_on(self, code, told):
+        self.assertEqual(code, 0, told)
+        self.assertEqual(told.count("the run does not stop"), 1, told)
+
+    def signalled(self, directory, ranks, number):
+        """Exit code and words of a run that gets a signal in its sweeps."""
+        going = self.start(directory, ranks, "checkpoint.interval=1000", f"meshing.points={3 * MANY}")
+        end = time.monotonic() + PATIENCE
+        while "sweep stage" not in self.told() and time.monotonic() < end:
+            time.sleep(0.01)
+        time.sleep(0.1)  # the sweep that this line heads
+        going.send_signal(number)
+        told = going.communicate(timeout=PATIENCE)[1]
+        return going.returncode, self.told() + told
+
+    def told(self):
+        return os.pread(self.said.fileno(), 1 << 20, 0).decode()
+
+    def test_fewer_are_kept_from_now_on(self):
+        """The newest lies under a name that a smaller `keep` does not make."""
+        with Workspace() as directory:
+            arguments = [CIRCLE, "meshing.points=2000"]
+            expected = self.whole(directory, *arguments)
+            stop = f"checkpoint.stop_file={directory / 'stop'}"
+            for number in range(1, 7):
+                (directory / "stop").touch()
+                done = run(*arguments, *places(directory), stop, "checkpoint.keep=5", "--restart", "auto")
+                self.assertEqual(done.returncode, STOPPED, done.stdout + done.stderr)
+                self.assertEqual(len(checkpoints(directory)), min(number, 5))
+            (directory / "mesh.checkpoint-1001.h5").write_bytes(b"of nobody")
+            for ranks, number in ((2, 2), (1, 1)):  # six sweeps, then seven
+                (directory / "stop").touch()
+                done = run(*arguments, *places(directory), stop, "checkpoint.keep=1", "--restart", "auto", ranks=ranks)
+                self.assertEqual(done.returncode, STOPPED, done.stdout + done.stderr)
+                self.assertRegex(done.stdout, rf"restart: from .*/mesh.checkpoint-{number}\.h5")
+            done = run(*arguments, *places(directory), "checkpoint.keep=1", "--restart", "auto", ranks=3)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertEqual(hash_and_history(directory), expected)
+            self.assertEqual([path.name for path in checkpoints(directory)], ["mesh.checkpoint-1001.h5"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -3,6 +3,7 @@
 #include "app/command_line.hpp"
 
 #include "trime/core/error.hpp"
+#include "trime/formats/exchange.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,6 +38,8 @@ TEST(CommandLine, HelpsWithWhatThereIsAlone) {
   const std::string help = parse({"--help"}).help;
   for (const char* told : {"--log-level", "Exit codes", "signal", "130", "143", "--restart", "--time-limit", "75"})
     EXPECT_NE(help.find(told), std::string::npos) << told;
+  for (const formats::FormatName& format : formats::all_formats())
+    EXPECT_NE(help.find(format.ending), std::string::npos) << format.ending;
   EXPECT_EQ(help.find("not supported"), std::string::npos);
 }
 

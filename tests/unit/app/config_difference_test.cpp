@@ -30,6 +30,22 @@ TEST(ConfigDifference, TellsKeysThatOneOfThemHasAlone) {
   EXPECT_EQ(lines[1], "points in [meshing]: 1000 then, nothing now");
 }
 
+TEST(ConfigDifference, ComparesNumbersAsNumbers) {
+  const std::vector<std::string> circle{"shape.disc.type=circle", "shape.disc.center=0.5 0.25", "shape.disc.radius=0.1",
+                                        "sizing.gradation=0.1", "meshing.corner_angle=30"};
+  const std::vector<std::string> again{"shape.disc.type=circle",    "shape.disc.center=5e-1  +0.250",
+                                       "shape.disc.radius=.10",     "sizing.gradation=0.10",
+                                       "meshing.corner_angle=30.0", "meshing.points=1e3"};
+  EXPECT_TRUE(differing_keys(resolved(circle), resolved(again)).empty());
+  std::vector<std::string> other = again;
+  other[1] = "shape.disc.center=0.5 0.2500001";
+  other[3] = "sizing.gradation=0.1000001";
+  EXPECT_EQ(differing_keys(resolved(circle), resolved(other)),
+            (std::vector<std::string>{"center in [shape.disc]: 0.5 0.25 then, 0.5 0.2500001 now",
+                                      "gradation in [sizing]: 0.1 then, 0.1000001 now"}));
+  EXPECT_EQ(differing_keys(resolved({"meshing.initial_fraction=0.5"}), resolved({})).size(), 1U); // a number and a word
+}
+
 TEST(ConfigDifference, LeavesOutWhatLeavesTheMeshAsItIs) {
   EXPECT_TRUE(differing_keys(resolved({}), resolved({"output.name=other", "log.level=debug", "parallel.mesh_threads=3",
                                                      "checkpoint.interval=10", "output.directory=elsewhere"}))

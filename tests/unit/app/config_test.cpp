@@ -219,8 +219,12 @@ TEST(Config, TheContainerStaysWithinTheRangeOfThePredicates) {
   EXPECT_NE(errors_of(good, {"domain.x_min=-1e30", "domain.x_max=1e30"}).find("found 2e+30"), std::string::npos);
   EXPECT_EQ(errors_of(good, {"domain.x_min=5", "domain.x_max=1e31"}).find('\n'), std::string::npos)
       << "one error, once";
-  for (const char* text : {"domain.x_max=1e30", "domain.x_min=-1e29", "domain.y_max=1e-30"})
-    EXPECT_EQ(errors_of(good, {text}), "") << text;
+  for (const char* side : {"1e30", "1e-30"})
+    EXPECT_EQ(errors_of(good, {fmt::format("domain.x_max={}", side), fmt::format("domain.y_max={}", side)}), "");
+  EXPECT_EQ(errors_of(good, {"domain.x_min=-1e29", "domain.y_min=-1e18"}), "");
+  for (const char* text : {"domain.x_max=1e30", "domain.x_min=-1e13", "domain.y_max=1e-30"})
+    expect_refused(text, "expected the shorter to be at least 1e-12 of the longer; set");
+  EXPECT_EQ(errors_of(good, {"domain.x_min=-1e11"}), "");
 }
 
 TEST(Config, AChangedTypeShowsTheKeysThatNoLongerBelong) {

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/temporary_file.hpp"
 
+#include "io/output_files.hpp"
 #include "trime/core/error.hpp"
 #include "trime/io/run_files.hpp"
 
 #include "support/temporary_directory.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -45,6 +48,47 @@ TEST(TemporaryFile, OneOfManyIsWholeAtOnceAndReplacesItsElder) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory.path()), {}), 1);
   EXPECT_THROW(write_text_file_of_many(directory.path() + "/none/loop.txt", "", &files), FileError);
   EXPECT_THROW(synchronise_file_system(directory.path() + "/none/loop.txt"), FileError);
+}
+
+TEST(TemporaryFile, NamesThatFileSystemsCannotHoldAreTold) {
+  const std::string long_name(longest_file_name, 'x');
+  EXPECT_EQ(length_problem("", 0), "");
+  EXPECT_EQ(length_problem("/a/" + long_name, 0), "");
+  EXPECT_EQ(length_problem(long_name + "/b", longest_temporary_ending), "");
+  EXPECT_NE(length_problem("/a/" + long_name + "x/b", 0).find("at most 255 bytes, found 'xxx"), std::string::npos);
+  EXPECT_NE(length_problem(long_name, 1).find("at most 254 bytes, since"), std::string::npos);
+  std::string deep;
+  for (int k = 0; k < 2000; ++k)
+    deep += "/ab";
+  EXPECT_NE(length_problem(deep, 0).find("6000 bytes, expected fewer than 4096"), std::string::npos);
+}
+
+TEST(TemporaryFile, ATemporaryNameIsNotLongerThanItMayBe) {
+  const char* given = std::getenv("SLURM_JOB_ID");
+  const std::string kept = given ? given : "";
+  setenv("SLURM_JOB_ID", std::string(100, '7').c_str(), 1);
+  EXPECT_EQ(temporary_name("a").size(), 1 + longest_temporary_ending);
+  given ? setenv("SLURM_JOB_ID", kept.c_str(), 1) : unsetenv("SLURM_JOB_ID");
+}
+
+TEST(OutputFiles, EndingsAreNotLongerThanTheyMayBe) {
+  const std::string longest = "m_2147483647_bdry_vertices_coords_CCW_1234567890.txt";
+  EXPECT_TRUE(is_text_mesh_file(longest, "m"));
+  EXPECT_EQ(longest.size(), 1 + longest_ending);
+}
+
+TEST(TemporaryFile, LeavesAPipeWhereItIs) {
+  const test::TemporaryDirectory directory;
+  const std::string pipe = directory.path() + "/pipe", link = directory.path() + "/link";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::filesystem::create_symlink(pipe, link);
+  EXPECT_THROW(write_text_file(pipe, "text", nullptr), FileError);
+  EXPECT_THROW(write_text_file(link, "text", nullptr), FileError);
+  EXPECT_THROW(write_text_file_of_many(pipe, "text", nullptr), FileError);
+  EXPECT_THROW(replace_link("mesh.h5", pipe), FileError);
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory.path()), {}), 2);
 }
 
 TEST(TemporaryFile, IsKnownToASignalHandlerWhileItIsWritten) {

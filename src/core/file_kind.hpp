@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What lies under a path where a file is expected: opening a pipe waits for ever, and a file that is renamed to the
+// name of a device takes its place.
+#pragma once
+
+#include <string>
+
+namespace trime {
+
+/// @brief "a directory", "a named pipe", "a device" or "a socket", seen through links; empty for a regular file and
+/// where nothing is found.
+std::string irregular_kind(const std::string& path);
+
+} // namespace trime
