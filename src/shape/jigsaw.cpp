@@ -47,12 +47,12 @@ private:
     for (char& c : name)
       c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     if (name.starts_with("$meshformat"))
-      lines_.refuse("a .msh of JIGSAW; this one is Gmsh's, which is not read: write the contour as .poly or .geojson,");
+      lines_.refuse("a .msh of JIGSAW; this one is Gmsh's, which is not read: write the contour as .poly or .geojson");
     if (name == "mshid") {
       is_jigsaw_ = true;
       if (lines_.words().size() > 2 && lines_.words()[2].find_first_of("lL") == 1)
         lines_.refuse("EUCLIDEAN-MESH: grids and meshes on the ellipsoid (in radians) are not read; "
-                      "write longitude and latitude in degrees as .geojson, and set [shape] projection,");
+                      "write longitude and latitude in degrees as .geojson, and set [shape] projection");
     } else if (name == "ndims") {
       if (lines_.integer_at(1, "'ndims=2'") != 2)
         lines_.refuse("'ndims=2'");
@@ -98,7 +98,7 @@ private:
   /// Triangles, values and others.
   void skip() {
     if (lines_.words().size() < 2)
-      lines_.refuse("a section of a .msh of JIGSAW, such as 'point=N' or 'edge2=N',");
+      lines_.refuse("a section of a .msh of JIGSAW, such as 'point=N' or 'edge2=N'");
     if (const std::string_view name = lines_.words()[0]; name == "radii" || name == "RADII")
       return;
     const int count = rows();

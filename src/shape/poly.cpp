@@ -78,7 +78,7 @@ private:
       head = head_of(*lines, head_text, 3);
     }
     if (head.columns[0] != 2 && head.columns[0] != 0)
-      lines->refuse("a plane .poly, whose first line is 'VERTICES 2 ATTRIBUTES MARKERS',");
+      lines->refuse("a plane .poly, whose first line is 'VERTICES 2 ATTRIBUTES MARKERS'");
     for (int k = 0; k < head.rows; ++k) {
       next_row(*lines, k, head.rows, "vertex");
       constexpr const char* what = "'NUMBER X Y' of a vertex";
