@@ -26,6 +26,9 @@ bool check_arrays(const StoredFile& file, const Mesh& mesh, Report& report);
 /// Orientation, edges, Delaunay, loops of facets, Euler characteristic, area, tags.
 Counted check_surface(const StoredFile& file, const Mesh& mesh, Report& report);
 
+/// Sizes of points and facets.
+void check_sizes(const Mesh& mesh, Report& report);
+
 /// Alpha, beta, sizes, the quality summary, and the certificate as it is stored.
 void check_summary(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report);
 

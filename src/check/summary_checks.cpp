@@ -16,8 +16,6 @@ constexpr double median_tolerance = 2e-4, wide_median_tolerance = 0.02;
 constexpr double variance_tolerance = 1e-10;
 // Means cap a ratio here.
 constexpr double cap = 65536;
-// A size is the length of the edges around it, within this factor: triangles may be four times worse than good ones.
-constexpr double size_factor = 12;
 constexpr std::array<double, 9> classes{1, 1.01, 1.02, 1.05, 1.1, 1.2, 1.5, 2, 5};
 
 bool near(double expected, double found, double tolerance) {
@@ -125,38 +123,11 @@ void check_quality(const StoredFile& file, const Mesh& mesh, Report& report) {
   report.none("quality", summary, "numbers in /trime_mpi/quality that are not those of the triangles");
 }
 
-/// Sizes are positive, and about as long as the edges there.
-void check_sizes(const Mesh& mesh, Report& report) {
-  std::vector<double> length(mesh.points.size(), 0);
-  std::vector<std::int64_t> edges(mesh.points.size(), 0);
-  for (const Triangle& t : mesh.triangles) {
-    const auto corners = mesh.corners(t);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Point d = corners[(k + 1) % 3] - corners[k];
-      for (const std::int64_t id : {t[k], t[(k + 1) % 3]}) {
-        length[static_cast<std::size_t>(id)] += std::hypot(d.x, d.y);
-        ++edges[static_cast<std::size_t>(id)];
-      }
-    }
-  }
-  Tally wrong, asked, regions;
-  for (std::size_t i = 0; i < mesh.size.size(); ++i) {
-    const double mean = length[i] / static_cast<double>(std::max<std::int64_t>(1, edges[i]));
-    if (edges[i] > 0 && !(mesh.size[i] * size_factor > mean && mesh.size[i] < size_factor * mean))
-      wrong.note([&] {
-        return fmt::format("point {} at {}: size {:.6g}, edges {:.6g}", i, place_of(mesh.points[i]), mesh.size[i],
-                           mean);
-      });
-  }
-  for (std::size_t k = 0; k < mesh.facets.size(); ++k)
-    if (!(mesh.asked_sizes[k] > 0) || !std::isfinite(mesh.asked_sizes[k]))
-      asked.note([&] { return fmt::format("facet {}: {}", k, mesh.asked_sizes[k]); });
+void check_regions(const Mesh& mesh, Report& report) {
+  Tally regions;
   for (std::size_t t = 0; t < mesh.region.size(); ++t)
     if (mesh.region[t] < 1)
       regions.note([&] { return fmt::format("{}: {}", place_of(mesh, t), mesh.region[t]); });
-  report.none("size", wrong,
-              fmt::format("points whose `size` is not the length of their edges within a factor of {}", size_factor));
-  report.none("asked_size", asked, "facets whose `asked_size` is no positive number");
   report.none("region", regions, "triangles of no region");
 }
 
@@ -229,6 +200,7 @@ void check_stored_checks(const StoredFile& file, const Mesh& mesh, const Counted
 void check_summary(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report) {
   check_quality(file, mesh, report);
   check_sizes(mesh, report);
+  check_regions(mesh, report);
   check_stored_checks(file, mesh, counted, report);
 }
 
