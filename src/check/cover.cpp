@@ -116,7 +116,8 @@ private:
 
   void check_curves() {
     if (!changes_.are_known) {
-      report_.skip("uncovered_curves", "a step of a run does not say which loops were simplified");
+      report_.skip("uncovered_curves",
+                   "a step of a run, or a file without `rings`, does not say which loops were simplified");
       return;
     }
     const BoxTree changed = boxes_of(changes_.loops);

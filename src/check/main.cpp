@@ -42,6 +42,7 @@ int run(const std::vector<std::string>& arguments) {
   if (trime_check::read_mesh(file, mesh, report) && trime_check::check_arrays(file, mesh, report)) {
     const trime_check::Counted counted = trime_check::check_surface(file, mesh, report);
     trime_check::check_summary(file, mesh, counted, report);
+    trime_check::check_tables(file, mesh, counted, report);
     trime_check::check_shape(file, mesh, arguments.size() > 1 ? arguments[1] : "", report);
   } else
     report.skip("geometry", "the arrays are such that nothing can be computed from them");

@@ -60,6 +60,10 @@ struct Source {
   }
 };
 
+bool is_projected(const ConfigText& config) {
+  return !config.value("shape", "projection").empty();
+}
+
 Source read_part(const ConfigText& config, const std::string& name) {
   const std::string section = "shape." + name;
   Source part{name, config.value(section, "type"), "", {}, {}, 0, config.is_true(section, "normalize")};
@@ -78,7 +82,9 @@ Source read_part(const ConfigText& config, const std::string& name) {
   } else if (part.type == "contour") {
     const std::string path = config.path(section, "file");
     const std::optional<std::string> text = read_text(path);
-    if (!path.ends_with(".xy") && !path.ends_with(".txt") && !path.ends_with(".dat"))
+    if (is_projected(config))
+      part.reason = fmt::format("{}: it is projected", path);
+    else if (!path.ends_with(".xy") && !path.ends_with(".txt") && !path.ends_with(".dat"))
       part.reason = fmt::format("{}: only contours of 'x y' lines are read here", path);
     else if (!text)
       part.reason = fmt::format("{} cannot be read", path);
@@ -300,6 +306,8 @@ Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh) {
   std::optional<std::string> text;
   if (!points.empty() && !(text = read_text(points)))
     shape.fixed_points_reason = fmt::format("{} cannot be read", points);
+  else if (text && is_projected(config))
+    shape.fixed_points_reason = fmt::format("{}: they are projected", points);
   if (text)
     for (const Ring& ring : read_rings(*text + "\n"))
       shape.fixed_points.insert(shape.fixed_points.end(), ring.begin(), ring.end());

@@ -19,13 +19,12 @@ constexpr double slack = 1.01;
 // [h asked for] The boundary strays so far from its facets, at most: what the certificate says of chords.
 constexpr double chord = 0.75;
 
-/// Finds vertices that are marked as fixed, sorted in columns of a few steps.
-class FixedVertices {
+/// Finds places, but for a few steps of the lattice: sorted in columns of such a width.
+class PlaceSet {
 public:
-  FixedVertices(const Mesh& mesh, const Shape& shape) : shape_(shape), reach_(on_lattice * shape.step) {
-    for (std::size_t i = 0; i < mesh.points.size(); ++i)
-      if (mesh.fixed[i] == 1)
-        points_.push_back({column(mesh.points[i].x), mesh.points[i]});
+  PlaceSet(const std::vector<Point>& places, const Shape& shape) : shape_(shape), reach_(on_lattice * shape.step) {
+    for (const Point p : places)
+      points_.push_back({column(p.x), p});
     std::ranges::sort(points_, {}, [](const Entry& entry) { return std::pair(entry.column, entry.place.y); });
   }
 
@@ -56,11 +55,19 @@ private:
   std::vector<Entry> points_;
 };
 
+std::vector<Point> fixed_vertices(const Mesh& mesh) {
+  std::vector<Point> fixed;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    if (mesh.fixed[i] == 1)
+      fixed.push_back(mesh.points[i]);
+  return fixed;
+}
+
 class ShapeChecks {
 public:
   ShapeChecks(const StoredFile& file, const Mesh& mesh, const ConfigText& config, Report& report)
       : file_(file), mesh_(mesh), config_(config), report_(report), shape_(make_shape(config, mesh.points)),
-        fixed_(mesh, shape_) {}
+        fixed_(fixed_vertices(mesh), shape_) {}
 
   void run() {
     check_container();
@@ -104,17 +111,22 @@ private:
   void check_fixed_points() {
     if (!shape_.fixed_points_reason.empty()) {
       report_.skip("fixed_points", shape_.fixed_points_reason);
+      report_.skip("fixed_inside", shape_.fixed_points_reason);
       return;
     }
-    if (shape_.fixed_points.empty())
-      return;
-    Tally missing;
+    Tally missing, foreign;
     for (const Point p : shape_.fixed_points)
       if (!fixed_.has(p))
         missing.note([&] { return place_of(p); });
+    const PlaceSet given(shape_.fixed_points, shape_);
+    for (std::size_t i = 0; i < mesh_.points.size(); ++i)
+      if (mesh_.fixed[i] == 1 && mesh_.boundary[i] == 0 && !given.has(mesh_.points[i]))
+        foreign.note([&] { return fmt::format("point {} at {}", i, place_of(mesh_.points[i])); });
     report_.none(
         "fixed_points", missing,
         fmt::format("of {} fixed points of the config those that are no vertices", shape_.fixed_points.size()));
+    report_.none("fixed_inside", foreign,
+                 "points inside that are marked as fixed, and are no fixed points of the config");
   }
 
   /// Why corners or curves cannot be judged; empty: they can.
@@ -265,7 +277,7 @@ private:
   const ConfigText& config_;
   Report& report_;
   Shape shape_;
-  FixedVertices fixed_;
+  PlaceSet fixed_; // vertices
 };
 
 } // namespace

@@ -9,6 +9,12 @@ namespace {
 
 // A size is the length of the edges around it, within this factor: triangles may be four times worse than good ones.
 constexpr double size_factor = 12;
+// Of the mean over all edges: the file takes h in the middle of an edge, where a steep size is another than at its
+// ends.
+constexpr double mean_factor = 1.5;
+// Narrow places lower the size to no less of it (configs/README.md).
+constexpr double least_share = 0.05;
+constexpr double single_precision = 1e-6;
 
 /// Means of the edges at each point; 0 where there are none.
 std::vector<double> mean_edges(const Mesh& mesh) {
@@ -78,19 +84,62 @@ void check_points(const Mesh& mesh, Report& report) {
       fmt::format("points whose `size` is not the length of their edges within a factor of {}{}", size_factor, beside));
 }
 
-void check_facets(const Mesh& mesh, Report& report) {
+/// The mean over all edges of their length over the mean size of their ends.
+double mean_ratio(const Mesh& mesh) {
+  double sum = 0, count = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const auto corners = mesh.corners(t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
+      const Point d = corners[next] - corners[k];
+      const bool on_facet =
+          mesh.boundary[static_cast<std::size_t>(t[k])] != 0 && mesh.boundary[static_cast<std::size_t>(t[next])] != 0;
+      const double share = on_facet ? 1 : 0.5; // edges inside are met twice
+      const double sizes = mesh.size[static_cast<std::size_t>(t[k])] + mesh.size[static_cast<std::size_t>(t[next])];
+      sum += share * std::hypot(d.x, d.y) * 2 / sizes;
+      count += share;
+    }
+  }
+  return sum / count;
+}
+
+void check_mean(const StoredFile& file, const Mesh& mesh, Report& report) {
+  const double expected = file.number("/trime_mpi/quality", "size_mean").value_or(0), found = mean_ratio(mesh);
+  report.add(
+      "size_mean", found < mean_factor * expected && expected < mean_factor * found, fmt::format("{:.6g}", expected),
+      fmt::format("{:.6g}", found),
+      fmt::format("mean of edges over `size`; expected is `size_mean` of /trime_mpi/quality, within a factor of {}",
+                  mean_factor));
+}
+
+/// Positive, and related to the sizes of the points; where the size is uniform all are the same.
+void check_facets(const StoredFile& file, const Mesh& mesh, Report& report) {
+  const double lowest = std::min(1.0, file.number("/trime_mpi", "lowest_size_share").value_or(least_share));
+  const bool is_uniform = file.text_attribute("/trime_mpi", "sizing") == "uniform";
+  const std::optional<double> length = file.number("/trime_mpi", "edge_length");
   Tally asked;
-  for (std::size_t k = 0; k < mesh.facets.size(); ++k)
-    if (!(mesh.asked_sizes[k] > 0) || !std::isfinite(mesh.asked_sizes[k]))
-      asked.note([&] { return fmt::format("facet {}: {}", k, mesh.asked_sizes[k]); });
-  report.none("asked_size", asked, "facets whose `asked_size` is no positive number");
+  for (std::size_t k = 0; k < mesh.facets.size(); ++k) {
+    const double size = mesh.asked_sizes[k], a = mesh.size[static_cast<std::size_t>(mesh.facets[k][0])],
+                 b = mesh.size[static_cast<std::size_t>(mesh.facets[k][1])];
+    const bool is_positive = size > 0 && std::isfinite(size);
+    const bool is_related = size * size_factor > std::min(a, b) && size * lowest < size_factor * std::max(a, b);
+    const bool is_same = !is_uniform || !length || std::fabs(size - *length) <= single_precision * *length;
+    if (!is_positive || !is_related || !is_same)
+      asked.note([&] { return fmt::format("facet {}: {}, points {:.6g} and {:.6g}", k, size, a, b); });
+  }
+  report.none(
+      "asked_size", asked,
+      fmt::format("facets whose `asked_size` is not positive, that of a uniform size, or the `size` of their points "
+                  "within a factor of {}, lowered to {:.3g} at narrow places",
+                  size_factor, lowest));
 }
 
 } // namespace
 
-void check_sizes(const Mesh& mesh, Report& report) {
+void check_sizes(const StoredFile& file, const Mesh& mesh, Report& report) {
   check_points(mesh, report);
-  check_facets(mesh, report);
+  check_mean(file, mesh, report);
+  check_facets(file, mesh, report);
 }
 
 } // namespace trime_check

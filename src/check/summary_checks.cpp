@@ -123,14 +123,6 @@ void check_quality(const StoredFile& file, const Mesh& mesh, Report& report) {
   report.none("quality", summary, "numbers in /trime_mpi/quality that are not those of the triangles");
 }
 
-void check_regions(const Mesh& mesh, Report& report) {
-  Tally regions;
-  for (std::size_t t = 0; t < mesh.region.size(); ++t)
-    if (mesh.region[t] < 1)
-      regions.note([&] { return fmt::format("{}: {}", place_of(mesh, t), mesh.region[t]); });
-  report.none("region", regions, "triangles of no region");
-}
-
 /// What the file says was counted, beside what is counted here.
 void check_stored_checks(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report) {
   const std::vector<std::string> names = file.names("/trime_mpi/checks/name");
@@ -199,8 +191,7 @@ void check_stored_checks(const StoredFile& file, const Mesh& mesh, const Counted
 
 void check_summary(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report) {
   check_quality(file, mesh, report);
-  check_sizes(mesh, report);
-  check_regions(mesh, report);
+  check_sizes(file, mesh, report);
   check_stored_checks(file, mesh, counted, report);
 }
 

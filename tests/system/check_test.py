@@ -146,7 +146,7 @@ def lose_triangle(file):
 
 
 def lose_facet(file):
-    for name in ("topology", "values", "parts", "asked_size"):
+    for name in ("topology", "values", "parts", "labels", "asked_size"):
         replace(file, f"Mesh/facets/{name}", file[f"Mesh/facets/{name}"][:-1])
 
 
