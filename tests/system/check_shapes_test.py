@@ -82,6 +82,17 @@ class Shapes(unittest.TestCase):
                 text = self.passes(self.mesh(config), config)
                 self.assertEqual("are left out" in re.search(r"(?m)^ok +size .*", text)[0], crowded, text)
 
+    def test_sizes_that_edges_cannot_have(self):
+        """A circle far below the size that is asked for, and a size that jumps between the points."""
+        config = self.config("small", circle(0.315, 0.454, 0.0343, "a") + "[sizing]\ntype = automatic\n",
+                             domain="periodic_y = true\n", meshing="edge_length = 0.39\nmethod = cvd\n")
+        text = self.passes(self.mesh(config, (0, 5)))
+        self.assertRegex(text, r"(?m)^ok +size .* where the size is lowered to 0.05 of what was asked are left out")
+        config = self.config("jumps", rectangle(0.1, 0.9, 0.1, 0.9) +
+                             "[sizing]\ntype = expression\nexpression = abs(sin(50*x))+1e-7\n", meshing="points = 60\n")
+        text = self.passes(self.mesh(config, (0, 5)))
+        self.assertRegex(text, r"(?m)^-- +size_mean +not checked: the size is an expression")
+
     def test_sites_pushed_out_of_the_container(self):
         """Where rings touch at its side the boundary is simplified, and may stray by the share of h that the config allows."""
         rings = {"touch.xy": "0 0\n1 0\n1 1\n0 1\n\n0.5 0\n0.7 0.3\n0.3 0.3\n"}

@@ -58,7 +58,6 @@ DAMAGES = {
     "corners": (attribute("corners", np.int64(77)), "attributes"),
     "smallest size": (attribute("smallest_size", 0.5), "attributes"),
     "largest size": (attribute("largest_size", 0.5), "attributes"),
-    "edge length": (attribute("edge_length", 77.0), "attributes"),
     "area of the shape": (attribute("shape_area", 77.0), "attributes"),
     "no area of the shape": (lost_attribute("shape_area"), "attributes"),
     "no version of the format": (lost_attribute("format_version"), "format"),
@@ -70,7 +69,7 @@ DAMAGES = {
     "no plain mesh and no links": (lambda f: [f.__delitem__(name) for name in ("Mesh/mesh", "geometry", "viz")], "format"),
     "triangles of another region": (lambda f: change(f, "VTKHDF/CellData/region", slice(0, 99), 5), "region"),
     "sizes": (times(SIZE, 5), "size_mean"),
-    "asked sizes": (times(FACETS + "asked_size", 1000), "asked_size"),
+    "asked sizes": (times(FACETS + "asked_size", 1000), "asked_to_size"),
     "a point inside that is fixed": (lambda f: change(f, "VTKHDF/PointData/fixed", inner(f)[0], 1), "fixed_inside"),
     "no point that is fixed": (times("VTKHDF/PointData/fixed", 0), "attributes"),
     "all points fixed": (lambda f: change(f, "VTKHDF/PointData/fixed", slice(None), 1), "fixed_inside"),
@@ -107,8 +106,9 @@ class Tables(unittest.TestCase):
             with self.subTest(damage=damage):
                 self.finds(whole, do, name)
 
-    def test_asked_sizes_of_a_uniform_size(self):
+    def test_a_uniform_size(self):
         whole = self.mesh(ROOT / "configs" / "square.ini", "meshing.points=1200")
+        self.finds(whole, attribute("edge_length", 0.03), "attributes")
         self.finds(whole, times(FACETS + "asked_size", 1.01), "asked_size")
 
     def test_kinds_in_a_periodic_container(self):
