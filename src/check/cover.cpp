@@ -72,9 +72,22 @@ public:
   }
 
 private:
-  /// How far the boundary may lie from the curves at the nearest facet.
+  /// @brief How far the boundary may lie from the curves at the nearest facet.
+  /// Its length counts where it is longer than was asked: a size that jumps is another one on the rest of its curve.
   double reach(const Nearest& facet) const {
-    return mesh_.facets.empty() ? 0 : changes_.stray * mesh_.asked_sizes[facet.number];
+    if (mesh_.facets.empty())
+      return 0;
+    const Facet& ends = mesh_.facets[facet.number];
+    const Point a = mesh_.at(ends[0]), d = mesh_.periods.near(mesh_.at(ends[1]), a) - a;
+    return changes_.stray * std::max(mesh_.asked_sizes[facet.number], std::hypot(d.x, d.y));
+  }
+
+  /// The same at a triangle, which may lie where a hole was filled, far from any facet.
+  double reach(const Triangle& triangle, Point middle) const {
+    double size = 0;
+    for (const std::int64_t id : triangle)
+      size = std::max(size, mesh_.size[static_cast<std::size_t>(id)]);
+    return std::max(changes_.stray * size, reach(facets_.nearest(middle)));
   }
 
   void check_triangles() {
@@ -84,7 +97,7 @@ private:
       const Point middle{(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
       if (shape_.contains(middle))
         continue;
-      const double limit = reach(facets_.nearest(middle));
+      const double limit = reach(mesh_.triangles[t], middle);
       if (shape_.distance_from_any(middle, limit) > limit)
         outside.note([&] { return place_of(mesh_, t); });
     }

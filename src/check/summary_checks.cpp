@@ -12,8 +12,9 @@ namespace {
 constexpr double float_tolerance = 1e-6, sum_tolerance = 1e-8;
 // Medians come from classes of values: of 1e-4 up to 2, of some per cent beyond.
 constexpr double median_tolerance = 2e-4, wide_median_tolerance = 0.02;
-// A variance is the difference of sums, so what their rounding leaves of it has no sign and no relation to it.
-constexpr double variance_tolerance = 1e-10;
+// A variance is the difference of sums, so what their rounding leaves of it has no sign and no relation to it. The
+// terms of the file's sums are multiples of this.
+constexpr double variance_tolerance = 0x1p-32;
 // Means cap a ratio here.
 constexpr double cap = 65536;
 constexpr std::array<double, 9> classes{1, 1.01, 1.02, 1.05, 1.1, 1.2, 1.5, 2, 5};

@@ -134,6 +134,15 @@ class Shapes(unittest.TestCase):
         text = self.passes(self.mesh(self.config("dropped", contour("dropped.xy"), files=files)))
         self.assertRegex(text, r"(?m)^-- +uncovered_loops +not checked: .* dropped, 1 of them")
 
+    def test_a_hole_that_was_filled(self):
+        """The torus has no boundary then, and the size of its triangles says how large a hole may be."""
+        config = self.config("filled", circle(0.7, 0.6, 0.024), "difference(domain, b)",
+                             domain="periodic_x = true\nperiodic_y = true\n", meshing="points = 131\ncleanup = false\n")
+        path = self.mesh(config)
+        with h5py.File(path) as file:
+            self.assertEqual(list(file["trime_mpi/rings/state"][:]), [b"filled"])
+        self.passes(path, config)
+
     def test_shapes_without_curves(self):
         """Nothing is said of formulas, and the report tells so; a part that the region does not name does not matter."""
         formula = "[shape.f]\ntype = expression\nsdf = sqrt((x-0.5)^2+(y-0.5)^2)-0.3\n"
