@@ -184,24 +184,38 @@ private:
     const BoxTree triangles = boxes_of(mesh_);
     const Box box = grid_box();
     Tally bare;
-    std::int64_t judged = 0;
+    std::int64_t judged = 0, left_out = 0;
+    const bool any_changed = !changes_.are_known || !changes_.loops.empty();
     for (int i = 0; i < grid_places; ++i)
       for (int j = 0; j < grid_places; ++j) {
         const Point p{box.min.x + (i + 0.5) / grid_places * (box.max.x - box.min.x),
                       box.min.y + (j + 0.5) / grid_places * (box.max.y - box.min.y)};
-        if (!shape_.contains(p) || shape_.distance_from_any(p, depth) <= depth)
+        if (!shape_.contains(p))
           continue;
         ++judged;
-        if (!is_covered(triangles, p))
+        if (is_covered(triangles, p) || is_beside_facet(p))
+          continue;
+        if (any_changed && shape_.distance_from_any(p, depth) <= depth)
+          ++left_out;
+        else
           bare.note([&] { return place_of(p); });
       }
+    const std::string narrow =
+        left_out == 0
+            ? ""
+            : fmt::format("; {} within {:.3g} of curves are left out, since loops were simplified", left_out, depth);
     if (judged == 0)
-      report_.skip("uncovered_places",
-                   fmt::format("the shape is nowhere deeper than {:.3g}, {:.3g} h", depth, changes_.stray));
+      report_.skip("uncovered_places", "no place of a grid over the shape lies in it");
     else
-      report_.none("uncovered_places", bare,
-                   fmt::format("of {} places deeper in the shape than {:.3g}, of a grid over it, those in no triangle",
-                               judged, depth));
+      report_.none(
+          "uncovered_places", bare,
+          fmt::format("of {} places in the shape those in no triangle, and farther than {:.3g} h from facets{}", judged,
+                      changes_.stray, narrow));
+  }
+
+  bool is_beside_facet(Point p) const {
+    const Nearest facet = facets_.nearest(p);
+    return facet.distance <= reach(facet);
   }
 
   bool is_covered(const BoxTree& triangles, Point p) const {
