@@ -16,7 +16,7 @@ constexpr const char* help =
     R"(trime_check FILE.h5 [CONFIG]
 
 Recomputes from a mesh file of trime_mpi all that it promises: triangles, Delaunay edges, boundary loops, area, tags,
-quality, hash, the stored checks, and the boundary against the shape. One line a check: expected, found, first wrong place.
+quality, hash, tables, the stored checks, and the mesh against the shape. One line a check: expected, found, first wrong place.
 
   FILE.h5   a mesh that trime_mpi has written
   CONFIG    the shape is that of this config; without it, of the one that is stored in the file
