@@ -12,11 +12,18 @@
 
 namespace trime_check {
 
+/// One of the closed curves of which the boundary consists.
+struct Loop {
+  std::vector<std::size_t> facets; ///< in the order in which they follow each other
+  std::string kind;                ///< around a component (outer), around a hole, or a band around a periodic container
+};
+
 /// What is counted on the way, to be compared with what the file says of itself.
 struct Counted {
   std::int64_t edges = 0, loops = 0, clockwise = 0, not_delaunay = 0, components = 0;
   std::int64_t euler_characteristic = 0, unused = 0, corners = 0;
   double area = 0;
+  std::vector<Loop> boundary; ///< empty if the facets are no closed simple loops
 };
 
 /// Ids in range and in order, coordinates finite, views equal to the arrays, the hash. False: ids or coordinates are
@@ -25,6 +32,12 @@ bool check_arrays(const StoredFile& file, const Mesh& mesh, Report& report);
 
 /// Orientation, edges, Delaunay, loops of facets, Euler characteristic, area, tags.
 Counted check_surface(const StoredFile& file, const Mesh& mesh, Report& report);
+
+/// Sizes of points and facets.
+void check_sizes(const StoredFile& file, const Mesh& mesh, Report& report);
+
+/// What the tables and attributes say of the mesh: labels, kinds and names of loops, counts, format.
+void check_tables(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report);
 
 /// Alpha, beta, sizes, the quality summary, and the certificate as it is stored.
 void check_summary(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report);

@@ -41,7 +41,8 @@ struct Mesh {
   std::vector<Point> points;
   std::vector<Triangle> triangles;
   std::vector<Facet> facets;
-  std::vector<std::int64_t> facet_tags, facet_parts;
+  std::vector<std::int64_t> facet_tags, facet_parts, facet_labels;
+  std::vector<std::int64_t> facet_markers; ///< empty if no part has any
   std::vector<double> asked_sizes;
 
   std::vector<double> alpha, beta, size;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "checks.hpp"
-#include "curves.hpp"
+#include "cover.hpp"
+#include "shape.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -15,24 +16,20 @@ constexpr double on_curve = 1e-9;
 constexpr double on_lattice = 4;
 // [h asked for] Rounding of sizes, where the boundary was simplified.
 constexpr double slack = 1.01;
+// [h asked for] The boundary strays so far from its facets, at most: what the certificate says of chords.
+constexpr double chord = 0.75;
 
-/// Finds vertices that are marked as fixed, sorted in columns of a few steps.
-class FixedVertices {
+/// Finds places, but for a few steps of the lattice: sorted in columns of such a width.
+class PlaceSet {
 public:
-  FixedVertices(const Mesh& mesh, const Shape& shape) : periods_(shape.periods), reach_(on_lattice * shape.step) {
-    for (std::size_t i = 0; i < mesh.points.size(); ++i)
-      if (mesh.fixed[i] == 1)
-        points_.push_back({column(mesh.points[i].x), mesh.points[i]});
+  PlaceSet(const std::vector<Point>& places, const Shape& shape) : shape_(shape), reach_(on_lattice * shape.step) {
+    for (const Point p : places)
+      points_.push_back({column(p.x), p});
     std::ranges::sort(points_, {}, [](const Entry& entry) { return std::pair(entry.column, entry.place.y); });
   }
 
   bool has(Point p) const {
-    for (const int i : {0, -1, 1})
-      for (const int j : {0, -1, 1})
-        if ((i == 0 || periods_.x > 0) && (j == 0 || periods_.y > 0) &&
-            has_at({p.x + i * periods_.x, p.y + j * periods_.y}))
-          return true;
-    return false;
+    return std::ranges::any_of(shape_.images(p), [&](Point image) { return has_at(image); });
   }
 
 private:
@@ -53,33 +50,46 @@ private:
     return false;
   }
 
-  Periods periods_;
+  const Shape& shape_;
   double reach_;
   std::vector<Entry> points_;
 };
+
+std::vector<Point> fixed_vertices(const Mesh& mesh) {
+  std::vector<Point> fixed;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    if (mesh.fixed[i] == 1)
+      fixed.push_back(mesh.points[i]);
+  return fixed;
+}
 
 class ShapeChecks {
 public:
   ShapeChecks(const StoredFile& file, const Mesh& mesh, const ConfigText& config, Report& report)
       : file_(file), mesh_(mesh), config_(config), report_(report), shape_(make_shape(config, mesh.points)),
-        fixed_(mesh, shape_) {}
+        fixed_(fixed_vertices(mesh), shape_) {}
 
   void run() {
     check_container();
     check_fixed_points();
     check_corners();
     check_vertices();
+    check_region();
   }
 
 private:
   void check_container() {
     Tally outside, off;
     const Box& box = shape_.container;
+    bool any_changed = false;
+    changed_tags(any_changed);
+    const double largest = mesh_.asked_sizes.empty() ? 0 : std::ranges::max(mesh_.asked_sizes);
+    const double reach = shape_.step + (any_changed ? simplified_within() * largest : 0);
     for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
       const Point p = mesh_.points[i];
       const auto place = [&] { return fmt::format("point {} at {}", i, place_of(p)); };
-      if (!(p.x >= box.min.x - shape_.step && p.x <= box.max.x + shape_.step && p.y >= box.min.y - shape_.step &&
-            p.y <= box.max.y + shape_.step))
+      if (!(p.x >= box.min.x - reach && p.x <= box.max.x + reach && p.y >= box.min.y - reach &&
+            p.y <= box.max.y + reach))
         outside.note(place);
       if (p.x != std::round(p.x / shape_.step) * shape_.step || p.y != std::round(p.y / shape_.step) * shape_.step)
         off.note(place);
@@ -101,23 +111,28 @@ private:
   void check_fixed_points() {
     if (!shape_.fixed_points_reason.empty()) {
       report_.skip("fixed_points", shape_.fixed_points_reason);
+      report_.skip("fixed_inside", shape_.fixed_points_reason);
       return;
     }
-    if (shape_.fixed_points.empty())
-      return;
-    Tally missing;
+    Tally missing, foreign;
     for (const Point p : shape_.fixed_points)
       if (!fixed_.has(p))
         missing.note([&] { return place_of(p); });
+    const PlaceSet given(shape_.fixed_points, shape_);
+    for (std::size_t i = 0; i < mesh_.points.size(); ++i)
+      if (mesh_.fixed[i] == 1 && mesh_.boundary[i] == 0 && !given.has(mesh_.points[i]))
+        foreign.note([&] { return fmt::format("point {} at {}", i, place_of(mesh_.points[i])); });
     report_.none(
         "fixed_points", missing,
         fmt::format("of {} fixed points of the config those that are no vertices", shape_.fixed_points.size()));
+    report_.none("fixed_inside", foreign,
+                 "points inside that are marked as fixed, and are no fixed points of the config");
   }
 
   /// Why corners or curves cannot be judged; empty: they can.
   std::string unknown_part() const {
-    for (const Part& part : shape_.parts)
-      if (!part.curve)
+    for (std::size_t k = 0; k < shape_.parts.size(); ++k)
+      if (const Part& part = shape_.parts[k]; !part.curve && shape_.region->uses(k))
         return fmt::format("part {}: {}", part.name, part.reason);
     return "";
   }
@@ -148,6 +163,12 @@ private:
   }
   std::vector<double> loops_of_file() const { return file_.column("/trime_mpi/tags/edge_id"); }
 
+  /// [h asked for] How far a boundary that was simplified may stray.
+  double simplified_within() const {
+    return config_.number("meshing", "simplify_within").value_or(0.5) *
+           file_.number("/trime_mpi", "coarseness").value_or(1) * slack;
+  }
+
   /// Corners below the resolution that the mesh passes over.
   std::int64_t left_out() const {
     return static_cast<std::int64_t>(file_.number("/trime_mpi", "corners_left_out").value_or(0));
@@ -163,14 +184,16 @@ private:
     const double angle = config_.number("meshing", "corner_angle").value_or(30);
     std::int64_t expected = 0;
     Tally missing;
-    for (const Part& part : shape_.parts)
-      if (!(part.name == "domain" && shape_.periods.any())) // whose corners may be no corners
-        for (const Point corner : part.curve->corners(angle))
-          if (!shape_.meets_another(part, corner, on_lattice * shape_.step) && shape_.matters(part, corner)) {
-            ++expected;
-            if (!fixed_.has(corner))
-              missing.note([&] { return place_of(corner); });
-          }
+    for (const Part& part : shape_.parts) {
+      if (!part.curve) // the region does not use it
+        continue;
+      for (const Point corner : part.curve->corners(angle))
+        if (!shape_.meets_another(part, corner, on_lattice * shape_.step) && shape_.matters(part, corner)) {
+          ++expected;
+          if (!fixed_.has(corner))
+            missing.note([&] { return place_of(corner); });
+        }
+    }
     const std::int64_t left_out = this->left_out();
     const std::string found = std::to_string(expected - missing.count);
     if (any_changed)
@@ -190,15 +213,14 @@ private:
       named.push_back(shape_.part_of_label(name));
     bool any_changed = false;
     const std::set<std::int64_t> changed = changed_tags(any_changed);
-    const double within = config_.number("meshing", "simplify_within").value_or(0.5) *
-                          file_.number("/trime_mpi", "coarseness").value_or(1) * slack;
+    const double within = simplified_within();
     const std::string reason = unknown_part();
     Tally off, foreign;
     std::int64_t judged = 0, across = left_out(); // facets that pass over places where parts meet
     for (std::size_t k = 0; k < mesh_.facets.size(); ++k) {
       const auto number = static_cast<std::size_t>(mesh_.facet_parts[k]);
       const Part* part = number < named.size() ? named[number] : nullptr;
-      if (!part) {
+      if (!part || !shape_.is_used(*part)) {
         foreign.note([&] { return fmt::format("facet {}: {}", k, place_of(mesh_, mesh_.facets[k])); });
         continue;
       }
@@ -221,7 +243,7 @@ private:
           });
       }
     }
-    report_.none("facet_parts", foreign, "facets of parts that the config does not have");
+    report_.none("facet_parts", foreign, "facets of parts that the region of the config does not have");
     if (judged == 0 && !mesh_.facets.empty())
       report_.skip("on_curve", reason.empty() ? "no facet follows a part that is known" : reason);
     else
@@ -230,12 +252,32 @@ private:
                                mesh_.facets.size()));
   }
 
+  Changes changes() const {
+    bool any_changed = false;
+    changed_tags(any_changed);
+    const std::vector<std::string> states = file_.names("/trime_mpi/rings/state");
+    const std::vector<double> x = file_.column("/trime_mpi/rings/x"), y = file_.column("/trime_mpi/rings/y"),
+                              length = file_.column("/trime_mpi/rings/length");
+    Changes changes{!(any_changed && states.empty()), {}, chord + (any_changed ? simplified_within() : 0)};
+    for (std::size_t k = 0; k < std::min({states.size(), x.size(), y.size(), length.size()}); ++k)
+      if (states[k] != "kept")
+        changes.loops.push_back({{x[k], y[k]}, length[k]});
+    return changes;
+  }
+
+  void check_region() {
+    if (const std::string reason = unknown_part(); !reason.empty())
+      report_.skip("region_cover", "that the mesh is all of the shape and nothing else: " + reason);
+    else
+      check_cover(shape_, mesh_, changes(), report_);
+  }
+
   const StoredFile& file_;
   const Mesh& mesh_;
   const ConfigText& config_;
   Report& report_;
   Shape shape_;
-  FixedVertices fixed_;
+  PlaceSet fixed_; // vertices
 };
 
 } // namespace

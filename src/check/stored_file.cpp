@@ -145,14 +145,19 @@ std::vector<T> StoredFile::array(const std::string& name, const std::string& typ
 }
 
 std::optional<double> StoredFile::number(const std::string& object, const std::string& attribute) const {
+  const std::vector<double> values = numbers(object, attribute);
+  return values.size() == 1 ? std::optional(values[0]) : std::nullopt;
+}
+
+std::vector<double> StoredFile::numbers(const std::string& object, const std::string& attribute) const {
   if (!has(object) || H5Aexists_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT) <= 0)
-    return std::nullopt;
+    return {};
   const Handle a(H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   const Handle space(H5Aget_space(a), H5Sclose);
-  double value = 0;
-  if (size_of(shape_of(space)) != 1 || H5Aread(a, H5T_NATIVE_DOUBLE, &value) < 0)
-    return std::nullopt;
-  return value;
+  std::vector<double> values(size_of(shape_of(space)));
+  if (H5Aread(a, H5T_NATIVE_DOUBLE, values.data()) < 0)
+    values.clear();
+  return values;
 }
 
 std::optional<std::uint64_t> StoredFile::hash(const std::string& object, const std::string& attribute) const {
@@ -167,7 +172,7 @@ std::optional<std::uint64_t> StoredFile::hash(const std::string& object, const s
 }
 
 std::optional<std::string> StoredFile::text_attribute(const std::string& object, const std::string& attribute) const {
-  if (H5Aexists_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT) <= 0)
+  if (!has(object) || H5Aexists_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT) <= 0)
     return std::nullopt;
   const Handle a(H5Aopen_by_name(file_, object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   const Handle type(H5Aget_type(a), H5Tclose), space(H5Aget_space(a), H5Sclose);
@@ -256,6 +261,9 @@ bool read_mesh(const StoredFile& file, Mesh& mesh, Report& report) {
     mesh.facets.push_back({ends[k], ends[k + 1]});
   mesh.facet_tags = integers("/Mesh/facets/values", "int32", {b});
   mesh.facet_parts = integers("/Mesh/facets/parts", "int32", {b});
+  mesh.facet_labels = integers("/Mesh/facets/labels", "int32", {b});
+  if (file.has("/Mesh/facets/markers"))
+    mesh.facet_markers = integers("/Mesh/facets/markers", "int32", {b});
   mesh.asked_sizes = reals("/Mesh/facets/asked_size", "float32", {b});
   const std::string fields = mesh.has_vtk ? "/VTKHDF/" : "/Mesh/";
   mesh.alpha = reals(fields + "CellData/alpha", "float32", {m});

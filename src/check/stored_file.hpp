@@ -29,6 +29,8 @@ public:
 
   bool has(const std::string& name) const;
   std::optional<double> number(const std::string& object, const std::string& attribute) const;
+  /// All values of an attribute; empty if there is none, or no numbers.
+  std::vector<double> numbers(const std::string& object, const std::string& attribute) const;
   std::optional<std::uint64_t> hash(const std::string& object, const std::string& attribute) const;
   std::optional<std::string> text_attribute(const std::string& object, const std::string& attribute) const;
   /// A text that is a dataset; empty if there is none.

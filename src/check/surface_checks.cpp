@@ -48,11 +48,6 @@ private:
   std::vector<std::int64_t> parent_;
 };
 
-/// One of the closed curves of which the boundary consists.
-struct Loop {
-  std::vector<std::size_t> facets; // in the order in which they follow each other
-};
-
 /// All that looks at the triangles and facets together.
 class Surface {
 public:
@@ -68,6 +63,8 @@ public:
     check_area();
     check_tags();
     check_fixed();
+    if (loops_are_sound_)
+      counted_.boundary = std::move(loops_);
     return counted_;
   }
 
@@ -194,9 +191,10 @@ private:
     return mesh_.periods.near(mesh_.at(mesh_.facets[facet][1]), a) - a;
   }
 
-  /// @brief Twice the area on the left of a loop, unrolled in a periodic container. One that winds around it gets the
-  /// area between it and a fixed point: the sum over all loops is that of the region, but for whole containers.
-  Integer twice_area_left_of(const Loop& loop) const {
+  /// @brief Twice the area on the left of a loop, whose kind it tells; unrolled in a periodic container. One that winds
+  /// around it gets the area between it and a fixed point: the sum over all loops is that of the region, but for whole
+  /// containers.
+  Integer twice_area_left_of(Loop& loop) const {
     const Point origin = mesh_.at(mesh_.facets[loop.facets[0]][0]);
     Integer area = 0;
     Point at = origin;
@@ -205,7 +203,9 @@ private:
       area += plane_.twice_area(origin, at, to);
       at = to;
     }
-    return area + 2 * plane_.cross(origin - mesh_.points[0], at - origin);
+    const Point winding = at - origin;
+    loop.kind = winding.x != 0 || winding.y != 0 ? "band" : area > 0 ? "outer" : "hole";
+    return area + 2 * plane_.cross(origin - mesh_.points[0], winding);
   }
 
   void check_area() {
@@ -214,7 +214,7 @@ private:
       return;
     }
     Integer polygon = 0, triangles = twice_area_;
-    for (const Loop& loop : loops_)
+    for (Loop& loop : loops_)
       polygon += twice_area_left_of(loop);
     if (mesh_.periods.x > 0 && mesh_.periods.y > 0) {
       const Integer whole = 2 * plane_.cross({mesh_.periods.x, 0}, {0, mesh_.periods.y});

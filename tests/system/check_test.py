@@ -146,7 +146,7 @@ def lose_triangle(file):
 
 
 def lose_facet(file):
-    for name in ("topology", "values", "parts", "asked_size"):
+    for name in ("topology", "values", "parts", "labels", "asked_size"):
         replace(file, f"Mesh/facets/{name}", file[f"Mesh/facets/{name}"][:-1])
 
 
@@ -206,7 +206,7 @@ DAMAGES = {
     "a negative id": (lambda f: change(f, "Mesh/facets/topology", (9, 1), -1), ["id_range"]),
     "alpha edited": (lambda f: change(f, "VTKHDF/CellData/alpha", 9, 1.001), ["alpha"]),
     "beta edited": (lambda f: change(f, "VTKHDF/CellData/beta", 9, np.nan), ["beta"]),
-    "a size of zero": (lambda f: change(f, "VTKHDF/PointData/size", 9, 0), ["size"]),
+    "a size of zero": (lambda f: change(f, "VTKHDF/PointData/size", 9, 0), ["positive_size"]),
     "a large size": (lambda f: change(f, "VTKHDF/PointData/size", 9, 5), ["size"]),
     "an asked size that is no number": (lambda f: change(f, "Mesh/facets/asked_size", 9, np.nan), ["asked_size"]),
     "a region of zero": (lambda f: change(f, "VTKHDF/CellData/region", 9, 0), ["region"]),

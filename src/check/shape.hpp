@@ -1,31 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The exact curves of a config's shape: distances from them, insides, corners.
+// The shape of a config: its parts, container and region.
 #pragma once
 
 #include "config_text.hpp"
+#include "curve.hpp"
 #include "region.hpp"
 
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace trime_check {
-
-struct Box {
-  Point min, max;
-};
-
-/// The curve of one part of a shape.
-class Curve {
-public:
-  virtual ~Curve() = default;
-  virtual double distance(Point p) const = 0;
-  virtual bool contains(Point p) const = 0;
-  virtual Box box() const = 0;
-  /// Vertices that turn by more than so many degrees.
-  virtual std::vector<Point> corners(double degrees) const = 0;
-};
 
 struct Part {
   std::string name;
@@ -63,19 +48,25 @@ struct Shape {
   /// @brief The part that a name in a mesh file tells: its own, or that of a contour that is not read here and a name
   /// or marker of its features behind a point. Null: there is none.
   const Part* part_of_label(const std::string& label) const;
+  /// Does the region name it?
+  bool is_used(const Part& part) const { return region->uses(static_cast<std::size_t>(&part - parts.data())); }
   /// Distance from a part, images of the container's periods too.
   double distance(const Part& part, Point p) const;
-  /// Distance from the nearest part, if it is no more than `limit`; else something above it.
+  /// Distance from the nearest part of the region, if it is no more than `limit`; else something above it.
   double distance_from_any(Point p, double limit) const;
-  /// Does the curve of another part of the region pass within `limit` of p? Then a corner of this part need not be one
-  /// of the shape.
+  /// Does p lie in the shape? @pre all parts of the region have curves
+  bool contains(Point p) const;
+  /// Does the curve of another part of the region, or an image of this one, pass within `limit` of p? Then a corner of
+  /// this part need not be one of the shape.
   bool meets_another(const Part& part, Point p, double limit) const;
   /// Does the shape change at p where one is in this part or out of it? @pre all parts have curves
   bool matters(const Part& part, Point p) const;
 
+  /// Images of p in the container (the first one), and wherever parts that stick out of it may be.
+  std::vector<Point> images(Point p) const;
+
 private:
   const Part* part(const std::string& name) const;
-  std::vector<Point> images(Point p) const;
 };
 
 /// @param mesh its points: their box stands for a container that follows from files that are not read here

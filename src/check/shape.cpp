@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "curves.hpp"
+#include "shape.hpp"
 
-#include "inside.hpp"
 #include "report.hpp"
 
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/geometries/segment.hpp>
 #include <boost/geometry/index/rtree.hpp>
 
 #include <algorithm>
@@ -21,85 +19,11 @@ namespace {
 constexpr double normalized_share = 0.8; // [shorter side of the container] longer side of a normalised contour
 constexpr double margin = 0.05;          // [longer side of the shape] around it, where the container is automatic
 constexpr Box unit_square{{0, 0}, {1, 1}};
-constexpr double degrees_per_radian = 57.295779513082320877;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double box_slack = 1e-12; // [longer side of the container] rounding of what lies in a curve
 
 namespace index = boost::geometry::index;
-using Place = boost::geometry::model::d2::point_xy<double>;
-using Segment = boost::geometry::model::segment<Place>;
-using PlaceBox = boost::geometry::model::box<Place>;
-
-Box box_of(const std::vector<Ring>& rings) {
-  Box box{{infinity, infinity}, {-infinity, -infinity}};
-  for (const Ring& ring : rings)
-    for (const Point p : ring)
-      box = {{std::min(box.min.x, p.x), std::min(box.min.y, p.y)},
-             {std::max(box.max.x, p.x), std::max(box.max.y, p.y)}};
-  return box;
-}
-
-class Circle : public Curve {
-public:
-  Circle(Point center, double radius) : center_(center), radius_(radius) {}
-  double distance(Point p) const override { return std::fabs(std::hypot(p.x - center_.x, p.y - center_.y) - radius_); }
-  bool contains(Point p) const override { return std::hypot(p.x - center_.x, p.y - center_.y) < radius_; }
-  Box box() const override {
-    return {{center_.x - radius_, center_.y - radius_}, {center_.x + radius_, center_.y + radius_}};
-  }
-  std::vector<Point> corners(double) const override { return {}; }
-
-private:
-  Point center_;
-  double radius_;
-};
-
-/// Closed rings of straight sides, inside by even-odd.
-class Polygon : public Curve {
-public:
-  explicit Polygon(std::vector<Ring> rings) : rings_(std::move(rings)), inside_(rings_) {
-    std::vector<Segment> sides;
-    for (const Ring& ring : rings_)
-      for (std::size_t k = 0; k < ring.size(); ++k) {
-        const Point a = ring[k], b = ring[(k + 1) % ring.size()];
-        sides.push_back({{a.x, a.y}, {b.x, b.y}});
-      }
-    tree_ = Tree(sides);
-  }
-
-  double distance(Point p) const override {
-    const Place place(p.x, p.y);
-    const auto nearest = tree_.qbegin(index::nearest(place, 1));
-    return nearest == tree_.qend() ? infinity : boost::geometry::distance(place, *nearest);
-  }
-
-  bool contains(Point p) const override { return inside_.contains(p); }
-  Box box() const override { return box_of(rings_); }
-
-  std::vector<Point> corners(double degrees) const override {
-    std::vector<Point> found;
-    for (const Ring& ring : rings_)
-      for (std::size_t k = 0; k < ring.size(); ++k) {
-        const Point into = ring[k] - ring[(k + ring.size() - 1) % ring.size()];
-        const Point out = ring[(k + 1) % ring.size()] - ring[k];
-        const double turn = std::atan2(into.x * out.y - into.y * out.x, into.x * out.x + into.y * out.y);
-        if (std::fabs(turn) * degrees_per_radian > degrees)
-          found.push_back(ring[k]);
-      }
-    return found;
-  }
-
-private:
-  using Tree = index::rtree<Segment, index::rstar<16>>;
-
-  std::vector<Ring> rings_;
-  InsideTest inside_;
-  Tree tree_;
-};
-
-std::vector<Ring> rectangle(const Box& box) {
-  return {{box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}}};
-}
+using PlaceBox = boost::geometry::model::box<boost::geometry::model::d2::point_xy<double>>;
 
 /// Centres the box of the rings in the container.
 class Normalisation {
@@ -136,6 +60,10 @@ struct Source {
   }
 };
 
+bool is_projected(const ConfigText& config) {
+  return !config.value("shape", "projection").empty();
+}
+
 Source read_part(const ConfigText& config, const std::string& name) {
   const std::string section = "shape." + name;
   Source part{name, config.value(section, "type"), "", {}, {}, 0, config.is_true(section, "normalize")};
@@ -154,7 +82,9 @@ Source read_part(const ConfigText& config, const std::string& name) {
   } else if (part.type == "contour") {
     const std::string path = config.path(section, "file");
     const std::optional<std::string> text = read_text(path);
-    if (!path.ends_with(".xy") && !path.ends_with(".txt") && !path.ends_with(".dat"))
+    if (is_projected(config))
+      part.reason = fmt::format("{}: it is projected", path);
+    else if (!path.ends_with(".xy") && !path.ends_with(".txt") && !path.ends_with(".dat"))
       part.reason = fmt::format("{}: only contours of 'x y' lines are read here", path);
     else if (!text)
       part.reason = fmt::format("{} cannot be read", path);
@@ -266,11 +196,15 @@ const Part* Shape::part(const std::string& name) const {
 }
 
 std::vector<Point> Shape::images(Point p) const {
+  const auto into = [](double x, double low, double period) {
+    return period > 0 ? x - period * std::floor((x - low) / period) : x;
+  };
+  const Point inside{into(p.x, container.min.x, periods.x), into(p.y, container.min.y, periods.y)};
   std::vector<Point> images;
-  for (const int i : {0, -1, 1})
-    for (const int j : {0, -1, 1})
+  for (const int i : {0, -1, 1, 2}) // 2: the upper sides belong to what lies one period on
+    for (const int j : {0, -1, 1, 2})
       if ((i == 0 || periods.x > 0) && (j == 0 || periods.y > 0))
-        images.push_back({p.x + i * periods.x, p.y + j * periods.y});
+        images.push_back({inside.x + i * periods.x, inside.y + j * periods.y});
   return images;
 }
 
@@ -285,24 +219,33 @@ double Shape::distance_from_any(Point p, double limit) const {
   double least = infinity;
   for (const Point image : images(p))
     for (const std::size_t number : finder->near(image, limit))
-      least = std::min(least, parts[number].curve->distance(image));
+      if (region->uses(number))
+        least = std::min(least, parts[number].curve->distance(image));
   return least;
 }
 
 bool Shape::meets_another(const Part& part, Point p, double limit) const {
-  for (const Point image : images(p))
+  for (const Point image : images(p)) {
+    const bool is_own = std::fabs(image.x - p.x) <= limit && std::fabs(image.y - p.y) <= limit;
     for (const std::size_t number : finder->near(image, limit))
-      if (&parts[number] != &part && region->uses(number) && parts[number].curve->distance(image) <= limit)
+      if ((&parts[number] != &part || !is_own) && region->uses(number) && parts[number].curve->distance(image) <= limit)
         return true;
+  }
   return false;
 }
 
 bool Shape::matters(const Part& part, Point p) const {
   const auto own = static_cast<std::size_t>(&part - parts.data());
   std::vector<std::size_t> around;
-  for (const std::size_t number : finder->near(p, box_slack * side()))
-    if (number != own && parts[number].curve->contains(p))
-      around.push_back(number);
+  for (const Point image : images(p)) {
+    const bool is_own =
+        std::fabs(image.x - p.x) <= box_slack * side() && std::fabs(image.y - p.y) <= box_slack * side();
+    for (const std::size_t number : finder->near(image, box_slack * side()))
+      if ((number != own || !is_own) && parts[number].curve->contains(image))
+        around.push_back(number);
+  }
+  if (std::ranges::find(around, own) != around.end()) // within an image of itself
+    return false;
   for (const std::size_t number : around)
     region->set(number, true);
   const bool without = region->contains();
@@ -312,6 +255,20 @@ bool Shape::matters(const Part& part, Point p) const {
   for (const std::size_t number : around)
     region->set(number, false);
   return with != without;
+}
+
+bool Shape::contains(Point p) const {
+  std::vector<std::size_t> around;
+  for (const Point image : images(p))
+    for (const std::size_t number : finder->near(image, box_slack * side()))
+      if (region->uses(number) && parts[number].curve->contains(image))
+        around.push_back(number);
+  for (const std::size_t number : around)
+    region->set(number, true);
+  const bool inside = region->contains();
+  for (const std::size_t number : around)
+    region->set(number, false);
+  return inside;
 }
 
 const Part* Shape::part_of_label(const std::string& label) const {
@@ -349,6 +306,8 @@ Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh) {
   std::optional<std::string> text;
   if (!points.empty() && !(text = read_text(points)))
     shape.fixed_points_reason = fmt::format("{} cannot be read", points);
+  else if (text && is_projected(config))
+    shape.fixed_points_reason = fmt::format("{}: they are projected", points);
   if (text)
     for (const Ring& ring : read_rings(*text + "\n"))
       shape.fixed_points.insert(shape.fixed_points.end(), ring.begin(), ring.end());
@@ -364,12 +323,12 @@ Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh) {
     } else if (source.name == companion && !companion.empty())
       shape.fixed_points_reason = source.reason.empty() ? "the part they go with is not normalised" : source.reason;
     if (source.type == "circle")
-      part.curve = std::make_unique<Circle>(source.center, source.radius);
+      part.curve = make_circle(source.center, source.radius);
     else if (source.reason.empty())
-      part.curve = std::make_unique<Polygon>(std::move(rings));
+      part.curve = make_polygon(std::move(rings));
     shape.parts.push_back(std::move(part));
   }
-  shape.parts.push_back({"domain", std::make_unique<Polygon>(rectangle(shape.container)), ""});
+  shape.parts.push_back({"domain", make_container(shape.container, shape.periods), ""});
   shape.finder = std::make_unique<PartFinder>(shape.parts);
   return shape;
 }

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The exact curves of the parts of a shape: distances from them, insides, corners, samples.
+#pragma once
+
+#include "config_text.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace trime_check {
+
+struct Box {
+  Point min, max;
+};
+
+/// The middle of a piece of a curve, and a vector of length 1 across it.
+struct CurveSample {
+  Point place, normal;
+  double length = 0; ///< of the piece
+};
+
+/// The curve of one part of a shape.
+class Curve {
+public:
+  virtual ~Curve() = default;
+  virtual double distance(Point p) const = 0;
+  virtual bool contains(Point p) const = 0;
+  virtual Box box() const = 0;
+  /// Vertices that turn by more than so many degrees.
+  virtual std::vector<Point> corners(double degrees) const = 0;
+  virtual double length() const = 0;
+  /// Pieces no longer than `spacing`, none across a vertex.
+  virtual std::vector<CurveSample> samples(double spacing) const = 0;
+};
+
+/// The box of all vertices.
+Box box_of(const std::vector<Ring>& rings);
+/// The corners of a box, as a ring.
+std::vector<Ring> rectangle(const Box& box);
+
+std::unique_ptr<Curve> make_circle(Point center, double radius);
+/// Closed rings of straight sides, inside by even-odd.
+std::unique_ptr<Curve> make_polygon(std::vector<Ring> rings);
+/// The sides of the container that are not periodic.
+std::unique_ptr<Curve> make_container(const Box& box, const Periods& periods);
+
+} // namespace trime_check

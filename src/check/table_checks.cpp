@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "checks.hpp"
+#include "config_text.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace trime_check {
+namespace {
+
+constexpr double format_version = 1, cell_dim = 2, cell_corners = 3;
+// [h asked for] The boundary strays so far from its facets, at most: what the certificate says of chords.
+constexpr double chord = 0.75;
+// Of areas: both sides are sums of many terms.
+constexpr double area_tolerance = 1e-9;
+
+/// Attributes and views by which other programs know what the file is.
+void check_format(const StoredFile& file, const Mesh& mesh, Report& report) {
+  Tally wrong;
+  const auto expect = [&](const std::string& object, const std::string& attribute, const std::vector<double>& values) {
+    if (file.numbers(object, attribute) != values)
+      wrong.note([&] { return fmt::format("attribute {} of {} is not {}", attribute, object, values[0]); });
+  };
+  const auto expect_view = [&](const std::string& name, bool is_there, bool wanted) {
+    if (is_there != wanted)
+      wrong.note(
+          [&] { return fmt::format("{} is {}, by `formats` of the config", name, wanted ? "missing" : "too much"); });
+  };
+  expect("/trime_mpi", "format_version", {format_version});
+  if (mesh.has_vtk) {
+    expect("/VTKHDF", "Version", {1, 0});
+    if (file.text_attribute("/VTKHDF", "Type") != "UnstructuredGrid")
+      wrong.note([] { return std::string("attribute Type of /VTKHDF is not UnstructuredGrid"); });
+  }
+  if (mesh.has_plain) {
+    expect("/Mesh/mesh/topology", "cell_dim", {cell_dim});
+    expect("/Mesh/mesh/topology", "cell_corners", {cell_corners});
+  }
+  for (const char* link : {"/geometry/vertices", "/viz/topology/cells"})
+    expect_view(link, file.has(link), mesh.has_plain);
+  const ConfigText config(file.text("/trime_mpi/config_resolved"), "");
+  const std::string formats = fmt::format(" {} ", config.value("output", "formats"));
+  if (formats.find_first_not_of(' ') != std::string::npos) {
+    const bool vtk = formats.find(" vtkhdf ") != std::string::npos;
+    expect_view("/VTKHDF", mesh.has_vtk, vtk);
+    expect_view("/Mesh/mesh", mesh.has_plain, !vtk || formats.find(" xdmf ") != std::string::npos);
+  }
+  report.none("format", wrong, "views and attributes that other programs need, and that are missing or wrong");
+}
+
+/// Labels, markers and regions, by the table of what they mean.
+void check_labels(const StoredFile& file, const Mesh& mesh, Report& report) {
+  const std::vector<double> markers = file.column("/trime_mpi/tags/part_marker");
+  const std::vector<double> ids = file.column("/trime_mpi/tags/region_id");
+  const std::set<double> regions(ids.begin(), ids.end());
+  const bool any_marker = std::ranges::any_of(markers, [](double marker) { return marker != 0; });
+  Tally labels, marked, foreign;
+  for (std::size_t k = 0; k < mesh.facets.size(); ++k) {
+    const auto place = [&] { return fmt::format("facet {}: {}", k, place_of(mesh, mesh.facets[k])); };
+    const auto part = static_cast<std::size_t>(mesh.facet_parts[k]);
+    if (mesh.facet_labels[k] != mesh.facet_parts[k] + 1)
+      labels.note(place);
+    const double marker = part < markers.size() ? markers[part] : 0;
+    if (mesh.facet_markers.empty() ? marker != 0 : static_cast<double>(mesh.facet_markers[k]) != marker)
+      marked.note(place);
+  }
+  if (any_marker == mesh.facet_markers.empty() && !mesh.facets.empty())
+    marked.note([] { return std::string("/Mesh/facets/markers must be there if and only if a part has a marker"); });
+  for (std::size_t t = 0; t < mesh.region.size(); ++t)
+    if (!regions.contains(static_cast<double>(mesh.region[t])))
+      foreign.note([&] { return fmt::format("{}: {}", place_of(mesh, t), mesh.region[t]); });
+  report.none("labels", labels, "facets whose label is not the number of their part plus 1");
+  report.none("markers", marked, "facets whose marker is not that of their part in /trime_mpi/tags");
+  report.none("region", foreign, "triangles of no region of /trime_mpi/tags");
+}
+
+/// Tables of tags have as many rows in all columns, and parts count from 0; points of ranks come one behind the other.
+void check_columns(const StoredFile& file, const Mesh& mesh, Report& report) {
+  Tally wrong;
+  const auto expect = [&](bool holds, const char* name) {
+    if (!holds)
+      wrong.note([&] { return fmt::format("/trime_mpi/{}", name); });
+  };
+  const std::vector<double> parts = file.column("/trime_mpi/tags/part_id");
+  const std::size_t names = file.names("/trime_mpi/tags/part_name").size();
+  expect(parts.size() == names, "tags/part_id");
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    expect(parts[k] == static_cast<double>(k), "tags/part_id");
+  expect(file.column("/trime_mpi/tags/part_marker").size() == names, "tags/part_marker");
+  expect(file.names("/trime_mpi/tags/region_name").size() == file.column("/trime_mpi/tags/region_id").size(),
+         "tags/region_name");
+  const std::vector<double> first = file.column("/trime_mpi/ranks/first_point");
+  expect(!first.empty() && first[0] == 0 && std::ranges::is_sorted(first) &&
+             first.back() <= static_cast<double>(mesh.points.size()),
+         "ranks/first_point");
+  report.none("columns", wrong, "columns of `tags` and `ranks` whose rows are missing or out of order");
+}
+
+/// Parts of a loop, each once in the order in which they come from a facet on.
+std::string name_from(const std::vector<std::int64_t>& runs, std::size_t first, const std::vector<std::string>& names) {
+  std::string name;
+  std::set<std::int64_t> listed;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const std::int64_t part = runs[(first + k) % runs.size()];
+    if (listed.insert(part).second)
+      name += (name.empty() ? "" : "+") + names[static_cast<std::size_t>(part)];
+  }
+  return name;
+}
+
+/// Is this the name of a loop, whichever of its facets is the first?
+bool is_name(const std::string& name, const Mesh& mesh, const Loop& loop, const std::vector<std::string>& names) {
+  std::vector<std::int64_t> runs;
+  for (const std::size_t k : loop.facets)
+    if (const std::int64_t part = mesh.facet_parts[k]; runs.empty() || runs.back() != part)
+      runs.push_back(part);
+  if (std::ranges::any_of(runs, [&](std::int64_t part) { return part < 0 || part >= std::ssize(names); }))
+    return false;
+  for (std::size_t first = 0; first < runs.size(); ++first)
+    if (name.starts_with(names[static_cast<std::size_t>(runs[first])]) && name_from(runs, first, names) == name)
+      return true;
+  return false;
+}
+
+void check_loops(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report) {
+  const std::vector<double> ids = file.column("/trime_mpi/tags/edge_id");
+  const std::vector<std::string> kinds = file.names("/trime_mpi/tags/edge_kind");
+  const std::vector<std::string> loop_names = file.names("/trime_mpi/tags/edge_name");
+  const std::vector<std::string> names = file.names("/trime_mpi/tags/part_name");
+  std::map<double, std::size_t> rows;
+  for (std::size_t row = 0; row < std::min({ids.size(), kinds.size(), loop_names.size()}); ++row)
+    rows.emplace(ids[row], row);
+  Tally kind, name;
+  for (const Loop& loop : counted.boundary) {
+    const std::int64_t tag = mesh.facet_tags[loop.facets[0]];
+    const auto row = rows.find(static_cast<double>(tag));
+    if (row == rows.end() || kinds[row->second] != loop.kind)
+      kind.note([&] { return fmt::format("loop {} is {}", tag, loop.kind); });
+    if (row == rows.end() || !is_name(loop_names[row->second], mesh, loop, names))
+      name.note([&] { return fmt::format("loop {} at {}", tag, place_of(mesh, mesh.facets[loop.facets[0]])); });
+  }
+  report.none("edge_kind", kind, "loops whose `edge_kind` is not what they go around");
+  report.none("edge_name", name, "loops whose `edge_name` is not their parts in order");
+}
+
+/// Attributes of a run that follow from its mesh.
+class Attributes {
+public:
+  Attributes(const StoredFile& file, const Mesh& mesh, const Counted& counted)
+      : file_(file), mesh_(mesh), counted_(counted) {}
+
+  Tally compare() {
+    exact("components", static_cast<double>(counted_.components));
+    exact("holes", static_cast<double>(std::ranges::count(counted_.boundary, "hole", &Loop::kind)));
+    exact("corners", static_cast<double>(counted_.corners));
+    const auto [smallest, largest] = std::ranges::minmax(mesh_.size);
+    exact("smallest_size", smallest);
+    exact("largest_size", largest);
+    const double asked = mesh_.asked_sizes.empty() ? 0 : std::ranges::max(mesh_.asked_sizes);
+    if (file_.text_attribute("/trime_mpi", "sizing") == "uniform") // else it is one of the container
+      exact("edge_length", std::max(largest, asked));
+    double slivers = area_tolerance * counted_.area;
+    for (std::size_t k = 0; k < mesh_.facets.size(); ++k) {
+      const Point a = mesh_.at(mesh_.facets[k][0]), d = mesh_.periods.near(mesh_.at(mesh_.facets[k][1]), a) - a;
+      slivers += std::hypot(d.x, d.y) * chord * mesh_.asked_sizes[k];
+    }
+    within("shape_area", counted_.area - slivers, counted_.area + slivers);
+    return wrong_;
+  }
+
+private:
+  void exact(const char* name, double value) { within(name, value, value); }
+
+  void within(const char* name, double low, double high) {
+    // Sizes are stored in single precision, other than the attribute.
+    constexpr double rounding = 1e-6;
+    const std::optional<double> found = file_.number("/trime_mpi", name);
+    if (!found || !(*found >= low - rounding * std::fabs(low) && *found <= high + rounding * std::fabs(high)))
+      wrong_.note([&] {
+        return fmt::format("`{}` is {}, expected {}", name, found ? fmt::format("{:.9g}", *found) : "missing",
+                           low == high ? fmt::format("{:.9g}", low) : fmt::format("{:.9g} to {:.9g}", low, high));
+      });
+  }
+
+  const StoredFile& file_;
+  const Mesh& mesh_;
+  const Counted& counted_;
+  Tally wrong_;
+};
+
+bool is_step(const StoredFile& file) {
+  return file.text_attribute("/trime_mpi", "stop_reason").value_or("").starts_with("none");
+}
+
+} // namespace
+
+void check_tables(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report) {
+  check_format(file, mesh, report);
+  check_labels(file, mesh, report);
+  check_columns(file, mesh, report);
+  if (counted.boundary.empty() && !mesh.facets.empty())
+    report.skip("edge_kind, edge_name", "the facets are no closed simple loops");
+  else
+    check_loops(file, mesh, counted, report);
+  if (is_step(file))
+    report.skip("attributes", "the mesh is a step of a run, which does not count them");
+  else
+    report.none("attributes", Attributes(file, mesh, counted).compare(),
+                "attributes of /trime_mpi that are not what is found here: components, holes, corners, sizes, areas");
+  report.skip("provenance", "who made the mesh and how is only told: texts, versions, `crs`, times, counters, history, "
+                            "`normalization`, `rings`, `sharp_corners`, `worst_triangles`, other attributes");
+}
+
+} // namespace trime_check
