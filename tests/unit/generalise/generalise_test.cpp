@@ -145,9 +145,8 @@ TEST(Generalise, KeepsABluntTipThatHoldsAPoint) {
 }
 
 TEST(Generalise, MovesNothingOutOfItsBounds) {
-  // A hole that touches the side on which the shape ends: what lies between them is a slit, and is widened.
-  const std::vector<Vec2> hole{{0.5, 0}, {0.3, 0.3}, {0.7, 0.3}};
-  const Boundary given = boundary_of({box({0, 0}, {1, 1}), polygon_loop(hole, 2)});
+  // A bar along the side on which the world ends is narrow all over, and is widened.
+  const Boundary given = boundary_of({box({0, 0}, {1, 0.005})});
   Choice choice;
   const auto anywhere = generalise(given, sizing::UniformSize(0.03), unit_lattice(), choice, {});
   ASSERT_TRUE(anywhere);
