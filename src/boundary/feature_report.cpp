@@ -111,15 +111,6 @@ void report_losses(const geometry::Boundary& given, const geometry::Boundary& me
   report.loops = find_loop_fates(given, meshed, asked, lattice);
 }
 
-void check_losses(const FeatureReport& report) {
-  if (report.lost_share > BoundaryRules::most_lost)
-    throw ConfigError(fmt::format(
-        "the shape is nearly all narrower than the triangles: simplified at this size it would lose {:.3g} % of its "
-        "area, expected at most {:g} %; ask for more points (a smaller edge_length), --dry-run says how many keep "
-        "everything; or set meshing.keep_features = true",
-        100 * report.lost_share, 100 * BoundaryRules::most_lost));
-}
-
 std::string loss_warning(const FeatureReport& report) {
   using State = LoopFate::State;
   const auto number_of = [&](State state) {

@@ -27,8 +27,4 @@ void report_losses(const geometry::Boundary& given, const geometry::Boundary& me
                    const polygon::Simplification& simplified, const polygon::DroppedLoops& dropped,
                    const sizing::SizeField& asked, const geometry::Lattice& lattice, FeatureReport& report);
 
-/// @throws ConfigError if the simplified shape has lost BoundaryRules::most_lost of its area: a mesh of the rest would
-/// be none of the shape
-void check_losses(const FeatureReport& report);
-
 } // namespace trime::boundary

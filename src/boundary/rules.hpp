@@ -56,8 +56,6 @@ struct BoundaryRules {
   static constexpr double told_coarseness = 1.1;
   /// [1] A larger share of the shape's area that is lost or added is a warning. Not measured.
   static constexpr double warned_loss = 0.001;
-  /// [1] If more of the shape's area is lost, what is left is no picture of the shape: an error. Not measured.
-  static constexpr double most_lost = 0.99;
   /// [sites] Halving of chords may always make so many; beyond, halving_growth is the bound.
   static constexpr std::size_t always_halved = 4000000;
   /// [1] Halving may make so many times the sites of the layout. With more the boundary is at fault, and an error says

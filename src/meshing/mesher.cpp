@@ -193,7 +193,6 @@ void Run::report_boundary() {
   comm::run_agreed(run_.comm, [this] { // this and the warnings ask the size field, which may be a user's
     boundary::report_losses(boundary_.fixed().cornered_boundary(), boundary_.curves(), stage_.simplified,
                             stage_.polygon.dropped, *stage_.asked_size, run_.lattice, features_);
-    check_losses(features_);
   });
   for (const std::string& line : describe(features_))
     run_.log.info("boundary: {}", line);

@@ -99,15 +99,6 @@ class Losses(unittest.TestCase):
         self.assertEqual(columns["shares"], [0, 0])
         self.assertEqual(list(columns["line"]), [1, 6])
 
-    def test_a_shape_of_which_nearly_nothing_would_be_left_is_refused(self):
-        with Workspace() as work:
-            for ranks in (1, 3):
-                done = run(self.prepare(work, comb(30, bottom=0.101)), f"output.directory={work}", "meshing.points=150",
-                           ranks=ranks)
-                self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
-                self.assertRegex(done.stderr, "would lose 100 % of its area, expected at most 99 %; ask for more points")
-                self.assertFalse((work / "sea.h5").exists())
-
     def test_a_mesh_of_what_is_left_lies_in_the_container(self):
         """Fins that are moved apart have no room in it; a hole that touches a side of it."""
         touching = "0 0\n1 0\n1 1\n0 1\n\n0.5 0\n0.7 0.3\n0.3 0.3\n"
