@@ -22,8 +22,12 @@ public:
   bool asks_to_end() const noexcept { return end_; }
   /// A checkpoint is written.
   void forget_writing() noexcept { write_ = false; }
-  /// None could be written, and the run goes on.
-  void forget_stopping() noexcept { stop_ = false; }
+  /// None could be written, and the run goes on; not if a signal that ends it has come meanwhile.
+  void forget_stopping() noexcept {
+    stop_ = false;
+    if (end_)
+      stop_ = true;
+  }
 
   /// May a run that is told to end stop at a checkpoint first? Only during the sweeps, if checkpoints are configured.
   void set_stops_in_order(bool stops) noexcept { stops_in_order_ = stops; }

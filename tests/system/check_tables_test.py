@@ -10,7 +10,7 @@ import unittest
 import h5py
 import numpy as np
 
-from check_test import change, check, inner, replace
+from check_test import change, check, check_damaged, inner, replace
 from trime_run import ROOT, run
 
 FACETS, TAGS, SIZE = "Mesh/facets/", "trime_mpi/tags/", "VTKHDF/PointData/size"
@@ -92,11 +92,7 @@ class Tables(unittest.TestCase):
         return path
 
     def finds(self, whole, damage, name):
-        path = self.work / "damaged.h5"
-        shutil.copy(whole, path)
-        with h5py.File(path, "r+") as file:
-            damage(file)
-        code, text = check(path)
+        code, text = check_damaged(whole, self.work / "damaged.h5", damage)
         self.assertEqual(code, 5, text)
         self.assertIn(name, re.findall(r"(?m)^WRONG +(\S+)", text), text)
 

@@ -27,6 +27,14 @@ def check(*arguments):
     return done.returncode, done.stdout + done.stderr
 
 
+def check_damaged(whole, path, damage):
+    """Code and text of a check of a copy of the file, at `path`, that was damaged."""
+    shutil.copy(whole, path)
+    with h5py.File(path, "r+") as file:
+        damage(file)
+    return check(path)
+
+
 def mix(z):
     z = z + np.uint64(0x9E3779B97F4A7C15)
     z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
@@ -282,11 +290,7 @@ class Check(unittest.TestCase):
         whole = self.mesh("spade_fixed_points")
         for name, (damage, names) in DAMAGES.items():
             with self.subTest(damage=name):
-                path = self.work / "damaged.h5"
-                shutil.copy(whole, path)
-                with h5py.File(path, "r+") as file:
-                    damage(file)
-                code, text = check(path)
+                code, text = check_damaged(whole, self.work / "damaged.h5", damage)
                 self.assertEqual(code, 5, text)
                 for expected in names:
                     self.assertIn(expected, self.wrong(text), text)
