@@ -3,7 +3,6 @@
 """trime_check finds what is changed beside the triangles: labels, tables, attributes, sizes and views."""
 import pathlib
 import re
-import shutil
 import tempfile
 import unittest
 
