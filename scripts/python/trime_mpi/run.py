@@ -11,12 +11,11 @@ import tempfile
 import warnings as python_warnings
 
 from .config import ini_text, sections_of, value_text
+from .environment import run_environment
 from .errors import ConfigError, FileError, IncompleteError, ProgramMissing, TrimeError, error_of
 from .read import read
 
 ERROR, WARNING = "trime_mpi: error: ", "warning: "  # what lines of the program begin with
-OF_A_JOB = ("OMPI_", "PMIX_", "PMI_", "HYDRA_")     # variables of a process that mpirun has started
-KEPT = ("OMPI_MCA_", "OMPI_ALLOW_")                 # among these: what a user sets
 PATIENCE = 5                                        # seconds for a run to end after a signal
 
 
@@ -42,18 +41,6 @@ def find_launcher():
     raise ProgramMissing(["there is no mpirun on the PATH, which ranks > 1 need; set TRIME_MPIEXEC to that of your MPI"])
 
 
-def environment():
-    """For any number of ranks on this machine, bound to no cores; not as part of a job in which Python itself runs."""
-    changed = {name: value for name, value in os.environ.items()
-               if not name.startswith(OF_A_JOB) or name.startswith(KEPT)}
-    changed.setdefault("OMPI_MCA_hwloc_base_binding_policy", "none")
-    changed.setdefault("OMPI_MCA_rmaps_base_oversubscribe", "1")
-    changed.setdefault("OMPI_MCA_orte_execute_quiet", "1")
-    if os.geteuid() == 0:  # containers
-        changed |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-    return changed
-
-
 def end(process):
     """Ends a run and all that it has started, at the latest after some seconds; leaves no half file."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
@@ -72,7 +59,7 @@ def run_to_end(command, verbose, timeout):
     with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as out, \
             tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as err:
         with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=None if verbose else out, stderr=err,
-                              env=environment(), start_new_session=True) as process:
+                              env=run_environment(), start_new_session=True) as process:
             try:
                 code = process.wait(timeout)
             except BaseException:
@@ -122,8 +109,13 @@ def mesh(config, ranks=1, threads=None, program=None, *, output=None, overwrite=
     without it (and without [output] directory in a dict) the run works in a temporary directory, and only the arrays
     remain. verbose: the program's messages and progress are shown. timeout: seconds.
 
-    Raises subprocess.TimeoutExpired, and the errors of the program: ConfigError, GeometryError, FileError, IncompleteError (which has the mesh),
-    MemoryLimit, InterruptedRun, InternalError. Its warnings become Python's, and Mesh.warnings. Ctrl-C ends the run.
+    A program that mpirun has started may call this too. Each rank that calls it starts a run of its own, and waits for
+    no other rank; ranks that write a file need different names. Where one rank alone makes the mesh, hand errors to the
+    others, or start Python with `-m mpi4py`: a rank that raises does not end those that wait for it.
+
+    Raises subprocess.TimeoutExpired, and the errors of the program: ConfigError, GeometryError, FileError,
+    IncompleteError (which has the mesh), MemoryLimit, InterruptedRun, InternalError. Its warnings become Python's, and
+    Mesh.warnings. Ctrl-C ends the run.
     """
     if int(ranks) < 1:
         raise ConfigError([f"ranks={ranks}: expected 1 or more"])

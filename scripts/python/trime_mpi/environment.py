@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The environment in which the program is started, also from a Python program that mpirun has started itself.
+
+mpirun gives the processes of its job variables that name this job. A second MPI program that finds them takes itself
+for a process of that job, and fails. Some of them begin with OMPI_MCA_ like the settings of users, which must reach the
+program; so they are known by their whole names.
+"""
+import os
+import re
+
+# What the launchers set: Open MPI with ORTE (up to version 4) or PRRTE (from version 5), PMIx, MPICH and its kin.
+LAUNCHER = re.compile(r"(OMPI|PMIX|PRTE|PMI|HYDI)_|MPI_LOCAL(NRANKS|RANKID)$")
+# What users set for Open MPI, PRRTE and PMIx.
+SETTING = re.compile(r"(OMPI|PRTE|PMIX)_MCA_|(OMPI|PRTE)_ALLOW_")
+# What Open MPI's launcher sets under names of this kind.
+OF_A_JOB = re.compile(
+    r"(OMPI|PRTE)_MCA_(ess|ess_\w+|initial_wdir|mpi_oversubscribe|shmem_RUNTIME_QUERY_hint|(orte|prte)_(app_num"
+    r"|base_applied_binding|bound_at_launch|cpu_model|cpu_type|do_not_barrier|ess_\w+|externally_bound|hnp_uri"
+    r"|jobfam_session_dir|launch|local_daemon_uri|num_nodes|num_restarts|parent_uri|precondition_transports"
+    r"|top_session_dir))$")
+PMIX_OF_A_JOB = "^s1,s2,"  # begin of the value that Open MPI's launcher gives OMPI_MCA_pmix where the user has none
+# Where a job puts its processes: options of its launcher, such as --map-by and --bind-to, become such variables.
+PLACES_OF_A_JOB = re.compile(r"OMPI_MCA_(rmaps_(?!base_oversubscribe$)|hwloc_base_(binding|cpu|report|slot|use))")
+
+
+def is_inside_a_job(variables):
+    """True if a launcher of MPI has started this process. variables: its environment."""
+    return any(name in variables for name in ("OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"))
+
+
+def is_of_the_job(name, value):
+    """True for a variable that the launcher has set, and that describes its own job only."""
+    if not LAUNCHER.match(name):
+        return False
+    if not SETTING.match(name):
+        return True
+    return bool(OF_A_JOB.match(name) or PLACES_OF_A_JOB.match(name)
+                or (name == "OMPI_MCA_pmix" and value.startswith(PMIX_OF_A_JOB)))
+
+
+def run_environment(variables=None):
+    """The variables for a run of the program: a job of its own, of any number of ranks, bound to no cores.
+
+    variables: those of the caller (default: os.environ). All settings of the user are handed on; inside of a job all
+    except the places of its processes. There the ranks and threads of the run also leave their cores to others while
+    they wait, since the processes of the job around it use the same cores.
+    """
+    variables = dict(os.environ if variables is None else variables)
+    inside = is_inside_a_job(variables)
+    if inside:
+        variables = {name: value for name, value in variables.items() if not is_of_the_job(name, value)}
+        variables.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")
+        variables.setdefault("OMP_WAIT_POLICY", "passive")
+    variables.setdefault("OMPI_MCA_hwloc_base_binding_policy", "none")
+    variables.setdefault("OMPI_MCA_rmaps_base_oversubscribe", "1")
+    variables.setdefault("OMPI_MCA_orte_execute_quiet", "1")
+    if os.geteuid() == 0:  # containers
+        variables |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+    return variables

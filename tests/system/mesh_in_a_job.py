@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A Python program that mpirun starts, for python_in_jobs_test.py: each of its ranks makes a mesh, and reads it.
+
+    mpirun -n 2 /usr/bin/python3 mesh_in_a_job.py DIRECTORY RANKS [mpi4py] [wrong=RANK]...
+
+RANKS: of each run of trime_mpi. mpi4py: imports it first, and meets the other ranks at the end. wrong=RANK: this rank
+gives a config with an unknown key. Each rank leaves what it found as RANK.json in DIRECTORY.
+"""
+import json
+import os
+import pathlib
+import sys
+
+from trime_run import ROOT
+
+if "mpi4py" in sys.argv:
+    from mpi4py import MPI
+sys.path.insert(0, str(ROOT / "scripts" / "python"))
+import trime_mpi  # noqa: E402  (found by the line above)
+
+DISC = {"shape": {"region": "disc", "disc": {"type": "circle", "center": (0.5, 0.5), "radius": 0.4}},
+        "meshing": {"points": 700}}
+
+
+def main():
+    directory, ranks = pathlib.Path(sys.argv[1]), int(sys.argv[2])
+    rank = int(os.environ.get("OMPI_COMM_WORLD_RANK", os.environ.get("PMI_RANK", 0)))
+    config = DISC | ({"sizing": {"gradaton": 0.1}} if f"wrong={rank}" in sys.argv else {})
+    found = {}
+    try:
+        made = trime_mpi.mesh(config, ranks=ranks, threads=1, output=directory / f"{rank}.h5")
+        found = {"hash": made.hash, "ranks": len(made.first_point)}
+        found["read"] = trime_mpi.read(directory / f"{rank}.h5", in_place=True).hash
+    except trime_mpi.TrimeError as error:
+        found |= {"error": type(error).__name__, "message": str(error)}
+    if "mpi4py" in sys.argv:
+        found["size"] = len(MPI.COMM_WORLD.allgather(found))  # waits for all
+    (directory / f"{rank}.json").write_text(json.dumps(found), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
