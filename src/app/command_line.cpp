@@ -110,7 +110,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   CLI::App app("Distributed generator of large 2D triangle meshes.\n"
                "[mpirun -np RANKS] trime_mpi CONFIG [section.key=value ...] [OPTIONS]\n"
                "[mpirun -np RANKS] trime_mpi convert IN.h5 OUT.ENDING   a mesh in the format of another program:\n"
-               "                   .msh .msh2 .mesh .freefem .node .vtu .2dm .14 .geojson, see configs/README.md\n"
+               "                   .msh .msh2 .mesh .freefem .node .vtu .2dm .14 .geojson, see configs/formats.md\n"
                "trime_mpi info FILE.h5   what is in a mesh file",
                "trime_mpi");
   declare(app, line, flags);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The one table of all keys of a config file. Reading, error messages, `--help-config`, `--print-config`, the copy in
-// the mesh file and the table in configs/README.md all come from it.
+// the mesh file and the table in configs/keys.md all come from it.
 #pragma once
 
 #include <limits>

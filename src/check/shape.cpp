@@ -15,7 +15,7 @@
 namespace trime_check {
 namespace {
 
-// What the documentation of the config says (configs/README.md).
+// What the documentation of the config says (configs/shapes.md).
 constexpr double normalized_share = 0.8; // [shorter side of the container] longer side of a normalised contour
 constexpr double margin = 0.05;          // [longer side of the shape] around it, where the container is automatic
 constexpr Box unit_square{{0, 0}, {1, 1}};

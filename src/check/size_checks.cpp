@@ -13,7 +13,7 @@ constexpr double size_factor = 12;
 // Of the mean over all edges: the file takes h in the middle of an edge, where a steep size is another than at its
 // ends.
 constexpr double mean_factor = 1.5;
-// Narrow places lower the size to no less of it (configs/README.md).
+// Narrow places lower the size to no less of it (configs/boundaries.md).
 constexpr double least_share = 0.05;
 // Of all points or facets: where the size is an expression, so many places may be odd ones.
 constexpr double local_share = 0.25;

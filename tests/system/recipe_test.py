@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""From a map to a solver, as configs/README.md tells it: its config, commands and scripts, word for word, on a
-shapefile of islands with a lake, in degrees."""
+"""The first config of configs/README.md, and "From a map to a solver" of configs/shapes.md: config, commands and scripts,
+word for word, on a shapefile of islands with a lake, in degrees."""
 import json
 import pathlib
 import re
@@ -11,13 +11,13 @@ import unittest
 
 from trime_run import MPIEXEC, PROGRAM, ROOT, Workspace, environment
 
-PAGE = (ROOT / "configs" / "README.md").read_text(encoding="utf-8")
 TIMEOUT = 300  # seconds, of a command
 
 
-def blocks(title, language):
-    """The code of a section of the page."""
-    section = re.search(rf"^##+ {title}\n(.*?)(?=^##)", PAGE, re.MULTILINE | re.DOTALL)[1]
+def blocks(title, language, page="shapes.md"):
+    """The code of a section of a page of configs/."""
+    text = (ROOT / "configs" / page).read_text(encoding="utf-8")
+    section = re.search(rf"^##+ {title}\n(.*?)(?=^##)", text, re.MULTILINE | re.DOTALL)[1]
     return re.findall(rf"^```{language}\n(.*?)^```", section, re.MULTILINE | re.DOTALL)
 
 
@@ -31,6 +31,12 @@ class Recipe(unittest.TestCase):
                               timeout=TIMEOUT, env=dict(environment(1), XDG_CACHE_HOME=str(work)))
         self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}{done.stderr}")
         return done.stdout
+
+    def test_first_config(self):
+        with Workspace() as work:
+            (work / "disc.ini").write_text(blocks("A first config", "ini", "README.md")[0])
+            self.run_in(work, PROGRAM, "disc.ini")
+            self.assertTrue((work / "out" / "disc.h5").exists())
 
     def test_word_for_word(self):
         features = [{"type": "Feature", "properties": {"name": name}, "geometry": {"type": "Polygon", "coordinates": rings}}

@@ -49,8 +49,8 @@ class Scripts(unittest.TestCase):
     def test_the_page_of_the_configs_holds_the_table_of_keys(self):
         table = run("--help-config").stdout.strip()
         self.assertGreater(len(table.splitlines()), 30)
-        self.assertIn(table, (ROOT / "configs" / "README.md").read_text(encoding="utf-8"),
-                      "put the output of trime_mpi --help-config into configs/README.md")
+        self.assertIn(table, (ROOT / "configs" / "keys.md").read_text(encoding="utf-8"),
+                      "put the output of trime_mpi --help-config into configs/keys.md")
 
     def test_unlike_hashes_of_builds_are_told(self):
         with Workspace() as work:

@@ -103,7 +103,7 @@ def mesh(config, ranks=1, threads=None, program=None, *, output=None, overwrite=
          timeout=None):
     """Runs trime_mpi, and returns the Mesh.
 
-    config: the path of an ini, or a dict {section: {key: value}} with the keys of configs/README.md. In a dict a part
+    config: the path of an ini, or a dict {section: {key: value}} with the keys of configs/keys.md. In a dict a part
     may have `rings` (arrays [k,2]) in place of a file, and `fixed_points` may be an array. options: overrides
     {"section.key": value}. ranks: more than one start by mpirun. threads: of each rank. output: NAME.h5, which stays;
     without it (and without [output] directory in a dict) the run works in a temporary directory, and only the arrays
