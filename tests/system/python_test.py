@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python package: meshes as arrays, runs from Python with their errors as exceptions, pictures."""
+import contextlib
 import os
 import pathlib
 import re
@@ -36,6 +37,13 @@ def setUpModule():
 def changed(**sections):
     """DISC with other values of some sections."""
     return {name: dict(DISC.get(name, {}), **sections.get(name, {})) for name in {**DISC, **sections}}
+
+
+class Geo:
+    """An object with __geo_interface__."""
+
+    def __init__(self, kind, coordinates=None, **others):
+        self.__geo_interface__ = {"type": kind, **({} if coordinates is None else {"coordinates": coordinates}), **others}
 
 
 def temporary_files():
@@ -120,6 +128,63 @@ class Running(unittest.TestCase):
                                "meshing": {"points": 800, "fixed_points": place}})
         self.assertLess(np.abs(mesh.points - place).max(axis=1).min(), 1e-9)
         self.assertAlmostEqual(mesh.attributes["shape_area"], 0.64 - 0.16, places=9)
+
+    def test_polygons_as_rings(self):
+        """Objects with __geo_interface__, as shapely and geopandas have it, also with heights."""
+        square = np.array([[0.1, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9], [0.1, 0.1]])
+        hole, height = 0.25 + square / 2, np.ones((5, 1))
+        plate = Geo("Polygon", [np.hstack([ring, height]).tolist() for ring in (square, hole)])
+        named = Geo("FeatureCollection", features=[{
+            "type": "Feature", "properties": {"name": "plate", "count": np.float32(1)},
+            "geometry": plate.__geo_interface__}])
+        for rings, part, names in ((plate, {}, ["a"]), ([plate], {}, ["a"]), (plate.__geo_interface__, {}, ["a"]),
+                                   ([Geo("LinearRing", one.tolist()) for one in (square, hole)], {}, ["a"]),
+                                   (named, {"attribute": "name"}, ["a.plate"])):
+            with self.subTest(rings=type(rings), part=part):
+                mesh = trime_mpi.mesh({"shape": {"region": "a", "a": {"type": "contour", "rings": rings, **part}},
+                                       "meshing": {"points": 500}}, threads=1)
+                self.assertAlmostEqual(mesh.attributes["shape_area"], 0.64 - 0.16, places=9)
+                self.assertEqual(list(mesh.boundaries), names)
+
+    def test_values_that_cannot_be_written(self):
+        square = np.array([[0.1, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]])
+        sizes = r"config\['sizing'\]\['expression'\]: .*found {}.*; the size cannot be an array or a function yet"
+        for section, key, value, message in (
+                ("a", "rings", np.hstack([square, square]), r"rings.*found the shape \(4, 4\)"),
+                ("a", "rings", [square, np.ones((4, 3))], r"rings'\]\[1\].*\(4, 3\); leave out the third column"),
+                ("a", "rings", [square, Geo("Polygon", [square.tolist()])], "found both"),
+                ("a", "rings", Geo("Point", (1, 2)), "of the type Point"),
+                ("a", "rings", [], "found none"), ("a", "rings", 5, "type int"), ("a", "rings", [[1, 2], [3]], "\\[0\\]"),
+                ("meshing", "fixed_points", [[0.2, 0.3, 1]], "fixed_points.*third column"),
+                ("sizing", "expression", lambda x, y: x + y, sizes.format("a function")),
+                ("sizing", "expression", np.ones(5), sizes.format("an array")),
+                ("sizing", "expression", [1.0, 2.0], sizes.format("an object of type list")),
+                ("meshing", "seed", print, "seed.*found a function"),
+                ("meshing", "points", np.ones((2, 2)), r"found an array with the shape \(2, 2\)"),
+                ("meshing", "points", "5\n6", "expected one line")):
+            config = {"a": {"type": "contour", "rings": square}, "sizing": {"type": "expression"},
+                      "meshing": {"points": 500}}
+            config[section][key] = value
+            config["shape"] = {"region": "a", "a": config.pop("a")}
+            with self.subTest(key=key, value=value), self.assertRaisesRegex(trime_mpi.ConfigError, message):
+                trime_mpi.mesh(config)
+        with self.assertRaisesRegex(trime_mpi.ConfigError, r"options\['sizing.expression'\].*found an array"):
+            trime_mpi.mesh(DISC, options={"sizing.expression": np.ones(3)})
+
+    def test_paths_are_relative_to_the_working_directory(self):
+        with Workspace() as work, contextlib.chdir(work):
+            pathlib.Path("ring.xy").write_text("0 0\n1 0\n1 1\n0 1\n", encoding="utf-8")
+            pathlib.Path("points.xy").write_text("0.25 0.5\n", encoding="utf-8")
+            config = {"shape": {"region": "a", "a": {"type": "contour", "file": "ring.xy"}}, "meshing": {"points": 300}}
+            pathlib.Path("out").mkdir()
+            mesh = trime_mpi.mesh(config, options={"meshing.fixed_points": pathlib.Path("points.xy")},
+                                  output="out/m.h5", threads=1)
+            self.assertIn((0.25, 0.5), {tuple(point) for point in mesh.points})
+            self.assertEqual(trime_mpi.read("out/m.h5").hash, mesh.hash)
+
+    def test_none_is_the_default(self):
+        mesh = trime_mpi.mesh(changed(meshing={"points": 700, "fixed_points": None, "seed": None}), threads=1)
+        self.assertEqual(mesh.hash, trime_mpi.mesh(changed(meshing={"points": 700}), threads=1).hash)
 
     def test_file_of_a_config_with_options(self):
         mesh = trime_mpi.mesh(ROOT / "configs" / "circle.ini", options={"meshing.points": 700})
@@ -241,6 +306,15 @@ class Package(unittest.TestCase):
         version = re.search(r"VERSION (\d+\.\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
         self.assertEqual(trime_mpi.__version__, version)
         self.assertIn(f'version = "{version}"', (PACKAGE / "pyproject.toml").read_text(encoding="utf-8"))
+
+    def test_a_module_that_is_missing_is_named_with_its_package(self):
+        for module, use in (("h5py", ""), ("numpy", ""), ("matplotlib", "; trime_mpi.plot('m.h5')")):
+            with self.subTest(module=module):
+                program = f"import sys; sys.modules['{module}'] = None; import trime_mpi{use}"
+                done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False,
+                                      env=dict(os.environ, PYTHONPATH=str(PACKAGE)))
+                self.assertIn(f"needs the Python module '{module}'", done.stderr)
+                self.assertIn(f"apt-get install python3-{module}", done.stderr)
 
     def test_installs_without_a_network(self):
         with Workspace() as work:

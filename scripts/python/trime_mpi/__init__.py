@@ -13,8 +13,13 @@ read: a mesh file as NumPy arrays. mesh: runs the program, and raises what it sa
 """
 from .errors import (ConfigError, FileError, GeometryError, IncompleteError, InternalError, InterruptedRun, MemoryLimit,
                      ProgramMissing, StoppedAtCheckpoint, TrimeError)
-from .read import Boundary, Check, Mesh, read
-from .run import mesh
+from .errors import missing_module as _missing_module
+
+try:
+    from .read import Boundary, Check, Mesh, read
+    from .run import mesh
+except ModuleNotFoundError as _error:  # h5py or numpy
+    raise _missing_module(_error) from None
 
 __all__ = ["Boundary", "Check", "ConfigError", "FileError", "GeometryError", "IncompleteError", "InternalError",
            "InterruptedRun", "MemoryLimit", "Mesh", "ProgramMissing", "StoppedAtCheckpoint", "TrimeError", "mesh",
@@ -24,5 +29,8 @@ __version__ = "0.1.0"
 
 def plot(mesh, what="quality", file=None, dpi=130):  # pylint: disable=redefined-outer-name
     """Draws a mesh (a Mesh, or the path of its file); see trime_mpi.plots.plot. Needs matplotlib."""
-    from .plots import plot as draw  # matplotlib is not needed before
+    try:
+        from .plots import plot as draw  # matplotlib is not needed before
+    except ModuleNotFoundError as error:
+        raise _missing_module(error) from None
     return draw(mesh, what, file, dpi)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What can go wrong in a run: one class for each exit code of the program."""
+import sys
 
 
 class TrimeError(Exception):
@@ -73,3 +74,11 @@ def error_of(code, messages, output=""):
     kinds = {kind.code: kind for kind in (ConfigError, GeometryError, FileError, IncompleteError, MemoryLimit,
                                           StoppedAtCheckpoint)}
     return kinds.get(code, InternalError)(messages, code, output)
+
+
+def missing_module(error):
+    """The error of an import again, with the way to install the module. error: ModuleNotFoundError."""
+    name = (error.name or "").split(".")[0]
+    return ModuleNotFoundError(f"trime_mpi needs the Python module '{name}', which {sys.executable} does not have; "
+                               f"Debian: apt-get install python3-{name}, for /usr/bin/python3; elsewhere: pip install "
+                               f"{name}", name=error.name)

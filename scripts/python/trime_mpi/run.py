@@ -10,7 +10,7 @@ import subprocess
 import tempfile
 import warnings as python_warnings
 
-from .config import ini_text, sections_of, value_text
+from .config import ini_text, override_texts, sections_of
 from .environment import run_environment
 from .errors import ConfigError, FileError, IncompleteError, ProgramMissing, TrimeError, error_of
 from .read import read
@@ -104,10 +104,12 @@ def mesh(config, ranks=1, threads=None, program=None, *, output=None, overwrite=
     """Runs trime_mpi, and returns the Mesh.
 
     config: the path of an ini, or a dict {section: {key: value}} with the keys of configs/keys.md. In a dict a part
-    may have `rings` (arrays [k,2]) in place of a file, and `fixed_points` may be an array. options: overrides
-    {"section.key": value}. ranks: more than one start by mpirun. threads: of each rank. output: NAME.h5, which stays;
-    without it (and without [output] directory in a dict) the run works in a temporary directory, and only the arrays
-    remain. verbose: the program's messages and progress are shown. timeout: seconds.
+    may have `rings` in place of a file: a ring [k,2] or a list of them, or polygons of shapely, geopandas and others that
+    have __geo_interface__. `fixed_points` may be an array [k,2]. Sizes are formulas; they cannot be arrays or functions
+    yet. Paths in a dict are relative to the working directory, in an ini and its options to the ini.
+    options: overrides {"section.key": value}. ranks: more than one start by mpirun. threads: of each rank. output:
+    NAME.h5, which stays; without it (and without [output] directory in a dict) the run works in a temporary directory,
+    and only the arrays remain. verbose: the program's messages and progress are shown. timeout: seconds.
 
     A program that mpirun has started may call this too. Each rank that calls it starts a run of its own, and waits for
     no other rank; ranks that write a file need different names. Where one rank alone makes the mesh, hand errors to the
@@ -128,7 +130,7 @@ def mesh(config, ranks=1, threads=None, program=None, *, output=None, overwrite=
         else:
             path = os.fspath(config)
         report = os.path.join(work, "report.json")
-        command += [path] + [f"{key}={value_text(value)}" for key, value in (options or {}).items()]
+        command += [path] + override_texts(options or {}, not isinstance(config, collections.abc.Mapping))
         if output is not None or not names_output(config):
             command += output_options(output, overwrite, os.path.join(work, "out"))
         elif overwrite:
