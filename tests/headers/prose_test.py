@@ -13,11 +13,11 @@ import unittest
 import prose
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGES = sorted([ROOT / "README.md", *ROOT.glob("*/*.md"), *ROOT.glob("*/*/*.md")])
+PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("*/*.md"), *ROOT.glob("*/*/*.md")])
 HEADERS = sorted((ROOT / "include" / "trime").rglob("*.hpp"))
 # Files whose words and sentences must be plain. Folders of headers and messages are added as they are rewritten, such as
 # "include/trime/shape/*.hpp" or "src/app/*.cpp".
-CHECKED = ("README.md", "configs/*.md", "jobs/*.md", "scripts/README.md", "scripts/packaging/*.md")
+CHECKED = ("CHANGELOG.md", "README.md", "configs/*.md", "jobs/*.md", "scripts/README.md", "scripts/packaging/*.md")
 # Tables made from C++ by a script or by --help-config: their words are corrected there, not on the page.
 MADE_TABLES = ("configs/keys.md", "src/rules.md")
 
