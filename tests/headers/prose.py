@@ -20,6 +20,7 @@ UNREAD_SECTIONS = ("Sources", "Changes")
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 AUXILIARIES = set("am is are was were be been being has have had do does did can cannot could may might must shall should "
                   "will would".split())
+ADVERBS = set("not also always never no only still".split())
 FRAGMENT_OPENERS = re.compile(r"^(Of|The same|As|Those|Like|Likewise|What|Whether|Which|How|Who)\b")
 CLAUSE_OPENERS = re.compile(r"\b(whether|what|which|how|who|that|if|where|when)\b", re.IGNORECASE)
 
@@ -155,25 +156,24 @@ def verbs():
 
 def count_verbs(sentence):
     """Verbs of a sentence; an auxiliary and its participle are one."""
-    words = re.findall(r"[a-z']+", without_code(sentence).lower())
-    count, after_auxiliary = 0, 99
+    words = [re.sub("n't$|'s$|'ll$", "", word) for word in re.findall("[a-z']+", without_code(sentence).lower())]
+    count, since_auxiliary = 0, 99
     for word in words:
-        word = re.sub(r"n't$|'s$|'ll$", "", word)
         if word in AUXILIARIES:
-            count += after_auxiliary > 2
-            after_auxiliary = 0
+            count += since_auxiliary > 0
+            since_auxiliary = 0
         elif word in verbs():
-            count += after_auxiliary > 2
-            after_auxiliary += 1
-        else:
-            after_auxiliary += 1
+            count += since_auxiliary > 1 or word.endswith("s")
+            since_auxiliary += 1
+        elif word not in ADVERBS and not word.endswith("ly"):
+            since_auxiliary += 1
     return count
 
 
 def is_fragment(sentence, kind, is_first):
     """True if the sentence lacks the verb that one of its kind needs: cells, messages, first sentences of items and
     comments may be names of things, but a comment that begins like half a sentence needs a verb of its own."""
-    if kind in ("cell", "message") or not re.search("[A-Za-z]{2}", sentence):
+    if kind in ("cell", "message") or sentence.endswith("?") or not re.search("[A-Za-z]{2}", sentence):
         return False
     opens_as_fragment = FRAGMENT_OPENERS.match(sentence)
     needed = 1

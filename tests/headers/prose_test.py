@@ -95,7 +95,9 @@ class Reader(unittest.TestCase):
 
     def test_knows_verbs(self):
         for sentence, count in (("The same.", 0), ("Of a sum.", 0), ("It is sorted.", 1), ("What is near.", 1),
-                                ("What a rank owns is sorted.", 2), ("Carries bars and stopped.", 2)):
+                                ("What a rank owns is sorted.", 2),
+                                ("Those that are new are marked.", 2), ("It has not always been kept.", 1),
+                                ("Which rings are holes follows.", 2), ("Carries bars and stopped.", 2)):
             self.assertEqual(prose.count_verbs(sentence), count, sentence)
 
     def test_finds_faults(self):
