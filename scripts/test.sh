@@ -6,7 +6,7 @@
 #   scripts/test.sh [--quick]      --quick: without second MPI, sanitizers and second compiler
 # The last line says how many tests passed and failed. Environment: TRIME_JOBS (cores), TRIME_NO_INSTALL=1,
 # TRIME_FULL_TABLE=1 (equal meshes on 1 to 16 ranks in all combinations), TRIME_FUZZ_SECONDS (of each fuzz target),
-# TRIME_SIMD (see src/README.md).
+# TRIME_SIMD (see src/building.md).
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/scripts/packages.sh"

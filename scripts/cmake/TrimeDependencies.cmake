@@ -12,7 +12,7 @@ if(TRIME_SIMULATE)
   set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 else()
   set(MPI_CXX_SKIP_MPICXX ON) # the C++ bindings of old MPI headers warn, and nobody uses them
-  find_package(MPI REQUIRED COMPONENTS CXX) # which one: MPI_CXX_COMPILER, see src/README.md
+  find_package(MPI REQUIRED COMPONENTS CXX) # which one: MPI_CXX_COMPILER, see src/building.md
 endif()
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 find_package(fmt REQUIRED)

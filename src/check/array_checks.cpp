@@ -58,7 +58,7 @@ std::uint64_t mix(std::uint64_t z) {
   return z ^ (z >> 31);
 }
 
-/// See "mesh_hash" in src/README.md.
+/// See "mesh_hash" in src/files.md.
 std::uint64_t hash_of(const Mesh& mesh) {
   const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value == 0 ? 0.0 : value); };
   std::uint64_t sum = 0;

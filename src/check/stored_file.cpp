@@ -279,7 +279,7 @@ bool read_mesh(const StoredFile& file, Mesh& mesh, Report& report) {
   mesh.periods = {file.number("/trime_mpi", "period_x").value_or(0), file.number("/trime_mpi", "period_y").value_or(0)};
   if (m == 0)
     wrong.note([] { return std::string("there are no triangles"); });
-  report.none("arrays", wrong, "arrays that are missing, or have another type or shape than src/README.md says");
+  report.none("arrays", wrong, "arrays that are missing, or have another type or shape than src/files.md says");
   return wrong.count == 0;
 }
 

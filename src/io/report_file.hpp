@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The report of a run as one JSON file: for scripts that compare many runs, also of runs that write no mesh. What it
-// holds is told in src/README.md, "The report as JSON".
+// holds is described in src/files.md, "The report as JSON".
 #pragma once
 
 #include "trime/comm/communicator.hpp"

@@ -17,7 +17,10 @@ PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("*/*.md"), *ROOT.glob("*/*/*.md")
 HEADERS = sorted((ROOT / "include" / "trime").rglob("*.hpp"))
 # Files whose words and sentences must be plain. Folders of headers and messages are added as they are rewritten, such as
 # "include/trime/shape/*.hpp" or "src/app/*.cpp".
-CHECKED = ("CHANGELOG.md", "README.md", "configs/*.md", "jobs/*.md", "scripts/README.md", "scripts/packaging/*.md")
+CHECKED = (
+    "*.md", "configs/*.md", "jobs/*.md", "scripts/README.md", "scripts/packaging/*.md",
+    "src/*.md", "tests/*.md",
+)
 # Tables made from C++ by a script or by --help-config: their words are corrected there, not on the page.
 MADE_TABLES = ("configs/keys.md", "src/rules.md")
 

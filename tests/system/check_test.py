@@ -43,7 +43,7 @@ def mix(z):
 
 
 def mesh_hash(file):
-    """As src/README.md says it."""
+    """The mesh hash, computed as src/files.md says."""
     xy = (file[GEOMETRY][:] + 0.0).view(np.uint64)
     ids = file[TOPOLOGY][:].astype(np.uint64)
     point = mix(mix(mix(np.uint64(2) * np.arange(len(xy), dtype=np.uint64)) ^ xy[:, 0]) ^ xy[:, 1])

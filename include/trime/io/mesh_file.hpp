@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The mesh file: NAME.h5 with its views NAME.xdmf and NAME.vtkhdf, written by all ranks together under a temporary
-// name, read back, and renamed only when it is whole. The layout is a contract with users, see src/README.md.
+// name, read back, and renamed only when it is whole. The layout is a contract with users, see src/files.md.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
