@@ -30,6 +30,7 @@ trime_test_packages=(
   environment-modules                             # loads the module file
   iproute2                                        # hosts of one's own: network namespaces, for runs over TCP
   mpich libhdf5-mpich-dev                         # the other MPI, beside Open MPI, which stays the default
+  doxygen                                         # reference pages of the public headers: scripts/doxygen.sh
   clang clang-format libomp-dev libclang-rt-14-dev # second compiler with its OpenMP and sanitizers, house style
 )
 
