@@ -7,12 +7,14 @@ Run by hand, this prints the faults of the files that are named: prose_test.py F
 import functools
 import pathlib
 import re
+import subprocess
 import sys
 import unittest
 
 import prose
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
 PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("*/*.md"), *ROOT.glob("*/*/*.md")])
 HEADERS = sorted((ROOT / "include" / "trime").rglob("*.hpp"))
 # Files whose words and sentences must be plain. Folders of headers and messages are added as they are rewritten, such as
@@ -117,6 +119,20 @@ class Reader(unittest.TestCase):
                            ("comment", "What a rank owns is sorted."), ("paragraph", "See `told by all`."),
                            ("cell", "The same"), ("message", "of one rank")):
             self.assertEqual(prose.faults(prose.Passage(1, kind, text)), [], text)
+
+
+class Sample(unittest.TestCase):
+    """sample_sentences.py"""
+
+    @unittest.skipIf(subprocess.run(["git", "-C", ROOT, "rev-parse", "HEAD"], capture_output=True, check=False).returncode,
+                     "no repository")
+    def test_a_seed_draws_the_same_sentences(self):
+        drawn = [subprocess.run([sys.executable, HERE / "sample_sentences.py", "--seed", seed, "--count", "7"],
+                                capture_output=True, text=True, check=True).stdout for seed in "112"]
+        self.assertEqual(drawn[0], drawn[1])
+        self.assertNotEqual(drawn[0], drawn[2])
+        self.assertEqual([line.split(" of ")[0] for line in drawn[0].splitlines() if line.startswith("# ")],
+                         ["# page: 3", "# message: 2", "# header: 2"])
 
 
 class Prose(unittest.TestCase):

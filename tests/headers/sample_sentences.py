@@ -8,17 +8,24 @@ A third each comes from pages, messages (string literals of at least four words 
 (*.hpp). The same revision and seed give the same sentences.
 """
 import argparse
+import io
 import pathlib
 import random
 import subprocess
+import tarfile
 
 import prose
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
-def git(*words):
-    return subprocess.run(["git", "-C", ROOT, *words], capture_output=True, text=True, check=True).stdout
+def files(revision):
+    """Yields (name, text) of the pages and C++ sources of a revision, by name."""
+    done = subprocess.run(["git", "-C", ROOT, "archive", revision], capture_output=True, check=True)
+    with tarfile.open(fileobj=io.BytesIO(done.stdout)) as archive:
+        for member in sorted(archive.getmembers(), key=lambda member: member.name):
+            if member.isfile() and member.name.endswith((".md", ".hpp", ".cpp")) and member.name != "src/rules.md":
+                yield member.name, archive.extractfile(member).read().decode("utf-8")
 
 
 def kind_of(name, passage):
@@ -33,10 +40,8 @@ def kind_of(name, passage):
 def pools(revision):
     """Lists of `file:line: sentence` of the revision, by kind."""
     found = {"page": [], "message": [], "header": []}
-    for name in sorted(git("ls-tree", "-r", "--name-only", revision).splitlines()):
-        if not name.endswith((".md", ".hpp", ".cpp")) or name == "src/rules.md":
-            continue
-        for passage in prose.passages(name, git("show", f"{revision}:{name}")):
+    for name, text in files(revision):
+        for passage in prose.passages(name, text):
             kind = kind_of(name, passage)
             for sentence in prose.sentences(passage.text) if kind else ():
                 if prose.count_words(sentence) > 3:
