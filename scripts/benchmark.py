@@ -12,8 +12,9 @@ sweep, for stars, moves, measuring and sorting together. Prints a table in Markd
   scripts/benchmark.py --against ../old/trime_mpi --cases "square 1e5"
   scripts/benchmark.py --gmsh --cases "square 1e5"             # Gmsh's Frontal-Delaunay of as many vertices beside it
 
-With `--gmsh` the seconds in Gmsh's row are those of its meshing alone, 1D and 2D, as it tells them: one thread, no start,
-no files; the whole command is beside them. On graded shapes it meshes the size field of our mesh, see gmsh_rival.py.
+With `--gmsh` the seconds in Gmsh's row are those of its meshing alone, 1D and 2D, as it tells them: one thread, no
+start, no files; the whole command is beside them. On graded shapes it meshes the size field of our mesh, see
+gmsh_rival.py.
 """
 import argparse
 import os
@@ -118,8 +119,8 @@ def main():
     for _, program in programs:
         if not program.is_file():
             parser.error(f"{program} is not there; --program names another one")
-    print("| case | program | points | seconds | command | points/s | sweeps | ns | set-up | clean-up | extract | output "
-          "| bytes/point | mean | max alpha | |\n" + "|---" * 16 + "|")
+    print("| case | program | points | seconds | command | points/s | sweeps | ns | set-up | clean-up | extract "
+          "| output | bytes/point | mean | max alpha | |\n" + "|---" * 16 + "|")
     for name in names:
         config, points = CASES[name]
         if arguments.data:
@@ -141,13 +142,14 @@ def main():
         row(name, "this", ours, arguments.threads)
         if arguments.against:
             theirs = median_of(runs["other"])
-            row(name, "other", theirs, arguments.threads, f"takes {theirs['seconds'] / ours['seconds']:.2f} times as long")
+            row(name, "other", theirs, arguments.threads,
+                f"takes {theirs['seconds'] / ours['seconds']:.2f} times as long")
         if others:
             seconds, command = (statistics.median(one[key] for one in others) for key in ("seconds", "command"))
             print(f"| {name} | Gmsh Frontal-Delaunay | {others[-1]['points']} | {seconds:.3f} | {command:.3f} "
                   f"| {others[-1]['points'] / seconds:.3g} " + "| " * 7 +
-                  f"| {others[-1]['mean']:.4f} | {others[-1]['worst']:.3f} | takes {seconds / ours['seconds']:.1f} times "
-                  "as long |", flush=True)
+                  f"| {others[-1]['mean']:.4f} | {others[-1]['worst']:.3f} | takes "
+                  f"{seconds / ours['seconds']:.1f} times as long |", flush=True)
 
 
 if __name__ == "__main__":

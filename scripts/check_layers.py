@@ -3,7 +3,8 @@
 """Checks that includes only point downward between the modules of the library.
 
 Usage: check_layers.py [ROOT]     ROOT: the top of the tree (default: the one that this script lies in)
-Prints each forbidden include as file:line and exits with 1 if there is any. Tests, benchmarks and examples may include anything.
+Prints each forbidden include as file:line and exits with 1 if there is any. Tests, benchmarks and examples may include
+anything.
 """
 import pathlib
 import re

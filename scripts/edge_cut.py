@@ -5,10 +5,10 @@
   scripts/edge_cut.py                                     # the table of scripts/README.md, in some minutes
   scripts/edge_cut.py --points 1e5 --parts 4 --mesh MESH.h5 ...
 
-The graph has a node for each triangle and an edge for each two that share a side. The edge cut counts those between parts;
-uneven is the largest part over the mean, minus 1. Our parts need no program: points lie along the curve in the file, a
-part is a range of equally many points, and a triangle goes with its first vertex. In a run borders lie between tiles of
-some 500 points, so parts are less even by that. Without METIS or Scotch their columns stay empty.
+The graph has a node for each triangle and an edge for each two that share a side. The edge cut counts those between
+parts; uneven is the largest part over the mean, minus 1. Our parts need no program: points lie along the curve in the
+file, a part is a range of equally many points, and a triangle goes with its first vertex. In a run borders lie between
+tiles of about 500 points, so parts are less even by that. Without METIS or Scotch their columns stay empty.
 """
 import argparse
 import os
@@ -72,7 +72,8 @@ def write_graphs(count, pairs, folder):
     neighbours, begin = neighbour_lists(count, pairs)
     from_0, from_1 = neighbours.tolist(), (neighbours + 1).tolist()
     begin = begin.tolist()
-    with open(folder / "graph", "w", encoding="ascii") as metis, open(folder / "graph.grf", "w", encoding="ascii") as scotch:
+    with open(folder / "graph", "w", encoding="ascii") as metis, \
+            open(folder / "graph.grf", "w", encoding="ascii") as scotch:
         metis.write(f"{count} {len(pairs)}\n")
         scotch.write(f"0\n{count} {2 * len(pairs)}\n0 000\n")
         for first, last in zip(begin, begin[1:]):
@@ -131,7 +132,8 @@ def main():
     options.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "release" / "trime_mpi")
     given = options.parse_args()
     part_numbers = [int(parts) for parts in given.parts.split(",")]
-    print("| mesh, triangles | parts | ours: cut | uneven | METIS: cut | uneven | Scotch: cut | uneven | ours over the best |")
+    print("| mesh, triangles | parts | ours: cut | uneven | METIS: cut | uneven | Scotch: cut | uneven "
+          "| ours over the best |")
     print("|---|---|---|---|---|---|---|---|---|", flush=True)
     with tempfile.TemporaryDirectory(prefix="trime-edge-cut-") as work:
         folder = pathlib.Path(work)

@@ -135,8 +135,8 @@ class Rival:
                 "Mesh.MeshSizeFromCurvature = 0;\n")
 
     def run(self):
-        """Seconds (meshing of the boundary and of the inside, as Gmsh tells them, without its start and files), those of
-        the whole command, and quality."""
+        """Seconds (meshing of the boundary and of the inside, as Gmsh tells them, without its start and files), those
+        of the whole command, and quality."""
         geo, msh = self.directory / "g.geo", self.directory / "g.msh"
         geo.write_text(self.geometry + self.size_text(), encoding="ascii")
         begun = time.perf_counter()

@@ -26,7 +26,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-import rules_table
+import rules_table  # noqa: E402  (found by the line above)
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 COLUMNS = ("number", "factor", "same_meshes", "mean_alpha", "largest_alpha", "points", "time", "failed")
@@ -77,8 +77,8 @@ def patch(tree, numbers, fixed):
             if not match or match.group(1) not in SIMPLE or name in fixed:
                 continue
             kind = match.group(1)
-            text = pattern.sub(f'static inline const {kind} {number.name} = trime::tuned<{kind}>("{name}", {match.group(2)});',
-                               text, count=1)
+            tuned = f'trime::tuned<{kind}>("{name}", {match.group(2)})'
+            text = pattern.sub(f"static inline const {kind} {number.name} = {tuned};", text, count=1)
             names.append(name)
         target = tree / path
         target.write_text(text.replace("#pragma once", '#pragma once\n#include "core/tuned.hpp"', 1), encoding="utf-8")
@@ -97,12 +97,13 @@ def build(work, numbers):
         shutil.copy2(ROOT / name, tree / name)
     (tree / "src/core/tuned.hpp").write_text(TUNED, encoding="utf-8")
     patch(tree, numbers, fixed)
-    subprocess.run(["cmake", "-S", tree, "-B", target, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DTRIME_BUILD_TESTS=OFF",
-                    "-DTRIME_BUILD_BENCHMARKS=OFF", "-DTRIME_BUILD_EXAMPLES=OFF"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["cmake", "-S", tree, "-B", target, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                    "-DTRIME_BUILD_TESTS=OFF", "-DTRIME_BUILD_BENCHMARKS=OFF", "-DTRIME_BUILD_EXAMPLES=OFF"],
+                   check=True, stdout=subprocess.DEVNULL)
     for _ in range(20):
         names = patch(tree, numbers, fixed)
-        done = subprocess.run(["cmake", "--build", target, "--target", "trime_mpi", "--", "-k", "0"], capture_output=True,
-                              text=True, check=False)
+        done = subprocess.run(["cmake", "--build", target, "--target", "trime_mpi", "--", "-k", "0"],
+                              capture_output=True, text=True, check=False)
         if done.returncode == 0:
             return target / "trime_mpi", names
         missing = set(re.findall(r"\b(\w+Rules|\w+Options)::(\w+)", done.stdout)) | {
@@ -124,7 +125,8 @@ def run(program, name, factor, case, directory):
     command = [program, ROOT / "configs" / config, *overrides, f"output.directory={directory}", f"output.name={case}",
                "output.overwrite=true", "output.formats=text"]
     try:
-        done = subprocess.run(["/usr/bin/env", "bash", "-c", 'TIMEFORMAT="user %U"; time "$@"', "bash", *map(str, command)],
+        done = subprocess.run(["/usr/bin/env", "bash", "-c", 'TIMEFORMAT="user %U"; time "$@"', "bash",
+                               *map(str, command)],
                               capture_output=True, text=True, env=environment, timeout=120, check=False)
     except subprocess.TimeoutExpired:
         return None
@@ -143,7 +145,10 @@ def measure(program, name, factor, base):
         results = {case: run(program, name, factor, case, directory) for case in CASES}
     failed = [case for case, result in results.items() if result is None]
     both = [(result, base[case]) for case, result in results.items() if result]
-    largest = lambda values: max(values, key=abs, default=0)
+
+    def largest(values):
+        return max(values, key=abs, default=0)
+
     time = sum(r[4] for r, _ in both) / max(1e-9, sum(b[4] for _, b in both))
     return {"number": name, "factor": factor, "same_meshes": sum(r[0] == b[0] for r, b in both),
             "mean_alpha": f"{largest([r[1] - b[1] for r, b in both]):+.4f}",

@@ -3,9 +3,9 @@
 """Quality and sweeps of the three methods on shapes that TriMe++ was measured on, beside its figures.
 
 Writes a config for each row, runs trime_mpi on one rank, and prints a table in Markdown: median, mean and largest
-alpha, smallest angle, conformity to the size (standard deviation of L / (s h)), sweeps, full sweeps and seconds. A sweep
-over a coarse mesh counts as that share of a full sweep which it has of the final points. Beside them stand the figures
-of TriMe++ (commit 3929c19, one thread or two, whichever was better) for the same shape and number of points.
+alpha, smallest angle, conformity to the size (standard deviation of L / (s h)), sweeps, full sweeps and seconds. A
+sweep over a coarse mesh counts as that share of a full sweep which it has of the final points. Beside them stand the
+figures of TriMe++ (commit 3929c19, one thread or two, whichever was better) for the same shape and number of points.
 
   scripts/quality_table.py                                  # the shapes that need no data
   scripts/quality_table.py --data DIR                       # with DIR/poker.xy and DIR/north_america.xy
@@ -20,10 +20,12 @@ import tempfile
 try:
     import h5py
 except ImportError:
-    sys.exit("quality_table.py needs the Python module h5py. Debian: apt-get install python3-h5py (for /usr/bin/python3)")
+    sys.exit("quality_table.py needs the Python module h5py. Debian: apt-get install python3-h5py, for "
+             "/usr/bin/python3")
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-SQUARE = "[shape]\nregion = plate\n[shape.plate]\ntype = rectangle\nx_min = 0.1\nx_max = 0.9\ny_min = 0.1\ny_max = 0.9\n"
+SQUARE = ("[shape]\nregion = plate\n[shape.plate]\ntype = rectangle\nx_min = 0.1\nx_max = 0.9\n"
+          "y_min = 0.1\ny_max = 0.9\n")
 POKER = ("[shape]\nregion = difference(spade, hole)\n[shape.spade]\ntype = contour\nfile = {data}/poker.xy\n"
          "normalize = true\n[shape.hole]\ntype = circle\ncenter = 0.5 0.7\nradius = 0.1\n")
 COAST = "[shape]\nregion = coast\n[shape.coast]\ntype = contour\nfile = {data}/north_america.xy\nnormalize = true\n"
@@ -75,7 +77,8 @@ def run(program, directory, name, config, points, method, overrides):
         stages = group["history/stage"][:]
         sweeps, points_of_sweep = group["history/sweep"][:], group["history/points"][:]
         found["final_sweeps"] = int(sweeps[-1] - sweeps[stages == stages.max()][0])
-        found["all_points_sweeps"] = ((sweeps[1:] - sweeps[:-1]) * points_of_sweep[1:]).sum() / max(1, int(found["points"]))
+        swept = ((sweeps[1:] - sweeps[:-1]) * points_of_sweep[1:]).sum()
+        found["all_points_sweeps"] = swept / max(1, int(found["points"]))
     return found
 
 

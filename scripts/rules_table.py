@@ -127,7 +127,8 @@ def effect_complaints(numbers, effects):
             lines.append(f"{number.where}: {number.name}: no line in {EFFECTS}: run scripts/measure_rules.py --only "
                          f"{number.full_name()}, or say '{NOT_MEASURED}' in its comment")
         if is_measured and says_not:
-            lines.append(f"{number.where}: {number.name}: its comment says '{NOT_MEASURED}', but {EFFECTS} has an effect")
+            lines.append(f"{number.where}: {number.name}: its comment says '{NOT_MEASURED}', but {EFFECTS} has an "
+                         "effect")
     known = {number.full_name() for number in numbers}
     return lines + [f"{EFFECTS}: {name}: there is no such number" for name in sorted(effects) if name not in known]
 

@@ -109,6 +109,7 @@ export -f check_format
 stage format bash -euo pipefail -c check_format || true
 stage layers /usr/bin/python3 scripts/check_layers.py || true
 stage doxygen scripts/doxygen.sh || true
+stage python flake8 || true
 if build ci; then
   tests ci "$((2 * jobs))" # for half of their time most of them wait for mpirun
 fi

@@ -4,7 +4,8 @@
 
 Usage: worst_cases.py PROGRAM [--only NAME ...] [--scale S] [--limit SECONDS] [--cpu]     PROGRAM: trime_mpi
 Prints a table. Each run is one rank; OMP_NUM_THREADS says how many threads (default 1). The exponent is that of n from
-the first to the last run: 1 where the time grows as n or n log n, 2 where it grows as a square. --scale multiplies all n.
+the first to the last run: 1 where the time grows as n or n log n, 2 where it grows as a square. --scale multiplies all
+n.
 """
 import argparse
 import math
@@ -79,7 +80,8 @@ def places_of_islands(n):
 
 def parts_config(bodies):
     names = ", ".join(f"p{k}" for k in range(len(bodies)))
-    return (f"[domain]\nx_min = 0\nx_max = 1\ny_min = 0\ny_max = 1\n[shape]\nregion = difference(domain, union({names}))\n"
+    return (f"[domain]\nx_min = 0\nx_max = 1\ny_min = 0\ny_max = 1\n[shape]\n"
+            f"region = difference(domain, union({names}))\n"
             + "".join(f"[shape.p{k}]\n{body}" for k, body in enumerate(bodies)))
 
 
@@ -95,7 +97,8 @@ def rectangles_as_parts(directory, n):
 def circles_as_parts(directory, n):
     """Circles, each a part of its own."""
     del directory
-    return parts_config([f"type = circle\ncenter = {x} {y}\nradius = {r}\n" for x, y, r in places_of_islands(n)]) + tail()
+    return parts_config([f"type = circle\ncenter = {x} {y}\nradius = {r}\n"
+                         for x, y, r in places_of_islands(n)]) + tail()
 
 
 @case(100000)
@@ -247,16 +250,17 @@ def fractal_coast(directory, n):
                  for r in (a, (a + b) / 2 + source.uniform(-spread, spread))]
         spread *= 0.55
     count = len(radii)
-    return contour(directory, [[(0.5 + r * math.cos(2 * math.pi * k / count), 0.5 + r * math.sin(2 * math.pi * k / count))
-                                for k, r in enumerate(radii)]], points=n)
+    return contour(directory,
+                   [[(0.5 + r * math.cos(2 * math.pi * k / count), 0.5 + r * math.sin(2 * math.pi * k / count))
+                     for k, r in enumerate(radii)]], points=n)
 
 
 @case(250000, validate=False)
 def sizes_over_six_decades(directory, n):
     """A size that grows from 1e-6 in the middle."""
     del directory
-    return ("[shape]\nregion = domain\n[sizing]\ntype = expression\nexpression = max(1e-6, sqrt((x-0.5)^2+(y-0.5)^2))\n" +
-            tail(n))
+    return ("[shape]\nregion = domain\n[sizing]\ntype = expression\n"
+            "expression = max(1e-6, sqrt((x-0.5)^2+(y-0.5)^2))\n" + tail(n))
 
 
 @case(250000, validate=False)

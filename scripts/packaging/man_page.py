@@ -52,8 +52,8 @@ def page(program):
              "trime_mpi \\- distributed generator of large 2D triangle meshes", ".SH SYNOPSIS",
              "[\\fBmpirun \\-np\\fR \\fIRANKS\\fR] \\fBtrime_mpi\\fR \\fICONFIG\\fR "
              "[\\fIsection.key\\fR=\\fIvalue\\fR ...] [\\fIOPTIONS\\fR]", ".SH DESCRIPTION",
-             "Reads a shape and an element size from a config file, and writes one HDF5 file with a triangle mesh of it. "
-             "The mesh does not depend on the number of ranks and threads.",
+             "Reads a shape and an element size from a config file, and writes one HDF5 file with a triangle mesh of "
+             "it. The mesh does not depend on the number of ranks and threads.",
              "A pair \\fIsection.key\\fR=\\fIvalue\\fR is set after the file.", ".SH OPTIONS"]
     for option, meaning in options:
         lines += [".TP", f"\\fB{roff(option)}\\fR", marked(meaning)]

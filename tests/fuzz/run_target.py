@@ -22,7 +22,8 @@ LARGEST_INPUT = 4096  # bytes
 MEBIBYTES, LARGEST_ARRAY = 2048, 512  # of the process, sanitizers included, and of one allocation
 SLOWEST = 20  # seconds of one input; small ones take milliseconds
 WITH_MPI = {"mesh_file", "checkpoint"}  # Open MPI keeps some memory to the end
-# Of one process: HDF5 keeps a file whose chunks it could not read, with its communicator, and Open MPI has 2^16 of these.
+# Of one process: HDF5 keeps a file whose chunks it could not read, with its communicator, and Open MPI has 2^16 of
+# these.
 MOST_RUNS = 20000
 
 
@@ -55,7 +56,8 @@ class Target:
     def run(self, seed, seconds):
         """One process; true if it found nothing."""
         done = subprocess.run(self.command(seed, seconds), cwd=self.work, env=self.environment(),
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", check=False)
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
+                              check=False)
         left = [path.name for path in self.work.iterdir() if path != self.grown and not path.is_dir()]
         lines = done.stdout.splitlines()
         if done.returncode != 0 or left:

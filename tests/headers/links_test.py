@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The documents hold together: every relative link of every *.md file leads to a file, and to a heading if it names one;
-README.md is short."""
+"""The documents hold together: every relative link of every *.md file leads to a file, and to a heading if it names
+one; README.md is short."""
 import pathlib
 import re
 import subprocess
@@ -76,9 +76,10 @@ class Links(unittest.TestCase):
         """A guard of the first test."""
         with tempfile.TemporaryDirectory() as directory:
             root = pathlib.Path(directory)
-            (root / "a.md").write_text("# One *two*, `three`\n# One two three\n[x](b.md) [x](b.md#here) [x](#one-two-three)\n"
-                                       "![p](p.png) [x](b.md#there) [x](#one-two-three-1) [x](https://c.d/e) `[x](f.md)`\n"
-                                       "```\n# no heading\n[x](g.md)\n```\n[x](#no-heading)\n[y]: h.md\n", encoding="utf-8")
+            (root / "a.md").write_text(
+                "# One *two*, `three`\n# One two three\n[x](b.md) [x](b.md#here) [x](#one-two-three)\n![p](p.png) "
+                "[x](b.md#there) [x](#one-two-three-1) [x](https://c.d/e) `[x](f.md)`\n```\n# no heading\n"
+                "[x](g.md)\n```\n[x](#no-heading)\n[y]: h.md\n", encoding="utf-8")
             (root / "b.md").write_text("## Here\n", encoding="utf-8")
             self.assertEqual(broken(root), [f"a.md: {target}" for target in (
                 "p.png: there is no such file", "b.md#there: there is no such heading",

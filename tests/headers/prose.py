@@ -18,8 +18,8 @@ TAG = re.compile(r"^@(brief|note|return|throws|pre|post|param)\s*")
 ITEM = re.compile(r"^([-*] |\d+\. )")
 UNREAD_SECTIONS = ("Sources", "Changes")
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
-AUXILIARIES = set("am is are was were be been being has have had do does did can cannot could may might must shall should "
-                  "will would".split())
+AUXILIARIES = set("am is are was were be been being has have had do does did can cannot could may might must shall "
+                  "should will would".split())
 ADVERBS = set("not also always never no only still".split())
 FRAGMENT_OPENERS = re.compile(r"^(Of|The same|As|Those|Like|Likewise|What|Whether|Which|How|Who)\b")
 CLAUSE_OPENERS = re.compile(r"\b(whether|what|which|how|who|that|if|where|when)\b", re.IGNORECASE)

@@ -17,8 +17,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("*/*.md"), *ROOT.glob("*/*/*.md")])
 HEADERS = sorted((ROOT / "include" / "trime").rglob("*.hpp"))
-# Files whose words and sentences must be plain. Folders of headers and messages are added as they are rewritten, such as
-# "include/trime/shape/*.hpp" or "src/app/*.cpp".
+# Files whose words and sentences must be plain. Folders of headers and messages are added as they are rewritten, such
+# as "include/trime/shape/*.hpp" or "src/app/*.cpp".
 CHECKED = (
     "*.md", "configs/*.md", "jobs/*.md", "scripts/README.md", "scripts/packaging/*.md",
     "src/*.md", "tests/*.md",
@@ -108,7 +108,8 @@ class Reader(unittest.TestCase):
     def test_finds_faults(self):
         for kind, text, fault in (
                 ("paragraph", "Both are told.", "'told'"), ("cell", "Words beside it", "'beside'"),
-                ("message", "it is none: `told`", "'is none'"), ("paragraph", "The mesh is good. At most 5.", "no verb"),
+                ("message", "it is none: `told`", "'is none'"),
+                ("paragraph", "The mesh is good. At most 5.", "no verb"),
                 ("item", "`a`: the same everywhere. Never more.", "no verb"), ("comment", "Of a sum.", "no verb"),
                 ("comment", "Whether it is sorted.", "no verb"), ("comment", "The same, for ranks.", "no verb"),
                 ("item", "It is " + "very " * 40 + "long.", "43 words")):

@@ -18,7 +18,8 @@ BUILD = pathlib.Path(sys.argv.pop(1) if len(sys.argv) > 1 else ROOT / "build" / 
 
 
 def output(*command):
-    return subprocess.run([str(part) for part in command], capture_output=True, text=True, check=True, timeout=120).stdout
+    return subprocess.run([str(part) for part in command], capture_output=True, text=True, check=True,
+                          timeout=120).stdout
 
 
 class Package(unittest.TestCase):

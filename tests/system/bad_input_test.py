@@ -61,7 +61,8 @@ class Row:
             for path, text in self.files.items():
                 (work / path).write_text(text, encoding="utf-8")
             before = sorted(work.rglob("*"))
-            place = [] if any("output.directory" in word for word in self.extra) else [f"output.directory={work}/result"]
+            is_placed = any("output.directory" in word for word in self.extra)
+            place = [] if is_placed else [f"output.directory={work}/result"]
             for ranks in self.ranks_tried:
                 for mode in self.modes if ranks == self.ranks_tried[0] else self.modes[:1]:
                     done = run(work / self.name, *place, *self.extra, *mode, ranks=ranks, cwd=work, timeout=300)
@@ -123,7 +124,8 @@ class Rows:
         yield Row(None, FILE, [r"missing\.ini"], name="missing.ini")
 
     def a_contour_or_a_mesh_in_place_of_a_config(self):
-        yield Row("0 0\n1 0\n1 1\n", USAGE, [r"coast\.xy: expected a config, found a contour.*file = "], name="coast.xy")
+        yield Row("0 0\n1 0\n1 1\n", USAGE, [r"coast\.xy: expected a config, found a contour.*file = "],
+                  name="coast.xy")
         yield Row("", USAGE, [r"a\.h5: expected a config, found a mesh file.*trime_mpi info .*a\.h5"], name="a.h5")
 
     def bad_values(self):
@@ -234,11 +236,11 @@ class Rows:
                       [rf"case\.ini:{line}: 'expression' in \[sizing\]: .*positive"])
         yield Row(start, USAGE, [rf"case\.ini:{line - 1}: .*needs 'expression'"])
         yield Row(start + "expression = 1+x\n", USAGE, [rf"case\.ini:{line}: .*both sides of the periodic"],
-                     extra=["domain.periodic_x=true"])
+                  extra=["domain.periodic_x=true"])
         yield Row(GOOD, USAGE, [r"gradation.*from 0 to 2"],
-                     extra=["sizing.type=automatic", "sizing.gradation=10"])
+                  extra=["sizing.type=automatic", "sizing.gradation=10"])
         yield Row(GOOD, USAGE, [r"command line: .*min_size <= max_size"],
-                     extra=["sizing.min_size=0.2", "sizing.max_size=0.1"])
+                  extra=["sizing.min_size=0.2", "sizing.max_size=0.1"])
 
     def shape_outside_of_the_container(self):
         for centre in ("5 5", "0.9 0.5"):  # outside, partly

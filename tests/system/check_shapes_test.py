@@ -35,8 +35,8 @@ class Shapes(unittest.TestCase):
         for file, text in dict(files).items():
             (self.work / file).write_text(text, "ascii")
         path = self.work / f"{name}.ini"
-        path.write_text((f"[domain]\n{domain}" if domain else "") + f"[shape]\nregion = {region}\n{parts}[meshing]\n{meshing}",
-                        "ascii")
+        domain = f"[domain]\n{domain}" if domain else ""
+        path.write_text(f"{domain}[shape]\nregion = {region}\n{parts}[meshing]\n{meshing}", "ascii")
         return path
 
     def mesh(self, config, codes=(0,)):
@@ -70,12 +70,14 @@ class Shapes(unittest.TestCase):
                 config = self.config(name, parts, domain=domain, files=band)
                 path = self.mesh(config)
                 for arguments in ([path], [path, config]):
-                    self.assertRegex(self.passes(*arguments), rf"(?m)^ok +corners +expected {corners}, found {corners}:")
+                    self.assertRegex(self.passes(*arguments),
+                                     rf"(?m)^ok +corners +expected {corners}, found {corners}:")
 
     def test_crowded_fixed_points(self):
         """Triangles between them cannot have the size, and the report says so."""
         for name, points, crowded in (("boundary", "0.1001 0.5\n", True), ("near", "0.5 0.5\n0.501 0.5\n", True),
-                                      ("nearer", "0.5 0.5\n0.50000001 0.5\n", True), ("far", "0.3 0.5\n0.6 0.5\n", False)):
+                                      ("nearer", "0.5 0.5\n0.50000001 0.5\n", True),
+                                      ("far", "0.3 0.5\n0.6 0.5\n", False)):
             with self.subTest(points=name):
                 config = self.config(name, rectangle(0.1, 0.9, 0.1, 0.9), files={f"{name}_fixed.xy": points},
                                      meshing=f"points = 500\nfixed_points = {name}_fixed.xy\nworst_alpha = 1e9\n")
@@ -94,7 +96,8 @@ class Shapes(unittest.TestCase):
         self.assertRegex(text, r"(?m)^-- +size_mean +not checked: the size is an expression")
 
     def test_sites_pushed_out_of_the_container(self):
-        """Where rings touch at its side the boundary is simplified, and may stray by the share of h that the config allows."""
+        """Where rings touch at its side the boundary is simplified, and may stray by the share of h that the config
+        allows."""
         rings = {"touch.xy": "0 0\n1 0\n1 1\n0 1\n\n0.5 0\n0.7 0.3\n0.3 0.3\n"}
         config = self.config("touch", contour("touch.xy"), files=rings, meshing="points = 900\n")
         self.passes(self.mesh(config), config)
@@ -111,13 +114,15 @@ class Shapes(unittest.TestCase):
                 self.finds(names, plain, self.config("other", rectangle(0.1, 0.9, 0.1, 0.9) + circle(*place), region))
 
     def test_rings_that_the_mesh_does_not_have(self):
-        """A round third ring of a contour has no corner that would be missed; a hole in a simplified shape is found, too."""
+        """A round third ring of a contour has no corner that would be missed; a hole in a simplified shape is found,
+        too."""
         square, lake = "0.1 0.1\n0.9 0.1\n0.9 0.9\n0.1 0.9\n", "0.3 0.3\n0.6 0.3\n0.6 0.6\n0.3 0.6\n"
         disc = "".join(f"{0.75 + 0.1 * math.cos(k / 10)!r} {0.75 + 0.1 * math.sin(k / 10)!r}\n" for k in range(62))
         coast = "".join(f"{0.5 + r * math.cos(k / 300)!r} {0.5 + r * math.sin(k / 300)!r}\n"
                         for k in range(1885) for r in [0.4 + 0.01 * math.sin(k * k)])
         files = {"two.xy": f"{square}\n{lake}", "three.xy": f"{square}\n{lake}\n{disc}", "coast.xy": coast,
-                 "pond.xy": f"{coast}\n{lake}", "island.xy": f"{coast}\n" + lake.replace("0.3", "0.0").replace("0.6", "0.1")}
+                 "pond.xy": f"{coast}\n{lake}",
+                 "island.xy": f"{coast}\n" + lake.replace("0.3", "0.0").replace("0.6", "0.1")}
         mesh = self.mesh(self.config("two", contour("two.xy"), files=files))
         self.finds(["outside", "uncovered_curves"], mesh, self.config("three", contour("three.xy")))
         mesh = self.mesh(self.config("coast", contour("coast.xy")))
@@ -144,7 +149,8 @@ class Shapes(unittest.TestCase):
         self.passes(path, config)
 
     def test_shapes_without_curves(self):
-        """Nothing is said of formulas, and the report tells so; a part that the region does not name does not matter."""
+        """Nothing is said of formulas, and the report tells so; a part that the region does not name does not
+        matter."""
         formula = "[shape.f]\ntype = expression\nsdf = sqrt((x-0.5)^2+(y-0.5)^2)-0.3\n"
         text = self.passes(self.mesh(self.config("formula", formula, "f")))
         self.assertRegex(text, r"(?m)^-- +region_cover +not checked: .* part f")

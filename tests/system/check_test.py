@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""trime_check passes the meshes of all configs, and finds each kind of damage done to a file, by the check that must."""
+"""trime_check passes the meshes of all configs, and finds each kind of damage done to a file, by the check that
+must."""
 import json
 import math
 import os
@@ -327,7 +328,8 @@ class Check(unittest.TestCase):
         config = self.work / "crossing.ini"
         config.write_text("[shape]\nregion = difference(comb, star)\n" +
                           "".join(f"[shape.{name}]\ntype = contour\nfile = {name}.xy\n" for name in ("comb", "star")) +
-                          "[meshing]\npoints = 4000\nkeep_features = true\ncorner_angle = 3\n[output]\nname = crossing\n", "ascii")
+                          "[meshing]\npoints = 4000\nkeep_features = true\ncorner_angle = 3\n"
+                          "[output]\nname = crossing\n", "ascii")
         done = run(config, f"output.directory={self.work}")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
@@ -361,10 +363,12 @@ class Check(unittest.TestCase):
             return f"type = circle\ncenter = {x} 0.5\nradius = {radius}\n"
 
         shapes = {  # two parts, corners, corners left out
-            "slanted": ((rectangle(0.1, 0.6, 0.3, 0.6), "type = triangle\np0 = 0.4 0.58\np1 = 0.4 0.2\np2 = 0.9 0.66\n"), 9, 0),
+            "slanted": ((rectangle(0.1, 0.6, 0.3, 0.6),
+                         "type = triangle\np0 = 0.4 0.58\np1 = 0.4 0.2\np2 = 0.9 0.66\n"), 9, 0),
             "circles": ((circle(0.4, 0.3), circle(0.43, 0.28)), 2, 0),
             "one_side": ((rectangle(0.1, 0.49, 0.1, 0.6), rectangle(0.45, 0.9, 0.1, 0.6)), 6, 0),
-            "bump": ((rectangle(0.1, 0.9, 0.1, 0.6), "type = triangle\np0 = 0.48 0.599\np1 = 0.52 0.599\np2 = 0.5 0.6005\n"), 4, 2),
+            "bump": ((rectangle(0.1, 0.9, 0.1, 0.6),
+                      "type = triangle\np0 = 0.48 0.599\np1 = 0.52 0.599\np2 = 0.5 0.6005\n"), 4, 2),
         }
         for name, (parts, corners, left_out) in shapes.items():
             with self.subTest(shape=name):

@@ -111,7 +111,8 @@ class Contours(unittest.TestCase):
         exact = COAST + "keep_features = true\n"  # else narrow parts are cut or widened
         for text, points in ((SPADE, 6000), (exact, 20000)):
             with self.subTest(points=points), Workspace() as work:
-                done = subprocess.run([sys.executable, test, self.config(work, text + f"points = {points}\n"), str(points)],
+                done = subprocess.run([sys.executable, test, self.config(work, text + f"points = {points}\n"),
+                                       str(points)],
                                       capture_output=True, text=True, timeout=280, check=False)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What fails beside the program: disks that fill up, directories that vanish, ranks that die. Each run ends soon, with a
-message and a code; no half file has a final name, and the mesh of an older run stays whole. Prints a table.
+"""What fails beside the program: disks that fill up, directories that vanish, ranks that die. Each run ends soon, with
+a message and a code; no half file has a final name, and the mesh of an older run stays whole. Prints a table.
 
 File systems of its own need the right to mount (root in a container); without it those tests are skipped."""
 import hashlib
@@ -29,7 +29,8 @@ PATIENCE = 120  # seconds for a run that nothing disturbs, on a machine that is 
 POINTS = 40_000
 ROOM = "16m"  # the mesh needs 8 MB, and twice that while it replaces an older one
 # As the live line names them, in their order.
-PHASES = ("shape", "size field", "boundary", "points", "sweeps", "settle", "clean-up", "extract", "certificate", "output")
+PHASES = ("shape", "size field", "boundary", "points", "sweeps", "settle", "clean-up", "extract", "certificate",
+          "output")
 TABLE = []
 
 

@@ -67,7 +67,8 @@ class FileContract(unittest.TestCase):
                          if domain.getboolean(f"periodic_{axis}") else np.inf for axis in "xy"])
 
     def corners(self):
-        """The three corners of all triangles, those across a border of the container as the images next to the first."""
+        """The three corners of all triangles, those across a border of the container as the images next to the
+        first."""
         p, q, r = (self.xy[self.triangles[:, k]] for k in range(3))
         finite = np.where(np.isfinite(self.periods), self.periods, 0)
         return p, *(v - finite * np.round((v - p) / self.periods) for v in (q, r))

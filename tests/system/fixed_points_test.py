@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fixed points from a file: vertices of the mesh, with and without a contour's normalisation; mistakes by file and line."""
+"""Fixed points from a file: vertices of the mesh, with and without a contour's normalisation; mistakes by file and
+line."""
 import unittest
 
 import h5py

@@ -130,7 +130,8 @@ class Formats(unittest.TestCase):
                            XDG_CACHE_HOME=str(self.work), OMP_NUM_THREADS="1")
         for ranks in (1, 2):
             start = [] if ranks == 1 else [MPIEXEC, "-np", str(ranks)]
-            done = subprocess.run([*start, sys.executable, "-c", BY_DOLFINX, *[self.work / stem for stem in self.expected]],
+            done = subprocess.run([*start, sys.executable, "-c", BY_DOLFINX,
+                                   *[self.work / stem for stem in self.expected]],
                                   env=environment, capture_output=True, text=True, timeout=300, check=False)
             self.assertEqual(done.returncode, 0, done.stderr)
             for stem, expected in self.expected.items():
@@ -211,7 +212,8 @@ class Formats(unittest.TestCase):
                 np.testing.assert_array_equal(found["triangle"][:, :3], expected.triangles)
                 self.assertEqual(set(found["triangle"][:, 3]), set(expected.regions.values()))
                 edges = found["edge"].astype(int)
-                self.assertEqual(rows(np.sort(edges[:, :2]), edges[:, 2]), rows(np.sort(expected.edges), expected.labels))
+                self.assertEqual(rows(np.sort(edges[:, :2]), edges[:, 2]),
+                                 rows(np.sort(expected.edges), expected.labels))
                 lengths = [expected.length(label) for label in sorted(expected.parts.values())]
                 np.testing.assert_allclose(found["length"][:, 0], lengths, rtol=1e-12)
 
@@ -418,14 +420,14 @@ class Formats(unittest.TestCase):
 
     def test_info_of_damaged_tables(self):
         """Columns of unlike length, and one that claims far more rows than the file holds."""
-        for name, rows, words in (("edge_kind", 0, "edge_kind has 0 rows"), ("edge_count", 10**13, "claims to have")):
+        for name, count, words in (("edge_kind", 0, "edge_kind has 0 rows"), ("edge_count", 10**13, "claims to have")):
             damaged = self.work / f"{name}.h5"
             shutil.copyfile(self.work / "own.h5", damaged)
             with h5py.File(damaged, "r+") as file:
                 tags = file["trime_mpi/tags"]
                 kind = tags[name].dtype
                 del tags[name]
-                tags.create_dataset(name, shape=(rows,), dtype=kind, chunks=(64,), maxshape=(None,))
+                tags.create_dataset(name, shape=(count,), dtype=kind, chunks=(64,), maxshape=(None,))
             done = run("info", damaged)
             self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
             self.assertIn(words, done.stderr)

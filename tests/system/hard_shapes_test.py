@@ -48,7 +48,8 @@ def star(spikes, inner, outer):
 
 def koch(level):
     """Snowflake with 3 * 4^level segments."""
-    ring = [0.5 + 0.5j + 0.45 * complex(math.cos(a), math.sin(a)) for a in (math.pi / 2, -math.pi / 6, -5 * math.pi / 6)]
+    ring = [0.5 + 0.5j + 0.45 * complex(math.cos(a), math.sin(a))
+            for a in (math.pi / 2, -math.pi / 6, -5 * math.pi / 6)]
     outward = complex(0.5, math.sqrt(0.75))
     for _ in range(level):
         ring = [p for a, b in zip(ring, ring[1:] + ring[:1])
@@ -141,7 +142,8 @@ class HardShapes(unittest.TestCase):
     def test_halving_runs_from_tooth_to_tooth(self):
         self.mesh([comb(40, 0.01)], "meshing.points=3000")
         self.mesh([comb(40, 0.01)], "meshing.points=1000", "sizing.type=automatic")
-        self.error([comb(40, 0.01)], "meshing.points=1000", "sizing.type=automatic", "meshing.keep_features=true", code=2,
+        self.error([comb(40, 0.01)], "meshing.points=1000", "sizing.type=automatic", "meshing.keep_features=true",
+                   code=2,
                    says=["points = 1000 are too few", "boundary alone needs", "the shortest chord, 0.01 long, is at ("])
 
     def test_touching(self):

@@ -25,7 +25,7 @@ class Hosts(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         version = subprocess.run([MPIEXEC, "--version"], capture_output=True, text=True, check=True).stdout
-        if "Open MPI" not in version and "OpenRTE" not in version: # mpiexec has the name of its layer
+        if "Open MPI" not in version and "OpenRTE" not in version:  # mpiexec has the name of its layer
             raise unittest.SkipTest(f"{MPIEXEC} is not Open MPI's, and hosts_here.sh steers no other")
         probe = on_hosts(2, "true")
         if probe.returncode == NO_NAMESPACES:

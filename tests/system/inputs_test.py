@@ -25,7 +25,8 @@ CONFIG = "[shape]\nregion = land\n[shape.land]\ntype = contour\nfile = {}\n[mesh
 
 def gdal(*arguments):
     """Output of a program of GDAL."""
-    return subprocess.run([str(word) for word in arguments], capture_output=True, text=True, check=True, timeout=60).stdout
+    return subprocess.run([str(word) for word in arguments], capture_output=True, text=True, check=True,
+                          timeout=60).stdout
 
 
 def shapefile(path, text):
@@ -163,7 +164,8 @@ class Names(unittest.TestCase):
 
     def collection(self):
         features = [({"type": "LineString", "coordinates": line}, {"kind": kind, "tag": tag})
-                    for line, kind, tag in self.LINES] + [({"type": "LineString", "coordinates": self.ISLAND}, {"id": 1})]
+                    for line, kind, tag in self.LINES] + [({"type": "LineString", "coordinates": self.ISLAND},
+                                                           {"id": 1})]
         return json.dumps({"type": "FeatureCollection", "features": [
             {"type": "Feature", "geometry": geometry, "properties": properties}
             for geometry, properties in features]}, indent=1, ensure_ascii=False)
@@ -177,7 +179,8 @@ class Names(unittest.TestCase):
         with h5py.File(work / "case.h5") as file:
             points, edges = file["Mesh/mesh/geometry"][:], file["Mesh/facets/topology"][:]
             tags = file["trime_mpi/tags"]
-            self.assertEqual({name.decode(): int(marker) for name, marker in zip(tags["part_name"], tags["part_marker"])},
+            self.assertEqual({name.decode(): int(marker)
+                              for name, marker in zip(tags["part_name"], tags["part_marker"])},
                              names)
             of_edge = [tags["part_name"][part].decode() for part in file["Mesh/facets/parts"][:]]
             found = int(file["trime_mpi"].attrs["mesh_hash"])
@@ -198,7 +201,8 @@ class Names(unittest.TestCase):
         with Workspace() as work:
             (work / "a.geojson").write_text(self.collection())
             shapefile(work / "a.shp", self.collection())
-            gdal("ogr2ogr", "-f", "ESRI Shapefile", "-lco", "ENCODING=ISO-8859-1", work / "latin.shp", work / "a.geojson")
+            gdal("ogr2ogr", "-f", "ESRI Shapefile", "-lco", "ENCODING=ISO-8859-1", work / "latin.shp",
+                 work / "a.geojson")
             texts = {"land": 0, "land.open sea": 1, "land.Küste": 2}
             numbers = {"land": 0, "land.5": 5, "land.-2": -2}
             found = {self.check(work, name, "kind", texts, ranks)
@@ -218,7 +222,8 @@ class Names(unittest.TestCase):
         text = json.dumps({"type": "FeatureCollection", "name": "islands", "xy_coordinate_resolution": 1e-15,
                            "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32632"}},
                            "features": [{"type": "Feature", "properties": {"fid": 7, "name": name}, "geometry":
-                                         {"type": "MultiPolygon", "coordinates": polygons}} for polygons, name in parts] +
+                                         {"type": "MultiPolygon", "coordinates": polygons}}
+                                        for polygons, name in parts] +
                            [{"type": "Feature", "properties": {"fid": 9, "name": "gone"}, "geometry": None}]},
                           ensure_ascii=False)
         lengths = {"land": 4 * 6, "land.Küste": 4 * (40 + 10 + 15 + 10), "land.isle": 4 * (20 + 8)}
@@ -347,7 +352,8 @@ class Maps(unittest.TestCase):
         with Workspace() as work:
             shapefile(work / "a.shp", geojson(SQUARE + SQUARE[:1]))
             (work / "case.ini").write_text(CONFIG.format("a.shp", 500))
-            self.assertRegex(run(work / "case.ini", "--validate").stdout, r"warning: .*'projection = auto' in \[shape\]")
+            self.assertRegex(run(work / "case.ini", "--validate").stdout,
+                             r"warning: .*'projection = auto' in \[shape\]")
             (work / "a.prj").unlink()
             self.assertRegex(run(work / "case.ini", "--validate").stdout,
                              r"a\.shp tells no reference system: .* 'projection = auto' in \[shape\]")
@@ -366,7 +372,8 @@ class Maps(unittest.TestCase):
     def test_a_part_that_is_not_used_may_lie_anywhere(self):
         with Workspace() as work:
             part = "[shape.{}]\ntype = circle\ncenter = {} {}\nradius = 0.4\n"
-            (work / "case.ini").write_text("[domain]\nx_max = 1\n[shape]\nregion = disc\n" + part.format("disc", 0.5, 0.5) +
+            (work / "case.ini").write_text("[domain]\nx_max = 1\n[shape]\nregion = disc\n" +
+                                           part.format("disc", 0.5, 0.5) +
                                            part.format("far", 50, 50) + "[meshing]\npoints = 500\n")
             done = run(work / "case.ini", "--validate")
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)

@@ -144,8 +144,8 @@ class Interrupted(unittest.TestCase):
         limit = 40_000_000  # bytes: more than MPI's own files need, less than those of the mesh
         with Workspace() as directory:
             arguments = [CONFIG, "meshing.points=500000", f"output.directory={directory}", "output.name=mesh"]
-            done = subprocess.run(command(arguments, 1), env=environment(1), capture_output=True, text=True, check=False,
-                                  timeout=PATIENCE, preexec_fn=lambda: resource.setrlimit(
+            done = subprocess.run(command(arguments, 1), env=environment(1), capture_output=True, text=True,
+                                  check=False, timeout=PATIENCE, preexec_fn=lambda: resource.setrlimit(
                                       resource.RLIMIT_FSIZE, (limit, limit)))
             self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
             self.assertIn("File too large", done.stderr)

@@ -32,7 +32,8 @@ class Jobs(unittest.TestCase):
         with (cls.work / "start.log").open("w", encoding="utf-8") as log:  # daemons would keep a pipe open
             done = subprocess.run([SLURM, "start", cls.slurm], stdout=log, stderr=log, check=False, timeout=90)
         if done.returncode != 0:
-            raise unittest.SkipTest("SLURM does not start here: " + (cls.work / "start.log").read_text(encoding="utf-8"))
+            said = (cls.work / "start.log").read_text(encoding="utf-8")
+            raise unittest.SkipTest(f"SLURM does not start here: {said}")
         for name in ("jobs", "configs", "scripts"):
             (cls.work / name).symlink_to(ROOT / name)
         done = run(ROOT / "configs" / "square.ini", SMALL, f"output.directory={cls.work / 'direct'}")
@@ -70,8 +71,8 @@ class Jobs(unittest.TestCase):
         self.assertIn("2 ranks x 1 threads", log)
 
     def test_restartable(self):
-        """The signal comes as SLURM sends it before the limit, but as soon as the program has said a word: all sweeps are
-        still to come then, however fast the machine is."""
+        """The signal comes as SLURM sends it before the limit, but as soon as the program has said a word: all sweeps
+        are still to come then, however fast the machine is."""
         points = "meshing.points=500000"
         done = run(ROOT / "configs" / "square.ini", points, f"output.directory={self.work / 'long'}", ranks=2)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
@@ -89,7 +90,8 @@ class Jobs(unittest.TestCase):
         self.assertIn("stopped at the checkpoint", log)
         self.assertIn("start 1", log)
         self.assertIn("restart: from", log)
-        self.assertEqual(self.hash_of(self.work / "out" / job / "square.h5"), self.hash_of(self.work / "long" / "square.h5"))
+        self.assertEqual(self.hash_of(self.work / "out" / job / "square.h5"),
+                         self.hash_of(self.work / "long" / "square.h5"))
 
     def wait_for_end(self, job):
         """Of a job that may be queued again; the text of its log."""

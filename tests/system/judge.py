@@ -13,16 +13,13 @@ What the columns mean: `judge.py columns`.
 import argparse
 import configparser
 import json
-import os
 import pathlib
 import re
 import subprocess
-import sys
 import tempfile
 import time
 
 import h5py
-import numpy as np
 
 import real_shapes
 from mesh_measures import MeshMeasures
@@ -43,16 +40,19 @@ COLUMNS = {
     "free_mean": "mean of alpha away from sharp corners (as `free`)",
     "free_good": "share of the triangles there with alpha at most 1.2 [%]",
     "forced": "triangles at sharp corners: those that `free` leaves out",
-    "free": "largest alpha away from sharp corners: boundary vertices of the mesh with an inside angle below 56 degrees",
+    "free": "largest alpha away from sharp corners: boundary vertices of the mesh with an inside angle below 56 "
+            "degrees",
     "free_angle": "smallest angle there [degrees]",
-    "kept": "the same where only corners count that are vertices of the input, bit for bit within 1e-9 of the container",
+    "kept": "the same where only corners count that are vertices of the input, bit for bit within 1e-9 of the "
+            "container",
     "bad": "triangles with alpha above 1.5 away from sharp corners (as `free`)",
     "at": "place of the triangle of `free`",
     "deviation": "largest distance of a facet of the mesh from the input's curve, over the size that the boundary was "
                  "simplified for: the one asked for, times `coarse`",
     "deviation_at": "its place",
     "coarse": "the size that the boundary was simplified for, over that of the mesh",
-    "lost": "largest distance of the input's curve from the mesh's boundary, over the local size: what was cut or dropped",
+    "lost": "largest distance of the input's curve from the mesh's boundary, over the local size: what was cut or "
+            "dropped",
     "area": "area of the mesh over that of the shape, minus 1 [%]",
     "rings": "rings of the input",
     "loops": "closed loops of the mesh's boundary",
@@ -63,8 +63,9 @@ COLUMNS = {
     "failed": "checks of the certificate that failed",
     "message": "first error",
 }
-SHOWN = ("shape", "asked", "sizing", "exit", "points", "triangles", "mean", "max", "good", "angle", "free", "free_angle",
-         "free_mean", "free_good", "kept", "bad", "at", "deviation", "deviation_at", "coarse", "lost", "area", "rings", "loops", "seconds", "cleanup",
+SHOWN = ("shape", "asked", "sizing", "exit", "points", "triangles", "mean", "max", "good", "angle", "free",
+         "free_angle", "free_mean", "free_good", "kept", "bad", "at", "deviation", "deviation_at", "coarse", "lost",
+         "area", "rings", "loops", "seconds", "cleanup",
          "warnings")
 # What issue 18 promises, column by column; a cell that breaks it is bold in the table.
 GOALS = {"exit": lambda r: r["exit"] == 0,
@@ -105,7 +106,8 @@ def judge_file(path, rings):
         whole = float(file["trime_mpi"].attrs["seconds_total"])
     area = even_odd_area(places)
     other = ("clean-up", "output", "extract", "certificate", "other")
-    return {**measures.columns(), "coarse": coarseness, "area": 100 * (measures.area / area - 1), "shape_area": area, "rings": len(rings),
+    return {**measures.columns(), "coarse": coarseness, "area": 100 * (measures.area / area - 1), "shape_area": area,
+            "rings": len(rings),
             "cleanup": 100 * timers.get("clean-up", 0.0) / whole,
             "sweeps": 100 * sum(t for name, t in timers.items() if name not in other) / whole,
             "failed": sorted(name for name, passed in checks.items() if not passed)}
@@ -135,7 +137,8 @@ def run_and_judge(kind, seed, vertices, points, sizing, overrides=(), timeout=12
         (work / "it.h5").unlink(missing_ok=True)
         began = time.monotonic()
         try:
-            done = subprocess.run(command, env=environment(1), capture_output=True, text=True, timeout=timeout, check=False)
+            done = subprocess.run(command, env=environment(1), capture_output=True, text=True, timeout=timeout,
+                                  check=False)
         except subprocess.TimeoutExpired:
             return {**row, "exit": "time", "seconds": timeout}
         row.update(exit=done.returncode, seconds=time.monotonic() - began)
@@ -238,7 +241,8 @@ def arguments():
     many.add_argument("--most", type=int, help="leave out runs of more points")
     for command in (run, many):
         command.add_argument("--timeout", type=float, default=120, help="seconds of a run (default %(default)s)")
-        command.add_argument("--keep", type=pathlib.Path, help="keep config, contour, mesh and output below this directory")
+        command.add_argument("--keep", type=pathlib.Path,
+                             help="keep config, contour, mesh and output below this directory")
         command.add_argument("--override", nargs="+", default=[], help="section.key=value ...")
     shown = commands.add_parser("show")
     shown.add_argument("results", type=pathlib.Path, nargs="+")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The bytes per point at the peak of whole runs, output included. No times: the peak is the same on any machine, but for
-huge pages (some 2 MiB an array) and what the libraries take."""
+"""The bytes per point at the peak of whole runs, output included. No times: the peak is the same on any machine, but
+for huge pages (some 2 MiB an array) and what the libraries take."""
 import re
 import sys
 

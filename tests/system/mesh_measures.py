@@ -93,7 +93,8 @@ class MeshMeasures:
         return edges[~np.isin(keys, back)]
 
     def wedges(self):
-        """(vertex, next boundary vertex, the one before, inside angle [degrees]), one for each fan at a boundary vertex."""
+        """(vertex, next boundary vertex, the one before, inside angle [degrees]), one for each fan at a boundary
+        vertex."""
         coming = {}
         for a, b in self.facets.tolist():
             coming.setdefault(b, []).append(a)
@@ -205,7 +206,8 @@ class MeshMeasures:
         row = {"points": len(self.points), "triangles": len(self.triangles), "mean": float(self.alpha.mean()),
                "max": float(self.alpha.max()), "max_at": self.place(self.alpha.argmax()),
                "good": 100 * float((self.alpha <= GOOD).mean()), "angle": float(self.angle.min()),
-               "bad": int((self.alpha[free] > BAD).sum()), "deviation": deviation, "deviation_at": deviation_at.tolist(),
+               "bad": int((self.alpha[free] > BAD).sum()), "deviation": deviation,
+               "deviation_at": deviation_at.tolist(),
                "lost": lost, "lost_at": lost_at.tolist(), "loops": self.loops(), "forced": int((~free).sum())}
         for name, chosen in (("free", free), ("kept", kept)):
             row[name] = float(self.alpha[chosen].max(initial=1.0))

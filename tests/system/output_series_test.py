@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The meshes of a run over its steps, and TriMe++'s text files: complete, the same on any ranks, what the HDF5 holds."""
+"""The meshes of a run over its steps, and TriMe++'s text files: complete, the same on any ranks, what the HDF5
+holds."""
 import json
 import unittest
 import xml.etree.ElementTree

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""-Laplace u = f with linear elements on meshes read from the HDF5 file, on the disc and the L-shape: the error in L2 is
-of second order, and not above that on meshes of Gmsh (Frontal-Delaunay, its strongest) with as many vertices.
+"""-Laplace u = f with linear elements on meshes read from the HDF5 file, on the disc and the L-shape: the error in L2
+is of second order, and not above that on meshes of Gmsh (Frontal-Delaunay, its strongest) with as many vertices.
 
-The exact solution is sin(3x) cos(2y), smooth also at the L's corner, with its f and its boundary values. Run by hand, it
-prints a table."""
+The exact solution is sin(3x) cos(2y), smooth also at the L's corner, with its f and its boundary values. Run by hand,
+it prints a table."""
 import math
 import subprocess
 import unittest
@@ -92,7 +92,8 @@ def error_in_l2(points, triangles, boundary):
 def our_mesh(work, config, points):
     """Points, triangles and which points lie on the boundary, from the file."""
     (work / "p.ini").write_text(config, encoding="utf-8")
-    done = run(work / "p.ini", f"meshing.points={points}", f"output.directory={work}", "output.overwrite=true", threads=2)
+    done = run(work / "p.ini", f"meshing.points={points}", f"output.directory={work}", "output.overwrite=true",
+               threads=2)
     if done.returncode != 0:
         raise AssertionError(done.stdout + done.stderr)
     with h5py.File(work / "p.h5", "r") as file:
@@ -105,7 +106,8 @@ def our_mesh(work, config, points):
 def run_gmsh(work, geometry, size):
     """Gmsh's mesh in the same form."""
     (work / "p.geo").write_text(f"h = {size!r};\n{geometry}", encoding="utf-8")
-    subprocess.run(["gmsh", "-2", "-v", "1", "-algo", "front2d", "-format", "msh22", "-o", work / "p.msh", work / "p.geo"],
+    subprocess.run(["gmsh", "-2", "-v", "1", "-algo", "front2d", "-format", "msh22", "-o", work / "p.msh",
+                    work / "p.geo"],
                    check=True, capture_output=True, timeout=60)
     lines = (work / "p.msh").read_text(encoding="ascii").split("\n")
     start = lines.index("$Nodes") + 2
@@ -119,7 +121,8 @@ def run_gmsh(work, geometry, size):
 
 
 def gmsh_mesh(work, geometry, area, points):
-    """The mesh of Gmsh whose number of vertices is nearest to `points`, of a few tries: the number jumps with the size."""
+    """The mesh of Gmsh whose number of vertices is nearest to `points`, of a few tries: the number jumps with the
+    size."""
     size, best = math.sqrt(area / (0.866 * points)), None
     for detour in (1, 1, 1, 0.99, 1.01, 0.98, 1.02):
         mesh = run_gmsh(work, geometry, size * detour)

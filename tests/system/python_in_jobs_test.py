@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Python package in programs that mpirun has started. A run is a job of its own, and gets the settings of the user."""
+"""The Python package in programs that mpirun has started. A run is a job of its own, and gets the settings of the
+user."""
 import json
 import os
 import pathlib

@@ -43,7 +43,8 @@ class Geo:
     """An object with __geo_interface__."""
 
     def __init__(self, kind, coordinates=None, **others):
-        self.__geo_interface__ = {"type": kind, **({} if coordinates is None else {"coordinates": coordinates}), **others}
+        self.__geo_interface__ = {"type": kind, **({} if coordinates is None else {"coordinates": coordinates}),
+                                  **others}
 
 
 def temporary_files():
@@ -154,7 +155,8 @@ class Running(unittest.TestCase):
                 ("a", "rings", [square, np.ones((4, 3))], r"rings'\]\[1\].*\(4, 3\); leave out the third column"),
                 ("a", "rings", [square, Geo("Polygon", [square.tolist()])], "found both"),
                 ("a", "rings", Geo("Point", (1, 2)), "of the type Point"),
-                ("a", "rings", [], "found none"), ("a", "rings", 5, "type int"), ("a", "rings", [[1, 2], [3]], "\\[0\\]"),
+                ("a", "rings", [], "found none"), ("a", "rings", 5, "type int"),
+                ("a", "rings", [[1, 2], [3]], r"\[0\]"),
                 ("meshing", "fixed_points", [[0.2, 0.3, 1]], "fixed_points.*third column"),
                 ("sizing", "expression", lambda x, y: x + y, sizes.format("a function")),
                 ("sizing", "expression", np.ones(5), sizes.format("an array")),
@@ -204,7 +206,8 @@ class Running(unittest.TestCase):
     def test_each_exit_code_has_its_class(self):
         bow = np.array([[0.1, 0.1], [0.9, 0.9], [0.9, 0.1], [0.1, 0.9]])
         with self.assertRaisesRegex(trime_mpi.GeometryError, "cross"):
-            trime_mpi.mesh({"shape": {"region": "a", "a": {"type": "contour", "rings": bow}}, "meshing": {"points": 500}})
+            trime_mpi.mesh({"shape": {"region": "a", "a": {"type": "contour", "rings": bow}},
+                            "meshing": {"points": 500}})
         with self.assertRaisesRegex(trime_mpi.FileError, "nothing.xy"):
             trime_mpi.mesh({"shape": {"region": "a", "a": {"type": "contour", "file": "nothing.xy"}},
                             "meshing": {"points": 500}})
@@ -246,8 +249,8 @@ class Running(unittest.TestCase):
             trime_mpi.mesh(long, timeout=1)
         time.sleep(0.2)
         left = subprocess.run(["ps", "-eo", "ppid,args"], capture_output=True, text=True, check=True).stdout
-        self.assertEqual([line for line in left.splitlines() if line.split()[0] == str(os.getpid()) and PROGRAM in line],
-                         [])
+        self.assertEqual([line for line in left.splitlines()
+                          if line.split()[0] == str(os.getpid()) and PROGRAM in line], [])
 
 
 class Drawing(unittest.TestCase):

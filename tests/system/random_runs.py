@@ -105,7 +105,8 @@ class Trial:
             results.append((done.code, done.errors(self.work), self.judge(report)))
         if results[0] != results[1]:
             self.findings.append(f"1 rank: {results[0]}; 3 ranks: {results[1]}")
-        if told.code != DONE and results[0][0] not in (USAGE, GEOMETRY):  # of two mistakes each tells the first it finds
+        # Of two mistakes each reports the first that it finds.
+        if told.code != DONE and results[0][0] not in (USAGE, GEOMETRY):
             self.findings.append(f"--validate ends with {told.code}, the run with {results[0][0]}")
         left = [path.name for path in (self.work / "out").glob("*") if ".tmp" in path.name]
         if left or (results[0][0] in (USAGE, GEOMETRY) and list((self.work / "out").glob("*.h5"))):

@@ -46,7 +46,8 @@ def directed_crossings(height):
     mixed = np.flatnonzero((land[0] != land[1]) | (land[1] != land[2]) | (land[2] != land[3]))
     i, j, land, corner = i[mixed], j[mixed], [v[mixed] for v in land], [v[mixed] for v in corner]
     vertical = (n + 1) ** 2
-    edge = np.stack([j * (n + 1) + i, vertical + j * (n + 1) + i + 1, (j + 1) * (n + 1) + i, vertical + j * (n + 1) + i])
+    edge = np.stack([j * (n + 1) + i, vertical + j * (n + 1) + i + 1, (j + 1) * (n + 1) + i,
+                     vertical + j * (n + 1) + i])
     leaves = [land[k] & ~land[(k + 1) % 4] for k in range(4)]
     enters = [~land[k] & land[(k + 1) % 4] for k in range(4)]
     saddle = (land[0] == land[2]) & (land[1] == land[3])
@@ -107,7 +108,8 @@ def with_ripples(rings, extra, height, rng):
 
 
 def coast(seed, vertices, nearest=1e-6):
-    """Rings with `vertices` vertices in all, the largest first. Roughness, mound and so the islands depend on the seed."""
+    """Rings with `vertices` vertices in all, the largest first. Roughness, mound and so the islands depend on the
+    seed."""
     def lines(levels):
         rng = np.random.Generator(np.random.PCG64(seed))
         rough, mound = 0.62 + 0.2 * rng.random(), 1.0 + 1.2 * rng.random()

@@ -220,7 +220,8 @@ def tip(seed, vertices):
     rng = generator(seed)
     blunt = 1e-6 if seed == 1 else log_uniform(rng, 1e-7, 1e-3)
     reach = 1.3 if seed == 1 else 1.1 + 0.5 * rng.random()
-    ring = np.array([(0, 0), (1, 0), (1, .4), (reach, .5 - blunt), (reach + 0.4 * blunt, .5), (reach, .5 + blunt), (1, .6),
+    ring = np.array([(0, 0), (1, 0), (1, .4), (reach, .5 - blunt), (reach + 0.4 * blunt, .5), (reach, .5 + blunt),
+                     (1, .6),
                      (1, 1), (0, 1)])
     return real_walls.subdivided(rng, [ring], vertices)
 
@@ -243,7 +244,8 @@ KINDS = {
 
 # (kind, seed, vertices)
 TUNING = [
-    ("contours", 1, 1000), ("contours", 2, 4000), ("contours", 3, 10000), ("ocean", 4, 3000), ("near_vertices", 5, 2000),
+    ("contours", 1, 1000), ("contours", 2, 4000), ("contours", 3, 10000), ("ocean", 4, 3000),
+    ("near_vertices", 5, 2000),
     ("spits", 6, 2000), ("islands", 7, 3000), ("sea", 8, 3000), ("nested", 9, 2000), ("near_touch", 10, 2000),
     ("walls", 11, 2000), ("carpet", 12, 2500), ("touching", 13, 1000), ("twice", 14, 1500), ("crack", 1, 8),
     ("crack", 15, 100), ("tip", 1, 9), ("tip", 16, 100), ("wave", 1, 10000), ("comb", 17, 1000), ("spiral", 18, 1000),

@@ -31,7 +31,8 @@ def rough_ring(rng, count, roughness=0.55):
 
 
 def rough_disc(rng, disc, count):
-    """A rough ring of `count` vertices, a star around the centre of the disc (x, y, radius), 0.56 to 1 of its radius."""
+    """A rough ring of `count` vertices, a star around the centre of the disc (x, y, radius), 0.56 to 1 of its
+    radius."""
     x, y, radius = disc
     angle = (np.arange(count) + 0.5 * rng.random(count)) * TURN / count
     # A chord of three to five vertices comes nearer to the centre than its ends; only rings of more lie beyond 0.56.
@@ -182,7 +183,8 @@ def needles(seed, vertices):
 
 
 def delta(seed, vertices):
-    """Channels of a river delta: a meshed tree on a warped grid, 0.3 to 1e-4 of a cell wide, narrower with each fork."""
+    """Channels of a river delta: a meshed tree on a warped grid, 0.3 to 1e-4 of a cell wide, narrower with each
+    fork."""
     rng = generator(seed)
     side = max(3, int(math.sqrt(vertices / 6)))
     tree, width, parent = {(0, 0): []}, {(0, 0): 0.3}, {(0, 0): None}
@@ -222,7 +224,8 @@ def delta(seed, vertices):
 def tour_of(tree, parent, root):
     """The nodes in the order of a walk around the tree that has it on the left, children counter-clockwise."""
     def turn(at, child):
-        """Angle of the way on, counter-clockwise from the way back: a walk with the tree on its left takes the least."""
+        """Angle of the way on, counter-clockwise from the way back: a walk with the tree on its left takes the
+        least."""
         back = parent[at] or (at[0] - 1, at[1])
         way, base = np.subtract(child, at), np.subtract(back, at)
         return math.atan2(base[0] * way[1] - base[1] * way[0], base @ way) % TURN

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The first config of configs/README.md, and "From a map to a solver" of configs/shapes.md: config, commands and scripts,
-word for word, on a shapefile of islands with a lake, in degrees."""
+"""The first config of configs/README.md, and "From a map to a solver" of configs/shapes.md: config, commands and
+scripts, word for word, on a shapefile of islands with a lake, in degrees."""
 import json
 import pathlib
 import re
@@ -39,7 +39,8 @@ class Recipe(unittest.TestCase):
             self.assertTrue((work / "out" / "disc.h5").exists())
 
     def test_word_for_word(self):
-        features = [{"type": "Feature", "properties": {"name": name}, "geometry": {"type": "Polygon", "coordinates": rings}}
+        features = [{"type": "Feature", "properties": {"name": name},
+                     "geometry": {"type": "Polygon", "coordinates": rings}}
                     for name, rings in (("Main", [square(10, 60, 0.5), square(10.3, 60.2, 0.1)]),
                                         ("Isle", [square(11.3, 60.1, 0.2)]))]
         with Workspace() as work:

@@ -9,7 +9,8 @@ import numpy as np
 
 
 def text_of(rings):
-    """The contour file: x y per line, a blank line between rings; 13 digits, so that a seed gives one text everywhere."""
+    """The contour file: x y per line, a blank line between rings; 13 digits, so that a seed gives one text
+    everywhere."""
     return "\n".join("".join(f"{x:.13g} {y:.13g}\n" for x, y in ring) for ring in rings)
 
 
@@ -149,7 +150,8 @@ def meet(a, b, c, d):
 
 
 def crossings(rings, most=10):
-    """Pairs of numbers of segments (those of segments_of) that cross, overlap, or touch elsewhere than in common ends."""
+    """Pairs of numbers of segments (those of segments_of) that cross, overlap, or touch elsewhere than in common
+    ends."""
     starts, ends = segments_of(rings)
     found = set()
     for m, n in candidate_pairs(starts, ends):

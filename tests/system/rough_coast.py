@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A made-up coast from a seed, rougher than a real one: bays within bays, narrow inlets, islands and lakes of all sizes.
+"""A made-up coast from a seed, rougher than a real one: bays within bays, narrow inlets, islands and lakes of all
+sizes.
 
 Usage: rough_coast.py SEED      prints the contour, x y per line and a blank line between rings
 

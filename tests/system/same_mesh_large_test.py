@@ -4,8 +4,8 @@
 
 Usage: same_mesh_large_test.py [FIELD ...]      all fields without one
 
-By default each field but the largest is meshed by every method on two numbers of ranks; over the methods all numbers of ranks occur.
-With TRIME_FULL_TABLE=1 every number of ranks meshes every field by every method. One thread a rank.
+By default each field but the largest is meshed by every method on two numbers of ranks; over the methods all numbers
+of ranks occur. With TRIME_FULL_TABLE=1 every number of ranks meshes every field by every method. One thread a rank.
 """
 import os
 import re

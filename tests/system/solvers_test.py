@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The examples that solve Poisson's equation on the mesh in memory, by own arrays and by PETSc: the error falls with second
-order, and is the same on any ranks. The ranks' parts are compact. Without PETSc its example is skipped."""
+"""The examples that solve Poisson's equation on the mesh in memory, by own arrays and by PETSc: the error falls with
+second order, and is the same on any ranks. The ranks' parts are compact. Without PETSc its example is skipped."""
 import math
 import os
 import pathlib
@@ -19,11 +19,12 @@ SOLVER_TOLERANCE = 1e-5  # of the error, which is 1e-4 of the solution; residual
 def solve(name, points, ranks):
     """Points and triangles of the mesh, and the error."""
     start = [] if ranks == 1 else [MPIEXEC, "-np", str(ranks)]
-    done = subprocess.run([*start, str(EXAMPLES / name), str(points)], env=environment(1), capture_output=True, text=True,
-                          timeout=120, check=False)
+    done = subprocess.run([*start, str(EXAMPLES / name), str(points)], env=environment(1), capture_output=True,
+                          text=True, timeout=120, check=False)
     found = re.search(r"(\d+) points, (\d+) triangles; \d+ steps; error (\S+?);?\s", done.stdout)
     if done.returncode or not found:
-        raise AssertionError(f"{name} {points} on {ranks} ranks: exit code {done.returncode}\n{done.stdout}{done.stderr}")
+        raise AssertionError(f"{name} {points} on {ranks} ranks: exit code {done.returncode}\n"
+                             f"{done.stdout}{done.stderr}")
     return int(found[1]), int(found[2]), float(found[3])
 
 

@@ -40,7 +40,8 @@ class UserCoordinates(unittest.TestCase):
             numpy.testing.assert_allclose(points.max(axis=0), (EAST + SIDE, NORTH + SIDE), atol=1e-6)
             told = re.search(r"Normalized: part 'sea', .*\(x - (\S+)\)/s and \(y - (\S+)\)/s .* s = (\S+)", done.stdout)
             self.assertEqual([float(word) for word in told.groups()], [*shift, scale])
-            place = re.search(r"worst triangle at \((\S+), (\S+)\) \[.*coast\.xy:[2-5]: \((\S+), (\S+)\)\]", done.stdout)
+            place = re.search(r"worst triangle at \((\S+), (\S+)\) \[.*coast\.xy:[2-5]: \((\S+), (\S+)\)\]",
+                              done.stdout)
             x, y, user_x, user_y = (float(word) for word in place.groups())
             self.assertLess(math.hypot((x - shift[0]) / scale - user_x, (y - shift[1]) / scale - user_y), 0.01 * SIDE)
 
@@ -50,7 +51,8 @@ class UserCoordinates(unittest.TestCase):
         with Workspace() as directory:
             done = self.mesh(directory, tip, "meshing.keep_features=true")
             self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
-            self.assertRegex(done.stderr, r"too narrow near \(0\.1\S*, 0\.\S+\) \[.*coast\.xy:2: \(4500000\S*, 5400000\S*\)\]")
+            self.assertRegex(done.stderr,
+                             r"too narrow near \(0\.1\S*, 0\.\S+\) \[.*coast\.xy:2: \(4500000\S*, 5400000\S*\)\]")
 
     def test_without_a_container_coordinates_stay(self):
         """A contour in metres and no [domain]: the file has its coordinates; the printed config gives the same mesh."""

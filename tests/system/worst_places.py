@@ -15,11 +15,11 @@ import matplotlib
 import numpy as np
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402 (after the backend was chosen)
+import matplotlib.pyplot as plt  # noqa: E402  (after the backend was chosen)
 
-from judge import input_rings
-from mesh_measures import MeshMeasures
-from ring_tools import rings_of
+from judge import input_rings  # noqa: E402
+from mesh_measures import MeshMeasures  # noqa: E402
+from ring_tools import rings_of  # noqa: E402
 
 AROUND = 6  # local sizes from the triangle to the rim of its picture
 COLUMNS = 3
@@ -56,7 +56,8 @@ def main():
     for place, triangle in zip(axes.flat, worst):
         draw(place, mesh, rings, triangle)
         x, y = mesh.corners[triangle].mean(axis=0)
-        print(f"alpha {mesh.alpha[triangle]:.3f} at ({x:.6g}, {y:.6g}), {on_boundary[triangle].sum()} corners on the boundary")
+        print(f"alpha {mesh.alpha[triangle]:.3f} at ({x:.6g}, {y:.6g}), {on_boundary[triangle].sum()} corners on the "
+              "boundary")
     figure.tight_layout()
     figure.savefig(options.output, dpi=60)
 

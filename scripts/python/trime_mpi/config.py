@@ -106,8 +106,8 @@ def key_text(key, value, where, name, directory):
 
 
 def ini_text(config, directory):
-    """The text of a config file for a dict. Values of `rings` and `fixed_points` go into files in `directory`. Keys with
-    the value None keep their defaults."""
+    """The text of a config file for a dict. Values of `rings` and `fixed_points` go into files in `directory`. Keys
+    with the value None keep their defaults."""
     lines = []
     for number, (section, keys) in enumerate(sections_of(config).items()):
         lines.append(f"[{section}]")

@@ -70,7 +70,8 @@ def rings_file(rings, where):
     elif is_one_ring(rings):
         return "xy", points_text(rings, where)
     if not isinstance(rings, collections.abc.Iterable) or isinstance(rings, (str, bytes)):
-        raise ConfigError([f"{where}: expected rings as arrays [k,2], or polygons, found an object of type {type(rings).__name__}"])
+        raise ConfigError([f"{where}: expected rings as arrays [k,2], or polygons, found an object of type "
+                           f"{type(rings).__name__}"])
     rings = list(rings)
     found = [geo_interface(ring) for ring in rings]
     if any(one is not None for one in found):

@@ -111,8 +111,8 @@ def mean_image(mesh, canvas, value):
 
 
 def number_image(mesh, canvas, number):
-    """A number [M] of one of the triangles in each pixel, -1 where there is none; and the triangles that are to be drawn
-    as polygons."""
+    """A number [M] of one of the triangles in each pixel, -1 where there is none; and the triangles that are to be
+    drawn as polygons."""
     polygons = []
     image = np.full(canvas.shape[0] * canvas.shape[1], -1, np.int64)
     for triangles, pixels in samples(mesh, canvas, polygons):

@@ -113,7 +113,8 @@ class Mesh:
     def loops(self):
         """Tag of a boundary loop -> dict of name, kind (outer, hole, band), edges and length."""
         tags = self.tables.get("tags", {})
-        columns = [tags.get(name, ()) for name in ("edge_id", "edge_name", "edge_kind", "edge_count", "edge_length_sum")]
+        columns = [tags.get(name, ())
+                   for name in ("edge_id", "edge_name", "edge_kind", "edge_count", "edge_length_sum")]
         return {int(tag): {"name": name, "kind": kind, "edges": int(edges), "length": float(length)}
                 for tag, name, kind, edges, length in zip(*columns)}
 

@@ -38,7 +38,8 @@ def find_launcher():
         found = shutil.which(candidate) if candidate else None
         if found:
             return found
-    raise ProgramMissing(["there is no mpirun on the PATH, which ranks > 1 need; set TRIME_MPIEXEC to that of your MPI"])
+    raise ProgramMissing(["there is no mpirun on the PATH, which ranks > 1 need; set TRIME_MPIEXEC to the one of your "
+                          "MPI"])
 
 
 def end(process):
@@ -82,7 +83,8 @@ def output_options(output, overwrite, directory):
     if output is None:
         return [f"output.directory={directory}", "output.name=mesh", "output.formats=xdmf", "output.interval=-1"]
     path = pathlib.Path(output)
-    options = [f"output.directory={path.parent}", f"output.name={path.name[:-3] if path.suffix == '.h5' else path.name}"]
+    options = [f"output.directory={path.parent}",
+               f"output.name={path.name[:-3] if path.suffix == '.h5' else path.name}"]
     return options + (["output.overwrite=true"] if overwrite else [])
 
 
@@ -104,9 +106,9 @@ def mesh(config, ranks=1, threads=None, program=None, *, output=None, overwrite=
     """Runs trime_mpi, and returns the Mesh.
 
     config: the path of an ini, or a dict {section: {key: value}} with the keys of configs/keys.md. In a dict a part
-    may have `rings` in place of a file: a ring [k,2] or a list of them, or polygons of shapely, geopandas and others that
-    have __geo_interface__. `fixed_points` may be an array [k,2]. Sizes are formulas; they cannot be arrays or functions
-    yet. Paths in a dict are relative to the working directory, in an ini and its options to the ini.
+    may have `rings` in place of a file: a ring [k,2] or a list of them, or polygons of shapely, geopandas and others
+    that have __geo_interface__. `fixed_points` may be an array [k,2]. Sizes are formulas; they cannot be arrays or
+    functions yet. Paths in a dict are relative to the working directory, in an ini and its options to the ini.
     options: overrides {"section.key": value}. ranks: more than one start by mpirun. threads: of each rank. output:
     NAME.h5, which stays; without it (and without [output] directory in a dict) the run works in a temporary directory,
     and only the arrays remain. verbose: the program's messages and progress are shown. timeout: seconds.
