@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run did about features of the boundary that are smaller than the triangles: a part of the result.
+// Part of the result: how a run simplified features of the boundary that are smaller than the triangles.
 #pragma once
 
 #include "trime/boundary/loop_fate.hpp"
@@ -17,33 +17,35 @@ struct SharpCorner {
   double degrees;
 };
 
-/// What was done about features of the boundary that are smaller than the elements, in the last stage.
+/// How the last stage simplified features of the boundary that are smaller than the triangles.
 struct FeatureReport {
   static constexpr double sharp_angle = 56; ///< degrees; below, a good triangle does not fit in a corner
   GlobalId dropped_islands = 0, dropped_lakes = 0;
-  double dropped_area = 0;                ///< of both
-  double dropped_share = 0;               ///< that area over the shape's, as the shape was given
-  GlobalId corners_left_out = 0;          ///< on the loops that stay
-  double largest_deviation = 0;           ///< of one of them from its facet, over the local size
-  GlobalId segments_halved = 0;           ///< after the layout, to keep their discs empty
+  double dropped_area = 0;                ///< the area of both
+  double dropped_share = 0;               ///< that area divided by the area of the given shape
+  GlobalId corners_left_out = 0;          ///< on the loops that were kept
+  double largest_deviation = 0;           ///< distance of one of them from its facet, divided by the local size
+  GlobalId segments_halved = 0;           ///< halved after the layout, to keep their diametral circles empty
   GlobalId size_limits = 0;               ///< places where the size was lowered
-  double lowest_size_share = 1;           ///< there, of what was asked for
+  double lowest_size_share = 1;           ///< smallest size at these places, divided by the size that was asked for
   std::vector<SharpCorner> sharp_corners; ///< below sharp_angle, the sharpest first
-  GlobalId cut = 0;                       ///< narrow parts of the shape, before anything was laid out
-  GlobalId closed = 0, widened = 0;       ///< narrow parts of the outside: filled; sides moved apart
-  GlobalId filled = 0;                    ///< holes around which no triangle fits
-  GlobalId smoothed = 0;                  ///< vertices of ragged curves that others stand for
-  GlobalId thinned = 0;                   ///< pieces of ragged curves that others stand for
-  double coarseness = 1;                  ///< the h for which all this was done, over that of the mesh
-  double lost_share = 0, added_share = 0; ///< of the shape's area, by all of these, dropped islands and lakes included
-  std::vector<LoopFate> loops;            ///< of the shape, in their order
+  GlobalId cut = 0;                       ///< narrow parts of the shape that were cut off before the layout
+  GlobalId closed = 0,
+           widened = 0;  ///< narrow parts of the outside: those that were filled, and those with sides moved apart
+  GlobalId filled = 0;   ///< holes around which no triangle fits
+  GlobalId smoothed = 0; ///< vertices of ragged curves that smoothing replaced
+  GlobalId thinned = 0;  ///< pieces of ragged curves that thinning replaced
+  double coarseness = 1; ///< the h for which the boundary was simplified, divided by the h of the mesh
+  double lost_share = 0,
+         added_share = 0;      ///< areas divided by the area of the shape, including dropped islands and lakes
+  std::vector<LoopFate> loops; ///< one for each loop of the shape, in their order
 };
 
-/// One line for each thing that was done; none for a boundary that needed nothing.
+/// Returns one line of text for each kind of change; no lines for a boundary that was kept as it is.
 std::vector<std::string> describe(const FeatureReport& report);
 
-/// What of the shape is not in the mesh, and what to do about it, in one warning. Empty if no loop is lost, and at most
-/// 0.1 % of the area is lost or added.
+/// Returns a warning that says what of the shape is missing in the mesh, and what the user can do. It is empty if no
+/// loop is lost and at most 0.1 % of the area is lost or added.
 std::string loss_warning(const FeatureReport& report);
 
 } // namespace trime::boundary

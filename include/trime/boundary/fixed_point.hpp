@@ -11,7 +11,7 @@ namespace trime::boundary {
 /// A point that is to be a vertex of the mesh.
 struct FixedPoint {
   geometry::Vec2 position;
-  std::string label; ///< for messages: where it comes from, such as `points.xy:7`
+  std::string label; ///< where the point comes from, for messages, such as `points.xy:7`
 };
 
 } // namespace trime::boundary

@@ -10,16 +10,16 @@
 
 namespace trime {
 
-/// Exit codes of the program, by contract.
+/// Exit codes of the program. They are part of its interface.
 enum class ExitCode : int {
   done = 0,
   internal_error = 1,
   usage = 2,      ///< command line or config; also fewer points than the boundary of the shape takes
   geometry = 3,   ///< the shape cannot be meshed
   file = 4,       ///< a file cannot be read or written
-  incomplete = 5, ///< mesh written and marked: sweep cap reached or a check failed
+  incomplete = 5, ///< the mesh is written and marked: max_sweeps was reached or a check failed
   out_of_memory = 6,
-  checkpointed = 75, ///< stopped at a checkpoint, run again
+  checkpointed = 75, ///< the run stopped at a checkpoint and can be continued
 };
 
 /// Base of all errors that a user can meet; carries the exit code of the program.
@@ -32,25 +32,25 @@ private:
   ExitCode code_;
 };
 
-/// A command line or config file that cannot be obeyed (exit 2).
+/// The command line, config or options are wrong (exit 2).
 class ConfigError : public Error {
 public:
   explicit ConfigError(const std::string& message) : Error(ExitCode::usage, message) {}
 };
 
-/// A shape that cannot be meshed (exit 3).
+/// The shape cannot be meshed (exit 3).
 class GeometryError : public Error {
 public:
   explicit GeometryError(const std::string& message) : Error(ExitCode::geometry, message) {}
 };
 
-/// A file that cannot be read or written (exit 4).
+/// A file cannot be read or written (exit 4).
 class FileError : public Error {
 public:
   explicit FileError(const std::string& message) : Error(ExitCode::file, message) {}
 };
 
-/// A mistake of ours (exit 1).
+/// The program has made a mistake (exit 1).
 class InternalError : public Error {
 public:
   explicit InternalError(const std::string& message) : Error(ExitCode::internal_error, message) {}
@@ -61,7 +61,8 @@ public:
 
 } // namespace trime
 
-/// For our own mistakes only, always on; further arguments are a format string and values.
+/// Checks a condition that only a mistake of the program can violate; also in release builds. Further arguments are a
+/// format string and values.
 #define TRIME_ASSERT(condition, ...)                                                                                   \
   do {                                                                                                                 \
     if (!(condition)) [[unlikely]]                                                                                     \

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages of the program: only rank 0 prints, at or above one level. What a run is doing stands in one live line on a
-// terminal, and in sparse rows of a table elsewhere.
+// The log: prints messages at or above a level, on rank 0 only. On a terminal it shows the progress of a run in one
+// live line, elsewhere in some rows of a table.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,21 +11,23 @@
 
 namespace trime {
 
+/// The importance of a message, ascending.
 enum class LogLevel { debug, info, warning, error, silent };
 
-/// A step of a run, as it is shown.
+/// A step of a run, as the log shows it.
 struct ProgressStep {
   long number = 0;
-  std::string live;         ///< for the live line
-  std::string header;       ///< of the table; printed once
-  std::string row;          ///< of the table
-  double seconds_left = -1; ///< to the end of the run, about; negative: unknown
-  bool is_shown = false;    ///< its row is printed, be the interval what it may
+  std::string live;         ///< text of the live line
+  std::string header;       ///< header for the table; printed once
+  std::string row;          ///< row of the table
+  double seconds_left = -1; ///< estimated seconds to the end of the run; negative: unknown
+  bool is_shown = false;    ///< prints its row whatever the interval is
 };
 
+/// Prints messages and progress. Not thread-safe.
 class Log {
 public:
-  /// Prints to `stream` when `active` (true on rank 0 only) and the level suffices.
+  /// Prints to `stream` if `active` (true on rank 0 only) and the level of the message is at least `level`.
   Log(LogLevel level, bool active, std::FILE* stream = stdout);
   ~Log() { erase_live_line(); }
   Log(const Log&) = delete;
@@ -44,14 +46,14 @@ public:
     write(LogLevel::warning, fmt::format(f, std::forward<A>(a)...));
   }
 
-  /// The live line begins with this word from now on; nothing elsewhere than on a terminal.
+  /// Sets the first word of the live line. Does nothing unless the output is a terminal.
   void phase(const std::string& name);
-  /// @brief Renews the live line, at most ten times a second. Elsewhere than on a terminal, and with an interval,
-  /// prints a row: of the first step at or after each multiple of the interval; of 1, 2, 5, 10, 20, 50, ... for
-  /// interval 0.
+  /// @brief Updates the live line, at most ten times a second. If the output is not a terminal, or if an interval is
+  /// set, also prints rows: for the first step at or after each multiple of the interval, or for the steps 1, 2, 5, 10,
+  /// 20, 50, ... if the interval is 0.
   void progress(const ProgressStep& step);
   void set_progress_interval(int interval) { interval_ = interval; }
-  /// From now on each message but progress is printed as `rewrite` returns it.
+  /// From now on the log prints each message, except progress, as `rewrite` returns it.
   void set_rewriter(std::function<std::string(const std::string&)> rewrite) { rewrite_ = std::move(rewrite); }
 
 private:
@@ -63,22 +65,22 @@ private:
 
   LogLevel level_;
   bool active_;
-  std::string terminal_; ///< path of the terminal on which a person watches; empty: none
+  std::string terminal_; ///< path of the terminal on which a person watches; empty: no terminal
   int interval_ = 0;
   long next_row_ = 1; ///< step
   bool has_header_ = false;
   std::string phase_, live_; ///< parts of the live line
-  double end_ = -1;          ///< expected, by wall_seconds(); negative: unknown
-  double drawn_ = -1;        ///< when the live line was, by wall_seconds()
+  double end_ = -1;          ///< expected end, as a time of wall_seconds(); negative: unknown
+  double drawn_ = -1;        ///< when the live line was drawn, as a time of wall_seconds()
   std::FILE* stream_;
-  std::function<std::string(const std::string&)> rewrite_; ///< none: messages are printed as they are
+  std::function<std::string(const std::string&)> rewrite_; ///< empty: messages are printed as they are
 };
 
-/// "12 s", "3 min", "2 h 10 min": as exact as a forecast is.
+/// Returns "12 s", "3 min", "2 h 10 min": rounded as an estimate deserves.
 std::string duration_text(double seconds);
 
-/// @brief True while a live line stands on the terminal. Who writes past the log, as a handler of signals does, writes
-/// live_line_eraser to the standard output first. May be called from a handler.
+/// @brief True while a live line is on the terminal. Code that writes without the log, such as a signal handler, must
+/// first write live_line_eraser to the standard output. May be called from a signal handler.
 bool live_line_stands() noexcept;
 inline constexpr char live_line_eraser[] = "\r\033[K";
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wall-clock sections of a run, and what was counted in them. Sections do not nest: the table must add up to the whole.
-// Times are reported, never used to steer anything.
+// Wall-clock times of the sections of a run, with their counters. Sections do not nest, so that the table adds up to
+// the whole. Times are only reported; no decision depends on them.
 #pragma once
 
 #include "trime/core/counters.hpp"
@@ -11,16 +11,17 @@
 
 namespace trime {
 
-/// Seconds of a monotonic clock.
+/// Returns the seconds of a monotonic clock.
 double wall_seconds();
 
-/// @brief Another clock from now on, such as that of a simulator, in which real time means nothing; null: the
-/// steady clock again. Not while others read it.
+/// @brief Sets another clock, such as the clock of a simulator; null: the steady clock again. Other threads must not
+/// read the clock meanwhile.
 void set_wall_clock(double (*seconds)());
 
 /// Accumulated seconds, calls and counters per named section, in order of first use.
 class TimerTable {
 public:
+  /// A named part of a run.
   struct Section {
     std::string name;
     double seconds = 0;
@@ -32,7 +33,7 @@ public:
   class Scope {
   public:
     Scope(TimerTable& table, const std::string& name) : table_(table), name_(name), start_(wall_seconds()) {
-      table_.outside(); // the section begins with nothing
+      table_.outside(); // the section begins with zero counts
       if (table_.begins_)
         table_.begins_(name_);
     }
@@ -46,16 +47,17 @@ public:
     double start_;
   };
 
-  /// @param counters of this rank, which the table takes; null: nothing is counted. They must outlive the table.
+  /// @param counters counters of this rank, which the table takes over at the end of each section; null: nothing is
+  /// counted. They must outlive the table
   explicit TimerTable(Counters* counters = nullptr) : counters_(counters), start_(wall_seconds()) {}
   [[nodiscard]] Scope scope(const std::string& name) { return Scope(*this, name); }
-  /// Sets what is called with the name of each section that begins; at most one.
+  /// Sets the function that is called with the name of each section that begins; at most one.
   void on_section(std::function<void(const std::string&)> begins) { begins_ = std::move(begins); }
   void add(const std::string& name, double seconds, const CounterValues& counts = {});
   const std::vector<Section>& sections() const { return sections_; }
-  /// Seconds since construction.
+  /// Returns the seconds since construction.
   double total() const { return wall_seconds() - start_; }
-  /// What was counted between the sections so far. @pre outside of any
+  /// Returns what was counted between the sections so far. @pre no section is open
   const CounterValues& outside() { return outside_ += take(); }
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Integer types by role. `int` is kept for ranks, threads and MPI counts.
+// Integer types by role. `int` is for ranks, threads and MPI counts.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace trime {
 using LocalIndex = std::int32_t; ///< index into an array of this rank
 using GlobalId = std::int64_t;   ///< index into the whole mesh, all ranks together
 
-/// A local index as the containers of the standard library want it. @pre not negative
+/// Converts a local index to the index type of standard containers. @pre i >= 0
 constexpr std::size_t at(LocalIndex i) {
   return static_cast<std::size_t>(i);
 }

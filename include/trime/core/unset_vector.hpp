@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vector whose new elements are not set: for large arrays that a loop over threads fills at once. Setting them first
-// would touch all their memory twice, and by one thread.
+// A vector that does not initialise new elements, for large arrays that a thread loop fills at once. Initialising them
+// first would touch all their memory twice, and from one thread.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace trime {
 
-/// Like std::allocator, but elements made without a value hold whatever the memory held.
+/// Like std::allocator, except that elements made without a value are not initialised.
 template <class T>
 struct UnsetAllocator : std::allocator<T> {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
@@ -31,11 +31,11 @@ struct UnsetAllocator : std::allocator<T> {
   }
 };
 
-/// Elements made without a value, by resize or a constructor, must be written before they are read.
+/// Elements that resize or a constructor makes without a value must be written before they are read.
 template <class T>
 using UnsetVector = std::vector<T, UnsetAllocator<T>>;
 
-/// Gives the memory of a vector back.
+/// Empties a vector and frees its memory.
 template <class Vector>
 void release(Vector& list) {
   Vector().swap(list);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mesh handed over to a solver on the same ranks: what a rank needs for its rows of a matrix, in plain arrays. No
-// file lies between.
+// The mesh in memory for a solver on the same ranks: plain arrays with everything that a rank needs for its rows of a
+// matrix. No file is written.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -14,24 +14,24 @@
 
 namespace trime::handover {
 
-/// Which triangles of other ranks a local mesh holds beside those that its rank owns.
+/// Which triangles of other ranks a local mesh holds in addition to its own.
 enum class Overlap {
-  none,     ///< none: what is summed up at ghosts must travel to their owners, see add_to_owners
-  triangles ///< all that touch an owned point: an owned point has all of its triangles
+  none,     ///< no triangles: sums at ghosts must be sent to their owners, see add_to_owners
+  triangles ///< all triangles that touch an owned point, so that an owned point has all of its triangles
 };
 
-/// @brief Another rank that holds points in common with this one. Both list them in the same order.
+/// @brief Another rank that shares points with this one. Both ranks list the shared points in the same order.
 struct Neighbour {
   int rank = 0;
-  std::vector<LocalIndex> send; ///< owned points that are ghosts there, ascending
-  LocalIndex first_ghost = 0;   ///< its points here are the local points from this one on ...
-  LocalIndex ghosts = 0;        ///< ... and so many
+  std::vector<LocalIndex> send; ///< owned points of this rank that are ghosts there, ascending
+  LocalIndex first_ghost = 0;   ///< its points are the local points from first_ghost ...
+  LocalIndex ghosts = 0;        ///< ... to first_ghost + ghosts - 1
 };
 
 /// @brief One rank's part of a mesh. Each point, triangle and boundary edge of the mesh is owned by exactly one rank;
-/// the parts may be empty. Local points are the owned ones from 0, then the ghosts, by ascending global id in both.
-/// So the ghosts of a neighbour follow each other. Coordinates are those of the container. In a periodic one a
-/// triangle across the border has vertices on both sides: geometry::Periods::nearest_image brings them together.
+/// the parts may be empty. Local points are the owned points from 0, then the ghosts; both have ascending global ids.
+/// So the ghosts of a neighbour are consecutive. Coordinates are those of the container. In a periodic container a
+/// triangle across the border has vertices on both sides; geometry::Periods::nearest_image brings them together.
 struct LocalMesh {
   GlobalId first_point = 0;       ///< global id of local point 0
   GlobalId total_points = 0;      ///< of all ranks
@@ -48,32 +48,33 @@ struct LocalMesh {
   std::vector<GlobalId> ghost_ids; ///< ascending
   std::vector<int> ghost_owners;   ///< ranks, so ascending too
 
-  // Per local triangle: those that this rank owns, then those of other ranks, by ascending global id in both.
+  // Per local triangle: first the triangles of this rank, then those of other ranks; both have ascending global ids.
   std::vector<std::array<LocalIndex, 3>> triangles; ///< local points, counter-clockwise, lowest global id first
   std::vector<GlobalId> triangle_ids;
-  std::vector<std::int32_t> regions; ///< from 1; empty: 1 everywhere
+  std::vector<std::int32_t> regions; ///< region of each triangle, from 1; empty: 1 everywhere
 
-  // Per facet of a local triangle: an edge of the boundary, the interior on the left of first -> second.
+  // Per facet of a local triangle. A facet is an edge on the boundary with the interior on the left of first -> second.
   std::vector<std::array<LocalIndex, 2>> facets; ///< local points
-  std::vector<LocalIndex> facet_triangles;       ///< the local triangle that it belongs to; the same rank owns both
-  std::vector<std::int32_t> facet_tags;          ///< of its loop
-  std::vector<std::int32_t> facet_parts;         ///< part of the shape that it follows: index into Boundary::part_names
+  std::vector<LocalIndex> facet_triangles; ///< the local triangle that the facet belongs to; the same rank owns both
+  std::vector<std::int32_t> facet_tags;    ///< tag of the loop
+  std::vector<std::int32_t> facet_parts; ///< part of the shape that the facet follows: index into Boundary::part_names
 
-  std::vector<Neighbour> neighbours; ///< by ascending rank
+  std::vector<Neighbour> neighbours; ///< ordered by rank
 
-  /// Global id of a local point.
+  /// Returns the global id of a local point.
   GlobalId global_id(LocalIndex point) const {
     return point < owned_points ? first_point + point : ghost_ids[at(point - owned_points)];
   }
 };
 
-/// @brief The part of a mesh that this rank owns, and what it needs of other ranks. Owned are the points of its slab,
-/// the triangles whose lowest vertex is owned, and the facets of these triangles. The mesh may come from a Mesher or
-/// from io::read_mesh; it is not needed afterwards.
+/// @brief Returns the part of a mesh that this rank owns, with the points and triangles that it needs from other ranks.
+/// A rank owns the points of its slab, the triangles whose lowest vertex it owns, and the facets of these triangles.
+/// The mesh may come from a Mesher or from io::read_mesh; it is not needed afterwards.
 /// @param mesh whole, over all ranks of `comm`
 /// @throws InternalError on all ranks if a facet belongs to no triangle
-/// @note Collective. Seven sparse exchanges and a list of one number per rank; O(n log n) in what the rank holds.
-/// Memory: 20 bytes a point and 24 a triangle, 40 a triangle more while it is made; up to twice that as lists grow.
+/// @note Collective. Makes seven sparse exchanges and a list of one number per rank; takes O(n log n) time in the size
+/// of the part. Memory: 20 bytes per point and 24 per triangle, and 40 more per triangle while it is made; up to twice
+/// that because lists grow.
 LocalMesh make_local_mesh(const comm::Communicator& comm, const mesh::DistributedMesh& mesh,
                           Overlap overlap = Overlap::triangles);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The loops of the boundary as the mesh has them: a part of the result.
+// Part of the result: the loops of the boundary of the mesh.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 
 namespace trime::polygon {
 
-/// A loop of the boundary as the mesh has it.
+/// A loop of the boundary of the mesh.
 struct LoopSummary {
   enum class Kind { outer, hole, band };
-  std::int32_t tag = 0;            ///< DistributedMesh::facet_tags of its edges
+  std::int32_t tag = 0;            ///< value of DistributedMesh::facet_tags for its edges
   Kind kind = Kind::outer;         ///< around a component, around a hole, or all around a periodic container
-  std::int64_t edges = 0;          ///< of the mesh
+  std::int64_t edges = 0;          ///< number of mesh edges
   double length = 0;               ///< sum of the lengths of these edges
-  std::vector<std::int32_t> parts; ///< DistributedMesh::facet_parts of its edges: each once, in order along the loop
+  std::vector<std::int32_t> parts; ///< values of DistributedMesh::facet_parts along the loop, each once
 };
 
 } // namespace trime::polygon
