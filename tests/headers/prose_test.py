@@ -125,8 +125,9 @@ class Reader(unittest.TestCase):
 class Sample(unittest.TestCase):
     """sample_sentences.py"""
 
-    @unittest.skipIf(subprocess.run(["git", "-C", ROOT, "rev-parse", "HEAD"], capture_output=True, check=False).returncode,
-                     "no repository")
+    @unittest.skipIf(
+        subprocess.run(["git", "-C", ROOT, "rev-parse", "HEAD"], capture_output=True, check=False).returncode,
+        "no repository")
     def test_a_seed_draws_the_same_sentences(self):
         drawn = [subprocess.run([sys.executable, HERE / "sample_sentences.py", "--seed", seed, "--count", "7"],
                                 capture_output=True, text=True, check=True).stdout for seed in "112"]
