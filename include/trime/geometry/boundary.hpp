@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every shape becomes: closed loops of smooth pieces, interior on the left. Plain data.
+// The boundary of a shape: closed loops of smooth pieces with the interior on the left. Plain data.
 #pragma once
 
 #include "trime/geometry/periods.hpp"
@@ -13,59 +13,60 @@ namespace trime::geometry {
 /// A straight segment or a circular arc from `start` to `end`; both ends lie on the lattice.
 struct Piece {
   Vec2 start, end;
-  Vec2 center; ///< circular pieces only, as the three numbers below
+  Vec2 center; ///< only for circular pieces, as the next three members
   double radius = 0;
   double start_angle = 0; ///< radians
   double sweep = 0;       ///< signed angle from start to end, radians, counter-clockwise positive, |sweep| <= 2 pi
   int part = 0;           ///< index into Boundary::part_names of the part that the piece comes from
   bool circular = false;
-  bool corner = false; ///< the start is to be kept as a corner, however little the curve turns there
+  bool corner = false; ///< the mesh keeps the start as a corner, however little the curve turns there
 
   /// Arc length.
   double length() const;
-  /// Point at arc length s from the start, 0 <= s <= length(); the ends themselves are returned bit for bit.
+  /// Returns the point at arc length s from the start, 0 <= s <= length(). The ends are returned bit for bit.
   Vec2 point(double s) const;
-  /// Unit tangent at arc length s.
+  /// Returns the unit tangent at arc length s.
   Vec2 tangent(double s) const;
-  /// Distance from p to the piece.
+  /// Returns the distance from p to the piece.
   double distance(Vec2 p) const;
-  /// A box that contains the piece; not tight for arcs.
+  /// Returns a box that contains the piece; it may be too large for arcs.
   Box covering_box() const;
 };
 
-/// @brief Closed curve: piece i ends where piece i+1 starts, the last where the first starts, moved by `winding`.
+/// @brief A closed curve: piece i ends where piece i+1 starts. The last piece ends where the first starts, moved by
+/// `winding`.
 ///
-/// In a periodic container the pieces stand in a row as if the border were not there ("unrolled"). None lies farther
-/// out than one image of the container. The first start is canonical.
+/// In a periodic container the pieces follow each other as if there were no border ("unrolled"). All pieces lie in the
+/// container or in the images next to it. The first start is canonical.
 struct Loop {
   std::vector<Piece> pieces;
   bool outer = true; ///< counter-clockwise around a component, or clockwise around a hole; true if it winds
-  int tag = 1;       ///< value written for its edges, from 1
-  Vec2 winding{};    ///< multiple of the periods; zero unless the loop leads around the container
+  int tag = 1;       ///< value that the mesh file has for its edges, from 1
+  Vec2 winding{};    ///< multiple of the periods; zero unless the loop goes around the container
 
   double length() const;
-  /// Turn in degrees, 0..180, at the start of piece i.
+  /// Returns the turn at the start of piece i, in degrees from 0 to 180.
   double turn_degrees(std::size_t i) const;
-  /// Does it lead around the periodic container?
+  /// Does the loop go around the periodic container?
   bool winds() const { return winding != Vec2{}; }
 };
 
-/// The boundary of a shape. Invariant: loops and their images do not cross or touch; area > 0.
+/// The boundary of a shape. Invariant: loops and their images do not cross or touch, and area > 0.
 struct Boundary {
   std::vector<Loop> loops;
   std::vector<std::string> part_names;
   double area = 0; ///< enclosed area, arcs included
   Periods periods; ///< of the container
-  /// One component reaches around the torus both ways: it has hole loops only, or none.
+  /// True if one component reaches around the torus both ways. Then all its loops are holes, or it has no loops.
   bool covers_torus = false;
 
   int components() const; ///< outer loops, bands (two winding loops each), and one if covers_torus
   int holes() const;      ///< number of hole loops
-  /// @brief Of the region on the plane, cylinder or torus: outer loops minus holes. By the theorem of Gauss and Bonnet
-  /// on a flat surface it is the sum of the turns of the loops: winding loops turn by nothing.
+  /// @brief Returns the Euler characteristic of the shape on the plane, cylinder or torus: outer loops minus holes. By
+  /// the theorem of Gauss and Bonnet it is the sum of the turns of the loops; loops around the container do not turn.
   int euler_characteristic() const;
   double length() const;
-  /// Of the loops as they are unrolled; empty without loops.
+  /// Returns the box around the unrolled loops; empty without loops.
   Box bounding_box() const;
 };
 

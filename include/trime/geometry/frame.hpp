@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The container rectangle and its lattice: all that the parts of a shape need to know of the world around them.
+// The container rectangle with its lattice and periods. Parts of a shape are made in a Frame.
 #pragma once
 
 #include "trime/geometry/lattice.hpp"
@@ -8,7 +8,7 @@
 
 namespace trime::geometry {
 
-/// Immutable; cheap to copy.
+/// The container with its lattice and periods. Immutable; cheap to copy.
 class Frame {
 public:
   /// @pre width and height of `container` are positive and finite
@@ -17,15 +17,17 @@ public:
   const Box& container() const { return container_; }
   const Lattice& lattice() const { return lattice_; }
   double step() const { return lattice_.step(); }
-  /// Which points of the plane are one point; no periods by default.
+  /// The periods; none by default.
   const Periods& periods() const { return periods_; }
 
-  /// Largest lattice rectangle inside the container; exactly one period long on periodic axes. The shape `domain`.
+  /// The largest lattice rectangle inside the container; exactly one period long on periodic axes. It is the shape
+  /// `domain`.
   const Box& inner() const { return inner_; }
-  /// The container and twice its size around it: where the exact predicates hold, so where parts may lie.
+  /// The container and twice its size around it. The exact predicates are valid here, so parts may lie here.
   const Box& reach() const { return reach_; }
 
-  /// Nearest lattice point; one that rounding carried out of the container comes back onto its inner rectangle.
+  /// Returns the nearest lattice point. If rounding moves it out of the container, returns a point on the edge of
+  /// inner().
   Vec2 snap(Vec2 p) const { return {snap(p.x, inner_.min.x, inner_.max.x), snap(p.y, inner_.min.y, inner_.max.y)}; }
 
 private:

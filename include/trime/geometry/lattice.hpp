@@ -11,6 +11,7 @@
 
 namespace trime::geometry {
 
+/// All points with coordinates that are multiples of one power of two.
 class Lattice {
 public:
   /// The step is the smallest power of two that is at least 2^-44 of the longer side of `container` and at least 2^-51
@@ -27,13 +28,13 @@ public:
 
   double step() const { return step_; }
   double inverse_step() const { return inverse_step_; }
-  /// Nearest lattice point, ties to even.
+  /// Returns the nearest lattice point, ties to even.
   Vec2 snap(Vec2 p) const { return {snap(p.x), snap(p.y)}; }
   double snap(double v) const {
     const double steps = v * inverse_step_;
     return (std::fabs(steps) <= 0x1p51 ? round_to_integer(steps) : std::nearbyint(steps)) * step_;
   }
-  /// Lattice steps of a difference of two lattice coordinates; exact.
+  /// Returns a difference of two lattice coordinates in lattice steps; exact.
   std::int64_t steps(double difference) const { return static_cast<std::int64_t>(difference * inverse_step_); }
 
 private:

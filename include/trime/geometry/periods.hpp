@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The periods of a container: which points of the plane are one point of the strip or torus. Exact on the lattice.
+// The periods of a container, and the images of a point in a periodic strip or torus. Exact on the lattice.
 #pragma once
 
 #include "trime/geometry/lattice.hpp"
@@ -9,14 +9,14 @@
 
 namespace trime::geometry {
 
-/// @brief Shifts by multiples of (x, 0) and (0, y) lead from a point to its images; 0 stands for "not periodic". The
+/// @brief The images of a point are the point shifted by multiples of (x, 0) and (0, y); 0 means "not periodic". The
 /// canonical image of a point lies in [min.x, min.x + x) x [min.y, min.y + y) along the periodic axes. `min` and the
 /// periods are lattice multiples, so every shift of a lattice point is exact.
 struct Periods {
   double x = 0, y = 0;
   Vec2 min;
 
-  /// Periods of a container: its sides rounded to the lattice, counted from its first lattice point.
+  /// Returns the periods of a container: its sides rounded to the lattice, from its first lattice point on.
   static Periods of(const Box& container, const Lattice& lattice, bool periodic_x, bool periodic_y) {
     const double inverse = lattice.inverse_step();
     return {periodic_x ? lattice.snap(container.width()) : 0, periodic_y ? lattice.snap(container.height()) : 0,
@@ -25,15 +25,16 @@ struct Periods {
 
   bool any() const { return x > 0 || y > 0; }
 
-  /// The canonical image of p.
+  /// Returns the canonical image of p.
   Vec2 wrap(Vec2 p) const { return {wrap(p.x, min.x, x), wrap(p.y, min.y, y)}; }
-  /// The image of p nearest to `center`: the difference lies in [-period/2, period/2) along each periodic axis.
+  /// Returns the image of p nearest to `center`: the difference lies in [-period/2, period/2) along each periodic axis.
   Vec2 nearest_image(Vec2 p, Vec2 center) const {
     return {wrap(p.x, center.x - 0.5 * x, x), wrap(p.y, center.y - 0.5 * y, y)};
   }
   /// Are a and b images of the same point?
   bool same_point(Vec2 a, Vec2 b) const { return wrap(a) == wrap(b); }
-  /// Lexicographic order of the canonical images: the order behind every tie, the same from all views of a point.
+  /// Compares the canonical images lexicographically. This order breaks all ties, and is the same for all images of a
+  /// point.
   bool less(Vec2 a, Vec2 b) const { return lexicographically_less(wrap(a), wrap(b)); }
 
 private:

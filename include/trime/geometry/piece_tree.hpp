@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The distance from a point to the nearest piece of a boundary.
+// A search tree for the nearest piece of a boundary.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -12,23 +12,25 @@
 
 namespace trime::geometry {
 
-/// Nearest piece of a boundary: boxes around runs of consecutive pieces, in a binary hierarchy.
+/// Finds the nearest piece of a boundary: a binary tree of boxes around runs of consecutive pieces.
 class PieceTree {
 public:
   PieceTree() = default;
-  /// O(M) time, about 50 bytes per segment and more per arc.
+  /// Takes O(M) time, and about 50 bytes per segment and more per arc.
   explicit PieceTree(const Boundary& boundary);
-  /// @brief Distance from p to the nearest piece or image of one, infinity without pieces; O(log M) for curves,
-  /// thread-safe.
+  /// @brief Returns the distance from p to the nearest piece or image of one, infinity without pieces. O(log M) for
+  /// curves, thread-safe.
   double distance(Vec2 p) const { return nearest(p).distance; }
 
+  /// The nearest piece and its distance.
   struct Nearest {
     double distance;
     std::size_t piece; ///< counted through all loops in their order
   };
-  /// The same with the piece, one of those equally near; O(log M) for curves, thread-safe.
+  /// Returns the nearest piece, one of those that are equally near. O(log M) for curves, thread-safe.
   Nearest nearest(Vec2 p) const;
-  /// The pieces that p, or an image of it, is at most so far from: ascending, counted through all loops in their order.
+  /// Returns the pieces within `distance` of p or of an image of p, ascending, counted through all loops in their
+  /// order.
   std::vector<std::size_t> within(Vec2 p, double distance) const;
 
 private:

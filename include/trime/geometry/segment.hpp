@@ -6,11 +6,12 @@
 
 namespace trime::geometry {
 
+/// A straight segment from a to b.
 struct Segment {
   Vec2 a, b;
 };
 
-/// Squared distance from p to the segment; a == b is fine.
+/// Returns the squared distance from p to the segment; a == b is allowed.
 inline double squared_distance(Vec2 p, const Segment& segment) {
   const Vec2 d = segment.b - segment.a, q = p - segment.a;
   const double along = dot(q, d), whole = squared_length(d);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Segments of closed polygons in bins: nearest segment and inside test, both exact in their decisions.
+// A search structure over the segments of closed polygons: nearest segment and inside test, both with exact decisions.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -14,45 +14,47 @@
 
 namespace trime::geometry {
 
-/// @brief Bins over M segments: a tree of square cells, each split into 4 x 4 while it meets more than a few segments.
-/// A smooth curve of many short segments has 1 to 4 of them in a bin. O(M log M) to build, O(M) memory, immutable
-/// and thread-safe after.
+/// @brief Bins over M segments: a tree of square cells. A cell is split into 4 x 4 while it meets more than a few
+/// segments. A smooth curve of many short segments has 1 to 4 of them in a bin. O(M log M) to build, O(M) memory,
+/// immutable and thread-safe after.
 ///
 /// The segments together must form closed polygons (every end is shared by an even number of segments) for `inside`;
-/// the distance queries need nothing. All coordinates, of segments and of queries to `inside`, must be points of one
-/// lattice, so that orient2d is exact. Cell corners have few bits and are exact with any such lattice.
+/// the distance queries do not need that. All coordinates, of segments and of queries to `inside`, must be points of
+/// one lattice, so that orient2d is exact. Cell corners have few bits and are exact with any such lattice.
 class SegmentGrid {
 public:
   SegmentGrid() = default;
   explicit SegmentGrid(std::vector<Segment> segments);
 
+  /// The nearest segment and its squared distance.
   struct Nearest {
     LocalIndex segment;
     double squared_distance;
   };
-  /// Nearest segment (lowest index on ties) within `reach` of p; nothing if there is none. Visits only the bins
+  /// Returns the nearest segment within `reach` of p (the lowest index on ties), or nothing. Visits only the bins
   /// within reach, or fewer.
   std::optional<Nearest> nearest(Vec2 p, double reach) const;
-  /// Nearest segment at any distance. @pre at least one segment
+  /// Returns the nearest segment at any distance. @pre at least one segment
   Nearest nearest(Vec2 p) const;
-  /// Even-odd rule with symbolic perturbation: exact; a point on the boundary gets the side of the point moved by
-  /// (epsilon^2, epsilon). O(depth + segments in one bin).
+  /// Is p inside, by the even-odd rule? Exact, with symbolic perturbation: a point on the boundary counts as the point
+  /// moved by (epsilon^2, epsilon). O(depth + segments in one bin).
   bool inside(Vec2 p) const;
-  /// How many segments inside(p) looks at: few, but for long slanted ones side by side. O(depth).
+  /// Returns how many segments inside(p) examines: few, except if long slanted segments lie side by side. O(depth).
   LocalIndex looked_at_for(Vec2 p) const;
-  /// Calls visit(index) for every segment that may meet `box`, each once in ascending order per bin, possibly more
-  /// than once over bins; stops when visit returns false.
+  /// Calls visit(index) for every segment that may meet `box`, in ascending order in each bin; a segment in several
+  /// bins may be visited several times. Stops when visit returns false.
   template <class Visit>
   void for_each_near(const Box& box, const Visit& visit) const;
-  /// The same for what may also lie within `margin` of `segment`: a long slanted one meets few of the bins of its box.
+  /// As above, only for bins that may lie within `margin` of `segment`: a long slanted one meets few of the bins of its
+  /// box.
   template <class Visit>
   void for_each_near(const Box& box, const Segment& segment, double margin, const Visit& visit) const;
-  /// The same bin by bin: calls visit(span of indices, ascending).
+  /// As above, bin by bin: calls visit(span of indices, ascending).
   template <class Visit>
   void for_each_bin_near(const Box& box, const Segment& segment, double margin, const Visit& visit) const;
 
-  /// Number of cells. Bin k lists the segments that meet cell k, ascending; none if the cell is split. Segments that
-  /// meet are together in a bin.
+  /// Returns the number of cells. Bin k lists the segments that meet cell k, ascending; it is empty if the cell is
+  /// split. Two segments that meet share a bin.
   std::size_t bins() const { return cells_.size(); }
   std::span<const LocalIndex> bin(std::size_t k) const {
     return cells_[k].split ? std::span<const LocalIndex>{} : listed_in(cells_[k]);

@@ -8,6 +8,7 @@
 
 namespace trime::geometry {
 
+/// A point or vector of the plane.
 struct Vec2 {
   double x = 0, y = 0;
 
@@ -29,16 +30,16 @@ constexpr double squared_length(Vec2 a) {
 inline double length(Vec2 a) {
   return std::sqrt(dot(a, a));
 }
-/// Turned by +90 degrees: the left normal of a direction.
+/// Returns the vector turned by +90 degrees.
 constexpr Vec2 left_normal(Vec2 a) {
   return {-a.y, a.x};
 }
-/// Lexicographic order of the coordinates, x first: the order behind every tie.
+/// Compares the coordinates lexicographically, x first. This order breaks all ties.
 constexpr bool lexicographically_less(Vec2 a, Vec2 b) {
   return a.x < b.x || (a.x == b.x && a.y < b.y);
 }
 
-/// Closed rectangle; empty (min > max) by default.
+/// A closed rectangle; empty (min > max) by default.
 struct Box {
   Vec2 min{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   Vec2 max{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
@@ -50,7 +51,7 @@ struct Box {
     min = {p.x < min.x ? p.x : min.x, p.y < min.y ? p.y : min.y};
     max = {p.x > max.x ? p.x : max.x, p.y > max.y ? p.y : max.y};
   }
-  /// Squared distance from p to the box; 0 inside.
+  /// Returns the squared distance from p to the box; 0 inside.
   double squared_distance(Vec2 p) const {
     const double dx = std::max(0.0, std::max(min.x - p.x, p.x - max.x));
     const double dy = std::max(0.0, std::max(min.y - p.y, p.y - max.y));
@@ -58,7 +59,8 @@ struct Box {
   }
 };
 
-/// The least box that holds both; what both have in common, with min > max where that is nothing.
+/// The smallest box around both, and the box that both have in common (empty, with min > max, if there is no common
+/// point).
 inline Box united(const Box& a, const Box& b) {
   return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y)},
           {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y)}};

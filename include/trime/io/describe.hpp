@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What any mesh file should say of its mesh: size, hash, quality and checks as metadata. Programs add what they know.
+// Makes the metadata that every mesh file should have: size, hash, quality and checks. Programs may add more.
 #pragma once
 
 #include "trime/io/metadata.hpp"
@@ -9,14 +9,14 @@
 
 namespace trime::io {
 
-/// Group `quality`.
+/// Returns the group `quality`.
 MetadataGroup quality_group(const mesh::QualitySummary& quality);
-/// Group `checks`.
+/// Returns the group `checks`.
 MetadataGroup checks_group(const mesh::Checks& checks);
-/// QualitySummary::worst_triangles, as the group `worst_triangles`.
+/// Returns the group `worst_triangles`, from QualitySummary::worst_triangles.
 MetadataGroup bad_triangles_group(const mesh::QualitySummary& quality);
 
-/// @brief Counts, hash, quality and checks, as write_mesh takes them; `complete` is 1 if all checks passed.
+/// @brief Returns counts, hash, quality and checks for write_mesh; `complete` is 1 if all checks passed.
 Metadata describe(const mesh::DistributedMesh& mesh, const mesh::QualitySummary& quality, const mesh::Checks& checks);
 
 } // namespace trime::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run has on the disk at a moment, for a signal handler.
+// Which files a run has on the disk at the moment, for a signal handler.
 #pragma once
 
 #include <atomic>
@@ -8,20 +8,21 @@
 
 namespace trime::io {
 
-/// @brief Knows the temporary file that is being written, and whether the final mesh is written. A program that ends by
-/// a signal makes one, hands its address to MeshFileOptions, and asks it in the handler. One temporary file at a time.
+/// @brief Knows the temporary file that is being written, and whether the final mesh is written. A program that handles
+/// signals makes one object, passes its address to MeshFileOptions, and asks it in the handler. There is one temporary
+/// file at a time.
 class RunFiles {
 public:
-  /// A file is being written under this temporary name. Names longer than PATH_MAX are not kept.
+  /// Notes that a file is being written under this temporary name. Names longer than PATH_MAX are not noted.
   void start_writing(const std::string& temporary) noexcept;
-  /// That file has its final name, or is removed.
+  /// Notes that this file has its final name, or has been removed.
   void stop_writing() noexcept { writing_ = false; }
-  /// The final mesh has its name; other files of the run may follow.
+  /// Notes that the final mesh has its name; other files of the run may follow.
   void set_final_mesh_written() noexcept { final_mesh_written_ = true; }
 
   /// Removes the temporary file that is being written, if any. Safe in a signal handler.
   void remove_temporary() const noexcept;
-  /// Only rank 0 knows it. Safe in a signal handler.
+  /// Is the final mesh written? Only rank 0 knows. Safe in a signal handler.
   bool final_mesh_written() const noexcept { return final_mesh_written_; }
 
 private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mesh as the text files of TriMe++: the same names and line formats, numbers with 17 significant digits, complete,
-// never appended to. For tools that read those files, and for comparisons; large meshes belong into NAME.h5.
+// Writes the mesh as the text files of TriMe++: the same names and line formats, numbers with 17 significant digits.
+// Files are complete and never appended to. They are for tools that read them, and for comparisons; use NAME.h5 for
+// large meshes.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -15,12 +16,13 @@ namespace trime::io {
 
 class RunFiles;
 
-/// Where the files of one mesh go: FOLDER/NAME_LABEL_xy_id.txt and so on.
+/// Where the files of one mesh go: FOLDER/NAME_LABEL_xy_id.txt etc.
 struct TextPlace {
-  std::string folder; ///< exists
-  std::string name;   ///< TriMe++'s prefix
+  std::string folder; ///< an existing folder
+  std::string name;   ///< the prefix of TriMe++
   std::string label;  ///< "final", or the number of the retriangulation
-  /// Sides of a periodic container, 0 where it is not: triangles across it are written whole.
+  /// Periods of the container, 0 in a direction in which it is not periodic. Triangles across the border are written
+  /// whole.
   geometry::Vec2 period{0, 0};
   RunFiles* run_files = nullptr; ///< as MeshFileOptions::run_files
 };
@@ -32,14 +34,15 @@ struct TextQuality {
   mesh::QualitySummary quality;
 };
 
-/// @brief Writes all files of one mesh but that of the overall quality. Each appears whole or not at all; files of the
-/// same name are replaced. At the return all are on the disk. The machine that fails before may leave loops cut off.
-/// Points, triangles and edges pass through rank 0 in slices, the boundary as a whole.
+/// @brief Writes all files of one mesh except the file of the overall quality. Each file appears complete or not at
+/// all; files of the same name are replaced. All are on the disk when the function returns; if the machine fails
+/// before, files of loops may be cut off. Points, triangles and edges pass through rank 0 in slices, the boundary as a
+/// whole.
 /// @throws FileError on all ranks together
 /// @note Collective.
 void write_text_mesh(const TextPlace& place, const mesh::DistributedMesh& mesh, const comm::Communicator& comm);
 
-/// The text of NAME_tria_quality_stat_overall.txt: 13 columns for each mesh written so far.
+/// Returns the text of NAME_tria_quality_stat_overall.txt: 13 columns for each mesh written so far.
 std::string overall_quality_text(std::span<const TextQuality> meshes);
 
 /// @brief True for names that write_text_mesh() gives to files, with any label; `file` has no directory.

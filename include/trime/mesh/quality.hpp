@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Quality of triangles and of whole meshes. Statistics are integers inside (fixed-point sums, histograms), so that
+// Quality of triangles and of whole meshes. Statistics consist of integers (fixed-point sums, histograms), so that
 // merging them in any order gives the same bits.
 #pragma once
 
@@ -16,34 +16,35 @@
 
 namespace trime::mesh {
 
-/// @brief alpha = abc / (8 (s-a)(s-b)(s-c)) = R/(2r), s half the perimeter: 1 for an equilateral triangle, infinity for
-/// a flat one.
+/// @brief Returns alpha = abc / (8 (s-a)(s-b)(s-c)) = R/(2r), where s is half the perimeter: 1 for an equilateral
+/// triangle, infinity for a flat one.
 double aspect_ratio(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
-/// @brief A triangle whose squared edges add up to less than this times twice its area has an aspect ratio below the
-/// limit. Only few others have, and beyond 1.13 all of these are left out. @pre limit > 1
+/// @brief If the squared edges of a triangle add up to less than the returned value times twice its area, its aspect
+/// ratio is below the limit. Few other triangles are below the limit; for limits above 1.13 the test finds only those
+/// below 1.13. @pre limit > 1
 ///
-/// Let eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area). Of all triangles of one eta an isosceles one has the largest alpha.
-/// Up to eta = 1.1 it is less than 1 + 1.3 (eta - 1).
+/// Reason: let eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area). Among all triangles with one eta, an isosceles one has the
+/// largest alpha. Up to eta = 1.1 this alpha is less than 1 + 1.3 (eta - 1).
 constexpr double squares_surely_below(double limit) {
   constexpr double root_3 = 1.7320508075688772, steepness = 1.3, largest_excess = 0.1;
   return (1 + std::min((limit - 1) / steepness, largest_excess)) * 2 * root_3;
 }
-/// @brief Is the aspect ratio below a limit, by squares_surely_below alone? Never true if it is not. No root, no
-/// division: for most triangles of a good mesh it is all that is needed.
+/// @brief Is the aspect ratio surely below a limit? Uses squares_surely_below, without root and division; this settles
+/// most triangles of a good mesh. Never returns true if the ratio is not below the limit.
 inline bool is_surely_below(double limit, geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r) {
   const geometry::Vec2 u = q - p, v = r - p;
   const double squares = geometry::squared_length(u) + geometry::squared_length(v) + geometry::squared_length(r - q);
   return squares < squares_surely_below(limit) * geometry::cross(u, v);
 }
-/// beta = longest edge / shortest edge.
+/// Returns beta = longest edge / shortest edge.
 double edge_ratio(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
-/// Smallest angle in degrees.
+/// Returns the smallest angle in degrees.
 double min_angle_degrees(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
 
-/// All of them at once.
+/// The measures above for one triangle.
 struct TriangleMeasures {
   double alpha, beta;
-  double least_sine; ///< of the smallest angle; not a number if all three points are equal
+  double least_sine; ///< sine of the smallest angle; not a number if all three points are equal
 };
 inline TriangleMeasures measure_triangle(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -63,25 +64,27 @@ struct RatioSummary {
 };
 
 /// @brief Mergeable statistics of a ratio >= 1. Values are capped at 2^16 in the sums and exact in the maximum. The
-/// median comes from bins: of 1e-6 up to 1.01, of 1e-4 up to 2, of 1e-2 up to 10, and of 1.6 % beyond. There are many,
-/// so ranks do not sum all of them: `pack` first, then the one run of bins that holds the median. See RatioTotals.
+/// median comes from bins with a width of 1e-6 up to 1.01, 1e-4 up to 2, 1e-2 up to 10, and 1.6 % beyond. There are
+/// many bins, so ranks do not sum all of them: they sum the result of `pack` first, then the one run of bins that holds
+/// the median. See RatioTotals.
 class RatioStatistics {
 public:
   RatioStatistics();
   void add(double ratio);
-  /// The same as one after the other; at most 4096 of them.
+  /// Adds several ratios, at most 4096, with the same result as one after the other.
   void add(std::span<const double> ratios);
   void merge(const RatioStatistics& other);
   double max() const { return max_; }
 
   static constexpr std::size_t classes = 9;
-  /// Classes [1,1.01), [1.01,1.02), [1.02,1.05), [1.05,1.1), [1.1,1.2), [1.2,1.5), [1.5,2), [2,5), [5,inf).
+  /// Lower ends of the classes [1,1.01), [1.01,1.02), [1.02,1.05), [1.05,1.1), [1.1,1.2), [1.2,1.5), [1.5,2), [2,5),
+  /// [5,inf).
   static constexpr std::array<double, classes> histogram_edges{1, 1.01, 1.02, 1.05, 1.1, 1.2, 1.5, 2, 5};
   static constexpr std::size_t run_length = 128; ///< bins
-  /// Three sums, of two words each; counts in classes and in runs of bins.
+  /// The packed numbers are three sums of two words each, then the counts in classes and in runs of bins.
   static constexpr std::size_t runs = 169, packed_size = 6 + classes + runs;
   std::array<std::int64_t, packed_size> pack() const;
-  /// The counts in the bins of a run: run_length of them.
+  /// Returns the run_length counts in the bins of a run.
   std::span<const std::int64_t> bins(std::size_t run) const;
 
 private:
@@ -93,13 +96,13 @@ private:
 /// The statistics of all ranks together.
 class RatioTotals {
 public:
-  /// @param packed sums over all ranks of what RatioStatistics::pack gives
+  /// @param packed the results of RatioStatistics::pack, summed over all ranks
   RatioTotals(std::span<const std::int64_t, RatioStatistics::packed_size> packed, double max);
-  /// The run of bins that holds the median.
+  /// Returns the run of bins that holds the median.
   std::size_t median_run() const { return median_run_; }
-  /// @param bins of the run with the median, summed over all ranks
+  /// @param bins counts in the run with the median, summed over all ranks
   RatioSummary summary(std::span<const std::int64_t> bins) const;
-  /// Counts in the classes.
+  /// Returns the counts in the classes.
   const std::array<std::int64_t, RatioStatistics::classes>& histogram() const { return histogram_; }
 
 private:
@@ -113,7 +116,7 @@ private:
 struct BadTriangle {
   double alpha = 0;
   geometry::Vec2 place;      ///< its centre
-  double corner_degrees = 0; ///< angle of the nearest sharp corner within 3 of its longest edges; 0: there is none
+  double corner_degrees = 0; ///< angle of the nearest sharp corner within 3 of its longest edges; 0: no such corner
   geometry::Vec2 corner;
 };
 
@@ -124,9 +127,9 @@ struct QualitySummary {
   geometry::Vec2 worst_place;         ///< centre of the triangle with the largest alpha
   double size_mean = 1, size_std = 0; ///< L / (s h(mid)) over edges; s is chosen so that the mean is 1
   std::array<std::int64_t, RatioStatistics::classes> alpha_histogram{};
-  std::int64_t bad_triangles = 0;           ///< of an alpha above 2
-  std::vector<BadTriangle> worst_triangles; ///< of these, the worst first; at most 10
-  BadTriangle worst_away;                   ///< the worst of these that no corner excuses; alpha 0: there is none
+  std::int64_t bad_triangles = 0;           ///< number of triangles with alpha above 2
+  std::vector<BadTriangle> worst_triangles; ///< at most 10 of them, the worst first
+  BadTriangle worst_away; ///< the worst of them without a sharp corner near it; alpha 0: no such triangle
 };
 
 } // namespace trime::mesh

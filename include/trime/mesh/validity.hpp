@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The certificate of a mesh: named checks, each with what was expected and what was found.
+// The certificate of a mesh: named checks, each with an expected and a found number.
 #pragma once
 
 #include <string>
@@ -7,6 +7,7 @@
 
 namespace trime::mesh {
 
+/// One check.
 struct Check {
   std::string name; ///< lower case with underscores, also the name in the file
   double expected = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mesher: from the boundary of a shape and a size field to a certified mesh, over all ranks.
+// The mesher: makes a certified mesh from the boundary of a shape and a size field, on all ranks.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -18,7 +18,7 @@ namespace trime::meshing {
 /// The mesh in the middle of a run; valid during the call of the observer.
 struct Snapshot {
   int retriangulation; ///< counted from 1
-  double seconds;      ///< since the start of the run
+  double seconds;      ///< time since the start of the run
   const mesh::DistributedMesh& mesh;
   const mesh::QualitySummary& quality;
   const std::vector<polygon::LoopSummary>& loops; ///< see MeshResult
@@ -29,22 +29,24 @@ using SnapshotObserver = std::function<void(const Snapshot&)>;
 class Checkpoints;
 struct SavedRun;
 
+/// Makes one mesh. Use make_mesh unless you need snapshots, checkpoints or an outlook.
 class Mesher {
 public:
-  /// @brief Keeps references: all arguments must outlive the object. `boundary` and `size` are replicated: the same
-  /// bits on every rank.
+  /// @brief Keeps references: all arguments must outlive the object. `boundary` and `size` must have the same bits on
+  /// every rank.
   Mesher(const comm::Communicator& comm, const geometry::Boundary& boundary, const sizing::SizeField& size,
          const MeshOptions& options, Log& log, TimerTable& timers);
   ~Mesher();
 
-  /// @brief Sets what is called with the triangulations that MeshOptions::snapshot_interval asks for; at most one
-  /// observer. Call it before run.
+  /// @brief Sets the observer, which is called with the triangulations that MeshOptions::snapshot_interval asks for.
+  /// There is at most one observer. Call it before run.
   void on_snapshot(SnapshotObserver observer);
 
-  /// Sets who keeps checkpoints of the run; outlives this object. Call it before run.
+  /// Sets the object that keeps checkpoints of the run; it must outlive this object. Call it before run.
   void keep_checkpoints(Checkpoints& checkpoints);
-  /// @brief The run goes on from a checkpoint, to the mesh that it would have made. Call it before run.
-  /// @param saved outlives this object; of a run with the same boundary, size and options, on any ranks
+  /// @brief Continues a run from a checkpoint, to the mesh that the run would have made. Call it before run.
+  /// @param saved state of a run with the same boundary, size and options, on any number of ranks; must outlive this
+  /// object
   void go_on_from(const SavedRun& saved);
 
   /// @brief Makes the mesh. @note Collective.
@@ -53,8 +55,8 @@ public:
   /// @throws FileError on all ranks together if the checkpoint does not fit this run
   MeshResult run();
 
-  /// @brief What run() will do to the boundary, about; no mesh is made. Takes as long as a mesh of 10^5 points needs
-  /// for its start, and 12 simplifications of the boundary at most. @note Collective.
+  /// @brief Estimates what run() will do to the boundary, without making a mesh. Takes as long as the start of a mesh
+  /// of 10^5 points, and at most 12 simplifications of the boundary. @note Collective.
   /// @throws as run
   Outlook outlook() const;
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run will do to the shape, foretold without a mesh. Plain data.
+// An estimate of what a run will do to the shape, computed without making a mesh. Plain data.
 #pragma once
 
 #include "trime/boundary/feature_summary.hpp"
 
 namespace trime::meshing {
 
-/// About what MeshResult::features will say, and the resolution at which nothing would be simplified.
+/// An estimate of MeshResult::features, and the resolution at which nothing would be simplified.
 struct Outlook {
   boundary::FeatureReport features;
   bool keeps_all = false; ///< nothing is simplified or dropped
-  /// About so many points keep everything; if not `is_enough`, more than these do.
+  /// Number of points that keep everything, about; a lower bound if not `is_enough`.
   double keeping_points = 0;
-  double keeping_edge_length = 0; ///< the mean one of so many points
+  double keeping_edge_length = 0; ///< mean edge length of that many points
   bool is_enough = false;
 };
 

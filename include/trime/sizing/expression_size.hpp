@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A size field from a formula of the user.
+// A size field that a formula of the user defines.
 #pragma once
 
 #include "trime/core/formula.hpp"
@@ -7,23 +7,23 @@
 
 namespace trime::sizing {
 
-/// @brief Relative size at (x, y) as a formula says. Only its ratios count: the mesher scales it as a whole.
+/// @brief A relative size as a formula of x and y. Only ratios count, because the mesher scales the size by one factor.
 class ExpressionSize final : public SizeField {
 public:
   /// Positive sizes below this share of the largest one seen on the grid are raised to it.
   static constexpr double smallest_share = 1e-6;
-  /// Points of the checking grid along each axis.
+  /// Number of points of the checking grid along each axis.
   static constexpr int check_points = 65;
 
-  /// @brief Evaluates the formula on a grid over `box`. About 65^2 evaluations.
+  /// @brief Evaluates the formula on a grid over `box`, about 65^2 times.
   /// @pre `formula` outlives this object
   /// @param box the shape's bounding box
   /// @throws ConfigError that names the place and the value if the formula is not positive and finite on the grid
   ExpressionSize(const Formula& formula, const geometry::Box& box);
 
-  /// @brief The value of the formula, or the smallest share if that is larger; outside the box, at the nearest point of
-  /// it. Between the points of the grid the formula may fail: a value that is not positive and finite comes through,
-  /// for the mesher to name.
+  /// @brief Returns the value of the formula, or the smallest share if that is larger. Outside the box it uses the
+  /// nearest point of the box. Between the points of the grid the formula may fail: then the invalid value is returned,
+  /// and the mesher reports it.
   double size(geometry::Vec2 p) const override;
 
 private:

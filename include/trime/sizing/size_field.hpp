@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Element size h(x): the target edge length. One of the two seams of the library; the other is the shape.
+// The size field h(x): the target edge length. Derive from SizeField to use your own size.
 #pragma once
 
 #include "trime/geometry/vec2.hpp"
@@ -9,21 +9,21 @@
 
 namespace trime::sizing {
 
-/// @brief Relative element size, positive; the mesher scales it by one factor to meet the requested number of points.
-/// Called concurrently: implementations must be thread-safe and give the same bits on every rank. Where the mesher
-/// meets a value in the shape that is not positive and finite, all ranks throw a GeometryError with the place and the
-/// value.
+/// @brief A relative element size, positive; the mesher scales it by one factor to reach the requested number of
+/// points. Threads call it concurrently: implementations must be thread-safe and give the same bits on every rank. If
+/// the mesher finds a value in the shape that is not positive and finite, all ranks throw a GeometryError with the
+/// place and the value.
 class SizeField {
 public:
   virtual ~SizeField() = default;
   virtual double size(geometry::Vec2 p) const = 0;
-  /// True if the size is the same everywhere (allows the lattice start).
+  /// Returns true if the size is the same everywhere. Then the run can start from a lattice.
   virtual bool is_uniform() const { return false; }
-  /// Of tables of its own, for the report.
+  /// Returns the bytes of its tables, for the report.
   virtual std::size_t memory_bytes() const { return 0; }
 };
 
-/// What the mesher expects of a size.
+/// Is it a size that the mesher accepts: positive and finite?
 inline bool is_valid_size(double size) {
   return size > 0 && size <= std::numeric_limits<double>::max();
 }
@@ -31,7 +31,7 @@ inline bool is_valid_size(double size) {
 /// @throws GeometryError that names the place and the value
 [[noreturn]] void fail_for_size(geometry::Vec2 p, double size);
 
-/// The size at p. @throws GeometryError unless it is positive and finite, on this rank alone
+/// Returns the size at p. @throws GeometryError on this rank alone, unless the size is positive and finite
 inline double checked_size(const SizeField& field, geometry::Vec2 p) {
   const double size = field.size(p);
   if (!is_valid_size(size))
@@ -39,7 +39,7 @@ inline double checked_size(const SizeField& field, geometry::Vec2 p) {
   return size;
 }
 
-/// The same size everywhere.
+/// A size that is the same everywhere.
 class UniformSize final : public SizeField {
 public:
   explicit UniformSize(double size = 1) : size_(size) {}
@@ -57,12 +57,12 @@ public:
   ScaledSize(const SizeField& field, double factor, double min_size = 0,
              double max_size = std::numeric_limits<double>::infinity())
       : field_(field), factor_(factor), min_size_(min_size), max_size_(max_size) {}
-  /// What is no valid size comes through as it is, for the caller to find.
+  /// Returns an invalid value unchanged, so that the caller finds it.
   double size(geometry::Vec2 p) const override {
     const double relative = field_.size(p);
     return is_valid_size(relative) ? scaled(relative) : relative;
   }
-  /// The size where the field has a valid value.
+  /// Returns the size for a valid value of the field.
   double scaled(double relative) const {
     const double size = factor_ * relative;
     return size < min_size_ ? min_size_ : size > max_size_ ? max_size_ : size;

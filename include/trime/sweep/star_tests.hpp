@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Slow ways to compute stars, for tests. Plain data.
+// Options that compute stars in slower ways, for tests. Plain data.
 #pragma once
 
 namespace trime::sweep {
 
-/// Tests of the sweeps; the mesh is the same with any of them, but for what `sleepless` says.
+/// Options for tests of the sweeps. The mesh is the same with each of them, with the exception of `sleepless`.
 struct StarTests {
-  /// Compare every star after every sweep with one that is computed anew. @throws InternalError if one differs
+  /// Compares every star after every sweep with one that is computed from scratch. @throws InternalError if one differs
   bool verify = false;
-  /// Certify every star of every sweep by emptiness, and none by those around it.
+  /// Certifies every star of every sweep by the empty-circle test, and not by the stars around it.
   bool by_emptiness = false;
-  /// Keep all tiles and sites awake in every sweep. The mesh may differ where a scale of the rule changes by less than
-  /// wakes all.
+  /// Keeps all tiles and sites awake in every sweep. The mesh may differ where a scale of the rule changes so little
+  /// that it does not wake all sites.
   bool sleepless = false;
 };
 

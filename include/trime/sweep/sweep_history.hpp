@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How points are moved, and what is recorded of it: the history of a run. Plain data.
+// The methods that move points, and the history of a run. Plain data.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -8,27 +8,30 @@
 
 namespace trime::sweep {
 
-/// @brief How points move. `distmesh`: edges are bars that repel. `cvd`: each point goes to the centroid of its Voronoi
-/// cell. `hybrid`: bars until the median of alpha stalls, then centroids, and at last towards equilateral triangles.
+/// @brief The methods that move points. `distmesh`: edges are bars that repel. `cvd`: each point goes to the centroid
+/// of its Voronoi cell. `hybrid`: bars until the median of alpha stalls, then centroids, and finally towards
+/// equilateral triangles.
 enum class Method { distmesh, cvd, hybrid };
 
 /// @brief Why the sweeps of the last stage ended. Converged: no point moved by more than 0.005 h. Quality stalled: six
-/// sweeps gained too little. Sweep cap: MeshOptions::max_sweeps.
+/// sweeps improved the mesh too little. Sweep cap: MeshOptions::max_sweeps was reached.
 enum class StopReason { converged, quality_stalled, sweep_cap };
-/// "converged", "quality stalled", "sweep cap".
+/// Returns "converged", "quality stalled" or "sweep cap".
 std::string to_string(StopReason reason);
 
-/// One line of history: a triangulation whose quality was measured, and what the moves since the last one did.
+/// One line of history: a triangulation whose quality was measured, and the effect of the moves since the last one.
 struct SweepRecord {
   int sweep = 0;
   GlobalId points = 0;
-  int stage = 0;        ///< of the point scheme: a level of the coarse-to-fine start, or an insertion
-  bool by_bars = false; ///< the move after this triangulation is that of DistMesh, else of cells or triangles
+  int stage = 0; ///< stage of the run: a level of the coarse-to-fine start, or an insertion
+  bool by_bars =
+      false; ///< the move after this triangulation uses the rule of DistMesh, else that of cells or triangles
   double median_alpha = 1, mean_alpha = 1, max_alpha = 1;
-  double max_move = 0;     ///< longest move over local h
+  double max_move = 0;     ///< longest move, divided by the local h
   double moving_share = 0; ///< share of the sites that moved more than 0.005 h
   GlobalId rebuilt_stars = 0, pushed = 0, deleted = 0;
-  double seconds = 0; ///< since the start; after a restart it goes on from the last record. Differs from run to run
+  double seconds =
+      0; ///< time since the start; after a restart it continues from the last record. Differs from run to run
 };
 
 } // namespace trime::sweep
