@@ -1,20 +1,21 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Times whole runs, one program alone or two against each other.
+"""Measures the time of whole runs of one program, or compares two programs.
 
-Every case runs `--repeats` times after one run that is dropped; with `--against` the two programs take turns, and the
-ratio is that of their medians. Seconds are those of the program, from the start of main to the end with the file
-written; MPI's own start and end are in the column of the command. "ns" are nanoseconds of all cores per point and
-sweep, for stars, moves, measuring and sorting together. Prints a table in Markdown.
+Every case runs `--repeats` times after a first run that does not count. With `--against` the two programs run
+alternately, and the script prints the ratio of their medians. "Seconds" is the time that the program itself measures,
+from the start of main until the mesh file is written. "Command" also includes the start and the end of MPI. "ns" are
+nanoseconds of all cores per point and sweep: stars, moves, measuring and sorting together. The script prints a table in
+Markdown.
 
   scripts/benchmark.py                                         # squares of 1e5 and 1e6 points
   scripts/benchmark.py --data DIR --cases all                  # with DIR/poker.xy and DIR/north_america.xy
   scripts/benchmark.py --against ../old/trime_mpi --cases "square 1e5"
-  scripts/benchmark.py --gmsh --cases "square 1e5"             # Gmsh's Frontal-Delaunay of as many vertices beside it
+  scripts/benchmark.py --gmsh --cases "square 1e5"             # compares with Gmsh's Frontal-Delaunay algorithm
 
-With `--gmsh` the seconds in Gmsh's row are those of its meshing alone, 1D and 2D, as it tells them: one thread, no
-start, no files; the whole command is beside them. On graded shapes it meshes the size field of our mesh, see
-gmsh_rival.py.
+With `--gmsh` a second row shows a mesh of Gmsh that has as many vertices. Its "seconds" are the times that Gmsh prints
+for the meshing of curves and surfaces on one thread, without its start and its files. Its "command" is the whole
+command. On graded shapes Gmsh meshes the size field of our mesh, see gmsh_rival.py.
 """
 import argparse
 import os
@@ -98,17 +99,20 @@ def row(name, who, result, threads, note=""):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "release" / "trime_mpi")
-    parser.add_argument("--against", type=pathlib.Path, help="another build of the program")
-    parser.add_argument("--gmsh", action="store_true", help="Gmsh beside it (Debian: gmsh python3-scipy)")
-    parser.add_argument("--data", type=pathlib.Path, help="directory with poker.xy and north_america.xy")
-    parser.add_argument("--cases", default="square 1e5,square 1e6", help="comma-separated, or all; " + ", ".join(CASES))
-    parser.add_argument("--repeats", type=int, default=5)
-    parser.add_argument("--threads", type=int, default=os.cpu_count())
-    parser.add_argument("overrides", nargs="*", help="section.key=value")
+    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "release" / "trime_mpi",
+                        help="the program to measure (default: build/release/trime_mpi)")
+    parser.add_argument("--against", type=pathlib.Path, help="another build, to compare the program with")
+    parser.add_argument("--gmsh", action="store_true",
+                        help="compare with meshes of Gmsh (Debian: gmsh python3-scipy)")
+    parser.add_argument("--data", type=pathlib.Path, help="the directory of poker.xy and north_america.xy")
+    parser.add_argument("--cases", default="square 1e5,square 1e6",
+                        help="names separated by commas, or all (default: %(default)s): " + ", ".join(CASES))
+    parser.add_argument("--repeats", type=int, default=5, help="counted runs of each case (default: %(default)s)")
+    parser.add_argument("--threads", type=int, default=os.cpu_count(), help="default: one per core, %(default)s here")
+    parser.add_argument("overrides", nargs="*", help="section.key=value, for every run")
     arguments = parser.parse_args()
     if arguments.gmsh and any(override.startswith(("shape", "sizing", "domain")) for override in arguments.overrides):
-        parser.error("--gmsh meshes the cases as they are: no overrides of shape, sizing and domain")
+        parser.error("--gmsh cannot be combined with overrides of shape, sizing and domain")
     names = list(CASES) if arguments.cases == "all" else [name.strip() for name in arguments.cases.split(",")]
     for name in names:
         if name not in CASES:
@@ -118,7 +122,7 @@ def main():
     programs = [("this", arguments.program)] + ([("other", arguments.against)] if arguments.against else [])
     for _, program in programs:
         if not program.is_file():
-            parser.error(f"{program} is not there; --program names another one")
+            parser.error(f"there is no program {program}; build it, or name another one by --program")
     print("| case | program | points | seconds | command | points/s | sweeps | ns | set-up | clean-up | extract "
           "| output | bytes/point | mean | max alpha | |\n" + "|---" * 16 + "|")
     for name in names:

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Checks that includes only point downward between the modules of the library.
 
-Usage: check_layers.py [ROOT]     ROOT: the top of the tree (default: the one that this script lies in)
-Prints each forbidden include as file:line and exits with 1 if there is any. Tests, benchmarks and examples may include
+Usage: check_layers.py [ROOT]     ROOT: the top of the source tree (default: the tree that holds this script)
+Prints each forbidden include as file:line, and exits with 1 if there is one. Tests, benchmarks and examples may include
 anything.
 """
 import pathlib

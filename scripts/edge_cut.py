@@ -1,14 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""How compact the ranks' parts of a mesh are, beside METIS and Scotch (Debian: metis, scotch) on the same graph.
+"""Compares the compactness of the ranks' parts of a mesh with METIS and Scotch (Debian: metis, scotch).
 
-  scripts/edge_cut.py                                     # the table of scripts/README.md, in some minutes
+  scripts/edge_cut.py                                     # the table of scripts/README.md; takes some minutes
   scripts/edge_cut.py --points 1e5 --parts 4 --mesh MESH.h5 ...
 
-The graph has a node for each triangle and an edge for each two that share a side. The edge cut counts those between
-parts; uneven is the largest part over the mean, minus 1. Our parts need no program: points lie along the curve in the
-file, a part is a range of equally many points, and a triangle goes with its first vertex. In a run borders lie between
-tiles of about 500 points, so parts are less even by that. Without METIS or Scotch their columns stay empty.
+All three divide the same graph: it has a node for each triangle, and an edge for each pair of triangles with a common
+side. The edge cut is the number of edges between parts. "Uneven" is the size of the largest part over the mean, minus
+1. Our parts follow from the file: its points lie along a space-filling curve, a part is a range of equally many points,
+and a triangle belongs to its first vertex. In a run the borders lie between tiles of about 500 points, so its parts are
+less even by that. Without METIS or Scotch their columns stay empty.
 """
 import argparse
 import os
@@ -126,10 +127,11 @@ def rows_of(name, path, part_numbers, folder):
 
 def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    options.add_argument("--points", default="1e5,1e6", help="of the meshes that are made (default %(default)s)")
-    options.add_argument("--parts", default="4,16,64", help="numbers of parts (default %(default)s)")
-    options.add_argument("--mesh", type=pathlib.Path, nargs="+", help="these mesh files instead")
-    options.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "release" / "trime_mpi")
+    options.add_argument("--points", default="1e5,1e6", help="points of the meshes to make (default: %(default)s)")
+    options.add_argument("--parts", default="4,16,64", help="numbers of parts (default: %(default)s)")
+    options.add_argument("--mesh", type=pathlib.Path, nargs="+", help="use these mesh files instead")
+    options.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "release" / "trime_mpi",
+                         help="the program that makes them (default: build/release/trime_mpi)")
     given = options.parse_args()
     part_numbers = [int(parts) for parts in given.parts.split(",")]
     print("| mesh, triangles | parts | ours: cut | uneven | METIS: cut | uneven | Scotch: cut | uneven "

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A build of the program for AArch64 on another processor: Debian's cross compiler, Debian's arm64 packages unpacked
-into a directory, and qemu-user. For same_bits.py."""
+"""Builds and runs the program for AArch64 on another processor, for same_bits.py.
+
+Debian's cross compiler compiles it, Debian's arm64 packages are unpacked into a directory, and qemu-user runs it.
+"""
 import os
 import pathlib
 import shutil

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Gmsh's Frontal-Delaunay on the shapes of benchmark.py, with about as many vertices as a mesh of ours. No program by
-itself.
+"""Runs Gmsh's Frontal-Delaunay algorithm on the shapes of benchmark.py. This is a module, not a program.
 
-The square gets one size at its corners. Every other shape, a contour with or without lakes and round holes, gets the
-size that our mesh file tells of its points, tabulated on a grid, as a background field, times a scale at which Gmsh
-makes as many vertices as we did, to 3 %. Finding the scale, a few runs of Gmsh, is not in the seconds.
+Gmsh makes about as many vertices as our mesh has. For the square it gets one size at the corners. For every other
+shape, a contour with or without lakes and round holes, it gets the sizes of our mesh file as a background field on a
+grid. The script multiplies this field by a scale, and finds by a few runs the scale for which the numbers of vertices
+agree within 3 %. The seconds do not include this search.
 """
 import configparser
 import pathlib
@@ -135,8 +135,8 @@ class Rival:
                 "Mesh.MeshSizeFromCurvature = 0;\n")
 
     def run(self):
-        """Seconds (meshing of the boundary and of the inside, as Gmsh tells them, without its start and files), those
-        of the whole command, and quality."""
+        """Returns the seconds that Gmsh prints for the meshing of the boundary and the inside (without its start and
+        its files), the seconds of the whole command, and the quality."""
         geo, msh = self.directory / "g.geo", self.directory / "g.msh"
         geo.write_text(self.geometry + self.size_text(), encoding="ascii")
         begun = time.perf_counter()
@@ -145,7 +145,7 @@ class Rival:
         command = time.perf_counter() - begun
         seconds = re.findall(r"Done meshing [12]D \(Wall ([\d.e-]+)s", done.stdout)
         if len(seconds) != 2:
-            sys.exit(f"gmsh_rival.py: Gmsh does not tell its times:\n{done.stdout}{done.stderr}")
+            sys.exit(f"gmsh_rival.py: Gmsh printed no times:\n{done.stdout}{done.stderr}")
         return {"seconds": sum(map(float, seconds)), "command": command} | quality(msh)
 
 

@@ -1,17 +1,17 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures what each number of src/*/rules.hpp does: meshes with the number a quarter larger and a quarter smaller.
+"""Measures the effect of each number in src/*/rules.hpp: makes meshes with 1.25 and 0.8 times the number.
 
-A copy of the sources is built in which the numbers are read from the environment when the program starts. Numbers that
-the compiler must know (sizes of arrays) stay as they are and get no line. Then each number is changed alone, on some
-cases that use all modules, with one thread. What is written (CSV) is one line for each number and direction, with the
-largest differences over the cases. The time of processors is written only where it changes beyond TIMES, and does so
-again in runs that alternate with runs of the numbers as they are.
+The script builds a copy of the sources whose program reads the numbers from the environment when it starts. Numbers
+that the compiler must know, such as sizes of arrays, stay as they are and get no line. The script then changes one
+number at a time, and meshes some cases that use all modules, with one thread. It writes a CSV file: one line for each
+number and direction, with the largest differences over the cases. It writes a change of the processor time only if the
+change exceeds TIMES, and if it exceeds TIMES again in runs that alternate with runs of the unchanged numbers.
 
 Usage: measure_rules.py [--work DIR] [--only WORD] [-o src/rules_effects.csv]
-  --work DIR    where the copy is built (default build/rules)
-  --only WORD   numbers whose full name holds this word; the lines of the others stay as they are
-Takes about 40 minutes on two cores, 3 of them for the build.
+  --work DIR    build the copy here (default: build/rules)
+  --only WORD   measure only the numbers whose full name contains WORD; the other lines of the file stay
+The script takes about 40 minutes on two cores, 3 of them for the build.
 """
 import argparse
 import concurrent.futures
@@ -192,9 +192,12 @@ def settle_times(program, rows, pool):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--work", type=pathlib.Path, default=ROOT / "build" / "rules")
-    parser.add_argument("--only", default="")
-    parser.add_argument("-o", "--output", type=pathlib.Path, default=EFFECTS)
+    parser.add_argument("--work", type=pathlib.Path, default=ROOT / "build" / "rules",
+                        help="build the copy here (default: build/rules)")
+    parser.add_argument("--only", default="", metavar="WORD",
+                        help="measure only the numbers whose full name contains WORD; the other lines of the file stay")
+    parser.add_argument("-o", "--output", type=pathlib.Path, default=EFFECTS,
+                        help="the CSV file (default: src/rules_effects.csv)")
     options = parser.parse_args()
     numbers, complaints = rules_table.read_tree(ROOT)
     if complaints:

@@ -1,17 +1,22 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws a mesh file of trime_mpi: a command over the Python package trime_mpi.
+"""Draws a mesh file of trime_mpi with the Python package trime_mpi.
 
-quality (default): all triangles coloured by alpha, the neighbourhood of the worst one, a histogram; alpha =
-circumradius / (2 inradius) is 1 for an equilateral triangle. size: the mesh beside its size field h, the edge length
-that was asked for. parts: the boundary by part of the shape. ranks: who owned what. history: the sweeps of the run.
+The pictures are:
+
+  quality   (default) the triangles, coloured by alpha, the neighbourhood of the worst one, and a histogram; alpha =
+            circumradius / (2 inradius) is 1 for an equilateral triangle
+  size      the mesh next to its size field h, the desired edge length
+  parts     the boundary, coloured by part of the shape
+  ranks     the rank that owned each triangle
+  history   how alpha changed during the sweeps of the run
 """
 import argparse
 import pathlib
 import sys
 
 HERE = pathlib.Path(__file__).resolve()
-# Beside this script in the source tree; where it is installed, in PREFIX/lib/python3/dist-packages.
+# The package lies next to this script in the source tree, and in PREFIX/lib/python3/dist-packages once installed.
 for folder in (HERE.parent / "python", HERE.parents[3] / "lib" / "python3" / "dist-packages"):
     if (folder / "trime_mpi").is_dir():
         sys.path.insert(0, str(folder))
@@ -37,7 +42,7 @@ def palette():
 
 
 def write_with_palette(picture):
-    """Writes a PNG once more in few colours, which makes the file a third as large."""
+    """Writes a PNG again with few colours, which makes the file a third as large."""
     from PIL import Image  # comes with matplotlib
     colours = Image.new("P", (1, 1))
     colours.putpalette((255 * palette()).round().astype(np.uint8).tobytes())
@@ -47,14 +52,14 @@ def write_with_palette(picture):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("mesh", type=pathlib.Path, help="mesh file, NAME.h5")
+    parser.add_argument("mesh", type=pathlib.Path, help="the mesh file, NAME.h5")
     parser.add_argument("-o", "--output", type=pathlib.Path,
-                        help="picture, .png or .svg (default: NAME.png beside the mesh)")
-    parser.add_argument("--what", choices=list(FIGURES), help="what is drawn (default: quality)")
+                        help="the picture, .png or .svg (default: NAME.png next to the mesh file)")
+    parser.add_argument("--what", choices=list(FIGURES), help="what to draw (default: quality)")
     parser.add_argument("--size", action="store_true", help="the same as --what size")
-    parser.add_argument("--dpi", type=int, default=130, help="dots per inch (default %(default)s)")
+    parser.add_argument("--dpi", type=int, default=130, help="dots per inch (default: %(default)s)")
     parser.add_argument("--small", action="store_true",
-                        help="write the PNG of quality or size with a palette: a smaller file")
+                        help="store the PNG of quality or size with a palette, in a smaller file")
     options = parser.parse_args()
     picture = options.output or options.mesh.with_suffix(".png")
     what = options.what or ("size" if options.size else "quality")

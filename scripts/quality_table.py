@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Quality and sweeps of the three methods on shapes that TriMe++ was measured on, beside its figures.
+"""Measures the quality of the three methods on the shapes for which figures of TriMe++ exist.
 
-Writes a config for each row, runs trime_mpi on one rank, and prints a table in Markdown: median, mean and largest
-alpha, smallest angle, conformity to the size (standard deviation of L / (s h)), sweeps, full sweeps and seconds. A
-sweep over a coarse mesh counts as that share of a full sweep which it has of the final points. Beside them stand the
-figures of TriMe++ (commit 3929c19, one thread or two, whichever was better) for the same shape and number of points.
+The script writes a config for each row, runs trime_mpi on one rank, and prints a table in Markdown: median, mean and
+largest alpha, the smallest angle, the conformity to the size (standard deviation of L / (s h)), sweeps, full sweeps and
+seconds. A sweep over a coarse mesh counts as a fraction of a full sweep: its number of points over the final number.
+The last columns are the figures of TriMe++ (commit 3929c19, the better of one and two threads) for the same shape and
+number of points.
 
   scripts/quality_table.py                                  # the shapes that need no data
   scripts/quality_table.py --data DIR                       # with DIR/poker.xy and DIR/north_america.xy
@@ -84,11 +85,12 @@ def run(program, directory, name, config, points, method, overrides):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--data", type=pathlib.Path, help="directory with poker.xy and north_america.xy")
-    parser.add_argument("--program", default=ROOT / "build" / "release" / "trime_mpi")
-    parser.add_argument("--methods", default="distmesh,cvd,hybrid")
-    parser.add_argument("--rows", default="", help="only rows whose name contains this")
-    parser.add_argument("overrides", nargs="*", help="section.key=value for every run")
+    parser.add_argument("--data", type=pathlib.Path, help="the directory of poker.xy and north_america.xy")
+    parser.add_argument("--program", default=ROOT / "build" / "release" / "trime_mpi",
+                        help="the program to measure (default: build/release/trime_mpi)")
+    parser.add_argument("--methods", default="distmesh,cvd,hybrid", help="default: %(default)s")
+    parser.add_argument("--rows", default="", help="only the rows whose name contains this text")
+    parser.add_argument("overrides", nargs="*", help="section.key=value, for every run")
     arguments = parser.parse_args()
     print("| shape, points | method | median | mean | max alpha | min angle | std of L/(s h) | sweeps | full sweeps "
           "| s | TriMe++ median | mean | max | retriangulations |")

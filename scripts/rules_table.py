@@ -2,20 +2,27 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Prints the numbers of all rules headers (src/*/...rules.hpp) as one Markdown table per module.
 
-A number stands in a struct whose name ends in `Rules` or `Options`, below its unit and its reason:
+A number is a member of a struct whose name ends in `Rules` or `Options`. The comment above it gives its unit and its
+reason:
 
     /// [h] A move shorter than this counts as rest. With 0.01 sweeps stop earlier.
     static constexpr double still = 0.005;
 
-What a number does is the column "effect", made from src/rules_effects.csv, which scripts/measure_rules.py writes.
+The column "effect" comes from src/rules_effects.csv, which scripts/measure_rules.py writes.
 
 Usage: rules_table.py [--check PAGE | --write PAGE] [--root ROOT]
-  --check PAGE   compares the tables with the part of PAGE between the lines of MARKS; exits with 1 if they differ
-  --write PAGE   puts them there
-Exits with 1 for a number without unit or reason, for one that has neither an effect nor the words "Not measured."
-(or "Measured", with the result) in its comment, for one that has an effect and says "Not measured.", and for an effect
-of a number that is not there. Warns, on the error stream, of one name with several values: two structs may use one word
-for two things only if their reasons say which things these are.
+  --check PAGE   compare the tables with the part of PAGE between the lines of MARKS; exit with 1 if they differ
+  --write PAGE   put the tables there
+
+The script exits with 1 for
+
+  * a number without a unit or a reason,
+  * a number that has no effect in the file, and neither "Not measured." nor "Measured" with the result in its comment,
+  * a number that has an effect in the file, and "Not measured." in its comment,
+  * an effect of a number that does not exist.
+
+It warns on the error stream if one name has several values. Two structs may use one word for two things only if their
+reasons say which things these are.
 """
 import argparse
 import csv
@@ -211,9 +218,10 @@ def first_difference(page, now):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     action = parser.add_mutually_exclusive_group()
-    action.add_argument("--check", type=pathlib.Path, metavar="PAGE")
-    action.add_argument("--write", type=pathlib.Path, metavar="PAGE")
-    parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent)
+    action.add_argument("--check", type=pathlib.Path, metavar="PAGE", help="compare the tables with those of PAGE")
+    action.add_argument("--write", type=pathlib.Path, metavar="PAGE", help="put the tables into PAGE")
+    parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent,
+                        help="the top of the source tree (default: the tree that holds this script)")
     options = parser.parse_args()
     numbers, complaints = read_tree(options.root)
     effects = read_effects(options.root)

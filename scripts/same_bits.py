@@ -1,20 +1,20 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether every build of the program makes the same meshes: compilers, levels of optimisation, vector instructions,
-the other MPI, and AArch64.
+"""Checks that every build of the program makes the same meshes: other compilers, optimisation levels and vector
+instructions, MPICH, and AArch64.
 
-Builds the program in several ways, meshes a few small configs with each, and prints the hashes of the meshes as a table
-in Markdown. A row that differs from the first one says so. Packages: the lists of scripts/packages.sh.
+The script builds the program in several ways, meshes a few small configs with each build, and prints the hashes of the
+meshes as a table in Markdown. A row that differs from the first one says so. scripts/packages.sh lists the packages.
 
   scripts/same_bits.py                                    # all builds, in a temporary directory
   scripts/same_bits.py --builds gcc-O3,clang-O2 --keep DIR
-  scripts/same_bits.py --builds aarch64 --keep DIR        # beside gcc-O3, which is always built
+  scripts/same_bits.py --builds aarch64 --keep DIR        # also builds gcc-O3, the first row of every table
   scripts/same_bits.py --program ci=build/ci/trime_mpi --program mpich=build/mpich/trime_mpi     # builds nothing
 
-AArch64 is compiled by Debian's cross compiler and runs under qemu-user. Its libraries are fetched as Debian packages
-(130 MB) and unpacked into DIR/sysroot; nothing is installed, and no right of root is needed.
+Debian's cross compiler makes the program for AArch64, and qemu-user runs it. The script downloads its libraries as
+Debian packages (130 MB), and unpacks them into DIR/sysroot. It installs nothing, and needs no rights of root.
 
-A build takes 5 to 10 minutes on one core, or one with ccache and all objects in it; --jobs N builds on N cores. The
+A build takes 5 to 10 minutes on one core, or one minute if ccache holds all objects; --jobs N builds on N cores. The
 runs of a build take 10 s, those of AArch64 a minute.
 
 Exit codes: 0 all hashes are equal, 1 some differ, 2 bad use, 4 a build or a run failed.
@@ -216,14 +216,14 @@ def sources_of(options, cases, directory):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--builds", default="", metavar="LIST", help=f"which ones (all): {', '.join(BUILDS)}")
+    parser.add_argument("--builds", default="", metavar="LIST", help=f"default: all of {', '.join(BUILDS)}")
     parser.add_argument("--program", metavar="WHAT=COMMAND", action="append", default=[],
-                        help="a program that exists; without --builds nothing is built; may be repeated")
+                        help="a program that exists already; may be repeated; without --builds nothing is built")
     parser.add_argument("--cases", default=",".join(CASES), metavar="LIST",
-                        help=f"which configs (all): {', '.join(CASES)}")
+                        help=f"configs (default: all of {', '.join(CASES)})")
     parser.add_argument("--keep", metavar="DIR", type=pathlib.Path,
-                        help="builds there, and leaves them for the next time")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="so many compilers at once (one per core)")
+                        help="keep the builds in this directory for the next time")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="compilers at once (default: one per core)")
     parser.add_argument("--cmake", metavar="ARGUMENT", action="append", default=[],
                         help="for all builds, such as --cmake=-DTRIME_PRECOMPILE=ON; may be repeated")
     options = parser.parse_args()

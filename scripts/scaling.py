@@ -1,21 +1,22 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scaling tables: strong and weak sweeps over ranks, threads, methods and points, from a small ini.
+"""Measures strong and weak scaling: sweeps over ranks, threads, methods and points that a small ini file describes.
 
-Each case runs once to warm up and five times to count, all cases in turn. Tables hold medians, spread, the efficiency
-E = T1/(p Tp) (strong) or T1/Tp (weak), the serial fraction of Karp and Flatt, and seconds by phase. All runs of one
-mesh must have the same hash. OUTPUT gets scaling.md, scaling.csv, runs.jsonl (every run), and plots as PNG and SVG.
+Each case runs once to warm up and then five times. The cases run alternately. The tables hold medians, spread, the
+efficiency E = T1/(p Tp) (strong) or T1/Tp (weak), the serial fraction of Karp and Flatt, and seconds by phase. All runs
+of one mesh must have the same hash. The directory OUTPUT gets scaling.md, scaling.csv, runs.jsonl with every run, and
+plots as PNG and SVG.
 
   scripts/scaling.py                                           # scaling/sweeps/default.ini: 1 and 2 cores, some minutes
   scripts/scaling.py --kind strong --points 1e7 --cases powers --config my.ini sizing.gradation=0.2
   scripts/scaling.py scripts/scaling/sweeps/trime_square.ini   # the study of TriMe++
   scripts/scaling.py scripts/scaling/sweeps/simulated.ini --backend simulated
   scripts/scaling.py --backend slurm --cases ranks --nodes 4x64; scripts/scaling.py --collect scaling
-  scripts/scaling.py --compare old/runs.jsonl                  # measures, and tells what got slower
+  scripts/scaling.py --compare old/runs.jsonl                  # measures, and lists what became slower
   scripts/scaling.py --read new/runs.jsonl --compare old/runs.jsonl
-  scripts/scaling.py --model a/runs.jsonl b/runs.jsonl         # fits, checks, predicts to 10^4 ranks
+  scripts/scaling.py --model a/runs.jsonl b/runs.jsonl         # fits a model, checks it, predicts times on 10^4 ranks
 
-Exit codes: 0 done; 2 usage; 4 a run failed, a file cannot be read, or hashes differ: rows that are done are kept;
+Exit codes: 0 success; 2 bad use; 4 a run failed, a file cannot be read, or hashes differ (the rows so far are kept);
 5 --compare found regressions.
 """
 import argparse
@@ -45,24 +46,30 @@ def parser():
     made = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add = made.add_argument
     add("arguments", nargs="*", metavar="INI | section.key=value",
-        help="sweeps (default: default.ini); options of trime_mpi")
-    add("--backend", default="local", help=f"one of {', '.join(NAMES)} (default %(default)s)")
-    add("--program", type=pathlib.Path, default=ROOT / "build" / "release" / "trime_mpi")
-    add("--cluster", type=pathlib.Path, help="simulated: platform file of SimGrid")
-    add("--output", type=pathlib.Path, default=pathlib.Path("scaling"), help="directory (default ./scaling)")
-    add("--only", default="", metavar="TEXT", help="sweeps whose name contains it")
-    add("--kind", default="", choices=("strong", "weak"), help="sweeps of that kind")
+        help="the file of sweeps (default: default.ini), and options of trime_mpi")
+    add("--backend", default="local", help=f"one of {', '.join(NAMES)} (default: %(default)s)")
+    add("--program", type=pathlib.Path, default=ROOT / "build" / "release" / "trime_mpi",
+        help="the program to measure (default: build/release/trime_mpi)")
+    add("--cluster", type=pathlib.Path, help="for --backend simulated: the platform file of SimGrid")
+    add("--output", type=pathlib.Path, default=pathlib.Path("scaling"),
+        help="the directory of the results (default: ./scaling)")
+    add("--only", default="", metavar="TEXT", help="only the sweeps whose name contains TEXT")
+    add("--kind", default="", choices=("strong", "weak"), help="only the sweeps of this kind")
     for key in ("config", "points", "cases", "methods", "stops", "sweeps", "repeats"):
-        add(f"--{key}", help="instead of the value in the ini")
-    add("--nodes", default="", metavar="NxC", help="slurm: N nodes of C cores, for the words powers, ranks, threads")
-    add("--sbatch", default="", metavar="OPTIONS", help="slurm: more options for sbatch, in one text")
-    add("--collect", type=pathlib.Path, metavar="DIR", help="tables from the SLURM jobs that were submitted into DIR")
-    add("--compare", type=pathlib.Path, metavar="OLD.jsonl", help="tell what is slower than there")
+        add(f"--{key}", help="replaces the value in the ini")
+    add("--nodes", default="", metavar="NxC",
+        help="for --backend slurm: N nodes of C cores, for the words powers, ranks, threads")
+    add("--sbatch", default="", metavar="OPTIONS",
+        help="for --backend slurm: more options for sbatch, in one text")
+    add("--collect", type=pathlib.Path, metavar="DIR",
+        help="make the tables of the SLURM jobs that wrote into DIR")
+    add("--compare", type=pathlib.Path, metavar="OLD.jsonl", help="list what is slower than in OLD.jsonl")
     add("--model", nargs="+", type=pathlib.Path, metavar="RUNS.jsonl",
         help="fit, check and extrapolate a model of the time")
-    add("--machine", action="store_true", help="print the block of this machine, as SLURM jobs do")
-    add("--list", action="store_true", help="print the cases, run nothing")
-    add("--read", nargs="+", type=pathlib.Path, metavar="RUNS.jsonl", help="tables from these runs, run nothing")
+    add("--machine", action="store_true", help="print the description of this machine, as SLURM jobs do")
+    add("--list", action="store_true", help="print the cases without running them")
+    add("--read", nargs="+", type=pathlib.Path, metavar="RUNS.jsonl",
+        help="make the tables of these runs without running anything")
     return made
 
 

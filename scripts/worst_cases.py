@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Inputs on which a careless algorithm takes a time that grows as a square: seconds and memory at n, 2n and 4n.
+"""Finds algorithms whose time grows quadratically: measures seconds and memory on difficult inputs of n, 2n and 4n
+parts.
 
 Usage: worst_cases.py PROGRAM [--only NAME ...] [--scale S] [--limit SECONDS] [--cpu]     PROGRAM: trime_mpi
-Prints a table. Each run is one rank; OMP_NUM_THREADS says how many threads (default 1). The exponent is that of n from
-the first to the last run: 1 where the time grows as n or n log n, 2 where it grows as a square. --scale multiplies all
-n.
+The script prints a table. Each run has one rank, and as many threads as OMP_NUM_THREADS says (default: 1). The column
+"exponent" is p where the time grows as n^p from the first to the last run: 1 for n or n log n, 2 for n^2.
 """
 import argparse
 import math
@@ -319,12 +319,14 @@ def row(program, name, scale, limit, cpu):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program")
+    parser.add_argument("program", help="trime_mpi")
     parser.add_argument("--only", nargs="+", choices=sorted(CASES), default=list(CASES), metavar="NAME",
-                        help="of " + ", ".join(CASES))
-    parser.add_argument("--scale", type=float, default=1)
-    parser.add_argument("--limit", type=float, default=600, help="seconds after which a run is ended")
-    parser.add_argument("--cpu", action="store_true", help="seconds of the processor, for a machine that is shared")
+                        help="only these cases of " + ", ".join(CASES))
+    parser.add_argument("--scale", type=float, default=1, help="factor on all numbers of parts (default: 1)")
+    parser.add_argument("--limit", type=float, default=600,
+                        help="seconds after which a run is stopped (default: %(default)g)")
+    parser.add_argument("--cpu", action="store_true",
+                        help="measure processor seconds, on a machine that others use, too")
     options = parser.parse_args()
     print("| case | n | s at n | s at 2n | s at 4n | MB | exponent | |\n|---|---|---|---|---|---|---|---|", flush=True)
     for name in options.only:

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes the man page of trime_mpi from what the program says of itself: man_page.py PROGRAM OUTPUT.
+"""Makes the man page of trime_mpi from the output of the program: man_page.py PROGRAM OUTPUT.
 
-The options come from --help, the keys of a config from --help-config. OUTPUT is compressed if it ends in .gz.
+The options come from --help, and the keys of a config from --help-config. If OUTPUT ends in .gz, it is compressed.
 """
 import gzip
 import pathlib

@@ -1,8 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The scaling harness behind scripts/scaling.py: sweeps over ranks, threads, methods and points; tables, plots, model.
+"""The modules behind scripts/scaling.py, which measures strong and weak scaling.
 
-errors: what ends a command. sweep: from an ini to cases. machine: what the times stand on. backends: how a case is run.
-record: the numbers of one run. measure: all runs in turn. summary: from runs to rows with efficiencies. tables, plots,
-compare: what is made of the rows. model, traffic_model, model_report: the time as a sum of terms, fitted, checked and
-extrapolated; least_squares: how.
+  sweep                                  reads the ini file, and makes the cases to run
+  machine                                describes the machine on which the times are measured
+  backends                               run a case: here, through SLURM, or on a simulated cluster
+  record                                 holds the numbers of one run
+  measure                                runs all cases alternately
+  summary                                makes rows with efficiencies from the runs
+  tables, plots, compare                 show the rows, and compare them with older ones
+  model, traffic_model, model_report     fit the time as a sum of terms, check the fit, and extrapolate it
+  least_squares                          fits the factors of the terms
+  errors                                 has the exceptions that end a command
 """

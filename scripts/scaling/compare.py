@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rows of today beside rows of before: what got slower by more than the runs differ among themselves."""
+"""Compares the rows of today with rows of before: lists what became slower by more than the spread of the runs."""
 import math
 
 from .summary import CASE, key_of

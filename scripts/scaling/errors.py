@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What ends a command, with the exit codes of trime_mpi."""
+"""The exceptions that end a command, with the exit codes of trime_mpi."""
 import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]  # of the source tree

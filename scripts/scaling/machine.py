@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the times stand on: processor, cores, memory, software, environment, load."""
+"""Describes the machine on which the times are measured: processor, cores, memory, software, environment, load."""
 import datetime
 import os
 import pathlib

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""All runs of a plan, in turns over its cases, so that a drift of the machine meets all cases alike."""
+"""Runs a plan. The cases run alternately, so that a slow drift of the machine affects all of them equally."""
 import sys
 import time
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The model beside what was measured, and what it says of 10^4 ranks, as Markdown.
+"""Writes the report on the model as Markdown: measured and modelled times, and predictions for 10^4 ranks.
 
-Predictions come from the fit to all rows. How far it can be trusted is seen in two other fits: that to all rows but the
-one that is looked at, and that to the rows of few ranks, or of smaller sizes, where the others are held out.
+The predictions come from the fit to all rows. Two other fits show how far it can be trusted. One leaves out the row
+that it predicts. The other uses only the rows with few ranks, or with small sizes, and predicts the rest.
 """
 import math
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rows as pictures, PNG and SVG: time and efficiency over cores with the ideal line, shares of the phases as bars."""
+"""Draws rows as PNG and SVG: time and efficiency over cores with the ideal line, and shares of the phases as bars."""
 import itertools
 import re
 

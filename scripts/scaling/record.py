@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The numbers of one run, as trime_mpi --report writes them, and runs.jsonl, which keeps them."""
+"""Reads the numbers of a run from the report of trime_mpi, and keeps them in runs.jsonl."""
 import dataclasses
 import json
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From runs to rows: medians, spread, speed-up, efficiency, serial fraction, and whether equal meshes are equal."""
+"""Makes rows from runs: medians, spread, speed-up, efficiency, serial fraction, and whether all runs made one mesh."""
 import statistics
 
 from .errors import RunError

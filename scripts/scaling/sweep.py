@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From an ini to cases: every section but [harness] is a sweep over methods, points, ranks and threads.
+"""Reads an ini file of sweeps: every section except [harness] is a sweep over methods, points, ranks and threads.
 
-The keys are those of KEYS below; sweeps/default.ini shows them in use.
+The table KEYS below lists the keys; sweeps/default.ini shows them in use.
 """
 import configparser
 import dataclasses
@@ -188,7 +188,7 @@ def find_config(text, path):
         if place.is_file():
             place = place.resolve()
             return str(place.relative_to(ROOT) if place.is_relative_to(ROOT) else place)
-    raise UsageError(f"{path}: there is no config {text}, neither beside the ini nor in {ROOT}")
+    raise UsageError(f"{path}: there is no config {text}, neither next to the ini nor in {ROOT}")
 
 
 def cases_of(section, values, path, backend, nodes, overrides):

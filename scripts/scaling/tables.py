@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rows as Markdown and CSV."""
+"""Writes rows as Markdown and CSV."""
 import csv
 
 from .record import TRAFFIC

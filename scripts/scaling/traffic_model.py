@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is counted in measured rows (traffic, imbalance) at numbers of points and ranks that were not measured.
+"""Predicts the traffic and the imbalance of runs that were not measured, from the counters of measured rows.
 
-Per phase and rank, with the sweeps as a factor in phases that recur: messages and collectives are sums of 1, log2 P and
-P; bytes of sqrt(N/P) (borders), N/P (sites that move to another rank), sqrt(N) (boundary), N (tables) and P, all with
-coefficients >= 0. The imbalance is 1 + g P/N: the tiles that ranks are made of have g points.
+Each phase and rank has its own formula. In phases that recur, the number of sweeps is a factor. The numbers of messages
+and collectives are sums of 1, log2 P and P. The bytes are sums of sqrt(N/P) (borders), N/P (sites that move to another
+rank), sqrt(N) (boundary), N (tables) and P. All coefficients are at least 0. The imbalance is 1 + g P/N, where g is the
+number of points of a tile: ranks own whole tiles.
 """
 import dataclasses
 import math

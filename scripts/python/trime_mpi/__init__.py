@@ -9,7 +9,8 @@
     mesh.points, mesh.triangles, mesh.boundaries["disc"].facets
     trime_mpi.plot(mesh, "quality", file="disc.png")
 
-read: a mesh file as NumPy arrays. mesh: runs the program, and raises what it says as exceptions. plot: pictures.
+read() returns a mesh file as NumPy arrays. mesh() runs the program, and raises its errors as exceptions. plot() draws
+pictures.
 """
 from .errors import (ConfigError, FileError, GeometryError, IncompleteError, InternalError, InterruptedRun, MemoryLimit,
                      ProgramMissing, StoppedAtCheckpoint, TrimeError)

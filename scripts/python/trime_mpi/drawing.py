@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What all pictures share: colours, frames, headers, and triangles as polygons or as pixels."""
+"""The functions that all pictures share: colours, frames, headers, and triangles as polygons or as pixels."""
 import matplotlib
 import numpy as np
 from matplotlib.cm import ScalarMappable

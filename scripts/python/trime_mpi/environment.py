@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The environment in which the program is started, also from a Python program that mpirun has started itself.
+"""Makes the environment for a run of the program, also in a Python program that mpirun has started.
 
-mpirun gives the processes of its job variables that name this job. A second MPI program that finds them takes itself
-for a process of that job, and fails. Some of them begin with OMPI_MCA_ like the settings of users, which must reach the
-program; so they are known by their whole names.
+mpirun gives the processes of its job variables that name this job. If a second MPI program finds them, it takes itself
+for a process of that job, and fails. Some of them begin with OMPI_MCA_, like the settings of users, which the program
+must get. Therefore this module knows the whole names of the variables that mpirun sets.
 """
 import os
 import re

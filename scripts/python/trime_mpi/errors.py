@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What can go wrong in a run: one class for each exit code of the program."""
+"""The exceptions of a run, with a class for each exit code of the program."""
 import sys
 
 

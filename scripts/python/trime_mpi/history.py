@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The history of a run: alpha, and what moves, over its sweeps."""
+"""Draws the history of a run: alpha, and the share of the points that move, over the sweeps."""
 import numpy as np
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes outlines and points of a program as the files that trime_mpi reads: arrays as .xy, polygons as .geojson."""
+"""Writes outlines and points as files that trime_mpi reads: arrays as .xy, polygons as .geojson."""
 import collections.abc
 import json
 

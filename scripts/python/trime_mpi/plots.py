@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of a mesh: quality, size, parts, ranks, and the history of its run."""
+"""Draws pictures of a mesh: quality, size, parts, ranks, and the history of its run."""
 import os
 import pathlib
 

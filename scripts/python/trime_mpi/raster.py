@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Triangles as pixels, in NumPy: for meshes whose triangles are too many to be drawn one by one.
+"""Draws triangles as pixels with NumPy, for meshes with too many triangles to draw them one by one.
 
-Each triangle gives its value to sample points that lie closer than pixels; each pixel has the mean of its samples.
-Triangles smaller than a pixel have one sample, so the cost is that of the triangles and of the pixels, not of ink.
-Triangles of many pixels are left to polygons: there cannot be many of them.
+Each triangle gives its value to sample points whose distance is less than a pixel, and each pixel gets the mean of its
+samples. A triangle that is smaller than a pixel has one sample, so the cost grows with the numbers of triangles and of
+pixels. Triangles that cover many pixels are drawn as polygons: there cannot be many of them.
 """
 import numpy as np
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A mesh file of trime_mpi as NumPy arrays."""
+"""Reads a mesh file of trime_mpi as NumPy arrays."""
 import dataclasses
 import functools
 import os

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the program, and raises what it says as exceptions."""
+"""Runs the program, and raises its errors as exceptions."""
 import collections.abc
 import json
 import os

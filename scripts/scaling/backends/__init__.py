@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How a case is run: here under mpirun, through SLURM, or on a simulated cluster."""
+"""The ways to run a case: under mpirun on this machine, through SLURM, or on a simulated cluster."""
 from . import slurm
 from .local import Local
 from .simulated import Simulated

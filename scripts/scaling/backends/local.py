@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs under mpirun on this machine, or on the nodes of the SLURM job that this is."""
+"""Runs cases under mpirun, on this machine or on the nodes of the SLURM job in which the script runs."""
 import os
 import shutil
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One command that makes a mesh and writes its record."""
+"""Runs one command that makes a mesh and writes its record."""
 import os
 import signal
 import subprocess

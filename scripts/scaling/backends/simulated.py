@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs on a simulated cluster, on one core: scripts/simulate_cluster.sh, which needs SimGrid."""
+"""Runs cases on a simulated cluster, on one core, by scripts/simulate_cluster.sh, which needs SimGrid."""
 import os
 import subprocess
 

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs as SLURM jobs: submit() writes and submits one job for each number of ranks and threads, collect() reads the
-records that they have left. All cases of a job take turns within it."""
+"""Runs cases as SLURM jobs.
+
+submit() writes and submits one job for each number of ranks and threads. The cases of a job run alternately. collect()
+reads the records that the jobs have left.
+"""
 import dataclasses
 import json
 import shlex
