@@ -139,8 +139,8 @@ void Communicator::max(std::span<double> values) const {
 
 namespace {
 
-/// Reduces blocks of words: how many words there are, how many of them are integers to be summed, these, and doubles of
-/// which the largest count.
+/// Reduces blocks of words: the number of words, the number of integers among them, these integers, which it sums, and
+/// doubles, where it keeps the largest.
 void sum_and_max_of_blocks(void* in, void* inout, int* blocks, MPI_Datatype*) {
   const auto* from = static_cast<const std::int64_t*>(in);
   auto* to = static_cast<std::int64_t*>(inout);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages between ranks: with peers that are known, and with peers of which only the sender knows.
+// Messages between ranks that know each other, and from ranks that only the sender knows about.
 #include "comm/message_head.hpp"
 #include "comm/mpi_call.hpp"
 #include "trime/comm/communicator.hpp"
@@ -33,7 +33,7 @@ void wait_for(std::vector<MPI_Request>& requests, const Communicator::Native& na
   check(MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE));
 }
 
-/// What stands before each message in a bundle.
+/// The header of each message in a bundle.
 struct Envelope {
   std::int32_t from, to;
   std::int64_t size; // of the message; its bytes follow if they are passed on
@@ -74,7 +74,7 @@ public:
       std::vector<int> sources;
       int target = is_lower ? rank + lower : rank - lower;
       if (is_lower && is_odd_one)
-        target = first + count - 1; // who has a partner of its own, too
+        target = first + count - 1; // which has a partner, too
       else
         sources.push_back(target);
       if (lower > upper && rank == first + count - 1)
@@ -130,8 +130,8 @@ private:
 } // namespace
 
 // The crystal router of Fox et al. (Solving Problems on Concurrent Processors, 1988): the ranks are halved again and
-// again, and each sends what belongs to the other half to a partner there. log2(ranks) steps, no table of ranks,
-// nothing that depends on who comes first.
+// again, and each rank sends everything for the other half to a partner there. It takes log2(ranks) steps, needs no
+// table of ranks, and does not depend on the order in which ranks arrive.
 std::vector<Message> Communicator::exchange_any(const std::vector<Message>& outgoing) const {
   if (size_ == 1)
     return outgoing;

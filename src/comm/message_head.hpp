@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages of which only the sender knows the size: the receiver makes room for the head alone.
+// Messages with a size that only the sender knows: the receiver makes room for the head alone.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ inline std::size_t open_head(std::vector<std::byte>& head) {
   return size - head.size();
 }
 
-/// What follows the head; empty if nothing does.
+/// The bytes that follow the head; may be empty.
 inline std::span<const std::byte> rest_of(std::span<const std::byte> data) {
   return data.subspan(std::min(data.size(), most_in_head));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every call of MPI in this module needs: its return code looked at, what it sends counted.
+// Helpers for every MPI call of this module: they check its return code, and count what it sends.
 #pragma once
 
 #include "comm/native.hpp"
@@ -13,7 +13,7 @@
 
 namespace trime::comm {
 
-/// What a message is part of.
+/// The kind of exchange that a message belongs to.
 enum Tag : int { tag_known = 101, tag_head = 102, tag_bundle = 103, tag_scan = 104 };
 
 /// The only place that looks at MPI return codes.
@@ -50,7 +50,7 @@ private:
   double start_; // [s]
 };
 
-/// What a rank sends to itself is no traffic.
+/// Data that a rank sends to itself is not traffic.
 inline void count_message(const Communicator::Native& native, int to, std::size_t bytes) {
   if (to != native.rank)
     native.counters.add_message(to, static_cast<std::int64_t>(bytes));

@@ -9,7 +9,7 @@
 namespace trime::comm {
 namespace {
 
-/// What follows the head, if anything does.
+/// Receives the bytes that follow the head, if there are any.
 void add_rest(int peer, std::span<const std::byte> data, std::vector<Message>& rests) {
   if (const std::span<const std::byte> rest = rest_of(data); !rest.empty())
     rests.push_back({peer, {rest.begin(), rest.end()}});

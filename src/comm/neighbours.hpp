@@ -9,9 +9,9 @@
 
 namespace trime::comm {
 
-/// @brief One message, perhaps an empty one, to each of some ranks and one from each of them. Sizes need not be known:
-/// a message tells its own, and what goes beyond its first 4 kB follows at once. All ranks of the list take part, no
-/// others.
+/// @brief Sends one message, perhaps an empty one, to each of some ranks, and receives one from each of them. Sizes
+/// need not be known: a message contains its size, and everything beyond its first 4 kB follows at once. All ranks of
+/// the list take part, no others.
 /// @param peers without this rank; each of them calls with this rank among its own peers
 /// @param outgoing for some of the peers, at most one each: the others get an empty message
 /// @return the message of each peer, in their order

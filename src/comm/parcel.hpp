@@ -16,7 +16,7 @@ namespace trime::comm {
 class Parcel {
 public:
   Parcel() = default;
-  /// What has arrived.
+  /// Values that have arrived.
   explicit Parcel(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
 
   template <class T>
@@ -33,7 +33,7 @@ public:
     const std::uint64_t count = from_bytes<std::uint64_t>(cut(sizeof(std::uint64_t))).front();
     return from_bytes<T>(cut(static_cast<std::size_t>(count) * sizeof(T)));
   }
-  /// What is sent.
+  /// Values that are sent.
   std::vector<std::byte> release() { return std::move(bytes_); }
 
 private:

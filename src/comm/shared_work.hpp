@@ -22,7 +22,7 @@ std::vector<T> gather_everywhere(const Communicator& comm, std::vector<T> mine) 
   return from_bytes<T>(comm.all_gather(std::as_bytes(std::span<const T>(mine))));
 }
 
-/// @brief What work() returns on each rank, a std::vector<T>, one after the other on every rank. Collective.
+/// @brief Returns the results of work() on all ranks (std::vector<T>), one after the other, on every rank. Collective.
 /// @param work does not communicate; what it throws, all ranks throw
 template <class T, class Work>
 std::vector<T> gather_agreed(const Communicator& comm, const Work& work) {
@@ -38,7 +38,7 @@ std::vector<T> gather_agreed(const Communicator& comm, const Work& work) {
 
 /// @brief gather_in_order, shared among the ranks: the lists that make(k, list) appends to, for k = 0 .. n-1, joined by
 /// rising k, on every rank. Each rank makes a contiguous share. Collective.
-/// @param chunk one thread takes so many k in a row
+/// @param chunk how many successive k one thread takes
 /// @param make thread-safe, does not communicate; what it throws, all ranks throw
 template <class T, class Make>
 std::vector<T> gather_shared(const Communicator& comm, std::ptrdiff_t n, std::ptrdiff_t chunk, const Make& make) {

@@ -28,13 +28,13 @@ double thread_seconds() {
 /// The stretches of a rank.
 struct RankWork {
   std::vector<double> least; // [s] of each stretch, over the runs so far
-  std::size_t known = 0;     // stretches of an earlier run; 0: there was none
+  std::size_t known = 0;     // stretches of an earlier run; 0: no earlier run
   std::size_t next = 0;      // stretch
   double start = 0;          // [s] of the present one
   int depth = 1;             // of InMpi; before it begins the rank is as good as in MPI
 };
 
-/// Of all ranks: they are contexts of one thread.
+/// State of all ranks: they are contexts of one thread.
 std::vector<RankWork>& all_work() {
   static std::vector<RankWork> work;
   return work;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the ranks of a simulated cluster compute, in simulated seconds. SimGrid's ranks take turns on one core, and each
-// step of them all ends with the slowest. So whatever holds that core up for a moment holds all simulated ranks up, and
-// by the share of P cores what a real one would feel. Hence a run is repeated, and each stretch of work between two
-// calls of MPI takes the least of its times: the calls of a rank are the same in each run.
+// Measures the computations of the ranks of a simulated cluster, in simulated seconds. The ranks of SimGrid run
+// alternately on one core, and each step of them all ends with the slowest. So a disturbance of that core delays all
+// simulated ranks, far more than it would on P real cores. Therefore a run is repeated, and each stretch of work
+// between two calls of MPI takes the least of its times: the calls of a rank are the same in each run.
 #pragma once
 
 #include "trime/comm/communicator.hpp"

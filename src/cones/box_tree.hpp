@@ -19,7 +19,7 @@ class BoxTree {
 public:
   static constexpr std::size_t width = box_width;
 
-  /// What the tree knows of an item.
+  /// The data of an item in the tree.
   struct Item {
     geometry::Box box;
     double number;
@@ -41,7 +41,7 @@ public:
     return nodes * sizeof(BoxNode);
   }
 
-  /// visit(k) for all items, in their order, but for those in boxes with skip(box, number).
+  /// Calls visit(k) for all items, in their order, except those in boxes with skip(box, number).
   template <class Skip, class Visit>
   void visit_unless(const Skip& skip, const Visit& visit) const {
     if (!levels_.empty())

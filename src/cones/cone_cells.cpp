@@ -111,7 +111,7 @@ private:
     return static_cast<CellNode>(node);
   }
 
-  /// Where cones lie together, or none is lower than another, no cell tells them apart: two levels have not.
+  /// If cones lie together, or no cone is lower than another, no cell separates them, since two levels did not.
   bool is_hopeless(int level) const {
     const auto of = static_cast<std::size_t>(level);
     return level >= 2 && lists_[of].count == lists_[of - 2].count;

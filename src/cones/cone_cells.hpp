@@ -16,7 +16,7 @@ namespace trime::cones {
 /// many cones. Immutable; queries are thread-safe.
 class ConeCells {
 public:
-  /// Of more cones no cells are made: they take about one KiB for each, more where cones lie together.
+  /// Largest number of cones that get cells: cells take about one KiB per cone, and more where cones lie together.
   static constexpr std::size_t most_cones = std::size_t{1} << 15;
 
   /// So few cones need no cells.
@@ -51,7 +51,7 @@ private:
   static constexpr int most_levels = 8; ///< below a block
   static constexpr double finest = 1 << most_levels;
   using Quarters = std::array<CellNode, 4>;
-  /// A block with the cells below it, with indices of its own.
+  /// A block with the cells below it, with separate indices.
   struct Part {
     CellNode root;
     std::vector<Quarters> quarters;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the cells of the size field do with lists of cones. Built once for each SIMD level, with the same bits on all.
+// Operations of the cells of the size field on lists of cones. They are compiled once for each SIMD level, with the
+// same bits on all.
 #pragma once
 
 #include "core/simd_level.hpp"
@@ -37,7 +38,7 @@ struct ConePoints {
   double x[8], y[8];
 };
 
-/// How few cones are enough in a cell.
+/// A short list of cones that is enough in a cell.
 struct ConeChoice {
   static constexpr int most = 14;                  ///< that can be chosen
   static constexpr std::int64_t most_listed = 512; ///< longer lists are not tried
@@ -63,9 +64,9 @@ struct ConeKernel {
   /// @brief Chooses up to `most` cones that are together higher than all by `slack` at most, and not at the corners.
   /// Returns how many, or 0 if they are not enough.
   ///
-  /// A cone at b may be left out for one at a if that is not higher at the corners by more than the slack minus
-  /// bend / d, where d is the distance from b to the cell: |p - a| - |p - b| + |p - centre|^2 / (2 d) is convex, so
-  /// that it is highest at the corners.
+  /// A cone at b may be left out in favour of one at a if, at the corners, that one is higher by at most the slack
+  /// minus bend / d, where d is the distance from b to the cell. Reason: |p - a| - |p - b| + |p - centre|^2 / (2 d) is
+  /// convex, so it is largest at the corners.
   int (*choose)(const ConeList& list, int most, ConeChoice& choice);
 };
 

@@ -32,7 +32,7 @@ public:
   /// @param slack share by which the answer may be too high, for points that are nearly as near to many cones
   double value(geometry::Vec2 p, double bound = std::numeric_limits<double>::infinity(), double slack = 0) const;
 
-  /// The index of the cone that is lowest at p, below `bound`; -1 if there is none.
+  /// Returns the index of the cone that is lowest at p, or -1 if no cone is below `bound` there.
   LocalIndex lowest(geometry::Vec2 p, double bound) const;
 
   /// Calls visit(index) for the cones, in the order of the tree, without those below nodes with skip(box, least): box

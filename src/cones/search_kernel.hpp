@@ -23,12 +23,12 @@ struct BoxLevels {
   int count = 0;
 };
 
-/// The segments a + t d, 0 <= t <= 1, of a leaf; a is NaN where there is none.
+/// The segments a + t d, 0 <= t <= 1, of a leaf; a is NaN in unused lanes.
 struct alignas(64) SegmentLeaf {
   double a_x[box_width], a_y[box_width], d_x[box_width], d_y[box_width], inverse_square[box_width];
 };
 
-/// The cones of a leaf; infinitely high where there is none.
+/// The cones of a leaf; infinitely high in unused lanes.
 struct alignas(64) ConeLeaf {
   double x[box_width], y[box_width], height[box_width];
 };

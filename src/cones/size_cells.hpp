@@ -17,7 +17,7 @@ namespace trime::cones {
 /// Values at the corners of a cell: lower left, lower right, upper left, upper right.
 using CornerValues = std::array<double, 4>;
 
-/// What a quadtree of the size field is made from.
+/// The input of a quadtree of the size field.
 struct SizeSource {
   const ConeTree& cones;
   double slope;      ///< of the cones
@@ -73,7 +73,7 @@ struct CellLeaf {
   CellNode node() const { return ~static_cast<CellNode>(first * kinds + static_cast<std::size_t>(kind)); }
 
   bool is_bilinear() const { return kind < 2; }
-  /// Of a bilinear leaf: by so many levels it is larger than a child of the node that it is found at.
+  /// For a bilinear leaf: the number of levels by which it is larger than a child of the node where it is found.
   int levels_up() const { return kind; }
   std::size_t pairs() const { return static_cast<std::size_t>(kind) - 1; }
 };
@@ -141,7 +141,7 @@ private:
 
     void reserve(std::int64_t count);
   };
-  /// Of a plain quadtree; two levels at once come later.
+  /// A node of a plain quadtree; two levels at once come later.
   using Quarters = std::array<CellNode, 4>;
 
   ConeList& cones_of(const CellPlace& place, std::int64_t room = 0);

@@ -72,7 +72,7 @@ double SizeQuadtree::highest_corner(const Source& source) const {
   return highest;
 }
 
-/// The same arrays on any number of ranks: groups one after the other.
+/// The arrays are the same on any number of ranks: groups follow one after the other.
 void SizeQuadtree::assemble(const comm::Communicator& comm, std::vector<CellPart> mine) {
   const std::vector<CellPart> parts = comm.size() == 1 ? std::move(mine) : gather_parts(comm, std::move(mine));
   std::size_t child_count = 0, number_count = 0;
@@ -105,7 +105,7 @@ void SizeQuadtree::assemble(const comm::Communicator& comm, std::vector<CellPart
   }
 }
 
-/// Those of all ranks, by group, on every rank. Collective.
+/// Gathers the parts of all ranks, by group, on every rank. Collective.
 std::vector<CellPart> SizeQuadtree::gather_parts(const comm::Communicator& comm, std::vector<CellPart> mine) const {
   comm::Parcel own;
   for (CellPart& part : mine) {

@@ -17,7 +17,7 @@ public:
   /// Largest error of a bilinear cell at the middles of its edges and quarters and in its centre, as a share of the
   /// value.
   static constexpr double tolerance = 0.01;
-  /// The longer side of the box has so many blocks, each of them a quadtree of its own.
+  /// Number of blocks along the longer side of the box; each block is a separate quadtree.
   static constexpr int blocks_along = 64;
   static constexpr int most_levels = 20; ///< below a block
   static constexpr int most_cones = 12;  ///< in a cell that is not split for them

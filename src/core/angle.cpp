@@ -35,7 +35,7 @@ SinCos sin_cos_reduced(double r) {
     s = inverse_factorial[n] - q * s;
   for (std::size_t n = 18; n >= 4; n -= 2)
     c = inverse_factorial[n] - q * c;
-  // The loops end on the terms r^3 and r^4, of which the sign alternates relative to the leading ones.
+  // The loops end on the terms r^3 and r^4. Their sign alternates relative to the leading ones.
   return {r - r * q * s, 1.0 - q * (0.5 - q * c)};
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What "the same bits" rests on: IEEE doubles, one rounding an operation, to nearest, with small numbers kept.
+// Tests the arithmetic that "the same bits" needs: IEEE doubles, each operation rounded once to nearest, denormal
+// numbers kept.
 #pragma once
 
 #include <cfloat>
@@ -13,8 +14,9 @@ namespace trime {
 
 static_assert(FLT_EVAL_METHOD == 0, "doubles must be computed as doubles: on i386 compile with -mfpmath=sse -msse2");
 
-/// @brief What is wrong with the arithmetic of the calling thread; empty: nothing. Flags of the compiler and libraries
-/// that were loaded may change it (icpx has fast maths by default, some libraries flush small numbers to zero).
+/// @brief Says what is wrong with the arithmetic of the calling thread; empty if nothing is. Flags of the compiler and
+/// libraries that were loaded may change it (icpx has fast maths by default, some libraries flush small numbers to
+/// zero).
 std::string arithmetic_fault();
 
 } // namespace trime

@@ -5,7 +5,7 @@
 
 namespace trime {
 
-/// hi + lo, where hi is the sum rounded to nearest: some 106 bits.
+/// The number hi + lo, where hi is the sum rounded to nearest: about 106 bits.
 struct DoubleDouble {
   double hi = 0, lo = 0;
 };

@@ -71,7 +71,7 @@ double rounded(const Scaled& s) {
     return 0;
   if ((n == -1022 && value >= 1) || (n == -1023 && value >= 2))
     return value * 0x1p-1000 * power_of_two(n + 1000);
-  // Beside this number the last place of a double is that of the result.
+  // Added to this number, the last place of a double is that of the result.
   const double beside = power_of_two(-1022 - n), sum = beside + s.value.hi;
   const double rest = (s.value.hi - (sum - beside)) + s.value.lo;
   return ((sum + rest) - beside) * power_of_two(n + 200) * 0x1p-200;

@@ -33,7 +33,7 @@ constexpr DoubleDouble log_slowly(double c) {
 constexpr std::array<Entry, intervals> entries = [] {
   std::array<Entry, intervals> list{};
   for (int i = 0; i < intervals; ++i) {
-    if (i == below_one - 1 || i == below_one) // beside 1: c = 1, so that nothing cancels
+    if (i == below_one - 1 || i == below_one) // near 1: c = 1, so that nothing cancels
       continue;
     const double middle = i < below_one ? 1 + (i + 0.5 - below_one) / 256 : 1 + (i + 0.5 - below_one) / 128;
     const double c = static_cast<double>(static_cast<int>(512 / middle + 0.5)) / 512;
@@ -79,7 +79,7 @@ DoubleDouble log_of(DoubleDouble z) {
   return fast_two_sum(l.hi, l.lo + z.lo / z.hi);
 }
 
-/// Whether the logarithm of x needs no computation, and what it is.
+/// Does the logarithm of x need no computation? If so, sets its value.
 bool special_log(double x, double& value) {
   if (x > 0 && x < infinity)
     return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the sources of the elementary functions share: exp and log with more bits than a double has.
+// Parts that the sources of the elementary functions share: exp and log with more bits than a double has.
 #pragma once
 
 #include "core/double_double.hpp"

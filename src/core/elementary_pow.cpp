@@ -10,7 +10,7 @@ namespace {
 
 enum class Parity { none, odd, even };
 
-/// Of y as an integer.
+/// Returns the parity of y as an integer.
 Parity parity(double y) {
   const double a = std::fabs(y);
   if (a >= 0x1p+53)
@@ -20,7 +20,7 @@ Parity parity(double y) {
   return (static_cast<std::int64_t>(a) & 1) == 1 ? Parity::odd : Parity::even;
 }
 
-/// Whether products of four factors x neither overflow nor lose bits.
+/// True if products of four factors x neither overflow nor lose bits.
 bool moderate(double x) {
   return std::fabs(x) > 0x1p-200 && std::fabs(x) < 0x1p+200;
 }

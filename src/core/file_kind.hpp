@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What lies under a path where a file is expected: opening a pipe waits for ever, and a file that is renamed to the
-// name of a device takes its place.
+// Tests what is at a path where a file is expected. Opening a pipe would wait without end, and a file that is renamed
+// to the name of a device would take its place.
 #pragma once
 
 #include <string>

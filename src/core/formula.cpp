@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t longest_text = 4096; // of a formula, in bytes
 
-/// A parser with its variables, in cache lines of its own.
+/// A parser with its variables, in separate cache lines.
 struct alignas(64) Slot {
   std::atomic_flag taken = ATOMIC_FLAG_INIT;
   double x = 0, y = 0;
@@ -44,7 +44,7 @@ std::vector<std::string> known_names(const mu::Parser& parser) {
   return names;
 }
 
-/// What is wrong, without position and text.
+/// Says what is wrong, without position and text.
 std::string complaint(const mu::Parser& parser, const mu::ParserError& error) {
   const std::string token = with_usual_power(error.GetToken());
   switch (error.GetCode()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What formulas may call: functions whose bits do not depend on the machine, in place of those of muParser.
+// The functions that formulas may call. Their bits do not depend on the machine; they replace those of muParser.
 #pragma once
 
 #include <muParser.h>

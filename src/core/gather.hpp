@@ -11,7 +11,7 @@
 namespace trime {
 
 /// @brief Calls make(k, list) for k = 0 .. n-1, which may append to its list. Returns all lists joined, by rising k.
-/// @param chunk one thread takes so many k in a row
+/// @param chunk how many successive k one thread takes
 template <class Item, class Make>
 std::vector<Item> gather_in_order(std::ptrdiff_t n, std::ptrdiff_t chunk, const Make& make) {
   std::vector<std::vector<Item>> lists(static_cast<std::size_t>((n + chunk - 1) / chunk));

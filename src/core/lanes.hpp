@@ -22,7 +22,7 @@ struct Types {
   using Mask [[gnu::vector_size(8 * n)]] = std::int64_t; // -1 where true
 };
 
-/// What a comparison of V yields.
+/// The result of a comparison of V.
 template <class V>
 struct MaskOf {
   using Type = decltype(V{} < V{});

@@ -48,7 +48,7 @@ std::string terminal_of(std::FILE* stream) {
   return path.starts_with("/dev/pts/") || path.starts_with("/dev/tty") ? path : std::string();
 }
 
-/// Of the window, which may have changed since the last line.
+/// Width of the window, which may have changed since the last line.
 int columns_of(const std::string& terminal) {
   winsize size{};
   const int file = open(terminal.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);

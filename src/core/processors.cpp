@@ -24,7 +24,7 @@ public:
     if (set_)
       CPU_ZERO_S(bytes_, set_.get());
   }
-  /// Becomes that of the calling thread. @return false if the system does not tell, or has more
+  /// Gets the mask of the calling thread. @return false if the system does not know it, or has more processors
   bool read() { return set_ && sched_getaffinity(0, bytes_, set_.get()) == 0; }
   /// Makes it that of the calling thread, which moves there at once.
   bool apply() const { return set_ && sched_setaffinity(0, bytes_, set_.get()) == 0; }
@@ -50,7 +50,7 @@ private:
   std::unique_ptr<cpu_set_t, Free> set_;
 };
 
-/// Of the calling thread; empty if the system does not tell.
+/// Processors of the calling thread; empty if the system does not know them.
 ProcessorSet set_of_thread() {
   for (int room = CPU_SETSIZE; room <= most_processors; room *= 2)
     if (ProcessorSet set(room); set.read())
@@ -71,7 +71,7 @@ bool wait_for_all(std::atomic<int>& come) {
   return come >= omp_get_num_threads();
 }
 
-/// For each thread the processor to which it should go; -1: none, it has one of its own.
+/// For each thread the processor to which it should move; -1: it stays, since no other thread uses its processor.
 std::vector<int> ways_apart(const std::vector<int>& processors, const std::vector<int>& at, int from) {
   std::vector<int> taken = at, ways(at.size(), -1);
   const std::size_t n = processors.size();

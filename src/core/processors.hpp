@@ -6,8 +6,8 @@
 
 namespace trime {
 
-/// Numbers of the processors that this process may use, all its places where OMP_PROC_BIND or OMP_PLACES bind threads;
-/// ascending. {0} if the system does not tell.
+/// Returns the numbers of the processors that this process may use (all its places, if OMP_PROC_BIND or OMP_PLACES bind
+/// threads), ascending. Returns {0} if the system does not know.
 std::vector<int> usable_processors();
 
 /// @brief Starts the threads of the loops to come (thread_loop.hpp). A thread that starts where another one of them

@@ -7,7 +7,7 @@ namespace trime {
 
 namespace {
 
-/// Of UTF-8.
+/// Is it a byte that continues a character of UTF-8?
 bool is_inside_character(char c) {
   return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What users wrote, in messages: a line of a megabyte helps nobody.
+// Quotes in messages what users wrote, shortened: a line of a megabyte helps nobody.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace trime {
 /// The text, cut after 60 bytes and then with "..."; bytes that could upset a terminal become '?'.
 std::string shown(std::string_view text);
 
-/// The same between single quotes.
+/// Returns the shortened text between single quotes.
 std::string quoted(std::string_view text);
 
 /// A message whose length nobody has seen to: the middle is left out of one that has more bytes, by default five lines.

@@ -6,7 +6,7 @@
 
 namespace trime {
 
-/// What a random number is for; keeps streams apart.
+/// The purpose of a random number, so that two purposes do not get the same numbers.
 enum class RandomPurpose : std::uint64_t { site_position = 1, deletion = 2, test = 99 };
 
 /// Finaliser of splitmix64 (Steele, Lea, Flood 2014): a bijection that spreads every input bit.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one way in which this program computes with threads: a loop over items whose results go to places of their own.
-// The body must not call MPI. It should not throw; what it throws all the same (no memory) leaves the loop as one
-// exception.
+// The only way in which this program uses threads: a loop over items in which each item writes to its own place. The
+// body must not call MPI. It should not throw; if it does (no memory), one exception leaves the loop.
 #pragma once
 
 #include <omp.h>
@@ -27,8 +26,8 @@ inline void set_thread_count(int threads) {
   omp_set_num_threads(threads);
 }
 
-/// What one thread writes to begins so many bytes after what another one does: two cache lines, since processors fetch
-/// them in pairs.
+/// Distance in bytes between memory that different threads write to: two cache lines, since processors fetch them in
+/// pairs.
 inline constexpr std::size_t bytes_apart = 128;
 
 /// @brief One T for each thread that a loop will use, apart in memory: threads that write to the same cache line wait
@@ -145,7 +144,7 @@ void thread_loop(std::ptrdiff_t n, int chunk, const Body& body) {
     std::rethrow_exception(thrown);
 }
 
-/// @brief The same while the calling thread does `work`, which may call MPI but must not throw; it joins the loop
+/// @brief As above, while the calling thread does `work`, which may call MPI but must not throw; it joins the loop
 /// afterwards.
 template <class Work, class Body>
 void thread_loop_beside(const Work& work, std::ptrdiff_t n, const Body& body) {

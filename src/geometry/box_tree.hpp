@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of many boxes meet another one.
+// Finds which of many boxes meet another one.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -26,7 +26,7 @@ public:
     if (!items_.empty())
       visit_node(1, {0, items_.size()}, box, visit);
   }
-  /// The same as a list, ascending.
+  /// Returns them as a list, ascending.
   std::vector<std::size_t> meeting(const Box& box) const;
 
 private:

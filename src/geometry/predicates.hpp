@@ -23,8 +23,8 @@ inline int orient2d(Vec2 a, Vec2 b, Vec2 c) {
   return (left_error > right_error) - (left_error < right_error);
 }
 
-/// @brief +1 if d lies inside the circle through a, b, c (counter-clockwise), -1 outside. Exact; never 0 for four
-/// different points of which a, b, c are not collinear.
+/// @brief Returns +1 if d lies inside the circle through a, b, c (counter-clockwise), -1 if outside. Exact; never 0 for
+/// four different points where a, b, c are not collinear.
 ///
 /// Cocircular points are decided as if the lifted height x^2+y^2 of each point were raised by an infinitesimal. It is
 /// the larger the later the point comes in lexicographic order (symbolic perturbation, Devillers and Teillaud 2011). So
@@ -46,11 +46,12 @@ inline int in_circle_filter(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
   return (determinant > error_bound * permanent) - (determinant < -error_bound * permanent);
 }
 
-/// The same without filter: for tests and as the slow path.
+/// Gives the answer of in_circle without the filter: for tests, and when the filter is not sure.
 int in_circle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice);
 
-/// @brief The same in a periodic container, for the four points and their images alike. The order behind a tie is that
-/// of the canonical images, so all views of four points agree. Without periods equal to the above.
+/// @brief As in_circle, in a periodic container: images of the four points give the same answer. Ties are broken by the
+/// order of the canonical images, so all images of four points agree. Without periods it is equal to the function
+/// above.
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice, const Periods& periods);
 
 } // namespace trime::geometry

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int max_depth = 20;                         // the side of the smallest cell is 2^-40 of the root's
 constexpr int enough_for_a_leaf = 4;                  // a cell with more segments is split
-constexpr double max_spread = 32;                     // a segment is listed in at most so many cells, on average,
+constexpr double max_spread = 32;                     // largest number of cells that list a segment, on average,
 constexpr double free_entries = 1e5;                  // or this many entries are made, if that is more
 constexpr std::uint32_t most_listed = (1u << 30) - 1; // more segments than there may be
 

@@ -9,7 +9,8 @@ namespace trime::geometry {
 
 namespace {
 
-constexpr double rounding = 1e-12; // of the largest coordinate: some thousand times what a projection loses
+constexpr double rounding =
+    1e-12; // share of the largest coordinate: about a thousand times the rounding error of a projection
 
 Vec2 unit(Vec2 v) {
   const double norm = length(v);
@@ -58,7 +59,7 @@ SegmentTree::SegmentTree(std::span<const Segment> segments, double margin)
   segments_ = {};
 }
 
-/// Of lines: doubled angles make opposite directions one.
+/// Mean direction of lines: doubled angles make opposite directions equal.
 Vec2 SegmentTree::mean_direction(Range range) const {
   Vec2 sum;
   for (std::size_t k = range.low; k < range.high; ++k) {

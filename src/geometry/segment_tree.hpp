@@ -29,7 +29,7 @@ public:
     if (!order_.empty())
       visit_node(1, {0, order_.size()}, Frame(segment), visit);
   }
-  /// The same for segments that may meet a box, which is closed.
+  /// Visits the segments that may meet a closed box.
   template <class Visit>
   void for_each_in(const Box& box, const Visit& visit) const {
     if (!order_.empty())
@@ -37,11 +37,11 @@ public:
   }
 
 private:
-  /// Of a node: all its segments lie in center + u along + v across, |u| <= half.x, |v| <= half.y.
+  /// The box of a node: all its segments lie in center + u along + v across, |u| <= half.x, |v| <= half.y.
   struct Turned {
     Vec2 center, along{1, 0}, half;
   };
-  /// What is looked for: a segment as such a box without width, or a box that is not turned.
+  /// The target of a search: a segment, as a box without width, or a box that is not turned.
   struct Frame : Turned {
     explicit Frame(const Segment& segment);
     explicit Frame(const Box& box);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sites that are sorted anew go from array to array, one array after the other, so that no second copy of all of them
-// is ever held.
+// When sites are sorted again, they are copied from array to array, one array after the other, so that there is never a
+// second copy of all arrays.
 #include "mesh/binned_points.hpp"
 
 #include "core/thread_loop.hpp"

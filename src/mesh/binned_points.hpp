@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sites that one rank knows: its own, sorted by tile and bin, and after them the ghosts, sorted likewise. Bins of
-// foreign tiles are known or unknown; a search that meets an unknown bin says so. Holds no MPI and no triangles.
+// The sites that one rank knows: first its own, then the ghosts, both sorted by tile and bin. Bins of other ranks'
+// tiles are known or unknown; a search that meets an unknown bin says so. This file uses no MPI and knows no triangles.
 #pragma once
 
 #include "mesh/drifts.hpp"
@@ -26,9 +26,9 @@ namespace trime::mesh {
 /// - empty: at first. Only suitable_bin_bits and assign_owned.
 /// - grouped: after suitable_bin_bits. Only assign_owned with the same sites and tiles.
 /// - sorted: after assign_owned, sort_moved and edit. All but advance, sort_moved and what asks for next places.
-/// - prepared: after prepare_advance. All. `advance` leads back to sorted: the bins are older than
-///   the places then, and the drifts must be set; so do release_leads, and sort_moved with fresh bins. Once other
-///   ghosts are assigned, places must be prepared anew before `advance`.
+/// - prepared: after prepare_advance. All functions may be called. `advance` leads back to sorted: then the bins are
+/// older than the places, and the drifts must be set. release_leads also leads back to sorted, and so does sort_moved,
+/// with fresh bins. After other ghosts are assigned, places must be prepared again before `advance`.
 /// - released: after release_moves. Only positions, boundary, tile_range, and assign_owned.
 /// Calls that change the state check it; queries of single sites and bins do not.
 class BinnedPoints {
@@ -46,8 +46,8 @@ public:
   LocalIndex assign_owned(std::span<const Site> sites, LocalIndex first_tile, LocalIndex last_tile,
                           std::vector<LocalIndex>* new_index = nullptr);
 
-  /// @brief The same for sites that have moved since they were sorted: they belong to their tiles all the same, and to
-  /// the bin of such a tile that is nearest. None is dropped.
+  /// @brief As assign_owned, for sites that have moved since they were sorted: they still belong to their tiles, and to
+  /// the nearest bin of that tile. No site is dropped.
   /// @param counts sites of each of the tiles, in whose order they come
   void restore_owned(std::span<const Site> sites, std::span<const std::int64_t> counts, LocalIndex first_tile,
                      LocalIndex last_tile, std::vector<LocalIndex>& new_index);
@@ -76,7 +76,7 @@ public:
   LocalIndex last_tile() const { return order_.last_tile(); }
   /// Owned sites of an owned tile.
   SiteRange tile_range(LocalIndex tile) const { return order_.of_tile(tile); }
-  /// The number of a tile of which a bin is known, or -1: see KnownBins. Drifts go by it.
+  /// Returns the number of a tile that has a known bin, or -1: see KnownBins. Drifts are indexed by it.
   LocalIndex known_tile(LocalIndex tile) const { return bins_.known_tile(tile); }
   LocalIndex known_tiles() const { return bins_.known_tiles(); }
   /// Sites of a bin of an owned or partly known tile; empty if unknown.
@@ -97,9 +97,9 @@ public:
     bins_.for_each_near(center, reach, visit, missing);
   }
 
-  /// @brief For each of the tiles [first_tile, last_tile) the b for which 2^b x 2^b bins suit those of the sites that
-  /// lie in it: the smallest for which a site shares its bin with a few others on average, with at most four bins a
-  /// site. What was found out on the way serves the next assign_owned. O(n); threads.
+  /// @brief Returns for each of the tiles [first_tile, last_tile) the b for which 2^b x 2^b bins suit its sites. It is
+  /// the smallest b for which a site shares its bin with a few others on average, with at most four bins per site. The
+  /// next assign_owned uses intermediate results. O(n); threads.
   /// @post assign_owned with the same sites and tiles must come next; another number of them is an InternalError
   std::vector<std::uint8_t> suitable_bin_bits(std::span<const Site> sites, LocalIndex first_tile, LocalIndex last_tile);
 
@@ -112,8 +112,8 @@ public:
   void prepare_advance();
   /// Moves the owned sites to their next places; the ghosts stay.
   void advance();
-  /// @brief Sorts the owned sites at their next places, but for those that are gone (by local index; empty: none), and
-  /// more of them besides; as assign_owned does, with the same tiles. The next places are used up. Needs 9 bytes a site
+  /// @brief Sorts the owned sites at their next places as assign_owned does, with the same tiles. Leaves out sites that
+  /// are gone (by local index; empty: no sites), and adds new ones. The next places are used up. Needs 9 bytes a site
   /// more than the sites and their next places.
   /// @param new_index for each owned site, then for each of `more`, its new local index, -1 if gone or dropped
   /// @pre all lie in the owned tiles
@@ -140,7 +140,7 @@ public:
     return std::span(positions_).subspan(static_cast<std::size_t>(owned_));
   }
 
-  /// Frees the leads, and those of arriving sites are forgotten: no rule moves the sites any more. @post site() says 0;
+  /// Frees the leads, and ignores those of arriving sites: no rule moves the sites from now on. @post site() says 0;
   /// leads() and next().leads() are empty, until assign_owned
   void release_leads();
   bool has_leads() const { return has_leads_; }
@@ -179,7 +179,7 @@ private:
 /// Prepares an advance in which every owned site stays, until the caller changes its next place. Threads.
 void prepare_to_stay(BinnedPoints& points);
 
-/// What would travel with an owned site to its next place. @pre it has one
+/// Returns the data that would be sent with an owned site to its next place. @pre it has one
 inline Site next_site(const BinnedPoints& points, LocalIndex i) {
   const NextPlaces& next = points.next();
   return {next.positions()[at(i)], points.boundary(i), points.pushes(i),

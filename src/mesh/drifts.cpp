@@ -10,9 +10,9 @@ void Drifts::forget(LocalIndex tiles) {
   largest_ = {};
 }
 
-/// A site has come less far than the sides of its tile and of those beside it. So the tile where it is now is its own
-/// or one beside that, and the side of this one bounds how far it has come. Tiles that the search meets thus bound the
-/// drift of all sites that are to be found, and the tiles within this bound hold them.
+/// A site has moved less far than the sides of its tile and of the tiles next to it. So it is now in its own tile or in
+/// a tile next to that one, and the side of this tile bounds how far it has moved. Therefore the tiles that the search
+/// meets bound the drift of all sites that it must find, and the tiles within this bound hold them.
 double Drifts::margin(geometry::Vec2 center, double reach, const KnownBins& bins) const {
   const TileGrid& grid = bins.grid();
   double widest = 0;

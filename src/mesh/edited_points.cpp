@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Few changes of sites that are sorted: the bins tell where each site belongs that comes.
+// Makes a few changes of sites that are sorted: the bins show where each new site belongs.
 #include "mesh/binned_points.hpp"
 #include "trime/core/error.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What becomes of the local indices where a few sites go and a few come: the others keep their order, and move up or
-// down in runs.
+// Changes of local indices when a few sites go and a few come: the others keep their order, and move up or down in
+// runs.
 #pragma once
 
 #include "trime/core/types.hpp"

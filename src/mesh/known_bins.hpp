@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which sites lie in which bin, for the bins that a rank knows: those of its own tiles, and some of foreign tiles.
+// Says which sites lie in which bin, for the bins that a rank knows: all bins of its tiles, and some bins of other
+// ranks' tiles.
 #pragma once
 
 #include "mesh/site.hpp"
@@ -58,7 +59,7 @@ public:
   /// Calls visit(BinRef, SiteRange) for the known bins of foreign tiles and images, ascending.
   template <class Visit>
   void for_each_foreign(const Visit& visit) const;
-  /// The number of a tile of which a bin is known, or -1.
+  /// Returns the number of a tile that has a known bin, or -1.
   LocalIndex known_tile(LocalIndex tile) const { return block_of(tile, 0); }
   LocalIndex owned_tiles() const { return owned_blocks_; }
   /// All numbers are below it.

@@ -26,7 +26,7 @@ struct Site {
 /// defaults of Site: threads fill them in large numbers.
 using SiteList = UnsetVector<Site>;
 
-/// What a rank knows of a site of another rank: 24 bytes, as it is sent.
+/// A site of another rank, as it is sent: 24 bytes.
 struct Ghost {
   geometry::Vec2 position;
   std::int32_t boundary = -1;

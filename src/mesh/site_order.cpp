@@ -84,7 +84,7 @@ std::vector<std::uint8_t> SiteOrder::suitable_bin_bits(const TileGrid& grid, std
   return bits;
 }
 
-/// Of the t-th tile, if it has 2^bits x 2^bits bins.
+/// Counts the sites in each bin of the t-th tile, if it has 2^bits x 2^bits bins.
 std::vector<std::int64_t> SiteOrder::count_in_bins(const TileGrid& grid, std::span<const Site> sites, std::size_t t,
                                                    int bits) const {
   std::vector<std::int64_t> count(std::size_t{1} << (2 * bits), 0);

@@ -21,8 +21,8 @@ namespace trime::mesh {
 /// one pushed most often.
 bool precedes(const Site& a, const Site& b);
 
-/// @brief Finds the new order of sites in two steps, group() and sort(). Then for_each() tells where each site comes
-/// from, until forget(); what remains is how many sites each tile has.
+/// @brief Finds the new order of sites in two steps, group() and sort(). Then for_each() shows where each site comes
+/// from, until forget(); after that only the number of sites of each tile remains.
 ///
 /// `Sites` is one of the classes of mesh/site_sources.hpp.
 class SiteOrder {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What sites are sorted from: a list, or the sites that a rank has at their next places. A site is sorted into the tile
-// and bin of its home, which is where it is but in a state that is restored.
+// Sources that sites are sorted from: a list, or the sites of a rank at their next places. A site is sorted into the
+// tile and bin of its home, which is its place, except in a state that is restored.
 #pragma once
 
 #include "mesh/binned_points.hpp"
@@ -39,7 +39,7 @@ private:
   std::span<const geometry::Vec2> homes_;
 };
 
-/// The owned sites at their next places, but for some that are gone, and after them new ones.
+/// The owned sites at their next places, except those that are gone, and after them new ones.
 class MovedSites {
 public:
   static constexpr bool drops_equal = true;

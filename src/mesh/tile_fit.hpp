@@ -10,14 +10,14 @@
 
 namespace trime::mesh {
 
-/// A tile holds at most so many of `points` points.
+/// Returns the largest number of sites in a tile, if the mesh has `points` points.
 std::int64_t most_per_tile(double points);
 
 /// Tiles, and what lies in each.
 struct WeightedTiles {
   std::vector<Tile> tiles; ///< along the curve
   std::vector<std::int64_t> weights;
-  bool divided = false; ///< some were divided: the weights of their quarters are to be found
+  bool divided = false; ///< some tiles were divided: the caller must find the weights of their quarters
 };
 
 /// @brief Joins and divides tiles until each is the largest square that weighs at most `most`: what comes of it in the

@@ -31,9 +31,9 @@ TileGrid::TileGrid(const geometry::Box& container, const GridOptions& options)
   set_tiles(std::move(tiles));
 }
 
-/// The longer side of the container is that of the curve's square. The shorter one has a number of units, nearly
-/// square, in the middle of a power of two of them: so halves and quarters of its curve are halves and quarters of the
-/// container, which is not cut along its length.
+/// The longer side of the container is that of the curve's square. The shorter one has a number of nearly square units,
+/// in the middle of a power of two of them. So halves and quarters of its curve are halves and quarters of the
+/// container, and the container is not cut along its length.
 void TileGrid::set_axes() {
   const double width = periods_.x > 0 ? periods_.x : container_.width(),
                height = periods_.y > 0 ? periods_.y : container_.height();

@@ -22,26 +22,26 @@ constexpr int image_step(int number) {
   return number == 2 ? -1 : number;
 }
 
-/// What the grid is made of.
+/// The parameters of a grid.
 struct GridOptions {
   std::optional<int> cells_x, cells_y; ///< container grid; empty: about 3.3 points a cell
   double point_spacing = 0.01;         ///< typical edge length
   geometry::Periods periods{};         ///< of the container, which is one period long along periodic axes
 };
 
-/// @brief A square in the middle of which the container lies is divided into quarters, these again, and so on; tiles
-/// are squares of that quadtree. They cover the container and are numbered 0..tile_count()-1 along the Hilbert curve;
-/// bins of one tile row by row. Every point of the container has a 32-bit fixed-point position per axis. Tile, bin and
-/// Hilbert key are its leading bits, so the numbering of tiles is a prefix of the order of points.
+/// @brief A square with the container in its middle is divided into quarters, these again, and so on; tiles are squares
+/// of that quadtree. They cover the container and are numbered 0..tile_count()-1 along the Hilbert curve; bins of one
+/// tile row by row. Every point of the container has a 32-bit fixed-point position per axis. Tile, bin and Hilbert key
+/// are its leading bits, so the numbering of tiles is a prefix of the order of points.
 ///
 /// At first all tiles are equally large, for the typical density. Where more is known, set_tiles gives tiles of about
 /// equal weight. O(tiles) memory, replicated on every rank.
 ///
-/// Along a periodic axis each tile has images beside the container, one period away on either side: an image is one of
-/// 9 shifts by (-1, 0, 1) periods along each axis, 0 being none.
+/// Along a periodic axis each tile has images outside of the container, one period away on either side. An image is one
+/// of 9 shifts by (-1, 0, 1) periods along each axis.
 ///
-/// Each tile has 2^b x 2^b bins with a b of its own, so that bins hold a few sites where the density varies by orders
-/// of magnitude.
+/// Each tile has 2^b x 2^b bins, with a different b in each tile, so that bins hold a few sites also where the density
+/// varies by orders of magnitude.
 class TileGrid {
 public:
   TileGrid(const geometry::Box& container, const GridOptions& options);
@@ -50,7 +50,7 @@ public:
   std::size_t memory_bytes() const { return tree_.memory_bytes(); }
   /// Cells of the container grid along each axis.
   GridPosition cells() const { return {static_cast<std::uint32_t>(cells_x_), static_cast<std::uint32_t>(cells_y_)}; }
-  /// About so many points are expected, at the typical density all over the container.
+  /// Number of points that are expected, about, at the typical density all over the container.
   double expected_points() const { return expected_points_; }
 
   LocalIndex tile_count() const { return tree_.size(); }
@@ -68,10 +68,10 @@ public:
   geometry::Vec2 nearest_in(LocalIndex tile, geometry::Vec2 p) const;
   /// The shorter side of a tile, domain units.
   double side_of(LocalIndex tile) const;
-  /// @brief Replaces the tiles. Whatever counts in tiles or bins (points, subscriptions) must be built anew.
+  /// @brief Replaces the tiles. Data indexed by tiles or bins (points, subscriptions) must be built again.
   /// @param tiles cover the container, without overlap, in the order of the curve; the same on all ranks
   void set_tiles(std::vector<Tile> tiles);
-  /// Those quarters of a square that meet the container, along the curve.
+  /// Returns the quarters of a square that meet the container, in the order of the curve.
   std::vector<CurveSquare> quarters(const CurveSquare& square) const;
   /// The level of tiles that suit the typical density.
   int typical_level() const { return typical_level_; }
@@ -86,7 +86,7 @@ public:
   int bins_per_tile(LocalIndex tile) const { return 1 << (2 * bin_bits(tile)); }
   /// Largest b possible in a tile.
   int most_bin_bits(LocalIndex tile) const { return std::min<int>(MeshRules::finest_bin_bits, tree_[tile].shift); }
-  /// @brief Sets the b of every tile. Whatever counts in bins (points, subscriptions) must be built anew.
+  /// @brief Sets the b of every tile. Data indexed by bins (points, subscriptions) must be built again.
   /// @pre the same on all ranks; each at most most_bin_bits()
   void set_bin_bits(const std::vector<std::uint8_t>& bits);
 
@@ -106,7 +106,7 @@ public:
   geometry::Vec2 shift(int image) const {
     return {image_step(image % 3) * periods_.x, image_step(image / 3) * periods_.y};
   }
-  /// The same in fixed-point positions.
+  /// Does the same in fixed-point positions.
   std::int64_t fixed_shift_x(int image) const { return image_step(image % 3) * x_axis_.length(); }
   std::int64_t fixed_shift_y(int image) const { return image_step(image / 3) * y_axis_.length(); }
   /// @brief Calls visit(tile, image, part) for each tile, or image of one, that meets a rectangle, at most one period

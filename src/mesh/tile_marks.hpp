@@ -18,7 +18,7 @@ public:
 
   /// After sites were sorted: all marks are set. @param tiles the owned ones
   void forget(LocalIndex tiles) { marks_.assign(static_cast<std::size_t>(tiles), 1); }
-  /// So many tiles are known. Those that are new are marked.
+  /// Sets how many tiles are known, and marks the new ones.
   void make_room(LocalIndex tiles) { marks_.resize(static_cast<std::size_t>(tiles), 1); }
 
 private:

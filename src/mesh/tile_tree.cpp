@@ -8,9 +8,9 @@
 namespace trime::mesh {
 namespace {
 
-/// Of a square beyond the limits: nobody asks for it.
+/// Value for a square beyond the limits: nobody asks for it.
 constexpr std::int32_t nothing = std::numeric_limits<std::int32_t>::max();
-/// The directory has about so many cells for each tile at most.
+/// Largest number of cells of the directory for each tile, about.
 constexpr std::size_t cells_per_tile = 2;
 
 } // namespace

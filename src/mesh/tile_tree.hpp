@@ -22,7 +22,7 @@ struct Tile {
   /// The side of a bin is 2^bin_shift().
   int bin_shift() const { return shift - bits; }
   int bins() const { return 1 << (2 * bits); }
-  /// First column of bins that may meet positions from x0 on, and the last one up to x1; rows likewise.
+  /// First column of bins that may meet positions from x0 on, and last column up to x1; rows for y0 and y1.
   int first_column(std::int64_t x0) const { return static_cast<int>(std::max<std::int64_t>(0, x0 - x) >> bin_shift()); }
   int last_column(std::int64_t x1) const { return static_cast<int>(std::min(side() - 1, x1 - x) >> bin_shift()); }
   int first_row(std::int64_t y0) const { return static_cast<int>(std::max<std::int64_t>(0, y0 - y) >> bin_shift()); }
@@ -99,7 +99,7 @@ private:
   std::uint32_t first_column_ = 0, first_row_ = 0;
   std::size_t columns_ = 0, rows_ = 0;
   std::vector<std::int32_t> directory_; // by cell: a tile, or ~(index of four children)
-  std::vector<std::int32_t> children_;  // likewise; four of each square that is divided
+  std::vector<std::int32_t> children_;  // as directory_; four for each square that is divided
 };
 
 template <class Visit>

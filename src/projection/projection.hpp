@@ -34,7 +34,7 @@ private:
   std::unique_ptr<Handle> handle_;
 };
 
-/// @brief How much longer than on the Earth lengths are in a plane. Not thread-safe.
+/// @brief Returns the factor by which lengths in the plane are longer than on the Earth. Not thread-safe.
 class Distortion {
 public:
   /// @throws ConfigError if PROJ does not know the system

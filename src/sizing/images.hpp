@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which periodic images of a thing count in a container: those within half a period of it.
+// Finds the periodic images of a thing that count in a container: those within half a period of it.
 #pragma once
 
 #include "trime/geometry/vec2.hpp"

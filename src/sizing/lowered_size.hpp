@@ -30,7 +30,7 @@ public:
   ~LoweredSize() override;
   /// About 60 ns among a thousand limits. What is no valid size comes through as it is.
   double size(geometry::Vec2 p) const override;
-  /// The same where the field is known to have a valid value.
+  /// Does the same where the field is known to have a valid value.
   double lowered(geometry::Vec2 p, double field_size) const;
   bool is_uniform() const override { return false; }
   std::size_t memory_bytes() const override;

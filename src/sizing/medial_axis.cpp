@@ -30,8 +30,8 @@ struct Contact {
   double radius;
 };
 
-/// The ball that touches the inside of a segment, with its centre on the ray from the origin along `normal`; nothing if
-/// there is none.
+/// Returns the ball that touches the inside of a segment, with its centre on the ray from the origin along `normal`, or
+/// nothing.
 std::optional<Contact> contact_with(Vec2 a, Vec2 b, Vec2 normal) {
   const Vec2 d = b - a;
   const double squared = squared_length(d);

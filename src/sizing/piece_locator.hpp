@@ -17,8 +17,8 @@ class PieceLocator {
 public:
   /// O(M) time for M pieces.
   PieceLocator(const geometry::Boundary& boundary, const Images& images);
-  /// Share by which a point that is taken for the nearest may be farther: from the centre of a circle of many segments
-  /// all are nearly as near, and to look at each would take for ever.
+  /// Share by which the returned point may be farther than the nearest. From the centre of a circle of many segments
+  /// all are nearly equally near, and examining each one would take too long.
   static constexpr double slack = 5e-4;
   /// A boundary point, and the segment it lies on; the same point three times if that is an arc.
   struct Nearest {

@@ -84,7 +84,7 @@ public:
   std::vector<double> all_gather(double value) const;
   /// Returns the bytes of all ranks on every rank, ordered by rank. O(all bytes) memory. Collective.
   std::vector<std::byte> all_gather(std::span<const std::byte> bytes) const;
-  /// As all_gather, but returns nothing on all ranks if any rank says that it has failed. Collective.
+  /// Does the same as all_gather, but returns nothing on all ranks if any rank says that it has failed. Collective.
   std::optional<std::vector<std::byte>> all_gather_unless(bool failed, std::span<const std::byte> bytes) const;
   /// Returns the text of `root` on every rank. Collective.
   std::string broadcast(std::string text, int root = 0) const;

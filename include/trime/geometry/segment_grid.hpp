@@ -45,11 +45,11 @@ public:
   /// bins may be visited several times. Stops when visit returns false.
   template <class Visit>
   void for_each_near(const Box& box, const Visit& visit) const;
-  /// As above, only for bins that may lie within `margin` of `segment`: a long slanted one meets few of the bins of its
-  /// box.
+  /// Does the same only for bins that may lie within `margin` of `segment`: a long slanted one meets few of the bins of
+  /// its box.
   template <class Visit>
   void for_each_near(const Box& box, const Segment& segment, double margin, const Visit& visit) const;
-  /// As above, bin by bin: calls visit(span of indices, ascending).
+  /// Does the same bin by bin: calls visit(span of indices, ascending).
   template <class Visit>
   void for_each_bin_near(const Box& box, const Segment& segment, double margin, const Visit& visit) const;
 

@@ -44,7 +44,7 @@ public:
   /// @note Collective.
   std::vector<std::string> check(double expected_points);
 
-  /// @brief As check(), but creates nothing and looks only at permissions.
+  /// @brief Does the same as check(), but creates nothing and looks only at permissions.
   /// @throws FileError on all ranks @note Collective.
   std::vector<std::string> look(double expected_points) const;
 
