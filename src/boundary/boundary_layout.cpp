@@ -26,7 +26,8 @@ double extent_of(const geometry::Loop& loop) {
   return std::fmax(box.width(), box.height());
 }
 
-/// In sites of a plain stretch: so many junctions and places between them are looked at.
+/// Returns the work of a ragged stretch, in sites of a plain stretch: it grows with the junctions and places that are
+/// examined.
 std::int64_t work_of_ragged(const LoopMetric& metric, const Stretch& stretch) {
   const auto junctions_before = [&](double t) {
     const bool round = t >= metric.total();
@@ -42,7 +43,7 @@ struct Job {
   std::int64_t first, last;
 };
 constexpr std::int64_t sites_in_a_row = 256;
-// An absurd size is told by the first site, not by a lack of memory or of bits.
+// The first site already reports an absurd size, before memory or bits run out.
 constexpr std::int64_t most_jobs = 1024;                  // of a stretch
 constexpr std::int64_t most_work = std::int64_t{1} << 48; // of a stretch
 
@@ -53,7 +54,7 @@ public:
            const FeatureTolerance& tolerance, std::vector<LoopSite>& sites)
       : metric_(metric), lattice_(lattice), tolerance_(tolerance), corner_angle_(corner_angle), sites_(sites) {}
 
-  /// Sites [first, last) of a stretch, of which the first is its start; its end is none of them.
+  /// Sites [first, last) of a stretch. The first is its start; its end is not among them.
   void add_plain(const Stretch& stretch, std::int64_t first, std::int64_t last) {
     if (first == 0)
       add_start(stretch);

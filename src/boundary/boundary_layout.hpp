@@ -16,7 +16,7 @@ namespace trime::boundary {
 
 enum class SiteKind : std::int32_t { plain, corner, sharp_corner };
 
-/// A site of one loop by its place along it. As ranks tell each other: no byte is left to chance.
+/// A site of one loop, given by its place along the loop. Ranks send it to each other, so no byte is left undefined.
 struct LoopSite {
   double t;                ///< coordinate of LoopMetric, in [0, total)
   geometry::Vec2 position; ///< on the unrolled loop
@@ -24,7 +24,7 @@ struct LoopSite {
   std::int32_t loop = 0; ///< whose number the metric does not know
 };
 
-/// What a junction is as a site: of pieces, at the start of one of them.
+/// How a junction of two pieces, at the start of one of them, becomes a site.
 SiteKind kind_of_junction(const geometry::Loop& loop, std::size_t piece, double corner_angle);
 
 /// @brief The stretches of a loop between its corners, and the sites that belong on them. Ranks may lay out shares of a

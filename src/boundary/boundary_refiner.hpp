@@ -74,7 +74,7 @@ private:
     LocalIndex junction = -1; // the piece that starts there
   };
   CutPlace cut_place(const Site& a, const Site& b, double end) const;
-  /// What is told of a chord.
+  /// The result of checking a chord.
   struct ChordRecord {
     double squared_length = 0;
     LocalIndex left_out = 0; ///< corners between the site and its next
@@ -120,7 +120,8 @@ private:
   int rounds_ = 0;
 };
 
-/// @brief The same sites as of one refiner alone, by all ranks together. Collective. What any rank throws, all throw.
+/// @brief Makes the sites that one refiner would make, by all ranks together. Collective. If one rank throws, all ranks
+/// throw.
 /// @param make_ready the refiner of this rank: the same on all ranks; does not communicate
 polygon::BoundarySites make_boundary_sites(const comm::Communicator& comm,
                                            const std::function<std::unique_ptr<BoundaryRefiner>()>& make_ready);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What comes out of the layout of a boundary.
+// Makes the result of the layout of a boundary.
 
 #include "boundary/boundary_refiner.hpp"
 #include "comm/shared_work.hpp"

@@ -14,7 +14,7 @@ namespace {
 constexpr std::ptrdiff_t pieces_in_a_row = 64; // by one thread
 constexpr std::size_t samples_in_a_row = 1024; // that are counted together
 
-/// Names the piece with the most sites, as far as its start tells: the same on any threads.
+/// Names the piece with the most sites, as far as its start shows: the same piece on any threads.
 [[noreturn]] void fail_for_samples(const geometry::Boundary& boundary, const sizing::SizeField& relative,
                                    const sizing::ScaledSize& asked) {
   double most = -1, h = 0;

@@ -81,7 +81,7 @@ private:
   std::optional<Sampled> sampled_;
 };
 
-/// As the function of the same name in the public header; the size that counts for the rule is sizes.asked().
+/// Makes the sites as make_boundary_sites in boundary_sites.hpp; the rule uses the size sizes.asked().
 polygon::BoundarySites make_boundary_sites(const geometry::Boundary& boundary, const BoundarySizes& sizes,
                                            const geometry::Lattice& lattice, double corner_angle,
                                            std::span<const geometry::Vec2> inside, const FeatureRule& rule,

@@ -76,7 +76,7 @@ std::vector<Vec2> CorneredBoundary::shifts_of(std::size_t origin) const {
   return shifts;
 }
 
-/// Of pieces equally near the first one along the boundary counts.
+/// Among equally near pieces, the first one along the boundary counts.
 void CorneredBoundary::add_corner(Vec2 p) {
   Nearest best{std::numeric_limits<double>::infinity(), 0, p};
   for (const std::size_t origin : tree_.within(p, search_reach * tolerance_))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What was done about features of the boundary that are smaller than the elements.
+// Collects the report about features of the boundary that are smaller than the triangles.
 #pragma once
 
 #include "polygon/polygon.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What becomes of features of the boundary that are smaller than the elements.
+// Decides which features of the boundary that are smaller than the triangles are left out.
 #pragma once
 
 #include "polygon/polygon.hpp"

@@ -118,7 +118,8 @@ void FixedPoints::take_corners() {
       inside_.push_back(p);
       continue;
     }
-    // Of two points nearer to each other than what counts as on the boundary only one could be a corner.
+    // If two points are nearer to each other than the tolerance for "on the boundary", only one of them could be a
+    // corner.
     for (const Vec2 shift : images_of(boundary.periods))
       if (const std::optional<Vec2> q = on_curve.first_near(p + shift))
         throw GeometryError(fmt::format(

@@ -34,7 +34,7 @@ public:
   bool empty() const { return all_.empty(); }
   /// All of them, in lexicographic order.
   std::span<const geometry::Vec2> all() const { return all_; }
-  /// Those not on the boundary.
+  /// The fixed points that are not on the boundary.
   std::span<const geometry::Vec2> inside() const { return inside_; }
   /// The boundary as it was given, with a corner at each point that lies on it; itself, not a copy, if none does.
   const geometry::Boundary& cornered_boundary() const { return cornered_ ? *cornered_ : given_boundary_; }

@@ -31,8 +31,8 @@ struct LoopPlace {
 
 class LoopMetric {
 public:
-  /// Of one loop of the boundary. Keeps a reference to it. All threads work. @throws GeometryError if the size asks for
-  /// more than 2^27 samples
+  /// Measures one loop of the boundary with all threads, and keeps a reference to it. @throws GeometryError if the size
+  /// asks for more than 2^27 samples
   LoopMetric(const geometry::Boundary& boundary, std::size_t loop, const BoundarySizes& sizes);
 
   /// The sizes at t, linear between places half a size apart; t up to one turn ahead or behind.

@@ -21,8 +21,8 @@ double mismatch(double ratio) {
   return 0.25 * d * d;
 }
 
-/// What an angle of the boundary costs: alpha - 1, summed over the isosceles triangles of the fan that fills it best. A
-/// table over the diamond angle, which takes one division: 0..4 around a square instead of a circle.
+/// The cost of an angle of the boundary: alpha - 1, summed over the isosceles triangles of the fan that fills it best.
+/// A table over the diamond angle, which takes one division: 0..4 around a square instead of a circle.
 class FanCosts {
 public:
   FanCosts() {
@@ -32,7 +32,7 @@ public:
       costs_[k] = exact(0.5 * pi * (k / per_side) + in_quadrant);
     }
   }
-  /// Of the angle from the x axis to (x, y), 0..2 pi.
+  /// Returns the cost of the angle from the x axis to (x, y), 0..2 pi.
   double operator()(double x, double y) const {
     const double sum = std::fabs(x) + std::fabs(y);
     const double diamond = y >= 0 ? (x >= 0 ? y / sum : 1 - x / sum) : (x < 0 ? 2 - y / sum : 3 + x / sum);
@@ -142,7 +142,7 @@ private:
          BoundaryRules::length_weight * mismatch(length / h) + BoundaryRules::deviation_weight * relative * relative});
   }
 
-  /// What the lengths of two neighbours cost, a part of their joint's cost.
+  /// The cost of the lengths of two neighbours, a part of the cost of their joint.
   static double ratio_cost(const Chord& in, const Chord& out) {
     return BoundaryRules::ratio_weight * mismatch(in.length / out.length);
   }

@@ -20,8 +20,8 @@ public:
   };
   explicit SiteTree(std::vector<Entry> items);
 
-  /// A site strictly inside the diametral disc of a-b, or at the place of a or b, other than `index_a` at a and
-  /// `index_b` at b; -1 if there is none. Exact.
+  /// Returns a site strictly inside the diametral disc of a-b, or at the place of a or b, other than `index_a` at a and
+  /// `index_b` at b; -1 if no such site exists. Exact.
   LocalIndex find_in_disc(geometry::Vec2 a, geometry::Vec2 b, LocalIndex index_a, LocalIndex index_b) const;
   /// Calls visit(item) for all items nearer to `center` than `radius`, in the order of the tree.
   template <class Visit>

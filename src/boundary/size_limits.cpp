@@ -18,7 +18,7 @@ namespace {
 
 constexpr int sites_in_a_row = 64; // by one thread
 
-/// Of the chords [first, last).
+/// Finds the limits of the chords [first, last).
 class LimitFinder {
 public:
   LimitFinder(const BoundarySites& boundary, const sizing::SizeField& size, const sizing::SizeField& asked,

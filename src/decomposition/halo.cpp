@@ -98,7 +98,7 @@ void append_ghosts(const mesh::BinnedPoints& points, const BinRef& bin, std::vec
     append(bytes, Ghost{points.position(i), points.boundary(i)});
 }
 
-/// What Halo::extend sends of some bins: sites in each, drifts of their tiles, the sites, and h of these.
+/// The message of Halo::extend about some bins: number of sites in each, drifts of their tiles, the sites, and their h.
 std::vector<std::byte> describe(const mesh::BinnedPoints& points, std::span<const BinRef> bins,
                                 const std::vector<double>* sizes) {
   std::vector<std::byte> bytes;
@@ -114,7 +114,7 @@ std::vector<std::byte> describe(const mesh::BinnedPoints& points, std::span<cons
   return bytes;
 }
 
-/// Adds what describe() has told of some bins.
+/// Adds some bins from the message that describe() has made.
 void add_described(std::span<const std::byte> bytes, std::span<const BinRef> bins, mesh::BinnedPoints& points,
                    std::vector<double>* sizes) {
   Reader reader(bytes);
@@ -131,7 +131,7 @@ void add_described(std::span<const std::byte> bytes, std::span<const BinRef> bin
   }
 }
 
-/// What is told of a tile with the places of its sites.
+/// Data of a tile that are sent with the places of its sites.
 struct TileNews {
   double drift;
   std::uint64_t mark;

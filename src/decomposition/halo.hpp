@@ -15,7 +15,7 @@
 
 namespace trime::decomposition {
 
-/// What the owner of a ghost is told about it: both by their present places.
+/// A message to the owner of a ghost about it: both are named by their present places.
 struct GhostNews {
   geometry::Vec2 ghost, cause;
 };
@@ -25,7 +25,7 @@ public:
   /// @pre both outlive this object
   Halo(const comm::Communicator& comm, const mesh::TileGrid& grid);
 
-  /// @brief Starts anew for a partition: subscribes to all foreign bins and images within `margin` bins of an owned
+  /// @brief Starts again for a partition: subscribes to all foreign bins and images within `margin` bins of an owned
   /// tile. Collective.
   void reset(const Partition& partition, int margin);
 
@@ -39,9 +39,9 @@ public:
   /// @param sizes null, or h by local index, which grows with the ghosts
   void extend(mesh::BinnedPoints& points, std::vector<mesh::BinRef> missing, std::vector<double>* sizes);
 
-  /// @brief Fetches the positions of the ghosts anew, after their owners moved them without sorting, and the drift
-  /// of their tiles (see BinnedPoints). One message per neighbour, 16 bytes a ghost and 8 a tile. In two parts: between
-  /// them ghosts must not be looked at. Collective among neighbours only. @pre no periods
+  /// @brief Fetches the positions of the ghosts again, after their owners moved them without sorting, and the drift of
+  /// their tiles (see BinnedPoints). Sends one message per neighbour, 16 bytes per ghost and 8 per tile. There are two
+  /// calls: between them ghosts must not be read. Collective among neighbours only. @pre no periods
   void begin_positions(const mesh::BinnedPoints& points);
   void finish_positions(mesh::BinnedPoints& points);
 
@@ -50,10 +50,10 @@ public:
   std::vector<GlobalId> exchange(const mesh::BinnedPoints& points, std::span<const GlobalId> owned_values) const;
   std::vector<double> exchange(const mesh::BinnedPoints& points, std::span<const double> owned_values) const;
 
-  /// @brief Tells the owners of ghosts about them. Ranks of which one has ghosts of the other exchange a message.
+  /// @brief Sends messages about ghosts to their owners. Two ranks exchange a message if one has ghosts of the other.
   /// Collective among neighbours only.
   /// @param ghosts local index of the ghost for each of `news`
-  /// @return what other ranks tell of sites of this one
+  /// @return the messages of other ranks about sites of this rank
   std::vector<GhostNews> tell_owners(const mesh::BinnedPoints& points, std::span<const LocalIndex> ghosts,
                                      std::span<const GhostNews> news) const;
 

@@ -11,7 +11,7 @@
 namespace trime::decomposition {
 
 /// @brief Key of a site for a selection: ascending in `value` (0..1 in steps of 2^-32, clamped), equal ones in the
-/// order of a hash of the place. The same on every rank.
+/// order of a hash of the place. It is the same on every rank.
 std::uint64_t selection_key(double value, geometry::Vec2 place);
 
 /// @brief The largest threshold with at most k keys below it, over all ranks: `key < threshold` selects the k smallest

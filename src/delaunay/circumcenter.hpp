@@ -17,7 +17,7 @@ struct Vertex {
 /// c = (|a|^2 b - |b|^2 a) turned, over 2 a x b. With the rounding errors of the two sums of products in the numerators
 /// (4 eps S) and of the determinant (2 eps D), S and D being the sums of magnitudes, each coordinate of c is exact to
 /// (4 eps S / 2 + |c| (2 eps D)) / det plus a few eps |c|; everything is rounded up generously. It is not sound if the
-/// determinant is of the order of its own error.
+/// determinant is as small as its error.
 inline Vertex circumcenter(double ax, double ay, double bx, double by) {
   const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by;
   const double axby = ax * by, aybx = ay * bx, determinant = axby - aybx;

@@ -83,7 +83,7 @@ private:
   }
 
   /// From the virtual square: the last ring first, then the sites nearby (about the first ring of neighbours, in any
-  /// order), then all others, most of which lie beyond the security radius by then.
+  /// order), then all others; most of them lie beyond the security radius by then.
   bool start_cold() {
     kernel_.start_virtual(center_, lattice_.snap(2 * cap_) + lattice_.step());
     for (const LocalIndex neighbour : ring_)
@@ -242,7 +242,7 @@ private:
   std::vector<std::uint8_t> counted_;
 };
 
-/// What all workers found.
+/// Collects the results of all workers.
 template <class Worker>
 StarPass collect(const PerThread<Worker>& workers, std::vector<mesh::BinRef>& missing) {
   StarPass pass;

@@ -15,17 +15,17 @@
 
 namespace trime::delaunay {
 
-/// What a pass does with the star of a site: empty its ring, compute it, or leave the ring as it is, right or not.
+/// The action of a pass on the star of a site: empty its ring, compute it, or leave the ring as it is, right or not.
 enum class StarWish : std::uint8_t { none, compute, leave };
 
 /// Counts of one pass.
 struct StarPass {
   std::int64_t computed = 0;  ///< stars that were not certain, or not asked whether they are
-  std::int64_t rebuilt = 0;   ///< certain stars whose last ring was not right any more
+  std::int64_t rebuilt = 0;   ///< certain stars whose last ring was no longer right
   std::int64_t uncertain = 0; ///< stars that miss a bin
 };
 
-/// A site whose star must be looked at again, since that of another one has changed beside it.
+/// A site whose star must be examined again, since the star of a site next to it has changed.
 struct AffectedStar {
   LocalIndex site, cause;
 };
@@ -38,7 +38,7 @@ struct AffectedStar {
 /// cutting finds.
 ///
 /// Only triangles with circumradius below the cap count; no other site within 2 cap can change them, so the search is
-/// bounded whatever lies around. What does not count becomes a gap of the ring.
+/// bounded whatever lies around. Other triangles become gaps of the ring.
 ///
 /// The cap of a star follows the local size, so that windows and halos stay bounded where the size varies. Near or
 /// above the cap a triangle may then count in one of its stars and not in another. A mesh cannot suffer: whatever
@@ -61,8 +61,8 @@ public:
   double cap_factor() const { return factor_; }
 
   /// @brief A quarter of the shorter period, less a little; infinite without periods. No cap is larger, so edges are
-  /// shorter than half a period. Then the neighbour at an edge's other end is the nearest image of its point, and
-  /// triangles are told apart by the ids of their vertices.
+  /// shorter than half a period. Then the neighbour at an edge's other end is the nearest image of its point, and the
+  /// ids of their vertices distinguish triangles.
   static double largest_cap(const geometry::Periods& periods);
 
   /// @brief Computes the star of every owned site that is wanted and not certain yet, from its last ring where it has
@@ -78,7 +78,7 @@ public:
                   std::span<const StarWish> wanted, std::vector<mesh::BinRef>& missing) const;
 
   /// @brief Computes the stars of these owned sites, certain or not, each named once. Threads.
-  /// @param affected receives owned sites and ghosts beside which a star here has changed; some of them more than once
+  /// @param affected receives owned sites and ghosts that have a changed star here next to them; some several times
   /// @param missing as in update
   StarPass certify(const mesh::BinnedPoints& points, StarTable& stars, const mesh::LocalSizes& sizes,
                    std::span<const LocalIndex> sites, std::vector<AffectedStar>& affected,

@@ -17,8 +17,8 @@ namespace trime::delaunay {
 /// @brief Ring of neighbours around the origin (coordinates relative to the site, exact), counter-clockwise, and for
 /// each pair of consecutive neighbours the circumcentre with the origin and a bound on its error.
 ///
-/// Everything lies in arrays of its own, so that the loops over the ring run without branches; what they cannot decide
-/// goes to geometry::in_circle.
+/// All values lie in separate arrays, so that the loops over the ring run without branches; geometry::in_circle decides
+/// the rest.
 class StarKernel {
 public:
   explicit StarKernel(const geometry::Lattice& lattice, const geometry::Periods& periods = {});
@@ -26,8 +26,8 @@ public:
   /// @brief Starts around `center` with four virtual neighbours at `distance`, a lattice multiple, along the axes
   /// (their ids are negative).
   void start_virtual(geometry::Vec2 center, double distance);
-  /// @brief Starts with a ring of at least 3 real neighbours at `positions`, seen from `center`; false if it is no star
-  /// any more: it does not wind once counter-clockwise, or is not locally convex. O(degree).
+  /// @brief Starts with a ring of at least 3 real neighbours at `positions`, seen from `center`; returns false if it is
+  /// no longer a star: it does not wind once counter-clockwise, or is not locally convex. O(degree).
   bool start_ring(std::span<const LocalIndex> ids, const geometry::Vec2* positions, geometry::Vec2 center);
   /// Cuts the cell with a site at `offset`, not the origin and not a member; true if it became a neighbour. O(degree).
   bool insert(LocalIndex id, geometry::Vec2 offset);
@@ -64,7 +64,7 @@ private:
   void reserve(std::size_t degree);
   /// Computes the circumcentre between neighbours k and next.
   void set_vertex(std::size_t k, std::size_t next);
-  /// Does the site at q, of which depth_ and tolerance_ speak, lie in the disc of vertex k? Exact.
+  /// Does the site at q, for which depth_ and tolerance_ were computed, lie in the disc of vertex k? Exact.
   bool is_cut(std::size_t k, geometry::Vec2 q) const;
   /// Is q in the disc through the origin, a and b? Exact; all are offsets.
   bool in_disc(geometry::Vec2 a, geometry::Vec2 b, geometry::Vec2 q) const {

@@ -73,7 +73,8 @@ public:
   /// as it takes. O(n); threads.
   /// @param new_index by old index of an owned site: its new index or -1
   void renumber(std::span<const LocalIndex> new_index, LocalIndex new_size);
-  /// @brief The same where few sites go and come, in place. Stars stay certain but for those beside a site that goes.
+  /// @brief Does the same in place, where few sites go and come. Stars stay certain, except those next to a site that
+  /// goes.
   /// @param ghosts by former ghost, of those behind the owned sites, its new index or -1; empty: none has one
   void renumber(const mesh::IndexShift& shift, std::span<const LocalIndex> ghosts);
 

@@ -17,7 +17,7 @@ namespace {
 
 using geometry::Vec2;
 
-/// How far candidates are looked for beyond the box of the sites, in spacings.
+/// Distance beyond the box of the sites up to which candidates are searched, in spacings.
 constexpr std::array<double, 3> reaches{WrapRules::reach_relaxed, WrapRules::reach_random, WrapRules::reach_longest};
 constexpr double rounder = 0x3p32;    // adding and subtracting it leaves multiples of 2^-19
 constexpr double largest_half = 15.9; // of the longer side of a group's box: WrapGroup holds coordinates below 16

@@ -85,13 +85,13 @@ private:
   WrapKernel kernel_;
   std::unique_ptr<WrapGroup> group_;
 
-  // Of the tile.
+  // Data of the current tile.
   WantedStars wanted_;
   double spacing_ = 0; // the root of the area of a site
   std::vector<LocalIndex> order_, again_;
   std::int64_t changed_ = 0;
 
-  // Of the group.
+  // Data of the current group.
   geometry::Vec2 center_;
   double scale_ = 1; // a power of two
   std::vector<LocalIndex> candidate_;

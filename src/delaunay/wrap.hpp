@@ -39,9 +39,9 @@ struct WrapGroup {
   alignas(64) float u[most_candidates + padding][2 * most_lanes];
 };
 
-/// @brief Finds the stars of the sites of a group. A star that is proven and covered is the ring of Delaunay neighbours
-/// of its site among all sites, if all sites of the box were candidates: without ties, with all circumradii below the
-/// cap, and with all discs inside the box given by low and high. What is said of the discs is true in any case.
+/// @brief Finds the stars of the sites of a group. If all sites of the box were candidates, a star that is proven and
+/// covered is the ring of Delaunay neighbours of its site among all sites. It has no ties, all circumradii are below
+/// the cap, and all discs are inside the box given by low and high. The statement about the discs is true in any case.
 using WrapFunction = void (*)(WrapGroup& group);
 
 void wrap_portable(WrapGroup& group);

@@ -3,7 +3,7 @@
 // code for a newer processor can be linked into the rest of the program.
 //
 // Seen from a site p, every candidate q (an offset) is inverted: u = q / |q|^2. The disc of p, a, b holds q exactly if
-// u(q) lies to the right of the line from u(a) to u(b): the star of p is the convex hull of the inverted candidates
+// u(q) lies to the right of the line from u(a) to u(b). So the star of p is the convex hull of the inverted candidates
 // (Brown 1979), which is wrapped from an extreme point on (Jarvis 1973). One lane is one site; O(candidates x degree).
 //
 // Why a ring is right. With eps = 2^-24 and U = largest |u|, at most 10^4:

@@ -189,7 +189,7 @@ private:
     return twice;
   }
 
-  /// Signed angles of the turns; 0 beside arcs.
+  /// Signed angles of the turns; 0 next to arcs.
   void measure_turns() {
     const std::size_t n = nodes_.size();
     ways_.resize(n);
@@ -202,8 +202,8 @@ private:
     }
   }
 
-  /// @brief The curve is ragged at a node if, near it, it turns much more than it does in all: to and fro. False if it
-  /// is ragged nowhere.
+  /// @brief Marks ragged nodes: near them the curve turns back and forth, much more than it turns in total. Returns
+  /// false if there are no such nodes.
   bool measure_mobility() {
     measure_turns();
     TurnWindow window(ways_, turns_);
@@ -264,7 +264,7 @@ private:
     return any;
   }
 
-  /// Adds nodes to straight ways of which an end moves.
+  /// Adds nodes to straight stretches that have a moving end.
   void divide() {
     std::vector<Node> divided;
     for (std::size_t k = 0; k < nodes_.size(); ++k) {

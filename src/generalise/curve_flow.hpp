@@ -16,11 +16,12 @@ struct SmoothedCurves {
   std::int64_t vertices = 0; ///< of the given curves that others stand for
 };
 
-/// @brief The boundary with its ragged runs smoothed: where it turns to and fro within a size or so, by curve
-/// shortening flow, until the turns are gone or features of `reach` are. Under this flow simple curves stay simple and
-/// do not meet (Grayson, J. Diff. Geom. 26, 1987); each loop keeps its area. Curves that turn one way only stay, as do
-/// corners with smooth arms, arcs, and vertices that the user has asked for: next to these curves may come to cross in
-/// rare cases, and the caller finds out. Null if nothing is ragged. O(pieces + length / h) a step, and steps are few.
+/// @brief Returns the boundary with its ragged runs smoothed. Where it turns back and forth within about h, curve
+/// shortening flow moves it until the turns are gone, or features of the size `reach` are. Under this flow simple
+/// curves stay simple and do not meet (Grayson, J. Diff. Geom. 26, 1987); each loop keeps its area. Curves that turn
+/// one way only stay, and so do corners with smooth arms, arcs, and vertices that the user has asked for. Next to
+/// these, curves may cross in rare cases; the caller must check. Null if nothing is ragged. Each of a few steps takes
+/// O(pieces + length / h).
 /// @param reach [h]
 /// @throws GeometryError if a size is not positive and finite
 std::unique_ptr<SmoothedCurves> smooth_ragged_runs(const geometry::Boundary& boundary, const sizing::SizeField& size,

@@ -50,12 +50,12 @@ public:
     LocalIndex loop, piece;
     double from, to; ///< arc length from the start of the piece
   };
-  /// Of a half-edge with a mark of its own direction.
+  /// Returns the stretch that a half-edge with a mark for its direction stands for.
   Span span_of(HalfEdge e) const;
 
   /// By triangle: does it lie in the shape? O(triangles)
   std::vector<char> inside() const;
-  /// Those points that lie inside and on no curve. O(triangles + the walks from each point to the next)
+  /// Returns the points that lie inside and not on a curve. O(triangles + the walks from each point to the next)
   std::vector<geometry::Vec2> those_inside(std::span<const geometry::Vec2> points) const;
 
 private:

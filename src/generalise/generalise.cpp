@@ -59,7 +59,7 @@ private:
   std::vector<Vec2> tips_;
 };
 
-/// What becomes of narrow parts in one pass.
+/// The treatment of narrow parts in one pass.
 struct Plan {
   std::vector<NarrowPart> changed; ///< cut, or closed: they go to the other side
   std::vector<NarrowPart> apart;   ///< their sides are moved apart
@@ -97,7 +97,7 @@ Plan plan_cuts(const CurveMap& map, const std::vector<char>& given, const Region
   return plan;
 }
 
-/// Is a small component beside the part?
+/// Is a small component next to the part?
 bool is_beside_small(const CurveMap& map, const Regions& regions, const std::vector<char>& given,
                      const NarrowPart& part) {
   const Triangulation& mesh = map.mesh();
@@ -206,10 +206,10 @@ constexpr std::array<ThinningTrial, 4> thinning_trials{{
      Thinning::once},
 }};
 
-/// What a pass over the boundary has made.
+/// The result of a pass over the boundary.
 struct Passed {
   std::unique_ptr<Generalised> result; ///< null if nothing was to be done
-  bool only_thinned;                   ///< narrow parts were none, or they could not be helped
+  bool only_thinned;                   ///< there were no narrow parts, or nothing could improve them
 };
 
 /// Once over the boundary; null if nothing is to be done.
@@ -255,7 +255,8 @@ Passed pass_over(const Boundary& boundary, const sizing::SizeField& size, const 
   return {std::move(result), is_as_given};
 }
 
-/// The boundary without ragged runs; null if there are none. Smooths less, then not at all, while curves cross.
+/// Returns the boundary without ragged runs, or null if nothing is ragged. Smooths less, and finally not at all, while
+/// curves cross.
 std::unique_ptr<Generalised> smoothed(const Boundary& boundary, const sizing::SizeField& size,
                                       const geometry::Lattice& lattice, std::span<const Vec2> inside) {
   double reach = GeneraliseRules::flow_reach;

@@ -13,10 +13,10 @@
 
 namespace trime::generalise {
 
-/// What becomes of parts of the outside that are narrower than the resolution: slits, cracks, walls.
+/// The treatment of parts of the outside that are narrower than the resolution: slits, cracks, walls.
 enum class Narrow { keep, close };
 
-/// How much is simplified.
+/// Options of the simplification.
 struct Choice {
   Narrow narrow = Narrow::keep;
   bool cuts_thin_components = false; ///< components that are narrow all over are cut to pieces, not widened
@@ -29,8 +29,8 @@ struct Generalised {
   polygon::Simplification counts;
 };
 
-/// @brief The boundary without vertices that are far below elements of this size, in loops that have far too many of
-/// them; null if there are none, in a periodic container, and where curves would cross. O(n log n)
+/// @brief Returns the boundary without vertices that are much closer together than this size, in loops that have far
+/// too many of them. Null if there are no such loops, in a periodic container, and where curves would cross. O(n log n)
 /// @param size h
 /// @param inside lattice points that must stay inside, else it is null; those outside of the boundary are left out
 /// @throws GeometryError if a size is not positive and finite

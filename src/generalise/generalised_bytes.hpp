@@ -12,7 +12,7 @@ namespace trime::generalise {
 /// The curves and their counts, for a machine of the same kind. O(pieces)
 std::vector<std::byte> to_bytes(const Generalised& all);
 
-/// What to_bytes() has packed. O(pieces)
+/// Unpacks the result of to_bytes(). O(pieces)
 /// @param given the boundary that was generalised: names of parts and periods are its own
 Generalised generalised_of_bytes(std::vector<std::byte> bytes, const geometry::Boundary& given);
 

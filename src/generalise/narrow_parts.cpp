@@ -71,7 +71,7 @@ private:
     return f != Triangulation::none &&
            labels_[at(Triangulation::triangle(e))] != labels_[at(Triangulation::triangle(f))];
   }
-  /// Nodes of a hole that was filled, or of a slit that was closed, tell nothing of widths.
+  /// Nodes of a hole that was filled, or of a slit that was closed, give no widths.
   bool tells_width(LocalIndex v) const { return on_rim_[at(v)] || map_.is_held(v); }
   bool is_narrow_edge(HalfEdge e) const {
     const LocalIndex a = mesh_.origin(e), b = mesh_.target(e);

@@ -23,7 +23,7 @@ struct NarrowPart {
   bool holds_kept = false;                   ///< a vertex that the user has asked for, on the curve or inside
 };
 
-/// Adds nodes where the two sides of a narrow part have too few to tell how wide it is.
+/// Adds nodes where the two sides of a narrow part have too few nodes to measure its width.
 void add_nodes_to_narrow_parts(CurveMap& map);
 
 /// @brief All narrow parts on one side, in the order of their first triangles. O(triangles)

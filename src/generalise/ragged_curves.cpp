@@ -137,8 +137,8 @@ std::optional<Loop> thinned_once(const Loop& loop, const sizing::SizeField& size
   return thinner.result();
 }
 
-/// @brief The same, but of a dense loop all vertices go that may. Each time it loses about half of them, since each
-/// that goes has a neighbour that stays.
+/// @brief Does the same, except that a dense loop loses as many vertices as it may. Each time it loses about half of
+/// them, since each removed vertex has a neighbour that stays.
 std::optional<Loop> thinned_loop(const Loop& loop, const sizing::SizeField& size, double share, Thinning thinning) {
   std::optional<Loop> result = thinned_once(loop, size, share);
   const auto is_dense = [&] {

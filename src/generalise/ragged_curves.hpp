@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Curves that turn to and fro on ways far below the resolution, or have far more vertices than it needs.
+// Thins curves that turn back and forth over distances far below the resolution, or have far more vertices than it
+// needs.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
@@ -9,18 +10,18 @@
 
 namespace trime::generalise {
 
-/// How curves are thinned.
+/// Options of the thinning.
 enum class Thinning : char {
   once,
-  to_the_end, ///< loops with far too many vertices until none goes any more, others once
+  to_the_end, ///< thins loops with far too many vertices until nothing changes, and others once
   dense       ///< the same, and others not at all
 };
 
-/// @brief The boundary with straight pieces in place of runs of straight pieces that are ragged: that turn by more
-/// than GeneraliseRules::ragged_turn on a way of `share` h; and of smooth runs whose vertices are far closer to each
-/// other still. Vertices stay where they are or go; what goes lies within
-/// about share h of a vertex that stays, or within a few times that if thinned to the end. The sharpest turns stay.
-/// Curves may come to cross: the caller finds out. Null if there is nothing ragged. O(pieces log(pieces))
+/// @brief Returns the boundary with straight pieces in place of ragged runs of straight pieces, and of smooth runs with
+/// vertices that are even closer together. A run is ragged if it turns by more than GeneraliseRules::ragged_turn over a
+/// distance of `share` h. A vertex stays where it is or is removed. A removed vertex lies within about share h of a
+/// vertex that stays, or within a few times that if thinned to the end. The sharpest turns stay. Curves may cross
+/// afterwards; the caller must check. Null if nothing is ragged. O(pieces log(pieces))
 std::unique_ptr<geometry::Boundary> without_ragged_runs(const geometry::Boundary& boundary,
                                                         const sizing::SizeField& size, double share,
                                                         Thinning thinning = Thinning::once);

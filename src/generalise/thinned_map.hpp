@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Curves that are thinned as far as they do not come to cross, and the map that proves it.
+// Thins curves as far as they do not cross, with the map that proves it.
 #pragma once
 
 #include "generalise/curve_map.hpp"
@@ -23,8 +23,7 @@ struct ThinningTrial {
   Thinning thinning;
 };
 
-/// @brief The curves as the first trial leaves them that does not make them cross; nothing if there is none. O(n log n)
-/// for each trial.
+/// @brief Returns the curves of the first trial that does not make them cross, or nothing. O(n log n) for each trial.
 /// @param inside lattice points that must stay inside, see CurveMap
 /// @throws GeometryError if a size is not positive and finite
 ThinnedMap thinned_map(const geometry::Boundary& boundary, const sizing::SizeField& size,

@@ -124,8 +124,8 @@ LocalIndex Triangulation::split_triangle(LocalIndex t, Vec2 p) {
   return v;
 }
 
-/// p takes the edge e in two; @pre the four triangles that come about turn left, or p lies on the border of the box.
-/// Where p lies beside e, on needles, the edges from p to the apexes may have to flip too.
+/// Splits the edge e at p; @pre the four new triangles turn left, or p lies on the border of the box. Where p does not
+/// lie exactly on e, on needles, the edges from p to the apexes may have to flip too.
 LocalIndex Triangulation::split_edge(HalfEdge e, Vec2 p) {
   const HalfEdge f = twin(e);
   const LocalIndex v = add_point(p), a = origin(e), b = target(e), c = origin(previous(e));

@@ -36,7 +36,7 @@ public:
   /// @return false, without a new constraint, if another vertex or a constraint is in the way
   bool constrain(LocalIndex a, LocalIndex b, std::int32_t mark);
   /// @brief A new vertex near the constrained edge e, which becomes two edges with its mark.
-  /// @return the vertex, or `none` if p is too near to other vertices for the lattice to tell
+  /// @return the vertex, or `none` if p is too near to other vertices for the lattice
   LocalIndex split(HalfEdge e, geometry::Vec2 p);
 
   LocalIndex vertex_count() const { return static_cast<LocalIndex>(points_.size()); }
@@ -48,12 +48,12 @@ public:
   static HalfEdge previous(HalfEdge e) { return e % 3 == 0 ? e + 2 : e - 1; }
   LocalIndex origin(HalfEdge e) const { return origin_[at(e)]; }
   LocalIndex target(HalfEdge e) const { return origin_[at(next(e))]; }
-  /// The same edge seen from the other side; `none` on the border of the box.
+  /// Returns the opposite half-edge; `none` on the border of the box.
   HalfEdge twin(HalfEdge e) const { return twin_[at(e)]; }
   bool is_constrained(HalfEdge e) const { return mark_[at(e)] != no_mark; }
-  /// Of a constrained edge in its own direction, else negative.
+  /// Returns the constraint of an edge in its direction, else a negative number.
   std::int32_t mark(HalfEdge e) const { return mark_[at(e)] == no_mark ? -1 : mark_[at(e)]; }
-  /// The same for both directions: of the constraint on which e lies. @pre is_constrained(e)
+  /// Returns the constraint on which e lies, in either direction. @pre is_constrained(e)
   std::int32_t mark_of_edge(HalfEdge e) const { return mark_[at(e)] >= 0 ? mark_[at(e)] : -1 - mark_[at(e)]; }
   /// The half-edge from a to b; `none` if they are no neighbours. O(degree of a)
   HalfEdge find_edge(LocalIndex a, LocalIndex b) const;

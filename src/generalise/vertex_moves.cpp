@@ -30,7 +30,7 @@ void VertexMoves::forget() {
   any_ = false;
 }
 
-/// Triangles of which an edge has shrunk to nothing do not.
+/// Triangles with an edge of length 0 do not.
 bool VertexMoves::turns_over(LocalIndex t) const {
   const LocalIndex a = root(mesh_.origin(3 * t)), b = root(mesh_.origin(3 * t + 1)), c = root(mesh_.origin(3 * t + 2));
   return a != b && b != c && c != a && geometry::orient2d(places_[at(a)], places_[at(b)], places_[at(c)]) <= 0;
@@ -150,7 +150,7 @@ std::int64_t VertexMoves::widen(std::vector<NarrowPart> parts) {
     for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v)
       place(v);
     if (factor == 0 && stopped)
-      --round; // those beside them follow
+      --round; // those next to them follow
   }
   any_ = false;
   for (LocalIndex v = 4; v < mesh_.vertex_count(); ++v)

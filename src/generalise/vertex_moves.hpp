@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vertices of a boundary that are moved: apart where a slit is narrower than the resolution, together where they are
-// nearly one. No triangle turns over, so no two curves come to cross.
+// Moves vertices of a boundary: apart where a slit is narrower than the resolution, together where they nearly
+// coincide. No triangle turns over, so no two curves cross.
 #pragma once
 
 #include "generalise/loop_builder.hpp"
@@ -25,8 +25,9 @@ public:
   VertexMoves(const CurveMap& map, const std::vector<char>& labels, const geometry::Lattice& lattice,
               const geometry::Box& bounds);
 
-  /// @brief Moves the sides of narrow parts apart, each half of what is missing, less towards the ends of a slit. What
-  /// would turn a triangle over is moved less, or not at all. Parts of which no vertex misses much stay.
+  /// @brief Moves the sides of narrow parts apart, each by half of the missing width, and less towards the ends of a
+  /// slit. A vertex that would turn a triangle over is moved less, or not at all. Parts that are nearly wide enough
+  /// everywhere stay.
   /// @return how many parts were too narrow. O(triangles) a round, and rounds are few
   std::int64_t widen(std::vector<NarrowPart> parts);
   /// Joins neighbouring corners that are nearer to each other than a small share of h: steps, blunt tips.

@@ -22,13 +22,13 @@ struct BoundaryEdit {
 };
 
 /// @brief A copy of boundary sites as a linked list. Sites keep their index until renumber; new ones are appended, so
-/// that indices do not follow the loops any more. The same on every rank.
+/// that indices no longer follow the loops. All ranks hold the same copy.
 class BoundaryChain {
 public:
   /// The curve must outlive the object.
   BoundaryChain(const BoundarySites& boundary, const BoundaryCurve& curve);
 
-  /// `loop_start`, counts and sums are those of the last renumber, or of the beginning if there was none.
+  /// `loop_start`, counts and sums are those of the last renumber, or of the beginning.
   const BoundarySites& sites() const { return sites_; }
   LocalIndex loop(LocalIndex site) const { return loops_[static_cast<std::size_t>(site)]; }
   const BoundaryCurve& curve() const { return curve_; }

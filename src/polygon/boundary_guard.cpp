@@ -31,7 +31,7 @@ std::vector<Segment> chords_of(const BoundarySites& sites) {
   return chords;
 }
 
-/// Calls visit(shift) for the shifts by up to so many periods that `reach` asks for, none excluded.
+/// Calls visit(shift) for all shifts by as many periods as `reach` asks for.
 template <class Visit>
 void for_each_shift(const geometry::Periods& periods, double reach, const Visit& visit) {
   const auto images = [reach](double period) { return period > 0 ? 1 + static_cast<int>(reach / period) : 0; };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps interior sites off the boundary: tells whether a site has left the polygon of chords or entered the diametral
-// disc of a chord, and where to push it. Does not move, delete or count anything itself.
+// Keeps interior sites off the boundary: finds out whether a site has left the polygon of chords or entered the
+// diametral disc of a chord, and where to push it. Does not move, delete or count anything itself.
 #pragma once
 
 #include "polygon/disc_cells.hpp"
@@ -20,10 +20,10 @@ namespace trime::polygon {
 /// @brief Queries about the polygon of chords between neighbouring boundary sites. Chord i goes from site i to its
 /// next.
 ///
-/// A flat grid of about 64 cells a chord (at most 2^22) says of each cell that it lies inside or outside, clear of all
-/// discs, and how many cells away from them, or lists the discs that reach into it: far from the boundary every query
-/// reads one byte. Points must lie on the lattice of the sites. Immutable and thread-safe; O(B log B) to build, by all
-/// threads.
+/// A flat grid has about 64 cells per chord (at most 2^22). A cell clear of all discs stores whether it lies inside or
+/// outside, and how many cells it is away from them; the other cells list the discs that reach into them. So far from
+/// the boundary every query reads one byte. Points must lie on the lattice of the sites. Immutable and thread-safe; O(B
+/// log B) to build, by all threads.
 ///
 /// In a periodic container any image of a point may be asked for, and all images of the chords count. There the chords
 /// and images that meet one image of the container are closed outside of it, so that the even-odd rule holds within up
@@ -95,7 +95,8 @@ private:
   geometry::SegmentGrid closed_;          // chords and images, closed outside; periodic containers only
   bool inverted_ = false;                 // the inside is where closed_ has its outside
   DiscCells cells_;
-  std::vector<std::int8_t> state_; // inside > 0, outside < 0; its amount: so many cells to the next one near a disc
+  std::vector<std::int8_t>
+      state_; // inside > 0, outside < 0; its amount is the number of cells to the next one near a disc
 };
 
 } // namespace trime::polygon

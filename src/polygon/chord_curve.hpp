@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The curve of the shape between a boundary site and its next, held against the chord that stands for it in the mesh.
-// Goes by the boundary and the places of the sites on it alone, not by the way in which they were laid out.
+// Compares the curve of the shape between two successive boundary sites with the chord that replaces it in the mesh. It
+// uses only the boundary and the places of the sites on it, not the way in which they were laid out.
 #pragma once
 
 #include "polygon/polygon.hpp"
@@ -11,17 +11,18 @@
 
 namespace trime::polygon {
 
-/// How a chord and its curve differ.
+/// The differences between a chord and its curve.
 struct ChordCurve {
   double offset = 0;    ///< distance of the site from its place on the curve
   double deviation = 0; ///< largest distance of a point of the curve from the chord
   double area = 0;      ///< between chord and curve: what the chord takes from the shape, negative if it adds some
-  double curvature = 0; ///< of the circle of which the curve is a part; 0 if it is anything else
+  double curvature = 0; ///< radius of the circle, if the curve is an arc; else 0
 };
 
-/// @brief One for each of the sites first .. last-1, for the chord to its next. Exact but for rounding; serial order of
-/// operations in each, so the same bits on any threads and ranks. O(these sites and the pieces beside them, log of the
-/// loops), by all threads. @pre the loops of `sites` are those of `boundary`, in the same order
+/// @brief Returns one result for each of the sites first .. last-1, for the chord to its next. Exact except for
+/// rounding; each result has a fixed order of operations, so the bits are the same on any threads and ranks. O(these
+/// sites and the pieces next to them, log of the loops), by all threads. @pre the loops of `sites` are those of
+/// `boundary`, in the same order
 std::vector<ChordCurve> compare_chords(const geometry::Boundary& boundary, const BoundarySites& sites, LocalIndex first,
                                        LocalIndex last);
 

@@ -56,7 +56,7 @@ public:
     return std::span(discs_).subspan(static_cast<std::size_t>(starts_[k]), starts_[k + 1] - starts_[k]);
   }
   bool has_disc(std::size_t cell) const { return (bits_[cell / word] >> (cell % word) & 1) != 0; }
-  /// Of each cell of a row: 0 if a disc reaches into it, else `none`.
+  /// Returns for each cell of a row 0 if a disc reaches into it, else `none`.
   void mark_discs(int row, std::uint8_t none, std::span<std::uint8_t> marks) const;
 
   std::size_t memory_bytes() const {

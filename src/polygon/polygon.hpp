@@ -13,7 +13,7 @@
 
 namespace trime::polygon {
 
-/// What the loops that a rule drops took with them.
+/// Counts and area of the loops that a rule drops.
 struct DroppedLoops {
   std::vector<char> dropped; ///< per loop of the boundary
   int components = 0, holes = 0;
@@ -34,9 +34,9 @@ struct BoundarySite {
   std::int32_t part = 0;       ///< index into Boundary::part_names: of the curve in the middle of the chord to `next`
 };
 
-/// Invariants: sites of one loop are consecutive and in order; at least 3 a loop; no two positions are equal; the open
-/// diametral disc of each chord (site, next) holds no other site, so no two chords cross; images of sites and chords in
-/// a periodic container included. The whole torus has no sites at all.
+/// Invariants: sites of one loop are consecutive and in order. A loop has at least 3. No two positions are equal. The
+/// open diametral disc of each chord (site, next) holds no other site, so no two chords cross. All this includes images
+/// of sites and chords in a periodic container. The whole torus has no sites.
 struct BoundarySites {
   std::vector<BoundarySite> sites;
   geometry::Periods periods{}; ///< those of the boundary

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What was done to the curves of a shape before the sites of a stage were laid on them. Plain data.
+// Counts of the changes to the curves of a shape before the sites of a stage were laid on them. Plain data.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"

@@ -18,7 +18,7 @@ struct ChangedPlace {
   bool comes;
 };
 
-/// The ghosts that a rank knew, to be compared with those of the same bins that it has fetched anew.
+/// The ghosts that a rank knew, to compare them with the ghosts of the same bins that it has fetched again.
 class FormerGhosts {
 public:
   /// O(ghosts).
@@ -33,9 +33,9 @@ private:
   std::vector<geometry::Vec2> places_;
 };
 
-/// @brief The stars that the changes may have changed are not certain any more. A star without gaps changes only if a
-/// site of its ring goes, which is for the caller to see, or if one comes into the disc of a triangle. One with gaps
-/// may change by whatever happens within twice its cap. O(changes log changes + sites). Threads.
+/// @brief Marks stars as uncertain that the changes may have changed. A star without gaps changes only if a site of its
+/// ring goes, which the caller must see, or if a site enters the disc of a triangle. A star with gaps may change
+/// through anything within twice its cap. O(changes log changes + sites). Threads.
 /// @pre h at the owned sites is known; no periods
 void doubt_stars(const mesh::BinnedPoints& points, const mesh::LocalSizes& sizes, const delaunay::StarBuilder& builder,
                  std::vector<ChangedPlace> changes, delaunay::StarTable& stars);

@@ -23,7 +23,7 @@ Fan inside_fan(const StageView& view, LocalIndex i) {
     return fan;
   }
   const BoundarySite& site = view.polygon.sites[at(b)];
-  // Positions tell the images of a boundary site from each other.
+  // Positions distinguish the images of a boundary site.
   const geometry::Vec2 before = view.polygon.chord(site.previous).a - view.polygon.sites[at(site.previous)].next_shift;
   const auto is_next = [&](LocalIndex j) {
     return points.boundary(j) == site.next && points.position(j) == view.polygon.chord(b).b;

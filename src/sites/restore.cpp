@@ -74,8 +74,8 @@ void SiteState::restore_drifts(const SavedTiles& saved) {
       points_.drifts().set(known, saved.drifts[at(tile)]);
 }
 
-/// Those of the owned sites come from the file, since they may be older than the places, and go to who has them as
-/// ghosts.
+/// The values of owned sites come from the file, since they may be older than the places; ranks that have the sites as
+/// ghosts get them.
 void SiteState::restore_sizes(const std::vector<double>& sizes, std::span<const LocalIndex> new_index,
                               const sizing::SizeField& size) {
   sizes_.forget();

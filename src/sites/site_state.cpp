@@ -202,7 +202,7 @@ void SiteState::remember_sizes() {
       carried_[static_cast<std::size_t>(i)] = unknown_size;
 }
 
-/// The same by their new indices.
+/// Moves the kept sizes to their new indices.
 void SiteState::carry_sizes(std::span<const LocalIndex> new_index) {
   if (carried_.empty())
     return;

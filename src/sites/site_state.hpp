@@ -45,12 +45,12 @@ public:
   /// are not known. Collective.
   /// @throws FileError on all ranks as `load`, or if the sites do not fit the tiles; ConfigError as distribute
   void restore(const SavedTiles& saved, const SiteLoader& load, const sizing::SizeField& size);
-  /// @brief The owned sites go to BinnedPoints::next, but for those that are gone (by local index; empty:
-  /// none); more sites come, whoever owns their places. Migrates, sorts, keeps the rings. Collective.
+  /// @brief Moves the owned sites to BinnedPoints::next, except those that are gone (by local index; empty: no sites),
+  /// and adds new sites, whichever rank owns their places. Migrates, sorts, keeps the rings. Collective.
   void move_sites(std::vector<std::uint8_t> gone = {}, mesh::SiteList more = {});
 
-  /// @brief What move_sites comes to where few of the owned sites go, and a few come to the own tiles: their order, h
-  /// and rings are kept in place. Without periods, stars that nothing near has changed stay certain. Fetches the
+  /// @brief Has the effect of move_sites where few of the owned sites go, and a few come to the tiles of this rank:
+  /// keeps order, h and rings in place. Without periods, stars that nothing near has changed stay certain. Fetches the
   /// ghosts. Collective among neighbours. O(edits log edits), and a pass at the speed of memory over the owned sites.
   /// @param builder of the stars that are certain
   /// @param gone ascending, each once
@@ -65,13 +65,13 @@ public:
   /// @throws GeometryError on all ranks together if h at a site is not positive and finite
   delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size, Wanted wanted);
 
-  /// The same for some stars: `wanted` by local index of the owned sites.
+  /// Does the same for some stars: `wanted` by local index of the owned sites.
   delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size,
                                    std::span<const delaunay::StarWish> wanted);
   /// @brief Fetches the ghosts after a change of sites and evaluates h at sites that moved; part of compute_stars.
   /// Collective.
   void refresh(const sizing::SizeField& size);
-  /// h is evaluated anew at the next move, also of sites that stay: theirs may be older than their place.
+  /// Makes the next move evaluate h again, also at sites that stay: their h may be older than their place.
   void forget_sizes() { sizes_.forget(); }
   /// @brief Moves the owned sites to BinnedPoints::next, without sorting. The ghosts follow on their way:
   /// nothing about them may be asked until finish_advance. Collective. @pre no periods

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one stage of a run works on: the size of the triangles, the sites on the boundary, and the sites inside.
+// The data of one stage of a run: the size of the triangles, the sites on the boundary, and the sites inside.
 #pragma once
 
 #include "polygon/boundary_guard.hpp"
@@ -20,7 +20,7 @@ namespace trime::sites {
 ///
 /// h has three ages, each made of the one before it. `asked_size` is the relative size of the user times the factor
 /// that yields the points, within the least and the largest size. `lowered_size` is that, lowered around places where
-/// the boundary needs smaller triangles. `size` is that times `coarsening`, and what this stage goes by.
+/// the boundary needs smaller triangles. `size` is that times `coarsening`; this stage uses it.
 struct Stage {
   double coarsening = 1;                             ///< h of this stage over that of the last
   double typical_size = 1;                           ///< edge length of as many equal triangles
@@ -30,7 +30,7 @@ struct Stage {
   std::shared_ptr<const geometry::Boundary> curves;  ///< on which these lie; null: those of the shape
   polygon::Simplification simplified;                ///< how they came from those
   polygon::BoundarySites polygon;                    ///< the sites on the boundary; only the clean-up edits them
-  std::unique_ptr<polygon::BoundaryGuard> guard;     ///< of their chords, of which it holds a copy
+  std::unique_ptr<polygon::BoundaryGuard> guard;     ///< guard of their chords; holds a copy of them
   std::unique_ptr<SiteState> state;
 
   GlobalId fixed_inside = 0; ///< fixed points that are not on the boundary

@@ -11,7 +11,7 @@
 
 namespace trime::sites {
 
-/// @brief The sites of a stage, or of a copy of its state, with what they make a mesh of. Replicated but for the state.
+/// @brief The sites of a stage, or of a copy of its state, with size and boundary. All is replicated except the state.
 /// Keeps references.
 struct StageView {
   const SiteState& state;
