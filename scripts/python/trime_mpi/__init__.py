@@ -29,7 +29,7 @@ __version__ = "0.1.0"
 
 
 def plot(mesh, what="quality", file=None, dpi=130):  # pylint: disable=redefined-outer-name
-    """Draws a mesh (a Mesh, or the path of its file); see trime_mpi.plots.plot. Needs matplotlib."""
+    """Draws a mesh (a Mesh, or the path of its file), see trime_mpi.plots.plot. Needs matplotlib."""
     try:
         from .plots import plot as draw  # matplotlib is not needed before
     except ModuleNotFoundError as error:

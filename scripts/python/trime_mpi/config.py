@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes a config that is a dict as the file that the program reads. All mistakes raise ConfigError."""
+"""Writes a config that is a dict as the file that the program reads. All errors are ConfigError."""
 import collections.abc
 import numbers
 import os
@@ -20,14 +20,14 @@ def fail(where, expected, found):
 
 
 def kind_of(value):
-    """What a message calls a value that cannot be used."""
+    """Returns the words by which a message describes a value that cannot be used."""
     if isinstance(value, np.ndarray):
         return f"an array with the shape {value.shape}"
     return "a function" if callable(value) else f"an object of type {type(value).__name__}"
 
 
 def scalar_text(value, where):
-    """True -> true, 0.1 -> 0.1; floats keep all their bits."""
+    """Returns a single value as text: True as true, 0.1 as 0.1. Floats keep all their bits."""
     if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
     if isinstance(value, (str, os.PathLike)):
@@ -40,7 +40,7 @@ def scalar_text(value, where):
 
 
 def value_text(value, where):
-    """The text of a value; a list becomes its values in a row, (0.5, 0.5) -> 0.5 0.5."""
+    """Returns a value as text. A list becomes its values in a row: (0.5, 0.5) becomes 0.5 0.5."""
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value.item()
     if isinstance(value, (str, collections.abc.Mapping)) or not isinstance(value, collections.abc.Iterable):
@@ -55,19 +55,20 @@ def value_text(value, where):
 
 
 def text_for(key, value, where):
-    """The text of a value of a key. A formula may be a number."""
+    """Returns the value of a key as text. A formula may be a number."""
     if key in FORMULAS and not isinstance(value, (str, numbers.Real)):
         fail(where, "a formula", kind_of(value) + (f"; {NOT_YET}" if key == "expression" else ""))
     return value_text(value, where)
 
 
 def is_section(name, key, value):
-    """True if config[name][key] is a section of its own; rings may be a dict too, namely GeoJSON."""
+    """True if config[name][key] is a section. A dict of rings is GeoJSON, and is not one."""
     return isinstance(value, collections.abc.Mapping) and not (key == "rings" and name != "shape")
 
 
 def sections_of(config):
-    """The sections {"shape.a": {key: value}}, from such a dict or from a nested one, {"shape": {"a": {...}}}."""
+    """Returns the sections as {"shape.a": {key: value}}, from such a dict or from a nested one, {"shape": {"a":
+    {...}}}."""
     sections = {}
     for name, keys in config.items():
         if not isinstance(keys, collections.abc.Mapping):
@@ -95,7 +96,7 @@ def written(name, kind, text, directory):
 
 
 def key_text(key, value, where, name, directory):
-    """The key of the file and its value as text. Arrays go into a file `name` in `directory`."""
+    """Returns the key of the config file and its value as text. Arrays go into a file `name` in `directory`."""
     if key == "rings":
         return "file", written(name, *rings_file(value, where), directory)
     if key == "fixed_points" and not is_path(value):
@@ -106,8 +107,8 @@ def key_text(key, value, where, name, directory):
 
 
 def ini_text(config, directory):
-    """The text of a config file for a dict. Values of `rings` and `fixed_points` go into files in `directory`. Keys
-    with the value None keep their defaults."""
+    """Returns the text of the config file for a dict. Values of `rings` and `fixed_points` go into files in
+    `directory`. Keys with the value None keep their defaults."""
     lines = []
     for number, (section, keys) in enumerate(sections_of(config).items()):
         lines.append(f"[{section}]")
@@ -121,8 +122,8 @@ def ini_text(config, directory):
 
 
 def override_texts(options, relative_to_config):
-    """Overrides for the command line, SECTION.KEY=VALUE. Paths are relative to the config file if there is one, as on
-    the command line, and else to the working directory."""
+    """Returns overrides for the command line, SECTION.KEY=VALUE. Paths are relative to the config file if the user gave
+    one, and otherwise to the working directory."""
     texts = []
     for name, value in options.items():
         key, where = name.rpartition(".")[2], f"options['{name}']"

@@ -10,20 +10,20 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from . import raster
 
-RASTER_ABOVE = 200_000  # triangles
-LINES_ABOVE = 100_000   # facets: more are drawn as pixels
+RASTER_ABOVE = 200_000  # more triangles are drawn as pixels
+LINES_ABOVE = 100_000   # more facets are drawn as pixels
 PIXELS = 1200           # of the longer side of a picture
 INK, PALE, WINDOW = "#26323d", "#b8bfc6", "#0b6e99"
-LAND = "#eceae4"        # triangles whose value does not matter
+LAND = "#eceae4"        # colour of triangles whose value does not matter
 ALPHA_COLOURS = LinearSegmentedColormap.from_list("alpha", ["#f7f5ee", "#f6e3a1", "#f2ae5f", "#d9603f", "#8c1d40"])
 ALPHA_RANGE = (1.0, 1.3)
 SIZE_COLOURS = LinearSegmentedColormap.from_list("size", ["#0b3954", "#1d6f8a", "#4fa69a", "#a7cf9b", "#f3efc3"])
 NAME_COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7b3294", "#8c510a", "#1b7837",
-                "#c51b7d", "#4d4d4d", "#b2182b"]  # apart for most eyes; the first seven for all
+                "#c51b7d", "#4d4d4d", "#b2182b"]  # most people can distinguish them, and all people the first seven
 
 
 def name_colour(number):
-    """A colour for the number of a name or a rank; beyond the list, hues by the golden ratio."""
+    """Returns a colour for the number of a name or a rank. Numbers beyond the list get hues by the golden ratio."""
     if number < len(NAME_COLOURS):
         return to_rgb(NAME_COLOURS[number])
     hue = (number * 0.6180339887498949) % 1
@@ -31,7 +31,7 @@ def name_colour(number):
 
 
 def frame(axes, low, high):
-    """Equal scales, the window with a margin, few ticks."""
+    """Sets equal scales, a window with a margin, and few ticks."""
     margin = 0.02 * (high - low).max()
     axes.set_aspect("equal")
     axes.set_xlim(low[0] - margin, high[0] + margin)
@@ -40,32 +40,32 @@ def frame(axes, low, high):
 
 
 def plain_ticks(axes):
-    """Small ticks, a pale frame."""
+    """Sets small ticks and a pale frame."""
     axes.tick_params(labelsize=7, colors=INK, length=2, which="both")
     for spine in axes.spines.values():
         spine.set_color(PALE)
 
 
 def box_of(mesh):
-    """Lower left and upper right corner."""
+    """Returns the lower left and the upper right corner."""
     columns = mesh.points.T
     return np.array([column.min() for column in columns]), np.array([column.max() for column in columns])
 
 
 def sides_of(mesh):
-    """Width and height, never 0."""
+    """Returns width and height, which are never 0."""
     low, high = box_of(mesh)
     return np.maximum(high - low, 1e-300)
 
 
 def header(figure, title, text, tall):
-    """A bold line and a plain one at the top of a figure that is `tall` inches."""
+    """Writes a bold line and a plain one at the top of a figure; tall: its height in inches."""
     figure.text(0.04, 1 - 0.40 / tall, title, fontsize=16, fontweight="bold", color=INK)
     figure.text(0.04, 1 - 0.69 / tall, text, fontsize=10, color=INK)
 
 
 def summary(mesh):
-    """The numbers of the plain line."""
+    """Returns the text of the plain line: the numbers of the mesh."""
     text = f"{len(mesh.points):,} points   {len(mesh.triangles):,} triangles"
     if "alpha_mean" in mesh.quality:
         text += (f"   alpha mean {mesh.quality['alpha_mean']:.4f}, max {mesh.quality['alpha_max']:.3f}"
@@ -74,8 +74,10 @@ def summary(mesh):
 
 
 def panel_figure(mesh, beside=2.9):
-    """A figure with one map at the left, as wide and tall as its shape wants, and `beside` inches at the right. Returns
-    figure, axes of the map, and its height in inches."""
+    """Makes a figure with one map at the left, in the proportions of its shape, and `beside` inches at the right.
+
+    Returns the figure, the axes of the map, and the height of the figure in inches.
+    """
     width, height = sides_of(mesh)
     scale = min(9.6 / width, 8.2 / height)
     across, up = max(scale * width, 4.6), max(scale * height, 2.6)
@@ -87,18 +89,18 @@ def panel_figure(mesh, beside=2.9):
 
 
 def line_width(triangles):
-    """Of the edges of so many triangles."""
+    """Returns the width of edges for this number of triangles."""
     return float(np.clip(22 / np.sqrt(max(triangles, 1)), 0.03, 0.5))
 
 
 def draw_polygons(axes, mesh, chosen, width, colours):
-    """Triangles `chosen` (an index) as polygons; colours: options of PolyCollection."""
+    """Draws the triangles of the index `chosen` as polygons. colours: options of PolyCollection."""
     axes.add_collection(PolyCollection(mesh.corners(chosen), linewidths=width, rasterized=True,
                                        **{"edgecolors": INK, **colours}))
 
 
 def draw_facets(axes, mesh, width=0.6, colour=INK, rows=slice(None)):
-    """The boundary, or rows of it, as lines; as pixels where there are too many."""
+    """Draws the boundary, or some rows of it, as lines. If there are too many, it draws pixels."""
     if len(mesh.facets[rows]) <= LINES_ABOVE:
         axes.add_collection(LineCollection(mesh.facet_ends(rows), colors=[colour], linewidths=width,
                                            capstyle="round", rasterized=len(mesh.facets[rows]) > 20_000))
@@ -111,7 +113,7 @@ def draw_facets(axes, mesh, width=0.6, colour=INK, rows=slice(None)):
 
 
 def draw_values(axes, mesh, value, colours, limits, norm=None):
-    """All triangles, coloured by value [M]."""
+    """Draws all triangles, coloured by value [M]."""
     norm = norm or Normalize(*limits)
     if len(mesh.triangles) <= RASTER_ABOVE:
         draw_polygons(axes, mesh, slice(None), line_width(len(mesh.triangles)),
@@ -126,7 +128,7 @@ def draw_values(axes, mesh, value, colours, limits, norm=None):
 
 
 def draw_numbers(axes, mesh, number, palette):
-    """All triangles, coloured by the row of palette [k,3] that number [M] names."""
+    """Draws all triangles. number [M] chooses the row of palette [k,3] for each triangle."""
     palette = np.asarray(palette, float)
     if len(mesh.triangles) <= RASTER_ABOVE:
         draw_polygons(axes, mesh, slice(None), 0.6 * line_width(len(mesh.triangles)), {"facecolors": palette[number]})
@@ -140,7 +142,7 @@ def draw_numbers(axes, mesh, number, palette):
 
 
 def add_scale(figure, axes, norm, colours, label, extend="neither"):
-    """A bar of colours to the right of axes."""
+    """Adds a colour bar to the right of axes."""
     bar = figure.colorbar(ScalarMappable(norm, colours), ax=axes, fraction=0.03, pad=0.015, aspect=40, extend=extend)
     bar.ax.tick_params(labelsize=7, which="both")
     bar.set_label(label, fontsize=8)
@@ -148,7 +150,7 @@ def add_scale(figure, axes, norm, colours, label, extend="neither"):
 
 
 def label_sizes(bar, low, high):
-    """Five ticks with three digits, since decades are too far apart for most meshes."""
+    """Sets five ticks with three digits, since decades are too far apart for most meshes."""
     bar.ax.yaxis.set_major_locator(FixedLocator(np.geomspace(low, high, 5)))
     bar.ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.3g}"))
     bar.ax.yaxis.set_minor_locator(NullLocator())

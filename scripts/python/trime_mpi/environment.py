@@ -8,28 +8,28 @@ must get. Therefore this module knows the whole names of the variables that mpir
 import os
 import re
 
-# What the launchers set: Open MPI with ORTE (up to version 4) or PRRTE (from version 5), PMIx, MPICH and its kin.
+# Names that launchers set: Open MPI with ORTE (up to version 4) or PRRTE (from version 5), PMIx, MPICH.
 LAUNCHER = re.compile(r"(OMPI|PMIX|PRTE|PMI|HYDI)_|MPI_LOCAL(NRANKS|RANKID)$")
-# What users set for Open MPI, PRRTE and PMIx.
+# Names that users set for Open MPI, PRRTE and PMIx.
 SETTING = re.compile(r"(OMPI|PRTE|PMIX)_MCA_|(OMPI|PRTE)_ALLOW_")
-# What Open MPI's launcher sets under names of this kind.
+# Names of this kind that Open MPI's launcher sets.
 OF_A_JOB = re.compile(
     r"(OMPI|PRTE)_MCA_(ess|ess_\w+|initial_wdir|mpi_oversubscribe|shmem_RUNTIME_QUERY_hint|(orte|prte)_(app_num"
     r"|base_applied_binding|bound_at_launch|cpu_model|cpu_type|do_not_barrier|ess_\w+|externally_bound|hnp_uri"
     r"|jobfam_session_dir|launch|local_daemon_uri|num_nodes|num_restarts|parent_uri|precondition_transports"
     r"|top_session_dir))$")
-PMIX_OF_A_JOB = "^s1,s2,"  # begin of the value that Open MPI's launcher gives OMPI_MCA_pmix where the user has none
-# Where a job puts its processes: options of its launcher, such as --map-by and --bind-to, become such variables.
+PMIX_OF_A_JOB = "^s1,s2,"  # Open MPI's launcher sets OMPI_MCA_pmix to a value that begins so
+# Names that place the processes of a job; --map-by, --bind-to and other options of the launcher set them.
 PLACES_OF_A_JOB = re.compile(r"OMPI_MCA_(rmaps_(?!base_oversubscribe$)|hwloc_base_(binding|cpu|report|slot|use))")
 
 
 def is_inside_a_job(variables):
-    """True if a launcher of MPI has started this process. variables: its environment."""
+    """True if a launcher of MPI has started this process. variables: the environment of the process."""
     return any(name in variables for name in ("OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"))
 
 
 def is_of_the_job(name, value):
-    """True for a variable that the launcher has set, and that describes its own job only."""
+    """True for a variable that the launcher has set, and that describes only its job."""
     if not LAUNCHER.match(name):
         return False
     if not SETTING.match(name):
@@ -39,11 +39,11 @@ def is_of_the_job(name, value):
 
 
 def run_environment(variables=None):
-    """The variables for a run of the program: a job of its own, of any number of ranks, bound to no cores.
+    """Returns the environment for a run of the program, which is a separate job with any number of ranks.
 
-    variables: those of the caller (default: os.environ). All settings of the user are handed on; inside of a job all
-    except the places of its processes. There the ranks and threads of the run also leave their cores to others while
-    they wait, since the processes of the job around it use the same cores.
+    variables is the environment of the caller (default: os.environ). The run gets all settings of the user. Inside of a
+    job it does not get the placement of the job's processes. There the ranks and threads of the run also yield their
+    cores while they wait, since the processes of the outer job use the same cores.
     """
     variables = dict(os.environ if variables is None else variables)
     inside = is_inside_a_job(variables)

@@ -4,8 +4,11 @@ import sys
 
 
 class TrimeError(Exception):
-    """A run that failed. `messages`: the errors that the program told, each with its place; `code`: its exit code;
-    `output`: all that it printed."""
+    """A run has failed.
+
+    messages holds the errors of the program, each with its place. code is the exit code, and output is all that the
+    program has printed.
+    """
     code = 1
 
     def __init__(self, messages, code=None, output=""):
@@ -16,11 +19,11 @@ class TrimeError(Exception):
 
 
 class InternalError(TrimeError):
-    """Exit code 1, and all codes that have no class of their own."""
+    """The program ended with exit code 1, or with a code that has no other class."""
 
 
 class ConfigError(TrimeError, ValueError):
-    """Exit code 2: config or options; also fewer points than the boundary takes."""
+    """Exit code 2: the config or the options are wrong, or there are fewer points than the boundary needs."""
     code = 2
 
 
@@ -30,43 +33,44 @@ class GeometryError(TrimeError, ValueError):
 
 
 class FileError(TrimeError, OSError):
-    """Exit code 4: a file cannot be read or written, or is no mesh file."""
+    """Exit code 4: a file cannot be read or written, or is not a mesh file."""
     code = 4
 
 
 class IncompleteError(TrimeError):
-    """Exit code 5: stopped by the sweep cap, or a check failed. `mesh` is what was made, marked as incomplete."""
+    """Exit code 5: the run stopped at its largest number of sweeps, or a check failed. mesh is the result, which is
+    marked as incomplete."""
     code = 5
     mesh = None
 
 
 class MemoryLimit(TrimeError, MemoryError):
-    """Exit code 6: out of memory."""
+    """Exit code 6: the memory did not suffice."""
     code = 6
 
 
 class StoppedAtCheckpoint(TrimeError):
-    """Exit code 75: the run stopped at a checkpoint, from which `trime_mpi --restart auto` goes on."""
+    """Exit code 75: the run stopped at a checkpoint. `trime_mpi --restart auto` continues it."""
     code = 75
 
 
 class InterruptedRun(TrimeError):
-    """The program was ended by a signal, whose number is `signal`."""
+    """A signal ended the program; signal is its number."""
     code = 128
 
     @property
     def signal(self):
-        """Number of the signal; 0 where mpirun has not told it."""
+        """The number of the signal, or 0 if mpirun did not report it."""
         return max(self.code - 128, 0)
 
 
 class ProgramMissing(TrimeError, FileNotFoundError):
-    """There is no trime_mpi, or no mpirun, to be started."""
+    """There is no trime_mpi or no mpirun to start."""
     code = 127
 
 
 def error_of(code, messages, output=""):
-    """The exception of an exit code, those of signals (128 + n, or -n as subprocess has them) included."""
+    """Returns the exception for an exit code. Signals have the codes 128 + n, or -n as in subprocess."""
     if code < 0:
         code = 128 - code
     if code > 128:
@@ -77,7 +81,7 @@ def error_of(code, messages, output=""):
 
 
 def missing_module(error):
-    """The error of an import again, with the way to install the module. error: ModuleNotFoundError."""
+    """Returns an import error that says how to install the module. error: the ModuleNotFoundError."""
     name = (error.name or "").split(".")[0]
     return ModuleNotFoundError(f"trime_mpi needs the Python module '{name}', which {sys.executable} does not have; "
                                f"Debian: apt-get install python3-{name}, for /usr/bin/python3; elsewhere: pip install "

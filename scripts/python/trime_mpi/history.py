@@ -7,19 +7,19 @@ from . import drawing
 from .drawing import INK
 
 CURVES = (("max_alpha", "max", "#8c1d40"), ("mean_alpha", "mean", "#d9603f"), ("median_alpha", "median", "#0b6e99"))
-SHADES = ("#f4f5f6", "#e6e9ec")  # of stages, in turn
+SHADES = ("#f4f5f6", "#e6e9ec")  # of stages, alternately
 LEAST_EXCESS = 1e-6              # of alpha over 1: the scale is logarithmic
-LEAST_MOVE = 1e-5                # [h] likewise
+LEAST_MOVE = 1e-5                # [h] this scale is logarithmic, too
 
 
 def stages_of(history):
-    """(stage, rows) of each stage, in order."""
+    """Returns (stage, rows) of each stage, in order."""
     stage = np.asarray(history["stage"])
     return [(int(number), np.flatnonzero(stage == number)) for number in np.unique(stage)]
 
 
 def draw_stages(axes, history, with_names):
-    """A shade for each stage, with the number of its points."""
+    """Draws a shade for each stage, and writes its number of points."""
     sweep, points = np.asarray(history["sweep"]), np.asarray(history["points"])
     whole = max(float(sweep[-1] - sweep[0]), 1)
     stages = stages_of(history)
@@ -36,7 +36,7 @@ def draw_stages(axes, history, with_names):
 
 
 def draw_rules(axes, history):
-    """A mark where bars give way to Voronoi cells; the word where there is room."""
+    """Draws a mark where bars are replaced by Voronoi cells, with the word if there is room."""
     sweep, bars = np.asarray(history["sweep"]), np.asarray(history.get("by_bars", []))
     for k in np.flatnonzero((bars[:-1] == 1) & (bars[1:] == 0)) if len(bars) == len(sweep) else ():
         axes.axvline(sweep[k + 1], color="#8a939b", linewidth=0.8, linestyle=":")
@@ -45,7 +45,7 @@ def draw_rules(axes, history):
 
 
 def broken(history, name, first=0):
-    """Sweeps and values of a column, from record `first` of each stage, with a gap between stages."""
+    """Returns sweeps and values of a column, from record `first` of each stage, with a gap between stages."""
     x, y = [], []
     for _, rows in stages_of(history):
         x += [*np.asarray(history["sweep"])[rows[first:]], np.nan]
@@ -54,7 +54,7 @@ def broken(history, name, first=0):
 
 
 def draw_history(figure, history):
-    """Two panels of a figure, one above the other."""
+    """Draws the two panels of a figure, one above the other."""
     above, below = figure.subplots(2, 1, sharex=True, gridspec_kw={
         "left": 0.07, "right": 0.93, "top": 0.84, "bottom": 0.075, "hspace": 0.08, "height_ratios": [1.5, 1]})
     for axes in (above, below):

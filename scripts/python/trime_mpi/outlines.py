@@ -9,7 +9,7 @@ from .errors import ConfigError
 
 
 def coordinates(value, where):
-    """An array [k,2] of x and y, k > 0, of anything that NumPy takes for one."""
+    """Returns an array [k,2] of x and y, k > 0, from anything that NumPy can convert to it."""
     try:
         array = np.asarray(value, float)
     except (TypeError, ValueError) as error:
@@ -23,23 +23,24 @@ def coordinates(value, where):
 
 
 def xy_text(array):
-    """Lines `x y`; floats keep all their bits."""
+    """Returns one line `x y` per point; floats keep all their bits."""
     return "".join(f"{x!r} {y!r}\n" for x, y in array.tolist())
 
 
 def points_text(points, where):
-    """The text of an .xy file for points [k,2]."""
+    """Returns the text of an .xy file for points [k,2]."""
     return xy_text(coordinates(points, where))
 
 
 def geo_interface(value):
-    """The dict of an object that has GeoJSON's form: of shapely, geopandas and others, or a dict; None for others."""
+    """Returns the GeoJSON dict of an object of shapely, geopandas or another library, or the value if it is a dict, or
+    None."""
     value = getattr(value, "__geo_interface__", value)
     return value if isinstance(value, collections.abc.Mapping) else None
 
 
 def features_of(value, where):
-    """The GeoJSON features of one object."""
+    """Returns the GeoJSON features of one GeoJSON dict."""
     kind = value.get("type")
     if kind == "FeatureCollection":
         return list(value.get("features", ()))
@@ -47,13 +48,13 @@ def features_of(value, where):
         return [value]
     if kind in ("Polygon", "MultiPolygon", "LinearRing", "LineString", "MultiLineString", "GeometryCollection"):
         if kind == "LinearRing":
-            value = {**value, "type": "LineString"}  # closed; GeoJSON has no type of its own for it
+            value = {**value, "type": "LineString"}  # GeoJSON has no separate type for closed lines
         return [{"type": "Feature", "properties": {}, "geometry": value}]
     raise ConfigError([f"{where}: expected polygons or closed lines, found GeoJSON of the type {kind}"])
 
 
 def is_one_ring(rings):
-    """True if rings is a ring [k,2] itself, and not a list of rings."""
+    """True if rings is one ring [k,2], and not a list of rings."""
     try:
         return np.ndim(rings) == 2 or np.ndim(next(iter(rings))) == 1
     except (TypeError, ValueError, StopIteration):
@@ -61,8 +62,11 @@ def is_one_ring(rings):
 
 
 def rings_file(rings, where):
-    """Ending and text of a file with rings. rings: one ring [k,2] or a list of them, for which holes follow from
-    nesting; or one polygon or a list of them, with the properties of their features."""
+    """Returns the ending and the text of a file with rings.
+
+    rings is one ring [k,2] or a list of rings, whose nesting decides what is a hole. It may also be one polygon or a
+    list of polygons; properties of features are kept.
+    """
     if isinstance(rings, collections.abc.Iterator):
         rings = list(rings)
     if geo_interface(rings) is not None:

@@ -14,19 +14,19 @@ from .drawing import ALPHA_COLOURS, ALPHA_RANGE, INK, SIZE_COLOURS
 from .history import draw_history
 from .read import read
 
-ZOOM_TRIANGLES = 500  # about that many in the window around the worst triangle
-MOST_NAMES = 24       # in a legend
-TRIANGLE_HEIGHT = 0.866  # of an equilateral triangle, over its side
+ZOOM_TRIANGLES = 500  # about this many in the window around the worst triangle
+MOST_NAMES = 24       # largest number of names in a legend
+TRIANGLE_HEIGHT = 0.866  # height of an equilateral triangle over its side
 
 
 def worst_of(alpha):
-    """The row of the largest value; one that is no number is larger than all others."""
+    """Returns the row of the largest value. A value that is not a number counts as larger than all others."""
     rows = [part.start + int(np.argmax(np.nan_to_num(alpha[part], nan=np.inf))) for part in raster.slices(len(alpha))]
     return rows[int(np.argmax(np.nan_to_num(alpha[rows], nan=np.inf)))]
 
 
 def triangles_near(mesh, centre, reach):
-    """Triangles whose first vertex lies in a window, and facets that begin there."""
+    """Returns the triangles whose first vertex lies in a window, and the facets that begin there."""
     is_near = np.empty(len(mesh.points), bool)
     for part in raster.slices(len(mesh.points)):
         away = np.abs(mesh.points[part] - centre)
@@ -37,7 +37,7 @@ def triangles_near(mesh, centre, reach):
 
 
 def draw_zoom(axes, mesh):
-    """The window around the worst triangle; returns its middle and half its side."""
+    """Draws the window around the worst triangle. Returns its middle and half its side."""
     worst = worst_of(mesh.alpha)
     place = mesh.corners([worst]).mean(axis=1)[0]
     low, high = drawing.box_of(mesh)
@@ -54,7 +54,7 @@ def draw_zoom(axes, mesh):
 
 
 def draw_histogram(axes, alpha):
-    """Counts of alpha, logarithmic."""
+    """Draws a histogram of alpha with a logarithmic scale."""
     largest = float(np.nanmax(alpha))
     top = max(1.2, min(largest, 3.0))
     bins = 80
@@ -80,14 +80,14 @@ def draw_histogram(axes, alpha):
 
 
 def draw_alpha(axes, mesh):
-    """All triangles, coloured by alpha; the boundary on top."""
+    """Draws all triangles, coloured by alpha, and the boundary on top."""
     drawing.draw_values(axes, mesh, mesh.alpha, ALPHA_COLOURS, ALPHA_RANGE)
     drawing.draw_facets(axes, mesh, max(3 * drawing.line_width(len(mesh.triangles)), 0.6))
     drawing.frame(axes, *drawing.box_of(mesh))
 
 
 def quality_figure(mesh, name):
-    """The mesh coloured by alpha, a histogram, and the neighbourhood of the worst triangle."""
+    """Draws the mesh coloured by alpha, a histogram, and the neighbourhood of the worst triangle."""
     figure = Figure(figsize=(14, 8.6), facecolor="white")
     grid = figure.add_gridspec(2, 2, width_ratios=[1.75, 1], height_ratios=[1, 1.45], left=0.04, right=0.985,
                                top=0.89, bottom=0.06, wspace=0.15, hspace=0.28)
@@ -104,7 +104,7 @@ def quality_figure(mesh, name):
 
 
 def draw_size(axes, mesh, norm):
-    """h as colours: linear over each triangle where they are few; the boundary on top."""
+    """Draws h as colours, linear over each triangle if there are few triangles, and the boundary on top."""
     if len(mesh.triangles) <= drawing.RASTER_ABOVE:
         places = mesh.corners().reshape(-1, 2)
         axes.tripcolor(places[:, 0], places[:, 1], np.arange(len(places)).reshape(-1, 3),
@@ -117,7 +117,7 @@ def draw_size(axes, mesh, norm):
 
 
 def size_figure(mesh, name):
-    """The mesh and its size field, side by side or, where the shape is wide, one above the other."""
+    """Draws the mesh and its size field side by side, or one above the other if the shape is wide."""
     width, height = drawing.sides_of(mesh)
     rows, columns = (1, 2) if width < 1.8 * height else (2, 1)
     tall = 13 / columns * float(np.clip(height / width, 0.2, 1.4)) * rows + 1.1
@@ -137,7 +137,7 @@ def size_figure(mesh, name):
 
 
 def add_legend(figure, entries, tall, title, left_out):
-    """Handles and their texts at the right of a map."""
+    """Adds a legend at the right of a map."""
     handles, texts = [list(column) for column in zip(*entries)] if entries else ([], [])
     if left_out > 0:
         handles.append(Line2D([], [], linestyle=""))
@@ -148,17 +148,18 @@ def add_legend(figure, entries, tall, title, left_out):
 
 
 def shortened(name, longest=26):
-    """A name that fits into a legend."""
+    """Returns a name that fits into a legend."""
     return name if len(name) <= longest else name[:longest - 1] + "…"
 
 
 def numbers_in(values):
-    """Those that occur, ascending; most meshes have one region, and sorting many equal numbers takes seconds."""
+    """Returns the numbers that occur, ascending. Most meshes have one region, and it takes seconds to sort many equal
+    numbers."""
     return np.unique(values[:1]) if (values == values[0]).all() else np.unique(values)
 
 
 def parts_figure(mesh, name):
-    """The boundary, coloured by the part of the shape that it follows; regions; fixed points and corners."""
+    """Draws the boundary, coloured by the part of the shape that it follows, with regions, fixed points and corners."""
     figure, axes, tall = drawing.panel_figure(mesh)
     numbers = numbers_in(mesh.region)
     tints = [drawing.LAND] if len(numbers) == 1 else [
@@ -190,7 +191,7 @@ def parts_figure(mesh, name):
 
 
 def ranks_figure(mesh, name):
-    """Who owned what: triangles by the rank of their first vertex."""
+    """Draws the triangles, coloured by the rank of their first vertex."""
     figure, axes, tall = drawing.panel_figure(mesh)
     ranks = len(mesh.first_point)
     owner = mesh.ranks()[mesh.triangles[:, 0]]
@@ -207,7 +208,7 @@ def ranks_figure(mesh, name):
 
 
 def history_figure(mesh, name):
-    """alpha and the share that moves, over the sweeps of all stages."""
+    """Draws alpha and the share of the points that move, over the sweeps of all stages."""
     figure = Figure(figsize=(12, 7.2), facecolor="white")
     draw_history(figure, mesh.history)
     drawing.header(figure, name, f"{drawing.summary(mesh)}   stopped: {mesh.attributes.get('stop_reason', '')}", 7.2)
@@ -221,9 +222,10 @@ FIGURES = {"quality": quality_figure, "size": size_figure, "parts": parts_figure
 def plot(mesh, what="quality", file=None, dpi=130):
     """Draws `what` (quality, size, parts, ranks, history) of a Mesh, or of the mesh file of this path.
 
-    file: where the picture goes, in the format that its ending names (.png, .svg, .pdf). Returns the matplotlib figure.
-    Raises ValueError for another `what`, and for a mesh without triangles or, for the history, without records.
+    file is the path of the picture; its ending decides the format (.png, .svg, .pdf). Returns the matplotlib figure.
     Meshes of more than 200000 triangles are drawn as pixels: mean alpha, mean h.
+
+    Raises ValueError for another `what`, for a mesh without triangles, and for a history without records.
     """
     if what not in FIGURES:
         raise ValueError(f"what={what!r}: expected one of {', '.join(FIGURES)}")

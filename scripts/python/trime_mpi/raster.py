@@ -13,12 +13,12 @@ LONGEST_EDGE = 1.5  # [h] of nearly all triangles
 
 
 def slices(count):
-    """Slices of so many rows, CHUNK at a time."""
+    """Returns slices that cover this number of rows, CHUNK rows each."""
     return (slice(first, min(first + CHUNK, count)) for first in range(0, count, CHUNK))
 
 
 class Canvas:
-    """Pixels over a box of coordinates, squares of one size. shape: rows, columns; row 0 is the lowest."""
+    """Square pixels over a box of coordinates. shape: the numbers of rows and columns; row 0 is the lowest."""
 
     def __init__(self, low, high, pixels):
         self.low, self.high = np.asarray(low, float), np.asarray(high, float)
@@ -29,21 +29,21 @@ class Canvas:
         self.extent = (self.low[0], self.low[0] + columns * self.side, self.low[1], self.low[1] + rows * self.side)
 
     def pixels_of_points(self, places):
-        """The same of places [N,2]."""
+        """Returns the same for places [N,2]."""
         found = np.empty(len(places), np.int32)
         for rows in slices(len(places)):
             found[rows] = self.pixels_of(places[rows, 0], places[rows, 1])
         return found
 
     def pixels_of(self, x, y):
-        """Flat indices of the pixels that hold points; those beyond the box go to its rim."""
+        """Returns the flat indices of the pixels that hold points. Points beyond the box count for its rim."""
         column = np.clip(((x - self.low[0]) * (1 / self.side)).astype(np.int32), 0, self.shape[1] - 1)
         row = np.clip(((y - self.low[1]) * (1 / self.side)).astype(np.int32), 0, self.shape[0] - 1)
         return row * np.int32(self.shape[1]) + column
 
 
 def sample_weights(level):
-    """Barycentric coordinates of the middles of the 4^level triangles into which one is divided."""
+    """Returns the barycentric coordinates of the centres of the 4^level triangles into which a triangle is divided."""
     weights = [np.full(3, 1 / 3)]
     for _ in range(level):
         corners = np.eye(3)
@@ -52,7 +52,8 @@ def sample_weights(level):
 
 
 def levels_of(x, y, side):
-    """How often triangles (corners [3, k]) must be divided in four so that samples lie closer than pixels."""
+    """Returns how often triangles (corners [3, k]) must be divided into four, so that their samples lie closer than
+    pixels."""
     extent = np.maximum(*(np.maximum(np.maximum(abs(axis[1] - axis[0]), abs(axis[2] - axis[0])),
                                      abs(axis[2] - axis[1])) for axis in (x, y)))
     level = np.zeros(len(extent), np.int8)
@@ -62,7 +63,7 @@ def levels_of(x, y, side):
 
 
 def corners_of(mesh, rows):
-    """x and y [3, k] of the corners of some triangles, images that lie together."""
+    """Returns x and y [3, k] of the corners of some triangles. In a periodic container they lie next to each other."""
     place = mesh.points[mesh.triangles[rows].T]
     both = [place[:, :, 0], place[:, :, 1]]
     for axis, period in zip(both, mesh.periods):
@@ -72,11 +73,11 @@ def corners_of(mesh, rows):
 
 
 def samples(mesh, canvas, polygons):
-    """Yields (triangles, pixels of one sample of each); each triangle comes as often as it has samples. The numbers of
+    """Yields (triangles, pixels of one sample of each). A triangle comes as often as it has samples. The numbers of
     triangles that are too large are appended to `polygons`.
 
-    Where all triangles are smaller than a pixel, their first vertex is as good a place as any other. Triangles are
-    sorted by it, which makes this several times faster.
+    Where all triangles are smaller than a pixel, each is sampled at its first vertex. Triangles are sorted by it, which
+    makes this several times faster.
     """
     at_points = canvas.pixels_of_points(mesh.points)
     for rows in slices(len(mesh.triangles)):
@@ -96,7 +97,7 @@ def samples(mesh, canvas, polygons):
 
 
 def mean_image(mesh, canvas, value):
-    """The mean of value [M] of the triangles in each pixel, NaN where there is none; and the triangles that are to be
+    """Returns the mean of value [M] of the triangles in each pixel, NaN in empty pixels, and the triangles that must be
     drawn as polygons."""
     polygons = []
     count, total = np.zeros(canvas.shape[0] * canvas.shape[1]), np.zeros(canvas.shape[0] * canvas.shape[1])
@@ -111,7 +112,7 @@ def mean_image(mesh, canvas, value):
 
 
 def number_image(mesh, canvas, number):
-    """A number [M] of one of the triangles in each pixel, -1 where there is none; and the triangles that are to be
+    """Returns number [M] of one of the triangles in each pixel, -1 in empty pixels, and the triangles that must be
     drawn as polygons."""
     polygons = []
     image = np.full(canvas.shape[0] * canvas.shape[1], -1, np.int64)
@@ -121,7 +122,7 @@ def number_image(mesh, canvas, number):
 
 
 def facet_mask(mesh, canvas, facets):
-    """True in the pixels through which facets pass that are shorter than a few pixels."""
+    """Returns True for the pixels through which facets pass that are shorter than a few pixels."""
     ends = mesh.facet_ends(facets)
     mask = np.zeros(canvas.shape[0] * canvas.shape[1], bool)
     for share in (0.0, 0.25, 0.5, 0.75):

@@ -12,7 +12,7 @@ from .errors import FileError
 
 @dataclasses.dataclass(frozen=True)
 class Check:
-    """A check of the certificate: what was expected and what was found, and what it means."""
+    """A check of the certificate: what it expected, what it found, and what that means."""
     name: str
     passed: bool
     expected: float
@@ -22,15 +22,18 @@ class Check:
 
 @dataclasses.dataclass(frozen=True)
 class Boundary:
-    """The edges of a mesh that follow one part of the shape. facets [k,2]: vertices, the interior on the left of each
-    edge; rows [k]: their rows in Mesh.facets; vertices [v]: all of them, each once, ascending."""
+    """The boundary edges that follow one part of the shape.
+
+    facets [k,2] holds the two vertices of each edge, with the interior on its left. rows [k] are the rows of these
+    edges in Mesh.facets. vertices [v] holds each vertex of them once, in ascending order.
+    """
     name: str
     rows: np.ndarray
     facets: np.ndarray
 
     @functools.cached_property
     def vertices(self):
-        """Ids of the vertices of the facets, each once."""
+        """The ids of the vertices of the facets, each once."""
         return np.unique(self.facets)
 
 
@@ -38,12 +41,21 @@ class Boundary:
 class Mesh:
     """A triangle mesh of N points, M triangles and B boundary edges. Ids count from 0.
 
-    points [N,2]; triangles [M,3], counter-clockwise; alpha, beta, region [M]; boundary (loop, 0 inside), size (wanted
-    edge length), fixed (corner or fixed point) [N]; facets [B,2], facet_tags (loop), facet_parts (part of the shape),
-    facet_size [B]. first_point [ranks]: the first point of each rank that made the mesh.
+      points        [N,2]      coordinates
+      triangles     [M,3]      vertices, counter-clockwise
+      alpha, beta   [M]        quality of the triangles
+      region        [M]        number of the region, see regions
+      boundary      [N]        tag of the boundary loop of a point, 0 inside
+      size          [N]        wanted edge length
+      fixed         [N]        True for corners and fixed points
+      facets        [B,2]      vertices of the boundary edges
+      facet_tags    [B]        tag of the boundary loop, see loops
+      facet_parts   [B]        number of the part of the shape, see parts
+      facet_size    [B]        wanted edge length
+      first_point   [ranks]    first point of each rank that made the mesh
 
-    attributes, quality, timers, counters, history, tables: the group /trime_mpi, tables as dicts of columns. config:
-    the config as it was given; config_resolved: with all defaults.
+    attributes and tables hold the group /trime_mpi of the file; a table is a dict of columns. config is the config as
+    the user gave it, and config_resolved the same config with all defaults. warnings are those of the run.
     """
     path: str
     points: np.ndarray
@@ -71,36 +83,36 @@ class Mesh:
 
     @property
     def hash(self):
-        """Of points and triangles, 16 hexadecimal digits: equal hashes, equal meshes."""
+        """The hash of points and triangles, 16 hexadecimal digits. Meshes with equal hashes are equal."""
         if "mesh_hash_hex" in self.attributes:
             return self.attributes["mesh_hash_hex"]
         return f"{int(self.attributes['mesh_hash']) & 0xffffffffffffffff:016x}"
 
     @property
     def is_complete(self):
-        """False where the sweep cap ended the run, or a check failed."""
+        """False if the run stopped at its largest number of sweeps, or if a check failed."""
         return bool(self.attributes.get("complete", 0))
 
     @property
     def periods(self):
-        """(x, y) of a periodic container; 0: not periodic."""
+        """The periods (x, y) of the container; 0 where it is not periodic."""
         return float(self.attributes.get("period_x", 0)), float(self.attributes.get("period_y", 0))
 
     @functools.cached_property
     def parts(self):
-        """Names of the parts of the shape, by their number in facet_parts."""
+        """The names of the parts of the shape, by their number in facet_parts."""
         tags = self.tables.get("tags", {})
         return {int(number): name for number, name in zip(tags.get("part_id", ()), tags.get("part_name", ()))}
 
     @functools.cached_property
     def regions(self):
-        """Names of the regions of triangles, by their number in region."""
+        """The names of the regions of triangles, by their number in region."""
         tags = self.tables.get("tags", {})
         return {int(number): name for number, name in zip(tags.get("region_id", ()), tags.get("region_name", ()))}
 
     @functools.cached_property
     def boundaries(self):
-        """Name of a part of the shape -> the Boundary that follows it; parts without an edge are left out."""
+        """The Boundary of each part of the shape that has an edge, by the name of the part."""
         order = np.argsort(self.facet_parts, kind="stable")
         numbers, first = np.unique(self.facet_parts[order], return_index=True)
         found = {}
@@ -111,7 +123,7 @@ class Mesh:
 
     @functools.cached_property
     def loops(self):
-        """Tag of a boundary loop -> dict of name, kind (outer, hole, band), edges and length."""
+        """A dict of name, kind (outer, hole, band), edges and length for each boundary loop, by its tag."""
         tags = self.tables.get("tags", {})
         columns = [tags.get(name, ())
                    for name in ("edge_id", "edge_name", "edge_kind", "edge_count", "edge_length_sum")]
@@ -120,7 +132,7 @@ class Mesh:
 
     @functools.cached_property
     def checks(self):
-        """Name of a check -> Check."""
+        """The Check objects of the certificate, by name."""
         table = self.tables.get("checks", {})
         columns = [table.get(name, ()) for name in ("name", "passed", "expected", "found", "meaning")]
         return {name: Check(name, bool(passed), float(expected), float(found), meaning)
@@ -128,17 +140,18 @@ class Mesh:
 
     @property
     def history(self):
-        """Columns of the records of the run: sweep, stage, points, median_alpha, max_alpha, moving_share, ..."""
+        """The columns of the records of the run: sweep, stage, points, median_alpha, max_alpha, moving_share, ..."""
         return self.tables.get("history", {})
 
     @property
     def quality(self):
-        """The summary of the report: attributes by name, and its columns."""
+        """The summary of the quality: its attributes and columns by name."""
         return self.tables.get("quality", {})
 
     @functools.cached_property
     def counters(self):
-        """Phase -> counter -> dict of unit, sum, min, mean, max over the ranks; phase `run`: the whole run."""
+        """The counters as counters[phase][name]: a dict of unit, and of sum, min, mean, max over the ranks. The phase
+        `run` is the whole run."""
         table, nested = self.tables.get("counters", {}), {}
         rows = zip(*(table.get(name, ()) for name in ("phase", "name", "unit", "sum", "min", "mean", "max")))
         for phase, name, unit, *values in rows:
@@ -147,27 +160,28 @@ class Mesh:
 
     @functools.cached_property
     def timers(self):
-        """Phase -> dict of calls, and of min, avg, max over the ranks in seconds."""
+        """A dict of calls, and of min, avg, max over the ranks in seconds, by phase."""
         table = self.tables.get("timers", {})
         columns = [name for name in table if name != "name"]
         return {row[0]: dict(zip(columns, row[1:])) for row in zip(table.get("name", ()), *(table[c] for c in columns))}
 
     def corners(self, chosen=slice(None)):
-        """Coordinates of the corners of triangles [M,3,2]; in a periodic container images that lie together."""
+        """The coordinates of the corners of triangles [M,3,2]. In a periodic container the corners of a triangle lie
+        next to each other."""
         return brought_together(self.points[self.triangles[chosen]], self.periods)
 
     def facet_ends(self, chosen=slice(None)):
-        """The same of facets [B,2,2]."""
+        """The coordinates of the ends of facets [B,2,2], with the same rule for periodic containers."""
         return brought_together(self.points[self.facets[chosen]], self.periods)
 
     def ranks(self):
-        """The rank of each point [N], which is also that of the triangles of which it is the first vertex."""
+        """The rank of each point [N]. A triangle belongs to the rank of its first vertex."""
         return np.repeat(np.arange(len(self.first_point), dtype=np.int32),
                          np.diff(np.append(self.first_point, len(self.points))))
 
 
 def brought_together(places, periods):
-    """The images of places [..., k, 2] that are nearest to the first of each k."""
+    """Replaces places [..., k, 2] by their periodic images that are nearest to the first of each k."""
     for axis, period in enumerate(periods):
         if period > 0:
             first = places[:, :1, axis]
@@ -176,14 +190,14 @@ def brought_together(places, periods):
 
 
 def python_value(value):
-    """An attribute as a number or a str."""
+    """Returns an attribute as a number or a str."""
     if isinstance(value, bytes):
         return value.decode("utf-8", "replace")
     return value.item() if isinstance(value, np.generic) else value
 
 
 def column_values(dataset):
-    """A column as an array of numbers, or a list of str."""
+    """Returns a column as an array of numbers, or as a list of str."""
     values = dataset[()]
     if dataset.dtype.kind in "OS":
         return [python_value(value) for value in np.atleast_1d(values)]
@@ -191,12 +205,12 @@ def column_values(dataset):
 
 
 def text_of(group, name):
-    """A text of /trime_mpi, empty if there is none."""
+    """Returns a text of /trime_mpi, or an empty one if the file does not have it."""
     return python_value(group[name][()]) if name in group else ""
 
 
 def read_tables(group):
-    """Groups of /trime_mpi as {name: {attribute or column: values}}."""
+    """Returns the groups of /trime_mpi as {name: {attribute or column: values}}."""
     tables = {}
     for name, inner in group.items():
         if isinstance(inner, h5py.Group):
@@ -206,12 +220,13 @@ def read_tables(group):
 
 
 def loaded(dataset):
-    """The values in memory."""
+    """Returns the values of a dataset in memory."""
     return dataset[:]
 
 
 def mapped(dataset):
-    """The values in the file, which come to memory where they are touched; changes of them stay in memory."""
+    """Returns the values of a dataset as a map of the file, from which they are read when they are used. Changes of
+    them stay in memory."""
     offset = dataset.id.get_offset()  # None if they are in chunks
     if offset is None or dataset.size == 0 or not dataset.dtype.isnative:
         return loaded(dataset)
@@ -219,7 +234,7 @@ def mapped(dataset):
 
 
 def read_open(file, path, take):
-    """The mesh of an open file. take: values of a dataset."""
+    """Returns the mesh of an open file. take: returns the values of a dataset."""
     about = file["trime_mpi"]
     if "Mesh/mesh" in file:
         points, triangles = take(file["Mesh/mesh/geometry"]), take(file["Mesh/mesh/topology"])
@@ -240,11 +255,12 @@ def read_open(file, path, take):
 
 
 def read(file, in_place=False):
-    """The mesh in a file NAME.h5 (or NAME.vtkhdf) that trime_mpi has written.
+    """Reads the mesh in a file NAME.h5 (or NAME.vtkhdf) of trime_mpi. The arrays take about 100 bytes per point.
 
-    in_place: arrays stay in the file, and come to memory where they are touched. It must not be written to meanwhile; a
-    run that makes it anew does no harm, since it makes another file of this name.
-    Raises FileError if there is no such file, or if it is not a mesh of trime_mpi. About 100 bytes a point.
+    in_place: the arrays stay in the file, and are read when they are used. Nothing may write to the file meanwhile. A
+    run that makes the mesh again does no harm, since it makes a new file of the same name.
+
+    Raises FileError if the file does not exist, or if it is not a mesh of trime_mpi.
     """
     path = os.fspath(file)
     if not os.path.exists(path):

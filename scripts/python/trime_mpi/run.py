@@ -15,12 +15,13 @@ from .environment import run_environment
 from .errors import ConfigError, FileError, IncompleteError, ProgramMissing, TrimeError, error_of
 from .read import read
 
-ERROR, WARNING = "trime_mpi: error: ", "warning: "  # what lines of the program begin with
-PATIENCE = 5                                        # seconds for a run to end after a signal
+ERROR, WARNING = "trime_mpi: error: ", "warning: "  # the beginnings of lines of the program
+PATIENCE = 5                                        # seconds in which a run must end after a signal
 
 
 def find_program(program=None):
-    """The program: as given, $TRIME_PROGRAM, on the PATH, or of the source tree in which this package lies."""
+    """Returns the path of the program: the given one, $TRIME_PROGRAM, the one on the PATH, or the one of the source
+    tree that holds this package."""
     built = pathlib.Path(__file__).resolve().parents[3] / "build" / "release" / "trime_mpi"
     for candidate in (program, os.environ.get("TRIME_PROGRAM"), "trime_mpi", built):
         found = shutil.which(candidate) if candidate else None
@@ -33,7 +34,7 @@ def find_program(program=None):
 
 
 def find_launcher():
-    """mpirun, or what $TRIME_MPIEXEC says."""
+    """Returns the path of $TRIME_MPIEXEC, mpirun or mpiexec, the first that exists."""
     for candidate in (os.environ.get("TRIME_MPIEXEC"), "mpirun", "mpiexec"):
         found = shutil.which(candidate) if candidate else None
         if found:
@@ -43,7 +44,8 @@ def find_launcher():
 
 
 def end(process):
-    """Ends a run and all that it has started, at the latest after some seconds; leaves no half file."""
+    """Stops a run and all processes that it has started, after some seconds at the latest. The run leaves no incomplete
+    file."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
         try:
             os.killpg(process.pid, number)
@@ -56,7 +58,8 @@ def end(process):
 
 
 def run_to_end(command, verbose, timeout):
-    """Exit code and output of a command; whatever ends the wait (Ctrl-C, a timeout) ends the command."""
+    """Returns the exit code and the output of a command. If something ends the wait, such as Ctrl-C or the timeout, the
+    command is stopped."""
     with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as out, \
             tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as err:
         with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=None if verbose else out, stderr=err,
@@ -74,12 +77,12 @@ def run_to_end(command, verbose, timeout):
 
 
 def lines_after(start, text):
-    """What stands behind `start` in the lines that begin with it."""
+    """Returns the rest of each line that begins with `start`."""
     return [line[len(start):] for line in text.splitlines() if line.startswith(start)]
 
 
 def output_options(output, overwrite, directory):
-    """Overrides of [output] for a file NAME.h5, or a directory of its own."""
+    """Returns the overrides of [output] for a file NAME.h5, or for the directory of a run without one."""
     if output is None:
         return [f"output.directory={directory}", "output.name=mesh", "output.formats=xdmf", "output.interval=-1"]
     path = pathlib.Path(output)
@@ -89,12 +92,12 @@ def output_options(output, overwrite, directory):
 
 
 def names_output(config):
-    """Does a dict say where the mesh goes?"""
+    """True if the config is a dict that names the directory of the mesh."""
     return isinstance(config, collections.abc.Mapping) and "directory" in sections_of(config).get("output", {})
 
 
 def read_report(path):
-    """The report of a run, or an empty one where it has left none."""
+    """Returns the report of a run, or an empty one if the run has left none."""
     try:
         return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -105,21 +108,31 @@ def mesh(config, ranks=1, threads=None, program=None, *, output=None, overwrite=
          timeout=None):
     """Runs trime_mpi, and returns the Mesh.
 
-    config: the path of an ini, or a dict {section: {key: value}} with the keys of configs/keys.md. In a dict a part
-    may have `rings` in place of a file: a ring [k,2] or a list of them, or polygons of shapely, geopandas and others
-    that have __geo_interface__. `fixed_points` may be an array [k,2]. Sizes are formulas; they cannot be arrays or
-    functions yet. Paths in a dict are relative to the working directory, in an ini and its options to the ini.
-    options: overrides {"section.key": value}. ranks: more than one start by mpirun. threads: of each rank. output:
-    NAME.h5, which stays; without it (and without [output] directory in a dict) the run works in a temporary directory,
-    and only the arrays remain. verbose: the program's messages and progress are shown. timeout: seconds.
+    config is the path of an ini file, or a dict {section: {key: value}} with the keys of configs/keys.md. In a dict a
+    part may have `rings` instead of a file: one ring [k,2], a list of rings, or polygons of shapely, geopandas and
+    others that have __geo_interface__. `fixed_points` may be an array [k,2]. Sizes are formulas; they cannot be arrays
+    or functions yet. Paths in a dict are relative to the working directory. Paths in an ini file, and in the options
+    for it, are relative to the ini file.
 
-    A program that mpirun has started may call this too. Each rank that calls it starts a run of its own, and waits for
-    no other rank; ranks that write a file need different names. Where one rank alone makes the mesh, hand errors to the
-    others, or start Python with `-m mpi4py`: a rank that raises does not end those that wait for it.
+      ranks       number of MPI ranks (default: 1); mpirun starts them if there are more than one
+      threads     number of threads of each rank (default: OMP_NUM_THREADS, or all cores)
+      program     path of trime_mpi (default: $TRIME_PROGRAM, or the one on the PATH)
+      output      path NAME.h5 of the mesh file; without it, and without a directory in [output] of a dict, the run
+                  works in a temporary directory, and only the arrays remain
+      overwrite   replace files that exist
+      options     overrides {"section.key": value}
+      verbose     show the messages and the progress of the program
+      timeout     largest number of seconds
 
-    Raises subprocess.TimeoutExpired, and the errors of the program: ConfigError, GeometryError, FileError,
-    IncompleteError (which has the mesh), MemoryLimit, InterruptedRun, InternalError. Its warnings become Python's, and
-    Mesh.warnings. Ctrl-C ends the run.
+    A program that mpirun has started may call this, too. Each rank that calls it starts a separate run, and waits for
+    no other rank. If several ranks write files, the files need different names. If only one rank calls it and others
+    wait for the mesh, that rank must send errors to them, or Python must be started with `-m mpi4py`: an exception on
+    one rank does not end the ranks that wait for it.
+
+    Raises the errors of the program: ConfigError, GeometryError, FileError, IncompleteError (which has the mesh),
+    MemoryLimit, StoppedAtCheckpoint, InterruptedRun, InternalError. Raises ProgramMissing if there is no program or no
+    mpirun, and subprocess.TimeoutExpired. The warnings of the program become warnings of Python, and are in
+    Mesh.warnings. Ctrl-C stops the run.
     """
     if int(ranks) < 1:
         raise ConfigError([f"ranks={ranks}: expected 1 or more"])
@@ -141,7 +154,7 @@ def mesh(config, ranks=1, threads=None, program=None, *, output=None, overwrite=
         if threads is not None:
             command += ["--threads", str(int(threads))]
         code, (out, err) = run_to_end(command, verbose, timeout)
-        told = [line.replace(work + os.sep, "") for line in lines_after(WARNING, out)]
+        warned = [line.replace(work + os.sep, "") for line in lines_after(WARNING, out)]
         files = [name for name in read_report(report).get("files", []) if name.endswith(".h5")]
         if code in (0, IncompleteError.code) and files:
             made = read(files[0])
@@ -151,17 +164,17 @@ def mesh(config, ranks=1, threads=None, program=None, *, output=None, overwrite=
             made = None
         messages = [line.replace(work + os.sep, "") for line in lines_after(ERROR, err)]
     if made is not None:
-        made.warnings = told
+        made.warnings = warned
     if code != 0:
-        raise failed(code, messages or [*told[-1:]] or [(out + err).strip() or f"trime_mpi ended with {code}"],
+        raise failed(code, messages or [*warned[-1:]] or [(out + err).strip() or f"trime_mpi ended with {code}"],
                      out + err, made)
-    for warning in told:
+    for warning in warned:
         python_warnings.warn(warning, stacklevel=2)
     return made
 
 
 def failed(code, messages, output, made) -> TrimeError:
-    """The exception of a run, with the mesh where there is one."""
+    """Returns the exception of a run, with the mesh if the run has made one."""
     error = error_of(code, messages, output)
     if isinstance(error, IncompleteError):
         error.mesh = made
