@@ -32,7 +32,7 @@ struct Share {
         end(n * static_cast<std::size_t>(comm.rank() + 1) / static_cast<std::size_t>(comm.size())) {}
 };
 
-/// What the share of a rank shows; mergeable in any order.
+/// The result of the share of a rank; mergeable in any order.
 struct Findings {
   std::int64_t corners = 0; ///< that are a vertex of the shape, bit for bit
   ExactArea area;           ///< that chords take from the shape
@@ -144,7 +144,7 @@ private:
   PerThread<Findings> of_thread_;
 };
 
-/// Those of all ranks. Collective.
+/// Merges the results of all ranks. Collective.
 void reduce(const comm::Communicator& comm, Findings& found, CycleCounts& cycles) {
   const std::array<std::int64_t, 3> area = found.area.split();
   constexpr int half = 32; // of the sum of hashes, so that sums over ranks do not overflow
@@ -175,7 +175,7 @@ double area_residual(const BoundaryTruth& truth, double chord_area, double shape
   return std::fabs(residual) / shape_area;
 }
 
-/// What this rank counts. Collective.
+/// Returns the counts of this rank. Collective.
 CycleCounts cycles_of(const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
   std::vector<TaggedFacet> facets;
   for (std::size_t k = 0; k < mesh.facets.size(); ++k)
@@ -183,7 +183,7 @@ CycleCounts cycles_of(const mesh::DistributedMesh& mesh, const comm::Communicato
   return count_cycles(facets, mesh.point_slab.total, comm);
 }
 
-/// Of the cycles of a mesh, one for each loop.
+/// Returns the hash of the tags of the loops.
 std::uint64_t tags_of(const std::vector<geometry::Loop>& loops) {
   std::uint64_t tags = 0;
   for (const geometry::Loop& loop : loops)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of the certificate that compares the boundary of the mesh with that of the shape: vertices on the curve,
-// chords beside it, cycles of facets as its loops, and the area between them.
+// chords next to it, cycles of facets as its loops, and the area between them.
 #pragma once
 
 #include "polygon/polygon.hpp"
@@ -13,7 +13,7 @@
 
 namespace trime::certificate {
 
-/// What the boundary of a mesh is held against. All of it is replicated.
+/// The data that the boundary of a mesh is compared with. All of it is replicated.
 struct BoundaryTruth {
   const geometry::Boundary& shape;     ///< as it was given
   const geometry::Boundary& meshed;    ///< as it was laid out: with fixed points as corners

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The proof that ends every run. What is counted here comes from the stars and the boundary anew, not from the way in
-// which the mesh was made.
+// The proof that ends every run. It counts everything again from the stars and the boundary, and does not use how the
+// mesh was made.
 #include "certificate/certificate.hpp"
 
 #include "certificate/boundary_proof.hpp"
@@ -90,7 +90,7 @@ std::uint64_t facet_hash(GlobalId first, GlobalId second, std::int32_t tag, std:
   return mix_bits(mix_bits(mix_bits(static_cast<std::uint64_t>(first)) ^ static_cast<std::uint64_t>(second)) ^ labels);
 }
 
-/// Of a point as it is written: its number, and its coordinates bit for bit.
+/// Hash of a point as it is written: its number, and its coordinates bit for bit.
 std::uint64_t point_hash(GlobalId id, Vec2 p) {
   return mix_bits(mix_bits(mix_bits(static_cast<std::uint64_t>(id)) ^ std::bit_cast<std::uint64_t>(p.x)) ^
                   std::bit_cast<std::uint64_t>(p.y));
@@ -165,7 +165,7 @@ public:
       counts_.edges += fan_.place[k] > own;
     count_triangles(own, points_.position(site));
   }
-  /// What was counted so far.
+  /// The counts so far.
   const Counts& finish() {
     circles_.finish();
     counts_.not_delaunay = circles_.inside();
@@ -233,7 +233,7 @@ std::vector<Vec2> junctions_of(const geometry::Boundary& curves, double degrees)
   return places;
 }
 
-/// Of this rank: from the stars.
+/// Counts of this rank, from the stars.
 Counts count_stars(const StageView& view, const decomposition::Numbering& numbering, std::span<const Vec2> junctions) {
   const mesh::BinnedPoints& points = view.state.points();
   PerThread<StarCounter> of_thread(view, numbering, junctions);
@@ -249,7 +249,7 @@ Counts count_stars(const StageView& view, const decomposition::Numbering& number
   return counts;
 }
 
-/// Of this rank: from the arrays that will be written.
+/// Counts of this rank, from the arrays that will be written.
 void add_written(const mesh::DistributedMesh& mesh, Counts& counts) {
   counts.hash_of_written = thread_sum(mesh.triangles.size(), [&](std::size_t t) {
     const auto [a, b, c] = mesh.triangle_ids(t);
@@ -264,7 +264,7 @@ void add_written(const mesh::DistributedMesh& mesh, Counts& counts) {
 }
 
 /// @brief Area on the left of all chords. Each loop is unrolled and counts with the area between it and the line from
-/// the first image of its start to the last; in a periodic container the sum is right but for whole images of it.
+/// the first image of its start to the last; in a periodic container the sum is right except for whole images of it.
 ExactArea polygon_area(const BoundarySites& boundary, const geometry::Lattice& lattice) {
   const geometry::Periods& periods = boundary.periods;
   ExactArea area;

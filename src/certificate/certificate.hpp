@@ -10,7 +10,7 @@
 
 namespace trime::certificate {
 
-/// What the mesh is to be a mesh of.
+/// The input that the mesh must represent.
 struct Expectation {
   const geometry::Boundary& shape;  ///< as it was given
   const geometry::Boundary& meshed; ///< as it was laid out: with fixed points as corners, at the resolution of h

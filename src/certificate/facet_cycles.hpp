@@ -16,8 +16,8 @@ struct TaggedFacet {
   std::int64_t tag;
 };
 
-/// @brief What facets make when each is followed to the one that starts where it ends. A point is regular if exactly
-/// one facet starts there and exactly one ends.
+/// @brief The cycles of facets, when each facet is followed by the one that starts where it ends. A point is regular if
+/// exactly one facet starts there and exactly one ends.
 struct CycleCounts {
   std::int64_t irregular = 0; ///< ends of facets that are not regular
   std::int64_t cycles = 0;    ///< closed ones, of regular points alone
@@ -26,11 +26,11 @@ struct CycleCounts {
 };
 std::uint64_t tag_hash(std::int64_t tag);
 
-/// @brief What this rank counts; the sums over all ranks are those of all facets. Each rank gets the facets at its
-/// share of the ids and joins what follows on each other to one link. Then ranks join links in pairs, pairs of pairs,
-/// and so on: what is closed is counted and goes no further. So a message holds the ways of the boundary through a
-/// range of ids, which are of the order of the square root of its points where ids run along the Hilbert curve.
-/// O(facets of the rank, log of them), log(ranks) messages one after the other. Collective.
+/// @brief Returns the counts of this rank; their sums over all ranks are the counts of all facets. Each rank gets the
+/// facets at its share of the ids and joins what follows on each other to one link. Then ranks join links in pairs,
+/// pairs of pairs, and so on: what is closed is counted and goes no further. So a message holds the ways of the
+/// boundary through a range of ids, which are of the order of the square root of its points where ids run along the
+/// Hilbert curve. O(facets of the rank, log of them), log(ranks) messages one after the other. Collective.
 /// @param points global ids are below
 CycleCounts count_cycles(std::span<const TaggedFacet> facets, GlobalId points, const comm::Communicator& comm);
 

@@ -22,8 +22,8 @@ using sites::Wanted;
 
 constexpr std::ptrdiff_t sites_in_a_row = 1024; // by one thread
 
-/// Whether no triangle of a fan is bad for certain, see mesh::squares_surely_below. Triangles share edges from the
-/// site; no branch: hardly a fan is not good.
+/// Is surely no triangle of a fan bad, see mesh::squares_surely_below? Triangles share edges from the site. There is no
+/// branch, since nearly all fans are good.
 bool is_surely_good(const mesh::BinnedPoints& points, LocalIndex site, const Fan& fan) {
   constexpr double largest = mesh::squares_surely_below(CleanupRules::bad_alpha);
   const Vec2 p = points.position(site);
@@ -52,7 +52,7 @@ double worst_alpha(const mesh::BinnedPoints& points, LocalIndex site, const Fan&
   return worst > CleanupRules::bad_alpha && std::isfinite(worst) ? worst : 0;
 }
 
-/// Of the owned sites, by stars that are computed here. Collective.
+/// Finds the bad triangles of the owned sites, by stars that are computed here. Collective.
 std::vector<Candidate> find_candidates(Stage& stage, const geometry::Lattice& lattice,
                                        const delaunay::StarBuilder& builder) {
   SiteState& state = *stage.state;

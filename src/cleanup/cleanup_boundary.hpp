@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary during the clean-up: each rank knows the places of its own sites, and all learn of the edits at the end.
+// The boundary during the clean-up: each rank knows the places of its sites, and all ranks learn the edits at the end.
 #pragma once
 
 #include "cleanup/patch_data.hpp"
@@ -26,7 +26,7 @@ public:
   const polygon::BoundarySites& sites_at_first() const { return sites_; }
   const polygon::BoundaryCurve& curve() const { return curve_; }
 
-  /// Of an owned site.
+  /// Returns the name of an owned site.
   BoundaryPlace place(BoundaryName site) const;
   /// BoundaryPlace::tolerance at a place. Throws if the size field does.
   double tolerance(geometry::Vec2 p) const { return tolerance_ > 0 ? tolerance_ * size_.size(p) : 0; }
@@ -39,10 +39,10 @@ public:
 
   /// Notes edits of the own patches of a round (0, 1, ...), for `finish`.
   void note(std::span<const SiteEdit> edits, int round);
-  /// @brief All ranks learn of all edits. @return the sites on the boundary after them; nothing if there were none.
+  /// @brief Sends all edits to all ranks. @return the sites on the boundary after them; nothing if there were no edits.
   /// Collective: O(edits on the boundary of all ranks), and passes over all its sites if there were any.
   std::optional<polygon::BoundarySites> finish();
-  /// Whether `finish` has found edits that may have changed the indices.
+  /// Has `finish` found edits that may have changed the indices?
   bool has_new_indices() const { return !new_index_.empty(); }
   /// The index of a site after `finish`. @pre it is still there
   LocalIndex index(BoundaryName site) const;
@@ -64,8 +64,8 @@ private:
   double tolerance_;
   polygon::BoundaryCurve curve_;
   std::vector<LocalIndex> loops_;                         // by index at the beginning
-  std::vector<double> tolerances_;                        // likewise
-  std::unordered_map<BoundaryName, BoundaryPlace> known_; // of sites that are new or not as they were
+  std::vector<double> tolerances_;                        // by index at the beginning
+  std::unordered_map<BoundaryName, BoundaryPlace> known_; // sites that are new or have changed
   std::vector<Edit> edits_;                               // of the own patches, by round
   std::unordered_map<BoundaryName, LocalIndex> made_;     // index in the chain of sites that are new
   std::vector<LocalIndex> new_index_;                     // by index in the chain; empty: all are as they were

@@ -29,7 +29,7 @@ std::uint64_t hash_of(Vec2 place, int salt) {
                   std::bit_cast<std::uint64_t>(place.y));
 }
 
-/// Of the cell of a place, a few h wide, in its tile: the same on any number of ranks.
+/// The key of the cell of a place, a few h wide, in its tile: the same on any number of ranks.
 std::uint64_t CleanupCandidates::cell_key(Vec2 p, double h) const {
   int exponent = 0;
   std::frexp(h, &exponent);
@@ -76,7 +76,7 @@ double CleanupCandidates::worst() const {
   return worst;
 }
 
-/// Takes out the entries that are no candidates any more, once they are at least half of all.
+/// Removes the entries that are no longer candidates, once they are at least half of all.
 void CleanupCandidates::forget_the_good() {
   const auto is_good = [](const Entry& entry) { return !(entry.candidate.alpha > 0); };
   if (2 * std::count_if(entries_.begin(), entries_.end(), is_good) < std::ssize(entries_))

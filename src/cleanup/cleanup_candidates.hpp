@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The places of bad triangles, and which of them are to be mended next.
+// The places of bad triangles, and the choice of those that the clean-up tries next.
 #pragma once
 
 #include "cleanup/cleanup_choice.hpp"
@@ -28,9 +28,9 @@ public:
   /// @pre the grid outlives the object
   explicit CleanupCandidates(const mesh::TileGrid& grid) : grid_(grid) {}
 
-  /// What is known of a place is replaced; in which stage nothing helped there is kept.
+  /// Replaces what is known of a place; keeps the stage in which nothing helped there.
   void set(const Candidate& candidate);
-  /// The site has gone, or none of its triangles is bad any more.
+  /// Notes that the site has gone, or no longer has a bad triangle.
   void drop(geometry::Vec2 place);
   /// Nothing helps at a place, if it is one of the list, in this stage.
   void settle(geometry::Vec2 place, int stage);
@@ -42,7 +42,7 @@ public:
   /// The largest alpha, or 1.
   double worst() const;
 
-  /// Which candidates may contend.
+  /// The candidates that may contend.
   struct ContenderRule {
     int stage;              ///< places that are settled in it, or a later one, are left out
     double above;           ///< alpha
@@ -56,7 +56,7 @@ public:
 
 private:
   struct Entry {
-    Candidate candidate; // alpha 0: none any more
+    Candidate candidate; // alpha 0: no longer a candidate
     int settled = 0;     // the last stage in which nothing helped
     std::uint64_t cell = 0;
   };

@@ -29,7 +29,7 @@ bool is_first(const Contender& a, const Contender& b) {
   return a.order != b.order ? a.order < b.order : geometry::lexicographically_less(a.place, b.place);
 }
 
-/// What has become of a contender, for a rank that has a copy of it.
+/// The state of a contender, for a rank that has a copy of it.
 struct DecisionReport {
   std::int32_t number;
   Decision decision;
@@ -232,7 +232,7 @@ private:
   std::vector<ChosenContender> all_;                // the others by rank and number
   std::vector<ChosenContender> callers_;            // of other ranks: they reach to tiles of this one
   std::map<int, std::vector<std::int32_t>> called_; // by rank: the own ones that reach to its tiles
-  std::map<int, std::vector<std::int32_t>> told_;   // by rank: all own ones of which it has a copy
+  std::map<int, std::vector<std::int32_t>> told_;   // by rank: the contenders of this rank that it has a copy of
   std::vector<Decision> decisions_;                 // by index in all_
   std::vector<std::uint32_t> first_rival_, rivals_; // of each in all_, one after the other
   bool is_whole_ = true;

@@ -24,7 +24,7 @@ struct ChosenContender {
   std::int32_t rank, number;
 };
 
-/// What a rank knows of a choice.
+/// The knowledge of a rank about a choice.
 struct Choice {
   std::vector<ChosenContender> own;  ///< by number
   std::vector<ChosenContender> near; ///< of other ranks, whose separation reaches to tiles of this one; by rank, number
@@ -33,10 +33,10 @@ struct Choice {
       true; ///< false: an own contender reaches to a rank that is no neighbour, and the choice is worth nothing
 };
 
-/// @brief Of the contenders of all ranks a set of which no two lie within the larger of their separations, as large as
-/// a few passes make it (Luby 1986): in each pass a contender that is the first of its surroundings is chosen, and
-/// those near it are excluded. All ranks take part; each exchanges one message with its neighbours, and more only where
-/// contenders reach to each other's tiles.
+/// @brief Chooses a set of contenders of all ranks, with no two of them within the larger of their separations, as
+/// large as a few passes make it (Luby 1986). In each pass a contender that is the first of its surroundings is chosen,
+/// and those near it are excluded. All ranks take part; each exchanges one message with its neighbours, and more only
+/// where contenders reach to each other's tiles.
 Choice choose_apart(const comm::Communicator& comm, const comm::Neighbours& neighbours, const CleanupSites& sites,
                     const geometry::Periods& periods, std::span<const Contender> contenders);
 

@@ -12,13 +12,13 @@
 namespace trime::cleanup {
 
 /// @brief The number of sites over all ranks and its limits: never above what is allowed, and at most
-/// CleanupRules::largest_loss below that of the beginning. The same on every rank.
+/// CleanupRules::largest_loss below that of the beginning. All ranks have the same numbers.
 class CleanupLimits {
 public:
   /// @param sites over all ranks @param most_points 0: CleanupRules::largest_loss above `sites`
   CleanupLimits(GlobalId sites, GlobalId most_points);
 
-  /// What each patch of a round may do, as far as the limits leave it.
+  /// Returns what each patch of a round may do within the limits.
   PatchBudget budget(int stage, double again_alpha) const;
 
   /// @brief Sites that patches add and take: of those that gain sites, and of those that lose some.

@@ -69,7 +69,7 @@ void CleanupRounds::finish(sites::Stage& stage, const delaunay::StarBuilder& bui
   *stage.guard = BoundaryGuard(stage.polygon, lattice_);
 }
 
-/// What is bad enough to be tried again: in a good mesh also what is bad there only.
+/// Returns the alpha above which triangles are tried again: lower in a good mesh.
 double CleanupRounds::find_again_alpha() const {
   return std::clamp(1 + Rules::again_share * (comm_.max(candidates_.worst()) - 1), Rules::bad_alpha,
                     Rules::again_alpha);
@@ -123,7 +123,7 @@ std::pair<bool, PatchCounts> CleanupRounds::count_patches(const Choice& choice) 
   return {sums[0] > 0, {sums[1], sums[2], std::llround(largest[0])}};
 }
 
-/// What is read around each place, tried by its owner or by another rank.
+/// Tries the sites around each place, on its owner or on another rank.
 CleanupRounds::Attempt CleanupRounds::try_patches(Choice choice, const PatchCounts& counts) {
   const auto discs_of = [](std::span<const ChosenContender> list) {
     std::vector<PatchDisc> discs;
@@ -190,7 +190,7 @@ void CleanupRounds::make_canonical(PatchResult& result) const {
     verdict.position = periods_.wrap(verdict.position);
 }
 
-/// What the own patches have come to, and their edits on the boundary.
+/// Counts the results of the patches of this rank, and notes their edits on the boundary.
 void CleanupRounds::count(const Attempt& attempt) {
   comm_.counters().add(Counter::cleanup_rounds);
   counts_.patches += std::ssize(attempt.results);

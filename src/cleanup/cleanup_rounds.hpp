@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rounds of the clean-up over all ranks; see mend.
+// The rounds of the clean-up over all ranks; see cleanup.hpp.
 #pragma once
 
 #include "cleanup/cleanup.hpp"
@@ -22,13 +22,13 @@
 
 namespace trime::cleanup {
 
-/// @brief Chooses patches, has them tried, and tells all owners of sites what came of it. The state stays as it is
-/// until finish. All calls are collective.
+/// @brief Chooses patches, has them tried, and sends the results to all owners of sites. The state stays as it is until
+/// finish. All calls are collective.
 ///
-/// In a round ranks talk to their neighbours, of whom those with patches near each other's tiles exchange more. One
-/// reduction tells all of them how many patches there are; where some ranks have more than their share, these are dealt
-/// out. Another one tells how many sites have come and whether any rank has met an error. An error waits for it: until
-/// then its rank takes part in all messages.
+/// In a round ranks exchange messages with their neighbours, and more if they have patches near each other's tiles. One
+/// reduction counts the patches; if some ranks have more than their share, these are distributed. Another reduction
+/// counts new sites and finds out whether any rank has an error. An error waits for that reduction: until then its rank
+/// takes part in all messages.
 class CleanupRounds {
 public:
   /// @brief References must outlive the object.
@@ -38,7 +38,7 @@ public:
 
   /// Rounds until no candidate is left for this stage (1, 2, ...), at most CleanupRules::most_rounds.
   void run_stage(int stage);
-  /// Of all rounds until now.
+  /// Counts of all rounds until now.
   CleanupCounts counts() const;
   /// Carries all edits over to the state, the polygon and the guard of the stage. @param builder of its stars
   void finish(sites::Stage& stage, const delaunay::StarBuilder& builder);
@@ -52,7 +52,7 @@ private:
     std::optional<Error> error;
   };
   enum class Outcome { done, nothing_left, neighbours_missing };
-  /// What one rank tells another one about patches.
+  /// A message between two ranks about patches.
   struct News {
     std::vector<SiteEdit> edits;
     std::vector<BoundaryLink> links;

@@ -17,7 +17,7 @@ using polygon::EditKind;
 using sites::Disc;
 using sites::SiteState;
 
-// What one thread takes at a time.
+// The number of items that one thread takes at a time.
 constexpr int discs_in_a_row = 16, sites_in_a_row = 4096;
 
 /// Says how often a disc had to be narrowed; the sites follow in another list.
@@ -232,7 +232,7 @@ void CleanupSites::apply(std::span<const SiteEdit> edits, std::span<const Bounda
       boundary_.set_next(link.site, link.next);
 }
 
-/// A site that has moved begins anew, as it does where another rank owns its new place: pushes are not kept.
+/// A site that has moved begins again, as it does where another rank owns its new place: pushes are not kept.
 void CleanupSites::finish(SiteState& state, const delaunay::StarBuilder& builder) const {
   mesh::BinnedPoints& points = state.points();
   if (boundary_.has_new_indices())

@@ -12,9 +12,9 @@
 
 namespace trime::cleanup {
 
-/// What is read of the sites in a disc: all of them, or all in a narrower disc around the same place.
+/// The sites that were read in a disc: all of them, or all in a smaller disc around the same place.
 struct Surroundings {
-  /// The radius of the disc that is read, after so many narrowings. The same bits on all ranks.
+  /// Returns the radius of the disc that is read, after this number of reductions, with the same bits on all ranks.
   static double radius(double widest, int narrowings) {
     for (int k = 0; k < narrowings; ++k)
       widest *= CleanupRules::narrowing_factor;
@@ -26,7 +26,7 @@ struct Surroundings {
   bool is_crowded() const { return narrowings > CleanupRules::most_narrowings; }
 };
 
-/// What a patch reads, by its number among those of its rank.
+/// The sites that a patch reads, by its number among the patches of its rank.
 struct PatchDisc {
   sites::Disc disc;
   std::int32_t rank, number;
@@ -54,7 +54,7 @@ public:
   /// Carries out edits in canonical places: what concerns the owned sites. Then the links.
   void apply(std::span<const SiteEdit> edits, std::span<const BoundaryLink> links);
 
-  /// Whether nothing helps at an owned site.
+  /// Is it known that nothing helps at an owned site?
   void set_rest(geometry::Vec2 p, bool rests);
 
   /// @brief Nothing helps at the owned sites of a disc. O(those sites).

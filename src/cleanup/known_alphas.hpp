@@ -8,8 +8,8 @@
 
 namespace trime::cleanup {
 
-/// @brief Aspect ratios that are computed anew only where vertices have moved or edges have been flipped: the same bits
-/// as Patch::alpha, without most of its roots.
+/// @brief Aspect ratios that are computed again only where vertices have moved or edges have been flipped: the same
+/// bits as Patch::alpha, without most of its roots.
 class KnownAlphas {
 public:
   /// Another patch, or another number of vertices, comes next.
@@ -30,7 +30,7 @@ public:
     known_.resize(patch.mesh.triangles().size(), {{-1, -1, -1}, 0, 1});
     ++time_;
   }
-  /// Of a triangle of the patch.
+  /// Returns alpha of a triangle of the patch.
   double alpha(const Patch& patch, const PatchMesh::Triangle& triangle) {
     const auto& [a, b, c] = triangle.vertex;
     Known& known = known_[static_cast<std::size_t>(&triangle - patch.mesh.triangles().data())];
@@ -48,7 +48,7 @@ private:
     double alpha;
   };
   int time_ = 0;                        // counts the calls of follow
-  std::vector<geometry::Vec2> places_;  // by vertex: those of which `known_` speaks
+  std::vector<geometry::Vec2> places_;  // by vertex: the positions that `known_` was computed from
   std::vector<std::uint8_t> has_moved_; // by vertex, since then
   std::vector<Known> known_;            // by triangle
 };

@@ -19,7 +19,7 @@ namespace trime::cleanup {
 /// The vertices of a triangle, counter-clockwise.
 using Corners = std::array<LocalIndex, 3>;
 
-/// What may happen to a vertex. Scored: it is held, but its triangles count.
+/// Role of a vertex. Scored: it is held, but its triangles count.
 enum class VertexRole : std::uint8_t { gone, held, scored, free };
 
 /// A vertex on the boundary: its place there, and its neighbours along the loop.
@@ -32,7 +32,8 @@ struct BoundaryVertex {
   bool changed = false; ///< the chord to the next is not what it was
 };
 
-/// How bad triangles are: the sum over them of (alpha - 1)^2, bad ones weighing more, and the largest alpha.
+/// A measure of bad triangles: the sum over them of (alpha - 1)^2, with more weight for bad ones, and the largest
+/// alpha.
 struct AlphaScore {
   double sum = 0, max = 1;
 
@@ -66,29 +67,29 @@ struct Patch {
   bool on_boundary(LocalIndex v) const { return boundary[at(v)].site >= 0; }
   bool is_chord(LocalIndex from, LocalIndex to) const { return boundary[at(from)].next == to; }
   geometry::Segment chord(LocalIndex v) const { return {mesh.position(v), mesh.position(boundary[at(v)].next)}; }
-  /// How many chords of the boundary are no edges.
+  /// Returns the number of chords of the boundary that are not edges.
   LocalIndex missing_chords() const;
   /// A chord in whose closed diametral disc p lies.
   std::optional<geometry::Segment> entered_disc(geometry::Vec2 p) const;
 
-  /// Whether a triangle lies inside the shape and has a vertex whose triangles count.
+  /// Does a triangle lie inside the shape and have a vertex whose triangles count?
   bool counts(const PatchMesh::Triangle& triangle) const {
     return may_count(triangle) && (has_inner_vertex(triangle) || lies_inside(triangle));
   }
-  /// Whether a triangle is one of sites, with one whose triangles count.
+  /// Are all vertices of a triangle sites, one of them with triangles that count?
   bool may_count(const PatchMesh::Triangle& triangle) const {
     const auto& [a, b, c] = triangle.vertex;
     return std::min(a, std::min(b, c)) >= PatchMesh::frame &&
            std::max(role[at(a)], std::max(role[at(b)], role[at(c)])) >= VertexRole::scored;
   }
-  /// Whether a triangle counts and is worse than `bad_alpha`. Most are good, which takes no root to see.
+  /// Does a triangle count, and is it worse than `bad_alpha`? Most are good, which takes no root to see.
   bool is_bad(const PatchMesh::Triangle& triangle, double bad_alpha) const {
     return may_count(triangle) && !is_surely_below(bad_alpha, triangle.vertex) && counts(triangle) &&
            alpha(triangle.vertex) > bad_alpha;
   }
   /// See mesh::is_surely_below.
   bool is_surely_below(double limit, const Corners& corners) const;
-  /// As mesh::aspect_ratio; infinite without area.
+  /// Returns mesh::aspect_ratio; infinite without area.
   double alpha(const Corners& corners) const {
     const geometry::Vec2 p = mesh.position(corners[0]), u = mesh.position(corners[1]) - p,
                          v = mesh.position(corners[2]) - p;
@@ -106,7 +107,7 @@ struct Patch {
   std::vector<BoundaryVertex> boundary; ///< by vertex
   std::vector<LocalIndex> rim;          ///< vertices on the boundary, those that are gone included
   GlobalId gain = 0;                    ///< of sites, since the start
-  bool broken = false;                  ///< an operation of the triangulation failed: the patch is of no use any more
+  bool broken = false;                  ///< an operation of the triangulation failed: the patch can no longer be used
 
 private:
   bool has_inner_vertex(const PatchMesh::Triangle& triangle) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which chords of the boundary a trial may have.
+// Decides which chords of the boundary a trial may have.
 #pragma once
 
 #include "cleanup/patch_start.hpp"
@@ -16,7 +16,7 @@ public:
   /// @param longest_bent in h: chords of curves may be that long, see CleanupRules::bent_at_first
   void allow(double longest_bent) { longest_bent_ = longest_bent; }
 
-  /// Whether a chord between two vertices on the boundary may take the place of the curve. @param size h there
+  /// May a chord between two vertices on the boundary replace the curve? @param size h there
   bool stands_for_curve(const BoundaryVertex& from, const BoundaryVertex& to, const geometry::Segment& chord,
                         double size) const {
     double arc = to.arc - from.arc;
@@ -26,14 +26,14 @@ public:
     return arc <= CleanupRules::straight_share * length || // as on a straight side
            stands_for_bent_curve(from, to, chord, size, arc, length);
   }
-  /// The same for the chord from vertex v to the next.
+  /// Does the same for the chord from vertex v to the next.
   bool stands_for_curve(const Patch& patch, LocalIndex v) const {
     const BoundaryVertex& own = patch.boundary[at(v)];
     return stands_for_curve(own, patch.boundary[at(own.next)], patch.chord(v), patch.size[at(v)]);
   }
 
-  /// @brief Whether each chord that has changed is an edge that stands for its curve and has an empty closed disc, no
-  /// other disc was entered by what has moved, and nothing from inside lies behind a chord.
+  /// @brief Is each changed chord an edge that may replace its curve, with an empty closed disc? Also checks that no
+  /// moved vertex has entered another disc, and that no inner vertex lies behind a chord.
   bool hold(const Patch& patch) const;
 
 private:

@@ -10,7 +10,7 @@ namespace {
 
 using Rules = CleanupRules;
 
-/// How far the degree of a vertex inside is from 6, squared.
+/// Returns the squared difference of the degree of an inner vertex from 6.
 int strain(const Patch& patch, LocalIndex v) {
   if (v >= patch.mesh.vertices() || patch.on_boundary(v) || patch.is_gone(v))
     return 0;
@@ -71,8 +71,8 @@ bool PatchContest::set_bar_by_moves(const Patch& now, Bar& bar) {
   return after.max > operate_alpha_;
 }
 
-/// Beside a worse triangle, and along the boundary, a slightly bad one hardly ever becomes better; in a patch that is
-/// tried again hardly any that is not to be refined.
+/// Next to a worse triangle, and along the boundary, a slightly bad one hardly ever improves. In a patch that is tried
+/// again, hardly any improves unless it must be refined.
 bool PatchContest::is_worth(const Patch& now, const BadPlace& place, double largest_near,
                             const PatchBudget& budget) const {
   constexpr double as_bad = 1 + 1e-12; // alpha of one triangle, from whichever corner on
@@ -83,7 +83,7 @@ bool PatchContest::is_worth(const Patch& now, const BadPlace& place, double larg
   return place.alpha > (budget.is_again ? Rules::refine_alpha : Rules::least_beside_worse[on_boundary]);
 }
 
-/// Whether the trial has a number of sites that is allowed.
+/// Is the number of sites of the trial allowed?
 bool PatchContest::is_within(GlobalId may_insert, const PatchBudget& budget) const {
   return trial_.gain <= may_insert && -trial_.gain <= budget.may_delete;
 }
@@ -150,8 +150,8 @@ void PatchContest::finish(const Patch& now, Runner& finalist, Bar& bar) {
   std::swap(best_, trial);
 }
 
-/// By how much the operation has raised the sum of (degree - 6)^2 over the vertices inside. Few degrees are not 6 in
-/// a good mesh; moves cannot mend them.
+/// Returns by how much the operation has raised the sum of (degree - 6)^2 over the inner vertices. Few degrees are not
+/// 6 in a good mesh; moves cannot repair them.
 int PatchContest::strain_added(const Patch& now, const PatchOperation& operation) {
   touched_.clear();
   const auto touch_around = [&](const Patch& patch, LocalIndex v) {

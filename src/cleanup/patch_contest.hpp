@@ -35,7 +35,7 @@ private:
     Patch patch;
     double sum = 0, handicap = 1; // sum: infinite if there is no trial here
   };
-  /// What a trial has to be.
+  /// The requirements for a trial.
   struct Bar {
     double first;   // sum that it has to fall below at first
     double least;   // the same since the best trial

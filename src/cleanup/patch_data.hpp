@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What goes into a patch and what comes out of it. Plain data; some of it travels from rank to rank.
+// Input and output of a patch. Plain data; ranks send some of it to each other.
 #pragma once
 
 #include "cleanup/rules.hpp"
@@ -12,8 +12,8 @@
 
 namespace trime::cleanup {
 
-/// @brief What a site on the boundary is called while the clean-up goes on, the same on every rank: those of the
-/// beginning by their index, new ones by a hash. Below 0 it is inside, see mesh::Site.
+/// @brief The name of a site on the boundary during the clean-up, the same on every rank: the index for sites of the
+/// beginning, a hash for new ones. A negative number means that the site is inside, see mesh::Site.
 using BoundaryName = std::int64_t;
 
 /// The place of a site on the boundary.
@@ -52,7 +52,7 @@ struct BoundaryLink {
   BoundaryName site, next;
 };
 
-/// What is known of a site after a patch has been tried.
+/// A site after a patch has been tried.
 struct SiteVerdict {
   geometry::Vec2 position; ///< after the patch
   double size;             ///< h
@@ -60,7 +60,7 @@ struct SiteVerdict {
   std::int64_t rests;      ///< nothing helped for its bad triangles, and it has not moved much since
 };
 
-/// What comes of a patch.
+/// The result of a patch.
 struct PatchResult {
   std::vector<SiteEdit> edits;       ///< empty if nothing was better
   std::vector<BoundaryLink> links;   ///< of the sites on the boundary that move, are new, or have new next ones
@@ -75,7 +75,7 @@ struct PatchOptions {
   double first_alpha = CleanupRules::first_alpha;
 };
 
-/// What a patch may do with the number of sites.
+/// Limits on how a patch may change the number of sites.
 struct PatchBudget {
   GlobalId may_insert = 100;                      ///< largest number of sites that the patch may gain
   GlobalId may_refine = 100;                      ///< the same where smaller triangles are the last resort

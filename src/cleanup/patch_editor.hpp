@@ -18,7 +18,7 @@ struct PatchOperation {
   friend bool operator==(const PatchOperation&, const PatchOperation&) = default;
 };
 
-/// @brief Carries operations out on a trial. Where a function returns false the trial is of no use any more.
+/// @brief Carries out operations on a trial. After a function returns false, the trial can no longer be used.
 class PatchEditor {
 public:
   /// References must outlive the object.

@@ -21,7 +21,7 @@ constexpr int previous(int k) {
   return k == 0 ? 2 : k - 1;
 }
 
-/// Which of its vertices v is.
+/// Returns the position of v among the vertices of the triangle.
 int place_of(const PatchMesh::Triangle& triangle, LocalIndex v) {
   return triangle.vertex[0] == v ? 0 : triangle.vertex[1] == v ? 1 : 2;
 }
@@ -328,7 +328,7 @@ bool PatchMesh::move(LocalIndex v, Vec2 to) {
 }
 
 /// Flips the first edge at v, of `degree` ones, behind which an ear of the ring can be cut off: with four edges left
-/// two corners of the ring may be in line with v. @return false if there is none
+/// two corners of the ring may be in line with v. Returns false if there is no such edge
 bool PatchMesh::cut_ear(LocalIndex v, LocalIndex degree) {
   LocalIndex t = corner_of(v);
   for (LocalIndex k = 0; k < degree; ++k) { // the edge between this triangle and the next one

@@ -43,7 +43,7 @@ public:
   /// microseconds near the last one.
   LocalIndex insert(geometry::Vec2 p);
   /// Removes vertex v, not one of the frame.
-  /// @return false if it cannot be done; then the mesh is not to be used any more
+  /// @return false if it cannot be done; then the mesh can no longer be used
   bool remove(LocalIndex v);
   /// Moves vertex v. @return false, and nothing is done, if a triangle around v would turn over
   bool move(LocalIndex v, geometry::Vec2 to);
@@ -53,14 +53,14 @@ public:
   /// Flips edges around these vertices, all that have been shifted, until the triangulation is Delaunay again.
   void restore(std::span<const LocalIndex> shifted);
   /// Takes vertex v out and puts it in again elsewhere, where no vertex is: also past triangles of no area.
-  /// @return false if it cannot be done; then the mesh is not to be used any more
+  /// @return false if it cannot be done; then the mesh can no longer be used
   bool replace(LocalIndex v, geometry::Vec2 to);
 
   LocalIndex vertices() const { return static_cast<LocalIndex>(positions_.size()); }
   geometry::Vec2 position(LocalIndex v) const { return positions_[static_cast<std::size_t>(v)]; }
   std::span<const Triangle> triangles() const { return triangles_; }
-  /// Those that have been given vertices since the last call of forget_changes, in any order, some several times; not
-  /// those that have gone.
+  /// Returns the triangles that got vertices since the last call of forget_changes, in any order, some several times;
+  /// without those that have gone.
   std::span<const LocalIndex> changed() const { return changed_; }
   void forget_changes() { changed_.clear(); }
   /// The neighbours of v, counter-clockwise, replacing the content of `ring`.

@@ -75,7 +75,7 @@ bool PatchMover::relax_inside(Patch& patch, LocalIndex v) {
   return false;
 }
 
-/// Whether a place within the ring keeps off the discs of the chords in it, and off the rim of the patch.
+/// Does a place within the ring lie outside of the discs of its chords, and far enough from the rim of the patch?
 bool PatchMover::keeps_clear(const Patch& patch, Vec2 to) const {
   if (!start_.is_off_rim(to))
     return false;
@@ -142,7 +142,7 @@ void PatchMover::slide(Patch& patch, LocalIndex v) {
   }
 }
 
-/// Whether the chords on both sides of a vertex would be allowed.
+/// Would the chords on both sides of a vertex be allowed?
 bool PatchMover::may_slide(const Patch& patch, LocalIndex v, const BoundaryVertex& moved, Vec2 to) const {
   return leaves_discs_empty(patch, v, to) &&
          chords_.stands_for_curve(moved, patch.boundary[at(moved.next)], {to, around_.front()}, patch.size[at(v)]) &&
@@ -150,8 +150,8 @@ bool PatchMover::may_slide(const Patch& patch, LocalIndex v, const BoundaryVerte
                                   patch.size[at(moved.previous)]);
 }
 
-/// Whether the discs of the chords around are empty when a vertex of the boundary comes to lie elsewhere, as far as its
-/// neighbours tell; PatchChords::hold says it for certain.
+/// Are the discs of the chords around empty after a vertex of the boundary has moved? Looks at its neighbours only;
+/// PatchChords::hold is certain.
 bool PatchMover::leaves_discs_empty(const Patch& patch, LocalIndex v, Vec2 to) const {
   const BoundaryVertex& own = patch.boundary[at(v)];
   const Vec2 behind = patch.mesh.position(own.previous), ahead = patch.mesh.position(own.next);

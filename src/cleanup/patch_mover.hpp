@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the sites of a patch move: freely inside, along their curve on the boundary.
+// Moves the sites of a patch: freely inside, along their curve on the boundary.
 #pragma once
 
 #include "cleanup/patch_chords.hpp"

@@ -58,7 +58,7 @@ void PatchOperations::list_around(const Patch& now, const Corners& worst, LocalI
       add_removal(u);
 }
 
-/// What may help a triangle with edges on the boundary.
+/// Operations that may help a triangle with edges on the boundary.
 void PatchOperations::list_at_boundary(const Patch& now, const BadPlace& place) {
   const Corners& worst = place.corners;
   for (std::size_t k = 0; k < 3; ++k) {

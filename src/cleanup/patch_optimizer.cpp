@@ -76,14 +76,14 @@ bool PatchOptimizer::try_at(const Corners& worst, const PatchBudget& budget, Pat
   return true;
 }
 
-/// Whether a triangle that was tried here in vain is not to be tried elsewhere. Very bad ones are, unless they lie in
-/// the middle of this patch.
+/// Must a triangle that was tried here without success not be tried elsewhere? Very bad ones are tried again, unless
+/// they lie in the middle of this patch.
 bool PatchOptimizer::is_settled(const Corners& corners) const {
   return now_.alpha(corners) <= Rules::very_bad_alpha ||
          start_.distance(now_.middle_of(corners)) < Rules::middle_reach * start_.size();
 }
 
-/// The sites of the bad triangles in the middle that stay, but for those that may be tried in another patch.
+/// The sites of the bad triangles in the middle that stay, except those that may be tried in another patch.
 void PatchOptimizer::let_failures_rest() {
   for (const PatchMesh::Triangle& triangle : now_.mesh.triangles())
     if (now_.is_bad(triangle, options_.bad_alpha) && start_.is_in_core(now_.middle_of(triangle.vertex)) &&

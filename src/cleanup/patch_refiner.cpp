@@ -60,8 +60,8 @@ bool PatchRefiner::divide_around(const Patch& now, Patch& trial, const Corners& 
   return true;
 }
 
-/// Whether the vertex lies outside, beyond a chord of the trial. The middle of an edge may come to lie there when the
-/// boundary comes nearer to its curve.
+/// Does the vertex lie outside, beyond a chord of the trial? The middle of an edge may be there after the boundary has
+/// moved nearer to its curve.
 bool PatchRefiner::is_behind(const Patch& trial, LocalIndex v) {
   trial.mesh.collect_ring(v, ring_);
   for (std::size_t k = 0; k < ring_.size(); ++k) {

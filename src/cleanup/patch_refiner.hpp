@@ -15,7 +15,7 @@ public:
   PatchRefiner(const PatchChords& chords, const PatchEditor& editor) : chords_(chords), editor_(editor) {}
 
   /// @param now the patch as it is @param trial a copy of it, which is changed
-  /// @return false if it cannot be done; then the trial is of no use any more
+  /// @return false if it cannot be done; then the trial can no longer be used
   bool refine(const Patch& now, Patch& trial, const BadPlace& place);
 
 private:

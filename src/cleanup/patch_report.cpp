@@ -20,7 +20,7 @@ BoundaryName PatchReport::site_before(const Patch& now, LocalIndex v) const {
   return now.boundary[at(v)].site;
 }
 
-/// New sites on the boundary are told from the old ones, whose names are indices, by this bit.
+/// This bit distinguishes new sites on the boundary from old ones, whose names are indices.
 BoundaryName PatchReport::name(const Patch& now, LocalIndex v, std::uint64_t patch) const {
   constexpr BoundaryName new_site = BoundaryName{1} << 62;
   if (!is_new(v) || !now.on_boundary(v))

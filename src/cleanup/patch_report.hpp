@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What has become of the sites of a patch.
+// Reports the sites of a patch after it was tried.
 #pragma once
 
 #include "cleanup/patch_rests.hpp"
@@ -19,7 +19,7 @@ public:
   std::vector<SiteEdit> edits(const Patch& now, std::uint64_t patch) const;
   /// Which sites on the boundary have other next ones than before, or another place.
   std::vector<BoundaryLink> links(const Patch& now, std::uint64_t patch) const;
-  /// Of all sites whose triangles are all known, if the patch has changed anything about them.
+  /// Reports all sites with triangles that are all known, if the patch has changed anything about them.
   std::vector<SiteVerdict> verdicts(const Patch& now, double bad_alpha);
 
 private:

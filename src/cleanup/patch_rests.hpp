@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which sites of a patch rest since nothing helped at their bad triangles.
+// The sites of a patch that rest, since nothing helped at their bad triangles.
 #pragma once
 
 #include "cleanup/patch.hpp"
@@ -34,7 +34,7 @@ public:
     for (const LocalIndex v : vertices)
       rests_[at(v)] = 0;
   }
-  /// Sites that have moved far do not rest any more, nor do new ones.
+  /// Sites that have moved far no longer rest, and new sites do not rest.
   void wake_moved(const Patch& before, const Patch& now) {
     rests_.resize(at(now.mesh.vertices()), 0);
     for (LocalIndex v = PatchMesh::frame; v < before.mesh.vertices(); ++v) {

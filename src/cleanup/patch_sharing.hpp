@@ -24,15 +24,16 @@ struct PatchCounts {
   std::int64_t patches = 0; ///< of all ranks
   std::int64_t threads = 1; ///< of all ranks
   std::int64_t turns = 0;   ///< most patches of a rank over its threads, rounded up
-  /// Whether the slowest rank would be spared CleanupRules::least_spared patches if all had about equally many.
+  /// Would the slowest rank save CleanupRules::least_spared patches if all ranks had about equally many?
   bool is_uneven() const { return turns >= (patches + threads - 1) / threads + CleanupRules::least_spared; }
 };
 
 /// Tries patches of this rank and of others. Must not throw or communicate. @return a result for each
 using PatchTrial = std::function<std::vector<PatchResult>(std::span<PatchTask>)>;
 
-/// @brief Has the own patches tried by this rank, or by all ranks about equally many where they are uneven: then a
-/// patch and its result travel, some 20 KB together. Collective. O(log(ranks)) steps and the trials.
+/// @brief Has the patches of this rank tried by this rank, or, if ranks have uneven numbers, by all ranks, about
+/// equally many each. Then a patch and its result are sent, about 20 KB together. Collective. Takes O(log(ranks)) steps
+/// and the trials.
 /// @param own by number @return the results, in the same order
 std::vector<PatchResult> try_shared(const comm::Communicator& comm, const PatchCounts& counts,
                                     std::vector<PatchTask> own, const PatchTrial& trial);

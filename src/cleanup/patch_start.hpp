@@ -38,19 +38,19 @@ public:
   geometry::Vec2 center() const { return center_; }
   double size() const { return size_; }
 
-  /// Whether a vertex is new or has moved.
+  /// Is a vertex new, or has it moved?
   bool has_changed(const Patch& now, LocalIndex v) const {
     return v >= vertices() || now.mesh.position(v) != patch_.mesh.position(v);
   }
-  /// Whether a place belongs to the middle of the patch, far enough from the sites that are held.
+  /// Does a place belong to the middle of the patch, far enough from the sites that are held?
   bool is_in_core(geometry::Vec2 p) const {
     return distance(p) < (CleanupRules::reach - CleanupRules::free_depth - CleanupRules::core_depth) * size_;
   }
-  /// Whether a new site with size h would be far enough from the rim.
+  /// Would a new site with size h be far enough from the rim?
   bool has_room(geometry::Vec2 p, double h) const {
     return distance(p) + CleanupRules::free_depth * std::fmax(h, size_) < CleanupRules::reach * size_;
   }
-  /// Whether a site may move to a place, as far as the rim is concerned.
+  /// May a site move to a place, as far as the rim is concerned?
   bool is_off_rim(geometry::Vec2 p) const {
     return !(distance(p) > (CleanupRules::reach - CleanupRules::free_depth + CleanupRules::most_outwards) * size_);
   }

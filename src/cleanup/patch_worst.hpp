@@ -10,8 +10,8 @@
 
 namespace trime::cleanup {
 
-/// @brief Which triangle of a patch is to be mended next. Triangles are known by their corners, from the largest index
-/// on, so that the way in which the triangulation holds them does not matter.
+/// @brief Chooses the triangle of a patch that is improved next. Triangles are identified by their corners, from the
+/// largest index on, so that the way in which the triangulation stores them does not matter.
 class PatchWorst {
 public:
   /// References must outlive the object.
@@ -23,7 +23,7 @@ public:
     tried_.clear();
     forget();
   }
-  /// The patch has changed: its triangles are listed anew when they are needed.
+  /// Notes that the patch has changed: its triangles are listed again when they are needed.
   void forget() { is_listed_ = false; }
 
   /// The worst triangle that has not been tried and does not rest.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the moves of the clean-up lower: how far the triangles around a vertex are from equilateral ones.
+// The energy that the moves of the clean-up lower: how far the triangles around a vertex are from equilateral ones.
 #pragma once
 
 #include "trime/geometry/vec2.hpp"
@@ -16,7 +16,7 @@ namespace trime::cleanup {
 /// @param closed the ring is closed; else it is the open fan of a vertex on the boundary
 double star_energy(geometry::Vec2 p, std::span<const geometry::Vec2> ring, bool closed, double limit = INFINITY);
 
-/// The same with its derivatives by p. @pre no triangle is turned over or flat
+/// Returns the energy with its derivatives by p. @pre no triangle is turned over or flat
 struct EnergyModel {
   double value = 0;
   geometry::Vec2 gradient;

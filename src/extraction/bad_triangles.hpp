@@ -36,10 +36,10 @@ public:
   /// @pre alpha is above ExtractionRules::listed_alpha
   void add(const mesh::BadTriangle& triangle);
   void merge(const BadTriangles& other);
-  /// Of this rank so far.
+  /// The triangles of this rank so far.
   std::int64_t count() const { return count_; }
-  /// @brief The same on every rank; each sends its list, no more. @param count over all ranks, who send nothing if it
-  /// is 0. Collective.
+  /// @brief Returns the list over all ranks, the same on every rank; each rank sends only its list. @param count over
+  /// all ranks, which send nothing if it is 0. Collective.
   void gather(const comm::Communicator& comm, std::int64_t count);
   /// Writes count, list, and the worst away from corners into the summary.
   void tell(mesh::QualitySummary& quality) const;

@@ -145,8 +145,8 @@ private:
     }
   }
 
-  /// Of the edges to the next boundary site and from the previous one those whose other end is higher, by their first
-  /// vertex and then the second.
+  /// Lists the edges to the next boundary site and from the previous one if their other end is higher, ordered by their
+  /// first vertex and then the second.
   void list_facets(LocalIndex vertex, LocalIndex own, const FlatFan& fan, Offsets& next, DistributedMesh& mesh) const {
     const std::vector<BoundarySite>& sites = view_.polygon.sites;
     const std::int32_t boundary_site = points_.boundary(own);
@@ -176,8 +176,8 @@ private:
   const mesh::BinnedPoints& points_;
 };
 
-/// Where the triangles and facets of this rank stand among those of all, and the hash, which goes by the former.
-/// Collective.
+/// Finds the position of the triangles and facets of this rank among those of all ranks, and the hash, which depends on
+/// it. Collective.
 void place_among_all(const comm::Communicator& comm, DistributedMesh& mesh) {
   const std::int64_t triangles = std::ssize(mesh.triangles), facets = std::ssize(mesh.facets);
   mesh.triangle_slab.first = comm.exclusive_scan(triangles);

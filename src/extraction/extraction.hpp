@@ -21,7 +21,7 @@ struct Extraction {
 Extraction extract_mesh(const sites::StageView& view, const decomposition::Numbering& numbering,
                         const sizing::SizeField& asked);
 
-/// Triangles beside corners below 60 degrees aside, none may be worse than `most`.
+/// No triangle may be worse than `most`, except next to corners below 60 degrees.
 mesh::Check worst_alpha_check(const mesh::QualitySummary& quality, double most);
 
 } // namespace trime::extraction

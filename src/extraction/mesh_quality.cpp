@@ -19,7 +19,7 @@ constexpr double most_over_size = 500; // keeps the square within the reach of F
 using mesh::RatioStatistics;
 using mesh::RatioTotals;
 
-/// What ranks sum first: all but the bins that hold the medians.
+/// The values that ranks sum first: all except the bins that hold the medians.
 struct FirstSums {
   std::array<std::int64_t, RatioStatistics::packed_size> alpha, beta;
   FixedSum::Parts ratio, squared_ratio;

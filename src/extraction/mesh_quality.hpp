@@ -33,7 +33,7 @@ struct QualitySums {
 /// sums.bad is that of all ranks. Collective.
 mesh::QualitySummary summarize(const comm::Communicator& comm, QualitySums& sums);
 
-/// What one thread measures.
+/// The measurements of one thread.
 class QualityMeter {
 public:
   /// @pre all outlive this object

@@ -30,7 +30,7 @@ Step capped(Step step, double limit) {
   return step;
 }
 
-/// Not across a border; along periodic axes there is none.
+/// Does not cross a border; periodic axes have no border.
 Vec2 into_box(Vec2 p, const mesh::TileGrid& grid) {
   const geometry::Box& box = grid.container();
   return {grid.periods().x > 0 ? p.x : std::clamp(p.x, box.min.x, box.max.x),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What happens to inner sites near the boundary: they are kept inside, and out of the diametral discs of the chords.
-// Those in a disc are pushed out of it; those that have been pushed too often are deleted.
+// Keeps inner sites inside the shape, and out of the diametral discs of the chords. Sites in a disc are pushed out of
+// it; sites that have been pushed too often are deleted.
 #pragma once
 
 #include "polygon/boundary_guard.hpp"
@@ -10,7 +10,7 @@
 
 namespace trime::sweep {
 
-/// What decides where a site may go.
+/// The data that decide where a site may go.
 struct MoveContext {
   const polygon::BoundaryGuard& guard;
   const sizing::SizeField& size;
@@ -21,7 +21,7 @@ inline MoveContext move_context(const sites::Stage& stage, const geometry::Latti
   return {*stage.guard, *stage.size, lattice};
 }
 
-/// What becomes of a site: where it goes, and whether it was pushed or is to be deleted.
+/// The treatment of a site: where it goes, and whether it was pushed or must be deleted.
 struct Treated {
   geometry::Vec2 position, lead;
   std::int32_t pushes = 0; ///< those before included
@@ -33,7 +33,7 @@ struct Treated {
 /// as is allowed, it is to be deleted, and goes where a push would take it until that happens.
 Treated treat_step(const MoveContext& context, const mesh::TileGrid& grid, const mesh::Site& site, double h, Step step,
                    int pushes_allowed);
-/// The same for a site that would go to this place, on the lattice and in the container, with this lead.
+/// Does the same for a site that would go to this place, on the lattice and in the container, with this lead.
 Treated treat_place(const MoveContext& context, const mesh::TileGrid& grid, const mesh::Site& site, double h,
                     geometry::Vec2 place, geometry::Vec2 lead, int pushes_allowed);
 

@@ -37,7 +37,7 @@ void MoveOutcomes::tally_again(std::size_t t) {
   std::atomic_ref(has_others_[t]).store(1, std::memory_order_relaxed);
 }
 
-/// What the moves of a tile's sites add up to, from their places alone: the same as the kernel finds.
+/// Returns the sums over the moves of a tile's sites, from their places alone, as the kernel does.
 SweepTally MoveOutcomes::tally_tile(LocalIndex tile) const {
   const mesh::BinnedPoints& points = state_.points();
   const mesh::LocalSizes& sizes = state_.sizes();

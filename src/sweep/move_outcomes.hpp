@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What becomes of each site in a sweep, and what the moves add up to.
+// The outcome of a sweep for each site, and the sums over all moves.
 #pragma once
 
 #include "sweep/guard_treatment.hpp"
@@ -10,7 +10,7 @@
 
 namespace trime::sweep {
 
-/// What became of a site.
+/// The outcome for a site.
 enum class SiteOutcome : std::uint8_t { moved, pushed, deleted };
 
 /// @brief Collects the next places of the sites that the kernel has not moved alone, and tallies all moves tile by
@@ -33,14 +33,14 @@ public:
   }
   /// Not all sites of owned tile t were moved by the kernel. May be called concurrently.
   void tally_again(std::size_t t);
-  /// What all moves of this rank add up to.
+  /// The sums over all moves of this rank.
   SweepTally sum();
   std::span<const SweepTally> tallies() const { return tallies_; }
 
-  /// Those of the sites to be deleted whose turn it is in this round, by owned site.
+  /// Which of the sites to be deleted are deleted in this round, by owned site.
   std::vector<std::uint8_t> deletions(int round) const;
   /// @brief Counts the pushes of the sites that were pushed, and forgets what became of sites.
-  /// @return by owned tile: some of its sites were pushed, and go to a place in a disc all the same
+  /// @return by owned tile: some of its sites were pushed, and still go to a place in a disc
   std::vector<std::uint8_t> count_pushes(const polygon::BoundaryGuard& guard);
 
 private:

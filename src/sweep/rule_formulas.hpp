@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The update rules as formulas over the ring of one site, or of several sites side by side: V is double or a vector of
+// The update rules as formulas over the ring of one site, or of several sites side by side. V is double or a vector of
 // doubles (core/lanes.hpp), so the scalar and the vector paths move every site by the same bits.
 //
 // A formula takes the triangles (site, a, b) of a star one after the other, in the order of the ring; where `active` is
@@ -153,7 +153,7 @@ public:
     xy_ = lanes::select(
         active, xy_ + (0.5 * mixed * (squares_x * area_y + squares_y * area_x) + curved * area_x * area_y), xy_);
   }
-  /// To the minimum of the quadratic model, damped; zero where there is none.
+  /// The step to the minimum of the quadratic model, damped; zero if there is no minimum.
   TRIME_INLINE Move<V> move() const {
     const V determinant = xx_ * yy_ - xy_ * xy_, factor = -SweepRules::triangle_damping / determinant;
     const auto sound = determinant > 0;

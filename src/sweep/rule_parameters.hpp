@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an update rule needs to know besides the star of a site: plain numbers, the same for all sites of a sweep.
+// The parameters of an update rule, in addition to the star of a site: plain numbers, the same for all sites of a
+// sweep.
 #pragma once
 
 #include "sweep/rules.hpp"
 
 namespace trime::sweep {
 
-/// What moves the sites: repulsive bars, centroids of Voronoi cells, or the energy of triangles.
+/// The kind of rule: repulsive bars, centroids of Voronoi cells, or the energy of triangles.
 enum class Mover { bars, cells, triangles };
 
 struct RuleParameters {

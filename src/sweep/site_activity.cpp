@@ -69,7 +69,7 @@ void SiteActivity::wake_ring(LocalIndex i) {
   }
 }
 
-/// Those that must look wake if a neighbour moves. Where no tile around has moves none does.
+/// Sites that must look wake if a neighbour moves. Where no tile around has moves, no site wakes.
 template <class Moves>
 void SiteActivity::look(std::span<const std::uint8_t> near_moves, const Moves& moves) {
   const mesh::BinnedPoints& points = state_.points();
@@ -100,7 +100,7 @@ void SiteActivity::begin_move(std::span<const SweepTally> tallies, std::span<con
   look(near_moves, [&](LocalIndex j) { return j < points.owned() && moves(j); });
 }
 
-/// What was the next places before the move holds where sites and ghosts were.
+/// The array that held the next places before the move now holds the old places of sites and ghosts.
 void SiteActivity::finish_move(std::span<const std::uint8_t> near_moves) {
   const mesh::BinnedPoints& points = state_.points();
   const std::span<const geometry::Vec2> before = points.next().positions();

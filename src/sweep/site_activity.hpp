@@ -34,9 +34,10 @@ public:
   /// Is any site of this tile awake?
   bool any_awake(LocalIndex tile) const;
   void wake(LocalIndex i) { flags_[at(i)] |= SiteFlags::awake; }
-  /// The class of site i has been found anew. Different sites may be set concurrently.
+  /// Notes that the class of site i has been computed again. Threads may set different sites concurrently.
   void watch(LocalIndex i) { flags_[at(i)] |= SiteFlags::watched; }
-  /// The rule has been asked about site i, whose star was certified by emptiness. Concurrently likewise.
+  /// Notes that the rule has moved site i, whose star was certified by the empty-circle test. Threads may set different
+  /// sites concurrently.
   void set_rest(LocalIndex i, bool rests) {
     flags_[at(i)] = static_cast<std::uint8_t>(SiteFlags::watched | (rests ? 0 : SiteFlags::awake));
   }
@@ -59,8 +60,8 @@ private:
   const sites::SiteState& state_;
   const SiteClasses& classes_;
   std::vector<std::uint8_t> flags_; // SiteFlags, by owned site
-  /// Sites that look for moves of their neighbours: the stars of these may not tell that they are neighbours where the
-  /// lemma does not do, and other ranks keep the stars of ghosts. Ascending; some need it no more.
+  /// Sites that look for moves of their neighbours: the stars of the neighbours may not show that they are neighbours
+  /// where the lemma does not hold, and other ranks keep the stars of ghosts. Ascending; some no longer need it.
   std::vector<LocalIndex> watchers_;
 };
 

@@ -42,7 +42,7 @@ bool SiteClasses::vouches_for(LocalIndex neighbour, LocalIndex i) const {
          *(found + 1 == ring.end() ? ring.begin() : found + 1) != delaunay::gap;
 }
 
-/// The same of a ghost, whose star its owner keeps: it holds the triangles that count there.
+/// Does the same for a ghost. Its owner keeps its star, with the triangles that count there.
 bool SiteClasses::owner_vouches_for(LocalIndex ghost, LocalIndex i) const {
   const mesh::BinnedPoints& points = state_.points();
   const std::span<const LocalIndex> ring = state_.stars().ring(i);
@@ -123,8 +123,8 @@ void SiteClasses::find_encroached_tiles() {
   });
 }
 
-/// Sites beside chords may be certified where no site near the tile is in the disc of a chord. Of tiles of other ranks
-/// that is known once their sites have come (TileMarks).
+/// Sites next to chords may be certified where no site near the tile is in the disc of a chord. For tiles of other
+/// ranks that is known once their sites have arrived (TileMarks).
 SiteClass SiteClasses::least_certified(LocalIndex tile) const {
   const std::span<const LocalIndex> tiles = around_.of(at(tile - state_.points().first_tile()));
   const bool trusts = std::none_of(tiles.begin(), tiles.end(), [&](LocalIndex other) {

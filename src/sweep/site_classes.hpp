@@ -29,10 +29,11 @@ public:
   void reset();
   SiteClass operator[](LocalIndex i) const { return classes_[static_cast<std::size_t>(i)]; }
   const SiteClass* data() const { return classes_.data(); }
-  /// The star of site i may have changed: finds its class anew. Different sites may be classified concurrently.
+  /// Computes the class of site i again, since its star may have changed. Threads may classify different sites
+  /// concurrently.
   SiteClass update(LocalIndex i, LocalIndex tile);
 
-  /// What lies around the owned tiles.
+  /// The surroundings of the owned tiles.
   const TilesAround& around() const { return around_; }
   /// The lowest class for which the lemma does in a tile of the container.
   SiteClass least_certified(LocalIndex tile) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When the sweeps sort their sites, and when they evaluate h anew.
+// Decides when the sweeps sort their sites, and when they evaluate h again.
 #pragma once
 
 #include "core/state_fields.hpp"
@@ -8,9 +8,9 @@
 
 namespace trime::sweep {
 
-/// @brief Sites are not sorted in every sweep: bins stay as they are, and searches go as much farther as sites have
-/// come (BinnedPoints::for_each_near), until that is too much. h is evaluated anew every few sweeps. All numbers are
-/// bounds over all ranks, so that all ranks decide alike.
+/// @brief Sites are not sorted in every sweep: bins stay as they are, and searches go farther by as much as sites have
+/// moved (BinnedPoints::for_each_near), until that is too much. h is evaluated again every few sweeps. All numbers are
+/// bounds over all ranks, so all ranks make the same decision.
 class SortSchedule {
 public:
   /// @param distance, ratio bounds on the move of any site, and on its move over h
@@ -36,7 +36,7 @@ public:
     age_of_sizes_ = 0;
     return true;
   }
-  /// What a checkpoint keeps of it.
+  /// Visits the members that a checkpoint keeps.
   void visit(StateFields& fields) {
     fields.field("drift", drift_.distance);
     fields.field("drift_in_sides", drift_.in_sides);

@@ -72,8 +72,8 @@ void StarCertifier::settle(std::vector<LocalIndex>& certified, std::vector<Local
   }
 }
 
-/// Its owner is to hear of it once, unless this rank has heard that the owner has looked at it. In a periodic
-/// container all stars beside ghosts are certified by emptiness in every sweep, and nobody need be told.
+/// Its owner gets one message, unless this rank knows that the owner has examined it. In a periodic container all stars
+/// next to ghosts are certified by the empty-circle test in every sweep, so no message is needed.
 void StarCertifier::note_ghost(const delaunay::AffectedStar& affected) {
   const mesh::BinnedPoints& points = state_.points();
   const Vec2 place = points.position(affected.site);
@@ -98,7 +98,7 @@ LocalIndex StarCertifier::find_owned(Vec2 p) const {
   return found;
 }
 
-/// Tells the owners of ghosts, and makes suspects of what others tell.
+/// Sends messages to the owners of ghosts, and makes suspects of the sites in the messages of others.
 void StarCertifier::exchange_news() {
   const std::vector<decomposition::GhostNews> heard =
       state_.halo().tell_owners(state_.points(), affected_ghosts_, news_);

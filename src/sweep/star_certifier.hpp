@@ -14,9 +14,9 @@ namespace trime::sweep {
 /// @brief Certifies the stars of the inner owned sites. The lemma (sweep_kernel.hpp) does for most of them, and the
 /// kernels apply it while they move the sites; whatever fails there is a suspect, and is certified here.
 ///
-/// Those that fail are certified by emptiness, and so is whatever changes beside them, until all rings agree. Beside a
-/// ghost its owner keeps the other star: ranks tell each other which stars a change affects. Both certificates say the
-/// same: no result depends on which was used, nor on ranks and threads.
+/// Stars that fail are certified by the empty-circle test, and so are stars next to them that change, until all rings
+/// agree. The star of a ghost is kept by its owner: ranks send each other messages about stars that a change affects.
+/// Both certificates are equivalent: no result depends on which was used, nor on ranks and threads.
 ///
 /// Why that is enough: a star that was not looked at again is locally convex, and its triangles are those of its
 /// neighbours (else one of them had changed, and this one been looked at). The region of all such stars is bounded by
@@ -25,7 +25,7 @@ namespace trime::sweep {
 /// Boundary sites keep no stars, but where the diametral disc of a chord holds no site the chord is an edge of that
 /// triangulation as well, and may be part of the border: the disc of a triangle on the chord reaches less far beyond it
 /// than that of the chord. No boundary site is in such a disc (BoundarySites); inner sites are rarely in one, and then
-/// the stars beside the boundary in the tiles around are certified by emptiness.
+/// the stars next to the boundary in the tiles around are certified by the empty-circle test.
 class StarCertifier {
 public:
   /// @pre each star of an inner site was certain before the last moves, or its ring is empty; h is known at all sites;
@@ -46,12 +46,12 @@ public:
   void begin_sweep();
   /// These stars are to be certified by emptiness, unless they have been in this sweep.
   void suspect(std::span<const LocalIndex> sites) { mark(sites, suspects_); }
-  /// @brief Certifies the suspects, then what they have changed beside them, until nothing changes on this rank. Then
-  /// ranks tell each other what that affects, and certify it likewise. Those that miss a bin stay suspects. Collective
-  /// among neighbours.
+  /// @brief Certifies the suspects, then the stars next to them that they have changed, until nothing changes on this
+  /// rank. Then ranks send each other the affected stars, and certify these. Stars that miss a bin stay suspects.
+  /// Collective among neighbours.
   /// @return the sites whose stars were certified in this call
   std::vector<LocalIndex> certify_suspects();
-  /// What is left to be done, on this rank or summed over all.
+  /// The work that is left, on this rank or summed over all.
   struct Open {
     std::int64_t uncertain = 0; ///< stars that still miss a bin
     std::int64_t untold = 0;    ///< ghosts whose owners are to hear of a change
@@ -66,7 +66,7 @@ public:
   bool was_checked(LocalIndex i) const { return marked_[static_cast<std::size_t>(i)]; }
   /// Is it another star than at the begin of this sweep?
   bool has_changed(LocalIndex i) const { return marked_[static_cast<std::size_t>(i)] == changed; }
-  /// Stars of this sweep that were not right any more, and those beside borders that were lost; on this rank.
+  /// Number of stars of this sweep that were no longer right, and of lost ones next to borders; on this rank.
   std::int64_t rebuilt() const { return rebuilt_; }
   void end_sweep();
 
@@ -93,7 +93,7 @@ private:
   std::vector<LocalIndex> affected_ghosts_;    // whose owners are to hear it
   std::vector<decomposition::GhostNews> news_; // of the affected ghosts
   std::unordered_set<LocalIndex> told_ghosts_; // whose owners have heard it in this sweep, or will
-  /// Places of ghosts that their owners have looked at in this sweep, as far as these have told.
+  /// Places of ghosts that their owners have examined in this sweep, as far as this rank knows.
   std::set<geometry::Vec2, decltype(&geometry::lexicographically_less)> heard_of_{geometry::lexicographically_less};
   std::int64_t rebuilt_ = 0;
 };

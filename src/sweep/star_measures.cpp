@@ -11,7 +11,7 @@ namespace {
 
 using sites::StarView;
 
-/// What a thread adds up, and its room for the excesses of the kernel.
+/// The sums of a thread, and its buffer for the excesses of the kernel.
 struct ThreadSums {
   SweepSums sums;
   std::vector<double> excesses;

@@ -41,16 +41,17 @@ private:
 /// itself over the last window, or is good already.
 bool median_stalled(std::span<const SweepRecord> records);
 
-/// What follows a record: the end of the stage, a change of the rule, or neither.
+/// The decision after a record: the end of the stage, a change of the rule, or neither.
 struct SweepDecision {
   std::optional<StopReason> stop; ///< why the stage ends
   std::optional<Mover> next;      ///< what is to move the sites from now on
 };
 
-/// @brief The rule of each sweep. `distmesh` and `cvd` stay with theirs. `hybrid` starts with bars and goes over to
-/// Voronoi cells, once and for all, when the median of alpha stalls: in the first stage if the later ones divide a
-/// relaxed mesh, in the last one if they insert points (as TriMe++ does). When the cells have stalled, TriangleRule
-/// ends the stage, and does all the work in the stages after a division: they start in order.
+/// @brief Chooses the rule of each sweep. `distmesh` and `cvd` use one rule. `hybrid` starts with bars and changes to
+/// Voronoi cells, once, when the median of alpha stalls. This happens in the first stage if the later ones divide a
+/// relaxed mesh, and in the last stage if they insert points (as TriMe++ does). When the cells have stalled,
+/// TriangleRule ends the stage. It also does all the work in the stages after a division, since these start from a
+/// relaxed mesh.
 class SweepControl {
 public:
   /// @param history of the run, which goes on growing; outlives this object
@@ -58,12 +59,12 @@ public:
 
   /// @param inserts the stages to come insert points @param is_last no stage comes
   void begin_stage(bool inserts, bool is_last);
-  /// What follows the last record; changes nothing. @pre the stage has a record
+  /// Returns the decision after the last record; changes nothing. @pre the stage has a record
   SweepDecision decide() const;
   /// Sites are moved by another rule from now on, which counts its gains from the last record.
   void switch_to(Mover mover);
   UpdateRule& rule() { return *rule_; }
-  /// What a checkpoint keeps of it. @pre begin_stage()
+  /// Visits the members that a checkpoint keeps. @pre begin_stage()
   void visit(StateFields& fields);
   Mover mover() const { return mover_; }
 

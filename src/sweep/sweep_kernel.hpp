@@ -13,12 +13,12 @@
 
 namespace trime::sweep {
 
-/// What the pass does with a site.
+/// How the pass treats a site.
 enum class SiteClass : std::uint8_t {
   held,     ///< stays, and has no star: a boundary site
   fixed,    ///< stays, but has a star, which is certified by emptiness: a point that the user has fixed
   exact,    ///< moves; its star is certified by emptiness, since not all neighbours have stars that this rank keeps
-  bordered, ///< moves; beside chords of the boundary: as `local` while no site is in the disc of a chord nearby
+  bordered, ///< moves; next to chords of the boundary, as `local` while no site is in the disc of a chord nearby
   local     ///< moves; its star is certified by the stars around it
 };
 
@@ -26,12 +26,12 @@ enum class SiteClass : std::uint8_t {
 struct SiteFlags {
   static constexpr std::uint8_t awake = 1;   ///< the rule may move it
   static constexpr std::uint8_t watched = 2; ///< its star is certified even if nothing has moved: not local, or the
-                                             ///< lemma did not do for it
+                                             // /< lemma did not do for it
   static constexpr std::uint8_t copied = 4;  ///< asleep, with the same place and no lead both now and next
   TRIME_INLINE static constexpr bool is_asleep(std::uint8_t flags) { return (flags & (awake | watched)) == 0; }
 };
 
-/// What a kernel works on: plain arrays by local index, and what is the same for all sites.
+/// The input and output of a kernel: plain arrays by local index, and values that are the same for all sites.
 struct SweepTask {
   const geometry::Vec2* positions;
   const geometry::Vec2* leads; ///< null, like next_leads, where sites have none: then all are zero
@@ -41,7 +41,7 @@ struct SweepTask {
   const std::int32_t* boundary = nullptr;   ///< of all sites, see BinnedPoints::boundary; for QualityKernel only
   SiteClass least_class = SiteClass::local; ///< sites of a lower class are left to the caller
   std::uint8_t* flags = nullptr;            ///< SiteFlags; of use to SweepKernel only. Held sites are asleep, and those
-                                            ///< of all other classes but `local` are watched
+                                            // /< of all other classes but `local` are watched
   const double* sizes = nullptr;            ///< null: uniform_size everywhere
   double uniform_size = 1;
   geometry::Vec2* next_positions;
@@ -55,7 +55,7 @@ struct SweepTask {
   polygon::GuardCells guard;
 };
 
-/// What the moves of some sites add up to, in integers: in any order.
+/// Sums over the moves of some sites, in integers, so that they may be added in any order.
 struct SweepTally {
   std::int64_t moving = 0; ///< moved by more than SweepRules::still
   std::int64_t power = 0;  ///< of the moves, in units of FixedSum, see Momentum
@@ -73,7 +73,7 @@ struct SweepTally {
   }
 };
 
-/// What one site adds to the tally; the vector path computes the same bits.
+/// Adds one site to the tally; the vector path computes the same bits.
 template <class V>
 struct SiteTally {
   V squared_distance, squared_ratio, power;
@@ -111,8 +111,8 @@ struct SweepLeftovers {
 
 /// @brief Certifies the local sites of [begin, end) by the Delaunay lemma (a triangulation is Delaunay if every star
 /// winds once, counter-clockwise, and is locally convex: Delaunay 1934) and computes their next positions and leads.
-/// Sites that it does not move keep their place. Those that surely rest fall asleep. About 10 ns a site and more for
-/// the rule; less than 1 ns for one that sleeps among others.
+/// Sites that it does not move keep their place. Sites that surely rest fall asleep. Takes about 10 ns per site, and
+/// more for the rule; less than 1 ns for a site that sleeps among others.
 /// @pre the rings of all local sites and their neighbours agree with each other
 /// @return tally of the sites that it moved
 using SweepKernel = SweepTally (*)(const SweepTask& task, LocalIndex begin, LocalIndex end, SweepLeftovers& leftovers);
@@ -153,7 +153,7 @@ struct SweepKernels {
   QualityKernel measure;
 };
 extern const SweepKernels portable_kernels, avx2_kernels, avx512_kernels;
-/// Those for this machine, see simd_level().
+/// Returns the kernels for this machine, see simd_level().
 const SweepKernels& sweep_kernels();
 
 } // namespace trime::sweep

@@ -10,10 +10,10 @@
 namespace trime::sweep {
 namespace {
 
-/// What their flags ask of some sites in a row, a bit for each.
+/// The requests in the flags of some successive sites, one bit per site.
 struct Waking {
   unsigned awake = 0;  // the rule may move it
-  unsigned wanted = 0; // that, or its star is to be certified
+  unsigned wanted = 0; // the rule may move it, or its star must be certified
 };
 
 TRIME_INLINE Waking waking_at(const SweepTask& task, LocalIndex i, LocalIndex end) {
@@ -75,7 +75,8 @@ TRIME_INLINE GroupMove next_places(const SweepTask& task, const Group& group, co
   return next;
 }
 
-/// Those of the lanes `moved` whose new place is not known to be clear of the boundary's discs, a bit for each.
+/// Returns the lanes of `moved` with a new place that is not known to be clear of the boundary's discs, one bit per
+/// lane.
 TRIME_INLINE unsigned guarded_lanes(const SweepTask& task, unsigned moved, V x, V y) {
   unsigned guarded = 0;
   if (!task.guard.states)
@@ -126,7 +127,7 @@ TRIME_INLINE void store_flags(const SweepTask& task, LocalIndex begin, unsigned 
   }
 }
 
-/// What the moves of a range add up to, lane by lane.
+/// Sums over the moves of a range, lane by lane.
 struct LaneTally {
   std::int64_t moving = 0;
   M power{};
@@ -177,8 +178,8 @@ TRIME_INLINE unsigned sweep_group(const SweepTask& task, const Group& group, uns
   return group.local & ~certified;
 }
 
-/// Those of [begin, end) that are asleep or not local stay where they are; returns those whose stars are to be
-/// certified, a bit for each.
+/// Leaves the sites of [begin, end) in place that are asleep or not local. Returns the sites with stars that must be
+/// certified, one bit per site.
 TRIME_INLINE unsigned hold_others(const SweepTask& task, const Group& group, LocalIndex begin, LocalIndex end) {
   unsigned with_stars = 0;
   for (LocalIndex i = begin; i < begin + width && i < end; ++i) {

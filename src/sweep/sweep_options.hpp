@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a user asks of the sweeps.
+// Options of the sweeps.
 #pragma once
 
 #include "trime/sweep/star_tests.hpp"

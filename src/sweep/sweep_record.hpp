@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one sweep did, summed over all ranks.
+// Makes the record of a sweep, summed over all ranks, and its line in the log.
 #pragma once
 
 #include "sweep/sweep_sums.hpp"
@@ -24,10 +24,10 @@ struct SweepSummary {
 SweepSummary summarize_sweep(const sites::SiteState& state, Sweeper& sweeper, const Sweeper::Counts& counts,
                              double typical_size, GlobalId held);
 
-/// Head of the table of sweeps in a log, and a row of it.
+/// Return the head of the table of sweeps in a log, and a row of it.
 std::string table_header();
 std::string table_row(const SweepRecord& record);
-/// The same for the live line of a terminal, in at most 60 columns.
+/// Returns the text for the live line of a terminal, in at most 60 columns.
 std::string live_text(const SweepRecord& record);
 
 } // namespace trime::sweep

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a sweep measures: sums over the stars of the inner sites, for the history and for the rules.
+// The measurements of a sweep: sums over the stars of the inner sites, for the history and for the rules.
 #pragma once
 
 #include "sites/star_view.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the kernels of a sweep are told of the sites of a rank.
+// Prepares the input of the kernels of a sweep from the sites of a rank.
 #pragma once
 
 #include "sites/site_state.hpp"
@@ -9,8 +9,8 @@
 
 namespace trime::sweep {
 
-/// All but the rule. It points into its arguments, and holds until sites are sorted or ghosts are fetched; next places
-/// and leads are null before BinnedPoints::prepare_advance.
+/// Makes the task, except for the rule. It points into its arguments, and is valid until sites are sorted or ghosts are
+/// fetched; next places and leads are null before BinnedPoints::prepare_advance.
 SweepTask make_sweep_task(sites::SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context,
                           const SiteClasses& classes);
 

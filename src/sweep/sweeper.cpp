@@ -22,7 +22,7 @@ constexpr int chunk = 64; // sites that one thread treats in a row
 
 } // namespace
 
-/// What the kernel leaves of the tiles of a thread.
+/// The sites that the kernel leaves in the tiles of a thread.
 struct Sweeper::TileLeftovers {
   std::vector<LocalIndex> suspects, irregular; // of all tiles
   std::vector<LocalIndex> guarded;             // of one tile
@@ -38,7 +38,7 @@ Sweeper::Sweeper(SiteState& state, const delaunay::StarBuilder& builder, const M
   outcomes_.reset();
 }
 
-/// Begins anew after sites were sorted.
+/// Begins again after sites were sorted.
 void Sweeper::reset() {
   certifier_.reset();
   activity_.reset(certifier_.classes().around());
@@ -124,7 +124,7 @@ void Sweeper::run_kernel(const UpdateRule& rule, TilePlace which) {
   count_sites(which, awake);
 }
 
-/// Of the sites of the tiles that lie so, so many were awake.
+/// Counts the sites that were awake, in the tiles that lie so.
 void Sweeper::count_sites(TilePlace which, std::int64_t awake) const {
   const TilesAround& around = certifier_.classes().around();
   std::int64_t all = 0;
@@ -257,8 +257,8 @@ void Sweeper::prepare(const UpdateRule& rule, int wish) {
 
 // --- commit --------------------------------------------------------------------------------------------------------
 
-/// Counts pushes, and notes where sites that were pushed go into a disc all the same: only these can be in one, and in
-/// tiles that sleep nothing changes. Other ranks hear of it with the places.
+/// Counts pushes, and notes where sites that were pushed still go into a disc: only these can be in one, and in tiles
+/// that sleep nothing changes. Other ranks get it with the places.
 void Sweeper::note_pushes() {
   const std::vector<std::uint8_t> encroached = outcomes_.count_pushes(context_.guard);
   SiteClasses& classes = certifier_.classes();
@@ -349,7 +349,7 @@ std::vector<std::uint64_t> Sweeper::saved_activity() const {
 void Sweeper::restore(StateFields& fields, std::span<const std::uint64_t> activity) {
   visit(fields);
   activity_.restore(activity);
-  for (std::size_t t = 0; t < certifier_.classes().around().size(); ++t) // the stars are to be found anew, all of them
+  for (std::size_t t = 0; t < certifier_.classes().around().size(); ++t) // all stars must be computed again
     site_activity_.wake_tile(state_.points().first_tile() + static_cast<LocalIndex>(t));
 }
 

@@ -14,7 +14,7 @@
 
 namespace trime::sweep {
 
-/// Which tiles and sites may sleep.
+/// The choice of tiles and sites that may sleep.
 enum class Sleep { never, where_nothing_moves };
 
 /// @brief Moves the inner sites, sweep by sweep. `prepare` certifies every star at the present places and computes the
@@ -27,16 +27,15 @@ enum class Sleep { never, where_nothing_moves };
 class Sweeper {
 public:
   Sweeper(const Sweeper&) = delete; // its parts refer to each other
-  /// As StarCertifier. @pre each star of an inner site was certain before the last moves, or its ring is empty; h is
-  /// known at all sites; all arguments outlive this object
+  /// Takes the arguments of StarCertifier. @pre each star of an inner site was certain before the last moves, or its
+  /// ring is empty; h is known at all sites; all arguments outlive this object
   /// @param sleep `never` is slow, for tests
   Sweeper(sites::SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context,
           LemmaReach reach = LemmaReach::up_to_chords, Sleep sleep = Sleep::where_nothing_moves);
 
-  /// What one sweep did, over all ranks.
+  /// The result of one sweep, over all ranks.
   struct Counts {
-    std::int64_t rebuilt = 0; ///< stars that were not right any more, and those beside borders that were lost; depends
-                              ///< on the ranks
+    std::int64_t rebuilt = 0; ///< stars that were no longer right, and lost ones next to borders; depends on the ranks
     std::int64_t moving = 0, pushed = 0, deleted = 0;
     double max_move = 0; ///< over h
     FixedSum power;      ///< see SweepSums
@@ -60,8 +59,8 @@ public:
 
   /// Sums over the stars of the inner owned sites, of this rank.
   SweepSums measure(double reference_size);
-  /// @brief What a checkpoint keeps of the sweeps between commit() and the next prepare(), beside the sites: numbers,
-  /// and something of each owned tile.
+  /// @brief Visits the state that a checkpoint keeps between commit() and the next prepare(), in addition to the sites:
+  /// numbers, and data of each owned tile.
   void visit(StateFields& fields);
   std::vector<std::uint64_t> saved_activity() const;
   /// Goes on from there. @param activity of all tiles of the container @pre nothing was prepared yet

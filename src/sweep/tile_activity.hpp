@@ -16,7 +16,7 @@ namespace trime::sweep {
 /// @brief A tile sleeps while no site of it and of the tiles around it has moved in the last sweep, none of its sites
 /// may move once there is momentum, and the rule stays as it is. So a sleeping tile is where an awake one would be.
 /// Tiles are the same on any ranks, so that no result depends on which of them sleep. Tiles have the numbers of
-/// KnownBins here: owned ones (`t`) first, then those of which ghosts are known.
+/// KnownBins here: owned ones (`t`) first, then tiles with known ghosts.
 class TileActivity {
 public:
   /// Both arguments outlive this object.
@@ -25,7 +25,7 @@ public:
 
   /// All tiles wake; to be called after sites were sorted.
   void reset(const TilesAround& around);
-  /// h has been evaluated anew at the owned sites: triangles may be wider than before.
+  /// Notes that h has been evaluated again at the owned sites: triangles may be wider than before.
   void widen(const TilesAround& around);
   /// All tiles wake in the next sweep.
   void wake_all() { all_awake_ = true; }
@@ -49,12 +49,13 @@ public:
   /// Some site of tile t does not surely rest, or all do. Different tiles may be set concurrently.
   void set_restless(std::size_t t, bool restless) { restless_[t] = restless; }
 
-  /// What a checkpoint keeps of it: of all tiles, and of owned tile t. Between a move and the next waking.
+  /// Visits the members that a checkpoint keeps: for all tiles, and for owned tile t. Call it between a move and the
+  /// next waking.
   void visit(StateFields& fields);
   std::uint64_t saved(std::size_t t) const {
     return (active_[t] ? active_bit : 0) | (wide_[t] ? wide_bit : 0) | (restless_[t] ? restless_bit : 0);
   }
-  /// The same as what was saved. @param activity of all tiles of the container @pre reset(), visit()
+  /// Restores the saved state. @param activity of all tiles of the container @pre reset(), visit()
   void restore(std::span<const std::uint64_t> activity);
 
   /// How far sites will have come with their next move: the largest share of the narrowest() of their tile.
@@ -78,7 +79,7 @@ private:
   std::vector<std::uint8_t> awake_;    // by owned tile
   std::vector<std::uint8_t> copied_;   // by owned tile: its sites have the same places now and next
   std::vector<std::uint8_t> wide_;     // by owned tile: triangles may reach beyond the tiles around it
-  std::vector<std::uint8_t> restless_; // by owned tile: some site may move, though nothing beside it does
+  std::vector<std::uint8_t> restless_; // by owned tile: some site may move, though nothing next to it does
   std::vector<std::uint8_t> active_;   // by known tile: sites were moved by the last sweep
   std::vector<std::uint8_t> near_moves_;
   std::vector<double> drifts_before_; // by tile with ghosts: before the last move

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tiles beside the tiles of a rank, and which of these have none of another rank beside them.
+// The tiles next to the tiles of a rank, and which tiles of the rank have no tile of another rank next to them.
 #pragma once
 
 #include "mesh/binned_points.hpp"
@@ -14,18 +14,18 @@ namespace trime::sweep {
 /// are on their way.
 enum class TilePlace : std::uint8_t { inner, at_border };
 
-/// @brief For each owned tile the tiles around it, itself among them, by the numbers of KnownBins: the owned ones come
-/// first in their order. Across a periodic border nothing is beside a tile. Holds until sites are sorted.
+/// @brief Returns for each owned tile the tiles around it, including itself, by the numbers of KnownBins: first the
+/// owned ones, in their order. Across a periodic border nothing is next to a tile. Valid until sites are sorted.
 ///
-/// Two tiles that are not beside each other are as far apart as the narrowest() of either.
+/// Two tiles that are not next to each other are at least as far apart as the narrowest() of either.
 class TilesAround {
 public:
   TilesAround() = default;
-  /// @pre some bin of each tile beside an owned one is known, unless the owned one is at a periodic border
+  /// @pre some bin of each tile next to an owned one is known, unless the owned one is at a periodic border
   explicit TilesAround(const mesh::BinnedPoints& points);
 
   std::size_t size() const { return places_.size(); }
-  /// Of the t-th owned tile.
+  /// Returns the tiles around the t-th owned tile.
   std::span<const LocalIndex> of(std::size_t t) const {
     return std::span(tiles_).subspan(first_[t], first_[t + 1] - first_[t]);
   }

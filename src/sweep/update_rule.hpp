@@ -10,7 +10,8 @@
 
 namespace trime::sweep {
 
-/// What a rule wants of a site: a move to its next iterate, and from there a lead along the way that it came.
+/// The result of a rule for a site: a move to its next iterate, and from there a lead in the direction of the last
+/// move.
 struct Step {
   geometry::Vec2 move, lead;
 };
@@ -25,9 +26,9 @@ public:
   virtual void begin_sweep(const SweepSums& sums) = 0;
   /// Step of site i (not capped). Called concurrently.
   virtual Step step(const sites::StarView& view, LocalIndex i) const = 0;
-  /// The same for the vector kernels, which move most sites: they give the same bits.
+  /// Returns the parameters for the vector kernels, which move most sites and give the same bits.
   virtual RuleParameters parameters() const = 0;
-  /// What a checkpoint keeps of it, before begin_sweep.
+  /// Visits the members that a checkpoint keeps, before begin_sweep.
   virtual void visit(StateFields&) {}
 };
 
@@ -45,9 +46,10 @@ private:
   double length_scale_ = SweepRules::bar_pressure; // L0 / h
 };
 
-/// @brief Acceleration of a descent (Nesterov 1983): from the iterate x' = y + move(y) the next move is taken at
-/// y' = x' + b (x' - x), b = min(SweepRules::largest_momentum, k/(k+3)), and k starts again from 0 when the last moves
-/// went uphill (sum of (y - x').(x' - x) / h^2 > 0; O'Donoghue and Candes 2015), which one sweep later is early enough.
+/// @brief Accelerates a descent (Nesterov 1983). From the iterate x' = y + move(y) the next move is taken at y' = x' +
+/// b (x' - x). Here b = min(SweepRules::largest_momentum, k/(k+3)), and k starts again from 0 when the last moves went
+/// uphill (sum of (y - x').(x' - x) / h^2 > 0; O'Donoghue and Candes 2015). It is early enough to see that one sweep
+/// later.
 class Momentum {
 public:
   void begin_sweep(const SweepSums& sums);
@@ -63,12 +65,12 @@ private:
 
 /// @brief Centroidal Voronoi tessellation by accelerated Lloyd steps (see Momentum).
 ///
-/// Each site goes to the centroid of its Voronoi cell (exact: the polygon of circumcentres of its star; the discs of
-/// the chords are empty, so no cell of an inner site leaves the shape) under the weight h^-4. Why 4: a
-/// centroidal tessellation minimises the sum over cells of the integral of w |x - site|^2; a cell of spacing d has
+/// Each site goes to the centroid of its Voronoi cell under the weight h^-4. The cell is exact: it is the polygon of
+/// circumcentres of the star. The discs of the chords are empty, so no cell of an inner site leaves the shape. Why 4: a
+/// centroidal tessellation minimises the sum over cells of the integral of w |x - site|^2. A cell of spacing d has
 /// about w d^4, and in the limit of many sites all cells have the same share (Gersho 1979; Du, Faber and Gunzburger
-/// 1999), so d grows like w^(-1/4) and w = h^-4 makes it proportional to h. The weight h^-2 of TriMe++ drifts towards d
-/// ~ sqrt(h).
+/// 1999). So d grows like w^(-1/4), and w = h^-4 makes it proportional to h. The weight h^-2 of TriMe++ drifts towards
+/// d ~ sqrt(h).
 ///
 /// The weight is linear over each triangle (site, circumcentre, circumcentre), its value at a circumcentre from the
 /// mean of h at the three sites: no look into the field, nothing allocated, exact for the uniform weight.
@@ -90,17 +92,17 @@ private:
 
 /// @brief Moves every site towards the minimum of an energy of the triangles around it, their neighbours held.
 ///
-/// The energy of a triangle of area A is S / (4 sqrt(3) A) + k (A/W + W/A - 2): S is the sum of its squared sides, so
-/// that the first term is 1 for an equilateral triangle of any size and grows with its shear (Bank and Smith 1997); W
-/// is the area that h asks for (the mean of h at its corners, scaled to the mean edge of the whole mesh). One Newton
-/// step per site with exact second derivatives, which are positive definite, times 0.7: all sites move at once.
+/// The energy of a triangle of area A is S / (4 sqrt(3) A) + k (A/W + W/A - 2). S is the sum of its squared sides, so
+/// the first term is 1 for an equilateral triangle of any size and grows with its shear (Bank and Smith 1997). W is the
+/// area that h asks for (the mean of h at its corners, scaled to the mean edge of the whole mesh). One Newton step per
+/// site with exact second derivatives, which are positive definite, times 0.7: all sites move at once.
 ///
 /// Why it comes after the cells: where h varies, a mesh must hold dislocations, and between them it is strained. alpha
-/// sees shear alone. Voronoi cells resist a change of area 7 times as much as shear, so they leave the strain as shear;
-/// a dislocation in a material without any resistance to a change of area has no shear at all (its displacement is
-/// b/(2 pi i) log z, which is analytic). k = 1/4 makes the resistance to a change of area half that to shear: alpha - 1
-/// falls to less than half, and the standard deviation of L / (s h) grows by a sixth at most. The order of the mesh,
-/// that is where its dislocations lie, is better left to the cells.
+/// sees shear alone. Voronoi cells resist a change of area 7 times as much as shear, so they leave the strain as shear.
+/// A dislocation in a material without resistance to a change of area has no shear (its displacement is b/(2 pi i) log
+/// z, which is analytic). k = 1/4 makes the resistance to a change of area half that to shear: alpha - 1 falls to less
+/// than half, and the standard deviation of L / (s h) grows by a sixth at most. The order of the mesh, that is where
+/// its dislocations lie, is better left to the cells.
 ///
 /// W is taken as constant in a step, so that a mesh with A = W everywhere stays as it is.
 class TriangleRule final : public UpdateRule {
