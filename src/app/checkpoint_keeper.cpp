@@ -90,7 +90,7 @@ std::optional<meshing::SavedRun> CheckpointKeeper::find(const std::string& resta
   return std::nullopt;
 }
 
-/// The same on all ranks.
+/// Throws on all ranks unless the checkpoint belongs to this config.
 meshing::SavedRun CheckpointKeeper::checked(checkpoint::Found found, const std::string& file) {
   if (const std::vector<std::string> keys = differing_keys(found.title.origin.config, origin_.config); !keys.empty())
     throw ConfigError(fmt::format("{} is of a run with another config: {}; start anew without --restart, or give that "
@@ -196,7 +196,7 @@ void CheckpointKeeper::set_number() {
     if (!context_.comm.is_root())
       return;
     std::error_code error;
-    std::filesystem::create_directories(context_.output.directory, error); // else writing tells what is in the way
+    std::filesystem::create_directories(context_.output.directory, error); // otherwise writing will report the problem
     for (const std::string& file : newest_first())
       newest = std::max(newest, checkpoint::checkpoint_number(file));
   });

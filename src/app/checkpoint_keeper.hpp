@@ -15,17 +15,18 @@
 
 namespace trime::app {
 
-/// What the keeper is given. @pre all outlive it
+/// The arguments of the keeper. @pre all outlive it
 struct KeeperContext {
   const comm::Communicator& comm;
-  const io::MeshFileOptions& output; ///< directory, name, and who is told of temporary files
+  const io::MeshFileOptions& output; ///< directory, name, and the object that notes temporary files
   SignalRequests& signals;
   TimerTable& timers;
   Log& log;
 };
 
-/// @brief Clocks and files count on rank 0 alone; the ranks agree on what they want in the reduction of each sweep. A
-/// checkpoint that cannot be written is told, and the run goes on; it ends only where a signal would have ended it.
+/// @brief Only the clock and files of rank 0 count; the ranks agree on their wish in the reduction of each sweep. If a
+/// checkpoint cannot be written, the program warns and the run continues; it ends only where a signal would have ended
+/// it.
 class CheckpointKeeper final : public meshing::Checkpoints {
 public:
   /// @param time_limit seconds since the start of the program; 0: none

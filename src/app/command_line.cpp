@@ -77,7 +77,7 @@ void take_files(CommandLine& line, const Flags& flags) {
                                   converts ? "convert IN.h5 OUT.ENDING [--overwrite]" : "info FILE.h5"));
 }
 
-/// Of HH:MM:SS. @throws ConfigError
+/// Returns the seconds of HH:MM:SS. @throws ConfigError
 double seconds_of(const std::string& text) {
   int hours = 0, minutes = 0, seconds = 0, used = 0;
   const int found = std::sscanf(text.c_str(), "%4d:%2d:%2d%n", &hours, &minutes, &seconds, &used);

@@ -136,7 +136,7 @@ void read_region(const Settings& settings, RunOptions& options, Diagnostics& pro
   }
 }
 
-/// Of contours, in place of a normalisation.
+/// Reads the projection of contours, which excludes a normalisation.
 void read_projection(const Settings& settings, RunOptions& options, Diagnostics& problems) {
   if (const std::string projection = settings.text("shape", "projection"); projection != "none")
     options.projection = projection;

@@ -35,7 +35,7 @@ Keys keys_of(const std::string& config) {
   return keys;
 }
 
-/// The same in force, however it is written: 6e3 is 6000. A formula counts as its text.
+/// Do two values mean the same, however they are written (6e3 is 6000)? A formula counts as its text.
 bool is_same(const Value& a, const Value& b) {
   if (a.text == b.text || !a.option)
     return a.text == b.text;

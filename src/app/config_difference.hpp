@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What two configs have in common, as far as the mesh goes.
+// Compares two configs, as far as the mesh depends on them.
 #pragma once
 
 #include <string>

@@ -7,7 +7,7 @@
 namespace trime::app {
 namespace {
 
-/// The formula must parse; it is made anew when the number of threads is known.
+/// The formula must parse; it is made again when the number of threads is known.
 void read_expression(const Settings& settings, SizingOptions& sizing, Diagnostics& problems) {
   sizing.expression = settings.text("sizing", "expression");
   if (sizing.expression == "none") {

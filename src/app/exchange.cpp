@@ -23,7 +23,7 @@ std::string path_of(formats::Format format, const io::MeshFileOptions& file) {
   return {};
 }
 
-/// Of a path that something has; a link to nothing is something, too.
+/// Refuses a path that something has; a link to nothing counts, too.
 void refuse_to_replace(const std::string& path, bool overwrite, const char* advice) {
   std::error_code error;
   if (const std::string problem = io::length_problem(path, io::longest_temporary_ending); !problem.empty())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes for other programs: written at the end of a run, or from a mesh file; and what a mesh file tells of itself.
+// Writes meshes for other programs, at the end of a run or from a mesh file, and prints what is in a mesh file.
 #pragma once
 
 #include "app/command_line.hpp"
@@ -19,7 +19,7 @@ std::vector<std::string> exchange_paths(const RunOptions& options);
 /// @throws FileError on all ranks if one of the files is there and may not be replaced @note Collective.
 void check_exchange(const RunOptions& options, const comm::Communicator& comm);
 
-/// Writes the mesh in all formats of the options, beside the mesh file. @return the paths @note Collective.
+/// Writes the mesh in all formats of the options, next to the mesh file. @return the paths @note Collective.
 std::vector<std::string> write_exchange(const RunOptions& options, const mesh::DistributedMesh& mesh,
                                         const formats::Names& names, io::RunFiles* files,
                                         const comm::Communicator& comm);
@@ -28,7 +28,7 @@ std::vector<std::string> write_exchange(const RunOptions& options, const mesh::D
 /// ranks @note Collective.
 void convert(const CommandLine& line, io::RunFiles* files, const comm::Communicator& comm, Log& log);
 
-/// What `trime_mpi info FILE` prints. @throws FileError on all ranks @note Collective.
+/// Returns what `trime_mpi info FILE` prints. @throws FileError on all ranks @note Collective.
 std::string info(const std::string& path, const comm::Communicator& comm);
 
 } // namespace trime::app

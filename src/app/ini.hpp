@@ -42,7 +42,7 @@ public:
   bool empty() const { return problems_.empty(); }
   std::size_t size() const { return problems_.size(); }
   /// @brief One line per problem: `file:17: ...` in the order of the file, then those of the whole file (`file: ...`),
-  /// then `command line: ...`. After `limit` lines only the number of the others is told.
+  /// then `command line: ...`. After `limit` lines it gives only the number of the others.
   std::string text(std::size_t limit = 30) const;
   /// @throws ConfigError with text() if there is any problem
   void throw_if_any() const;
@@ -65,8 +65,8 @@ struct IniDocument {
   const IniEntry* find(std::string_view section, std::string_view key) const;
 };
 
-/// @brief Reads a text. Duplicates, repeated sections, keys before the first section, empty values and lines that are
-/// none of these go to `problems`; reading goes on behind them. O(characters + entries log(entries)).
+/// @brief Reads a text. Duplicates, repeated sections, keys before the first section, empty values and unreadable lines
+/// go to `problems`; reading continues after them. O(characters + entries log(entries)).
 IniDocument parse_ini(std::string_view text, Diagnostics& problems);
 
 /// @brief Sets one value as given on the command line: `section.key=value`, the section being all before the last dot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the program knows of the machine under it: cores, threads, memory, versions.
+// Facts about the machine: cores, threads, memory, versions.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -20,9 +20,9 @@ struct Placement {
   int before = 0;  ///< of these, how many are lower than this one
 };
 
-/// @brief Where the ranks are, and how many threads each uses: those asked for if positive, else OMP_NUM_THREADS, else
-/// all processors that the rank may use, divided among the ranks that share them. There is an end at 16 threads a
-/// processor, or 64: each thread has tables of its own.
+/// @brief Finds where the ranks are, and how many threads each uses: the number asked for if positive, else
+/// OMP_NUM_THREADS, else all processors that the rank may use, divided among the ranks that share them. The limit is 16
+/// threads per processor, or 64, because each thread has separate tables.
 /// @note Collective.
 Placement place_threads(int setup_threads, int mesh_threads, const comm::Communicator& comm);
 

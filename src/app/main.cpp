@@ -25,7 +25,7 @@ namespace {
 using trime::ExitCode;
 
 trime::io::RunFiles* run_files = nullptr;       ///< of main, set before the first handler: a handler has no arguments
-trime::app::SignalRequests* requests = nullptr; ///< likewise
+trime::app::SignalRequests* requests = nullptr; ///< set before the first handler, too
 volatile std::sig_atomic_t tells = 0;           ///< 1 on the rank whose handler says a word: rank 0, until its last one
 
 /// Leaves no temporary file, then ends as the signal would have ended the program. Only calls that a handler may make.
@@ -61,7 +61,7 @@ void end_in_order(int number) {
   _exit(static_cast<int>(ExitCode::checkpointed));
 }
 
-/// In the clean-up no checkpoint is written any more; while files are written, the run goes on to its end.
+/// From the clean-up on no checkpoint is written; while files are written, the run continues to its end.
 void stop_at_checkpoint(int) {
   if (!requests->writes_no_more()) {
     requests->ask_to_stop();
@@ -85,8 +85,8 @@ void listen_to_requests() {
   std::signal(SIGALRM, stop_at_checkpoint);
 }
 
-/// The signals that end a program, but not those that whoever started it told it to ignore (nohup). A file that grows
-/// beyond its limit is no reason to end: the write fails, and that is told.
+/// Handles the signals that end a program, except those that its starter has set to be ignored (nohup). A file that
+/// grows beyond its limit does not end the program: the write fails with an error.
 void handle_signals(bool tell) {
   tells = tell ? 1 : 0;
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGABRT, SIGXCPU})
@@ -115,14 +115,14 @@ void print_stop(const std::string& message) {
   std::fputs(("trime_mpi: " + message + "\n").c_str(), stderr);
 }
 
-/// An error that this rank has alone: others may wait for it for ever. The whole job ends.
+/// Ends the whole job for an error that this rank has alone: others may wait for it without end.
 [[noreturn]] void leave_alone(const std::string& message, ExitCode code) {
   print_error(message);
   run_files->remove_temporary();
   trime::comm::abort_job(static_cast<int>(code));
 }
 
-/// Errors of the program should be the same on all ranks; then rank 0 tells them. One that is not ends the job.
+/// Runs the program. Errors should be the same on all ranks; then rank 0 prints them. Any other error ends the job.
 /// @param leaving on which ranks meet that have an error
 ExitCode run(int argc, char** argv, const trime::comm::Communicator& comm, const trime::comm::Communicator& leaving) {
   constexpr double patience = 10; // [s] ranks that throw the same error may be that far apart

@@ -25,7 +25,7 @@ std::string system_of(const Contour& contour) {
                                   ring.lines[k], ring.points[k].x, ring.points[k].y, why));
 }
 
-/// Of a file in degrees.
+/// Checks that coordinates in degrees lie on the Earth.
 void check_degrees(const Contour& contour) {
   for (const ContourRing& ring : contour.rings)
     for (std::size_t k = 0; k < ring.points.size(); ++k)
@@ -56,7 +56,7 @@ std::string local_plane_of(std::span<const Contour> contours) {
   return projection::local_plane(places);
 }
 
-/// What all contours agree on, or nothing.
+/// Returns the reference system that all contours agree on, or nothing.
 std::string common_system(std::span<const Contour> contours) {
   const Contour* first = nullptr;
   for (const Contour& contour : contours)
@@ -68,7 +68,7 @@ std::string common_system(std::span<const Contour> contours) {
   return first == nullptr ? std::string() : first->crs;
 }
 
-/// A map that may be in degrees, though it does not say so; null: there is none.
+/// Returns a map that may be in degrees, though it does not say so, or null.
 const Contour* map_without_system(std::span<const Contour> contours) {
   for (const Contour& contour : contours)
     if (contour.is_map && contour.crs.empty() &&
@@ -133,7 +133,8 @@ Stretch stretch_of(std::span<const Contour> contours, const std::string& plane) 
   return worst;
 }
 
-/// A zone beside the right one, or a system of another country, goes unnoticed else. @pre they are projected
+/// Otherwise nobody would notice a zone next to the right one, or a system of another country. @pre the contours are
+/// projected
 void warn_of_distortion(std::span<const Contour> contours, const std::string& plane, Log& log) {
   constexpr double warned = 0.01; // 25 times what UTM has in its zone
   const Stretch worst = stretch_of(contours, plane);

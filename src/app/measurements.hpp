@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the ranks have measured and counted in each phase of a run, brought together.
+// Combines what the ranks have measured and counted in each phase of a run.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -36,7 +36,7 @@ struct Phase {
   CounterSpreads counters{};
 };
 
-/// What the ranks measured, brought together.
+/// The combined measurements of the ranks.
 struct Measurements {
   std::vector<Phase> phases; ///< sections, then "other": the means add up to the total
   CounterSpreads counters;   ///< of the whole run
@@ -49,7 +49,7 @@ struct Measurements {
   double imbalance(Counter counter) const {
     return counters[counter].sum > 0 ? static_cast<double>(counters[counter].max) / mean(counter) : 1;
   }
-  /// Share of the total of a phase, 0 if there was none.
+  /// Returns the share of a phase in the total, 0 if there was no such phase.
   double share(const std::string& phase) const;
 };
 

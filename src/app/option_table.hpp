@@ -26,7 +26,7 @@ struct Option {
   const char* part_type = ""; ///< parts only: the type that the key belongs to; empty: all
   OptionKind kind = OptionKind::number;
   const char* fallback = ""; ///< default; empty: the key must be given, or the meaning says what holds without it
-  const char* choices = "";  ///< words that may stand here (for numbers: besides a number)
+  const char* choices = "";  ///< words that are allowed (for numbers: in addition to a number)
   Range range{};             ///< number, integer
   const char* meaning;
 };

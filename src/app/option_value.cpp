@@ -61,7 +61,7 @@ bool is_well_formed(const Option& option, const std::string& value) {
   return false;
 }
 
-/// The nearest allowed word to each word that is none.
+/// The nearest allowed word to each word that is not allowed.
 std::string word_suggestion(const Option& option, const std::string& value) {
   for (const std::string& word : split_words(value))
     if (!is_one_of(word, option.choices) && !parse_number(word))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Everything that a run is told, as plain structs: what remains of the config file once it is understood.
+// All options of a run, as plain structs: the content of the config file after it was read and checked.
 #pragma once
 
 #include "trime/core/log.hpp"

@@ -152,7 +152,7 @@ void PagePool::erase(std::size_t k) {
   --count_;
 }
 
-/// Joins a free range with those beside it that are like it.
+/// Joins a free range with neighbouring ones of its kind.
 void PagePool::join(std::size_t k) {
   const auto alike = [&](std::size_t a, std::size_t b) {
     return !ranges_[a].used && !ranges_[b].used && ranges_[a].has_pages == ranges_[b].has_pages;
@@ -167,7 +167,7 @@ void PagePool::join(std::size_t k) {
     absorb_next(k - 1);
 }
 
-/// Gives kept pages back to the system, so many bytes at least or all that are kept.
+/// Gives kept pages back to the system, at least this number of bytes or all of them.
 void PagePool::return_pages(std::size_t bytes) {
   std::size_t left = std::min(bytes, kept_);
   for (std::size_t k = count_; k-- > 0 && left > 0;) {

@@ -80,7 +80,7 @@ MemoryEstimate estimate_memory(const RunOptions& options, double points, const g
   return {pieces < static_cast<double>(start::StartRules::many_pieces) ? of_rank + more : of_rank, of_rank + more};
 }
 
-/// What --validate and --dry-run say in place of a mesh.
+/// Returns the output of --validate and --dry-run, in place of a mesh.
 std::string estimate(const RunOptions& options, const geometry::Boundary& boundary, const Placement& placement,
                      bool with_decomposition) {
   const double points = expected_points(options, boundary);
@@ -98,7 +98,7 @@ std::string estimate(const RunOptions& options, const geometry::Boundary& bounda
   return text + fmt::format("output: {} (not written)\n", options.output.file.path(".h5"));
 }
 
-/// What --dry-run says of the boundary.
+/// Returns the output of --dry-run about the boundary.
 std::string outlook_text(const meshing::Outlook& outlook) {
   std::string text;
   for (const std::string& line : boundary::describe(outlook.features))
@@ -168,8 +168,8 @@ io::SeriesOptions series_options(const Job& job, const ShapeInput& input) {
   return options;
 }
 
-/// What the environment asks for must be the same on all ranks, since it decides where they work together; launchers do
-/// not hand it on to all of them. Rank 0 decides. Collective.
+/// The switches of the environment must be the same on all ranks, since they decide where ranks work together;
+/// launchers do not pass them to all ranks. Rank 0 decides. Collective.
 sweep::StarTests of_root(const sweep::StarTests& tests, const comm::Communicator& comm) {
   const std::string of_root = comm.broadcast(
       std::string{tests.verify ? '1' : '0', tests.by_emptiness ? '1' : '0', tests.sleepless ? '1' : '0'});
@@ -227,7 +227,7 @@ ExitCode make_mesh(const Job& job) {
   }
   check_share(expected_points(options, boundary), placement.ranks);
   if (!is_run) {
-    Log quiet(LogLevel::error, comm.is_root());         // what it warns of was told before
+    Log quiet(LogLevel::error, comm.is_root());         // its warnings were printed before
     if (is_dry_run || mesh_options.features.keep_all) { // where nothing gives way the layout may fail
       const std::string text =
           outlook_text(meshing::Mesher(comm, boundary, *size.field, mesh_options, quiet, timers).outlook());

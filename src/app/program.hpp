@@ -15,7 +15,7 @@ class SignalRequests;
 class UserPlaces;
 
 /// @brief Runs the program. @note Collective.
-/// @param files is told which files exist, for a signal handler; may be null
+/// @param files notes which files exist, for a signal handler; may be null
 /// @param signals what signals ask for
 /// @param places gets what the caller needs to explain an error that is thrown
 /// @throws Error on all ranks together

@@ -116,7 +116,7 @@ Attributes normalization_attributes(const std::vector<NormalizedPart>& parts) {
           {"normalize_shift_y", parts[0].shift.y}};
 }
 
-/// The same for each normalised contour.
+/// Returns the group with a row for each normalised contour.
 io::MetadataGroup normalization_group(const std::vector<NormalizedPart>& parts) {
   using Part = NormalizedPart;
   return {"normalization",
@@ -216,7 +216,7 @@ io::MetadataGroup sharp_corners_group(const std::vector<boundary::SharpCorner>& 
            column<double>("degrees", corners, &Corner::degrees)}};
 }
 
-/// What became of each loop of the shape.
+/// Returns the table of the loops of the shape.
 io::MetadataGroup rings_group(const Provenance& p, const std::vector<boundary::LoopFate>& loops) {
   using Fate = boundary::LoopFate;
   std::vector<std::int32_t> numbers(loops.size()), lines = p.ring_lines;
@@ -251,7 +251,7 @@ std::string kind_name(const polygon::LoopSummary& loop) {
   return loop.kind == Kind::outer ? "outer" : loop.kind == Kind::hole ? "hole" : "band";
 }
 
-/// What the numbers in /Mesh/facets mean: `values` are edge_id, `parts` are part_id.
+/// Returns the tables that explain the numbers in /Mesh/facets: `values` are edge_id, `parts` are part_id.
 io::MetadataGroup tags_group(const Provenance& p, const std::vector<polygon::LoopSummary>& loops) {
   const geometry::Boundary& boundary = p.boundary;
   using polygon::LoopSummary;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the mesh file says of the run that made it: the metadata of the group /trime_mpi.
+// Makes the metadata of the group /trime_mpi: what the mesh file says about the run that made it.
 #pragma once
 
 #include "app/command_line.hpp"
@@ -34,7 +34,7 @@ struct Provenance {
 /// Everything that the group /trime_mpi holds. Not collective.
 io::Metadata describe_run(const Provenance& provenance, const meshing::MeshResult& result, const SizeSummary& size,
                           const Measurements& measured);
-/// The same for a mesh in the middle of a run.
+/// Makes the metadata for a mesh in the middle of a run.
 io::Metadata describe_step(const Provenance& provenance, const meshing::Snapshot& snapshot);
 
 } // namespace trime::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What keeps a run from being faster on its ranks, told in a sentence.
+// Says in one sentence what keeps a run from being faster on its ranks.
 #pragma once
 
 #include "app/measurements.hpp"
@@ -12,10 +12,10 @@ namespace trime::app {
 struct LimitRules {
   /// [1] Smaller shares of time or memory are not worth a sentence.
   static constexpr double worth_telling = 0.05;
-  /// [s] That a message takes besides its bytes, and a collective for each doubling of the ranks: that of a cluster's
-  /// network. Between hosts with TCP it is twenty times as long.
+  /// [s] Latency of a message, in addition to the time for its bytes, and of a collective for each doubling of the
+  /// ranks, on the network of a cluster. Between hosts with TCP it is twenty times as long.
   static constexpr double latency = 2e-6;
-  /// [1] So many fetch rounds a sweep are named: most sweeps need none.
+  /// [1] The sentence names fetch rounds from this number per sweep on: most sweeps need no round.
   static constexpr double many_fetch_rounds = 0.5;
 };
 

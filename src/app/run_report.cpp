@@ -28,7 +28,7 @@ std::string summary_line(const char* name, const mesh::RatioSummary& s) {
                      ratio_text(s.max), ratio_text(s.half_mean), ratio_text(s.std));
 }
 
-/// Area of the mesh beside that of the shape: they differ by what lies between chords and curve.
+/// Area of the mesh and of the shape: they differ by what lies between chords and curve.
 std::string area_text(const meshing::MeshResult& result) {
   const auto area = std::find_if(result.checks.begin(), result.checks.end(),
                                  [](const mesh::Check& check) { return check.name == "area"; });
@@ -48,7 +48,7 @@ std::string count_text(const meshing::MeshResult& result) {
                      result.count_reason.empty() ? "" : ": ", result.count_reason);
 }
 
-/// What was done about features below the resolution.
+/// Returns what was done about features below the resolution.
 std::string boundary_text(const meshing::MeshResult& result) {
   std::string text;
   for (const std::string& line : boundary::describe(result.features))
@@ -135,7 +135,7 @@ std::string traffic_line(const std::string& name, const CounterSpreads& counters
                      counters[Counter::collectives].max, counters[Counter::neighbours].max);
 }
 
-/// What the ranks sent each other, by phase; nothing for one rank.
+/// Returns what the ranks sent each other, by phase; nothing for one rank.
 std::string traffic_text(const Measurements& measured) {
   if (measured.ranks == 1)
     return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run has to say at its end, as text for people: the report and the exit code.
+// The report of a run as text for people, and its exit code.
 #pragma once
 
 #include "app/measurements.hpp"
@@ -14,7 +14,7 @@
 
 namespace trime::app {
 
-/// What the size field was, and what became of it.
+/// Facts about the size field.
 struct SizeSummary {
   std::string description;          ///< such as "automatic, gradation 0.1, ..."
   double smallest = 0, largest = 0; ///< target edge length over the points of the mesh
@@ -30,7 +30,7 @@ std::string run_report(const meshing::MeshResult& result, const SizeSummary& siz
 /// Number of the triangulation that became the final mesh, from 1: one more than those of the sweeps.
 int final_retriangulation(const meshing::MeshResult& result);
 
-/// Of a run that came to its end: done, or incomplete if the stop rule was not met or a check failed.
+/// Returns the exit code of a finished run: done, or incomplete if the stop rule was not met or a check failed.
 ExitCode exit_code(const meshing::MeshResult& result);
 
 /// Why the mesh is not complete, one sentence for a warning. @pre !is_complete(result) @param written to a file

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An ini document held against the option table: unknown sections, unknown keys and bad values are told; what remains
-// is looked up with the defaults of the table.
+// Checks an ini document against the option table: reports unknown sections, unknown keys and bad values. Gives all
+// other values, with the defaults of the table.
 #pragma once
 
 #include "app/ini.hpp"
@@ -18,7 +18,7 @@ namespace trime::app {
 /// Look-ups are O(log(entries)), so that there may be very many parts.
 class Settings {
 public:
-  /// Entries with problems are told to `problems` and read as if they were absent. Copies what it needs.
+  /// Adds entries with problems to `problems`, and reads them as if they were absent. Copies what it needs.
   Settings(const IniDocument& document, Diagnostics& problems);
 
   /// Names of the sections [shape.NAME], in the order of the file.
@@ -37,7 +37,7 @@ public:
   /// The value in force as text: the user's if it is good, else the default of the table.
   std::string text(const std::string& section, const std::string& key) const;
 
-  /// The value in force, converted; for keys whose value is none of the words (auto, none) that may stand there.
+  /// Returns the converted value; for keys with a value that is not one of the allowed words (auto, none).
   double number(const std::string& section, const std::string& key) const;
   bool boolean(const std::string& section, const std::string& key) const;
   geometry::Vec2 pair(const std::string& section, const std::string& key) const;

@@ -18,8 +18,8 @@ std::string hint_of(bool is_relative) {
   return is_relative ? " (relative to the config file, not to the working directory)" : "";
 }
 
-/// Without parts of which nothing depends, which may lie anywhere: the config has warned of them. @throws ConfigError
-/// if the region is none
+/// Returns the options without the parts that nothing depends on, which may lie anywhere: the config has warned of
+/// them. @throws ConfigError if the region cannot be parsed
 RunOptions with_used_parts(const RunOptions& options) {
   std::vector<std::string> names;
   for (const PartOptions& part : options.parts)

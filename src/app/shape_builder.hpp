@@ -21,7 +21,7 @@ std::string read_shared(const std::string& path, const comm::Communicator& comm)
 /// A run asks for nothing but the boundary; the parts of a large shape take as much memory again.
 enum class ShapeUse { boundary, queries };
 
-/// What the shape sections of a config and their files say.
+/// The content of the shape sections of a config and their files.
 struct ShapeInput {
   const geometry::Boundary& boundary() const { return shape ? shape->boundary() : alone.boundary; }
   const std::vector<std::int32_t>& part_markers() const { return shape ? shape->part_markers() : alone.part_markers; }
@@ -34,7 +34,7 @@ struct ShapeInput {
   MapSystem map;                           ///< of the container
 };
 
-/// @brief Reads each file once, and tells warnings to the log.
+/// @brief Reads each file once, and writes warnings to the log.
 /// @param places gets the contours, on rank 0
 /// @throws GeometryError, ConfigError, FileError on all ranks together
 /// @note Collective.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What signals have asked of a run: set by handlers, looked at once a sweep.
+// The requests that signals have made: handlers set them, and the run looks at them once per sweep.
 #pragma once
 
 #include <atomic>
 
 namespace trime::app {
 
-/// @brief Of this rank. All calls are safe in a signal handler. Launchers hand some signals on to all ranks, others to
-/// one: what the ranks do about them they agree on.
+/// @brief The requests on this rank. All calls are safe in a signal handler. Launchers pass some signals to all ranks
+/// and others to one, so the ranks agree on what to do.
 class SignalRequests {
 public:
   void ask_to_write() noexcept { write_ = true; }
@@ -29,7 +29,8 @@ public:
       stop_ = true;
   }
 
-  /// May a run that is told to end stop at a checkpoint first? Only during the sweeps, if checkpoints are configured.
+  /// Sets whether a run that must end may stop at a checkpoint first: only during the sweeps, if checkpoints are
+  /// configured.
   void set_stops_in_order(bool stops) noexcept { stops_in_order_ = stops; }
   bool stops_in_order() const noexcept { return stops_in_order_; }
   /// No further checkpoint will be written. @param stands there is one for this part of the run

@@ -27,7 +27,7 @@ bool is_same(const std::string& a, const std::string& b) {
   return !b.empty() && (place_of(a) == place_of(b) || fs::equivalent(a, b, error));
 }
 
-/// The files that lie beside a shapefile are read with it.
+/// The files next to a shapefile are read with it.
 bool is_beside_shapefile(const std::string& file, const std::string& contour) {
   return fs::path(contour).extension() == ".shp" &&
          place_of(file).replace_extension() == place_of(contour).replace_extension();

@@ -14,7 +14,7 @@ namespace {
 
 using geometry::Vec2;
 
-/// [extent of the contour] A place farther from all its vertices is not told by them.
+/// [extent of the contour] A place farther from all its vertices is not described by them.
 constexpr double farthest = 0.25;
 /// [extent of the contour] The lattice moves a vertex by less.
 constexpr double same_place = 1e-10;

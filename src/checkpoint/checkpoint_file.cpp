@@ -38,7 +38,7 @@ std::uint64_t hash_of_site(std::int64_t row, const mesh::Site& site, double size
   return hash.value();
 }
 
-/// What a row of the tiles holds.
+/// The members of a row of the tiles.
 struct TileRow {
   std::int64_t x, y, shift, bits, sites, activity, site_hash;
   double drift;
@@ -52,7 +52,7 @@ std::uint64_t hash_of_tile(std::int64_t row, const TileRow& tile) {
   return hash.value();
 }
 
-/// Of all but the sites, whose hash is in those of the tiles.
+/// Returns the hash of everything except the sites; the tiles contain the hash of these.
 std::int64_t hash_of_run(const Title& title, const RunState& state, std::uint64_t hash_of_tiles) {
   ContentHash hash(hash_of_tiles);
   hash.add(title.origin.program);

@@ -12,13 +12,13 @@
 
 namespace trime::checkpoint {
 
-/// What a checkpoint belongs to.
+/// The run that a checkpoint belongs to.
 struct Origin {
   std::string program; ///< name, version and commit: others may make other meshes
   std::string config;  ///< as resolved, a complete ini
 };
 
-/// What is told of a checkpoint besides its state.
+/// Facts about a checkpoint in addition to its state.
 struct Title {
   Origin origin;
   std::int64_t number = 0; ///< counts the checkpoints of a run, over all its restarts
@@ -32,7 +32,7 @@ struct Found {
 
 /// @brief Writes a checkpoint under a temporary name and then under `path`, which stays as it was until then.
 /// 61 bytes a point, 21 less where the size is uniform and no rule has leads. Collective.
-/// @param files is told of the temporary file; may be null @param activity of the owned tiles
+/// @param files notes the temporary file; may be null @param activity of the owned tiles
 /// @throws FileError on all ranks together
 void write_checkpoint(const std::string& path, io::RunFiles* files, const Title& title, const meshing::RunState& state,
                       const sites::SiteState& sites, std::span<const std::uint64_t> activity);
@@ -42,7 +42,7 @@ void write_checkpoint(const std::string& path, io::RunFiles* files, const Title&
 /// @throws FileError on all ranks together if the file is missing, no checkpoint, of another format, or damaged
 Found read_checkpoint(const std::string& path, const comm::Communicator& comm);
 
-/// @brief The number of a checkpoint, -1 if the file is none. By one rank alone.
+/// @brief Returns the number of a checkpoint, or -1 if the file is not a checkpoint. Called by one rank alone.
 std::int64_t checkpoint_number(const std::string& path);
 
 } // namespace trime::checkpoint

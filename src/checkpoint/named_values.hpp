@@ -11,7 +11,7 @@
 
 namespace trime::checkpoint {
 
-/// A column of a group. @throws FileError if there is none of this type
+/// Returns a column of a group. @throws FileError if no column has this name and type
 template <class T>
 const std::vector<T>& column(const io::Metadata& metadata, const char* group, const char* name) {
   if (const io::MetadataGroup* found = io::find_group(metadata, group))
@@ -21,7 +21,7 @@ const std::vector<T>& column(const io::Metadata& metadata, const char* group, co
   throw FileError(fmt::format("the checkpoint is damaged: expected the column {}/{}, found none", group, name));
 }
 
-/// The same of an attribute.
+/// Returns an attribute. @throws FileError if no attribute has this name and type
 template <class T>
 const T& attribute(const io::Metadata& metadata, const char* name) {
   for (const io::Attribute& candidate : metadata.attributes)

@@ -56,7 +56,7 @@ void ExchangeMesh::count() {
   upper_ = {most[0], most[1]};
 }
 
-/// Boundary edges tell the owners of their points.
+/// Ranks send messages about boundary edges to the owners of their points.
 void ExchangeMesh::label_points() {
   const std::vector<std::int64_t> firsts = comm_.all_gather(mesh_.point_slab.first);
   std::vector<PointLabel> labels;

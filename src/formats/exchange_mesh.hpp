@@ -54,7 +54,7 @@ public:
   }
   std::int64_t point_label(std::int64_t row) const { return point_labels_[static_cast<std::size_t>(row)]; }
 
-  /// The same text whoever has which rows, once.
+  /// Returns rows with a text once; it is the same however the rows are distributed.
   io::TextRows once(std::string text) const;
   /// append(row, global number, value, text) for each row of this rank.
   template <class Append>

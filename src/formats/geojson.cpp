@@ -76,7 +76,7 @@ void append_head(std::string& to, const char* kind, GlobalId id, const char* lab
                     kind, id, label, number, name, type);
 }
 
-/// As JSON writes them.
+/// Quotes names as JSON does.
 std::vector<std::string> quoted(const std::vector<std::string>& names) {
   std::vector<std::string> texts;
   for (const std::string& name : names)

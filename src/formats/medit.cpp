@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Medit's ASCII mesh (Frey, INRIA RT-0253), which Mmg and other remeshers read. The format has no names: comments
-// tell them.
+// Medit's ASCII mesh (Frey, INRIA RT-0253), which Mmg and other remeshers read. The format has no names, so comments
+// list them.
 #include "formats/exchange_mesh.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // 2DM of Aquaveo's SMS, which QGIS (MDAL), Telemac's and SRH-2D's tools read: elements with their region as material,
-// points at height 0, and a node string for each run of boundary edges of one part. The name of the mesh tells the
+// points at height 0, and a node string for each run of boundary edges of one part. The name of the mesh lists the
 // names.
 #include "formats/node_strings.hpp"
 

@@ -42,7 +42,7 @@ public:
     total_ = mesh.facets() + mesh.comm().sum(edges);
   }
 
-  /// Those of a triangle, with their numbers after those of the boundary.
+  /// Appends the edges of a triangle, numbered after those of the boundary.
   void append(std::int64_t row, const Corners& corners, std::string& to) const {
     std::int64_t number = first_[static_cast<std::size_t>(row)];
     for (const Side side : sides(corners))

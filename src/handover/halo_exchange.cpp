@@ -19,7 +19,7 @@ std::span<double> ghosts_of(const Neighbour& neighbour, std::span<double> values
   return values.subspan(at(neighbour.first_ghost) * components, at(neighbour.ghosts) * components);
 }
 
-/// Room for a message of so many values.
+/// Returns room for a message with this number of values.
 comm::Message room(int peer, std::size_t count) {
   return {peer, std::vector<std::byte>(count * sizeof(double))};
 }

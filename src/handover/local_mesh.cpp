@@ -24,7 +24,7 @@ struct Facet {
   std::array<GlobalId, 2> ends;
   std::int32_t tag, part;
 };
-/// What a ghost gets from its owner.
+/// The data that a ghost gets from its owner.
 struct PointValues {
   Vec2 position;
   std::int32_t boundary;
@@ -44,7 +44,7 @@ std::vector<comm::Message> send(const comm::Communicator& comm, const Outbox<T>&
   return comm.exchange_any(outgoing);
 }
 
-/// What arrived is appended.
+/// Sends the messages and appends what arrives.
 template <class T>
 void send_to(const comm::Communicator& comm, const Outbox<T>& outbox, std::vector<T>& list) {
   for (const comm::Message& message : send(comm, outbox)) {
@@ -163,7 +163,7 @@ private:
     send_to(comm_, away, foreign_facets_);
   }
 
-  /// Of a triangle in a list that has it.
+  /// Returns the index of a triangle in a list that has it.
   static LocalIndex place(const std::vector<Triangle>& list, GlobalId id) {
     const auto found = std::lower_bound(list.begin(), list.end(), id,
                                         [](const Triangle& triangle, GlobalId wanted) { return triangle.id < wanted; });

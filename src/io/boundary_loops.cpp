@@ -27,7 +27,7 @@ public:
   bool is_taken(std::size_t edge) const { return taken_[edge]; }
   void take(std::size_t edge) { taken_[edge] = true; }
 
-  /// A free edge that starts where this one ends, of the same tag if there is one; size() if there is none.
+  /// Returns a free edge that starts where this one ends, if possible with the same tag; size() if no edge does.
   std::size_t next(const LoopEdge& edge) const {
     std::size_t found = size();
     const auto at = std::lower_bound(edges_.begin(), edges_.end(), edge.second,

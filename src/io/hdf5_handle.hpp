@@ -10,7 +10,7 @@
 
 namespace trime::io {
 
-/// @brief What went wrong innermost in the last failed call, in one line; the system's own words (such as "No space
+/// @brief Returns the innermost error of the last failed call, in one line; the words of the system (such as "No space
 /// left on device") where HDF5 passes them on. Empties the stack.
 std::string hdf5_error_text();
 
@@ -49,7 +49,7 @@ private:
   hid_t id_ = -1;
 };
 
-/// As H5Fclose, and remembers a failure for `hdf5_cannot_end`.
+/// Calls H5Fclose, and remembers a failure for `hdf5_cannot_end`.
 herr_t close_file(hid_t file) noexcept;
 
 using Hdf5File = Hdf5Handle<close_file>;

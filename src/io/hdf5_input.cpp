@@ -14,7 +14,7 @@
 namespace trime::io {
 namespace {
 
-/// HDF5 would wait for ever for the writer of a pipe, and says little of a file that is not there.
+/// HDF5 would wait without end for the writer of a pipe, and says little about a file that does not exist.
 void check_is_a_file(const std::string& path) {
   if (const std::string kind = irregular_kind(path); !kind.empty())
     throw FileError(fmt::format("cannot read {}: expected a file of trime_mpi, found {}; check the path", path, kind));
@@ -193,7 +193,7 @@ std::int64_t Hdf5Input::rows(const std::string& dataset) const {
   const Hdf5Space space(H5Dget_space(opened), "read " + dataset);
   check_claim(opened, type, space, dataset);
   const std::vector<hsize_t> shape = shape_of(space);
-  if (std::find(shape.begin(), shape.end(), 0) != shape.end()) // rows without columns are none
+  if (std::find(shape.begin(), shape.end(), 0) != shape.end()) // rows without columns do not count
     return 0;
   return shape.empty() ? 1 : static_cast<std::int64_t>(shape[0]);
 }
@@ -234,7 +234,7 @@ void Hdf5Input::check_claim(hid_t dataset, hid_t type, hid_t space, const std::s
     bytes *= static_cast<double>(extent);
   hsize_t of_file = 0;
   checked(H5Fget_filesize(file_, &of_file), action);
-  // Of an array in one piece HDF5 believes what it claims, be the file as short as it may.
+  // HDF5 believes the size that a contiguous array claims, however short the file is.
   const auto stored = static_cast<double>(std::min(H5Dget_storage_size(dataset), of_file));
   if (bytes > most_packed * stored)
     throw FileError(

@@ -23,8 +23,8 @@ public:
   std::vector<Text> texts(const std::string& group) const;
   std::vector<std::string> groups(const std::string& group) const;
 
-  /// @brief Rows of a dataset over the whole file. @throws FileError if the file cannot hold so many: memory is asked
-  /// for by this number.
+  /// @brief Returns the rows of a dataset in the whole file. @throws FileError if the file cannot hold that many,
+  /// because the caller allocates this number.
   std::int64_t rows(const std::string& dataset) const;
   /// @brief Reads rows [first, first + count) into `out`, which has room for them.
   /// @param columns as the dataset must have them; 0: one-dimensional

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An error that one rank has in a collective call of MPI-IO, while the others wait in it for ever.
+// Handles an error that one rank has in a collective call of MPI-IO, while the others wait in it without end.
 #pragma once
 
 #include <chrono>

@@ -165,7 +165,8 @@ void write_plain_mesh(SlabFile& file, const mesh::DistributedMesh& mesh) {
   file.hard_link("/Mesh/mesh/topology", "/viz/topology/cells");
 }
 
-/// Of each facet; empty if no part has one. Collective in what it decides: parts are the same on all ranks.
+/// Returns the marker of each facet; empty if no part has one. All ranks decide the same, since they have the same
+/// parts.
 std::optional<std::vector<std::int32_t>> facet_markers(const MeshFileOptions& options,
                                                        const mesh::DistributedMesh& mesh) {
   const std::vector<std::int32_t>& of_part = options.part_markers;

@@ -43,7 +43,7 @@ mesh::RatioSummary ratios_of(const Metadata& metadata, const std::string& name) 
   return {value("_median"), value("_mean"), value("_max"), value("_half_mean"), value("_std")};
 }
 
-/// What the collections say of a mesh, from its file. Of the quality the ratios only.
+/// Reads from a mesh file what the collections say about it. It reads only the ratios of the quality.
 TextQuality quality_of(const Metadata& metadata) {
   TextQuality found;
   found.retriangulation = static_cast<int>(attribute_of<std::int64_t>(metadata, "retriangulation"));
@@ -149,8 +149,8 @@ WrittenFiles MeshSeries::write(const SeriesMesh& mesh, const std::string& name, 
   return written;
 }
 
-/// What an older run of the same name has left would be taken for part of this one. After a restart the steps from
-/// before it are no such files.
+/// Files of an older run with this name would be taken for part of this run. After a restart the steps from before it
+/// belong to this run.
 void MeshSeries::remove_stale(const std::vector<std::string>& written) const {
   std::set<int> kept;
   for (const Member& member : members_)
@@ -163,7 +163,7 @@ void MeshSeries::remove_stale(const std::vector<std::string>& written) const {
       unlink(path.c_str());
 }
 
-/// Rank 0: what speaks of all meshes of the run, anew after each of them.
+/// Rank 0 writes the collections of all meshes of the run again after each mesh.
 std::vector<std::string> MeshSeries::write_collections() const {
   const MeshFileOptions& file = options_.file;
   std::vector<std::string> paths;

@@ -41,7 +41,7 @@ void make_directory(const std::string& directory) {
                                 error ? error.message() : "a file of this name is in the way"));
 }
 
-/// By really making a file: permissions alone do not tell of read-only and full file systems.
+/// Really makes a file: permissions alone do not show read-only and full file systems.
 void check_writable(const std::string& directory, const std::string& name) {
   const std::string probe = temporary_name(directory + "/" + name + ".h5");
   const int descriptor = open(probe.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0666);
@@ -121,7 +121,7 @@ std::string space_warning(const SeriesOptions& options, double points) {
   constexpr double h5_bytes = 190, text_bytes = 700; // of a point with its two triangles
   const double bytes = points * (h5_bytes + (options.text ? text_bytes : 0)) * (options.steps ? 2 : 1);
   struct statvfs space {};
-  if (statvfs(options.file.directory.c_str(), &space) != 0 || space.f_blocks == 0) // some file systems tell nothing
+  if (statvfs(options.file.directory.c_str(), &space) != 0 || space.f_blocks == 0) // some file systems do not know
     return "";
   const double available = static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize);
   return available >= bytes
@@ -142,7 +142,7 @@ void check_all_absent(const SeriesOptions& options) {
       check_absent(path, file.overwrite);
 }
 
-/// Of what an older run left, and of a disk that is too small.
+/// Returns warnings about files that an older run left, and about a disk that is too small.
 std::vector<std::string> warnings_for(const SeriesOptions& options, double expected_points) {
   std::vector<std::string> warnings = leftovers(options.file);
   if (const std::string warning = space_warning(options, expected_points); !warning.empty())

@@ -25,16 +25,16 @@ std::string facet_view(const MeshFileOptions& options);
 std::string xdmf_collection(const MeshFileOptions& options);
 std::string vtkhdf_collection(const MeshFileOptions& options);
 
-/// @brief Files of steps, collections, and text files that lie in the way of a run with these options, or that would
-/// tell of an older run of the same name; sorted. The final mesh and its views are not among them.
+/// @brief Returns, sorted, files of steps, collections, and text files that a run with these options would overwrite,
+/// or that belong to an older run with this name. The final mesh and its views are not among them.
 std::vector<std::string> files_of_series(const SeriesOptions& options);
 
 /// Has a file in the output directory such a name, steps of any number included? @param name stem of the run's files
 bool is_file_of_run(const std::string& file, const std::string& name);
 
-/// What MeshSeries::check() does on rank 0.
+/// Does the work of MeshSeries::check() on rank 0.
 std::vector<std::string> check_files(const SeriesOptions& options, double expected_points);
-/// What MeshSeries::look() does on rank 0.
+/// Does the work of MeshSeries::look() on rank 0.
 std::vector<std::string> look_at_files(const SeriesOptions& options, double expected_points);
 
 } // namespace trime::io

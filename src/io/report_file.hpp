@@ -11,10 +11,11 @@
 
 namespace trime::io {
 
-/// Of the members of every report; a member that goes, or means something else, raises it. New ones do not.
+/// Version of the members of the report. It is raised when a member is removed or changes its meaning, not for new
+/// members.
 inline constexpr int report_version = 1;
 
-/// What a run has ended with, beside its metadata.
+/// The end of a run, in addition to its metadata.
 struct Outcome {
   int exit_code = 0;
   std::vector<std::string> files; ///< that were written

@@ -75,14 +75,15 @@ void select_rows(hid_t space, hsize_t first, hsize_t count, hsize_t columns) {
 
 } // namespace
 
-/// By reference, since a copy of the lambda might need memory before anybody could agree that there is none.
+/// Passed by reference, since a copy of the lambda might need memory before the ranks could agree that memory has run
+/// out.
 template <class Work>
 void SlabFile::agreed(const Work& work) const {
   comm::run_agreed(comm_, std::cref(work));
 }
 
-/// The same for work that is a collective call of HDF5, or tells of one: if it fails here, the others may not come out
-/// of it.
+/// Does the same for work that contains a collective call of HDF5: if it fails here, the other ranks may not return
+/// from it.
 template <class Work>
 void SlabFile::agreed_after(const Work& collective) const {
   LoneFailure failure(path_); // ends when all ranks have come
@@ -292,9 +293,9 @@ void SlabFile::write_slices(hid_t dataset, const SlabArray& array) {
     }
 }
 
-/// What a rank has written alone it can read at once, while the disk works; what others have written for it, after the
-/// flush. Then also the ends of the slabs once more: where ranks of two nodes share a page, a file system that keeps
-/// copies of it on both could have lost the rows of one.
+/// A rank can read what it has written alone at once, while the disk works, and what others have written for it after
+/// the flush. Then it also reads the ends of the slabs once more: where ranks of two nodes share a page, a file system
+/// that keeps copies of it on both could have lost the rows of one.
 void SlabFile::verify() {
   if (comm_.is_root())
     write_back_.request();
@@ -347,7 +348,7 @@ void SlabFile::verify_rows(const Written& written, std::int64_t begin, std::int6
   compare_beside([] {}, array, compared, end - compared, other_slice_.data());
 }
 
-/// The same as fill_beside for rows that were read. @throws FileError if one is another than it should be
+/// Does the work of fill_beside for rows that were read. @throws FileError if a value differs from what was written
 template <class Work>
 void SlabFile::compare_beside(const Work& work, const SlabArray& array, std::int64_t first, std::int64_t count,
                               const std::byte* read) {

@@ -40,8 +40,8 @@ class SlabFile {
 public:
   /// @brief Creates or empties the file. One rank uses the plain driver, several MPI-IO.
   /// @param bytes the size that it will have: the file system is asked for this room before anything is written, where
-  /// it can be. When a disk fills up inside a collective write, Open MPI tells only some of the ranks and the others
-  /// wait for ever: better to know before.
+  /// it can be. When a disk fills up inside a collective write, Open MPI reports it only to some of the ranks, and the
+  /// others wait without end. So it is better to know before.
   SlabFile(const comm::Communicator& comm, std::string path, std::int64_t bytes = 0);
 
   void group(const std::string& path);
@@ -60,8 +60,9 @@ public:
   void close();
 
 private:
-  // A collective call of HDF5 comes in three steps, so that no rank leaves while others wait in it: under agreement all
-  // is made ready that may throw, then all ranks make the call with nothing before it, then they agree on its result.
+  // A collective call of HDF5 has three steps, so that no rank leaves while others wait in it. First the ranks prepare
+  // everything that may throw, and agree on errors. Then all ranks make the call, with nothing before it. Then they
+  // agree on its result.
   template <class Work>
   void agreed(const Work& work) const;
   template <class Work>

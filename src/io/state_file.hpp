@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file with the state of a run: named values, texts and columns, and arrays of which each rank has a slab. This
+// A file with the state of a run: named values, texts and columns, and arrays that are distributed over the ranks. This
 // module knows nothing of their meaning.
 #pragma once
 
@@ -18,7 +18,7 @@ namespace trime::io {
 
 class RunFiles;
 
-/// What an array holds.
+/// The type of the elements of an array.
 enum class ValueKind { float64, int64, int32, uint8 };
 
 /// An array over all ranks, in the group that its path begins with. The rows are made on demand, see SlabArray.
@@ -31,9 +31,9 @@ struct StateArray {
   std::function<void(std::int64_t first, std::int64_t count, std::byte* out)> fill;
 };
 
-/// @brief Writes the file, reads every array back and compares it, and gives it its name: whatever was of this name
-/// stays whole until then. The metadata of rank 0 are written. Their groups may hold arrays besides.
-/// @param files is told of the temporary file; may be null
+/// @brief Writes the file, reads every array back and compares it, and renames it; an older file of this name stays
+/// until then. Writes the metadata of rank 0. Their groups may also hold arrays.
+/// @param files notes the temporary file; may be null
 /// @throws FileError on all ranks together; the temporary file is removed then
 /// @note Collective. Ranks may hold nothing.
 void write_state_file(const std::string& path, RunFiles* files, const Metadata& metadata,

@@ -23,7 +23,8 @@
 namespace trime::io {
 namespace {
 
-/// Brings a file or directory to the disk, or by `syncfs` all of its file system. Those that cannot are forgiven.
+/// Writes a file or directory to the disk, or with `syncfs` its whole file system. Ignores file systems that cannot do
+/// it.
 void synchronise(const std::string& path, int flags, int (*to_disk)(int descriptor)) {
   const int descriptor = open(path.c_str(), flags | O_CLOEXEC);
   if (descriptor < 0)
@@ -188,7 +189,7 @@ void reserve_space(const std::string& path, std::int64_t bytes) {
   if (code == ENOSPC || code == EDQUOT || code == EFBIG)
     throw too_small(std::strerror(code));
   const double available = static_cast<double>(space.f_bavail) * static_cast<double>(space.f_frsize);
-  if (known && space.f_blocks > 0 && available < static_cast<double>(bytes)) // some file systems tell nothing
+  if (known && space.f_blocks > 0 && available < static_cast<double>(bytes)) // some file systems do not know
     throw too_small(fmt::format("only {:.1f} MiB are free", available / 0x1p20));
 }
 

@@ -14,7 +14,7 @@ class RunFiles;
 /// One object at a time.
 class TemporaryFile {
 public:
-  /// @param files is told of the file, so that a signal handler can remove it; may be null, else outlives this object
+  /// @param files notes the file, so that a signal handler can remove it; may be null, else must outlive this object
   /// @throws FileError also if there is anything of this name, a link too: what others put there is never written to
   TemporaryFile(std::string path, RunFiles* files);
   ~TemporaryFile();
@@ -26,7 +26,7 @@ public:
   /// @throws FileError also where that is no regular file, seen through links: a pipe or a device stays
   /// @post synchronise_directory will do the rest
   void rename_to(const std::string& final_path, bool replaces = true);
-  /// The same, then brings the directory to the disk. @throws FileError
+  /// Does the same, then writes the directory to the disk. @throws FileError
   void publish(const std::string& final_path);
   /// @brief The rename alone, which replaces what has that name. @throws FileError
   /// @post synchronise_file_system will do the rest
@@ -63,7 +63,7 @@ inline constexpr std::size_t longest_job_id = 20;
 /// Bytes that temporary_name adds at most: ".tmp-", the id, "-", 16 digits.
 inline constexpr std::size_t longest_temporary_ending = 5 + longest_job_id + 1 + 16;
 
-/// @brief What is wrong with a path that file systems cannot hold, as the end of a sentence; empty if they can.
+/// @brief Says what is wrong with a path that file systems cannot hold, as the end of a sentence; empty if they can.
 /// @param added bytes by which its last name becomes longer
 std::string length_problem(const std::string& path, std::size_t added);
 
@@ -74,7 +74,7 @@ std::string temporary_name(const std::string& final_path);
 /// do that, compares with the free space. @throws FileError if there is not enough
 void reserve_space(const std::string& path, std::int64_t bytes);
 
-/// Brings the names of files beside this one to the disk. @throws FileError
+/// Writes the names of the files next to this one to the disk. @throws FileError
 void synchronise_directory(const std::string& path);
 
 /// @brief Brings all files of the file system on which this one lies to the disk: sooner done than one by one where
@@ -83,10 +83,10 @@ void synchronise_file_system(const std::string& path);
 
 /// Writes a text to `final_path`, whole or not at all. @param files may be null @throws FileError
 void write_text_file(const std::string& final_path, const std::string& text, RunFiles* files);
-/// The same as one of several files. @post synchronise_directory will do the rest
+/// Does the same for one of several files. @post synchronise_directory must follow
 void write_one_text_file(const std::string& final_path, const std::string& text, RunFiles* files);
-/// @brief The same as one of thousands of files. It appears whole, whatever becomes of the run. But where the machine
-/// fails before synchronise_file_system has done the rest, it may be cut off.
+/// @brief Does the same for one of thousands of files. The file appears complete even if the run ends. But if the
+/// machine fails before synchronise_file_system was called, it may be cut off.
 void write_text_file_of_many(const std::string& final_path, const std::string& text, RunFiles* files);
 
 /// Makes or replaces the symbolic link `path` to `target` (relative to the directory of `path`). @throws FileError

@@ -84,7 +84,7 @@ private:
     return is_here(id) ? mesh_.points[static_cast<std::size_t>(id - mesh_.point_slab.first)] : remote_[id].position;
   }
 
-  /// Corners of a triangle of this rank, all beside the first.
+  /// Corners of a triangle of this rank, moved by periods to be near the first one.
   std::array<Vec2, 3> corners(std::int64_t row) const {
     const auto triangle = mesh_.triangle_ids(static_cast<std::size_t>(row));
     const Vec2 first = place_of(triangle[0]);
@@ -103,7 +103,7 @@ private:
     write_file(file, {&rows, 1});
   }
 
-  /// Of a file without a label, which the meshes of a run have in common: it stays whatever becomes of the others.
+  /// Writes a file without a label, which the meshes of a run share: it stays even if the others are removed.
   template <class Append>
   void write_shared_rows(const std::string& name, std::size_t count, const Append& append_row) const {
     const TextRows rows = rows_of(count, append_row);

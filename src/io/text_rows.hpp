@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A text file that all ranks write together: each makes the lines of its own rows, in the order of the ranks, so that
-// the bytes do not depend on how the rows are distributed. Rank 0 alone touches the file.
+// A text file that all ranks write together: each makes the lines of its rows, in the order of the ranks, so that the
+// bytes do not depend on how the rows are distributed. Rank 0 alone touches the file.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -26,8 +26,8 @@ void append_number(std::string& text, double number);
 void append_number(std::string& text, std::int64_t number);
 
 /// @brief Writes all rows of the first array, then those of the second, ..., under a temporary name; then gives the
-/// file its name. Each rank makes its lines twice on several ranks: first to count bytes. Memory: some 30 MB on rank 0,
-/// its share of it elsewhere.
+/// file its name. Each rank makes its lines twice on several ranks: first to count bytes. Memory: about 30 MB on rank
+/// 0, and a share of that on other ranks.
 /// @param files as MeshFileOptions::run_files
 /// @throws FileError on all ranks together
 /// @note Collective.

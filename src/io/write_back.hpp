@@ -23,7 +23,7 @@ public:
   WriteBack(const WriteBack&) = delete;
   WriteBack& operator=(const WriteBack&) = delete;
 
-  /// What has been written until now. Returns at once.
+  /// Starts writing to the disk what has been written until now. Returns at once.
   void request() noexcept;
 
 private:

@@ -78,8 +78,9 @@ std::string xdmf_text(const XdmfContent& content) {
   return header + grid(content, "") + "</Domain></Xdmf>\n";
 }
 
-/// In a file of its own, since meshio refuses a second grid. It is NAME.xmf, since dolfinx looks for arrays in the file
-/// of the same name with the ending .h5. dolfinx takes the first attribute of the grid.
+/// Returns the text of a separate file for the facets, since meshio refuses a second grid. It is NAME.xmf, since
+/// dolfinx looks for arrays in the file of the same name with the ending .h5. dolfinx takes the first attribute of the
+/// grid.
 std::string xdmf_facets_text(const XdmfContent& content) {
   return fmt::format("{}<Grid Name=\"facets\" GridType=\"Uniform\">\n{}"
                      " <Attribute Name=\"labels\" AttributeType=\"Scalar\" Center=\"Cell\">\n"

@@ -25,9 +25,9 @@ public:
   CheckpointWriter(const RunContext& run, Checkpoints* checkpoints, std::function<void(StateFields&)> visit_run)
       : run_(run), checkpoints_(checkpoints), visit_run_(std::move(visit_run)) {}
 
-  /// What this rank wants: a CheckpointWish.
+  /// Returns the wish of this rank: a CheckpointWish.
   int wish() const { return checkpoints_ ? static_cast<int>(checkpoints_->wish()) : 0; }
-  /// What all ranks together want before the clean-up, see Checkpoints. Collective.
+  /// Returns the common wish of all ranks before the clean-up, see Checkpoints. Collective.
   int wish_before_cleanup(bool stands) const {
     return checkpoints_ ? static_cast<int>(checkpoints_->wish_before_cleanup(stands)) : 0;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run asks of those who keep its checkpoints.
+// The interface through which a run has its checkpoints kept.
 #pragma once
 
 #include "meshing/run_state.hpp"
@@ -11,7 +11,7 @@
 
 namespace trime::meshing {
 
-/// What is wanted at the end of a sweep; where ranks want different things, the last of them counts.
+/// The wish at the end of a sweep. If ranks have different wishes, the last one in this list counts.
 enum class CheckpointWish : int {
   none,
   write, ///< and go on
@@ -28,15 +28,15 @@ public:
 class Checkpoints {
 public:
   virtual ~Checkpoints() = default;
-  /// What this rank wants. Asked once a sweep, local.
+  /// Returns the wish of this rank. Called once per sweep; local.
   virtual CheckpointWish wish() = 0;
-  /// What all ranks together want before the clean-up, after which no wish is asked for. Collective.
+  /// Returns the common wish of all ranks before the clean-up; after that nobody asks for wishes. Collective.
   /// @param stands the run goes on from a checkpoint of this very moment: then none is wanted, or it would never get on
   /// @throws StoppedAtCheckpoint if there is one, and a signal has asked to stop
   virtual CheckpointWish wish_before_cleanup(bool stands) = 0;
   /// @brief Writes one. @param activity of the owned tiles. Collective.
   /// @throws StoppedAtCheckpoint if the wish was to stop, and there is one now; else the run goes on
-  /// @throws FileError if there is none, and a signal ends the run
+  /// @throws FileError if there is no checkpoint, and a signal ends the run
   virtual void write(CheckpointWish wish, const RunState& state, const sites::SiteState& sites,
                      std::span<const std::uint64_t> activity) = 0;
 };

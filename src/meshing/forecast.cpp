@@ -13,7 +13,7 @@ namespace {
 
 using Records = std::span<const sweep::SweepRecord>;
 
-/// Those of the last stage.
+/// Returns the records of the last stage.
 Records records_of_stage(Records history) {
   std::size_t first = history.size();
   while (first > 0 && history[first - 1].stage == history.back().stage)

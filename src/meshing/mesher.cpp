@@ -127,7 +127,7 @@ void Run::begin_sweeps() {
     report_boundary();
 }
 
-/// What a checkpoint keeps of the run as a whole.
+/// Visits the members of the run that a checkpoint keeps.
 void Run::visit(StateFields& fields) {
   scheme_.visit(fields);
   snapshots_.visit(fields);
@@ -136,13 +136,13 @@ void Run::visit(StateFields& fields) {
   fields.field("size_hash", input_.sizes);
 }
 
-/// What a checkpoint keeps of the owned tiles where nothing was moved since they were sorted.
+/// Returns the data that a checkpoint keeps of the owned tiles, if nothing was moved since they were sorted.
 std::vector<std::uint64_t> Run::quiet_tiles() const {
   const mesh::BinnedPoints& points = stage_.state->points();
   return std::vector<std::uint64_t>(static_cast<std::size_t>(points.last_tile() - points.first_tile()), 0);
 }
 
-/// The same on all ranks.
+/// Throws on all ranks unless the saved run had the same boundary and sizes.
 void Run::check_input(const SavedRun& saved) const {
   StateFields fields = StateFields::restoring(saved.state.numbers);
   InputHashes then;
@@ -176,7 +176,7 @@ void Run::go_on_from(const SavedRun& saved) {
   relaxation_.resume(stage_, number(), saved);
 }
 
-/// What every rank holds as a whole: the boundary and the size.
+/// Notes the memory of tables that every rank holds completely: the boundary and the size.
 void Run::count_replicated() const {
   const std::size_t boundary =
       static_cast<std::size_t>(polygon::piece_count(boundary_.curves())) * sizeof(geometry::Piece) +
@@ -187,7 +187,7 @@ void Run::count_replicated() const {
   run_.comm.counters().note(Counter::size_bytes, static_cast<std::int64_t>(size));
 }
 
-/// What was done about small features, and what the user may want to change. Collective.
+/// Collects the report on small features, and on what the user may want to change. Collective.
 void Run::report_boundary() {
   features_ = boundary::report_features(stage_.polygon, scheme_.limits(), *stage_.asked_size);
   comm::run_agreed(run_.comm, [this] { // this and the warnings ask the size field, which may be a user's
@@ -212,7 +212,8 @@ void Run::empty_discs() {
   sweep::settle_sites(*stage_.state, sweep::move_context(stage_, run_.lattice), stage_.typical_size);
 }
 
-/// Mends the worst triangles, patch by patch. True if it changed anything: sites of the boundary may have moved.
+/// Improves the worst triangles, patch by patch. Returns true if it changed anything: sites of the boundary may have
+/// moved.
 bool Run::clean_up() {
   if (!run_.options.cleanup)
     return false;
@@ -254,7 +255,7 @@ MeshResult Run::extract() {
   return result;
 }
 
-/// What else the report says of the mesh. @pre the mesh is in the result
+/// Sets the other facts of the report about the mesh. @pre the mesh is in the result
 void Run::tell_of_run(MeshResult& result) {
   result.components = boundary_.curves().components();
   result.holes = boundary_.curves().holes();
@@ -268,7 +269,7 @@ void Run::tell_of_run(MeshResult& result) {
   tell_of_start(result);
 }
 
-/// What was asked for and how the start met it. @pre the mesh is in the result
+/// Sets what was asked for and how the start met it. @pre the mesh is in the result
 void Run::tell_of_start(MeshResult& result) const {
   result.requested_points = run_.options.points.value_or(0);
   result.edge_length = run_.relative_size.is_uniform() ? stage_.asked_size->size({}) : stage_.typical_size;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run will do to the shape.
+// Estimates what a run will do to the shape.
 #pragma once
 
 #include "meshing/run_context.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From what a user asks of the mesher to what each of its parts is told.
+// Translates the options of the mesher to the options of its parts.
 #pragma once
 
 #include "cleanup/cleanup.hpp"

@@ -148,8 +148,8 @@ void Relaxation::resume(sites::Stage& stage, const StageNumber& number, const Sa
   sort(stage, sweeper);
 }
 
-/// Carries out what the control decides after a record: switches the rule if it says so, and tells the log. Returns why
-/// the stage ends, if it does.
+/// Carries out the decision of the control after a record: switches the rule if it says so, and writes to the log.
+/// Returns why the stage ends, if it does.
 std::optional<StopReason> Relaxation::go_on(const StageNumber& number) {
   const sweep::SweepDecision decision = control_.decide();
   if (decision.next)

@@ -33,12 +33,12 @@ public:
   /// @brief Takes up what was kept in a checkpoint. If that was in the middle of a stage, sweeps on to its end, as
   /// relax does. Collective. @pre the sites of the stage are restored
   void resume(sites::Stage& stage, const StageNumber& number, const SavedRun& saved);
-  /// What a checkpoint at the end of a stage keeps. @pre nothing is relaxed any more
+  /// Returns what a checkpoint at the end of a stage keeps. @pre the sweeps of the stage are over
   RunState state();
 
   /// Why the last stage ended.
   sweep::StopReason stop_reason() const { return stop_reason_; }
-  /// All records of the run. @pre nothing is relaxed any more
+  /// Returns all records of the run. @pre all sweeps are over
   std::vector<sweep::SweepRecord> take_history() { return std::move(history_); }
 
 private:

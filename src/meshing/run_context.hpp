@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stays the same throughout a run.
+// The data that stay the same throughout a run.
 #pragma once
 
 #include "meshing/plan.hpp"
@@ -15,7 +15,7 @@
 
 namespace trime::meshing {
 
-/// What a run is given, and what its parts are told of the options. Keeps references.
+/// The input of a run, and the options of its parts. Keeps references.
 struct RunContext {
   RunContext(const comm::Communicator& communicator, const geometry::Boundary& boundary, const sizing::SizeField& size,
              const MeshOptions& mesh_options, Log& its_log, TimerTable& its_timers)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All that a run must know to go on as if nothing had happened, but for its sites. What follows from the config alone
-// is made again: sizes, boundary, layout. Plain data.
+// The state that a run needs to continue as if nothing had happened, except its sites. Whatever follows from the config
+// alone is computed again: sizes, boundary, layout. Plain data.
 #pragma once
 
 #include "core/state_fields.hpp"
@@ -12,13 +12,13 @@
 
 namespace trime::meshing {
 
-/// The same on every rank.
+/// State that is the same on every rank.
 struct RunState {
   StateNumbers numbers; ///< of the classes that take part, see their visit()
   std::vector<sweep::SweepRecord> history;
 };
 
-/// A run that was read back. The same on every rank, but for what `load` is asked for.
+/// A run that was read back. All members are the same on every rank; `load` depends on its arguments.
 struct SavedRun {
   RunState state;
   sites::SavedTiles tiles;

@@ -12,7 +12,7 @@
 
 namespace trime::meshing {
 
-/// Of the boundary with the fixed points, and of sizes on it.
+/// Hashes of the boundary with the fixed points, and of sizes on it.
 struct InputHashes {
   std::int64_t shape = 0, sizes = 0;
 };
@@ -20,8 +20,8 @@ struct InputHashes {
 /// @brief Do all ranks have the same boundary and fixed points, and the same sizes at a thousand places on it? Also
 /// tests the arithmetic of each rank. Collective. O(pieces)
 /// @return the hashes that they agree on
-/// @throws InternalError on all ranks if not, since ranks would wait for each other for ever or fail the certificate;
-/// what the size field throws
+/// @throws InternalError on all ranks if they differ, since ranks would wait for each other without end or fail the
+/// certificate; also throws what the size field throws
 InputHashes check_same_input(const geometry::Boundary& boundary, std::span<const boundary::FixedPoint> fixed,
                              const sizing::SizeField& size, const comm::Communicator& comm);
 

@@ -21,7 +21,7 @@ public:
   void take(const sites::Stage& stage);
   /// The first of each stage, and one for each move.
   int triangulations() const { return triangulations_; }
-  /// What a checkpoint keeps.
+  /// Visits the members that a checkpoint keeps.
   void visit(StateFields& fields) { fields.field("triangulations", triangulations_); }
 
 private:

@@ -94,7 +94,7 @@ void StageStars::complete(Stage& stage, LemmaReach reach) {
     check_periods(stage);
 }
 
-/// Triangles that reach around a periodic container are not told apart by their ids.
+/// The ids do not distinguish triangles that reach around a periodic container.
 void StageStars::check_periods(const Stage& stage) const {
   const double limit = StarBuilder::largest_cap(run_.given_boundary.periods);
   if (builder_->cap(stage.typical_size) < limit || run_.comm.sum(count_incomplete_fans(stage.view(run_.lattice))) == 0)

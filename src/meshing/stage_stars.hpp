@@ -11,8 +11,8 @@
 
 namespace trime::meshing {
 
-/// @brief Builds, certifies and completes stars. Owns the cap: up to which circumradius triangles are searched first.
-/// All calls are collective but for begin_stage.
+/// @brief Builds, certifies and completes stars. Owns the cap: the circumradius up to which triangles are searched
+/// first. All calls are collective, except begin_stage.
 class StageStars {
 public:
   explicit StageStars(const RunContext& run) : run_(run) {}
@@ -22,7 +22,7 @@ public:
   const delaunay::StarBuilder& builder() const { return *builder_; }
 
   delaunay::StarPass compute(sites::Stage& stage, sites::Wanted wanted) const;
-  /// Certifies the stars of the inner sites, most of which are as they were before the last moves.
+  /// Certifies the stars of the inner sites. Most of them are as they were before the last moves.
   /// @param reach up to which sites the stars around one may certify it: the clean-up may have moved boundary sites
   /// into discs of chords
   void certify(sites::Stage& stage, sweep::LemmaReach reach) const;
