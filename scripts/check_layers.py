@@ -10,33 +10,40 @@ import pathlib
 import re
 import sys
 
-# Direct arrows; a module may also use all that lies below its arrows.
+# The arrows: a module includes its own headers, those of core, and those of the modules in its row. An arrow that no
+# include uses is an error, too.
 ARROWS = {
     "core": [],
-    "comm": ["core"],
-    "geometry": ["core"],
+    "comm": [],
+    "geometry": [],
     "mesh": ["geometry"],
-    "cones": ["geometry", "comm"],
-    "shape": ["geometry"],
+    "cones": ["comm", "geometry"],
+    "contours": ["geometry"],
+    "tracing": ["geometry"],
+    "shape": ["geometry", "contours", "tracing"],
     "projection": ["geometry"],
-    "sizing": ["cones"],
-    "delaunay": ["mesh"],
-    "decomposition": ["mesh", "comm"],
+    "sizing": ["comm", "geometry", "cones"],
+    "delaunay": ["geometry", "mesh"],
+    "decomposition": ["comm", "geometry", "mesh"],
     "polygon": ["geometry"],
-    "generalise": ["polygon", "sizing"],
-    "boundary": ["polygon", "sizing", "mesh"],
-    "sites": ["polygon", "delaunay", "decomposition", "sizing"],
-    "start": ["sites", "boundary", "generalise"],
-    "sweep": ["sites"],
-    "cleanup": ["sites"],
-    "extraction": ["sites"],
-    "certificate": ["sites"],
-    "meshing": ["start", "sweep", "cleanup", "extraction", "certificate", "shape"],
-    "io": ["mesh", "comm"],
-    "checkpoint": ["meshing", "io"],
-    "formats": ["io", "projection"],
-    "handover": ["mesh", "comm"],
-    "app": ["checkpoint", "formats"],
+    "generalise": ["comm", "geometry", "sizing", "polygon"],
+    "boundary": ["comm", "geometry", "mesh", "sizing", "polygon"],
+    "sites": ["comm", "geometry", "mesh", "sizing", "delaunay", "decomposition", "polygon"],
+    "placing": ["comm", "geometry", "mesh", "sizing", "polygon", "sites"],
+    "fitting": ["comm", "geometry", "sizing", "generalise", "boundary", "sites", "placing"],
+    "start": ["comm", "decomposition", "sites", "placing", "fitting"],
+    "sweep": ["comm", "geometry", "mesh", "delaunay", "polygon", "sites"],
+    "cleanup": ["comm", "geometry", "mesh", "sizing", "delaunay", "decomposition", "polygon", "sites"],
+    "extraction": ["comm", "geometry", "mesh", "sizing", "decomposition", "polygon", "sites"],
+    "certificate": ["comm", "geometry", "mesh", "sizing", "decomposition", "polygon", "sites"],
+    "meshing": ["comm", "geometry", "mesh", "shape", "sizing", "delaunay", "decomposition", "polygon", "boundary",
+                "sites", "fitting", "start", "sweep", "cleanup", "extraction", "certificate"],
+    "io": ["comm", "geometry", "mesh"],
+    "checkpoint": ["comm", "sweep", "meshing", "io"],
+    "formats": ["comm", "geometry", "mesh", "projection", "io"],
+    "handover": ["comm", "geometry", "mesh"],
+    "app": ["comm", "geometry", "contours", "tracing", "shape", "projection", "sizing", "polygon", "boundary",
+            "sites", "fitting", "meshing", "io", "checkpoint", "formats"],
 }
 # Foreign headers that only some modules may see, as (pattern, name, modules).
 VERIFIER = "check"  # a program of its own, which shares no code with the modules
@@ -45,18 +52,32 @@ FOREIGN = [
     (re.compile(r"(hdf5|H5\w*)\.h$"), "HDF5", {"io"}),
     (re.compile(r"omp\.h$"), "OpenMP", {"core"}),
     (re.compile(r"proj\.h$"), "PROJ", {"projection"}),
-    (re.compile(r"shapefil\.h$"), "libshp", {"shape"}),
+    (re.compile(r"shapefil\.h$"), "libshp", {"contours"}),
 ]
 NATIVE_HANDLE = "comm/native.hpp"  # brings mpi.h with it
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
-def below(module):
-    """The module and all that its arrows reach."""
-    reached = {module}
-    for target in ARROWS[module]:
-        reached |= below(target)
-    return reached
+def allowed(module):
+    """The modules whose headers a module may include."""
+    return {module, "core", *ARROWS[module]}
+
+
+def circle():
+    """Modules that reach each other along the arrows, as text, or None."""
+    height = {}
+    for _ in ARROWS:
+        for module, targets in ARROWS.items():
+            if module not in height and all(target in height for target in targets):
+                height[module] = 1 + max((height[target] for target in targets), default=0)
+    rest = sorted(set(ARROWS) - set(height))
+    return f"the arrows of {', '.join(rest)} close a circle" if rest else None
+
+
+def target_of(header):
+    """The module of a header as an include names it."""
+    parts = header.split("/")
+    return parts[1] if parts[0] == "trime" and len(parts) > 2 else parts[0]
 
 
 def complaint(module, public, bracket, header):
@@ -66,19 +87,19 @@ def complaint(module, public, bracket, header):
         return f"{module} shares no code with the modules" if parts[0] in ARROWS or parts[0] == "trime" else None
     ours = parts[0] == "trime"
     if not ours and bracket == "<":
-        for pattern, name, allowed in FOREIGN:
-            if pattern.search(header) and module not in allowed:
-                return f"{name} is for {', '.join(sorted(allowed))} only"
+        for pattern, name, modules in FOREIGN:
+            if pattern.search(header) and module not in modules:
+                return f"{name} is for {', '.join(sorted(modules))} only"
         return None
     if header == NATIVE_HANDLE and module not in ("comm", "io"):
         return "the MPI handle is for comm and io only"
-    target = parts[1] if ours and len(parts) > 2 else parts[0]
+    target = target_of(header)
     if target not in ARROWS:
         return f"'{target}' is no module; write trime/<module>/<file> or, in src, <module>/<file>"
     if public and not ours:
         return "a public header cannot include a private one: it would not compile once installed"
-    if target not in below(module):
-        return f"{module} may use {', '.join(sorted(below(module) - {module})) or 'nothing'} only"
+    if target not in allowed(module):
+        return f"{module} may include headers of {', '.join(sorted(allowed(module) - {module}))} only"
     return None
 
 
@@ -93,7 +114,7 @@ def source_files(root):
 
 def check(root):
     """Returns all complaints as text and the number of files read."""
-    found, count = [], 0
+    found, count, used = [circle()] if circle() else [], 0, set()
     for path, module, public in source_files(root):
         count += 1
         where = path.relative_to(root)
@@ -103,9 +124,13 @@ def check(root):
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
             match = INCLUDE.match(line)
             neighbour = match and "/" not in match.group(2) and (path.parent / match.group(2)).is_file()
+            used.add((module, target_of(match.group(2)) if match else module))
             reason = complaint(module, public, *match.groups()) if match and not neighbour else None
             if reason:
                 found.append(f"{where}:{number}: {match.group(2)}: {reason}")
+    for module, targets in ARROWS.items() if count else ():
+        found += [f"scripts/check_layers.py: {module} includes nothing of {target}: remove that arrow"
+                  for target in targets if (module, target) not in used]
     return found, count
 
 
@@ -116,7 +141,7 @@ def main():
         found.append(f"{root}: no source files here")
     for line in found:
         print(line)
-    print(f"{count} files, {len(found)} forbidden includes")
+    print(f"{count} files, {len(found)} findings")
     return 1 if found else 0
 
 

@@ -12,9 +12,9 @@
 namespace trime::app {
 namespace {
 
+using contours::Contour;
+using contours::ContourRing;
 using geometry::Vec2;
-using shape::Contour;
-using shape::ContourRing;
 
 std::string system_of(const Contour& contour) {
   return contour.crs.empty() ? projection::lon_lat : contour.crs;

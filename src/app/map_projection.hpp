@@ -3,8 +3,8 @@
 #pragma once
 
 #include "app/options.hpp"
+#include "trime/contours/contour.hpp"
 #include "trime/core/log.hpp"
-#include "trime/shape/contour.hpp"
 
 #include <span>
 #include <string>
@@ -25,9 +25,9 @@ struct MapSystem {
 /// @throws ConfigError if PROJ does not know a system; GeometryError `source:line: ...` for a vertex that cannot be
 /// projected
 /// @note Serial.
-MapSystem project_contours(const RunOptions& options, std::span<shape::Contour> contours, Log& log);
+MapSystem project_contours(const RunOptions& options, std::span<contours::Contour> contours, Log& log);
 
 /// @brief Projects one contour and keeps the places in its file in ContourRing::in_file. @throws as project_contours
-void project_contour(shape::Contour& contour, const std::string& plane);
+void project_contour(contours::Contour& contour, const std::string& plane);
 
 } // namespace trime::app

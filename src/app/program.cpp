@@ -16,11 +16,11 @@
 #include "core/free_memory.hpp"
 #include "core/state_fields.hpp"
 #include "core/thread_loop.hpp"
+#include "fitting/points_of_length.hpp"
+#include "fitting/rules.hpp"
 #include "io/report_file.hpp"
 #include "polygon/simplification.hpp"
 #include "sites/rules.hpp"
-#include "start/points_of_length.hpp"
-#include "start/rules.hpp"
 #include "trime/io/mesh_series.hpp"
 #include "trime/meshing/mesher.hpp"
 
@@ -52,7 +52,7 @@ std::string program_name() {
 /// Points that the options ask for.
 double expected_points(const RunOptions& options, const geometry::Boundary& boundary) {
   return options.mesh.points ? static_cast<double>(*options.mesh.points)
-                             : start::points_of_length(boundary, options.mesh.edge_length.value_or(1));
+                             : fitting::points_of_length(boundary, options.mesh.edge_length.value_or(1));
 }
 
 /// Each rank takes about an equal share of the points.
@@ -77,7 +77,7 @@ MemoryEstimate estimate_memory(const RunOptions& options, double points, const g
   const double of_rank = points / ranks * bytes_per_point + points * bytes_per_point_on_each_rank +
                          pieces * bytes_per_piece + bytes_per_process;
   const double more = simplifies ? pieces * bytes_per_simplified_piece : 0;
-  return {pieces < static_cast<double>(start::StartRules::many_pieces) ? of_rank + more : of_rank, of_rank + more};
+  return {pieces < static_cast<double>(fitting::LayoutRules::many_pieces) ? of_rank + more : of_rank, of_rank + more};
 }
 
 /// Returns the output of --validate and --dry-run, in place of a mesh.

@@ -3,9 +3,9 @@
 
 #include "comm/agree.hpp"
 #include "core/read_file.hpp"
-#include "trime/shape/expression_shape.hpp"
 #include "trime/shape/region.hpp"
-#include "trime/shape/trace.hpp"
+#include "trime/shape/traced_part.hpp"
+#include "trime/tracing/expression_shape.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,29 +37,29 @@ RunOptions with_used_parts(const RunOptions& options) {
 }
 
 /// The rings of parts that are contours, by part, projected. Rank 0 reads. Collective.
-std::vector<shape::Contour> read_contours(const RunOptions& options, const comm::Communicator& comm, Log& log,
-                                          MapSystem& map) {
-  std::vector<shape::Contour> contours(options.parts.size());
+std::vector<contours::Contour> read_contours(const RunOptions& options, const comm::Communicator& comm, Log& log,
+                                             MapSystem& map) {
+  std::vector<contours::Contour> contours(options.parts.size());
   comm::run_agreed(comm, [&] {
     if (!comm.is_root())
       return;
     for (std::size_t k = 0; k < contours.size(); ++k)
       if (const PartOptions& part = options.parts[k]; part.type == "contour")
-        contours[k] = shape::read_contour(part.file, hint_of(part.file_is_relative), part.attribute);
+        contours[k] = contours::read_contour(part.file, hint_of(part.file_is_relative), part.attribute);
     map = project_contours(options, contours, log);
   });
   if (comm.size() > 1)
-    for (shape::Contour& contour : contours) {
-      const std::string bytes = comm.broadcast(comm.is_root() ? shape::to_bytes(contour) : std::string());
+    for (contours::Contour& contour : contours) {
+      const std::string bytes = comm.broadcast(comm.is_root() ? contours::to_bytes(contour) : std::string());
       if (!comm.is_root())
-        contour = shape::contour_of_bytes(bytes);
+        contour = contours::contour_of_bytes(bytes);
     }
   for (std::string* text : {&map.crs, &map.well_known_text, &map.crs_of_files})
     *text = comm.broadcast(std::move(*text));
   return contours;
 }
 
-geometry::Box box_of(const PartOptions& part, const shape::Contour& contour) {
+geometry::Box box_of(const PartOptions& part, const contours::Contour& contour) {
   const geometry::Vec2 radius{part.radius, part.radius};
   geometry::Box box;
   if (part.type == "rectangle")
@@ -69,7 +69,7 @@ geometry::Box box_of(const PartOptions& part, const shape::Contour& contour) {
   else if (part.type == "triangle")
     for (const geometry::Vec2 corner : part.corners)
       box.include(corner);
-  for (const shape::ContourRing& ring : contour.rings)
+  for (const contours::ContourRing& ring : contour.rings)
     for (const geometry::Vec2 p : ring.points)
       box.include(p);
   return box;
@@ -77,7 +77,7 @@ geometry::Box box_of(const PartOptions& part, const shape::Contour& contour) {
 
 /// The unit square, if the shape lies in it or is made of what needs a container: the domain itself, formulas, contours
 /// that are normalised into it. Else a box around the shape.
-geometry::Box automatic_container(const RunOptions& options, std::span<const shape::Contour> contours) {
+geometry::Box automatic_container(const RunOptions& options, std::span<const contours::Contour> contours) {
   constexpr double margin = 0.05; // of the longer side: as much as users leave who write the sides by hand
   std::vector<std::string> names;
   std::vector<geometry::Box> boxes;
@@ -95,8 +95,8 @@ geometry::Box automatic_container(const RunOptions& options, std::span<const sha
 }
 
 /// @param contour of a part that is one @param place becomes what its vertices undergo @param places gets it, on rank 0
-shape::Part build_part(const PartOptions& part, const shape::Contour& contour, const geometry::Frame& frame,
-                       const comm::Communicator& comm, shape::Normalization& place, UserPlaces& places) {
+shape::Part build_part(const PartOptions& part, const contours::Contour& contour, const geometry::Frame& frame,
+                       const comm::Communicator& comm, contours::Normalization& place, UserPlaces& places) {
   if (part.type == "rectangle")
     return shape::Part::rectangle(part.name, part.box, frame);
   if (part.type == "circle")
@@ -105,10 +105,10 @@ shape::Part build_part(const PartOptions& part, const shape::Contour& contour, c
     return shape::Part::triangle(part.name, part.corners, frame);
   if (part.type == "expression") {
     const Formula sdf(part.sdf, fmt::format("'sdf' in [shape.{}]", part.name));
-    return shape::traced_part(part.name, shape::ExpressionShape(sdf), frame);
+    return shape::traced_part(part.name, tracing::ExpressionShape(sdf), frame);
   }
   if (part.normalize)
-    place = shape::fit_to_container(contour, frame.container());
+    place = contours::fit_to_container(contour, frame.container());
   shape::Part made = shape::Part::contour(part.name, contour, place, frame);
   if (comm.is_root())
     places.add(contour, place);
@@ -131,17 +131,17 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
                       UserPlaces& places) {
   const RunOptions options = with_used_parts(given);
   MapSystem map;
-  std::vector<shape::Contour> contours = read_contours(options, comm, log, map);
+  std::vector<contours::Contour> contours = read_contours(options, comm, log, map);
   const geometry::Box container =
       options.container_is_automatic ? automatic_container(options, contours) : options.mesh.container;
   const geometry::Frame frame(container, options.periodic_x, options.periodic_y);
   std::vector<shape::Part> parts;
-  shape::Normalization fixed_points_place;
+  contours::Normalization fixed_points_place;
   std::vector<NormalizedPart> normalized;
   UserPlaces found; // messages of the parts below speak of their files already
   for (std::size_t k = 0; k < options.parts.size(); ++k) {
     const PartOptions& part = options.parts[k];
-    shape::Normalization place;
+    contours::Normalization place;
     parts.push_back(build_part(part, contours[k], frame, comm, place, found));
     contours[k] = {};
     if (part.name == options.fixed_points.normalize_with)
@@ -165,22 +165,22 @@ std::vector<boundary::FixedPoint> read_fixed_points(const RunOptions& options, c
   const FixedPointsFile& source = options.fixed_points;
   if (source.file.empty())
     return {};
-  shape::Contour read; // one list of points, on its way to all ranks
+  contours::Contour read; // one list of points, on its way to all ranks
   read.source = source.file;
   read.crs = input.map.crs_of_files;
   comm::run_agreed(comm, [&] {
     if (!comm.is_root())
       return;
-    shape::ContourRing& list = read.rings.emplace_back();
-    for (const shape::FilePoint& point :
-         shape::parse_points(read_file(source.file, hint_of(source.file_is_relative)), source.file)) {
+    contours::ContourRing& list = read.rings.emplace_back();
+    for (const contours::FilePoint& point :
+         contours::parse_points(read_file(source.file, hint_of(source.file_is_relative)), source.file)) {
       list.points.push_back(point.position);
       list.lines.push_back(point.line);
     }
     if (!options.projection.empty())
       project_contour(read, input.map.crs);
   });
-  read = shape::contour_of_bytes(comm.broadcast(shape::to_bytes(read)));
+  read = contours::contour_of_bytes(comm.broadcast(contours::to_bytes(read)));
   std::vector<boundary::FixedPoint> points;
   for (std::size_t k = 0; k < read.rings[0].points.size(); ++k)
     points.push_back({input.fixed_points_place.apply(read.rings[0].points[k]),

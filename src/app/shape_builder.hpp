@@ -6,7 +6,7 @@
 #include "app/options.hpp"
 #include "app/user_places.hpp"
 #include "trime/comm/communicator.hpp"
-#include "trime/shape/contour.hpp"
+#include "trime/contours/contour.hpp"
 #include "trime/shape/region_shape.hpp"
 
 #include <cstdint>
@@ -29,9 +29,10 @@ struct ShapeInput {
   std::optional<shape::RegionShape> shape; ///< for queries only
   shape::MarkedBoundary alone;             ///< the boundary, if there is no shape
   geometry::Box container;                 ///< that of the options, or around the shape if that is automatic
-  shape::Normalization fixed_points_place; ///< what fixed points undergo: that of the contour they are normalised with
-  std::vector<NormalizedPart> normalized;  ///< in the order of the parts
-  MapSystem map;                           ///< of the container
+  contours::Normalization
+      fixed_points_place;                 ///< what fixed points undergo: that of the contour they are normalised with
+  std::vector<NormalizedPart> normalized; ///< in the order of the parts
+  MapSystem map;                          ///< of the container
 };
 
 /// @brief Reads each file once, and writes warnings to the log.

@@ -43,14 +43,14 @@ std::optional<FoundPlace> place_at(std::string_view text) {
 
 } // namespace
 
-void UserPlaces::add(const shape::Contour& contour, const shape::Normalization& place) {
+void UserPlaces::add(const contours::Contour& contour, const contours::Normalization& place) {
   OneContour one{contour.source, place, place.scale != 1 || place.from != place.to, {}, {}, {}, {}, {}};
   std::size_t count = 0;
-  for (const shape::ContourRing& ring : contour.rings)
+  for (const contours::ContourRing& ring : contour.rings)
     one.ring_ends.push_back(count += ring.points.size());
   one.vertices.reserve(count);
   one.lines.reserve(count);
-  for (const shape::ContourRing& ring : contour.rings)
+  for (const contours::ContourRing& ring : contour.rings)
     for (std::size_t k = 0; k < ring.points.size(); ++k) {
       one.vertices.push_back(place.apply(ring.points[k]));
       one.lines.push_back(ring.lines[k]);

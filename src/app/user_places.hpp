@@ -2,9 +2,9 @@
 // Where a place of the container lies in the files of the user: messages of all modules speak of the container.
 #pragma once
 
+#include "trime/contours/contour.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/vec2.hpp"
-#include "trime/shape/contour.hpp"
 
 #include <cstdint>
 #include <string>
@@ -24,7 +24,7 @@ struct NormalizedPart {
 class UserPlaces {
 public:
   /// @param place what the vertices undergo on their way into the container
-  void add(const shape::Contour& contour, const shape::Normalization& place);
+  void add(const contours::Contour& contour, const contours::Normalization& place);
 
   /// @brief The message with `[FILE:LINE]`, the nearest vertex, behind each place "(x, y)" in it; with
   /// `[FILE:LINE: (x, y)]`, in the coordinates of the file, if the contour is normalised; if it is projected, these are
@@ -41,7 +41,7 @@ public:
 private:
   struct OneContour {
     std::string file;
-    shape::Normalization place;
+    contours::Normalization place;
     bool moved;
     geometry::Box box; ///< in the container
     std::vector<geometry::Vec2> vertices;

@@ -6,8 +6,8 @@
 #include <trime/io/describe.hpp>
 #include <trime/io/mesh_file.hpp>
 #include <trime/meshing/make_mesh.hpp>
-#include <trime/shape/shape.hpp>
 #include <trime/sizing/size_field.hpp>
+#include <trime/tracing/shape.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace geometry = trime::geometry;
 using geometry::Vec2;
 
 /// Two equilateral triangles, one turned by 180 degrees, around (0.5, 0.5); their sides are 0.2 from the centre.
-class Flower final : public trime::shape::Shape {
+class Flower final : public trime::tracing::Shape {
 public:
   double signed_distance(Vec2 p) const override {
     const double to_center = geometry::length(p - center);

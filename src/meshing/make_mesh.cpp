@@ -16,7 +16,7 @@ MeshResult make_mesh(const comm::Communicator& comm, const shape::RegionShape& s
   return Mesher(comm, shape.boundary(), size, options, log, timers).run();
 }
 
-MeshResult make_mesh(const comm::Communicator& comm, const shape::Shape& shape, const sizing::SizeField& size,
+MeshResult make_mesh(const comm::Communicator& comm, const tracing::Shape& shape, const sizing::SizeField& size,
                      const MeshOptions& options, Log& log) {
   std::optional<shape::RegionShape> traced;
   comm::run_agreed(comm, [&] { traced.emplace(shape::traced(shape, geometry::Frame(options.container))); });

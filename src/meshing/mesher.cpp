@@ -7,14 +7,14 @@
 #include "comm/agree.hpp"
 #include "core/free_memory.hpp"
 #include "extraction/extraction.hpp"
+#include "fitting/layout.hpp"
+#include "fitting/size_warnings.hpp"
 #include "meshing/checkpoint_writer.hpp"
 #include "meshing/outlook.hpp"
 #include "meshing/relaxation.hpp"
 #include "meshing/rules.hpp"
 #include "meshing/same_input.hpp"
-#include "start/layout.hpp"
 #include "start/point_scheme.hpp"
-#include "start/size_warnings.hpp"
 #include "sweep/guard_treatment.hpp"
 
 namespace trime::meshing {
@@ -32,9 +32,9 @@ public:
   Run(const RunContext& run, const SnapshotObserver& observer, Checkpoints* checkpoints, const SavedRun* saved)
       : run_(run), saved_(saved),
         input_(check_same_input(run.given_boundary, run.options.fixed_points, run.relative_size, run.comm)),
-        boundary_(run), layout_{run.comm, run.given_boundary, run.relative_size, run.start, run.lattice,
+        boundary_(run), layout_{run.comm, run.given_boundary, run.relative_size, run.fit, run.lattice,
                                 run.log,  run.timers,         boundary_.fixed()},
-        scheme_(layout_), stars_(run), snapshots_(run, boundary_, stars_, observer),
+        scheme_(layout_, start_options(run.options)), stars_(run), snapshots_(run, boundary_, stars_, observer),
         checkpoints_(run, checkpoints, [this](StateFields& fields) { visit(fields); }),
         relaxation_(run, stars_, snapshots_, checkpoints_) {}
 
@@ -82,7 +82,7 @@ private:
   const SavedRun* saved_;
   InputHashes input_;
   MeshedBoundary boundary_;
-  const start::LayoutContext layout_;
+  const fitting::LayoutContext layout_;
   start::PointScheme scheme_;
   Stage stage_; // the present one
   StageStars stars_;
@@ -199,8 +199,8 @@ void Run::report_boundary() {
   if (const std::string warning = loss_warning(features_); !warning.empty())
     run_.log.warning("{}", warning);
   comm::run_agreed(run_.comm, [this] {
-    start::warn_of_fine_features(stage_, run_.options.min_size.has_value(), run_.log);
-    start::warn_of_steep_sizes(stage_, run_.given_boundary, run_.lattice, run_.log);
+    fitting::warn_of_fine_features(stage_, run_.options.min_size.has_value(), run_.log);
+    fitting::warn_of_steep_sizes(stage_, run_.given_boundary, run_.lattice, run_.log);
     if (!boundary_.fixed().empty())
       boundary_.fixed().warn_of_close_ones(*stage_.guard, *stage_.size, run_.log);
   });

@@ -3,17 +3,17 @@
 
 #include "boundary/feature_report.hpp"
 #include "comm/agree.hpp"
+#include "fitting/outlook.hpp"
+#include "fitting/points_of_length.hpp"
 #include "meshing/meshed_boundary.hpp"
-#include "start/outlook.hpp"
-#include "start/points_of_length.hpp"
 
 namespace trime::meshing {
 
 Outlook look_ahead(const RunContext& run) {
   MeshedBoundary boundary(run);
-  const start::LayoutContext layout{run.comm, run.given_boundary, run.relative_size, run.start, run.lattice,
-                                    run.log,  run.timers,         boundary.fixed()};
-  const start::LaidOutlook ahead = start::look_ahead(layout);
+  const fitting::LayoutContext layout{run.comm, run.given_boundary, run.relative_size, run.fit, run.lattice,
+                                      run.log,  run.timers,         boundary.fixed()};
+  const fitting::LaidOutlook ahead = fitting::look_ahead(layout);
   const sites::Stage& stage = ahead.laid.stage;
   boundary.follow(stage.curves, stage.polygon.dropped);
   Outlook outlook;
@@ -27,11 +27,11 @@ Outlook look_ahead(const RunContext& run) {
   outlook.keeps_all = ahead.keeps && ratio == 1;
   if (run.relative_size.is_uniform()) {
     outlook.keeping_edge_length = ratio * stage.asked_size->size({});
-    outlook.keeping_points = start::points_of_length(run.given_boundary, outlook.keeping_edge_length);
+    outlook.keeping_points = fitting::points_of_length(run.given_boundary, outlook.keeping_edge_length);
   } else {
     outlook.keeping_points = ahead.points_at(ahead.keeping_factor);
     outlook.keeping_edge_length =
-        start::estimated_size(run.given_boundary.area, run.given_boundary.length(), outlook.keeping_points);
+        fitting::estimated_size(run.given_boundary.area, run.given_boundary.length(), outlook.keeping_points);
   }
   return outlook;
 }

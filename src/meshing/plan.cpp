@@ -5,21 +5,22 @@
 
 namespace trime::meshing {
 
+fitting::FitOptions fit_options(const MeshOptions& options) {
+  return {.container = options.container,
+          .cells_x = options.cells_x,
+          .cells_y = options.cells_y,
+          .points = options.points,
+          .edge_length = options.edge_length,
+          .features = options.features,
+          .min_size = options.min_size,
+          .max_size = options.max_size};
+}
+
 start::StartOptions start_options(const MeshOptions& options) {
-  start::StartOptions start;
-  start.container = options.container;
-  start.cells_x = options.cells_x;
-  start.cells_y = options.cells_y;
-  start.points = options.points;
-  start.edge_length = options.edge_length;
-  start.features = options.features;
-  start.seed = options.seed;
-  start.start = options.start;
-  start.initial_fraction = options.initial_fraction;
-  start.min_size = options.min_size;
-  start.max_size = options.max_size;
-  start.cleanup = options.cleanup;
-  return start;
+  return {.seed = options.seed,
+          .start = options.start,
+          .initial_fraction = options.initial_fraction,
+          .cleanup = options.cleanup};
 }
 
 sweep::SweepOptions sweep_options(const MeshOptions& options) {

@@ -3,12 +3,14 @@
 #pragma once
 
 #include "cleanup/cleanup.hpp"
+#include "fitting/fit_options.hpp"
 #include "start/start_options.hpp"
 #include "sweep/sweep_options.hpp"
 #include "trime/meshing/options.hpp"
 
 namespace trime::meshing {
 
+fitting::FitOptions fit_options(const MeshOptions& options);
 start::StartOptions start_options(const MeshOptions& options);
 sweep::SweepOptions sweep_options(const MeshOptions& options);
 cleanup::CleanupOptions cleanup_options(const MeshOptions& options);

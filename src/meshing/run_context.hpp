@@ -20,14 +20,14 @@ struct RunContext {
   RunContext(const comm::Communicator& communicator, const geometry::Boundary& boundary, const sizing::SizeField& size,
              const MeshOptions& mesh_options, Log& its_log, TimerTable& its_timers)
       : comm(communicator), given_boundary(boundary), relative_size(size), options(mesh_options),
-        start(start_options(mesh_options)), sweeps(sweep_options(mesh_options)), lattice(mesh_options.container),
+        fit(fit_options(mesh_options)), sweeps(sweep_options(mesh_options)), lattice(mesh_options.container),
         log(its_log), timers(its_timers) {}
 
   const comm::Communicator& comm;
   const geometry::Boundary& given_boundary; ///< as the caller owns it; its periods are those of the run
   const sizing::SizeField& relative_size;
   const MeshOptions options;
-  const start::StartOptions start;
+  const fitting::FitOptions fit;
   const sweep::SweepOptions sweeps;
   const geometry::Lattice lattice; ///< of the container
   Log& log;

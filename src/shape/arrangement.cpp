@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "arrangement.hpp"
+#include "shape/arrangement.hpp"
 
-#include "crossings.hpp"
 #include "geometry/box_tree.hpp"
 #include "geometry/predicates.hpp"
-#include "part_images.hpp"
+#include "shape/crossings.hpp"
+#include "shape/part_images.hpp"
 
 #include <algorithm>
 #include <array>

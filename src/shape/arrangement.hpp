@@ -3,9 +3,9 @@
 #pragma once
 
 #include "geometry/segment_tree.hpp"
+#include "shape/vertex_table.hpp"
 #include "trime/geometry/frame.hpp"
 #include "trime/shape/part.hpp"
-#include "vertex_table.hpp"
 
 #include <array>
 #include <cstdint>

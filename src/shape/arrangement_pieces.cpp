@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What crossings make of the curves: pieces from vertex to vertex, each kept once.
-#include "arrangement.hpp"
-#include "crossings.hpp"
 #include "geometry/predicates.hpp"
+#include "shape/arrangement.hpp"
+#include "shape/crossings.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "boundary_area.hpp"
+#include "shape/boundary_area.hpp"
 
 #include "core/angle.hpp"
+#include "shape/vertex_table.hpp"
 #include "trime/core/error.hpp"
-#include "vertex_table.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "contour_polygon.hpp"
+#include "shape/contour_polygon.hpp"
 
 #include "geometry/predicates.hpp"
-#include "lattice_rings.hpp"
+#include "shape/lattice_rings.hpp"
 #include "shape/rules.hpp"
 #include "trime/core/error.hpp"
 
@@ -42,11 +42,11 @@ Vec2 meeting_point(const Segment& s, const Segment& t) {
 /// The rings on the lattice while they are made and checked.
 class Placement {
 public:
-  Placement(const Contour& contour, const Normalization& normalization, const Frame& frame)
+  Placement(const contours::Contour& contour, const contours::Normalization& normalization, const Frame& frame)
       : contour_(contour), normalization_(normalization), frame_(frame) {}
 
   Polygon make(std::vector<std::string>& warnings) {
-    for (const ContourRing& ring : contour_.rings)
+    for (const contours::ContourRing& ring : contour_.rings)
       add_ring(ring, warnings);
     for (const RepeatedRing& ring : drop_repeated(rings_))
       warnings.push_back(fmt::format("{}:{}: the ring that starts here was given before, at line {}; it is used once{}",
@@ -80,7 +80,7 @@ public:
   static void orient(Polygon& polygon);
 
 private:
-  void add_ring(const ContourRing& ring, std::vector<std::string>& warnings);
+  void add_ring(const contours::ContourRing& ring, std::vector<std::string>& warnings);
   void check_turns(const std::vector<Vec2>& p, const std::vector<int>& lines) const;
   void tell_touches(const std::vector<RingTouch>& touches, std::vector<std::string>& warnings) const;
   void tell_pieces(const Polygon& polygon, std::vector<std::string>& warnings) const;
@@ -88,8 +88,8 @@ private:
   std::vector<int> markers_of_segments() const;
   std::string in_file(Vec2 p) const;
 
-  const Contour& contour_;
-  const Normalization& normalization_;
+  const contours::Contour& contour_;
+  const contours::Normalization& normalization_;
   const Frame& frame_;
   std::vector<LatticeRing> rings_;
 };
@@ -113,7 +113,7 @@ std::vector<int> Placement::markers_of_segments() const {
 std::string Placement::in_file(Vec2 p) const {
   Vec2 original = normalization_.undo(p);
   double least = HUGE_VAL;
-  for (const ContourRing& ring : contour_.rings)
+  for (const contours::ContourRing& ring : contour_.rings)
     for (std::size_t k = 0; k < ring.in_file.size(); ++k)
       if (const double d = squared_length(normalization_.apply(ring.points[k]) - p); d < least) {
         least = d;
@@ -122,7 +122,7 @@ std::string Placement::in_file(Vec2 p) const {
   return fmt::format("({:.12g}, {:.12g})", original.x, original.y);
 }
 
-void Placement::add_ring(const ContourRing& ring, std::vector<std::string>& warnings) {
+void Placement::add_ring(const contours::ContourRing& ring, std::vector<std::string>& warnings) {
   std::vector<Vec2> points;
   std::vector<int> lines, markers;
   const bool marked = !ring.markers.empty();
@@ -269,8 +269,8 @@ void Placement::orient(Polygon& polygon) {
 
 } // namespace
 
-Polygon make_contour_polygon(const Contour& contour, const Normalization& normalization, const Frame& frame,
-                             std::vector<std::string>& warnings) {
+Polygon make_contour_polygon(const contours::Contour& contour, const contours::Normalization& normalization,
+                             const Frame& frame, std::vector<std::string>& warnings) {
   return Placement(contour, normalization, frame).make(warnings);
 }
 

@@ -2,8 +2,8 @@
 // From the rings of a contour to a checked polygon on the lattice.
 #pragma once
 
+#include "trime/contours/contour.hpp"
 #include "trime/geometry/frame.hpp"
-#include "trime/shape/contour.hpp"
 #include "trime/shape/part_forms.hpp"
 
 #include <string>
@@ -14,8 +14,8 @@ namespace trime::shape {
 /// @brief Moves, snaps and checks the rings of a contour, and finds which side of each ring is inside.
 /// @param warnings gets a sentence for each ring of which the lattice made vertices equal
 /// @throws GeometryError see Part::contour
-Polygon make_contour_polygon(const Contour& contour, const Normalization& normalization, const geometry::Frame& frame,
-                             std::vector<std::string>& warnings);
+Polygon make_contour_polygon(const contours::Contour& contour, const contours::Normalization& normalization,
+                             const geometry::Frame& frame, std::vector<std::string>& warnings);
 
 /// @brief Polygon of one ring that is known to be simple. @pre at least three vertices, not all collinear
 Polygon make_simple_polygon(const std::vector<geometry::Vec2>& ring);

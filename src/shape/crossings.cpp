@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "crossings.hpp"
+#include "shape/crossings.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "inside_walk.hpp"
+#include "shape/inside_walk.hpp"
 
 #include "geometry/perturbed_side.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "lattice_rings.hpp"
+#include "shape/lattice_rings.hpp"
 
 #include "core/gather.hpp"
 #include "core/random.hpp"

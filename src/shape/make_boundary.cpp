@@ -2,17 +2,17 @@
 // From the arrangement of the parts to the boundary of the region: classify the pieces, check, chain into loops.
 // In a periodic container the images of all parts are cut at the border of the container, too; opposite points of the
 // border are one node, and the chains are unrolled.
-#include "make_boundary.hpp"
+#include "shape/make_boundary.hpp"
 
-#include "arrangement.hpp"
-#include "boundary_area.hpp"
 #include "core/angle.hpp"
 #include "geometry/box_tree.hpp"
-#include "inside_walk.hpp"
-#include "marked_pieces.hpp"
-#include "part_images.hpp"
-#include "quotient.hpp"
-#include "region_state.hpp"
+#include "shape/arrangement.hpp"
+#include "shape/boundary_area.hpp"
+#include "shape/inside_walk.hpp"
+#include "shape/marked_pieces.hpp"
+#include "shape/part_images.hpp"
+#include "shape/quotient.hpp"
+#include "shape/region_state.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "marked_pieces.hpp"
+#include "shape/marked_pieces.hpp"
 
-#include "part_images.hpp"
+#include "shape/part_images.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/shape/part.hpp"
 
-#include "contour_polygon.hpp"
 #include "geometry/predicates.hpp"
+#include "shape/contour_polygon.hpp"
 #include "shape/rules.hpp"
 #include "trime/core/error.hpp"
 
@@ -81,8 +81,8 @@ Part Part::triangle(const std::string& name, const std::array<Vec2, 3>& corners,
   return Part(name, make_simple_polygon(orientation > 0 ? std::vector<Vec2>{a, b, c} : std::vector<Vec2>{a, c, b}));
 }
 
-Part Part::contour(const std::string& name, const Contour& contour, const Normalization& normalization,
-                   const Frame& frame) {
+Part Part::contour(const std::string& name, const contours::Contour& contour,
+                   const contours::Normalization& normalization, const Frame& frame) {
   std::vector<std::string> warnings = contour.warnings;
   Part part(name, make_contour_polygon(contour, normalization, frame, warnings));
   part.warnings_ = std::move(warnings);

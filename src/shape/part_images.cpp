@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "part_images.hpp"
+#include "shape/part_images.hpp"
 
 #include "trime/core/error.hpp"
 #include "trime/shape/region.hpp"

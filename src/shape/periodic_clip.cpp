@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "periodic_clip.hpp"
+#include "shape/periodic_clip.hpp"
 
-#include "make_boundary.hpp"
+#include "shape/make_boundary.hpp"
 #include "shape/rules.hpp"
+#include "shape/vertex_table.hpp"
 #include "trime/core/error.hpp"
 #include "trime/shape/region.hpp"
-#include "vertex_table.hpp"
 
 #include <algorithm>
 #include <array>
@@ -84,7 +84,7 @@ void remove_inner_vertices(std::vector<Vec2>& ring, const Axis& axis) {
 
 } // namespace
 
-Contour clip_to_periods(const Part& traced, const Frame& frame) {
+contours::Contour clip_to_periods(const Part& traced, const Frame& frame) {
   const Frame plain(frame.container());
   const std::vector<Part> parts{traced, Part::rectangle("container", frame.inner(), plain)};
   const std::array<std::string, 2> names{"traced", "container"};
@@ -110,7 +110,7 @@ Contour clip_to_periods(const Part& traced, const Frame& frame) {
       remove_inner_vertices(ring, axis);
     join_sides(rings, axis, reach, traced.name());
   }
-  return make_contour(rings, traced.name());
+  return contours::make_contour(rings, traced.name());
 }
 
 } // namespace trime::shape

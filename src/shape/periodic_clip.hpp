@@ -2,8 +2,8 @@
 // Traced rings end where the container ends; in a periodic container they must fit together across its border.
 #pragma once
 
+#include "trime/contours/contour.hpp"
 #include "trime/geometry/frame.hpp"
-#include "trime/shape/contour.hpp"
 #include "trime/shape/part.hpp"
 
 namespace trime::shape {
@@ -13,6 +13,6 @@ namespace trime::shape {
 /// Each vertex on a lower side and its partner across differ by what the tracing is off, far less than 1e-5 of the
 /// container's longer side.
 /// @throws GeometryError if a vertex has no partner: the function is not periodic
-Contour clip_to_periods(const Part& traced, const geometry::Frame& frame);
+contours::Contour clip_to_periods(const Part& traced, const geometry::Frame& frame);
 
 } // namespace trime::shape

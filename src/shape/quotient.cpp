@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "quotient.hpp"
+#include "shape/quotient.hpp"
 
 namespace trime::shape {
 using geometry::Frame;

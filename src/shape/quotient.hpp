@@ -2,8 +2,8 @@
 // Vertices of an arrangement that was cut at the border of a periodic container: opposite ones become one node.
 #pragma once
 
+#include "shape/vertex_table.hpp"
 #include "trime/geometry/frame.hpp"
-#include "vertex_table.hpp"
 
 #include <vector>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/shape/region_shape.hpp"
 
-#include "make_boundary.hpp"
-#include "part_images.hpp"
+#include "shape/make_boundary.hpp"
+#include "shape/part_images.hpp"
 #include "trime/core/error.hpp"
-#include "trime/shape/trace.hpp"
+#include "trime/shape/traced_part.hpp"
 
 #include <unordered_set>
 
@@ -53,7 +53,7 @@ MarkedBoundary boundary_of(std::vector<Part> parts, std::string_view region, con
   return make_boundary(Region::parse(region, names_of(parts)), std::move(parts), frame);
 }
 
-RegionShape traced(const Shape& shape, const Frame& frame, const std::string& name) {
+RegionShape traced(const tracing::Shape& shape, const Frame& frame, const std::string& name) {
   return RegionShape({traced_part(name, shape, frame)}, name, frame);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parting rings where they touch; see part_touches.
 #include "geometry/predicates.hpp"
-#include "lattice_rings.hpp"
+#include "shape/lattice_rings.hpp"
 #include "shape/rules.hpp"
 
 #include <algorithm>

@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tuned numbers of the module shape: how formulas become curves, and what becomes one vertex.
+// The tuned numbers of the module shape: what becomes one vertex, and how rings that touch are parted.
 #pragma once
 
 #include "trime/core/types.hpp"
-#include <array>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
 namespace trime::shape {
 
-/// The numbers of tracing and thinning the zero set of a formula, and of contours.
+/// The numbers of parts on the lattice, and of curves that were traced.
 struct ShapeRules {
-  /// [1] A contour that is normalised takes this share of the container's shorter side, so that a margin is left on all
-  /// sides.
-  static constexpr double normalized_share = 0.8;
-  /// [file units] Larger coordinates of a contour are refused, as those of a container are: squares stay finite.
-  /// Not measured.
-  static constexpr double largest_coordinate = 1e30;
-  /// [file units] A contour that is normalised is so wide or high at least: its inverse stays finite. Not measured.
-  static constexpr double smallest_normalized = 1e-30;
   /// [steps] A vertex that an edge of a contour passes so near by, with a touch or a crossing there, lies on that edge:
   /// snapping moves each end by up to one. Not measured.
   static constexpr double on_edge = 2;
@@ -43,36 +35,6 @@ struct ShapeRules {
   static constexpr std::size_t fewest_vertices = 3;
   /// [chains] A formula may have so many: it bounds time and memory.
   static constexpr std::size_t most_chains = 1 << 14;
-  /// [halvings] From the coarse grid, whose cells are looked at first, to the fine one. Not measured.
-  static constexpr int grid_levels = 2;
-  /// [cells] The coarse grid has so many along a side at least. Not measured.
-  static constexpr int fewest_coarse_cells = 16;
-  /// [cells] And so many at most: it bounds time and memory. Not measured.
-  static constexpr int most_coarse_cells = 4096;
-  /// [cells] Fine cells that the zero set may meet, at most: it bounds the memory.
-  static constexpr std::size_t most_near_zero = std::size_t{1} << 25;
-  /// [1] Slopes of a formula are taken so much larger than they were sampled.
-  static constexpr double slope_margin = 1.25;
-  /// [rad] Corners are looked for where two chords turn by more than this, about 4 degrees.
-  static constexpr double smallest_turn = 0.07;
-  /// [halvings] A chord is halved so often at most.
-  static constexpr int deepest_chord = 48;
-  /// [vertices] So many come into one chord at most, before thinning.
-  static constexpr std::size_t most_in_chord = 4096;
-  /// [vertices] So many has a formula at most, before thinning: it bounds the memory.
-  static constexpr std::size_t most_vertices = std::size_t{1} << 23;
-  /// [1] The curve strays from a chord by this share of its length at most: turns stay below 9 degrees.
-  static constexpr double stray_share = 0.02;
-  /// [chords] The curve is looked for so far beside the middle of a chord: it may be far in a sharp tip.
-  static constexpr double farthest_beside = 16;
-  /// [chords] A corner is looked for so far from its chord at most.
-  static constexpr double farthest_corner = 64;
-  /// [1] Each look at the arms of a supposed corner is so much nearer than the last.
-  static constexpr double nearer = 0.125;
-  /// [1] Lines whose directions differ by a smaller sine do not meet.
-  static constexpr double nearly_parallel = 1e-3;
-  /// [1] Vertices of a traced curve so near to each other are one, as a share of the longer side.
-  static constexpr double same_place = 1e-9;
   /// [1] A piece of a contour at a periodic border finds its partner across within this share of the longer side.
   static constexpr double partner_reach = 1e-5;
   /// [segments] Meetings of segments are looked for in chunks of so many: what is found does not depend on the threads.

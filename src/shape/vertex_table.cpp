@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vertex_table.hpp"
+#include "shape/vertex_table.hpp"
 
 #include "core/random.hpp"
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "start/point_scheme.hpp"
 
-#include "start/points_of_length.hpp"
+#include "fitting/points_of_length.hpp"
+#include "fitting/rules.hpp"
+#include "fitting/size_fit.hpp"
+#include "placing/work_share.hpp"
 #include "start/refinement.hpp"
 #include "start/rules.hpp"
-#include "start/size_fit.hpp"
-#include "start/work_share.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -26,13 +27,13 @@ int divisions_for(double points) {
 
 } // namespace
 
-PointScheme::PointScheme(const LayoutContext& context)
+PointScheme::PointScheme(const fitting::LayoutContext& context, const StartOptions& options)
     : level_(context.relative_size), given_context_(context), level_context_{context.comm,    context.given_boundary,
                                                                              level_,          context.options,
                                                                              context.lattice, context.log,
                                                                              context.timers,  context.fixed,
                                                                              false,           true},
-      context_(&given_context_), options_(context.options) {
+      context_(&given_context_), fit_(context.options), options_(options) {
   choose();
 }
 
@@ -42,18 +43,18 @@ GlobalId PointScheme::reserve() const {
   double pieces = 0;
   for (const geometry::Loop& loop : context_->given_boundary.loops)
     pieces += static_cast<double>(loop.pieces.size());
-  if (!options_.points || !options_.cleanup)
+  if (!fit_.points || !options_.cleanup)
     return 0;
-  const double points = static_cast<double>(*options_.points), components = context_->given_boundary.components();
+  const double points = static_cast<double>(*fit_.points), components = context_->given_boundary.components();
   return static_cast<GlobalId>(
       std::fmin(StartRules::reserved_share * points, StartRules::reserved_per_piece * pieces) +
       std::fmin(StartRules::reserved_for_components * points, StartRules::reserved_per_component * (components - 1)));
 }
 
 double PointScheme::expected_points() const {
-  if (options_.points)
-    return static_cast<double>(*options_.points - reserve());
-  return points_of_length(context_->given_boundary, *options_.edge_length);
+  if (fit_.points)
+    return static_cast<double>(*fit_.points - reserve());
+  return fitting::points_of_length(context_->given_boundary, *fit_.edge_length);
 }
 
 /// By the options and the size.
@@ -102,8 +103,8 @@ Stage PointScheme::first_of_scheme() {
 }
 
 Stage PointScheme::first_of_lattice() {
-  LatticeFit fit = fit_lattice(*context_);
-  if (options_.features.refine_narrow && needs_lowering(*context_, fit.stage)) {
+  fitting::LatticeFit fit = fitting::fit_lattice(*context_);
+  if (options_.features.refine_narrow && fitting::needs_lowering(*context_, fit.stage)) {
     context_ = &level_context_;
     scheme_ = Scheme::coarse_to_fine;
     last_stage_ = divisions_for(expected_points());
@@ -111,25 +112,26 @@ Stage PointScheme::first_of_lattice() {
   }
   shortage_ = std::move(fit.shortage);
   const auto time = context_->timers.scope("start");
-  const LatticeStart start(context_->given_boundary, *fit.stage.guard, context_->lattice);
+  const placing::LatticeStart start(context_->given_boundary, *fit.stage.guard, context_->lattice);
   share_runs(start, fit);
-  place_sites(*context_, fit.stage, start.sites(fit.runs, static_cast<std::size_t>(fit.stage.placed_first())));
+  fitting::place_sites(*context_, fit.stage, start.sites(fit.runs, static_cast<std::size_t>(fit.stage.placed_first())));
   return std::move(fit.stage);
 }
 
 /// The runs of this rank, once all of them are shared out evenly: the density has told only about how many there are.
-void PointScheme::share_runs(const LatticeStart& start, LatticeFit& fit) const {
+void PointScheme::share_runs(const placing::LatticeStart& start, fitting::LatticeFit& fit) const {
   if (fit.runs.of_tile.empty())
-    fit.runs = start.runs(own_share(fit.stage), fit.spacing);
+    fit.runs = start.runs(placing::own_share(fit.stage), fit.spacing);
   for (bool shared = context_->comm.size() == 1; !shared;) {
-    shared = share_by_count(fit.stage, fit.runs.counts());
-    fit.runs = start.runs(own_share(fit.stage), fit.runs.spacing);
+    shared = placing::share_by_count(fit.stage, fit.runs.counts());
+    fit.runs = start.runs(placing::own_share(fit.stage), fit.runs.spacing);
   }
 }
 
 Stage PointScheme::first_of_insertion() {
   const double coarsening = std::sqrt(expected_points() / points_now_);
-  DensityFit fit = fit_density(*context_, expected_points(), std::fmin(coarsening, StartRules::coarsest_integral));
+  fitting::DensityFit fit =
+      fitting::fit_density(*context_, expected_points(), std::fmin(coarsening, StartRules::coarsest_integral));
   shortage_ = std::move(fit.shortage);
   fitted_ = std::move(fit.laid.fitted);
   Stage stage = lay_coarsened(coarsening, points_now_);
@@ -147,14 +149,14 @@ Stage PointScheme::first_of_insertion() {
 /// The factor is fitted for the final mesh, by a coarse integral. Then the coarsest start is taken that still has as
 /// many sites inside as on the boundary: a boundary full of corners does not become coarser with the size.
 Stage PointScheme::first_of_divisions() {
-  DensityFit fit =
-      fit_density(*context_, expected_points(),
-                  last_stage_ == 0 ? 1 : std::fmax(StartRules::coarse_integral, std::ldexp(1.0, last_stage_)));
+  fitting::DensityFit fit = fitting::fit_density(
+      *context_, expected_points(),
+      last_stage_ == 0 ? 1 : std::fmax(fitting::LayoutRules::coarse_integral, std::ldexp(1.0, last_stage_)));
   shortage_ = std::move(fit.shortage);
   const double points = fit.inner + static_cast<double>(fit.laid.stage.placed_first());
   fitted_ = std::move(fit.laid.fitted);
   Stage stage;
-  std::unique_ptr<const HilbertStart> start;
+  std::unique_ptr<const placing::HilbertStart> start;
   double inner = 0;
   const double on_boundary = static_cast<double>(fit.laid.stage.polygon.sites.size());
   while (last_stage_ > 0 && std::ldexp(fit.inner, -2 * last_stage_) < std::ldexp(on_boundary, -last_stage_))
@@ -174,7 +176,7 @@ Stage PointScheme::first_of_divisions() {
             : fmt::format("coarse to fine, the edges of a mesh of 1/{} of the points are divided {}: {}",
                           1 << (2 * last_stage_), last_stage_ == 1 ? "once" : fmt::format("{} times", last_stage_),
                           options_.start == Start::coarse_to_fine ? "asked for" : "the size is graded");
-  if (last_stage_ == 0 && options_.points && shortage_.empty())
+  if (last_stage_ == 0 && fit_.points && shortage_.empty())
     inner = expected_points() - static_cast<double>(stage.placed_first());
   laid_last_ = std::move(fit.laid.stage);
   place_along_curve(stage, inner, *start);
@@ -183,7 +185,7 @@ Stage PointScheme::first_of_divisions() {
 
 /// A stage whose size is `coarsening` times that of the last.
 Stage PointScheme::lay_coarsened(double coarsening, double expected) {
-  FittedStage laid = lay_stage(*context_, fitted_, coarsening, expected);
+  fitting::FittedStage laid = fitting::lay_stage(*context_, fitted_, coarsening, expected);
   fitted_ = std::move(laid.fitted);
   return std::move(laid.stage);
 }
@@ -193,18 +195,18 @@ Stage PointScheme::lay_coarsened(double coarsening, double expected) {
 Stage PointScheme::lay_division(Stage& last, double expected) {
   const double coarsening = std::ldexp(1.0, last_stage_ - stage_);
   if (coarsening == 1)
-    return lay_again(*context_, std::move(last), expected);
+    return fitting::lay_again(*context_, std::move(last), expected);
   return lay_coarsened(coarsening, expected);
 }
 
-std::unique_ptr<const HilbertStart> PointScheme::along_curve(const Stage& stage, double expected,
-                                                             double coarsening) const {
+std::unique_ptr<const placing::HilbertStart> PointScheme::along_curve(const Stage& stage, double expected,
+                                                                      double coarsening) const {
   const auto time = context_->timers.scope("start");
-  return std::make_unique<const HilbertStart>(context_->comm, own_share(stage), *stage.guard, *stage.size,
-                                              context_->lattice, expected, coarsening);
+  return std::make_unique<const placing::HilbertStart>(context_->comm, placing::own_share(stage), *stage.guard,
+                                                       *stage.size, context_->lattice, expected, coarsening);
 }
 
-void PointScheme::place_along_curve(Stage& stage, double inner, const HilbertStart& start) const {
+void PointScheme::place_along_curve(Stage& stage, double inner, const placing::HilbertStart& start) const {
   const auto time = context_->timers.scope("start");
   const auto wanted = std::max<std::int64_t>(0, std::llround(inner));
   mesh::SiteList placed = start.sites(wanted, options_.seed);
@@ -221,7 +223,7 @@ void PointScheme::place_along_curve(Stage& stage, double inner, const HilbertSta
       trim(context_->comm, stage, wanted, placed);
     }
   }
-  place_sites(*context_, stage, std::move(placed));
+  fitting::place_sites(*context_, stage, std::move(placed));
 }
 
 Stage PointScheme::next(const Stage& previous) {
@@ -257,15 +259,15 @@ Stage PointScheme::divide(const Stage& previous) {
   const auto time = context_->timers.scope("start");
   mesh::SiteList sites = split_edges(old);
   clear_strip(stage, sites);
-  if (options_.points && is_last()) {
-    const std::int64_t most = std::max<std::int64_t>(0, *options_.points - reserve() - stage.placed_first());
+  if (fit_.points && is_last()) {
+    const std::int64_t most = std::max<std::int64_t>(0, *fit_.points - reserve() - stage.placed_first());
     trim(comm, stage, most, sites);
     const std::int64_t missing = most - comm.sum(static_cast<std::int64_t>(sites.size()));
     if (shortage_.empty() &&
-        static_cast<double>(missing) > StartRules::small_shortage * static_cast<double>(*options_.points))
+        static_cast<double>(missing) > StartRules::small_shortage * static_cast<double>(*fit_.points))
       insert_in_triangles(old, stage, missing, sites); // narrow parts that the coarse mesh has starved
   }
-  place_sites(*context_, stage, std::move(sites));
+  fitting::place_sites(*context_, stage, std::move(sites));
   return stage;
 }
 
@@ -283,9 +285,9 @@ Stage PointScheme::insert(const Stage& previous) {
   clear_strip(stage, sites);
   const std::int64_t most = std::max<std::int64_t>(0, std::llround(points_now_) - stage.placed_first());
   insert_in_triangles(old, stage, most - comm.sum(static_cast<std::int64_t>(sites.size())), sites);
-  if (options_.points)
+  if (fit_.points)
     trim(comm, stage, most, sites);
-  place_sites(*context_, stage, std::move(sites));
+  fitting::place_sites(*context_, stage, std::move(sites));
   return stage;
 }
 

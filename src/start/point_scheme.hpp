@@ -3,16 +3,20 @@
 #pragma once
 
 #include "core/state_fields.hpp"
-#include "start/layout.hpp"
-#include "start/start.hpp"
+#include "fitting/layout.hpp"
+#include "placing/hilbert_start.hpp"
+#include "placing/lattice_start.hpp"
+#include "start/start_options.hpp"
 
 #include <memory>
 #include <span>
 #include <string>
 
-namespace trime::start {
-
+namespace trime::fitting {
 struct LatticeFit;
+}
+
+namespace trime::start {
 
 /// A uniform size that the boundary lowers here and there.
 class LevelSize final : public sizing::SizeField {
@@ -30,7 +34,7 @@ private:
 /// points first, then stages of 60 % more in the triangles that are largest for their place, h rescaled each time.
 class PointScheme {
 public:
-  explicit PointScheme(const LayoutContext& context);
+  PointScheme(const fitting::LayoutContext& context, const StartOptions& options);
 
   /// First stage, sites distributed. Collective.
   /// @throws ConfigError if the points are too few for the shape, or for max_size; GeometryError; on all ranks together
@@ -65,28 +69,30 @@ private:
   double expected_points() const;
   sites::Stage first_of_scheme();
   sites::Stage first_of_lattice();
-  void share_runs(const LatticeStart& start, LatticeFit& fit) const;
+  void share_runs(const placing::LatticeStart& start, fitting::LatticeFit& fit) const;
   sites::Stage first_of_insertion();
   sites::Stage first_of_divisions();
   sites::Stage lay_coarsened(double coarsening, double expected);
   sites::Stage lay_division(sites::Stage& last, double expected);
   sites::Stage lay_insertion();
-  std::unique_ptr<const HilbertStart> along_curve(const sites::Stage& stage, double expected, double coarsening) const;
-  void place_along_curve(sites::Stage& stage, double inner, const HilbertStart& start) const;
+  std::unique_ptr<const placing::HilbertStart> along_curve(const sites::Stage& stage, double expected,
+                                                           double coarsening) const;
+  void place_along_curve(sites::Stage& stage, double inner, const placing::HilbertStart& start) const;
   /// The next stages after `previous`.
   sites::Stage divide(const sites::Stage& previous);
   sites::Stage insert(const sites::Stage& previous);
 
   const LevelSize level_;
-  LayoutContext given_context_, level_context_; // as given, and with that size
-  const LayoutContext* context_;                // one of them
-  const StartOptions& options_;
+  fitting::LayoutContext given_context_, level_context_; // as given, and with that size
+  const fitting::LayoutContext* context_;                // one of them
+  const fitting::FitOptions& fit_;
+  const StartOptions options_;
   Scheme scheme_ = Scheme::lattice;
   int stage_ = 0, last_stage_ = 0;
-  FittedSize fitted_;      // what the size of all stages follows from
-  sites::Stage laid_last_; // the last stage of divisions, until it begins
-  double points_now_ = 0;  // that the current stage aims at (insertion)
-  double expected_ = 0;    // that the current stage was laid for (division)
+  fitting::FittedSize fitted_; // what the size of all stages follows from
+  sites::Stage laid_last_;     // the last stage of divisions, until it begins
+  double points_now_ = 0;      // that the current stage aims at (insertion)
+  double expected_ = 0;        // that the current stage was laid for (division)
   std::string reason_, shortage_;
 };
 

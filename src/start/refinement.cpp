@@ -4,7 +4,8 @@
 #include "comm/agree.hpp"
 #include "core/thread_loop.hpp"
 #include "decomposition/selection.hpp"
-#include "start/density_sampler.hpp"
+#include "placing/density_sampler.hpp"
+#include "placing/rules.hpp"
 #include "start/rules.hpp"
 
 #include <algorithm>
@@ -83,7 +84,7 @@ void keep_marked(List& items, const std::vector<std::uint8_t>& keep) {
 bool is_clear(const Stage& next, Vec2 p) {
   if (!next.guard->inside(p))
     return false;
-  const double free = StartRules::density_strip * sizing::checked_size(*next.size, p);
+  const double free = placing::PlacingRules::density_strip * sizing::checked_size(*next.size, p);
   return next.guard->distance(p, free) >= free;
 }
 

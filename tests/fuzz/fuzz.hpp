@@ -3,8 +3,8 @@
 // may come out. Anything else ends the process, and libFuzzer keeps the bytes.
 #pragma once
 
+#include "trime/contours/contour.hpp"
 #include "trime/core/error.hpp"
-#include "trime/shape/contour.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -35,6 +35,6 @@ inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
 /// @brief What the program does with a contour that was read: it is sent to other ranks, fitted into a container and
 /// becomes a shape, in a plain and in a periodic container. Contours of many vertices are only sent: the tests of
 /// shapes have larger ones, and here many small ones are tried.
-void use(const shape::Contour& contour);
+void use(const contours::Contour& contour);
 
 } // namespace trime::fuzz

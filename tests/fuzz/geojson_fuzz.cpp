@@ -5,6 +5,6 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trime;
   for (const char* attribute : {"", "kind"})
-    fuzz::survives([&] { fuzz::use(shape::parse_geojson(fuzz::text_of(data, size), "a.geojson", attribute)); });
+    fuzz::survives([&] { fuzz::use(contours::parse_geojson(fuzz::text_of(data, size), "a.geojson", attribute)); });
   return 0;
 }

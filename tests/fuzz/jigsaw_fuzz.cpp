@@ -4,6 +4,6 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trime;
-  fuzz::survives([&] { fuzz::use(shape::parse_jigsaw(fuzz::text_of(data, size), "a.msh")); });
+  fuzz::survives([&] { fuzz::use(contours::parse_jigsaw(fuzz::text_of(data, size), "a.msh")); });
   return 0;
 }

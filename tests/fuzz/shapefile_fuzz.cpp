@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shapefiles: the input is the length of NAME.shp and of NAME.shx in two bytes each, these files, and NAME.dbf.
+#include "contours/shapefile.hpp"
 #include "fuzz.hpp"
-#include "shape/shapefile.hpp"
 #include "support/temporary_directory.hpp"
 
 #include <algorithm>
@@ -24,6 +24,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   write(".shx", data[2] + 256U * data[3]);
   write(".dbf", rest.size());
   for (const char* attribute : {"", "kind"})
-    fuzz::survives([&] { fuzz::use(shape::read_shapefile(stem + ".shp", "", attribute)); });
+    fuzz::survives([&] { fuzz::use(contours::read_shapefile(stem + ".shp", "", attribute)); });
   return 0;
 }

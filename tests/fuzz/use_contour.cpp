@@ -11,10 +11,10 @@
 
 namespace trime::fuzz {
 
-void use(const shape::Contour& contour) {
+void use(const contours::Contour& contour) {
   constexpr std::size_t most_vertices = 300; // a few milliseconds under sanitizers
   std::size_t vertices = 0;
-  for (const shape::ContourRing& ring : contour.rings) {
+  for (const contours::ContourRing& ring : contour.rings) {
     vertices += ring.points.size();
     TRIME_ASSERT(ring.points.size() >= 3 && ring.lines.size() == ring.points.size(), "{} vertices, {} lines",
                  ring.points.size(), ring.lines.size());
@@ -23,8 +23,8 @@ void use(const shape::Contour& contour) {
       TRIME_ASSERT(std::isfinite(p.x) && std::isfinite(p.y), "({}, {})", p.x, p.y);
   }
   TRIME_ASSERT(!contour.rings.empty(), "a contour without a ring");
-  const std::string bytes = shape::to_bytes(contour);
-  TRIME_ASSERT(shape::to_bytes(shape::contour_of_bytes(bytes)) == bytes, "{} bytes", bytes.size());
+  const std::string bytes = contours::to_bytes(contour);
+  TRIME_ASSERT(contours::to_bytes(contours::contour_of_bytes(bytes)) == bytes, "{} bytes", bytes.size());
   if (vertices > most_vertices)
     return;
   for (const bool is_periodic : {false, true})
@@ -32,7 +32,7 @@ void use(const shape::Contour& contour) {
       const geometry::Frame frame({{0, 0}, {1, 1}}, is_periodic, false);
       std::vector<shape::Part> parts;
       parts.push_back(
-          shape::Part::contour("part", contour, shape::fit_to_container(contour, frame.container()), frame));
+          shape::Part::contour("part", contour, contours::fit_to_container(contour, frame.container()), frame));
       const shape::RegionShape shape(std::move(parts), "part", frame);
       TRIME_ASSERT(shape.boundary().area > 0, "area {}", shape.boundary().area);
       TRIME_ASSERT(std::isfinite(shape.signed_distance({0.5, 0.5})), "distance");

@@ -29,8 +29,8 @@ class Layers(unittest.TestCase):
         self.assertIn(reason, output)
 
     def assert_allowed(self, path, include):
-        code, output = run({path: include + "\n", "src/core/plain.cpp": "\n"})
-        self.assertEqual(code, 0, output)
+        _, output = run({path: include + "\n", "src/core/plain.cpp": "\n"})
+        self.assertNotIn(f"{path}:1:", output)  # the small tree lacks most includes: their arrows are complained of
 
     def test_upward_and_sideward_includes_are_refused(self):
         for path, header in [
@@ -53,17 +53,16 @@ class Layers(unittest.TestCase):
             ("src/sweep/a.cpp", "trime/meshing/options.hpp"),
         ]:
             with self.subTest(path=path, header=header):
-                self.assert_refused(path, f'#include "{header}"', "may use")
+                self.assert_refused(path, f'#include "{header}"', "may include headers of")
 
     def test_the_verifier_shares_no_code(self):
         for header in ("trime/geometry/vec2.hpp", "io/hdf5_handle.hpp", "core/random.hpp"):
             self.assert_refused("src/check/a.cpp", f'#include "{header}"', "shares no code")
         self.assert_allowed("src/check/a.cpp", "#include <hdf5.h>")
 
-    def test_downward_includes_are_allowed_over_several_layers(self):
+    def test_the_arrows_of_a_module_are_allowed(self):
         for path, header in [
             ("src/meshing/a.cpp", "trime/geometry/predicates.hpp"),
-            ("src/meshing/a.cpp", "delaunay/star_kernel.hpp"),
             ("src/app/main.cpp", "trime/core/error.hpp"),
             ("src/decomposition/a.cpp", "trime/comm/communicator.hpp"),
             ("src/io/a.cpp", "comm/native.hpp"),
@@ -88,9 +87,18 @@ class Layers(unittest.TestCase):
     def test_public_headers_cannot_include_private_ones(self):
         self.assert_refused("include/trime/io/a.hpp", '#include "io/hdf5_handle.hpp"', "private")
 
+    def test_an_arrow_is_direct(self):
+        # meshing -> fitting -> generalise, and meshing has no arrow to generalise of its own.
+        self.assert_refused("src/meshing/a.cpp", '#include "generalise/generalise.hpp"', "may include headers of")
+
+    def test_an_arrow_that_no_include_uses_is_refused(self):
+        code, output = run({"src/tracing/a.cpp": "\n"})
+        self.assertEqual(code, 1)
+        self.assertIn("tracing includes nothing of geometry: remove that arrow", output)
+
     def test_neighbours_in_one_folder_may_be_named_without_it(self):
         files = {"src/io/a.cpp": '#include "b.hpp"\n', "src/io/b.hpp": "\n"}
-        self.assertEqual(run(files)[0], 0)
+        self.assertNotIn("src/io/a.cpp", run(files)[1])
         files = {"src/io/a.cpp": '#include "../app/b.hpp"\n', "src/app/b.hpp": "\n"}
         self.assertEqual(run(files)[0], 1, "a way around the check")
 

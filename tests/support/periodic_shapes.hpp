@@ -44,7 +44,7 @@ inline shape::RegionShape wavy_band() {
 }
 /// A band that winds around the torus both ways, with a tilted triangle cut out across the border.
 inline shape::RegionShape slanted_band() {
-  const shape::Contour contour = shape::make_contour(
+  const contours::Contour contour = contours::make_contour(
       {{{-0.25, -0.25}, {0.25, -0.25}, {1.25, 0.75}, {1.25, 1.25}, {0.75, 1.25}, {-0.25, 0.25}}}, "slanted");
   return {{shape::Part::contour("slanted", contour, {}, unit_torus()),
            shape::Part::triangle("cut", {{{-0.05, 0.47}, {0.12, 0.5}, {0.02, 0.62}}}, unit_torus())},

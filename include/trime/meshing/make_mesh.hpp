@@ -21,7 +21,7 @@ MeshResult make_mesh(const comm::Communicator& comm, const shape::RegionShape& s
 /// @throws GeometryError on all ranks together, see shape::traced_part; if the shape throws on any rank, an Error with
 /// its message on all ranks. Otherwise as above
 /// @note Collective.
-MeshResult make_mesh(const comm::Communicator& comm, const shape::Shape& shape, const sizing::SizeField& size,
+MeshResult make_mesh(const comm::Communicator& comm, const tracing::Shape& shape, const sizing::SizeField& size,
                      const MeshOptions& options, Log& log);
 
 /// True if the stop rule was met and every check passed.

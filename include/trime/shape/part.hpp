@@ -3,10 +3,10 @@
 // numbers lie on the lattice of the container, so the inside tests are exact.
 #pragma once
 
+#include "trime/contours/contour.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/frame.hpp"
 #include "trime/geometry/vec2.hpp"
-#include "trime/shape/contour.hpp"
 #include "trime/shape/part_forms.hpp"
 
 #include <array>
@@ -33,8 +33,8 @@ public:
   /// the gap. A ring given twice is used once. Warnings tell both.
   /// @throws GeometryError `source:line: ...` if rings cross or overlap along edges, enclose no area, or leave
   /// frame.reach()
-  static Part contour(const std::string& name, const Contour& contour, const Normalization& normalization,
-                      const geometry::Frame& frame);
+  static Part contour(const std::string& name, const contours::Contour& contour,
+                      const contours::Normalization& normalization, const geometry::Frame& frame);
   /// @brief A polygon that is on the lattice already. @param warnings for the user, one sentence each
   static Part polygon(const std::string& name, Polygon polygon, std::vector<std::string> warnings = {});
 

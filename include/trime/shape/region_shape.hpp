@@ -8,7 +8,7 @@
 #include "trime/shape/marked_boundary.hpp"
 #include "trime/shape/part.hpp"
 #include "trime/shape/region.hpp"
-#include "trime/shape/shape.hpp"
+#include "trime/tracing/shape.hpp"
 
 #include <cstdint>
 #include <string>
@@ -18,7 +18,7 @@
 namespace trime::shape {
 
 /// Parts joined by a region. Immutable after construction; all queries are thread-safe.
-class RegionShape final : public Shape {
+class RegionShape final : public tracing::Shape {
 public:
   /// @brief Parses the region and makes the boundary.
   /// @param parts named differently, none of them `domain`; see Region::parse for `region`
@@ -58,6 +58,6 @@ private:
 MarkedBoundary boundary_of(std::vector<Part> parts, std::string_view region, const geometry::Frame& frame);
 
 /// @brief A shape of one's own, traced: the region that consists of it alone. See traced_part for cost and errors.
-RegionShape traced(const Shape& shape, const geometry::Frame& frame, const std::string& name = "shape");
+RegionShape traced(const tracing::Shape& shape, const geometry::Frame& frame, const std::string& name = "shape");
 
 } // namespace trime::shape

@@ -3,8 +3,8 @@
 #include "trime/core/error.hpp"
 #include "trime/core/log.hpp"
 #include "trime/meshing/make_mesh.hpp"
-#include "trime/shape/shape.hpp"
 #include "trime/sizing/size_field.hpp"
+#include "trime/tracing/shape.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace {
 using geometry::Vec2;
 
 /// A disc; at the n-th call `fail` decides on the value, or throws.
-class FailingDisc final : public shape::Shape {
+class FailingDisc final : public tracing::Shape {
 public:
   FailingDisc(int call, std::function<double()> fail) : call_(call), fail_(std::move(fail)) {}
   double signed_distance(Vec2 p) const override {
@@ -46,7 +46,7 @@ MeshOptions small() {
   return options;
 }
 
-MeshResult run(const comm::Communicator& comm, const shape::Shape& shape) {
+MeshResult run(const comm::Communicator& comm, const tracing::Shape& shape) {
   Log log(LogLevel::silent, false);
   return make_mesh(comm, shape, sizing::UniformSize(), small(), log);
 }
@@ -114,7 +114,7 @@ TEST(BadShape, AnotherValueOnOneRankIsFound) {
   const comm::Communicator world = comm::Communicator::world();
   if (world.size() == 1)
     GTEST_SKIP() << "one rank";
-  class Moved final : public shape::Shape {
+  class Moved final : public tracing::Shape {
   public:
     explicit Moved(double by) : by_(by) {}
     double signed_distance(Vec2 p) const override { return geometry::length(p - Vec2{0.5 + by_, 0.5}) - 0.3; }

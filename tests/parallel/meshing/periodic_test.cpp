@@ -2,8 +2,8 @@
 // The whole mesher in periodic containers: certified, the same bits on any ranks, and lattices that stay.
 #include "boundary/fixed_points.hpp"
 #include "core/random.hpp"
+#include "fitting/layout.hpp"
 #include "meshing/plan.hpp"
-#include "start/layout.hpp"
 #include "support/distributed.hpp"
 #include "support/periodic_shapes.hpp"
 #include "support/plain_shapes.hpp"
@@ -20,16 +20,16 @@ namespace trime::meshing {
 namespace {
 
 using boundary::FixedPoints;
+using fitting::FitOptions;
+using fitting::lay_boundary;
+using fitting::LayoutContext;
+using fitting::place_sites;
 using geometry::Frame;
 using geometry::Vec2;
 using shape::RegionShape;
 using sites::SiteState;
 using sites::Stage;
 using sites::Wanted;
-using start::lay_boundary;
-using start::LayoutContext;
-using start::place_sites;
-using start::StartOptions;
 using sweep::CvdRule;
 using sweep::DistMeshRule;
 using sweep::Method;
@@ -207,11 +207,11 @@ TEST(PeriodicMesher, APerturbedHexagonalTorusReturns) {
   const RegionShape shape({}, "domain", frame);
   const sizing::UniformSize size;
   const MeshOptions options = options_for(frame, columns * rows, Method::hybrid);
-  const StartOptions start = start_options(options);
+  const FitOptions fit = fit_options(options);
   Log log(LogLevel::silent, false);
   TimerTable timers;
   const FixedPoints none(shape.boundary(), options.container, {}, frame.lattice(), log);
-  const LayoutContext context{world, shape.boundary(), size, start, frame.lattice(), log, timers, none};
+  const LayoutContext context{world, shape.boundary(), size, fit, frame.lattice(), log, timers, none};
   // Bars all the way, cells all the way, and cells after bars as the hybrid method has it.
   for (const auto& [by_bars, sweeps] : {std::pair{360, 360}, {0, 120}, {40, 160}}) {
     Stage layout = lay_boundary(context, 1.0 / columns, columns * rows).stage;

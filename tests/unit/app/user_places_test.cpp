@@ -13,7 +13,8 @@ using geometry::Vec2;
 
 /// A square of side 200 around (1000, 5000), which goes to [0.1, 0.9]^2.
 UserPlaces places_of_square() {
-  const shape::Contour contour = shape::parse_xy("# a coast\n900 4900\n1100 4900\n1100 5100\n900 5100\n", "coast.xy");
+  const contours::Contour contour =
+      contours::parse_xy("# a coast\n900 4900\n1100 4900\n1100 5100\n900 5100\n", "coast.xy");
   UserPlaces places;
   places.add(contour, {{1000, 5000}, {0.5, 0.5}, 0.004});
   return places;
@@ -21,7 +22,7 @@ UserPlaces places_of_square() {
 
 UserPlaces square_as_given() {
   UserPlaces places;
-  places.add(shape::make_contour({{{0.1, 0.1}, {0.9, 0.1}, {0.5, 0.9}}}, "ring.xy"), {});
+  places.add(contours::make_contour({{{0.1, 0.1}, {0.9, 0.1}, {0.5, 0.9}}}, "ring.xy"), {});
   return places;
 }
 
@@ -38,8 +39,8 @@ TEST(UserPlaces, TellTheLineOfTheNearestVertex) {
 }
 
 TEST(UserPlaces, KnowTheLineWhereTheRingOfALoopBegins) {
-  const shape::Contour contour =
-      shape::parse_xy("# two\n0.1 0.1\n0.2 0.1\n0.2 0.2\n\n0.5 0.5\n0.6 0.5\n0.6 0.6\n", "rings.xy");
+  const contours::Contour contour =
+      contours::parse_xy("# two\n0.1 0.1\n0.2 0.1\n0.2 0.2\n\n0.5 0.5\n0.6 0.5\n0.6 0.6\n", "rings.xy");
   UserPlaces places;
   places.add(contour, {});
   const geometry::Boundary boundary =

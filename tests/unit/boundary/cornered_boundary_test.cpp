@@ -121,7 +121,7 @@ std::vector<Vec2> circle_of_vertices(int count) {
 }
 
 Part polygon(const std::vector<Vec2>& points, const Frame& frame) {
-  shape::Contour contour;
+  contours::Contour contour;
   contour.source = "a.xy";
   contour.rings.push_back({points, std::vector<int>(points.size(), 1)});
   return Part::contour("p", contour, {}, frame);

@@ -3,7 +3,7 @@
 #include "core/angle.hpp"
 #include "core/thread_loop.hpp"
 #include "trime/core/error.hpp"
-#include "trime/shape/trace.hpp"
+#include "trime/shape/traced_part.hpp"
 #include "unit/shape/boundary_checks.hpp"
 
 #include <functional>
@@ -24,7 +24,7 @@ using geometry::Vec2;
 
 const Frame unit_frame(Box{{0, 0}, {1, 1}});
 
-class Formula final : public Shape {
+class Formula final : public tracing::Shape {
 public:
   explicit Formula(std::function<double(Vec2)> f) : f_(std::move(f)) {}
   double signed_distance(Vec2 p) const override { return f_(p); }

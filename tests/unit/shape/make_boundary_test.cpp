@@ -257,7 +257,7 @@ TEST(MakeBoundary, SpecialPositionsGiveAShapeOrAClearRefusal) {
       const int kind = pick(3);
       parts.push_back(kind == 0   ? Part::rectangle(name, {at, at + Vec2{size, 0.1 * (1 + pick(3))}}, unit_frame)
                       : kind == 1 ? Part::circle(name, center, size, unit_frame)
-                                  : Part::contour(name, make_contour({ring}, name), {}, unit_frame));
+                                  : Part::contour(name, contours::make_contour({ring}, name), {}, unit_frame));
     }
     const std::string region = random_expression(counter, 3, 4);
     try {
@@ -286,7 +286,7 @@ TEST(MakeBoundary, ContourVerticesStayBitForBit) {
     ring.push_back({0.5 + r * s.cos, 0.5 + r * s.sin});
   }
   const std::vector<Part> parts{rectangle("r", 0.5, 0.5, 0.99, 0.99), circle("c", 0.5, 0.5, 0.35),
-                                Part::contour("m", make_contour({ring}, "m"), {}, unit_frame)};
+                                Part::contour("m", contours::make_contour({ring}, "m"), {}, unit_frame)};
   const RegionShape shape(parts, "union(difference(m, c), intersection(m, c, r), difference(r, m))", unit_frame);
   expect_valid(shape.boundary());
   expect_inside_on_left(shape);
@@ -307,7 +307,8 @@ TEST(MakeBoundary, DiscsAlongAFineContour) {
     const SinCos s = sin_cos(2 * pi * k / vertices);
     ring.push_back({0.5 + 0.3 * s.cos, 0.5 + 0.3 * s.sin});
   }
-  std::vector<Part> parts{Part::contour("m", make_contour({ring}, "m"), {}, unit_frame), circle("all", 0.5, 0.5, 0.45)};
+  std::vector<Part> parts{Part::contour("m", contours::make_contour({ring}, "m"), {}, unit_frame),
+                          circle("all", 0.5, 0.5, 0.45)};
   std::string united = "union(all";
   std::string beads = "union(d0";
   for (int k = 0; k < discs; ++k) {
@@ -339,8 +340,8 @@ TEST(MakeBoundary, ContoursCrossEachOther) {
     }
     return ring;
   };
-  const std::vector<Part> parts{Part::contour("a", make_contour({wave(0.1)}, "a"), {}, unit_frame),
-                                Part::contour("b", make_contour({wave(0.1 + pi)}, "b"), {}, unit_frame)};
+  const std::vector<Part> parts{Part::contour("a", contours::make_contour({wave(0.1)}, "a"), {}, unit_frame),
+                                Part::contour("b", contours::make_contour({wave(0.1 + pi)}, "b"), {}, unit_frame)};
   const double a = RegionShape(parts, "a", unit_frame).boundary().area,
                b = RegionShape(parts, "b", unit_frame).boundary().area;
   const double both = RegionShape(parts, "intersection(a, b)", unit_frame).boundary().area;

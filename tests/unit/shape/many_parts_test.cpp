@@ -74,7 +74,7 @@ std::vector<Vec2> comb(int n, Vec2 middle) {
 }
 
 Part comb_part(const std::string& name, int n, Vec2 middle) {
-  Contour contour;
+  contours::Contour contour;
   contour.source = name;
   contour.rings.push_back({comb(n, middle), std::vector<int>(3 * static_cast<std::size_t>(n) + 2, 1)});
   return Part::contour(name, contour, {}, unit_frame);

@@ -42,10 +42,10 @@ bool inside_by_brute_force(const std::vector<Loop>& loops, Vec2 p) {
 }
 
 Part star_with_holes(int n, int seed) {
-  const Contour contour =
-      make_contour({star_ring(n, {0.5, 0.5}, 0.45, seed), star_ring(n / 2, {0.5, 0.5}, 0.2, seed + 1),
-                    star_ring(7, {0.5, 0.5}, 0.08, seed + 2)},
-                   "star");
+  const contours::Contour contour =
+      contours::make_contour({star_ring(n, {0.5, 0.5}, 0.45, seed), star_ring(n / 2, {0.5, 0.5}, 0.2, seed + 1),
+                              star_ring(7, {0.5, 0.5}, 0.08, seed + 2)},
+                             "star");
   return Part::contour("star", contour, {}, unit_frame);
 }
 

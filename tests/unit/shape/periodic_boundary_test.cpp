@@ -140,8 +140,8 @@ TEST(PeriodicBoundary, BandsAreBoundedByWindingLoops) {
 }
 
 TEST(PeriodicBoundary, ASlantedBandWindsBothWays) {
-  const Contour contour =
-      make_contour({{{-0.1, -0.1}, {0.1, -0.1}, {1.1, 0.9}, {1.1, 1.1}, {0.9, 1.1}, {-0.1, 0.1}}}, "c");
+  const contours::Contour contour =
+      contours::make_contour({{{-0.1, -0.1}, {0.1, -0.1}, {1.1, 0.9}, {1.1, 1.1}, {0.9, 1.1}, {-0.1, 0.1}}}, "c");
   const RegionShape shape({Part::contour("band", contour, {}, torus)}, "band", torus);
   check(shape, {2, 1, 0, 0, 0.4});
 }
@@ -207,7 +207,7 @@ TEST(PeriodicBoundary, RandomTrianglesKeepTheirAreaAndCloseUp) {
   }
 }
 
-class Formula final : public Shape {
+class Formula final : public tracing::Shape {
 public:
   explicit Formula(double (*f)(Vec2)) : f_(f) {}
   double signed_distance(Vec2 p) const override { return f_(p); }

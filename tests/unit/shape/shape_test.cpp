@@ -33,8 +33,8 @@ std::string config_file(const std::string& name) {
 }
 
 Part normalized(const std::string& name, const std::string& path) {
-  const Contour contour = read_contour(path);
-  return Part::contour(name, contour, fit_to_container(contour, unit_frame.container()), unit_frame);
+  const contours::Contour contour = contours::read_contour(path);
+  return Part::contour(name, contour, contours::fit_to_container(contour, unit_frame.container()), unit_frame);
 }
 
 TEST(Shape, DistanceAgainstBruteForce) {
@@ -124,8 +124,8 @@ double length_of(const std::vector<Vec2>& ring) {
 
 TEST(Shape, SpadeMinusCircle) {
   const std::string path = config_file("spade.xy");
-  const Contour contour = read_contour(path);
-  const double scale = fit_to_container(contour, unit_frame.container()).scale;
+  const contours::Contour contour = contours::read_contour(path);
+  const double scale = contours::fit_to_container(contour, unit_frame.container()).scale;
   const RegionShape shape({normalized("spade", path), Part::circle("hole", {0.5, 0.6}, 0.1, unit_frame)},
                           "difference(spade, hole)", unit_frame);
   expect_valid(shape.boundary());
@@ -150,9 +150,9 @@ TEST(Shape, RaggedContourWithManyVerticesAndLakes) {
     file << "\n";
   }
   file.close();
-  const Contour contour = read_contour(path);
+  const contours::Contour contour = contours::read_contour(path);
   ASSERT_EQ(contour.rings.size(), rings.size());
-  const Normalization fit = fit_to_container(contour, unit_frame.container());
+  const contours::Normalization fit = contours::fit_to_container(contour, unit_frame.container());
   const RegionShape shape({Part::contour("map", contour, fit, unit_frame)}, "map", unit_frame);
   expect_valid(shape.boundary());
   expect_inside_on_left(shape);
@@ -173,7 +173,7 @@ TEST(Shape, RaggedContourWithManyVerticesAndLakes) {
     for (const Piece& piece : loop.pieces)
       ends.insert({piece.start.x, piece.start.y});
   EXPECT_EQ(ends.size(), vertices);
-  for (const ContourRing& ring : contour.rings)
+  for (const contours::ContourRing& ring : contour.rings)
     for (const Vec2 p : ring.points) {
       const Vec2 q = unit_frame.snap(fit.apply(p));
       ASSERT_EQ(ends.count({q.x, q.y}), 1u);
@@ -203,13 +203,13 @@ void expect_same_boundary(const std::vector<Part>& parts, const std::string& reg
 }
 
 TEST(Shape, TheBoundaryAloneIsThatOfTheShape) {
-  const Contour marked = parse_poly("4 2 0 0\n1 0.2 0.2\n2 0.8 0.2\n3 0.8 0.8\n4 0.2 0.8\n"
-                                    "4 1\n1 1 2 7\n2 2 3 0\n3 3 4 8\n4 4 1 7\n0\n",
-                                    "s.poly");
-  const Contour plain = parse_xy("0.2 0.2\n0.8 0.2\n0.8 0.8\n0.2 0.8\n", "s.xy");
+  const contours::Contour marked = contours::parse_poly("4 2 0 0\n1 0.2 0.2\n2 0.8 0.2\n3 0.8 0.8\n4 0.2 0.8\n"
+                                                        "4 1\n1 1 2 7\n2 2 3 0\n3 3 4 8\n4 4 1 7\n0\n",
+                                                        "s.poly");
+  const contours::Contour plain = contours::parse_xy("0.2 0.2\n0.8 0.2\n0.8 0.8\n0.2 0.8\n", "s.xy");
   const Frame torus(Box{{0, 0}, {1, 1}}, true, true);
   for (const Frame& frame : {unit_frame, torus})
-    for (const Contour& contour : {marked, plain}) {
+    for (const contours::Contour& contour : {marked, plain}) {
       const std::vector<Part> parts{Part::contour("s", contour, {}, frame), Part::circle("c", {0.8, 0.5}, 0.1, frame)};
       expect_same_boundary(parts, "difference(s, c)", frame);
       expect_same_boundary(parts, "difference(domain, s, c)", frame);

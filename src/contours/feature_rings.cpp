@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contours/feature_rings.hpp"
+
+#include "contours/contour_text.hpp"
+#include "contours/segment_rings.hpp"
+#include "trime/core/error.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace trime::contours {
+namespace {
+
+using geometry::Vec2;
+
+constexpr std::size_t most_attributes = 20; // that are remembered, for a message
+
+/// The whole text as a number that a marker can be.
+std::optional<int> integer_of(const std::string& text) {
+  int value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end)
+    return {};
+  return value;
+}
+
+/// Without blanks around it; control characters, which end lines in many formats, are blanks.
+std::string cleaned(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; }, ' ');
+  return std::string(trimmed(text));
+}
+
+} // namespace
+
+FeatureRings::FeatureRings(Contour& contour, std::string attribute)
+    : contour_(contour), builder_(contour), attribute_(std::move(attribute)) {
+  contour_.is_map = true;
+}
+
+void FeatureRings::add(Kind kind, std::vector<FilePoint> vertices) {
+  of_feature_.push_back({kind, std::move(vertices)});
+}
+
+void FeatureRings::skip(const std::string& type, int line) {
+  if (++skipped_ > 1)
+    return;
+  skipped_line_ = line;
+  skipped_type_ = type;
+}
+
+void FeatureRings::has_attribute(const std::string& name) {
+  if (attributes_.size() < most_attributes || name == attribute_)
+    attributes_.insert(name);
+}
+
+void FeatureRings::end_feature(const std::optional<std::string>& value) {
+  if (of_feature_.empty())
+    return;
+  const int number = number_of(value);
+  for (Chain& chain : of_feature_) {
+    for (const FilePoint& vertex : chain.vertices) // before ends are compared
+      check_coordinates(vertex.position, contour_.source, vertex.line);
+    if (chain.kind == Kind::line && chain.vertices.front().position != chain.vertices.back().position) {
+      open_lines_.push_back(std::move(chain));
+      open_markers_.push_back(number);
+      continue;
+    }
+    for (const FilePoint& vertex : chain.vertices)
+      builder_.add(vertex.position, vertex.line, number);
+    builder_.end_ring();
+  }
+  of_feature_.clear();
+}
+
+void FeatureRings::finish(const char* expected) {
+  end_feature();
+  if (!attribute_.empty() && attributes_.count(attribute_) == 0)
+    throw ConfigError(fmt::format("{}: expected features with the attribute '{}', found {}", contour_.source,
+                                  attribute_,
+                                  attributes_.empty() ? std::string("none with attributes")
+                                                      : fmt::format("only {}", fmt::join(attributes_, ", "))));
+  check_ends();
+  join_lines();
+  builder_.finish(expected);
+  resolve_markers();
+  tell_skipped();
+}
+
+int FeatureRings::number_of(const std::optional<std::string>& value) {
+  const std::string text = value ? cleaned(*value) : std::string();
+  if (text.empty())
+    return 0;
+  const auto [at, is_new] = numbers_.try_emplace(text, static_cast<int>(values_.size()) + 1);
+  if (is_new)
+    values_.push_back(text);
+  return at->second;
+}
+
+/// An even number of lines ends at each place.
+void FeatureRings::check_ends() const {
+  std::vector<FilePoint> ends;
+  for (const Chain& chain : open_lines_)
+    ends.insert(ends.end(), {chain.vertices.front(), chain.vertices.back()});
+  std::stable_sort(ends.begin(), ends.end(), [](const FilePoint& a, const FilePoint& b) {
+    return geometry::lexicographically_less(a.position, b.position);
+  });
+  const FilePoint* first = nullptr;
+  for (std::size_t k = 0, next = 0; k < ends.size(); k = next) {
+    next = k + 1;
+    while (next < ends.size() && ends[next].position == ends[k].position)
+      ++next;
+    if ((next - k) % 2 != 0 && (first == nullptr || ends[k].line < first->line))
+      first = &ends[k];
+  }
+  if (first != nullptr)
+    throw GeometryError(fmt::format("{}:{}: expected polygons, or lines of which each ends where it starts or where "
+                                    "another one ends; found one with its end at ({}, {}) alone: close the ring, or "
+                                    "make a polygon of it",
+                                    contour_.source, first->line, first->position.x, first->position.y));
+}
+
+void FeatureRings::join_lines() {
+  std::vector<FileVertex> vertices;
+  std::vector<FileSegment> segments;
+  for (std::size_t line = 0; line < open_lines_.size(); ++line)
+    for (std::size_t k = 0; k < open_lines_[line].vertices.size(); ++k) {
+      const FilePoint& vertex = open_lines_[line].vertices[k];
+      const int index = static_cast<int>(vertices.size());
+      if (k > 0)
+        segments.push_back({index - 1, index, open_markers_[line], vertex.line});
+      vertices.push_back({vertex.position, vertex.line, index + 1});
+    }
+  for (const auto& ring : rings_of_segments(vertices, segments, contour_.source, contour_.warnings)) {
+    for (const RingVertex& vertex : ring)
+      builder_.add(vertex.position, vertex.line, vertex.marker);
+    builder_.end_ring();
+  }
+}
+
+/// Where all values are integers these are the markers; else the values are their names.
+void FeatureRings::resolve_markers() {
+  const auto is_integer = [](const std::string& value) { return integer_of(value).has_value(); };
+  if (!std::all_of(values_.begin(), values_.end(), is_integer)) {
+    contour_.marker_names = values_;
+    return;
+  }
+  for (ContourRing& ring : contour_.rings) {
+    for (int& marker : ring.markers)
+      marker = marker == 0 ? 0 : *integer_of(values_[static_cast<std::size_t>(marker - 1)]);
+    if (std::all_of(ring.markers.begin(), ring.markers.end(), [](int marker) { return marker == 0; }))
+      ring.markers.clear();
+  }
+}
+
+void FeatureRings::tell_skipped() {
+  if (skipped_ > 0)
+    contour_.warnings.push_back(
+        fmt::format("{}:{}: {} geometr{} of type {} or the like left out: only polygons and lines that close rings "
+                    "bound a shape",
+                    contour_.source, skipped_line_, skipped_, skipped_ == 1 ? "y" : "ies", skipped_type_));
+}
+
+} // namespace trime::contours

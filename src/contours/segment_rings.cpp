@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contours/segment_rings.hpp"
+
+#include "trime/core/error.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace trime::contours {
+namespace {
+
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
+
+/// The first vertex at the place of each one.
+std::vector<int> first_at_place(const std::vector<FileVertex>& vertices) {
+  std::vector<int> order(vertices.size()), first(vertices.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto place = [&](int v) { return vertices[at(v)].position; };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return geometry::lexicographically_less(place(a), place(b)); });
+  for (std::size_t k = 0; k < order.size(); ++k)
+    first[at(order[k])] = k > 0 && place(order[k]) == place(order[k - 1]) ? first[at(order[k - 1])] : order[k];
+  return first;
+}
+
+/// Of those that are the same the first stays.
+void drop_useless(std::vector<FileSegment>& segments, const std::string& source, std::vector<std::string>& warnings) {
+  const std::size_t before = segments.size();
+  int line = 0;
+  const auto told = [&](const FileSegment& s) { line = line == 0 ? s.line : std::min(line, s.line); };
+  std::erase_if(segments, [&](const FileSegment& s) {
+    if (s.from == s.to)
+      told(s);
+    return s.from == s.to;
+  });
+  std::vector<int> order(segments.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto ends = [&](int k) { return std::minmax(segments[at(k)].from, segments[at(k)].to); };
+  const auto pair_of = [&](int k) { return std::pair<int, int>(ends(k)); };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pair_of(a) < pair_of(b); });
+  std::vector<char> dropped(segments.size(), 0);
+  for (std::size_t k = 1; k < order.size(); ++k)
+    if (pair_of(order[k]) == pair_of(order[k - 1])) {
+      dropped[at(order[k])] = 1;
+      told(segments[at(order[k])]);
+    }
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < segments.size(); ++k)
+    if (dropped[k] == 0)
+      segments[kept++] = segments[k];
+  segments.resize(kept);
+  if (kept < before)
+    warnings.push_back(fmt::format("{}:{}: {} segment{} without length or given before, here first; left out", source,
+                                   line, before - kept, before - kept == 1 ? "" : "s"));
+}
+
+/// Segments at each vertex.
+class Web {
+public:
+  Web(const std::vector<FileVertex>& vertices, const std::vector<FileSegment>& segments)
+      : vertices_(vertices), segments_(segments), first_(vertices.size() + 1, 0), used_(segments.size(), 0) {
+    for (const FileSegment& s : segments) {
+      ++first_[at(s.from) + 1];
+      ++first_[at(s.to) + 1];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    next_.assign(first_.begin(), first_.end() - 1);
+    arms_.resize(2 * segments.size());
+    for (std::size_t k = 0; k < segments.size(); ++k)
+      for (const int end : {segments[k].from, segments[k].to})
+        arms_[at(next_[at(end)]++)] = static_cast<int>(k);
+    next_.assign(first_.begin(), first_.end() - 1);
+  }
+
+  void check(const std::string& source) const {
+    for (const FileSegment& s : segments_)
+      for (const int v : {s.from, s.to})
+        if (const int count = first_[at(v) + 1] - first_[at(v)]; count % 2 != 0) {
+          const FileVertex& vertex = vertices_[at(v)];
+          throw GeometryError(fmt::format(
+              "{}:{}: {} segment{} vertex {} at ({}, {}); expected rings, so two at each vertex: {}", source, s.line,
+              count, count == 1 ? " ends at" : "s meet at", vertex.number, vertex.position.x, vertex.position.y,
+              count == 1 ? "close the ring, or take the open line out"
+                         : "take out the line that leads into the area: lines inside are not kept"));
+        }
+  }
+
+  std::vector<std::vector<RingVertex>> rings() {
+    std::vector<std::vector<RingVertex>> found;
+    std::vector<int> place(vertices_.size(), -1); // on the path
+    struct Step {
+      int vertex, segment; // which leaves it
+    };
+    std::vector<Step> path;
+    for (std::size_t first = 0; first < segments_.size(); ++first) {
+      if (used_[first] != 0)
+        continue;
+      int here = segments_[first].from, by = static_cast<int>(first);
+      do { // the number of segments at each vertex is even: there is a way on until the first vertex is reached
+        used_[at(by)] = 1;
+        place[at(here)] = static_cast<int>(path.size());
+        path.push_back({here, by});
+        const FileSegment& s = segments_[at(by)];
+        here = s.from == here ? s.to : s.from;
+        if (place[at(here)] >= 0) { // a ring is closed
+          std::vector<RingVertex>& ring = found.emplace_back();
+          const auto begin = path.begin() + place[at(here)];
+          for (auto step = begin; step != path.end(); ++step) {
+            const FileVertex& v = vertices_[at(step->vertex)];
+            ring.push_back({v.position, v.line, segments_[at(step->segment)].marker});
+            place[at(step->vertex)] = -1;
+          }
+          path.erase(begin, path.end());
+        }
+        by = unused_at(here);
+      } while (!path.empty() && by >= 0);
+    }
+    return found;
+  }
+
+private:
+  int unused_at(int vertex) {
+    for (int& k = next_[at(vertex)]; k < first_[at(vertex) + 1]; ++k)
+      if (used_[at(arms_[at(k)])] == 0)
+        return arms_[at(k)];
+    return -1;
+  }
+
+  const std::vector<FileVertex>& vertices_;
+  const std::vector<FileSegment>& segments_;
+  std::vector<int> first_, next_, arms_;
+  std::vector<char> used_;
+};
+
+} // namespace
+
+std::vector<std::vector<RingVertex>> rings_of_segments(const std::vector<FileVertex>& vertices,
+                                                       std::vector<FileSegment> segments, const std::string& source,
+                                                       std::vector<std::string>& warnings) {
+  const std::vector<int> first = first_at_place(vertices);
+  for (FileSegment& s : segments) {
+    s.from = first[at(s.from)];
+    s.to = first[at(s.to)];
+  }
+  drop_useless(segments, source, warnings);
+  Web web(vertices, segments);
+  web.check(source);
+  return web.rings();
+}
+
+} // namespace trime::contours

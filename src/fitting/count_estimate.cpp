@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fitting/count_estimate.hpp"
+
+#include "comm/agree.hpp"
+#include "comm/shared_work.hpp"
+#include "core/angle.hpp"
+#include "fitting/density_integral.hpp"
+#include "fitting/rules.hpp"
+#include "placing/density_sampler.hpp"
+#include "placing/work_share.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::fitting {
+namespace {
+
+using geometry::Vec2;
+using polygon::BoundarySite;
+using polygon::BoundarySites;
+
+constexpr double arc_step = pi / 8;            // of the polygon along a circular piece
+constexpr std::ptrdiff_t chords_in_a_row = 16; // by one thread
+
+/// A vertex of the polygon on the unrolled loop, and the length of the curve up to it from the one before.
+struct Vertex {
+  Vec2 position;
+  double length;
+};
+
+std::vector<Vertex> thinned(const geometry::Loop& loop, double spacing) {
+  std::vector<Vertex> vertices;
+  double since = 0;
+  const auto pass = [&](Vec2 p, bool must) {
+    if (!must && since < spacing)
+      return;
+    vertices.push_back({p, since});
+    since = 0;
+  };
+  for (std::size_t k = 0; k < loop.pieces.size(); ++k) {
+    const geometry::Piece& piece = loop.pieces[k];
+    pass(piece.start, k == 0);
+    const double length = piece.length();
+    const double parts = piece.circular ? std::ceil(std::fabs(piece.sweep) / arc_step) : 1;
+    for (double part = 1; part < parts; ++part) {
+      since += length / parts;
+      pass(piece.point(length * (part / parts)), false);
+    }
+    since += length / parts;
+  }
+  vertices.front().length = since; // closes the loop
+  return vertices;
+}
+
+/// Sites at the vertices. Loops of fewer than three are left out.
+BoundarySites polygon_of(const geometry::Boundary& boundary, const geometry::Lattice& lattice, double spacing,
+                         std::vector<double>& lengths) {
+  BoundarySites polygon;
+  const geometry::Periods& periods = polygon.periods = boundary.periods;
+  polygon.loop_start.push_back(0);
+  for (const geometry::Loop& loop : boundary.loops) {
+    const std::vector<Vertex> vertices = thinned(loop, loop.winds() ? std::fmin(spacing, loop.length() / 8) : spacing);
+    const auto n = static_cast<LocalIndex>(vertices.size()), first = polygon.loop_start.back();
+    if (n < 3)
+      continue;
+    for (LocalIndex k = 0; k < n; ++k) {
+      const bool closes = k + 1 == n;
+      const Vertex &at = vertices[static_cast<std::size_t>(k)],
+                   &to = vertices[closes ? 0 : static_cast<std::size_t>(k) + 1];
+      const Vec2 from = lattice.snap(at.position), canonical = periods.wrap(from);
+      const Vec2 end = lattice.snap(to.position) + (closes ? loop.winding : Vec2{}) + (canonical - from);
+      BoundarySite site;
+      site.position = canonical;
+      site.previous = first + (k + n - 1) % n;
+      site.next = first + (k + 1) % n;
+      site.next_shift = end - periods.wrap(end);
+      polygon.sites.push_back(site);
+      lengths.push_back(to.length);
+    }
+    polygon.loop_start.push_back(first + n);
+  }
+  return polygon;
+}
+
+double count_corners(const geometry::Boundary& boundary, double angle) {
+  const double cosine = sin_cos(angle * (pi / 180)).cos;
+  double corners = 0;
+  for (const geometry::Loop& loop : boundary.loops)
+    for (std::size_t k = 0; k < loop.pieces.size(); ++k) {
+      const geometry::Piece &before = loop.pieces[k > 0 ? k - 1 : loop.pieces.size() - 1], &after = loop.pieces[k];
+      corners += geometry::dot(before.tangent(before.length()), after.tangent(0)) < cosine;
+    }
+  return corners;
+}
+
+} // namespace
+
+CountEstimate::CountEstimate(const LayoutContext& context, double points, double spacing, double coarsening)
+    : context_(context), points_(points), coarsening_(coarsening) {
+  BoundarySites polygon;
+  comm::run_agreed(context.comm, [&] {
+    polygon = polygon_of(context.fixed.cornered_boundary(), context.lattice, spacing, lengths_);
+  });
+  corners_ = count_corners(context.fixed.cornered_boundary(), context.options.features.corner_angle);
+  if (!polygon.sites.empty() || context.given_boundary.covers_torus)
+    reference_ = lay_reference(context, std::move(polygon), points, coarsening);
+}
+
+std::optional<double> CountEstimate::points(double factor) {
+  if (!reference_.guard)
+    return std::nullopt;
+  const sizing::ScaledSize size = scaled(factor);
+  const std::optional<double> on_boundary = boundary_points(size);
+  if (!on_boundary)
+    return std::nullopt;
+  const double placed = *on_boundary + static_cast<double>(context_.fixed.inside().size());
+  if (*on_boundary > FitRules::far_too_many * points_)
+    return placed;
+  placing::share_by_density(reference_, size, context_.lattice, coarsening_);
+  const mesh::TileRange tiles = placing::own_share(reference_);
+  return placed + integrate_density(context_.comm, tiles,
+                                    placing::DensitySampler(tiles.grid, *reference_.guard, size, context_.lattice,
+                                                            coarsening_, FitRules::hopelessly_many * points_))
+                      .sites;
+}
+
+sizing::ScaledSize CountEstimate::scaled(double factor) const {
+  const FitOptions& options = context_.options;
+  return {context_.relative_size, factor, options.min_size.value_or(0), options.max_size.value_or(INFINITY)};
+}
+
+double CountEstimate::crowding(double factor) const {
+  const std::optional<double> sites = boundary_points(scaled(factor));
+  if (!sites || !(*sites > 0))
+    return 1;
+  const double share = corners_ / (FitRules::sparse_corners * *sites);
+  return std::clamp(share * share, 1.0, FitRules::most_crowding);
+}
+
+/// Simpson's rule, in steps of about the local size. Collective.
+std::optional<double> CountEstimate::boundary_points(const sizing::SizeField& size) const {
+  const BoundarySites& polygon = reference_.polygon;
+  const double most = FitRules::far_too_many * points_;
+  const auto count_on = [&](std::ptrdiff_t k, std::vector<double>& counts) {
+    const geometry::Segment chord = polygon.chord(static_cast<LocalIndex>(k));
+    const auto inverse = [&](double share) {
+      return 1 / size.size(polygon.periods.wrap(chord.a + share * (chord.b - chord.a)));
+    };
+    const double length = lengths_[static_cast<std::size_t>(k)];
+    double count = 0, share = 0, first = inverse(0);
+    while (share < 1 && count < most && std::isfinite(first)) {
+      double step = std::max(FitRules::integral_step / (first * length), 1e-9);
+      step = share + 1.25 * step < 1 ? step : 1 - share;
+      const double last = inverse(share + step);
+      count += step * length * (first + 4 * inverse(share + 0.5 * step) + last) / 6;
+      share = step < 1 - share ? share + step : 1;
+      first = last;
+    }
+    counts.push_back(std::isfinite(first) ? count : NAN);
+  };
+  const std::vector<double> counts =
+      comm::gather_shared<double>(context_.comm, std::ssize(polygon.sites), chords_in_a_row, count_on);
+  double all = 0;
+  for (std::size_t loop = 0; loop + 1 < polygon.loop_start.size(); ++loop) {
+    double sites = 0;
+    for (LocalIndex k = polygon.loop_start[loop]; k < polygon.loop_start[loop + 1]; ++k)
+      sites += counts[static_cast<std::size_t>(k)];
+    if (!std::isfinite(sites))
+      return std::nullopt;
+    if (sites >= FitRules::least_sites || context_.options.features.keep_all)
+      all += std::max(FitRules::least_sites, sites);
+  }
+  return all;
+}
+
+} // namespace trime::fitting

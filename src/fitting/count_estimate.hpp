@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// About how many points a mesh will have at a factor of the relative size, without laying out its boundary.
+#pragma once
+
+#include "fitting/layout.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace trime::fitting {
+
+/// @brief Boundary sites from the integral of ds/h, inner ones from that of h^-2 outside of the strip along a polygon
+/// that stands for the boundary. What corners and narrow places take in addition is not counted: the estimate is low,
+/// by some per cent for a boundary full of them.
+class CountEstimate {
+public:
+  /// @param spacing of the polygon's vertices, where the boundary has so many
+  /// @param coarsening of the integral, see DensitySampler
+  CountEstimate(const LayoutContext& context, double points, double spacing, double coarsening);
+
+  /// Nothing if the size at some place of the boundary is no size (the layout tells where), or if the shape is smaller
+  /// than the spacing. Collective.
+  /// @throws GeometryError as integrate_density
+  std::optional<double> points(double factor);
+
+  /// @brief By how much the factor should rather be larger, a guess: where a good part of the boundary sites are
+  /// corners, the size is lowered around many of them. Collective.
+  double crowding(double factor) const;
+
+private:
+  sizing::ScaledSize scaled(double factor) const;
+  std::optional<double> boundary_points(const sizing::SizeField& size) const;
+
+  const LayoutContext& context_;
+  double points_, coarsening_;
+  sites::Stage reference_;      // the polygon as if it were a mesh boundary, without points
+  double corners_ = 0;          // of the boundary
+  std::vector<double> lengths_; // of the curve from each vertex to its next
+};
+
+} // namespace trime::fitting

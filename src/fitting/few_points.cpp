@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fitting/few_points.hpp"
+
+#include "fitting/rules.hpp"
+#include "trime/core/error.hpp"
+
+#include <cmath>
+#include <optional>
+
+namespace trime::fitting {
+using sites::Stage;
+
+bool is_jump(double points, double wanted) {
+  return wanted > FitRules::many_points && points < FitRules::least_of_jump * wanted;
+}
+
+void Fewest::consider(const Stage& stage, double trial_points, bool all_counted) {
+  if (trial_points >= points)
+    return;
+  points = trial_points;
+  counted = all_counted && !stage.polygon.overfull;
+  double least = INFINITY;
+  for (LocalIndex k = 0; k < std::ssize(stage.polygon.sites); ++k) {
+    const geometry::Segment chord = stage.polygon.chord(k);
+    if (const double length = geometry::length(chord.b - chord.a); length < least) {
+      least = length;
+      shortest = chord;
+    }
+  }
+}
+
+void fail_for_few_points(const LayoutContext& context, double fewest, bool counted) {
+  const GlobalId points = context.options.points.value_or(0);
+  if (context.options.max_size)
+    throw ConfigError(fmt::format("points = {} are too few for max_size = {}: expected {}; ask for more points or a "
+                                  "larger max_size",
+                                  points, *context.options.max_size,
+                                  std::isfinite(fewest)
+                                      ? fmt::format("{} {:.0f}", counted ? "at least" : "far more than", fewest)
+                                      : "more than numbers can tell"));
+  if (const std::size_t inside = context.fixed.inside().size(); inside > 0)
+    throw ConfigError(
+        fmt::format("points = {} are too few for this shape: the {} fixed points inside and {:.0f} on its "
+                    "boundary (every corner, and every place where the boundary comes near itself, takes "
+                    "its own) make {:.0f}; ask for more, or for fewer fixed points",
+                    points, inside, fewest - static_cast<double>(inside), fewest));
+  throw ConfigError(
+      fmt::format("points = {} are too few for this shape: its boundary alone needs {:.0f} (every corner, and "
+                  "every place where the boundary comes near itself, takes its own); ask for more",
+                  points, fewest));
+}
+
+void fail_for_few_points(const LayoutContext& context, const Fewest& fewest) {
+  if (context.options.max_size || context.fixed.inside().size() > 0)
+    fail_for_few_points(context, fewest.points, fewest.counted);
+  const geometry::Vec2 place = 0.5 * (fewest.shortest.a + fewest.shortest.b);
+  throw ConfigError(fmt::format(
+      "points = {} are too few for this shape: its boundary alone needs {}{:.0f} (every corner, and every place where "
+      "the boundary comes near itself, takes its own; the shortest chord, {:.3g} long, is at ({:.6g}, {:.6g})); ask "
+      "for more, or simplify the shape there",
+      *context.options.points, fewest.counted ? "" : "more than ", fewest.points,
+      geometry::length(fewest.shortest.b - fewest.shortest.a), place.x, place.y));
+}
+
+void check_edge_length(const FitOptions& options) {
+  if (!options.edge_length)
+    return;
+  const auto check = [&](const std::optional<double>& bound, bool broken, const char* name, const char* relation) {
+    if (broken)
+      throw ConfigError(fmt::format("edge_length = {} and {} = {}: expected an edge_length of at {} {}",
+                                    *options.edge_length, name, *bound, relation, name));
+  };
+  check(options.min_size, options.min_size && *options.min_size > *options.edge_length, "min_size", "least");
+  check(options.max_size, options.max_size && *options.max_size < *options.edge_length, "max_size", "most");
+}
+
+} // namespace trime::fitting

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fitting/layout.hpp"
+
+#include "boundary/boundary_refiner.hpp"
+#include "boundary/rules.hpp"
+#include "boundary/size_limits.hpp"
+#include "comm/agree.hpp"
+#include "core/angle.hpp"
+#include "fitting/rules.hpp"
+#include "placing/work_share.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trime::fitting {
+namespace {
+
+using boundary::BoundaryRefiner;
+using boundary::BoundaryRules;
+using boundary::BoundarySizes;
+using boundary::FeatureRule;
+using boundary::make_boundary_sites;
+using boundary::size_limits;
+using boundary::SizeSamples;
+using polygon::BoundaryGuard;
+using polygon::BoundarySite;
+using polygon::BoundarySites;
+using sites::SiteState;
+using sites::Stage;
+
+/// The part of the container grid around the shape: what lies beyond holds no site. One whole period along periodic
+/// axes. Cells that were given keep about their size.
+std::unique_ptr<SiteState> make_state(const LayoutContext& context, const BoundarySites& boundary, double spacing) {
+  const FitOptions& options = context.options;
+  const geometry::Box& container = options.container;
+  geometry::Box around;
+  for (const BoundarySite& site : boundary.sites)
+    around.include(site.position);
+  double h = spacing;
+  geometry::Box box{{std::max(container.min.x, around.min.x - h), std::max(container.min.y, around.min.y - h)},
+                    {std::min(container.max.x, around.max.x + h), std::min(container.max.y, around.max.y + h)}};
+  const geometry::Periods& periods = context.given_boundary.periods;
+  if (periods.x > 0) {
+    box.min.x = periods.min.x;
+    box.max.x = periods.min.x + periods.x;
+  }
+  if (periods.y > 0) {
+    box.min.y = periods.min.y;
+    box.max.y = periods.min.y + periods.y;
+  }
+  // Of a shape that is nearly nothing but boundary, most cells hold no site.
+  if (context.given_boundary.area > 0)
+    h = std::max(
+        h, h * std::sqrt(box.width() * box.height() / (LayoutRules::emptiest_grid * context.given_boundary.area)));
+  const auto cells = [](const std::optional<int>& given, double share) -> std::optional<int> {
+    if (!given)
+      return given;
+    return std::max(1, static_cast<int>(std::lround(*given * share)));
+  };
+  return std::make_unique<SiteState>(context.comm, box,
+                                     mesh::GridOptions{cells(options.cells_x, box.width() / container.width()),
+                                                       cells(options.cells_y, box.height() / container.height()), h,
+                                                       periods});
+}
+
+/// The sizes of a stage from what `fitted` says and its coarsening.
+void set_sizes(const LayoutContext& context, const FittedSize& fitted, Stage& stage) {
+  const FitOptions& options = context.options;
+  stage.asked_size =
+      std::make_unique<sizing::ScaledSize>(context.relative_size, fitted.factor, options.min_size.value_or(0),
+                                           options.max_size.value_or(std::numeric_limits<double>::infinity()));
+  const auto& limits = fitted.limits;
+  const sizing::SizeField* within = stage.asked_size.get();
+  if (limits.empty()) {
+    stage.lowered_size.reset();
+  } else {
+    stage.lowered_size = std::make_unique<sizing::LoweredSize>(*stage.asked_size, limits, BoundaryRules::gradation,
+                                                               context.given_boundary.periods);
+    within = stage.lowered_size.get();
+  }
+  stage.size = std::make_unique<sizing::ScaledSize>(*within, stage.coarsening);
+}
+
+/// The size for which the curves were simplified, over the fitted one; at least 1.
+double coarseness(const FittedSize& fitted) {
+  return std::fmax(1, fitted.curves.factor / fitted.factor);
+}
+
+/// The curves on which the sites of a stage lie: those of the shape, without what is narrower than its last size, or
+/// than a larger one if they are held.
+const geometry::Boundary& generalised_curves(const LayoutContext& context, FittedStage& laid) {
+  const geometry::Boundary& given = context.fixed.cornered_boundary();
+  CurvesAtSize& curves = laid.fitted.curves;
+  if (!generalises(context))
+    return given;
+  const double factor = laid.fitted.factor;
+  simplify_curves(context, *laid.stage.asked_size, factor, curves);
+  if (!curves.found)
+    return given;
+  laid.stage.curves = {curves.found, &curves.found->boundary};
+  laid.stage.simplified = curves.found->counts;
+  laid.stage.simplified.coarseness = coarseness(laid.fitted);
+  return curves.found->boundary;
+}
+
+/// What lays the sites of a stage. The sizes must outlive it. Local.
+/// @param asked of the stage
+std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std::size_t affordable,
+                                              const sizing::ScaledSize& asked, FittedStage& laid) {
+  Stage& stage = laid.stage;
+  const bool keeps_all = context.options.features.keep_all;
+  const FeatureRule rule{keeps_all ? 0 : context.options.features.tolerance,
+                         keeps_all ? 0 : BoundaryRules::least_perimeter, nullptr};
+  const geometry::Boundary& curves = generalised_curves(context, laid);
+  const auto make = [&](const BoundarySizes& sizes) {
+    return std::make_unique<BoundaryRefiner>(curves, sizes, context.lattice, context.options.features.corner_angle,
+                                             context.fixed.inside(), rule, affordable);
+  };
+  if (stage.size->is_uniform())
+    return make({*stage.size, asked});
+  std::shared_ptr<const SizeSamples>& samples = stage.curves ? laid.fitted.curves.samples : laid.fitted.samples;
+  if (!samples || !samples->serve(laid.fitted.factor))
+    samples = std::make_shared<SizeSamples>(curves, context.relative_size, *stage.asked_size);
+  return make({*stage.size, asked, {*samples, *stage.asked_size, stage.lowered_size.get(), stage.coarsening}});
+}
+
+/// Edge length of so many equal triangles' vertices, the boundary not counted.
+double typical_size(const LayoutContext& context, double expected) {
+  return std::sqrt(context.given_boundary.area / (row_height * std::max(1.0, expected)));
+}
+
+/// Sites alone.
+/// @param affordable so many of them
+FittedStage lay_bare(const LayoutContext& context, const FittedSize& fitted, double coarsening, double expected,
+                     std::size_t affordable) {
+  const auto time = context.timers.scope("boundary");
+  FittedStage laid{fitted, {}};
+  Stage& stage = laid.stage;
+  stage.coarsening = coarsening;
+  stage.typical_size = typical_size(context, expected);
+  set_sizes(context, fitted, stage);
+  const sizing::ScaledSize asked(*stage.asked_size, coarsening);
+  share_simplified_curves(context, *stage.asked_size, fitted.factor, laid.fitted.curves);
+  stage.polygon = make_boundary_sites(context.comm, [&] {
+    if (stage.asked_size->is_uniform())
+      stage.typical_size = coarsening * sizing::checked_size(*stage.asked_size, {});
+    return make_refiner(context, affordable, asked, laid);
+  });
+  stage.fixed_inside = static_cast<GlobalId>(context.fixed.inside().size());
+  return laid;
+}
+
+constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
+
+} // namespace
+
+double estimated_size(double area, double perimeter, double n) {
+  const double a = 2 * area / std::sqrt(3.0), b = perimeter / 2;
+  return (b + std::sqrt(b * b + 4 * a * n)) / (2 * n);
+}
+
+FittedStage lay_boundary(const LayoutContext& context, double factor, double expected) {
+  FittedSize fitted{factor, {}};
+  for (int round = 0;; ++round) {
+    FittedStage laid = lay_bare(context, fitted, 1, expected, unlimited);
+    const std::vector<sizing::SizeLimit> more =
+        round < BoundaryRules::lowering_rounds ? further_limits(context, laid.stage) : std::vector<sizing::SizeLimit>{};
+    fitted.limits.insert(fitted.limits.end(), more.begin(), more.end());
+    fitted.samples = laid.fitted.samples;
+    fitted.curves = laid.fitted.curves;
+    if (more.empty()) {
+      complete(context, laid.stage);
+      return laid;
+    }
+  }
+}
+
+FittedStage lay_stage(const LayoutContext& context, const FittedSize& fitted, double coarsening, double expected) {
+  FittedStage laid = lay_bare(context, fitted, coarsening, expected, unlimited);
+  complete(context, laid.stage);
+  return laid;
+}
+
+Stage lay_again(const LayoutContext& context, Stage stage, double expected) {
+  const auto time = context.timers.scope("boundary");
+  if (!stage.asked_size->is_uniform())
+    stage.typical_size = typical_size(context, expected);
+  stage.state = make_state(context, stage.polygon, stage.typical_size);
+  placing::share_by_density(stage, *stage.size, context.lattice, 1);
+  return stage;
+}
+
+Stage lay_reference(const LayoutContext& context, BoundarySites polygon, double expected, double grid_coarsening) {
+  Stage stage;
+  stage.polygon = std::move(polygon);
+  stage.typical_size = typical_size(context, expected);
+  comm::run_agreed(context.comm,
+                   [&] { stage.guard = std::make_unique<BoundaryGuard>(stage.polygon, context.lattice); });
+  stage.state = make_state(context, stage.polygon, grid_coarsening * stage.typical_size);
+  return stage;
+}
+
+FittedStage try_boundary(const LayoutContext& context, const FittedSize& fitted, double expected) {
+  const std::optional<GlobalId>& points = context.options.points;
+  const std::size_t affordable =
+      points ? static_cast<std::size_t>(std::max(LayoutRules::always_affordable,
+                                                 LayoutRules::affordable_growth * static_cast<double>(*points)))
+             : unlimited;
+  return lay_bare(context, fitted, 1, expected, affordable);
+}
+
+std::vector<sizing::SizeLimit> further_limits(const LayoutContext& context, const Stage& trial) {
+  const auto time = context.timers.scope("boundary");
+  if (trial.asked_size->is_uniform() || trial.polygon.overfull)
+    return {};
+  return size_limits(context.comm, trial.polygon, *trial.size, *trial.asked_size, BoundaryRules::gradation);
+}
+
+bool needs_lowering(const LayoutContext& context, const Stage& laid) {
+  const auto time = context.timers.scope("boundary");
+  bool needed = false;
+  for (const sizing::SizeLimit& limit :
+       size_limits(context.comm, laid.polygon, *laid.size, *laid.asked_size, BoundaryRules::gradation))
+    needed |= limit.size < LayoutRules::lowering_pays * laid.size->size(limit.place);
+  return needed;
+}
+
+void complete(const LayoutContext& context, Stage& trial, double grid_coarsening) {
+  const auto time = context.timers.scope("boundary");
+  if (trial.polygon.overfull)
+    return;
+  comm::run_agreed(context.comm, [&] {
+    trial.guard = std::make_unique<BoundaryGuard>(trial.polygon, context.lattice);
+    context.fixed.check_inside(*trial.guard);
+  });
+  trial.state = make_state(context, trial.polygon, grid_coarsening * trial.typical_size);
+  placing::share_by_density(trial, *trial.size, context.lattice, grid_coarsening);
+}
+
+void rescale(const LayoutContext& context, FittedStage& laid, double scale) {
+  const auto time = context.timers.scope("boundary");
+  laid.fitted.factor *= scale;
+  for (sizing::SizeLimit& limit : laid.fitted.limits)
+    limit.size *= scale;
+  set_sizes(context, laid.fitted, laid.stage);
+  if (laid.stage.curves)
+    laid.stage.simplified.coarseness = coarseness(laid.fitted);
+}
+
+void place_sites(const LayoutContext& context, Stage& stage, mesh::SiteList inner) {
+  const mesh::TileRange tiles = placing::own_share(stage);
+  if (context.given_boundary.periods.any())
+    for (mesh::Site& site : inner)
+      site.position = context.given_boundary.periods.wrap(site.position);
+  const auto on_boundary = std::ssize(stage.polygon.sites), ranks = std::ptrdiff_t{context.comm.size()};
+  for (std::ptrdiff_t b = on_boundary * context.comm.rank() / ranks;
+       b < on_boundary * (context.comm.rank() + 1) / ranks; ++b)
+    inner.push_back({stage.polygon.sites[static_cast<std::size_t>(b)].position, static_cast<std::int32_t>(b)});
+  comm::run_agreed(context.comm, [&] { context.fixed.place_among(inner, tiles, *stage.size); });
+  stage.state->distribute(std::move(inner));
+}
+
+} // namespace trime::fitting

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fitting/outlook.hpp"
+
+#include "boundary/feature_rule.hpp"
+#include "boundary/rules.hpp"
+#include "comm/agree.hpp"
+#include "fitting/points_of_length.hpp"
+#include "fitting/rules.hpp"
+#include "fitting/size_fit.hpp"
+#include "trime/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::fitting {
+namespace {
+
+/// From points on the boundary and inside to another size: the first grow like its inverse, the others like the square
+/// of that.
+double scale_for(double on_boundary, double inner, double points) {
+  if (!(inner > 0))
+    return points / std::fmax(1, on_boundary);
+  return (std::sqrt(on_boundary * on_boundary + 4 * inner * points) - on_boundary) / (2 * inner);
+}
+
+/// The factor that a run of few points would go by, and from it that of the points asked for.
+double fitted_factor(const LayoutContext& context, double points) {
+  FitOptions options = context.options;
+  const double fewer = std::fmin(points, LayoutRules::outlook_points), longer = std::sqrt(points / fewer);
+  if (options.points)
+    options.points = static_cast<GlobalId>(fewer);
+  else
+    options.edge_length = *options.edge_length * longer;
+  const LayoutContext small{context.comm,   context.given_boundary, context.relative_size,
+                            options,        context.lattice,        context.log,
+                            context.timers, context.fixed,          context.cuts_thin_components};
+  double factor = 0, on_boundary = 0;
+  if (context.relative_size.is_uniform()) {
+    const LatticeFit fit = fit_lattice(small);
+    factor = fit.stage.asked_size->size({}) / context.relative_size.size({});
+    on_boundary = static_cast<double>(fit.stage.placed_first());
+  } else {
+    const DensityFit fit = fit_density(small, fewer, LayoutRules::coarse_integral);
+    factor = fit.laid.fitted.factor;
+    on_boundary = static_cast<double>(fit.laid.stage.placed_first());
+  }
+  if (points == fewer)
+    return factor;
+  return factor / (options.points ? scale_for(on_boundary, fewer - on_boundary, points) : longer);
+}
+
+/// Is nothing cut, closed, moved, thinned or dropped? Collective.
+bool keeps_all(const LayoutContext& context, double factor) {
+  const FitOptions& options = context.options;
+  const geometry::Boundary& given = context.fixed.cornered_boundary();
+  const bool by_one = one_rank_simplifies(context);
+  bool keeps = false;
+  comm::run_agreed(context.comm, [&] {
+    if (by_one && !context.comm.is_root())
+      return;
+    const sizing::ScaledSize size(context.relative_size, factor, options.min_size.value_or(0),
+                                  options.max_size.value_or(INFINITY));
+    keeps =
+        !boundary::drop_small_loops(given, size, boundary::BoundaryRules::least_perimeter, context.fixed.inside())
+             .any() &&
+        !(generalises(context) && generalise::would_generalise(given, generalised_size(context, size), context.lattice,
+                                                               generalise_choice(context), context.fixed.inside()));
+  });
+  return by_one ? context.comm.sum(std::int64_t{keeps}) > 0 : keeps;
+}
+
+/// Down by powers of ten, then halves of the last of them on a logarithmic scale.
+void find_keeping_factor(const LayoutContext& context, LaidOutlook& outlook) {
+  const double factor = outlook.laid.fitted.factor;
+  const double on_boundary = std::fmax(1, static_cast<double>(outlook.laid.stage.placed_first()));
+  const double least = std::fmin(1 / LayoutRules::outlook_step, on_boundary / LayoutRules::outlook_sites) * factor;
+  double low = factor, high = factor; // at `high` something is simplified
+  outlook.keeps = context.options.features.keep_all || keeps_all(context, factor);
+  for (int trial = 1; trial < LayoutRules::outlook_trials && !(outlook.keeps && low == factor); ++trial) {
+    if (!outlook.keeps && low == least)
+      break;
+    const double next = outlook.keeps ? std::sqrt(low * high) : std::fmax(least, high / LayoutRules::outlook_step);
+    const bool keeps = keeps_all(context, next);
+    (keeps || !outlook.keeps ? low : high) = next;
+    if (!keeps)
+      high = next;
+    outlook.keeps |= keeps;
+  }
+  outlook.keeping_factor = low;
+}
+
+} // namespace
+
+double LaidOutlook::points_at(double factor) const {
+  const double ratio = laid.fitted.factor / factor;
+  const double on_boundary = std::fmin(points, static_cast<double>(laid.stage.placed_first()));
+  return ratio * (on_boundary + ratio * (points - on_boundary));
+}
+
+LaidOutlook look_ahead(const LayoutContext& given) {
+  const FitOptions& options = given.options;
+  LayoutContext context = given;
+  LaidOutlook outlook;
+  outlook.points = options.points ? static_cast<double>(*options.points)
+                                  : points_of_length(given.given_boundary, *options.edge_length);
+  double factor = 0;
+  try {
+    factor = fitted_factor(context, outlook.points);
+  } catch (const ConfigError&) { // too few points, on all ranks together: the run then goes on like this, too
+    if (options.features.keep_all)
+      throw;
+    context.cuts_thin_components = true;
+    factor = fitted_factor(context, outlook.points);
+  }
+  outlook.laid = try_boundary(context, {factor, {}}, outlook.points);
+  find_keeping_factor(context, outlook);
+  return outlook;
+}
+
+} // namespace trime::fitting

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fitting/simplified_curves.hpp"
+
+#include "boundary/rules.hpp"
+#include "comm/agree.hpp"
+#include "core/thread_loop.hpp"
+#include "fitting/layout.hpp"
+#include "fitting/rules.hpp"
+#include "generalise/generalised_bytes.hpp"
+#include "sizing/curve_distance.hpp"
+#include "sizing/lowered_size.hpp"
+#include "trime/geometry/frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace trime::fitting {
+namespace {
+
+using boundary::BoundaryRules;
+using geometry::Boundary;
+using geometry::Vec2;
+using sizing::CurveDistance;
+using sizing::SizeLimit;
+
+/// Where curves lie too far from those of the shape.
+std::vector<CurveDistance> places_too_far(const Boundary& curves, const geometry::PieceTree& given,
+                                          const sizing::SizeField& asked, double within) {
+  std::vector<CurveDistance> found;
+  for (const geometry::Loop& loop : curves.loops) {
+    std::vector<std::array<CurveDistance, 2>> distances(loop.pieces.size());
+    thread_loop(std::ssize(loop.pieces), 256, [&](std::ptrdiff_t k, int) {
+      const auto piece = static_cast<std::size_t>(k);
+      distances[piece] = sizing::curve_distances(loop.pieces[piece], given, asked, curves.periods);
+    });
+    for (const auto& of_piece : distances)
+      for (const CurveDistance& one : of_piece)
+        if (one.in_sizes() > within)
+          found.push_back(one);
+  }
+  return found;
+}
+
+bool serve(const CurvesAtSize& curves, double factor) {
+  return curves.held || std::fabs(curves.factor - factor) <= LayoutRules::same_curves * factor;
+}
+
+} // namespace
+
+generalise::Choice generalise_choice(const LayoutContext& context) {
+  const bool closes = context.options.features.narrow == boundary::NarrowOutside::close;
+  return {closes ? generalise::Narrow::close : generalise::Narrow::keep, context.cuts_thin_components,
+          geometry::Frame(context.options.container).inner()};
+}
+
+bool generalises(const LayoutContext& context) {
+  return !context.options.features.keep_all && context.options.features.within > 0;
+}
+
+sizing::ScaledSize generalised_size(const LayoutContext& context, const sizing::SizeField& asked) {
+  return {asked, context.options.features.within / boundary::FeatureOptions{}.within};
+}
+
+void simplify_curves(const LayoutContext& context, const sizing::SizeField& asked, double factor,
+                     CurvesAtSize& curves) {
+  if (serve(curves, factor))
+    return;
+  const Boundary& given = context.fixed.cornered_boundary();
+  const sizing::ScaledSize size = generalised_size(context, asked);
+  const auto generalised = [&](const Boundary& from, const sizing::SizeField& h) {
+    return generalise::generalise(from, h, context.lattice, generalise_choice(context), context.fixed.inside());
+  };
+  if (!(curves.thinned_factor * LayoutRules::thinned_ahead <= factor &&
+        factor <= curves.thinned_factor * LayoutRules::thinned_ahead * LayoutRules::thinned_ahead)) {
+    curves.thinned_factor = factor / LayoutRules::thinned_ahead;
+    curves.thinned.reset(); // before there is another one
+    curves.thinned = generalise::thinned(given, sizing::ScaledSize(size, 1 / LayoutRules::thinned_ahead),
+                                         context.lattice, context.fixed.inside());
+  }
+  curves.factor = factor;
+  curves.samples = nullptr;
+  curves.found.reset();
+  std::unique_ptr<generalise::Generalised> found = generalised(curves.thinned ? *curves.thinned : given, size);
+  if (!found && curves.thinned)
+    found = std::make_unique<generalise::Generalised>(generalise::Generalised{*curves.thinned, {}});
+  if (found && !curves.given)
+    curves.given = std::make_shared<geometry::PieceTree>(given);
+  const double within = (1 - LayoutRules::distance_slack) * context.options.features.within;
+  std::vector<SizeLimit> limits;
+  std::unique_ptr<const sizing::LoweredSize> lowered; // of the last round
+  for (int round = 0; found; ++round) {
+    const std::vector<CurveDistance> far = places_too_far(found->boundary, *curves.given, asked, within);
+    if (far.empty())
+      break;
+    curves.thinned = nullptr;
+    for (const CurveDistance& one : far)
+      if (const Vec2 p = given.periods.wrap(one.place); sizing::is_valid_size(one.size))
+        limits.push_back({p, (lowered ? lowered->size(p) : size.size(p)) * (within / one.in_sizes())});
+    if (round == LayoutRules::nearer_rounds || limits.empty())
+      return;
+    lowered = std::make_unique<sizing::LoweredSize>(size, limits, BoundaryRules::gradation, given.periods);
+    found = generalised(given, *lowered);
+  }
+  if (found && curves.thinned)
+    found->counts.thinned += polygon::piece_count(given) - polygon::piece_count(*curves.thinned);
+  curves.found = std::move(found);
+}
+
+bool one_rank_simplifies(const LayoutContext& context) {
+  return context.comm.size() > 1 && generalises(context) &&
+         polygon::piece_count(context.fixed.cornered_boundary()) >= LayoutRules::many_pieces;
+}
+
+void share_simplified_curves(const LayoutContext& context, const sizing::SizeField& asked, double factor,
+                             CurvesAtSize& curves) {
+  if (!one_rank_simplifies(context) || serve(curves, factor))
+    return;
+  const bool is_root = context.comm.is_root();
+  std::vector<std::byte> bytes;
+  comm::run_agreed(context.comm, [&] {
+    if (!is_root)
+      return;
+    simplify_curves(context, asked, factor, curves);
+    if (curves.found)
+      bytes = generalise::to_bytes(*curves.found);
+  });
+  bytes = context.comm.broadcast(std::move(bytes));
+  comm::run_agreed(context.comm, [&] {
+    if (is_root)
+      return;
+    curves.factor = factor;
+    curves.samples = nullptr;
+    curves.found.reset();
+    if (!bytes.empty())
+      curves.found = std::make_shared<generalise::Generalised>(
+          generalise::generalised_of_bytes(std::move(bytes), context.fixed.cornered_boundary()));
+  });
+}
+
+} // namespace trime::fitting

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fitting/size_warnings.hpp"
+
+#include "fitting/rules.hpp"
+
+#include <cmath>
+
+namespace trime::fitting {
+using sites::Stage;
+
+void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary, const geometry::Lattice& lattice,
+                         Log& log) {
+  constexpr int per_side = LayoutRules::slope_samples;
+  if (stage.size->is_uniform() || boundary.loops.empty())
+    return;
+  const geometry::Box box = boundary.bounding_box();
+  const geometry::Vec2 stride{box.width() / per_side, box.height() / per_side};
+  double steepest = 0;
+  geometry::Vec2 place;
+  const auto look = [&](geometry::Vec2 p, geometry::Vec2 to_next) {
+    if (!stage.guard->inside(lattice.snap(p)) || !stage.guard->inside(lattice.snap(p + to_next)))
+      return;
+    const double slope = std::fabs(stage.size->size(p + to_next) - stage.size->size(p)) / geometry::length(to_next);
+    if (slope > steepest) {
+      steepest = slope;
+      place = p;
+    }
+  };
+  for (int j = 0; j < per_side; ++j)
+    for (int i = 0; i < per_side; ++i) {
+      const geometry::Vec2 p{box.min.x + (i + 0.5) * stride.x, box.min.y + (j + 0.5) * stride.y};
+      look(p, {stride.x, 0});
+      look(p, {0, stride.y});
+    }
+  if (steepest > LayoutRules::warned_slope)
+    log.warning("the edge length that is asked for changes by {:.3g} times the way near ({:.4g}, {:.4g}); triangles "
+                "can follow about 0.5: expect fewer points and small angles, or take more points or a gentler size",
+                steepest, place.x, place.y);
+}
+
+void warn_of_fine_features(const Stage& stage, bool has_least_size, Log& log) {
+  const auto& sites = stage.polygon.sites;
+  double least = LayoutRules::warned_chord, length = 0, size = 0; // chord over local size
+  geometry::Vec2 place;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < sites.size(); ++k) {
+    const geometry::Segment chord = stage.polygon.chord(static_cast<LocalIndex>(k));
+    const double its_length = geometry::length(chord.b - chord.a), h = stage.size->size(chord.a);
+    count += its_length < LayoutRules::warned_chord * h ? 1 : 0;
+    if (its_length < least * h) {
+      least = its_length / h;
+      length = its_length;
+      size = h;
+      place = 0.5 * (chord.a + chord.b);
+    }
+  }
+  const double share = has_least_size ? LayoutRules::warned_share_of_chords : 0;
+  if (static_cast<double>(count) > share * static_cast<double>(sites.size()))
+    log.warning("{} of {} chords of the boundary are far shorter than the edges that are asked for there: expect small "
+                "angles beside them; the worst, {:.3g} long where {:.3g} is asked for, is at ({:.6g}, {:.6g}){}",
+                count, sites.size(), length, size, place.x, place.y,
+                has_least_size ? "; a smaller min_size would help" : "");
+}
+
+} // namespace trime::fitting

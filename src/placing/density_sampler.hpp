@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The wanted density of sites, h^-2 up to a factor, as integer weights of small cells along the Hilbert curve.
+#pragma once
+
+#include "comm/agree.hpp"
+#include "core/angle.hpp"
+#include "core/hilbert.hpp"
+#include "core/thread_loop.hpp"
+#include "mesh/tile_range.hpp"
+#include "placing/rules.hpp"
+#include "polygon/boundary_guard.hpp"
+#include "trime/core/error.hpp"
+#include "trime/core/sum.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace trime::placing {
+
+/// @brief Divides a tile into cells in Hilbert order: into quarters while a cell wants more than a quarter of a site,
+/// or a sixteenth where the boundary is near; cells clear of the shape are left out whole. For a mere integral the
+/// cells may be larger, `coarsening` times as wide. Cells are squares of the grid's quadtree, the same in whichever
+/// tiles they lie, as long as no tile is smaller than a cell. Immutable, thread-safe.
+class DensitySampler {
+public:
+  static constexpr double weight_unit = 0x1p20; ///< integer weight of one site
+
+  /// @param most_in_part of sites: nothing more of a part that has got them is looked into
+  DensitySampler(const mesh::TileGrid& grid, const polygon::BoundaryGuard& guard, const sizing::SizeField& size,
+                 const geometry::Lattice& lattice, double coarsening = 1, double most_in_part = INFINITY)
+      : grid_(grid), guard_(guard), size_(size), lattice_(lattice),
+        most_inside_(PlacingRules::sites_in_cell * coarsening * coarsening),
+        most_near_(PlacingRules::sites_in_cell_near * coarsening * coarsening), most_in_part_(most_in_part) {}
+
+  /// A leaf with a weight.
+  struct Cell {
+    geometry::Box box;
+    std::uint64_t key; ///< with the level it names the cell
+    int level;
+    double size;         ///< h in its middle
+    std::int64_t weight; ///< sites that belong into it, in units of 2^-20
+  };
+  /// Tiles are looked into by parts: there may be fewer tiles than threads.
+  static constexpr int parts_per_tile() { return 1 << (2 * part_levels); }
+  /// Calls visit(cell) for all cells of a part of the tile with a weight, in Hilbert order; so are the parts.
+  /// @throws GeometryError on this rank alone: at a place in the shape the size is not positive and finite, or so small
+  /// that the part would get more than 2^27 cells
+  template <class Visit>
+  void for_each_cell(LocalIndex tile, int part, const Visit& visit) const {
+    CurveSquare square = grid_.tile(tile).on_curve();
+    for (int level = part_levels - 1; level >= 0; --level)
+      square = square.quarter(static_cast<unsigned>(part) >> (2 * level) & 3U);
+    Work work;
+    divide({square, grid_.box_of(square), false, {}}, visit, work);
+  }
+
+private:
+  static constexpr int part_levels = 1; // so many below a tile
+  /// Every bin of the typical density is looked into, wherever its tile's middle lies: sizes may jump. No cell lies
+  /// half in the container.
+  int least_level() const {
+    return std::max({grid_.unit_level(), grid_.typical_level() + grid_.typical_bin_bits() + 1,
+                     grid_.typical_level() + part_levels});
+  }
+
+  /// The chords near a part, as a range of Work::chords: all that are nearer to it than `reach`; none are known if that
+  /// is negative.
+  struct NearChords {
+    std::size_t first = 0, last = 0;
+    double reach = -1;
+  };
+  struct Part {
+    CurveSquare square;
+    geometry::Box box;
+    bool clear; ///< a larger part around it is clear of the boundary and its PlacingRules::density_strip, and inside
+    NearChords near; ///< of the part that it is a quarter of
+  };
+  struct Work {
+    std::int64_t cells = 0;
+    double sites = 0;               ///< that the leaves in the container want so far
+    std::vector<LocalIndex> chords; ///< a stack: those of a part lie on those of the larger ones around it
+  };
+
+  static double half_diagonal(const geometry::Box& box) {
+    return 0.5 * std::sqrt(box.width() * box.width() + box.height() * box.height());
+  }
+
+  /// @brief Distance from the middle p of a part to the nearest chord, or half its diagonal and `free` if that is less.
+  /// Leaves the chords that its quarters need in part.near.
+  double distance(Part& part, geometry::Vec2 p, double free, Work& work) const {
+    const double half = half_diagonal(part.box), reach = half + free;
+    const double far = guard_.distance_below(p, reach);
+    if (far >= reach)
+      return far;
+    if (part.near.reach < free)
+      part.near = collect(part.box, 2 * free, work);
+    if (part.near.reach < free)
+      return guard_.distance(p, reach);
+    const NearChords outer = part.near;
+    const double limit = (half + outer.reach) * (1 + 1e-9);
+    double nearest = reach * reach;
+    part.near.first = work.chords.size();
+    for (std::size_t k = outer.first; k < outer.last; ++k) {
+      const LocalIndex chord = work.chords[k];
+      const double squared = geometry::squared_distance(p, guard_.chords().segments()[static_cast<std::size_t>(chord)]);
+      nearest = std::min(nearest, squared);
+      if (squared <= limit * limit)
+        work.chords.push_back(chord);
+    }
+    part.near.last = work.chords.size();
+    return nearest < reach * reach ? std::sqrt(nearest) : reach;
+  }
+
+  /// The chords of the tree, if they are few. In a periodic container their images are left to the guard.
+  NearChords collect(const geometry::Box& box, double reach, Work& work) const {
+    const geometry::Vec2 margin{reach * (1 + 1e-9), reach * (1 + 1e-9)};
+    if (grid_.periods().any())
+      return {};
+    const std::size_t first = work.chords.size();
+    guard_.chords().for_each_near({box.min - margin, box.max + margin}, [&](LocalIndex chord) {
+      work.chords.push_back(chord);
+      return work.chords.size() < first + 2 * PlacingRules::most_near_chords;
+    });
+    const auto begin = work.chords.begin() + static_cast<std::ptrdiff_t>(first);
+    const bool all = work.chords.size() < first + 2 * PlacingRules::most_near_chords;
+    std::sort(begin, work.chords.end());
+    work.chords.erase(std::unique(begin, work.chords.end()), work.chords.end());
+    if (all && work.chords.size() <= first + PlacingRules::most_near_chords)
+      return {first, work.chords.size(), reach};
+    work.chords.resize(first);
+    return {};
+  }
+
+  template <class Visit>
+  void divide(Part part, const Visit& visit, Work& work) const {
+    if (work.sites > most_in_part_)
+      return;
+    const geometry::Box& box = part.box;
+    const std::size_t chords_before = work.chords.size();
+    const geometry::Vec2 p = lattice_.snap(0.5 * (box.min + box.max));
+    const double h = size_.size(p);
+    const bool valid = sizing::is_valid_size(h);
+    const bool inside = part.clear || guard_.inside(p);
+    if (!valid && inside && grid_.container().contains(p))
+      sizing::fail_for_size(p, h);
+    const double free = valid && inside ? PlacingRules::density_strip * h : 0; // outside the shape any value will do
+    double to_boundary = INFINITY;
+    bool clear = part.clear;
+    if (!clear) {
+      to_boundary = distance(part, p, free, work);
+      clear = to_boundary >= half_diagonal(box) + free;
+      if (clear && !inside)
+        return work.chords.resize(chords_before);
+    }
+    const double sites = valid ? box.width() * box.height() / (row_height * h * h) : 0;
+    if (++work.cells > PlacingRules::most_density_cells ||
+        (part.square.level == PlacingRules::deepest_cell && sites > PlacingRules::most_in_deepest))
+      fail_for_small_size(p, h);
+    if (part.square.level < PlacingRules::deepest_cell &&
+        (part.square.level < least_level() || sites > (clear ? most_inside_ : most_near_))) {
+      for (unsigned k = 0; k < 4; ++k) {
+        const CurveSquare quarter = part.square.quarter(k);
+        divide({quarter, grid_.box_of(quarter), clear, part.near}, visit, work);
+      }
+      return work.chords.resize(chords_before);
+    }
+    work.chords.resize(chords_before);
+    if (!clear && (to_boundary < free || !inside))
+      return;
+    if (!grid_.container().contains(p))
+      return;
+    work.sites += sites;
+    visit(Cell{box, part.square.key, part.square.level, h, std::llround(weight_unit * sites)});
+  }
+
+  [[noreturn]] static void fail_for_small_size(geometry::Vec2 p, double h) {
+    throw GeometryError(fmt::format("the size near ({}, {}) is {}: so small a size asks for far more points than there "
+                                    "can be; give the size field a larger least value, or set min_size",
+                                    p.x, p.y, h));
+  }
+
+  const mesh::TileGrid& grid_;
+  const polygon::BoundaryGuard& guard_;
+  const sizing::SizeField& size_;
+  const geometry::Lattice& lattice_;
+  double most_inside_, most_near_; // sites in a leaf
+  double most_in_part_;            // sites
+};
+
+/// Calls body(item) for all items, over threads. What a size field throws becomes an error of all ranks. Collective.
+template <class Body>
+void agreed_loop(const comm::Communicator& comm, std::ptrdiff_t n, const Body& body) {
+  comm::run_agreed(comm, [&] { thread_loop(n, 1, [&](std::ptrdiff_t item, int) { body(item); }); });
+}
+
+/// Parts of the tiles of this rank, in Hilbert order.
+struct DensityParts {
+  const mesh::TileRange& tiles;
+  const DensitySampler& sampler;
+
+  std::ptrdiff_t count() const { return std::ptrdiff_t{tiles.last - tiles.first} * sampler.parts_per_tile(); }
+  LocalIndex tile(std::ptrdiff_t part) const {
+    return tiles.first + static_cast<LocalIndex>(part / sampler.parts_per_tile());
+  }
+  template <class Visit>
+  void for_each_cell(std::ptrdiff_t part, const Visit& visit) const {
+    sampler.for_each_cell(tile(part), static_cast<int>(part % sampler.parts_per_tile()), visit);
+  }
+};
+
+} // namespace trime::placing

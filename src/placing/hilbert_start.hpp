@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Inner sites along the Hilbert curve. Each rank makes the sites of its own tiles; the set does not depend on the
+// ranks.
+#pragma once
+
+#include "mesh/binned_points.hpp"
+#include "mesh/tile_range.hpp"
+#include "polygon/boundary_guard.hpp"
+#include "trime/comm/communicator.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <cstdint>
+#include <memory>
+
+namespace trime::placing {
+
+/// @brief Quantiles of the integral of h^-2 along the Hilbert curve, outside a strip of 0.43 h along the boundary: site
+/// j sits where the integral passes (j + 1/2) / n of its total. Weights are integers, so the sites are the same on any
+/// ranks; the count error in any interval of the curve is at most one, so long waves start quiet.
+class HilbertStart {
+public:
+  /// @brief Takes the integral. Collective (one scan). @pre the other arguments outlive this object
+  /// @param expected about so many sites will be asked for: of few, the cells of the integral are kept for them
+  /// @param coarsening of the integral's cells, which else take a quarter of a site, and less near the boundary
+  HilbertStart(const comm::Communicator& comm, const mesh::TileRange& tiles, const polygon::BoundaryGuard& guard,
+               const sizing::SizeField& size, const geometry::Lattice& lattice, double expected, double coarsening = 1);
+  ~HilbertStart();
+
+  /// So many sites the size asks for, over all ranks.
+  double wanted() const;
+  /// The sites of this rank. Collective.
+  /// @param n number of sites over all ranks
+  mesh::SiteList sites(std::int64_t n, std::uint64_t seed) const;
+
+private:
+  class Implementation;
+  std::unique_ptr<const Implementation> implementation_;
+};
+
+} // namespace trime::placing

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Inner sites on a hexagonal lattice. Each rank makes the sites of its own tiles; the set does not depend on the ranks.
+#pragma once
+
+#include "mesh/binned_points.hpp"
+#include "mesh/tile_range.hpp"
+#include "polygon/boundary_guard.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/lattice.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace trime::placing {
+
+struct RowLattice;
+
+/// Neighbouring sites of one row of a lattice, in one tile: those of the columns first to last.
+struct LatticeRun {
+  std::int64_t row, first, last;
+};
+
+/// @brief The lattice sites of some tiles, not yet made: 24 bytes a run, which is a row of a tile, or a part of one
+/// near the boundary.
+struct LatticeRuns {
+  double spacing = 0;
+  std::vector<std::vector<LatticeRun>> of_tile;
+
+  /// Number of sites.
+  std::int64_t count() const;
+  /// The same of each tile.
+  std::vector<std::int64_t> counts() const;
+};
+
+/// @brief Hexagonal lattice of a given spacing whose rows run along the longest straight side of the boundary, the
+/// first row one row height from it (axis-parallel if there is no straight side).
+///
+/// In a periodic container its rows run along a periodic axis, and it is stretched a little to fit the periods; see
+/// fit_to_periods.
+class LatticeStart {
+public:
+  LatticeStart(const geometry::Boundary& boundary, const polygon::BoundaryGuard& guard,
+               const geometry::Lattice& lattice);
+
+  /// Sites inside the shape at least 0.45 spacings away from its boundary, by tile, row and column. Threads.
+  LatticeRuns runs(const mesh::TileRange& tiles, double spacing) const;
+  /// @brief Makes them. Threads.
+  /// @param more room for so many sites is left, that will be added
+  mesh::SiteList sites(const LatticeRuns& runs, std::size_t more = 0) const;
+  mesh::SiteList sites(const mesh::TileRange& tiles, double spacing) const { return sites(runs(tiles, spacing)); }
+
+private:
+  RowLattice rows_of(double spacing) const;
+  bool is_clear(const mesh::TileGrid& grid, LocalIndex tile, double margin) const;
+  geometry::Vec2 site(const RowLattice& rows, std::int64_t row, std::int64_t column) const;
+  bool is_free(geometry::Vec2 p, double spacing) const;
+  void add_row(const RowLattice& rows, LatticeRun row, double spacing, std::vector<LatticeRun>& runs) const;
+  std::vector<LatticeRun> runs_in(const mesh::TileGrid& grid, LocalIndex tile, const RowLattice& rows,
+                                  double spacing) const;
+
+  const polygon::BoundaryGuard& guard_;
+  geometry::Lattice lattice_;
+  geometry::Periods periods_;
+  bool has_side_ = false; // along_ is the direction of a straight side, in a periodic container of one along an axis
+  geometry::Vec2 origin_, along_;
+};
+
+} // namespace trime::placing

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Who makes which sites: weights before sites.
+#pragma once
+
+#include "mesh/tile_range.hpp"
+#include "sites/stage.hpp"
+#include "trime/comm/communicator.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace trime::placing {
+
+/// @brief Divides the tiles of a stage without sites until all want about equally many, by the size in the middle of
+/// their quarters, and shares them out over the ranks. No count depends on it but one that ends early (DensitySampler),
+/// only who does what. The tiles are the same on any ranks. O(tiles) memory. Collective.
+/// @param size that the sites will follow @param grid_coarsening see complete()
+void share_by_density(sites::Stage& stage, const sizing::SizeField& size, const geometry::Lattice& lattice,
+                      double grid_coarsening);
+
+/// @brief The same by the sites that will really stand in the tiles, so that hardly any must go to another rank once
+/// they are made: the tiles that SiteState::distribute comes to. Sites on the boundary are counted here. O(tiles)
+/// memory. Collective.
+/// @param inside the other sites in each tile of own_share
+/// @return false if a tile was divided: what lies in its quarters is to be counted. Levels are bounded, so this ends
+bool share_by_count(sites::Stage& stage, std::vector<std::int64_t> inside);
+
+/// The tiles that this rank fills with sites.
+mesh::TileRange own_share(const sites::Stage& stage);
+
+} // namespace trime::placing

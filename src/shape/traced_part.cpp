@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/shape/traced_part.hpp"
+
+#include "shape/contour_polygon.hpp"
+#include "shape/periodic_clip.hpp"
+#include "shape/rules.hpp"
+#include "tracing/curve_refiner.hpp"
+#include "tracing/zero_chains.hpp"
+#include "trime/core/error.hpp"
+#include "trime/geometry/segment_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trime::shape {
+
+namespace {
+
+using geometry::Box;
+using geometry::Frame;
+using geometry::length;
+using geometry::Segment;
+using geometry::SegmentGrid;
+using geometry::Vec2;
+
+/// Without the vertices that follow another one too closely.
+std::vector<Vec2> without_repeats(const std::vector<Vec2>& chain, double distance) {
+  std::vector<Vec2> result;
+  for (const Vec2 p : chain)
+    if (result.empty() || length(p - result.back()) > distance)
+      result.push_back(p);
+  while (result.size() > 1 && length(result.front() - result.back()) <= distance)
+    result.pop_back();
+  return result;
+}
+
+/// The rings found so far, to tell what they have already: in a tip narrower than a cell the grid sees islands, of
+/// which the refined ring of the whole has the curve.
+class FoundRings {
+public:
+  explicit FoundRings(double distance) : distance_(distance) {}
+
+  void add(const std::vector<Vec2>& ring) {
+    Box box;
+    std::vector<Segment> segments;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      box.include(ring[k]);
+      segments.push_back({ring[k], ring[(k + 1) % ring.size()]});
+    }
+    const Vec2 margin{distance_, distance_};
+    boxes_.push_back({box.min - margin, box.max + margin});
+    grids_.emplace_back(std::move(segments));
+  }
+
+  /// Is every vertex of the chain on one of the rings? O(rings), and O(log) for each that may hold a vertex.
+  bool hold(const std::vector<Vec2>& chain) const {
+    for (std::size_t ring = 0; ring < boxes_.size(); ++ring)
+      if (std::all_of(chain.begin(), chain.end(), [&](Vec2 p) {
+            return boxes_[ring].contains(p) && grids_[ring].nearest(p, distance_).has_value();
+          }))
+        return true;
+    return false;
+  }
+
+private:
+  double distance_;
+  std::vector<Box> boxes_;
+  std::vector<SegmentGrid> grids_;
+};
+
+/// With fewer vertices a chain is what rounding makes around a node, smaller than the resolution by far.
+
+/// Chains worth refining, the longest first.
+std::vector<std::vector<Vec2>> without_specks(const tracing::ZeroChains& coarse, const std::string& name) {
+  std::vector<std::vector<Vec2>> chains;
+  for (const std::vector<Vec2>& chain : coarse.chains) {
+    std::vector<Vec2> clean = without_repeats(chain, ShapeRules::nearly_equal * coarse.cell);
+    if (clean.size() >= ShapeRules::fewest_vertices)
+      chains.push_back(std::move(clean));
+  }
+  if (chains.size() > ShapeRules::most_chains)
+    throw GeometryError(fmt::format("part '{}': the function oscillates below the resolution of {:.3g} near ({:.9g}, "
+                                    "{:.9g}), or has too many pieces: found {} closed curves, expected at most {}; "
+                                    "leave out the smallest ones",
+                                    name, 2 * coarse.cell, chains[ShapeRules::most_chains][0].x,
+                                    chains[ShapeRules::most_chains][0].y, chains.size(), ShapeRules::most_chains));
+  std::stable_sort(chains.begin(), chains.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  return chains;
+}
+
+double resolution_of(const std::string& name, double given, double side) {
+  if (!std::isfinite(given) || given < 0)
+    throw GeometryError(
+        fmt::format("part '{}': expected a resolution > 0, or 0 for the default, found {}", name, given));
+  return given > 0 ? given : ShapeRules::default_resolution * side;
+}
+
+/// Closed rings, interior on the left; the same bits for any number of threads.
+std::vector<std::vector<Vec2>> trace_zero_set(const std::string& name, const tracing::Shape& shape, const Frame& frame,
+                                              double resolution) {
+  const Box& box = frame.inner();
+  const double side = std::fmax(box.width(), box.height());
+  tracing::LevelFunction function(name, shape, box);
+  const tracing::ZeroChains coarse = tracing::march(function, box, resolution_of(name, resolution, side));
+  const tracing::TraceTolerances tolerances(side);
+  tracing::CurveRefiner refiner(function, tolerances, 2 * coarse.cell);
+  FoundRings found(4 * tolerances.chord);
+  std::vector<std::vector<Vec2>> rings;
+  for (const std::vector<Vec2>& chain : without_specks(coarse, name)) {
+    if (found.hold(chain))
+      continue;
+    std::vector<Vec2> ring = refiner.refine(chain);
+    if (ring.size() < 3)
+      continue;
+    found.add(ring);
+    rings.push_back(std::move(ring));
+  }
+  return rings;
+}
+
+/// @throws GeometryError if the rings meet
+Polygon traced_polygon(const std::string& name, const contours::Contour& rings, const Frame& frame) {
+  std::vector<std::string> unused; // of vertices that the lattice made equal, and of pieces: both are fine here
+  try {
+    return make_contour_polygon(rings, {}, frame, unused);
+  } catch (const GeometryError& error) {
+    throw GeometryError(fmt::format("part '{}': its traced boundary is not a set of simple curves; expected curves "
+                                    "that stay apart by more than 1e-6 of the container (vertex numbers stand in "
+                                    "place of lines: {})",
+                                    name, error.what()));
+  }
+}
+
+std::vector<std::string> resolution_warnings(const std::string& name, const Frame& frame, double resolution) {
+  const double finest = tracing::finest_resolution(std::fmax(frame.inner().width(), frame.inner().height()));
+  if (!(resolution > 0 && resolution < finest))
+    return {};
+  return {fmt::format("part '{}': a resolution of {:g} is finer than {:g}, the finest there is for this container, "
+                      "which is used instead",
+                      name, resolution, finest)};
+}
+
+} // namespace
+
+Part traced_part(const std::string& name, const tracing::Shape& shape, const Frame& frame, double resolution) {
+  const contours::Contour contour = contours::make_contour(trace_zero_set(name, shape, frame, resolution), name);
+  Part part = Part::polygon(name, traced_polygon(name, contour, frame), resolution_warnings(name, frame, resolution));
+  if (!frame.periods().any())
+    return part;
+  return Part::polygon(name, traced_polygon(name, clip_to_periods(part, frame), frame), part.warnings());
+}
+
+} // namespace trime::shape

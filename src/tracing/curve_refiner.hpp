@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a coarse chain on a zero set to a polygon that follows it: chords halved until they are near enough, corners
+// found to full accuracy, and vertices that nothing needs taken out.
+#pragma once
+
+#include "tracing/level_function.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace trime::tracing {
+
+/// Lengths behind the accuracy that traced_part promises.
+struct TraceTolerances {
+  explicit TraceTolerances(double container_side) : side(container_side) {}
+  double side;                      ///< longer side of the container
+  double chord = 2.5e-7 * side;     ///< stray of a chord while it is refined; twice that when it is thinned
+  double straight = 1e-12 * side;   ///< stray that counts as none
+  double shortest = 0x1p-22 * side; ///< chords are not halved below
+  double corner = 0x1p-24 * side;   ///< where the arms of a corner are looked at last
+  double zero = 0x1p-50 * side;     ///< of a zero on a line
+};
+
+struct CurveVertex {
+  geometry::Vec2 place;
+  bool keep = false; ///< a corner, or the end of a straight side
+};
+
+class CurveRefiner {
+public:
+  /// @param resolution of the chains, for messages
+  CurveRefiner(const LevelFunction& function, const TraceTolerances& tolerances, double resolution)
+      : function_(function), tolerances_(tolerances), resolution_(resolution) {}
+
+  /// @brief Closed polygon along the curve. @param chain closed, interior on the left, at least three vertices
+  /// @throws GeometryError with the place where a chord, or all chains so far, would need too many vertices
+  std::vector<geometry::Vec2> refine(const std::vector<geometry::Vec2>& chain);
+
+private:
+  std::vector<geometry::Vec2> halve_chords(const std::vector<geometry::Vec2>& chain);
+  bool halve(geometry::Vec2 a, geometry::Vec2 b, int depth, std::vector<geometry::Vec2>& to) const;
+  [[noreturn]] void fail_for_oscillation(geometry::Vec2 place, std::size_t vertices) const;
+  bool is_near(geometry::Vec2 a, geometry::Vec2 b) const;
+  std::optional<geometry::Vec2> curve_beside(geometry::Vec2 a, geometry::Vec2 b) const;
+
+  std::vector<CurveVertex> insert_corners(const std::vector<geometry::Vec2>& polygon) const;
+  std::optional<geometry::Vec2> corner_in_chord(geometry::Vec2 before, geometry::Vec2 a, geometry::Vec2 b,
+                                                geometry::Vec2 after) const;
+  std::optional<geometry::Vec2> corner_at(geometry::Vec2 guess, geometry::Vec2 back, geometry::Vec2 ahead,
+                                          double distance) const;
+  std::optional<geometry::Vec2> on_arm(geometry::Vec2 near, geometry::Vec2 along, double distance) const;
+
+  const LevelFunction& function_;
+  const TraceTolerances tolerances_;
+  const double resolution_;
+  std::size_t vertices_ = 0; // of all chains so far, before thinning
+};
+
+/// @brief Takes out vertices of a closed polygon: runs on one line become one segment each, and the rest chords that
+/// stray from the vertices by `chord` at most. Vertices to keep stay.
+std::vector<geometry::Vec2> thinned(std::vector<CurveVertex> polygon, double straight, double chord);
+
+} // namespace trime::tracing

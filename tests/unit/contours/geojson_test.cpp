@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// GeoJSON as maps have it: rings with their lines, and what a user reads when it is something else.
+#include "contours/feature_rings.hpp"
+#include "trime/contours/contour.hpp"
+#include "trime/core/error.hpp"
+#include "unit/shape/boundary_checks.hpp"
+
+#include <limits>
+#include <string>
+
+namespace trime::contours {
+namespace {
+
+using geometry::Vec2;
+
+const std::string feature_collection = R"({"type": "FeatureCollection", "name": "coast",
+ "features": [
+  {"type": "Feature", "properties": {"name": "main", "bbox": [1, 2], "list": [[1, 2], [3, 4]]},
+   "geometry": {"coordinates": [[[0, 0], [8, 0],
+      [8, 8, 3.5], [0, 8],
+      [0, 0]],
+     [[2, 2], [2, 4], [4, 4], [2, 2]]], "type": "Polygon"}},
+  {"type": "Feature", "properties": null, "geometry": {"type": "MultiPolygon",
+   "coordinates": [[[[10, 0], [12, 0], [12, 1e0], [10, 0]]], [[[20, 0], [21, 0],
+     [21, 1]]]]}}
+]})";
+
+std::string error_of(const std::string& text) {
+  return message_of<GeometryError>([&] { parse_geojson(text, "a.geojson"); });
+}
+
+std::string geometry_of(const std::string& type, const std::string& coordinates) {
+  return "{\"type\": \"" + type + "\",\n\"coordinates\": " + coordinates + "}";
+}
+
+TEST(GeoJson, ReadsAllRingsOfACollectionWithTheirLines) {
+  const Contour contour = parse_geojson(feature_collection, "a.geojson");
+  ASSERT_EQ(contour.rings.size(), 4u);
+  EXPECT_EQ(contour.rings[0].points, (std::vector<Vec2>{{0, 0}, {8, 0}, {8, 8}, {0, 8}}));
+  EXPECT_EQ(contour.rings[0].lines, (std::vector<int>{4, 4, 5, 5}));
+  EXPECT_EQ(contour.rings[1].points, (std::vector<Vec2>{{2, 2}, {2, 4}, {4, 4}}));
+  EXPECT_EQ(contour.rings[1].lines, (std::vector<int>{7, 7, 7}));
+  EXPECT_EQ(contour.rings[2].points, (std::vector<Vec2>{{10, 0}, {12, 0}, {12, 1}}));
+  EXPECT_EQ(contour.rings[3].points, (std::vector<Vec2>{{20, 0}, {21, 0}, {21, 1}})); // not closed, and still a polygon
+  EXPECT_TRUE(contour.warnings.empty());
+}
+
+TEST(GeoJson, ReadsBareGeometriesCollectionsOfThemAndClosedLines) {
+  const std::string ring = "[[0, 0], [1, 0], [0, 1], [0, 0]]";
+  EXPECT_EQ(parse_geojson(geometry_of("Polygon", "[" + ring + "]"), "a").rings.size(), 1u);
+  EXPECT_EQ(parse_geojson(geometry_of("LineString", ring), "a").rings.size(), 1u);
+  EXPECT_EQ(parse_geojson(geometry_of("MultiLineString", "[" + ring + ", " + ring + "]"), "a").rings.size(), 2u);
+  const Contour contour =
+      parse_geojson("\xEF\xBB\xBF{\"type\": \"GeometryCollection\", \"geometries\": [" +
+                        geometry_of("Point", "[3, 4]") + ",\n" + geometry_of("Polygon", "[" + ring + "]") + "]}",
+                    "a");
+  EXPECT_EQ(contour.rings.size(), 1u);
+  ASSERT_EQ(contour.warnings.size(), 1u);
+  EXPECT_EQ(contour.warnings[0].find("a:2: 1 geometry of type Point or the like left out"), 0u) << contour.warnings[0];
+}
+
+TEST(GeoJson, TheEndingOfTheFileDecides) {
+  EXPECT_EQ(parse_contour(feature_collection, "dir/A.GeoJSON").rings.size(), 4u);
+  EXPECT_EQ(parse_contour(feature_collection, "a.json").rings.size(), 4u);
+  EXPECT_EQ(parse_contour("0 0\n1 0\n0 1\n", "a.xy").rings.size(), 1u);
+  EXPECT_NE(message_of<GeometryError>([] { parse_contour(feature_collection, "a.xy"); }), "");
+}
+
+TEST(GeoJson, MistakesAreLocated) {
+  const auto expect = [](const std::string& text, const std::string& start, const std::string& words) {
+    const std::string message = error_of(text);
+    EXPECT_EQ(message.find(start), 0u) << message;
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+  };
+  expect("{\"type\": \"Polygon\",\n\"coordinates\": [[[0, 0], [1 0]]]}", "a.geojson:2: ", "expected JSON, found");
+  expect("0 0\n1 0\n", "a.geojson:1: ", "expected JSON");
+  expect("", "a.geojson:1: ", "expected JSON");
+  expect(feature_collection.substr(0, 200), "a.geojson:", "expected JSON");
+  expect(geometry_of("Polygon", "[[[0, 0],\n[1], [1, 1]]]"), "a.geojson:3: ", "two numbers [x, y]");
+  expect(geometry_of("Polygon", "[[[0, 0],\n[\"1\", 2], [1, 1]]]"), "a.geojson:3: ", "expected numbers");
+  expect(geometry_of("Polygon", "[[[0, 0], [1, 0], [0, 0]]]"), "a.geojson:2: ", "2 distinct vertices");
+  expect(geometry_of("Polygon", "[[[0, 0],\n\n[1e31, 0], [0, 1]]]"), "a.geojson:4: ", "1e+31");
+  expect(geometry_of("LineString", "[[0, 0], [1, 0],\n[0, 1]]"),
+         "a.geojson:2: ", "end at (0, 0) alone: close the ring, or make a polygon");
+  expect(geometry_of("Point", "[0, 0]"), "a.geojson: ", "found no vertex at all");
+  expect("[1, 2]", "a.geojson: ", "found no vertex at all");
+  expect("{\"type\": \"Topology\", \"arcs\": [[[0, 0], [1, 1]]]}", "a.geojson: ", "Polygon or MultiPolygon");
+}
+
+std::string feature(const std::string& properties, const std::string& type, const std::string& coordinates) {
+  return R"({"type": "Feature", "geometry": )" + geometry_of(type, coordinates) + R"(, "properties": {)" + properties +
+         "}}";
+}
+std::string collection(const std::string& features) {
+  return R"({"type": "FeatureCollection", "crs": {"properties": {"name": "EPSG:4326"}}, "features": [)" + features +
+         "]}";
+}
+
+TEST(GeoJson, AnAttributeNamesTheRingsOfAFeature) {
+  const std::string square = "[[[0, 0], [9, 0], [9, 9], [0, 9]]]", lake = "[[[1, 1], [2, 1], [1, 2]]]",
+                    pond = "[[[4, 4], [5, 4], [4, 5]]]";
+  const Contour named =
+      parse_geojson(collection(feature(R"("name": " coast\nof ice", "id": 5)", "Polygon", square) + "," +
+                               feature(R"("a": {"name": "deep"}, "name": null)", "Polygon", lake) + "," +
+                               feature(R"("name": 7)", "Polygon", pond)),
+                    "a", "name");
+  EXPECT_EQ(named.marker_names, (std::vector<std::string>{"coast of ice", "7"}));
+  EXPECT_EQ(named.rings[0].markers, (std::vector<int>{1, 1, 1, 1}));
+  EXPECT_TRUE(named.rings[1].markers.empty());
+  EXPECT_EQ(named.rings[2].markers, (std::vector<int>{2, 2, 2}));
+  const Contour numbered = parse_geojson(collection(feature(R"("tag": -7)", "Polygon", square) + "," +
+                                                    feature(R"("tag": "12")", "Polygon", lake) + "," +
+                                                    feature(R"("tag": 0)", "Polygon", pond)),
+                                         "a", "tag");
+  EXPECT_TRUE(numbered.marker_names.empty());
+  EXPECT_EQ(numbered.rings[0].markers, (std::vector<int>{-7, -7, -7, -7}));
+  EXPECT_EQ(numbered.rings[1].markers, (std::vector<int>{12, 12, 12}));
+  EXPECT_TRUE(numbered.rings[2].markers.empty());
+  EXPECT_TRUE(parse_geojson(feature(R"("tag": 3)", "Polygon", square), "a").rings[0].markers.empty());
+}
+
+TEST(GeoJson, ALakeThatIsAHoleAndAFeatureHasTheNameThatStandsFirst) {
+  const std::string lake = "[[1, 1], [2, 1], [2, 2], [1, 2], [1, 1]]",
+                    land = "[[[0, 0], [9, 0], [9, 9], [0, 9]], " + lake + "]";
+  const Frame frame(geometry::Box{{0, 0}, {9, 9}});
+  for (const std::string second : {"lake", "land"}) {
+    const Contour contour =
+        parse_geojson(collection(feature(R"("name": "land")", "Polygon", land) + ",\n" +
+                                 feature("\"name\": \"" + second + '"', "Polygon", "[" + lake + "]")),
+                      "a", "name");
+    const Part part = Part::contour("map", contour, fit_to_container(contour, frame.container()), frame);
+    EXPECT_EQ(part.boundary().size(), 2u);
+    ASSERT_EQ(part.warnings().size(), 1u);
+    EXPECT_NE(part.warnings()[0].find("used once"), std::string::npos) << part.warnings()[0];
+    EXPECT_EQ(part.warnings()[0].find("names or markers that stand there") != std::string::npos, second == "lake");
+  }
+}
+
+/// Only values right inside of `properties` of a feature are attributes, and what stands in there is no geometry.
+TEST(GeoJson, WhatLooksLikeAnAttributeOrAFeatureIsNone) {
+  const std::string square = "[[[0, 0], [9, 0], [9, 9], [0, 9]]]", lake = "[[[1, 1], [2, 1], [1, 2]]]";
+  const std::string odd = R"("kind": "land", "type": "Feature", "names": ["x", {"kind": "no"}], "of": {"kind": "no"},
+    "was": {"type": "Polygon", "coordinates": [[[5, 5], [6, 5], ["six", 6]]]})";
+  const std::string text =
+      R"({"type": "FeatureCollection", "properties": {"kind": "whole", "date": "today"}, "features": [)" +
+      feature(odd, "Polygon", square) + "," + feature(R"("kind": ["a", "b"], "id": 7)", "Polygon", lake) + "]}";
+  const Contour named = parse_geojson(text, "a", "kind");
+  EXPECT_EQ(named.marker_names, std::vector<std::string>{"land"});
+  ASSERT_EQ(named.rings.size(), 2u);
+  EXPECT_EQ(named.rings[0].markers, (std::vector<int>{1, 1, 1, 1}));
+  EXPECT_TRUE(named.rings[1].markers.empty());
+  EXPECT_EQ(message_of<ConfigError>([&] { parse_geojson(text, "a", "date"); }),
+            "a: expected features with the attribute 'date', found only id, kind, names, of, type, was");
+  const std::string before = R"({"properties": {"kind": 3}, "style": {"type": "Feature"}, "geometry": )" +
+                             geometry_of("Polygon", square) + R"(, "style": {"type": "Feature"}, "type": "Feature"})";
+  EXPECT_EQ(parse_geojson(before, "a", "kind").rings.at(0).markers, (std::vector<int>{3, 3, 3, 3}));
+}
+
+TEST(GeoJson, OpenLinesThatJoinInTheirEndsAreOneRing) {
+  const Contour contour =
+      parse_geojson(collection(feature(R"("kind": "land")", "LineString", "[[0, 0], [0, 1], [1, 1]]") + "," +
+                               feature(R"("kind": "open")", "LineString", "[[0, 0], [1, 0], [1, 1]]")),
+                    "a", "kind");
+  ASSERT_EQ(contour.rings.size(), 1u);
+  EXPECT_EQ(contour.rings[0].points, (std::vector<Vec2>{{0, 0}, {0, 1}, {1, 1}, {1, 0}}));
+  EXPECT_EQ(contour.rings[0].markers, (std::vector<int>{1, 1, 2, 2}));
+  EXPECT_EQ(contour.marker_names, (std::vector<std::string>{"land", "open"}));
+}
+
+/// Shapefiles may hold them. Once the search for lines that stay open never came past such an end.
+TEST(FeatureRings, EndsThatAreNoNumbersAreRefused) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Contour contour;
+  contour.source = "a.shp";
+  FeatureRings rings(contour, "");
+  rings.add(FeatureRings::Kind::line, {{{nan, 0}, 7}, {{1, 0}, 7}, {{1, 1}, 7}});
+  const std::string message = message_of<GeometryError>([&] {
+    rings.end_feature();
+    rings.finish("rings");
+  });
+  EXPECT_NE(message.find("a.shp:7: expected finite coordinates"), std::string::npos) << message;
+}
+
+TEST(GeoJson, AnAttributeThatNoFeatureHasIsRefused) {
+  const std::string one = collection(feature(R"("kind": "land", "id": 3)", "Polygon", "[[[0, 0], [1, 0], [0, 1]]]"));
+  const auto refused = [](const std::string& text, const std::string& source) {
+    return message_of<ConfigError>([&] { parse_contour(text, source, "name"); });
+  };
+  EXPECT_EQ(refused(one, "a.json"), "a.json: expected features with the attribute 'name', found only id, kind");
+  EXPECT_NE(refused("0 0\n1 0\n0 1\n", "a.xy").find("expected a .geojson or .shp"), std::string::npos);
+}
+
+} // namespace
+} // namespace trime::contours
