@@ -86,7 +86,7 @@ Stage PointScheme::first() {
   try {
     return first_of_scheme();
   } catch (const ConfigError&) { // too few points, on all ranks together
-    if (options_.features.keep_all)
+    if (fit_.features.keep_all)
       throw;
   }
   given_context_.cuts_thin_components = level_context_.cuts_thin_components = true;
@@ -104,7 +104,7 @@ Stage PointScheme::first_of_scheme() {
 
 Stage PointScheme::first_of_lattice() {
   fitting::LatticeFit fit = fitting::fit_lattice(*context_);
-  if (options_.features.refine_narrow && fitting::needs_lowering(*context_, fit.stage)) {
+  if (fit_.features.refine_narrow && fitting::needs_lowering(*context_, fit.stage)) {
     context_ = &level_context_;
     scheme_ = Scheme::coarse_to_fine;
     last_stage_ = divisions_for(expected_points());
