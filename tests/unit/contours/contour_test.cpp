@@ -14,6 +14,10 @@ using geometry::Box;
 using geometry::Frame;
 using geometry::Loop;
 using geometry::Vec2;
+using shape::expect_valid;
+using shape::message_of;
+using shape::Part;
+using shape::RegionShape;
 
 const Frame unit_frame(Box{{0, 0}, {1, 1}});
 

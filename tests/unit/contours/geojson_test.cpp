@@ -11,7 +11,10 @@
 namespace trime::contours {
 namespace {
 
+using geometry::Frame;
 using geometry::Vec2;
+using shape::message_of;
+using shape::Part;
 
 const std::string feature_collection = R"({"type": "FeatureCollection", "name": "coast",
  "features": [

@@ -12,6 +12,9 @@ namespace {
 
 using geometry::Frame;
 using geometry::Vec2;
+using shape::message_of;
+using shape::Part;
+using shape::RegionShape;
 
 const Frame unit_frame(geometry::Box{{0, 0}, {1, 1}});
 
