@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs a fuzz target: its corpus first, then new inputs for some seconds, always from the same seeds.
+"""Runs a fuzz target on its corpus, and then on new inputs for some seconds. The seeds are always the same.
 
 Usage: run_target.py BUILD/tests/fuzz/NAME_fuzz [--seconds S] [--keep DIRECTORY] [--grow DIRECTORY]
-  --seconds S   of new inputs (default: TRIME_FUZZ_SECONDS, else 10)
-  --keep D      where an input that breaks the program is kept; it belongs into tests/fuzz/corpus/NAME once it is mended
-  --grow D      keep what reaches new code there, and begin with it
-  --slowest S   seconds of one input, from which it is a finding (default 20; by the clock, so more on a busy machine)
-Exits with 1 if an input breaks the program, needs more memory than it should, or takes too long.
+  --seconds S   seconds of new inputs (default: TRIME_FUZZ_SECONDS, or 10)
+  --keep D      keep an input that breaks the program here; move it to tests/fuzz/corpus/NAME when the program is
+repaired
+  --grow D      begin with the inputs of this directory, and keep those that reach new code there
+  --slowest S   an input that takes longer than S seconds is a finding (default: 20; more on a busy machine)
+The script exits with 1 if an input breaks the program, needs too much memory, or takes too long.
 """
 import argparse
 import os

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Does scripts/check_layers.py find what it is there to find?"""
+"""Tests that scripts/check_layers.py finds forbidden includes."""
 import pathlib
 import subprocess
 import sys

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The documents hold together: every relative link of every *.md file leads to a file, and to a heading if it names
-one; README.md is short."""
+"""Tests that every relative link of every *.md file leads to a file, and to a heading if it names one. README.md must
+be short.
+"""
 import pathlib
 import re
 import subprocess

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Does scripts/rules_table.py read our numbers and their effects, and does src/rules.md hold them?"""
+"""Tests that scripts/rules_table.py reads our numbers and their effects, and that src/rules.md holds them."""
 import pathlib
 import subprocess
 import sys

@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes the Debian package of a build tree, and reads what it holds: package_test.py BUILD. Other packagings name the
-same version."""
+"""Makes the Debian package of a build tree, and reads what it contains. Other packagings must name the same version.
+
+Usage: package_test.py BUILD
+"""
 import gzip
 import pathlib
 import re

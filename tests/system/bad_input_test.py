@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bad input: the right exit code, one located message, and no file left behind, on 1 and 3 ranks.
+"""Tests bad input on 1 and 3 ranks: the exit code is right, one message names the place, and no file stays behind.
 
-A row of the table is a config with what is wrong about it. A start of the program is mostly waiting, so some rows are
-tried at the same time."""
+Each row of the table is a config, and what is wrong with it. A start of the program mostly waits, so several rows run
+at the same time.
+"""
 import concurrent.futures
 import dataclasses
 import inspect

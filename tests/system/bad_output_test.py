@@ -1,6 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Places of outputs where no file can or shall be: told before the run, and what lies there stays."""
+"""Tests outputs in places where a file cannot or must not be.
+
+The program reports such a place before the run, and changes nothing that lies there.
+"""
 import itertools
 import os
 import unittest

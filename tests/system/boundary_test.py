@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The boundary of the mesh is that of the shape, shown from the file and the config alone: loops, tags and parts,
-corners and fixed points, vertices on the exact curves, and the area to the last chord.
+"""Tests that the boundary of the mesh is that of the shape, from the file and the config alone.
+
+It checks loops, tags and parts, corners and fixed points, that vertices lie on the exact curves, and that the area is
+exact to the last chord.
 
 Usage: boundary_test.py CONFIG [POINTS]
 """

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""CGAL confirms the triangles of the square with 1e4 points, and finds a mesh with one wrong edge."""
+"""Tests that CGAL confirms the triangles of the square with 1e4 points, and finds one wrong edge in another mesh."""
 import os
 import shutil
 import subprocess

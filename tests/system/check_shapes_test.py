@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""trime_check on shapes: it passes good meshes of odd ones, and finds that a mesh is not the one of a config."""
+"""Tests trime_check on shapes: it passes good meshes of unusual shapes, and finds meshes that belong to another
+config."""
 import math
 import pathlib
 import re

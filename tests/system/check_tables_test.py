@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""trime_check finds what is changed beside the triangles: labels, tables, attributes, sizes and views."""
+"""Tests that trime_check finds damage outside of the triangles: in labels, tables, attributes, sizes and views."""
 import pathlib
 import re
 import tempfile

@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""trime_check passes the meshes of all configs, and finds each kind of damage done to a file, by the check that
-must."""
+"""Tests that trime_check passes the meshes of all configs, and finds each kind of damage by the right check."""
 import json
 import math
 import os

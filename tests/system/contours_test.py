@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contours that are hard to mesh: a spade with sharp tips minus a disc, and a rough coast with islands and lakes.
+"""Tests contours that are hard to mesh: a spade with sharp tips minus a disc, and a rough coast with islands and lakes.
 
-The bounds come from other coasts (seeds 1 to 6 of rough_coast.py) than the one that is judged here."""
+The bounds come from other coasts (seeds 1 to 6 of rough_coast.py) than the coast of the test.
+"""
 import pathlib
 import subprocess
 import sys

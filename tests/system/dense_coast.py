@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A made-up coast with as many vertices as wanted, on one ring that does not cross itself."""
+"""Makes a coast with any number of vertices, on one ring that does not cross itself."""
 import math
 import random
 

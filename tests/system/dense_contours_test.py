@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contours with many more vertices than the mesh has: they are simplified, by one rank for all, and every number of
-ranks gives the same certified mesh."""
+"""Tests contours with many more vertices than the mesh. One rank simplifies them for all ranks, and every number of
+ranks gives the same certified mesh.
+"""
 import re
 import unittest
 

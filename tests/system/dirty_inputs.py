@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""For inputs_test.py: contour files as users have them, those that are read and those that are refused."""
+"""Contour files as users have them, for inputs_test.py: files that are read, and files that are refused."""
 import json
 import re
 

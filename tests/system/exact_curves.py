@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The exact curves of a config's parts, computed from the config alone: distance, corners, area beside a chord."""
+"""Computes the exact curves of a config's parts from the config alone: distance, corners, the area between a chord and
+its curve.
+"""
 import configparser
 import itertools
 import math

@@ -1,9 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What fails beside the program: disks that fill up, directories that vanish, ranks that die. Each run ends soon, with
-a message and a code; no half file has a final name, and the mesh of an older run stays whole. Prints a table.
+"""Tests failures outside of the program: disks that fill up, directories that vanish, ranks that die.
 
-File systems of its own need the right to mount (root in a container); without it those tests are skipped."""
+Each run ends soon, with a message and an exit code. No incomplete file has a final name, and the mesh of an older run
+stays whole. The tests print a table. They need the right to mount file systems (root in a container), and are skipped
+without it.
+"""
 import hashlib
 import io
 import os

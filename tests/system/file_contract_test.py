@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The mesh file keeps its contract: types, shapes, attributes; the mesh in it is sound; foreign readers understand it.
+"""Tests that the mesh file keeps its contract: types, shapes and attributes are right, the mesh is sound, and other
+programs can read it.
 
 Usage: file_contract_test.py CONFIG
 """

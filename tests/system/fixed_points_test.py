@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fixed points from a file: vertices of the mesh, with and without a contour's normalisation; mistakes by file and
-line."""
+"""Tests fixed points from a file: they become vertices of the mesh, with and without the normalisation of a contour.
+Messages on errors name file and line.
+"""
 import unittest
 
 import h5py

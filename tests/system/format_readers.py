@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""For formats_test.py: what other programs run to read our files, and what they must find there."""
+"""The scripts by which other programs read our files, and what they must find there, for formats_test.py."""
 import re
 
 import h5py

@@ -1,7 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The mesh in the formats of other programs: read back by those programs, the same points, triangles, labels and names
-as in the HDF5 file; the same bytes from a run and from `trime_mpi convert`, on any ranks."""
+"""Tests the mesh in the formats of other programs.
+
+Those programs read the same points, triangles, labels and names as the HDF5 file has. A run and `trime_mpi convert`
+give the same bytes on any number of ranks.
+"""
 import os
 import shutil
 import subprocess

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Shapes that meshers break on. Each ends with a certified mesh of the right topology, or with an error that names the
-place; and soon.
+"""Tests shapes that break meshers. Each run ends soon, with a certified mesh of the right topology, or with an error
+that names the place.
 
-Usage: hard_shapes_test.py [HardShapes.test_NAME ...]      all without one
+Usage: hard_shapes_test.py [HardShapes.test_NAME ...]      all tests without a name
 """
 import math
 import random

@@ -1,7 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Ranks on several hosts, which share no memory and talk over TCP (scripts/hosts_here.sh): the same file as on one
-rank. Skipped, with the reason, where no namespaces may be made, or the MPI is not Open MPI."""
+"""Tests ranks on several hosts that share no memory and communicate over TCP (scripts/hosts_here.sh).
+
+They write the same file as one rank. The test is skipped, with the reason, if network namespaces are forbidden, or if
+the MPI is not Open MPI.
+"""
 import re
 import subprocess
 import unittest

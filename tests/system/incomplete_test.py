@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A run that the sweep cap stops: exit code 5, a warning, a mark in the file; its certificate still holds."""
+"""Tests a run that stops at its largest number of sweeps: exit code 5, a warning, and a mark in the file. The
+certificate still holds.
+"""
 import unittest
 
 import h5py

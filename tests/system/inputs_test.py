@@ -1,8 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contours as users have them: dirty files of every format, read or refused with file and line, the same on 1 and 3
-ranks; markers of segments and attributes of maps on the edges of the mesh; a coast in longitude and latitude that is
-meshed in a plane, written back, and found at the right place by GDAL."""
+"""Tests contours as users have them.
+
+The program reads dirty files of every format, or refuses them with file and line, on 1 and 3 ranks alike. Markers of
+segments and attributes of maps reach the edges of the mesh. A coast in longitude and latitude is meshed in a plane and
+written back, and GDAL finds it at the right place.
+"""
 import concurrent.futures
 import json
 import math

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A killed run leaves no half file under the final name: either nothing, or a mesh that is whole."""
+"""Tests that a killed run leaves no incomplete file under the final name: the file does not exist, or its mesh is
+whole."""
 import os
 import resource
 import signal

@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""All job scripts through a real SLURM of one node (scripts/slurm_here.sh). Skipped, with the reason, where it cannot
-start: no root, no SLURM."""
+"""Tests all job scripts with a real SLURM of one node (scripts/slurm_here.sh).
+
+The test is skipped, with the reason, if SLURM cannot start: without root, or without the packages.
+"""
 import csv
 import os
 import pathlib

@@ -1,14 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Judges meshes of contours from the file and the input alone; knows nothing of how the mesher works.
+"""Measures the quality of meshes of contours from the mesh file and the contour alone, without knowledge of the mesher.
 
-Usage: judge.py file MESH.h5 CONTOUR.xy [--json]            one mesh that is there already
-       judge.py run KIND SEED VERTICES POINTS SIZING [...]  one shape of real_shapes.py, meshed and judged
-       judge.py table SET [...] -o STEM                     a set (tuning, held_out): STEM.jsonl and STEM.md
-       judge.py show FILE.jsonl ...                         the table of results that are there already
+Usage: judge.py file MESH.h5 CONTOUR.xy [--json]            judges a mesh that exists
+       judge.py run KIND SEED VERTICES POINTS SIZING [...]  meshes and judges one shape of real_shapes.py
+       judge.py table SET [...] -o STEM                     judges a set (tuning, held_out); writes STEM.jsonl, STEM.md
+       judge.py show FILE.jsonl ...                         prints the table of results that exist
+       judge.py columns                                     explains the columns
 
 SIZING is uniform, a gradation K of the automatic size (0.1), or a formula (=1+3*x). TRIME_PROGRAM names the program.
-What the columns mean: `judge.py columns`.
 """
 import argparse
 import configparser

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a mesh leaves out of a shape: every loop that is dropped, filled or merged is counted in a warning and listed in
-the file, and --dry-run foretells it."""
+"""Tests what a mesh leaves out of a shape. The program counts every loop that it drops, fills or merges in a warning,
+lists it in the file, and predicts it with --dry-run.
+"""
 import re
 import unittest
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Made-up runs for the tests of the scaling harness, and the way to its modules."""
+"""Invented runs for the tests of the scaling harness, and the path to its modules."""
 import sys
 
 from trime_run import ROOT

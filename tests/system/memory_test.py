@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The bytes per point at the peak of whole runs, output included. No times: the peak is the same on any machine, but
-for huge pages (some 2 MiB an array) and what the libraries take."""
+"""Tests the bytes per point at the peak of whole runs with their output.
+
+The test measures no times. The peak is the same on any machine, except for huge pages (about 2 MiB per array) and the
+memory of the libraries.
+"""
 import re
 import sys
 

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A Python program that mpirun starts, for python_in_jobs_test.py: each of its ranks makes a mesh, and reads it.
+"""A Python program that mpirun starts, for python_in_jobs_test.py. Each of its ranks makes a mesh, and reads it.
 
     mpirun -n 2 /usr/bin/python3 mesh_in_a_job.py DIRECTORY RANKS [mpi4py] [wrong=RANK]...
 
-RANKS: of each run of trime_mpi. mpi4py: imports it first, and meets the other ranks at the end. wrong=RANK: this rank
-gives a config with an unknown key. Each rank leaves what it found as RANK.json in DIRECTORY.
+RANKS is the number of ranks of each run of trime_mpi. With `mpi4py` the program imports it first, and its ranks
+communicate at the end. With `wrong=RANK` this rank uses a config with an unknown key. Each rank writes its results to
+RANK.json in DIRECTORY.
 """
 import json
 import os

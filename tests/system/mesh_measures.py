@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures of a triangle mesh beside the curve that it should follow: quality, sharp corners, deviation, loops.
+"""Measures of a triangle mesh and of the curve that it should follow: quality, sharp corners, deviation, loops.
 
-Arrays only: points (n, 2), triangles (m, 3) counter-clockwise, local sizes (n), rings of the curve.
+All data are arrays: points (n, 2), triangles (m, 3) counter-clockwise, local sizes (n), and rings of the curve.
 """
 import numpy as np
 from scipy.spatial import cKDTree

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The meshes of a run over its steps, and TriMe++'s text files: complete, the same on any ranks, what the HDF5
-holds."""
+"""Tests the meshes of the steps of a run, and TriMe++'s text files: they are complete, the same on any number of ranks,
+and equal to the HDF5 file.
+"""
 import json
 import unittest
 import xml.etree.ElementTree

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""-Laplace u = f with linear elements on meshes read from the HDF5 file, on the disc and the L-shape: the error in L2
-is of second order, and not above that on meshes of Gmsh (Frontal-Delaunay, its strongest) with as many vertices.
+"""Solves -Laplace u = f with linear elements on meshes from the HDF5 file, on the disc and the L-shape.
 
-The exact solution is sin(3x) cos(2y), smooth also at the L's corner, with its f and its boundary values. Run by hand,
-it prints a table."""
+The error in L2 is of second order, and not larger than on meshes of Gmsh (Frontal-Delaunay, its best algorithm) with as
+many vertices. The exact solution is sin(3x) cos(2y), which is smooth at the corner of the L; f and the boundary values
+follow from it. The script prints a table if it is started by hand.
+"""
 import math
 import subprocess
 import unittest

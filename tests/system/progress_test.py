@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a run says while it runs: one live line on a terminal, sparse rows of a table elsewhere, nothing with
---quiet."""
+"""Tests what a run prints while it runs: one live line on a terminal, few rows of a table elsewhere, nothing with
+--quiet.
+"""
 import fcntl
 import json
 import os

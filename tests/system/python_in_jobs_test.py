@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Python package in programs that mpirun has started. A run is a job of its own, and gets the settings of the
-user."""
+"""Tests the Python package in programs that mpirun has started. A run is a separate job, and gets the settings of the
+user.
+"""
 import json
 import os
 import pathlib

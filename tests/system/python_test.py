@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Python package: meshes as arrays, runs from Python with their errors as exceptions, pictures."""
+"""Tests the Python package: meshes as arrays, runs from Python with their errors as exceptions, and pictures."""
 import contextlib
 import os
 import pathlib

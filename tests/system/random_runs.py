@@ -1,12 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The whole program on random configs: each on 1 and 3 ranks, every star compared with one computed anew. Both give the
-same hash, or the same error. What differs, crashes, hangs, leaves a failed check or takes much memory is a finding.
+"""Runs the whole program on random configs, each on 1 and 3 ranks, and compares every star with a newly computed one.
+
+Both runs must give the same hash, or the same error. A difference, a crash, a hang, a failed check and a use of much
+memory are findings.
 
 Usage: random_runs.py [--seed S] [--first K] [--count N] [--keep DIRECTORY] [--slow SECONDS]
-  --keep D   each finding goes there as a config with its files; `trime_mpi D/S-K/case.ini` repeats it
-  --slow T   processor seconds of one rank from which a run is a finding, too (default: none: machines differ)
-Exits with 1 if anything was found.
+  --keep D   write the config and the files of each finding here; `trime_mpi D/S-K/case.ini` repeats it
+  --slow T   a run of one rank with more than T processor seconds is a finding, too (default: none; machines differ)
+The script exits with 1 if it has findings.
 """
 import argparse
 import collections

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Random configs for random_runs.py: shapes of all kinds of parts, sizes, methods, periods, fixed points, and now and
-then a value that nobody would write."""
+"""Makes random configs for random_runs.py: shapes of all kinds of parts, sizes, methods, periods, fixed points, and
+sometimes a value that nobody would write.
+"""
 import math
 
 EXTREME = ["0", "-1", "1", "3", "0.5", "1e-9", "1e-30", "1e-300", "1e9", "1e30", "1e300", "nan", "inf", "-1e15", "90"]

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Boundaries as people have them, meshed and judged: a few of the shapes that `real_shapes.py` calls `tuning`.
+"""Meshes and judges some realistic boundaries, those that `real_shapes.py` calls `tuning`.
 
-`judge.py` judges by file and contour alone. The bars are what holds now, with some leeway: raise none of them."""
+`judge.py` judges by file and contour alone. The bars are the present values with some leeway; none may be raised.
+"""
 import unittest
 
 import h5py

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Coasts as contouring programs give them: the line of height 0 of a random landscape, of any number of vertices.
+"""Makes coasts like those of contouring programs: the line of height 0 of a random landscape, with any number of
+vertices.
 
-Islands and lakes of all sizes, straits and inlets come at once, and no two rings meet. See real_shapes.py.
+It has islands and lakes of all sizes, straits and inlets, and no two rings meet. See real_shapes.py.
 """
 import numpy as np
 

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Boundaries as people really have them, from a seed: coasts, islands, walls, slits, needles, rings that touch.
+"""Makes realistic boundaries from a seed: coasts, islands, walls, slits, needles, rings that touch.
 
 Usage: real_shapes.py KIND SEED VERTICES [-o FILE.xy]     writes the contour, x y per line, a blank line between rings
-       real_shapes.py --list                              the kinds, and the two sets of shapes
+       real_shapes.py --list                              lists the kinds, and the two sets of shapes
 
-No two rings of a shape cross, and none crosses itself. TUNING is for whoever works on the mesher; HELD_OUT is for
-reports only: nothing may be chosen by what it shows. `judge.py` meshes the sets and judges the meshes.
+No two rings of a shape cross, and none crosses itself. TUNING is for work on the mesher. HELD_OUT is only for reports:
+no decision may depend on it. `judge.py` meshes the sets and judges the meshes.
 """
 import argparse
 import inspect

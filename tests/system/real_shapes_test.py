@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The shapes of real_shapes.py are what they say, and judge.py measures what it says, on meshes with known answers."""
+"""Tests that the shapes of real_shapes.py have their promised properties, and that judge.py measures correctly on
+known meshes."""
 import math
 import pathlib
 import subprocess

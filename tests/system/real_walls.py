@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Thin parts: honeycombs, slits, curved walls, needles, channels; what shapes are made of. See real_shapes.py."""
+"""Makes shapes with thin parts: honeycombs, slits, curved walls, needles, channels. See real_shapes.py."""
 import math
 
 import numpy as np

@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The first config of configs/README.md, and "From a map to a solver" of configs/shapes.md: config, commands and
-scripts, word for word, on a shapefile of islands with a lake, in degrees."""
+"""Tests the first config of configs/README.md, and "From a map to a solver" of configs/shapes.md.
+
+Config, commands and scripts run word for word, on a shapefile of islands with a lake, in degrees.
+"""
 import json
 import pathlib
 import re

@@ -1,8 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A run that stops at a checkpoint and goes on, on other ranks, makes the mesh of a run without a break, bit for bit.
+"""Tests that a run that stops at a checkpoint and continues on other ranks makes the mesh of an uninterrupted run, bit
+for bit.
 
-TRIME_RESTART_KILLS=n kills n runs at random moments for each signal and number of ranks (default 1)."""
+TRIME_RESTART_KILLS=n kills n runs at random moments for each signal and number of ranks (default: 1).
+"""
 import itertools
 import os
 import random

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rings of points: reading and writing, areas by even-odd nesting, and whether any two of their segments cross.
+"""Reads and writes rings of points, computes areas by even-odd nesting, and finds segments that cross.
 
-A ring is an array (n, 2), closed by itself: the first point is not repeated. The text is that of a contour file.
+A ring is an array (n, 2) that does not repeat its first point. The text is that of a contour file.
 """
 import fractions
 

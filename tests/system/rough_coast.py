@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A made-up coast from a seed, rougher than a real one: bays within bays, narrow inlets, islands and lakes of all
+"""Makes a coast from a seed that is rougher than a real one: bays within bays, narrow inlets, islands and lakes of all
 sizes.
 
 Usage: rough_coast.py SEED      prints the contour, x y per line and a blank line between rings
 
-The coast is the line of height 0 of a random landscape: midpoint displacement of a square grid (diamonds and squares in
-turn) on a mound. Islands and lakes of such a landscape follow a power law. Only + - * / of doubles: one seed gives one
-text on every machine.
+The coast is the line of height 0 of a random landscape: midpoint displacement of a square grid (diamonds and squares
+alternately) on a mound. Islands and lakes of such a landscape follow a power law. The script uses only + - * / of
+doubles, so one seed gives one text on every machine.
 """
 import random
 import sys

@@ -1,11 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""One config, one mesh, at sizes that real runs have: elements of very different sizes, up to 16 ranks, many tiles.
+"""Tests that one config gives one mesh at realistic sizes: elements of very different sizes, up to 16 ranks, many
+tiles.
 
-Usage: same_mesh_large_test.py [FIELD ...]      all fields without one
+Usage: same_mesh_large_test.py [FIELD ...]      all fields without a name
 
-By default each field but the largest is meshed by every method on two numbers of ranks; over the methods all numbers
-of ranks occur. With TRIME_FULL_TABLE=1 every number of ranks meshes every field by every method. One thread a rank.
+By default every method meshes each field except the largest on two numbers of ranks, and all numbers of ranks occur
+among the methods. With TRIME_FULL_TABLE=1 every method meshes every field on every number of ranks. Each rank has one
+thread.
 """
 import os
 import re

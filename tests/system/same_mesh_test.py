@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""One config, one mesh: every number of ranks and threads gives the same file, but for the group /trime_mpi.
+"""Tests that one config gives one mesh: every number of ranks and threads writes the same file, except the group
+/trime_mpi.
 
 Usage: same_mesh_test.py CONFIG [section.key=value ...]
 """

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The model of the time in the scaling harness: terms that are known come back from made-up rows."""
+"""Tests the model of the time in the scaling harness: it finds the known terms of invented rows."""
 import dataclasses
 import math
 import random

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The scaling harness, scripts/scaling.py: its arithmetic on made-up runs, its words on bad input, a small sweep."""
+"""Tests scripts/scaling.py: its arithmetic on invented runs, its messages on bad input, and a small sweep."""
 import csv
 import json
 import os

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The scripts around the program: picture, and what the first command does where it may not install."""
+"""Tests the scripts for users: the picture of a mesh, and the first command where it may not install packages."""
 import os
 import subprocess
 import unittest

@@ -1,7 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The examples that solve Poisson's equation on the mesh in memory, by own arrays and by PETSc: the error falls with
-second order, and is the same on any ranks. The ranks' parts are compact. Without PETSc its example is skipped."""
+"""Tests the examples that solve Poisson's equation on the mesh in memory, with their own arrays and with PETSc.
+
+The error falls with second order, and is the same on any number of ranks. The parts of the ranks are compact. The
+example with PETSc is skipped if PETSc is missing.
+"""
 import math
 import os
 import pathlib

@@ -1,7 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Coordinates of users: a normalised contour in metres, whose file and report tell the way back and whose messages name
-lines and places; shapes that keep their coordinates, from text and from GeoJSON."""
+"""Tests the coordinates of users.
+
+File and report of a normalised contour in metres contain the way back, and messages name lines and places. Shapes from
+text and from GeoJSON keep their coordinates.
+"""
 import json
 import math
 import re

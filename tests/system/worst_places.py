@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws the worst triangles of a mesh with the contour that it should follow.
 
-Usage: worst_places.py MESH.h5 CONTOUR.xy -o PICTURE.png [--places N]     (judge.py run ... --keep DIR leaves both)
+Usage: worst_places.py MESH.h5 CONTOUR.xy -o PICTURE.png [--places N]     (judge.py run ... --keep DIR makes both files)
 
-Blue: the mesh; orange: the triangle; red: the contour and its vertices. One line is printed for each place: alpha, the
-place, and how many of the corners lie on the boundary.
+The mesh is blue, the triangle orange, the contour with its vertices red. For each place the script prints alpha, the
+place, and how many corners lie on the boundary.
 """
 import argparse
 import pathlib
