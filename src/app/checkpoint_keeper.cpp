@@ -6,6 +6,7 @@
 #include "comm/agree.hpp"
 #include "trime/core/error.hpp"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 

@@ -8,8 +8,10 @@
 #include <cstdint>
 #include <cstring>
 
-#ifdef __SSE2__
-#include <immintrin.h>
+#if defined(__AVX__)
+#include <immintrin.h> // takes a second to parse
+#elif defined(__SSE2__)
+#include <emmintrin.h>
 #endif
 
 #define TRIME_INLINE [[gnu::always_inline]] inline

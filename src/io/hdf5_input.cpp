@@ -3,6 +3,7 @@
 
 #include "core/file_kind.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>

@@ -156,7 +156,7 @@ std::string length_problem(const std::string& path, std::size_t added) {
     if (end - at > most)
       return fmt::format("expected names of at most {} bytes{}, found {} with {}", most,
                          added > 0 && end == path.size() ? ", since a file has a longer one while it is written" : "",
-                         quoted(path.substr(at, end - at)), end - at);
+                         trime::quoted(path.substr(at, end - at)), end - at);
     at = end + 1;
   }
   return {};

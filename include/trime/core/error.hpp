@@ -3,7 +3,7 @@
 // No rank may throw alone before a collective: see comm/agree.hpp.
 #pragma once
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <stdexcept>
 #include <string>

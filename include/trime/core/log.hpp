@@ -3,7 +3,7 @@
 // live line, elsewhere in some rows of a table.
 #pragma once
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <cstdio>
 #include <functional>
