@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which parser a contour file needs, and contours as bytes on their way to other ranks.
+// Chooses the parser for a contour file, and converts contours to bytes for other ranks.
 #include "contours/shapefile.hpp"
 #include "core/read_file.hpp"
 #include "trime/contours/contour.hpp"

@@ -41,7 +41,7 @@ std::string_view take_word(std::string_view& text) {
   return word;
 }
 
-/// What is beyond double precision: infinite, or 0 if it is tiny.
+/// Returns the value of a number beyond double precision: infinite, or 0 if it is tiny.
 double out_of_range(std::string_view word) {
   long double wide = 0;
   const auto result = std::from_chars(word.data(), word.data() + word.size(), wide);
@@ -103,7 +103,7 @@ bool take_first(std::string_view& line, double& value) {
   return true;
 }
 
-/// What people write instead of 'x y', for the message; empty if it is none of that.
+/// Recognises what people write instead of 'x y', for the message; empty if it is something else.
 std::string hint_for(std::string_view line, bool first) {
   if (first && are_columns(column_names(line), true))
     return "; the columns are in the other order: write x (longitude) before y (latitude), and take this line out";

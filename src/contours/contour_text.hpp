@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The text of contours and point files: lines, numbers, and what to tell people whose text is something else.
+// Reads the text of contours and point files: lines, numbers, and messages for users whose text is something else.
 #pragma once
 
 #include "trime/geometry/vec2.hpp"
@@ -64,7 +64,7 @@ private:
 /// are left out.
 class WordLines {
 public:
-  /// @param separators part words, beside blanks and tabs
+  /// @param separators separate words, in addition to blanks and tabs
   WordLines(std::string_view text, const std::string& source, std::string_view separators);
 
   /// Goes to the next line with words. @return is there one?
@@ -73,7 +73,7 @@ public:
   const std::vector<std::string_view>& words() const { return words_; }
   /// @brief Word k as a number. @throws GeometryError naming `what` was expected
   double number_at(std::size_t k, const char* what) const;
-  /// The same for an integer that fits into an int.
+  /// Reads an integer that fits into an int.
   int integer_at(std::size_t k, const char* what) const;
   [[noreturn]] void refuse(const std::string& what) const;
 

@@ -14,7 +14,7 @@
 
 namespace trime::contours {
 
-/// What a map says is a ring. Knows neither JSON nor shapefiles.
+/// Collects the rings of the features of a map. Knows neither JSON nor shapefiles.
 class FeatureRings {
 public:
   enum class Kind { polygon, line };

@@ -160,7 +160,7 @@ private:
   bool is_feature_at(std::size_t depth) const {
     return depth == 0 || (depth == 1 && objects_[0].key == "features" && objects_[0].lists == 1);
   }
-  /// Is the present value itself one of the `properties` of what may be a feature? Parts of such values are none.
+  /// Is the present value itself one of the `properties` of what may be a feature? Parts of such values do not count.
   bool is_attribute() const {
     const std::size_t depth = objects_.size();
     return depth > 1 && objects_[depth - 2].key == "properties" && objects_[depth - 2].lists == 0 &&

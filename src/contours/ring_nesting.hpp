@@ -10,8 +10,8 @@
 
 namespace trime::contours {
 
-/// @brief The rings with material on one side only, ascending: by even-odd nesting they enclose what all rings
-/// enclose, but for the areas right around a hole point. Others are left out; a warning tells those with material on
+/// @brief Returns the rings with material on one side only, ascending: by even-odd nesting they enclose what all rings
+/// enclose, except the areas right around a hole point. Others are left out; a warning lists those with material on
 /// both sides, and hole points outside of all rings.
 /// @pre rings do not cross. O(vertices) for each ring and hole within the boxes of others.
 std::vector<std::size_t> rings_around_material(const std::vector<std::vector<RingVertex>>& rings,

@@ -25,7 +25,7 @@ std::vector<int> first_at_place(const std::vector<FileVertex>& vertices) {
   return first;
 }
 
-/// Of those that are the same the first stays.
+/// Among equal segments the first one stays.
 void drop_useless(std::vector<FileSegment>& segments, const std::string& source, std::vector<std::string>& warnings) {
   const std::size_t before = segments.size();
   int line = 0;

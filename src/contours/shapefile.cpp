@@ -17,7 +17,7 @@
 namespace trime::contours {
 namespace {
 
-/// What libshp would print.
+/// Keeps the message that libshp would print.
 std::string& said() {
   static std::string text; // its error hook has no other way to pass it on; serial
   return text;
@@ -32,7 +32,7 @@ using File = std::unique_ptr<SHPInfo, Close>;
 using Table = std::unique_ptr<DBFInfo, Close>;
 using Record = std::unique_ptr<SHPObject, Close>;
 
-/// A file beside `path` with another ending, in the case of letters that is there.
+/// Returns the file next to `path` with another ending, in upper or lower case, as it exists.
 std::string beside(const std::string& path, const char* ending, const char* upper_ending) {
   const std::string stem = path.substr(0, path.size() - 4);
   return std::filesystem::exists(stem + ending) ? stem + ending : stem + upper_ending;
@@ -46,7 +46,7 @@ SAHooks hooks_of_libshp() {
   return hooks;
 }
 
-/// libshp believes the length that the head of NAME.shx tells, and asks for memory for so many records.
+/// libshp believes the length in the head of NAME.shx, and allocates memory for that number of records.
 void check_index(const std::string& path) {
   constexpr std::size_t head = 100, row = 8, length_at = 24; // [bytes]
   const std::string bytes = read_file(path);
@@ -77,7 +77,7 @@ File open(const std::string& path, std::string_view bytes) {
   return file;
 }
 
-/// Does each first byte of a character tell how many follow?
+/// Does each first byte of a character say how many follow?
 bool is_utf8(std::string_view text) {
   for (std::size_t k = 0; k < text.size();) {
     const auto byte = static_cast<unsigned char>(text[k++]);

@@ -136,7 +136,7 @@ void Run::visit(StateFields& fields) {
   fields.field("size_hash", input_.sizes);
 }
 
-/// Returns the data that a checkpoint keeps of the owned tiles, if nothing was moved since they were sorted.
+/// Returns the activity of the owned tiles for a checkpoint if nothing was moved since they were sorted: zeros.
 std::vector<std::uint64_t> Run::quiet_tiles() const {
   const mesh::BinnedPoints& points = stage_.state->points();
   return std::vector<std::uint64_t>(static_cast<std::size_t>(points.last_tile() - points.first_tile()), 0);

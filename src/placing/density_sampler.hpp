@@ -59,7 +59,7 @@ public:
   }
 
 private:
-  static constexpr int part_levels = 1; // so many below a tile
+  static constexpr int part_levels = 1; // number of levels below a tile
   /// Every bin of the typical density is looked into, wherever its tile's middle lies: sizes may jump. No cell lies
   /// half in the container.
   int least_level() const {
@@ -191,7 +191,7 @@ private:
   double most_in_part_;            // sites
 };
 
-/// Calls body(item) for all items, over threads. What a size field throws becomes an error of all ranks. Collective.
+/// Calls body(item) for all items, over threads. If a size field throws, all ranks throw the error. Collective.
 template <class Body>
 void agreed_loop(const comm::Communicator& comm, std::ptrdiff_t n, const Body& body) {
   comm::run_agreed(comm, [&] { thread_loop(n, 1, [&](std::ptrdiff_t item, int) { body(item); }); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Inner sites along the Hilbert curve. Each rank makes the sites of its own tiles; the set does not depend on the
+// Makes inner sites along the Hilbert curve. Each rank makes the sites of its tiles; the set does not depend on the
 // ranks.
 #pragma once
 
@@ -21,13 +21,14 @@ namespace trime::placing {
 class HilbertStart {
 public:
   /// @brief Takes the integral. Collective (one scan). @pre the other arguments outlive this object
-  /// @param expected about so many sites will be asked for: of few, the cells of the integral are kept for them
+  /// @param expected number of sites that will be asked for, about: if they are few, the cells of the integral are kept
+  /// for them
   /// @param coarsening of the integral's cells, which else take a quarter of a site, and less near the boundary
   HilbertStart(const comm::Communicator& comm, const mesh::TileRange& tiles, const polygon::BoundaryGuard& guard,
                const sizing::SizeField& size, const geometry::Lattice& lattice, double expected, double coarsening = 1);
   ~HilbertStart();
 
-  /// So many sites the size asks for, over all ranks.
+  /// Returns the number of sites that the size asks for, over all ranks.
   double wanted() const;
   /// The sites of this rank. Collective.
   /// @param n number of sites over all ranks

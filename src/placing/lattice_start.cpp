@@ -101,8 +101,7 @@ bool LatticeStart::is_clear(const mesh::TileGrid& grid, LocalIndex tile, double 
   return guard_.distance(middle, reach) >= reach && guard_.inside(middle);
 }
 
-/// Columns of a periodic lattice are reduced to the first so many, so that a site has one position from wherever it is
-/// seen.
+/// Columns of a periodic lattice are reduced to the first `columns`, so that all images of a site give one position.
 Vec2 LatticeStart::site(const RowLattice& rows, std::int64_t row, std::int64_t column) const {
   const Vec2 start = rows.origin + (static_cast<double>(row) * rows.height) * geometry::left_normal(rows.along);
   const double along = (static_cast<double>(reduced(column, rows.columns)) + rows.shift(row)) * rows.spacing;

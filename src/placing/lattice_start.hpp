@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Inner sites on a hexagonal lattice. Each rank makes the sites of its own tiles; the set does not depend on the ranks.
+// Makes inner sites on a hexagonal lattice. Each rank makes the sites of its tiles; the set does not depend on the
+// ranks.
 #pragma once
 
 #include "mesh/binned_points.hpp"
@@ -28,7 +29,7 @@ struct LatticeRuns {
 
   /// Number of sites.
   std::int64_t count() const;
-  /// The same of each tile.
+  /// Returns the number of sites of each tile.
   std::vector<std::int64_t> counts() const;
 };
 
@@ -42,10 +43,11 @@ public:
   LatticeStart(const geometry::Boundary& boundary, const polygon::BoundaryGuard& guard,
                const geometry::Lattice& lattice);
 
-  /// Sites inside the shape at least 0.45 spacings away from its boundary, by tile, row and column. Threads.
+  /// Returns the sites inside the shape at least PlacingRules::lattice_strip spacings away from its boundary, by tile,
+  /// row and column, by all threads.
   LatticeRuns runs(const mesh::TileRange& tiles, double spacing) const;
-  /// @brief Makes them. Threads.
-  /// @param more room for so many sites is left, that will be added
+  /// @brief Makes the sites of the runs, by all threads.
+  /// @param more number of sites that will be added, and that need room
   mesh::SiteList sites(const LatticeRuns& runs, std::size_t more = 0) const;
   mesh::SiteList sites(const mesh::TileRange& tiles, double spacing) const { return sites(runs(tiles, spacing)); }
 

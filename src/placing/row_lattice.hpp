@@ -11,12 +11,12 @@ namespace trime::placing {
 
 /// @brief Site i of row j lies at origin + (i + shift(j)) * spacing along the rows and j * height across them.
 ///
-/// With `columns` or `rows` > 0 the lattice repeats itself after so many; sites are then wrapped by the caller.
+/// With `columns` or `rows` > 0 the lattice repeats itself after that number; the caller then wraps sites.
 struct RowLattice {
   geometry::Vec2 origin, along{1, 0};
   double spacing = 1, height = row_height;
   std::int64_t columns = 0, rows = 0;
-  std::int64_t skew = 0; ///< all rows together shift by so many spacings
+  std::int64_t skew = 0; ///< number of spacings by which all rows together shift
 
   /// Shift of a row in spacings, 0 <= shift < 1; every other row by a half if the rows do not repeat themselves.
   double shift(std::int64_t row) const {
@@ -29,8 +29,8 @@ struct RowLattice {
 ///
 /// Where both axes are periodic, columns and rows are the pair with at most as many sites as asked for, nearly as many
 /// and nearly equilateral: 2 % of stretch count like 0.2 % of missing sites. An odd number of rows takes a little
-/// shear. With one period the columns fit and the rows keep the density. No sites (columns = 0 on a periodic axis is
-/// told by spacing = 0) if not even one fits. O(sqrt(sites)).
+/// shear. With one period the columns fit and the rows keep the density. If not even one site fits, spacing is 0.
+/// O(sqrt(sites)).
 RowLattice fit_to_periods(const geometry::Periods& periods, double spacing, geometry::Vec2 along);
 
 /// The better of the fits with rows along x and along y; both axes must be periodic.

@@ -22,7 +22,7 @@ constexpr double largest_weight = 0x1p40;   // of a quarter of a square: sums of
 constexpr double most_divided = 4;          // times as many tiles as there were, and some, at most
 constexpr double fewest_when_divided = 256; // tiles
 
-/// A tile and what it wants, as ranks tell each other.
+/// A tile and its weight, as ranks send it to each other.
 struct Leaf {
   std::int64_t weight;
   std::uint32_t x, y, level; // of a square of the curve

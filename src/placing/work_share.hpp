@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who makes which sites: weights before sites.
+// Decides which rank makes which sites, from weights, before there are sites.
 #pragma once
 
 #include "mesh/tile_range.hpp"
@@ -20,9 +20,9 @@ namespace trime::placing {
 void share_by_density(sites::Stage& stage, const sizing::SizeField& size, const geometry::Lattice& lattice,
                       double grid_coarsening);
 
-/// @brief The same by the sites that will really stand in the tiles, so that hardly any must go to another rank once
-/// they are made: the tiles that SiteState::distribute comes to. Sites on the boundary are counted here. O(tiles)
-/// memory. Collective.
+/// @brief Does the same with the sites that will really be in the tiles, so that hardly any must go to another rank
+/// after they are made: gives the tiles of SiteState::distribute. Counts sites on the boundary, too. O(tiles) memory.
+/// Collective.
 /// @param inside the other sites in each tile of own_share
 /// @return false if a tile was divided: what lies in its quarters is to be counted. Levels are bounded, so this ends
 bool share_by_count(sites::Stage& stage, std::vector<std::int64_t> inside);

@@ -35,8 +35,8 @@ std::size_t vertex_count(const std::vector<PlacedPart>& parts) {
   return count;
 }
 
-/// So many lines in the bins of a part may be looked at for each line or circle of another part, and for each of its
-/// own, before the part gets a tree: that costs as much.
+/// Number of lines in the bins of a part that may be examined for each line or circle of another part, and of this
+/// part, before the part gets a tree: that costs as much.
 constexpr std::int64_t enough_looks = 32;
 
 /// [lattice steps] Around what is looked for: more than vertices are moved by merging, plus what counts as on a curve.
@@ -159,7 +159,7 @@ void Arrangement::add_polygon(std::size_t place) {
   }
 }
 
-/// Of equal circles the first one is kept.
+/// Among equal circles the first one is kept.
 void Arrangement::add_circles() {
   std::vector<Circle> all;
   std::vector<int> places;
@@ -230,7 +230,7 @@ bool Arrangement::wants_tree(std::size_t b) {
   return true;
 }
 
-/// What the bins would do, in the same order, but only with those lines of b for which it makes a difference: a
+/// Does what the bins would do, in the same order, but only with those lines of b for which it makes a difference: a
 /// crossing may become a vertex that an earlier one has made.
 void Arrangement::cross_by_tree(LocalIndex s, std::size_t b) {
   const Segment moved = moved_back(s, b);

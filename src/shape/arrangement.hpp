@@ -61,14 +61,14 @@ private:
     LocalIndex from, to;
     int part;
   };
-  /// What two lines have to do with each other.
+  /// The relation of two lines.
   struct Contact {
     std::array<bool, 4> on{}; ///< ends of the first line that lie on the second one, between its ends; and vice versa
     bool crossing = false;
     bool any() const { return on[0] || on[1] || on[2] || on[3] || crossing; }
   };
   enum class Place { apart, at_end, between };
-  /// How the lines near another one are found among those of a part.
+  /// Ways to find the lines near another one among those of a part.
   struct LineSearch {
     std::int64_t lines = 0;     ///< and circles, that others were looked at for
     std::int64_t looked_at = 0; ///< in the bins of the part

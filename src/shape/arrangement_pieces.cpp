@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What crossings make of the curves: pieces from vertex to vertex, each kept once.
+// Cuts the curves at their crossings: pieces from vertex to vertex, each kept once.
 #include "geometry/predicates.hpp"
 #include "shape/arrangement.hpp"
 #include "shape/crossings.hpp"

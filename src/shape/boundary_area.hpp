@@ -17,8 +17,8 @@ double twice_area_under(const std::vector<geometry::Piece>& pieces, geometry::Ve
 /// are such slivers: they are no features.
 bool is_sliver(const geometry::Loop& loop, double twice_area, const geometry::Frame& frame);
 
-/// @brief Of loops on a torus, unrolled: the areas under them add up to that of the region but for multiples of the
-/// area of the torus. Finds whether the region reaches around it both ways. @pre there are loops
+/// @brief Computes the area for unrolled loops on a torus: the areas under them add up to that of the region, except
+/// for multiples of the area of the torus. Finds whether the region reaches around it both ways. @pre there are loops
 void settle_area_on_torus(geometry::Boundary& boundary, double torus);
 
 /// @brief Loops that wind may be slivers only together: two that lie on each other enclose nothing but rounding errors.

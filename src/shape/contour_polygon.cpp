@@ -94,7 +94,7 @@ private:
   std::vector<LatticeRing> rings_;
 };
 
-/// Of all segments of the rings; empty if none has any.
+/// Returns the markers of all segments of the rings; empty if no segment has one.
 std::vector<int> Placement::markers_of_segments() const {
   std::vector<int> markers;
   if (std::all_of(rings_.begin(), rings_.end(), [](const LatticeRing& ring) { return ring.markers.empty(); }))
@@ -216,8 +216,8 @@ void Placement::report(const SegmentGrid& grid, const SegmentPair& pair) const {
                                   in_file(meeting_point(s, t)), remedy));
 }
 
-/// A warning for every ring that encloses a piece of its own, except the one of the largest area. Maps mean such
-/// pieces.
+/// Returns a warning for every ring that encloses a separate piece, except the one with the largest area. Maps mean
+/// such pieces.
 void Placement::tell_pieces(const Polygon& polygon, std::vector<std::string>& warnings) const {
   if (contour_.is_map)
     return;

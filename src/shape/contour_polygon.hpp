@@ -12,7 +12,7 @@
 namespace trime::shape {
 
 /// @brief Moves, snaps and checks the rings of a contour, and finds which side of each ring is inside.
-/// @param warnings gets a sentence for each ring of which the lattice made vertices equal
+/// @param warnings gets a sentence for each ring with vertices that the lattice made equal
 /// @throws GeometryError see Part::contour
 Polygon make_contour_polygon(const contours::Contour& contour, const contours::Normalization& normalization,
                              const geometry::Frame& frame, std::vector<std::string>& warnings);

@@ -30,7 +30,7 @@ bool InsideWalk::inside(geometry::Vec2 p) {
   return *found;
 }
 
-/// Nothing if more than so many segments were to be looked at.
+/// Returns nothing if it would examine more than `most` segments.
 std::optional<bool> InsideWalk::walked_to(geometry::Vec2 p, LocalIndex most) {
   const std::span<const geometry::Segment> segments = part_->as_polygon()->grid.segments();
   bool side = *last_inside_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which points of a sequence lie inside a part, quick also between very many long slanted spikes.
+// Finds which points of a sequence lie inside a part, quickly also between very many long slanted spikes.
 #pragma once
 
 #include "geometry/segment_tree.hpp"
@@ -10,7 +10,7 @@
 
 namespace trime::shape {
 
-/// @brief The answers of Part::inside, bit for bit, for points of which most are near the one before.
+/// @brief Gives the answers of Part::inside, bit for bit, for points that are mostly near the one before.
 ///
 /// Where a bin has very many segments, only those between a point and the one before are looked at, if they are fewer:
 /// the side changes with each of them. Never more than twice the work of Part::inside. Keeps a reference.
@@ -18,7 +18,7 @@ class InsideWalk {
 public:
   explicit InsideWalk(const Part& part) : part_(&part) {}
 
-  /// As Part::inside. @param p a point of the lattice, as are the vertices of the part
+  /// Returns Part::inside. @param p a point of the lattice, as are the vertices of the part
   bool inside(geometry::Vec2 p);
   /// Segments of crowded bins that were looked at.
   std::int64_t looked_at() const { return looked_at_; }

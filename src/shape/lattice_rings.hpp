@@ -25,7 +25,7 @@ Meeting meeting_of(const geometry::Segment& s, const geometry::Segment& t);
 
 using SegmentPair = std::array<LocalIndex, 2>;
 
-/// @brief Pairs (i, j), i < j, of segments that meet, but for neighbours of one ring; ascending.
+/// @brief Returns the pairs (i, j), i < j, of segments that meet, except neighbours of one ring; ascending.
 ///
 /// The segments are those of the rings in turn, each from its vertex to the next. Uses all threads, O(M log M); of a
 /// part of the segments with very many meetings only the first are found, the same on any threads.
@@ -51,10 +51,10 @@ struct RingTouch {
 
 /// @brief Parts rings where a vertex lies on another vertex or on an edge, and rings do not cross there.
 ///
-/// The area is what it was: each sector of it around the place gets a vertex of its own, of which one stays and the
-/// others move into their sectors by ShapeRules::touch_gap. So the area never reaches through the place. A hole that
-/// touches its outer ring becomes a bay, a ring that pinches the area two rings. Where edges overlap, or rings cross,
-/// nothing is done: find_meetings finds them again.
+/// The area stays the same: each sector of it around the place gets a separate vertex. One of these vertices stays, and
+/// the others move into their sectors by ShapeRules::touch_gap. So the area never reaches through the place. A hole
+/// that touches its outer ring becomes a bay, and a ring that pinches the area becomes two rings. Where edges overlap,
+/// or rings cross, nothing is done: find_meetings finds them again.
 /// @param meetings all of them @param grid of segments_of(rings)
 std::vector<RingTouch> part_touches(std::vector<LatticeRing>& rings, const std::vector<SegmentPair>& meetings,
                                     const geometry::SegmentGrid& grid, const geometry::Frame& frame);

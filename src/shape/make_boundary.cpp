@@ -170,8 +170,8 @@ geometry::BoxTree BoundaryMaker::tree_of_places() const {
   return geometry::BoxTree(boxes);
 }
 
-/// Of the parts only those are asked whose box holds the middle of the piece: to all others it is outside. Pieces come
-/// along the curves, so that their middles are near each other.
+/// Asks only the parts with a box that holds the middle of the piece: it is outside of all others. Pieces come along
+/// the curves, so that their middles are near each other.
 void BoundaryMaker::classify() {
   const geometry::BoxTree tree = tree_of_places();
   RegionState state(region_, given_.size() + 1);
@@ -353,7 +353,7 @@ void BoundaryMaker::add_loop(std::vector<LocalIndex>& cycle) {
   double twice_area = twice_area_under(loop.pieces, start);
   if (is_sliver(loop, twice_area, frame_))
     return;
-  // What a winding loop lacks to a closed one; the sum over all loops does not depend on the origin.
+  // Returns what a winding loop lacks to a closed one; the sum over all loops does not depend on the origin.
   if (loop.winds())
     twice_area += 2 * cross(start - frame_.inner().min, loop.winding);
   loop.outer = loop.winds() || twice_area > 0;

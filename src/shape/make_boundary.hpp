@@ -23,7 +23,7 @@ namespace trime::shape {
 /// @throws GeometryError if the region is empty, leaves the container, or its boundary touches itself, or if a part
 /// sticks out of a periodic side by more than one period
 MarkedBoundary make_boundary(const Region& region, std::span<const Part> parts, const geometry::Frame& frame);
-/// The same; frees the parts before there are loops, if neither a periodic container nor markers need them longer.
+/// Does the same, and frees the parts before it makes loops, unless a periodic container or markers need them longer.
 MarkedBoundary make_boundary(const Region& region, std::vector<Part>&& parts, const geometry::Frame& frame);
 
 } // namespace trime::shape

@@ -19,7 +19,7 @@ using geometry::Vec2;
 
 using Shifts = std::map<std::size_t, std::vector<Vec2>>; // of the images of parts, once they were asked for
 
-/// Of the segment of its part that a piece follows.
+/// Returns the marker of the segment of its part that a piece follows.
 int marker_of(const Piece& piece, std::span<const Part> parts, const geometry::Frame& frame, Shifts& shifts) {
   const auto part = static_cast<std::size_t>(piece.part);
   const Polygon* polygon = part < parts.size() ? parts[part].as_polygon() : nullptr;
@@ -40,7 +40,7 @@ int marker_of(const Piece& piece, std::span<const Part> parts, const geometry::F
   return marker;
 }
 
-/// As the file has it, or the marker itself.
+/// Returns the name in the file, or the marker itself.
 std::string name_of(int part, int marker, std::span<const Part> parts) {
   const std::vector<std::string>& names = parts[static_cast<std::size_t>(part)].as_polygon()->marker_names;
   return names.empty() ? fmt::format("{}", marker) : names[static_cast<std::size_t>(marker - 1)];

@@ -76,7 +76,7 @@ void split_edges(std::vector<LatticeRing>& rings, const std::vector<SegmentPair>
   }
 }
 
-/// @brief Vertices with two arms each, which can be joined anew.
+/// @brief Vertices with two arms each, which can be joined again.
 ///
 /// Edge e leads from vertex e to the next of its ring: end 2 e is its start, end 2 e + 1 its other end.
 class Web {
@@ -157,7 +157,7 @@ bool Web::can_part(const std::vector<Arm>& arms) const {
   }
   for (std::size_t k = 0; k < arms.size(); ++k) {
     const LocalIndex v = vertex_[at(arms[k].end)];
-    std::vector<LocalIndex> open; // visits of other rings of which one arm lies between those of v
+    std::vector<LocalIndex> open; // visits of other rings that have one arm between those of v
     for (std::size_t j = k + 1; j < arms.size() && vertex_[at(arms[j].end)] != v; ++j) {
       const LocalIndex w = vertex_[at(arms[j].end)];
       if (const auto found = std::find(open.begin(), open.end(), w); found != open.end())
@@ -182,8 +182,9 @@ bool Web::area_on_left(const Arm& arm, Vec2 place) const {
   return grid_.inside(p) == left;
 }
 
-/// @brief The vertex goes where no disc over an arm of another sector holds it, and no disc over its own arms the
-/// place, if there is such a direction: an angle of 90 degrees at least from the ones, and at most from the others.
+/// @brief If possible, the vertex moves to where no disc over an arm of another sector holds it, and no disc over its
+/// arms holds the place. That is a direction at least 90 degrees from the former arms and at most 90 degrees from the
+/// latter.
 Web::Sector Web::sector(const std::vector<Arm>& arms, std::size_t first, Vec2 place) const {
   const std::size_t second = (first + 1) % arms.size();
   const auto direction_of = [&](std::size_t k) { return unit(arms[k].toward - place); };

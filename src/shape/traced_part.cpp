@@ -34,8 +34,8 @@ std::vector<Vec2> without_repeats(const std::vector<Vec2>& chain, double distanc
   return result;
 }
 
-/// The rings found so far, to tell what they have already: in a tip narrower than a cell the grid sees islands, of
-/// which the refined ring of the whole has the curve.
+/// The rings found so far, to see what they have already: in a tip narrower than a cell the grid sees islands, whose
+/// curve is already in the refined ring of the whole.
 class FoundRings {
 public:
   explicit FoundRings(double distance) : distance_(distance) {}

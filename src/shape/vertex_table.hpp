@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vertices of an arrangement: points of the lattice, of which those nearer than a few steps become one.
+// Vertices of an arrangement: points of the lattice; those nearer than a few steps become one.
 #pragma once
 
 #include "trime/core/types.hpp"

@@ -118,7 +118,8 @@ Stage PointScheme::first_of_lattice() {
   return std::move(fit.stage);
 }
 
-/// The runs of this rank, once all of them are shared out evenly: the density has told only about how many there are.
+/// Returns the runs of this rank, after all of them are distributed evenly: the density gave only an estimate of their
+/// number.
 void PointScheme::share_runs(const placing::LatticeStart& start, fitting::LatticeFit& fit) const {
   if (fit.runs.of_tile.empty())
     fit.runs = start.runs(placing::own_share(fit.stage), fit.spacing);
@@ -210,7 +211,7 @@ void PointScheme::place_along_curve(Stage& stage, double inner, const placing::H
   const auto time = context_->timers.scope("start");
   const auto wanted = std::max<std::int64_t>(0, std::llround(inner));
   mesh::SiteList placed = start.sites(wanted, options_.seed);
-  if (!context_->fixed.inside().empty()) { // those too near to a fixed point will go: so many more are placed
+  if (!context_->fixed.inside().empty()) { // those too near to a fixed point will go, so more are placed
     const std::int64_t clear = context_->comm.sum(context_->fixed.count_clear(placed, *stage.size));
     if (clear > 0 && clear < wanted) {
       placed = start.sites(

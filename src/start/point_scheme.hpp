@@ -41,10 +41,10 @@ public:
   sites::Stage first();
   /// Next stage from the last one. @pre !is_last(), and the stars of all sites of `previous` are certain. Collective.
   sites::Stage next(const sites::Stage& previous);
-  /// @brief The present stage of a run that goes on from a checkpoint, laid out as it was, but for its sites.
+  /// @brief Returns the present stage of a run that continues from a checkpoint, laid out as it was, without its sites.
   /// @param first what first() has returned @pre visit() has restored the numbers since. Collective.
   sites::Stage lay_again_from(sites::Stage first);
-  /// What a checkpoint keeps of it.
+  /// Visits the members that a checkpoint keeps.
   void visit(StateFields& fields);
   /// No further stage comes.
   bool is_last() const { return stage_ == last_stage_; }
@@ -56,7 +56,7 @@ public:
 
   /// Where the boundary needs smaller triangles than the size that is asked for. @pre first() was called
   std::span<const sizing::SizeLimit> limits() const { return fitted_.limits; }
-  /// Which scheme was chosen and why, one line.
+  /// Returns in one line which scheme was chosen and why.
   const std::string& reason() const { return reason_; }
   /// Why the scheme made fewer points than asked for; empty if it did not.
   const std::string& shortage() const { return shortage_; }

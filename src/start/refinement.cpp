@@ -46,7 +46,8 @@ std::vector<T> gather_by_tile(const mesh::BinnedPoints& points, const Make& make
   return all;
 }
 
-/// @brief The same for sites that are made cheaply: twice, so that all find their places in one list at once.
+/// @brief Does the same for sites that are cheap to make: makes them twice, so that all find their places in one list
+/// at once.
 /// @param make make(i, put) calls put(position) for each site; the same ones each time
 template <class Make>
 mesh::SiteList place_by_tile(const mesh::BinnedPoints& points, const Make& make) {

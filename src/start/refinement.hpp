@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Inner sites for the next, finer stage from the relaxed sites of this one. Boundary sites are laid out anew.
+// Inner sites for the next, finer stage from the relaxed sites of this one. Boundary sites are laid out again.
 #pragma once
 
 #include "sites/fan.hpp"

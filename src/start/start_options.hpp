@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the stages of a run go by: how the points come into the mesh.
+// Options of the stages of a run: how the points come into the mesh.
 #pragma once
 
 #include "trime/start/start_choice.hpp"

@@ -17,7 +17,7 @@ struct TraceTolerances {
   double chord = 2.5e-7 * side;     ///< stray of a chord while it is refined; twice that when it is thinned
   double straight = 1e-12 * side;   ///< stray that counts as none
   double shortest = 0x1p-22 * side; ///< chords are not halved below
-  double corner = 0x1p-24 * side;   ///< where the arms of a corner are looked at last
+  double corner = 0x1p-24 * side;   ///< where the arms of a corner are examined finally
   double zero = 0x1p-50 * side;     ///< of a zero on a line
 };
 

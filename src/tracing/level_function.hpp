@@ -16,7 +16,7 @@ namespace trime::tracing {
 /// Thread-safe as the shape is. Inside is where the value is negative; zero counts as outside.
 class LevelFunction {
 public:
-  /// What a value that is not finite throws; loops turn it into one error, the same for any number of threads.
+  /// The exception for a value that is not finite; loops turn it into one error, the same for any number of threads.
   struct NotFinite {
     geometry::Vec2 place;
     double value;

@@ -283,7 +283,7 @@ void Marcher::check_signs() const {
 }
 
 /// Around a cell, the curve enters where the sign goes from inside to outside and leaves where it comes back. Where
-/// that happens twice, the middle tells whether the two corners inside are joined.
+/// that happens twice, the middle decides whether the two corners inside are joined.
 void Marcher::link(Index cell, std::vector<Link>& links) const {
   const std::array<Index, 4> nodes = corners(cell, TracingRules::grid_levels);
   std::array<bool, 4> in;

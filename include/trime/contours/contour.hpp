@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contours: rings of vertices as users draw them, read from files of several formats, and their place in the container.
-// Reading is serial: in a parallel run one rank reads and sends the rings to the others.
+// Contours: rings of vertices that are read from files of several formats, and their place in the container. Reading is
+// serial: in a parallel run one rank reads and sends the rings to the others.
 #pragma once
 
 #include "trime/geometry/vec2.hpp"
@@ -11,13 +11,13 @@
 
 namespace trime::contours {
 
-/// One closed ring: the last vertex is joined to the first, which is not repeated. Either orientation.
+/// One closed ring: the last vertex is joined to the first, which is not repeated. It may have either orientation.
 struct ContourRing {
   std::vector<geometry::Vec2> points;
-  std::vector<int> lines; ///< line of each vertex in the file, from 1; of a shapefile the number of its record
-  /// Marker of the edge from each vertex to the next, as the file has them; empty: all are 0, which means none.
+  std::vector<int> lines; ///< line of each vertex in the file, from 1; for a shapefile, the number of its record
+  /// Marker of the edge from each vertex to the next, as in the file; empty: all are 0, which means no marker.
   std::vector<int> markers{};
-  /// The vertices as they stand in the file, where `points` are projected from there; else empty.
+  /// The vertices as they are in the file, if `points` are projected from them; else empty.
   std::vector<geometry::Vec2> in_file{};
 };
 
@@ -27,33 +27,33 @@ struct Contour {
   std::string source; ///< name used in messages, for example the path
   std::vector<ContourRing> rings;
   std::vector<std::string> warnings; ///< for the user, one sentence each
-  /// Names of the markers 1, 2, ...; empty: markers have none.
+  /// Names of the markers 1, 2, ...; empty: markers have no names.
   std::vector<std::string> marker_names{};
-  std::string crs{};   ///< reference system of the coordinates as the file tells it; empty: it does not
-  bool is_map = false; ///< of the features of a map: several polygons are what it means, coordinates may be degrees
+  std::string crs{};   ///< reference system of the coordinates, as in the file; empty: unknown
+  bool is_map = false; ///< made of the features of a map: it may have several polygons, and coordinates may be degrees
 };
 
-/// @brief The rings of a file; its name ends in `.poly` (Triangle), `.shp` (ESRI), `.msh` (JIGSAW), `.geojson` or
-/// `.json`, else it is `.xy` text. Of a shapefile NAME.shx is read, too, and NAME.prj if there is one; of a `.poly`
+/// @brief Reads the rings of a file. Its name ends in `.poly` (Triangle), `.shp` (ESRI), `.msh` (JIGSAW), `.geojson` or
+/// `.json`, else it is `.xy` text. With a shapefile NAME.shx is read, too, and NAME.prj if it exists; with a `.poly`
 /// without vertices NAME.node.
 /// @param hint ends the message if the file cannot be opened
-/// @param attribute of the features of a map that names the boundary, see parse_geojson; empty: none
-/// @throws ConfigError for formats that are known and not read, or have no attributes; FileError if a file cannot be
+/// @param attribute attribute of the features of a map that names the boundary, see parse_geojson; empty: no attribute
+/// @throws ConfigError for formats that are known but not read, or have no attributes; FileError if a file cannot be
 /// read; GeometryError `source:line: ...` as the functions below
 /// @note Serial.
 Contour read_contour(const std::string& path, const std::string& hint = "", const std::string& attribute = "");
 
-/// The same for a text, by the ending of `source`.
+/// Reads the rings of a text in the format that the ending of `source` names.
 Contour parse_contour(std::string_view text, const std::string& source, const std::string& attribute = "");
 
-/// @brief Rings of `.xy` text: one `x y` a line, a blank line or one that starts with `>` ends a ring, `#` and `;`
-/// start comments. A comma may stand between the numbers.
+/// @brief Reads rings of `.xy` text: one `x y` per line. A blank line, or one that starts with `>`, ends a ring; `#`
+/// and `;` start comments. A comma may stand between the numbers.
 ///
 /// Lines end by LF, CR LF or CR. Exponents may be written with `d` (Fortran). A first line `x y`, `lon lat` or the like
 /// is left out with a warning. A ring may repeat its first vertex at its end or not; repeated consecutive vertices are
 /// merged with a warning.
 /// @throws GeometryError `source:line: ...` for a line that is not two finite numbers of at most 1e30, a ring with
-/// fewer than three distinct vertices, a text without vertices, UTF-16
+/// fewer than three distinct vertices, a text without vertices, or UTF-16
 Contour parse_xy(std::string_view text, const std::string& source);
 
 /// A point with its line in the file.
@@ -62,47 +62,46 @@ struct FilePoint {
   int line;
 };
 
-/// @brief Points of `.xy` text, as in parse_xy; blank lines and those with `>` mean nothing.
+/// @brief Reads points of `.xy` text, as in parse_xy; ignores blank lines and those with `>`.
 /// @throws GeometryError `source:line: ...` for a line that is not two finite numbers, or without any point
 std::vector<FilePoint> parse_points(std::string_view text, const std::string& source);
 
-/// @brief Rings of the polygons of a GeoJSON text (RFC 7946): a geometry, a feature, or a collection of them. Lines
-/// that end where they start are rings, too, and so are lines that join in their ends.
+/// @brief Reads rings of the polygons of a GeoJSON text (RFC 7946): a geometry, a feature, or a collection of them.
+/// Lines that end where they start are rings, too, and so are lines that join at their ends.
 ///
-/// Points mean nothing, nor does what lies outside of `coordinates`, but for the name of a `crs` and the attribute.
+/// Points are ignored, and so is everything outside of `coordinates`, except the name of a `crs` and the attribute.
 /// Numbers are taken as they are.
-/// @param attribute property of the features that marks their rings or lines; empty: none. If all its values are
-/// integers these are the markers. Else markers count the values in the order of the file, and the values are their
-/// names. Features without it have the marker 0
-/// @throws GeometryError `source:line: ...` for text that is no JSON, a position without two numbers, an open line, a
-/// text without polygons; ConfigError if no feature has the attribute
+/// @param attribute property of the features that marks their rings or lines; empty: no property. If all its values are
+/// integers, they are the markers. Otherwise markers number the values in the order of the file, and the values are
+/// their names. Features without it have the marker 0
+/// @throws GeometryError `source:line: ...` for text that is not JSON, a position without two numbers, an open line, or
+/// a text without polygons; ConfigError if no feature has the attribute
 Contour parse_geojson(std::string_view text, const std::string& source, const std::string& attribute = "");
 
-/// @brief Rings of the segments of a `.poly` file of Triangle, with their markers. Numbers begin with 0 or 1. Commas
-/// part numbers, too.
+/// @brief Reads rings of the segments of a `.poly` file of Triangle, with their markers. Vertex numbers begin with 0 or
+/// 1. Commas separate numbers, too.
 ///
-/// What is meshed is what Triangle meshes: all that segments enclose but what a hole point lies in. Rings with the same
-/// on both sides are left out with a warning, and so are vertices without segments and regional attributes.
+/// The rings enclose what Triangle meshes: everything within segments, except areas with a hole point. Rings with equal
+/// sides are left out with a warning, and so are vertices without segments and regional attributes.
 /// @param nodes text of the `.node` file, for a `.poly` without vertices
-/// @throws GeometryError `source:line: ...` for a text that is no `.poly`, or segments that make no rings
+/// @throws GeometryError `source:line: ...` for a text that is not a `.poly`, or segments that do not form rings
 Contour parse_poly(std::string_view text, const std::string& source, std::string_view nodes = {});
 
-/// @brief Rings of the edges (`edge2`) of a plane mesh or geometry of JIGSAW, with their tags as markers.
-/// @throws GeometryError `source:line: ...` for a text that is none, also for a `.msh` of Gmsh, or edges that make no
-/// rings
+/// @brief Reads rings of the edges (`edge2`) of a plane mesh or geometry of JIGSAW, with their tags as markers.
+/// @throws GeometryError `source:line: ...` for any other text, also a `.msh` of Gmsh, or edges that do not form rings
 Contour parse_jigsaw(std::string_view text, const std::string& source);
 
-/// @brief A contour from rings made by a program; vertices are counted from 1 through all rings in place of lines.
+/// @brief Makes a contour from rings of a program; vertices are numbered from 1 through all rings, in place of lines.
 /// @throws GeometryError as parse_xy
 Contour make_contour(const std::vector<std::vector<geometry::Vec2>>& rings, const std::string& source);
 
-/// The contour as bytes, and back.
+/// Convert a contour to bytes, and back.
 std::string to_bytes(const Contour& contour);
 Contour contour_of_bytes(std::string_view bytes);
 
-/// Uniform scaling with a shift: how the coordinates of a file become those of the container. Identity by default.
+/// Uniform scaling with a shift: from coordinates of a file to those of the container. Identity by default.
 struct Normalization {
-  geometry::Vec2 from; ///< point of the file that goes to `to`
+  geometry::Vec2 from; ///< point of the file that is moved to `to`
   geometry::Vec2 to;
   double scale = 1;
 

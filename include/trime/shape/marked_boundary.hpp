@@ -9,12 +9,12 @@
 
 namespace trime::shape {
 
-/// Pieces of a part whose segments have a marker other than 0 are of a part of their own, behind all others in
-/// Boundary::part_names. It is called "NAME.MARKER", or "NAME.TEXT" where the file has a name for the marker. Where two
-/// such parts meet on one curve there is a corner.
+/// Pieces with a marker other than 0 form a separate part, after all others in Boundary::part_names. It is called
+/// "NAME.MARKER", or "NAME.TEXT" where the file has a name for the marker. Where two such parts meet on one curve there
+/// is a corner.
 struct MarkedBoundary {
   geometry::Boundary boundary;
-  std::vector<std::int32_t> part_markers; ///< for each of Boundary::part_names; 0: none
+  std::vector<std::int32_t> part_markers; ///< for each of Boundary::part_names; 0: no marker
 };
 
 } // namespace trime::shape

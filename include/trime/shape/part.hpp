@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The named parts that a region is made of: polygons (rectangle, triangle, contour, traced function) and circles. All
-// numbers lie on the lattice of the container, so the inside tests are exact.
+// coordinates lie on the lattice of the container, so the inside tests are exact.
 #pragma once
 
 #include "trime/contours/contour.hpp"
@@ -19,39 +19,43 @@ namespace trime::shape {
 /// One named part. Immutable.
 class Part {
 public:
-  /// @brief Axis-parallel rectangle. @throws GeometryError if it is not wider and higher than 0 or leaves frame.reach()
+  /// @brief Makes an axis-parallel rectangle. @throws GeometryError if it is not wider and higher than 0 or leaves
+  /// frame.reach()
   static Part rectangle(const std::string& name, const geometry::Box& box, const geometry::Frame& frame);
-  /// @brief Disc. @throws GeometryError if the radius is not positive or the disc leaves frame.reach()
+  /// @brief Makes a disc. @throws GeometryError if the radius is not positive or the disc leaves frame.reach()
   static Part circle(const std::string& name, geometry::Vec2 center, double radius, const geometry::Frame& frame);
-  /// @brief Triangle, corners in either orientation. @throws GeometryError if they are collinear or leave frame.reach()
+  /// @brief Makes a triangle; the corners may have either orientation. @throws GeometryError if they are collinear or
+  /// leave frame.reach()
   static Part triangle(const std::string& name, const std::array<geometry::Vec2, 3>& corners,
                        const geometry::Frame& frame);
-  /// @brief Rings of a contour, moved by `normalization` and snapped; holes by even-odd nesting.
+  /// @brief Makes a part of the rings of a contour, moved by `normalization` and rounded to the lattice. Even-odd
+  /// nesting decides which rings are holes.
   ///
-  /// O(M log M) for M vertices; the test for crossings uses all threads.
-  /// Rings that touch at a vertex are parted there by some 1e-12 of the container, and the area does not reach through
-  /// the gap. A ring given twice is used once. Warnings tell both.
+  /// Takes O(M log M) for M vertices; the test for crossings uses all threads. Rings that touch at a vertex are
+  /// separated there by about 1e-12 of the container, and the area does not reach through the gap. A ring given twice
+  /// is used once. Warnings report both.
   /// @throws GeometryError `source:line: ...` if rings cross or overlap along edges, enclose no area, or leave
   /// frame.reach()
   static Part contour(const std::string& name, const contours::Contour& contour,
                       const contours::Normalization& normalization, const geometry::Frame& frame);
-  /// @brief A polygon that is on the lattice already. @param warnings for the user, one sentence each
+  /// @brief Makes a part of a polygon that is on the lattice already. @param warnings for the user, one sentence each
   static Part polygon(const std::string& name, Polygon polygon, std::vector<std::string> warnings = {});
 
   const std::string& name() const { return name_; }
-  /// For the user, one sentence each: those of the contour, and vertices that the lattice made equal.
+  /// Warnings for the user, one sentence each: those of the contour, and about vertices that the lattice made equal.
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// Null if the part is not of this kind.
   const Circle* as_circle() const { return std::get_if<Circle>(&form_); }
   const Polygon* as_polygon() const { return std::get_if<Polygon>(&form_); }
   bool is_contour() const { return is_contour_; }
 
-  /// @brief The closed boundary with the interior on the left; a circle has four arcs that start at the right.
-  /// Loops in the order of the rings, tags from 1, `part` 0.
+  /// @brief Returns the closed boundary with the interior on the left; a circle has four arcs that start at the right.
+  /// Loops are in the order of the rings, with tags from 1 and `part` 0.
   std::vector<geometry::Loop> boundary() const;
-  /// @brief Exact for lattice points; a point on the boundary may get either answer. O(log M), thread-safe.
+  /// @brief Is p inside? Exact for lattice points; a point on the boundary may get either answer. O(log M),
+  /// thread-safe.
   bool inside(geometry::Vec2 p) const;
-  /// Distance from p to the boundary of the part. Thread-safe.
+  /// Returns the distance from p to the boundary of the part. Thread-safe.
   double distance(geometry::Vec2 p) const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a part is on the lattice: a circle, or a polygon of simple rings.
+// The forms of a part on the lattice: a circle, or a polygon of simple rings.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
@@ -12,13 +12,13 @@
 
 namespace trime::shape {
 
-/// Centre and radius are multiples of the lattice step.
+/// A circle whose centre and radius are multiples of the lattice step.
 struct Circle {
   geometry::Vec2 center;
   double radius;
 };
 
-/// Simple closed rings that do not meet; inside by the even-odd rule.
+/// Simple closed rings that do not meet. The even-odd rule says what is inside.
 struct Polygon {
   /// Segments first .. first + count - 1 of the grid; `reversed` if the interior lies on their right.
   struct Ring {
@@ -27,14 +27,14 @@ struct Polygon {
   };
   geometry::SegmentGrid grid; ///< segments ring by ring, each starting where the one before it ends
   std::vector<Ring> rings;
-  std::vector<int> markers{};              ///< of each segment; empty: all are 0, which means none
+  std::vector<int> markers{};              ///< of each segment; empty: all are 0, which means no marker
   std::vector<std::string> marker_names{}; ///< Contour::marker_names
 };
 
-/// The four vertices of a circle at angles 0, pi/2, pi, 3 pi/2; exact.
+/// Returns the four vertices of a circle at angles 0, pi/2, pi, 3 pi/2; exact.
 std::array<geometry::Vec2, 4> quadrant_vertices(const Circle& circle);
 
-/// @brief Counter-clockwise arc of `circle` from a to b, less than a full turn.
+/// @brief Returns the counter-clockwise arc of `circle` from a to b, less than a full turn.
 geometry::Piece make_arc(const Circle& circle, geometry::Vec2 a, geometry::Vec2 b);
 
 } // namespace trime::shape

@@ -25,16 +25,17 @@ public:
   static Region parse(std::string_view text, std::span<const std::string> part_names);
 
   const std::string& text() const { return text_; }
-  /// Indices of the parts that occur, ascending, each once.
+  /// The indices of the parts that occur, ascending, each once.
   const std::vector<int>& parts() const { return parts_; }
 
-  /// @brief Value for a point of which inside(part index) tells whether it lies in a part; asks no more than needed.
+  /// @brief Does the shape contain a point? inside(part index) must say whether the point lies in a part; it is called
+  /// only as often as needed.
   template <class Inside>
   bool contains(const Inside& inside) const {
     return value(0, inside);
   }
 
-  /// A box around the shape, from those of all parts and, behind them, of the domain.
+  /// Returns a box around the shape, from the boxes of all parts and, after them, of the domain.
   geometry::Box box(std::span<const geometry::Box> boxes) const { return box_of(0, boxes); }
 
 private:

@@ -21,22 +21,22 @@ namespace trime::shape {
 class RegionShape final : public tracing::Shape {
 public:
   /// @brief Parses the region and makes the boundary.
-  /// @param parts named differently, none of them `domain`; see Region::parse for `region`
+  /// @param parts parts with different names, without the name `domain`; see Region::parse for `region`
   /// @throws ConfigError for the region, or for names. GeometryError if the region is empty, leaves the container or
   /// has a boundary that touches itself. Also if a part sticks out of a periodic side by more than one period.
   RegionShape(std::vector<Part> parts, std::string_view region, const geometry::Frame& frame);
 
   const geometry::Frame& frame() const { return frame_; }
   const geometry::Boundary& boundary() const { return made_.boundary; }
-  /// Markers that a contour file gives its segments: one for each of boundary().part_names, 0 where there is none.
+  /// The markers that contour files give to segments: one for each of boundary().part_names, 0 for no marker.
   const std::vector<std::int32_t>& part_markers() const { return made_.part_markers; }
-  /// The parts as given, then the container under the name `domain`.
+  /// The given parts, then the container under the name `domain`.
   const std::vector<Part>& parts() const { return parts_; }
   const Region& region() const { return region_; }
 
-  /// @brief Exact for lattice points; a point on the boundary may get either answer.
+  /// @brief Is p inside? Exact for lattice points; a point on the boundary may get either answer.
   bool inside(geometry::Vec2 p) const;
-  /// @brief Distance to the nearest point of the boundary, to within rounding.
+  /// @brief Returns the distance to the nearest point of the boundary, to within rounding.
   double distance_to_boundary(geometry::Vec2 p) const { return tree_.distance(p); }
   /// Negative inside.
   double signed_distance(geometry::Vec2 p) const override {
@@ -52,12 +52,12 @@ private:
   geometry::PieceTree tree_;
 };
 
-/// @brief The boundary of the region alone, for those who ask nothing else of the shape: the parts and all that was
-/// built to find it are freed. Bit for bit that of a RegionShape.
+/// @brief Returns only the boundary of the region, for callers that need nothing else: frees the parts and everything
+/// that was built to find it. The boundary has the same bits as that of a RegionShape.
 /// @throws ConfigError, GeometryError as RegionShape
 MarkedBoundary boundary_of(std::vector<Part> parts, std::string_view region, const geometry::Frame& frame);
 
-/// @brief A shape of one's own, traced: the region that consists of it alone. See traced_part for cost and errors.
+/// @brief Traces your own shape: returns the region that consists of it alone. See traced_part for cost and errors.
 RegionShape traced(const tracing::Shape& shape, const geometry::Frame& frame, const std::string& name = "shape");
 
 } // namespace trime::shape

@@ -12,13 +12,13 @@ namespace trime::shape {
 
 /// @brief The inside of a function, `shape` < 0, as polygons that are traced within the container.
 ///
-/// Straight sides become one segment each. Smooth curves become chords that stray by 1e-6 of the container's longer
-/// side at most. Corners that turn by more than 4 degrees are vertices, to within some lattice steps. A part that
-/// reaches beyond the container goes on a little way outside, so that `domain` may cut it. Across a periodic side it
-/// goes on in its image, so the function must have the period of the container. Features narrower than
-/// `resolution` may be missed (default: 1/512 of the longer side; finer than 1/8192 of it is taken as that, with a
-/// warning, see Part::warnings). About (side/resolution)^2 / 4 evaluations plus some thousands per unit of length, by
-/// all threads; the function is not kept.
+/// Straight sides become one segment each. Smooth curves become chords that deviate by at most 1e-6 of the container's
+/// longer side. Corners that turn by more than 4 degrees are vertices, to within a few lattice steps. A part that
+/// reaches beyond the container continues a little way outside, so that `domain` may cut it. Across a periodic side it
+/// continues in its image, so the function must have the period of the container. Features narrower than `resolution`
+/// may be missed (default: 1/512 of the longer side; at least 1/8192 of it, else a warning, see Part::warnings).
+/// Evaluates the function about (side/resolution)^2 / 4 times, plus a few thousand times per unit of length, by all
+/// threads. Does not keep the function.
 /// @throws GeometryError with the place if a value is not finite, if pieces of the curve touch, or if the function has
 /// the same sign everywhere. Also if it oscillates below the resolution: more than 16384 closed curves, 4096 vertices
 /// between neighbouring grid lines, 2^23 in all before thinning, or 2^25 cells of half the resolution near zeros.

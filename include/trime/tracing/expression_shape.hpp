@@ -7,7 +7,7 @@
 
 namespace trime::tracing {
 
-/// The places where a formula of x and y is negative.
+/// The shape where a formula of x and y is negative.
 class ExpressionShape final : public Shape {
 public:
   /// @pre `formula` outlives this object

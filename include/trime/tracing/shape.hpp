@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The seam for shapes of a user's own: a function that is negative inside.
+// A shape that is given by a function which is negative inside. Derive from Shape to mesh your own shape.
 #pragma once
 
 #include "trime/geometry/vec2.hpp"
 
 namespace trime::tracing {
 
-/// @brief A shape given by a function: derive from it to mesh a shape of one's own, see traced() and traced_part().
-/// Called concurrently, and must give the same bits on every rank.
+/// @brief A shape given by a function: derive from it to mesh your own shape, see traced() and traced_part(). Threads
+/// call it concurrently; it must give the same bits on every rank.
 class Shape {
 public:
   virtual ~Shape() = default;
-  /// @brief Negative inside, positive outside, finite in the whole container. Only the zero set becomes the shape; near
-  /// it the function should be Lipschitz with about the same constant everywhere, best of all the distance itself.
+  /// @brief Returns a value that is negative inside, positive outside, and finite in the whole container. Only the zero
+  /// set matters. Near it the function should be Lipschitz with about the same constant everywhere; the signed distance
+  /// is best.
   virtual double signed_distance(geometry::Vec2 p) const = 0;
 };
 
