@@ -99,7 +99,7 @@ def foreign_arguments(directory, root):
     toolchain.write_text(TOOLCHAIN.format(sysroot=sysroot, triplet=TRIPLET), encoding="utf-8")
     arguments = [
         f"-DCMAKE_TOOLCHAIN_FILE={toolchain}",
-        # No wrapper runs here, so CMake is told where MPI and HDF5 lie.
+        # No wrapper runs here, so CMake gets the places of MPI and HDF5.
         "-DMPI_SKIP_COMPILER_WRAPPER=ON", "-DMPI_ASSUME_NO_BUILTIN_MPI=ON",
         f"-DMPI_CXX_HEADER_DIR={libraries}/openmpi/include", "-DMPI_CXX_LIB_NAMES=mpi",
         f"-DMPI_mpi_LIBRARY={libraries}/openmpi/lib/libmpi.so",

@@ -41,7 +41,7 @@ CASES = {  # rules_table.CASES of them; name: config and overrides; together the
 }
 TIMES = (0.87, 1.15)  # of the time with the numbers as they are: between them it is noise
 REPETITIONS = 3
-MANY_LINES = 40  # so many show how much runs at the same time slow each other down
+MANY_LINES = 40  # this many lines show how much simultaneous runs slow each other down
 SIMPLE = {"double": "double", "float": "float", "int": "int", "std::size_t": "std::size_t", "GlobalId": "GlobalId",
           "LocalIndex": "LocalIndex", "std::int64_t": "std::int64_t", "std::ptrdiff_t": "std::ptrdiff_t",
           "std::int32_t": "std::int32_t", "std::uint32_t": "std::uint32_t", "std::uint64_t": "std::uint64_t"}
@@ -140,7 +140,7 @@ def run(program, name, factor, case, directory):
 
 
 def measure(program, name, factor, base):
-    """The line of a number: the largest differences over all cases."""
+    """Returns the line of a number: the largest differences over all cases."""
     with tempfile.TemporaryDirectory() as directory:
         results = {case: run(program, name, factor, case, directory) for case in CASES}
     failed = [case for case, result in results.items() if result is None]
@@ -158,12 +158,13 @@ def measure(program, name, factor, base):
 
 
 def is_noise(time):
-    """Does so small a change of the time mean nothing?"""
+    """True if so small a change of the time has no meaning."""
     return TIMES[0] <= time <= TIMES[1]
 
 
 def repeated_time(program, row):
-    """The time of a line measured anew, each time beside that of the numbers as they are; None if once it is noise."""
+    """Measures the time of a line again, alternately with the unchanged numbers. Returns None as soon as one difference
+    is noise."""
     cases, times = [case for case in CASES if case not in row["failed"].split()], []
     for _ in range(REPETITIONS):
         seconds = {}

@@ -35,7 +35,7 @@ MARKS = ("<!-- rules: made by scripts/rules_table.py --write src/rules.md -->", 
 EFFECTS = pathlib.Path("src/rules_effects.csv")
 CASES = 6  # of scripts/measure_rules.py
 NOT_MEASURED = "Not measured."
-BY_HAND = re.compile(r"\bMeasured\b")  # the reason tells the result
+BY_HAND = re.compile(r"\bMeasured\b")  # the reason contains the result
 STRUCT = re.compile(r"^\s*(?:struct|class)\s+(\w+)[^;]*\{")
 NUMBER = re.compile(r"^\s*(?:static|inline)\s+constexpr\s+(?P<type>[\w:<>, ]+?)\s+(?P<name>\w+)\s*(?P<value>[={].*)$")
 COMMENT = re.compile(r"^\s*///\s?(.*)$")
@@ -126,7 +126,8 @@ def read_effects(root):
 
 
 def effect_complaints(numbers, effects):
-    """One line for each number of which it is not clear whether it is measured, and each effect of none."""
+    """Returns one line for each number if it is unclear whether it was measured, and one for each effect without a
+    number."""
     lines = []
     for number in numbers:
         is_measured, says_not = number.full_name() in effects, NOT_MEASURED in number.reason
@@ -141,7 +142,7 @@ def effect_complaints(numbers, effects):
 
 
 def change_text(row):
-    """What one line of the CSV says."""
+    """Returns the text of one line of the CSV file."""
     failed = row["failed"].split()
     changed = CASES - len(failed) - int(row["same_meshes"])
     parts = [f"fails: {', '.join(failed)}"] if failed else []

@@ -77,7 +77,7 @@ class Build:
 
 
 def optimised(level, *arguments):
-    """As Release, but for the level of optimisation."""
+    """A Release build with another level of optimisation."""
     return ("-DCMAKE_BUILD_TYPE=RelWithDebInfo", f"-DCMAKE_CXX_FLAGS_RELWITHDEBINFO={level} -DNDEBUG", *arguments)
 
 

@@ -122,7 +122,7 @@ def write_model(options):
 
 
 def backends_of(options, plan):
-    """The backends of the cases by name, each of which can run its cases."""
+    """Returns the backends of the cases by name. Each can run its cases."""
     made = {}
     for name in dict.fromkeys(case.backend for case in plan.cases):
         made[name] = make_backend(name, options.program.resolve(), options.cluster)
@@ -144,7 +144,8 @@ def run_here(options, plan):
 
 
 def nodes_of(options):
-    """Cores of each node for the words that stand for cases; empty where nobody has said them."""
+    """Returns the cores of each node, for the words that stand for cases, or an empty list if the user did not give
+    them."""
     if options.backend != "slurm":
         return cores_per_node()
     match = re.fullmatch(r"(\d+)x(\d+)|", options.nodes)

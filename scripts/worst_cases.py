@@ -87,7 +87,7 @@ def parts_config(bodies):
 
 @case(2500)
 def rectangles_as_parts(directory, n):
-    """Rectangles, each a part of its own."""
+    """Rectangles, each a separate part."""
     del directory
     return parts_config([f"type = rectangle\nx_min = {x - r}\nx_max = {x + r}\ny_min = {y - r}\ny_max = {y + r}\n"
                          for x, y, r in places_of_islands(n)]) + tail()
@@ -95,7 +95,7 @@ def rectangles_as_parts(directory, n):
 
 @case(2500)
 def circles_as_parts(directory, n):
-    """Circles, each a part of its own."""
+    """Circles, each a separate part."""
     del directory
     return parts_config([f"type = circle\ncenter = {x} {y}\nradius = {r}\n"
                          for x, y, r in places_of_islands(n)]) + tail()
@@ -103,14 +103,14 @@ def circles_as_parts(directory, n):
 
 @case(100000)
 def misspelt_keys(directory, n):
-    """Lines of keys that do not exist: an error, soon."""
+    """Lines of keys that do not exist, which are errors: the program must report them soon."""
     del directory
     return "[shape]\nregion = domain\n[meshing]\n" + "".join(f"a{k} = 1\n" for k in range(n))
 
 
 @case(100000)
 def repeated_sections(directory, n):
-    """The same section again and again: an error, soon."""
+    """The same section many times, which is an error: the program must report it soon."""
     del directory
     return "[shape]\nregion = domain\n" + "[meshing]\npoints = 5\n" * n
 
@@ -142,7 +142,7 @@ def star_of_spikes(directory, n):
 
 @case(10000)
 def comb_cut_by_lines(directory, n):
-    """The comb as a part, united with another one beside its teeth."""
+    """The comb as a part, united with another comb next to its teeth."""
     write_rings(directory / "a.xy", [comb(n)])
     write_rings(directory / "b.xy", [comb(n // 10, 1.25 * math.pi, 0.85, 0.15, 0.3)])
     return ("[shape]\nregion = union(a, b)\n[shape.a]\ntype = contour\nfile = a.xy\n"
@@ -151,7 +151,7 @@ def comb_cut_by_lines(directory, n):
 
 @case(10000)
 def circles_against_a_comb(directory, n):
-    """The comb less n circles, each a part of its own, among its teeth."""
+    """The comb minus n circles among its teeth, each a separate part."""
     write_rings(directory / "a.xy", [comb(n)])
     turn, step = math.sqrt(0.5), 0.8 / n
     names = ", ".join(f"p{k}" for k in range(n))

@@ -12,7 +12,7 @@ import sys
 
 
 def ask(program, option):
-    """What the program prints."""
+    """Returns the output of the program."""
     return subprocess.run([program, option], capture_output=True, text=True, check=True, timeout=60).stdout
 
 
@@ -23,7 +23,7 @@ def roff(text):
 
 
 def marked(text):
-    """The same, with `code` in bold."""
+    """Returns the text with its code in bold."""
     return re.sub(r"`([^`]*)`", r"\\fB\1\\fR", roff(text))
 
 

@@ -5,7 +5,7 @@ import math
 from .summary import CASE, key_of
 from .tables import ROW_HEAD, markdown_table, number, percent, row_head
 
-LEAST = 0.05         # a change below this share is none: between builds alone, times differ by as much
+LEAST = 0.05         # smaller changes do not count: times of equal builds differ by as much
 SPREADS = 2          # how many times the spread of both a change must exceed
 UNKNOWN_SPREAD = 0.3  # of a row with fewer than three runs
 

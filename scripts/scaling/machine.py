@@ -42,7 +42,7 @@ def cores_per_node():
 
 
 def compile_flags(program):
-    """Flags from the CMake cache beside the program, or 'unknown' for an installed one."""
+    """Returns the flags from the CMake cache next to the program, or 'unknown' for an installed program."""
     cache = pathlib.Path(program).resolve().parent / "CMakeCache.txt"
     try:
         entries = dict(re.findall(r"^([\w]+):\w+=(.*)$", cache.read_text(encoding="utf-8"), re.MULTILINE))

@@ -28,7 +28,7 @@ from .least_squares import nonnegative
 from .record import OUTPUT, TRAFFIC
 
 LEAST_GAIN = 0.004  # of the time of a run, root mean square over the rows: about what medians of five runs are good for
-PRICES = {"tables": 2, "ranks": 2}  # so many gains where a term grows fast with N or P, and one for the others
+PRICES = {"tables": 2, "ranks": 2}  # factor on LEAST_GAIN for terms that grow fast with N or P
 FAR = 1e9  # gains that no first term fails to bring
 WORK = ("work", "threads", "memory")  # terms that imbalance lengthens
 BY_SWEEPS = ("sweeps", "measure", "sort")  # phases that recur: their work and traffic go with the sweeps
@@ -36,7 +36,7 @@ BY_SWEEPS = ("sweeps", "measure", "sort")  # phases that recur: their work and t
 
 @dataclasses.dataclass(frozen=True)
 class Platform:
-    """What the ranks talk over: seconds from memory to memory, bytes per second."""
+    """The medium of the messages: seconds from memory to memory, bytes per second."""
     name: str
     cores: int                # ranks of a node
     overhead: float           # of a message on both cores, LogGP's o
@@ -124,7 +124,7 @@ def given_terms(sample, phase, platform):
 
 
 def fitted_columns(sample, phase):
-    """What stands beside the factor of each term."""
+    """Returns what each factor is multiplied by."""
     _, size, collectives = sample.traffic.get(phase, (0, 0, 0)) if sample.ranks > 1 else (0, 0, 0)
     share = sample.imbalance * sample.work(phase) / sample.ranks
     return {"work": share / sample.threads, "threads": share, "memory": share / sample.threads * sample.full,

@@ -15,7 +15,7 @@ from .traffic_model import fit_traffic
 PROBLEM = ("backend", "config", "method", "variant", "stop", "options")  # rows that one model describes
 LEAST_ROWS = 3      # for a model
 MANY_RANKS = 4      # that must have been measured for predictions
-HELD_RANKS = 2      # so many of the largest numbers of ranks are held out ...
+HELD_RANKS = 2      # this many of the largest numbers of ranks are held out ...
 LEAST_RANKS = 3     # ... if as many others are left; else the largest size, if two others are left
 BARS = {"local": (0.20, "all rows"), "simulated": (0.25, "rows of 64 ranks and more")}  # what the model must reach
 BAR_RANKS = {"local": 1, "simulated": 64}
@@ -72,7 +72,7 @@ def check(rows, samples, platform):
 
 
 def bar_text(rows, predicted, platform):
-    """The largest error of the rows that count beside the bar."""
+    """Returns the largest error of the rows that count, with the bar."""
     errors = [abs(seconds / row["seconds"] - 1) for row, seconds in zip(rows, predicted)
               if row["ranks"] >= BAR_RANKS.get(platform.name, 1)]
     if platform.name not in BARS or not errors:
@@ -96,7 +96,7 @@ def coefficient_table(model):
 
 
 def limit_text(terms, total):
-    """The largest term beside the work, with its phase and its share of the time."""
+    """Returns the largest term except the work, with its phase and its share of the time."""
     losses = {key: seconds for key, seconds in terms.items() if key[1] != "work"}
     (phase, term), seconds = max(losses.items(), key=lambda item: item[1])
     return f"{TERMS[term]}, {phase} ({100 * seconds / total:.0f} %)"
@@ -128,7 +128,7 @@ def prediction_tables(model, traffic, like):
 
 
 def assumptions(samples, platform, like, traffic):
-    """What the predictions stand on."""
+    """Returns the assumptions of the predictions."""
     ranks, points = (sorted({getattr(sample, key) for sample in samples}) for key in ("ranks", "points"))
     return ["Assumptions of the predictions:", "",
             f"* platform {platform.source}; overhead of a message {platform.overhead:.2g} s, latency in a node "

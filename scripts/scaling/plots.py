@@ -19,7 +19,7 @@ SIZE = (6.4, 4.2)   # inches
 
 
 def way_of(row):
-    """What a row has more than one of."""
+    """Returns what divides the work: ranks, threads, or both."""
     return "ranks" if row["threads"] == 1 else "threads" if row["ranks"] == 1 else "ranks and threads"
 
 

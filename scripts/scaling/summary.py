@@ -95,7 +95,7 @@ def fill_scaling(rows):
 
 
 def check_hashes(rows):
-    """Sets same_mesh of each row; returns a message for each mesh of which runs differ."""
+    """Sets same_mesh of each row. Returns a message for each mesh whose runs differ."""
     messages = []
     for group in group_by(rows, lambda row: key_of(row, MESH)):
         hashes = {row["mesh_hash"] for row in group}

@@ -27,9 +27,9 @@ KEYS = {
     "sweeps": "12",        # for the stop `fixed`: meshing.max_sweeps
     "output": "no",        # yes: the mesh file is written, and its seconds stand apart
     "options": "",         # section.key=value for all runs
-    "variants": "",        # lines `NAME: section.key=value ...`: each is a sweep of its own
+    "variants": "",        # lines `NAME: section.key=value ...`, each a separate sweep
     "beside": "",          # cases that run on this machine, too, where the backend is another one
-    "reference": "",       # name in reference.csv: published times of TriMe++ stand beside
+    "reference": "",       # name in reference.csv, whose published times of TriMe++ are shown, too
 }
 HARNESS_KEYS = {
     "repeats": "5",        # runs of a case that count
@@ -82,10 +82,10 @@ class Plan:
 
 
 def layouts(word, nodes):
-    """Cases (ranks, threads) that a word stands for on nodes with so many cores each, e.g. [64, 64].
+    """Returns the cases (ranks, threads) that a word stands for, on nodes with these numbers of cores, e.g. [64, 64].
 
-    powers: 1, 2, 4, ... and all cores, each as ranks only, as threads only, and as half of the doublings each;
-    ranks, threads: only these, the latter 1 to the cores of a node. None: no such word.
+    powers: 1, 2, 4, ... and all cores, each as ranks only, as threads only, and as half of the doublings each. ranks,
+    threads: only these; threads from 1 to the cores of a node. Returns None for other words.
     """
     cores, node = sum(nodes), min(nodes)
     counts = [2**k for k in range(cores.bit_length()) if 2**k < cores] + [cores]
@@ -133,7 +133,7 @@ def parse_points(text, where):
 
 
 def parse_words(text, allowed, where):
-    """Words of a list, each of which must be known."""
+    """Returns the words of a list. Each word must be known."""
     words = re.split(r"[,\s]+", text.strip())
     for word in words:
         if word not in allowed:

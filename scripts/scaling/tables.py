@@ -49,7 +49,8 @@ def times_of(row):
 
 
 def published_time(row, reference):
-    """Seconds of TriMe++ beside a row; nothing where they are not known, or are of another point scheme."""
+    """Returns the seconds of TriMe++ for a row, or an empty text if they are unknown or belong to another way to place
+    points."""
     variant, seconds = reference.get(key_of(row, ("reference", "points_asked", "method", "cores")), ("", ""))
     return seconds if row["variant"] in ("", variant) else ""
 
@@ -110,7 +111,7 @@ def counter_text(counter):
 
 
 def counter_table(rows):
-    """Counters of the whole run but the traffic; no lines where there are none."""
+    """Returns the counters of the whole run except the traffic, or no lines if there are no counters."""
     names = [name for name in dict.fromkeys(name for row in rows for name in row["counters"].get("run", {}))
              if name not in TRAFFIC]
     if not names:

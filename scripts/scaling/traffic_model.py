@@ -24,7 +24,7 @@ KINDS = tuple(FORMS)
 
 
 def rounds_of(sample, phase):
-    """How often the phase recurs."""
+    """Returns how often the phase recurs."""
     return sample.sweeps if phase in BY_SWEEPS else 1
 
 

@@ -4,8 +4,7 @@
 
 Usage: run_target.py BUILD/tests/fuzz/NAME_fuzz [--seconds S] [--keep DIRECTORY] [--grow DIRECTORY]
   --seconds S   seconds of new inputs (default: TRIME_FUZZ_SECONDS, or 10)
-  --keep D      keep an input that breaks the program here; move it to tests/fuzz/corpus/NAME when the program is
-repaired
+  --keep D      keep an input that breaks the program here; move it to tests/fuzz/corpus/NAME after the repair
   --grow D      begin with the inputs of this directory, and keep those that reach new code there
   --slowest S   an input that takes longer than S seconds is a finding (default: 20; more on a busy machine)
 The script exits with 1 if an input breaks the program, needs too much memory, or takes too long.
@@ -52,7 +51,7 @@ class Target:
         sanitizer = f"detect_leaks={int(self.name not in WITH_MPI)}:" + os.environ.get("ASAN_OPTIONS", "")
         return dict(os.environ, TMPDIR=str(self.work), OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
                     OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", ASAN_OPTIONS=sanitizer,
-                    OMPI_MCA_ess_singleton_isolated="1")  # no daemon beside it
+                    OMPI_MCA_ess_singleton_isolated="1")  # starts no daemon
 
     def run(self, seed, seconds):
         """One process; true if it found nothing."""

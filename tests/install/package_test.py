@@ -49,7 +49,7 @@ class Package(unittest.TestCase):
                              {path.name for path in (ROOT / folder).iterdir()})
 
     def test_picture_by_the_installed_script(self):
-        """It finds the package beside it, without a source tree."""
+        """The script finds the package next to it, without a source tree."""
         script = self.work / "root" / "usr" / "share" / "trime_mpi" / "scripts" / "plot_mesh.py"
         self.assertIn("history", output("/usr/bin/python3", script, "--help"))
 

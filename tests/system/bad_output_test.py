@@ -14,7 +14,7 @@ from trime_run import Workspace, run
 
 class Rows:
     def names_that_are_too_long(self):
-        """Some were told only by the file system, after the run."""
+        """Only the file system reported some of them, after the run."""
         for name in ("x" * 163, "x" * 200, "x" * 250):
             yield Row(GOOD, USAGE, [rf"name = x+\.\.\.' in \[output\]: expected at most 162 bytes, found {len(name)}:"],
                       extra=[f"output.name={name}", "output.formats=text"])
@@ -51,7 +51,7 @@ class BadOutput(unittest.TestCase):
                 self.assertIsNone(problem, problem)
 
     def test_pipes_and_links_are_refused_and_stay(self):
-        """A file that gets its name by rename would replace them, and HDF5 would wait for ever for a writer."""
+        """A file that gets its name by rename would replace them, and HDF5 would wait for a writer without end."""
         with Workspace() as work:
             (work / "case.ini").write_text(GOOD, encoding="utf-8")
             pipe, link, lost = work / "pipe.h5", work / "link", work / "lost"

@@ -150,7 +150,7 @@ class Shapes(unittest.TestCase):
         self.passes(path, config)
 
     def test_shapes_without_curves(self):
-        """Nothing is said of formulas, and the report tells so; a part that the region does not name does not
+        """trime_check does not check formulas, and its report says so. A part that the region does not name does not
         matter."""
         formula = "[shape.f]\ntype = expression\nsdf = sqrt((x-0.5)^2+(y-0.5)^2)-0.3\n"
         text = self.passes(self.mesh(self.config("formula", formula, "f")))

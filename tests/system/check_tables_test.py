@@ -32,7 +32,7 @@ def times(name, factor):
 
 
 def swap_parts(file):
-    """With their labels, so that only what a loop is called tells."""
+    """Swaps two parts with their labels, so that only the names of the loops are wrong."""
     for name, both in (("parts", 1), ("labels", 3)):
         file[FACETS + name][:] = both - file[FACETS + name][:]
 
@@ -119,7 +119,7 @@ class Tables(unittest.TestCase):
         self.finds(whole, lambda f: change(f, TAGS + "edge_kind", slice(None), b"hole"), "edge_kind")
 
     def test_markers(self):
-        """Of a .poly file: each marker is a part of its own."""
+        """In a .poly file each marker is a separate part."""
         (self.work / "frame.poly").write_text("4 2 0 1\n1 0.1 0.1 0\n2 0.9 0.1 0\n3 0.9 0.9 0\n4 0.1 0.9 0\n"
                                               "4 1\n1 1 2 1\n2 2 3 5\n3 3 4 1\n4 4 1 1\n0\n", "ascii")
         config = self.work / "frame.ini"

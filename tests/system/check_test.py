@@ -265,7 +265,7 @@ class Check(unittest.TestCase):
                     self.assertRegex(text, r"(?m)^ok +on_curve")
 
     def test_passes_the_mesh_of_a_map(self):
-        """It does not read maps: what they alone tell is not checked, and the container is one of these things."""
+        """trime_check does not read maps, and does not check what only they contain, such as the container."""
         ring = [[3000, 1000], [9000, 1000], [9000, 5000], [3000, 5000], [3000, 1000]]
         (self.work / "map.geojson").write_text(json.dumps(
             {"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:25833"}},

@@ -47,7 +47,7 @@ AUTOMATIC = ("sizing.type=automatic", "sizing.gradation=0.2")
 
 
 def smallest_angles(places):
-    """Of triangles (n, 3, 2), in degrees."""
+    """Returns the smallest angles of triangles (n, 3, 2), in degrees."""
     sides = numpy.linalg.norm(numpy.roll(places, 1, axis=1) - numpy.roll(places, 2, axis=1), axis=2)
     a, b, c = numpy.sort(sides, axis=1).T
     return numpy.degrees(numpy.arccos((b * b + c * c - a * a) / (2 * b * c)))
@@ -132,7 +132,7 @@ class Contours(unittest.TestCase):
                 self.assert_good(mesh)
 
     def test_the_coast_has_no_bad_triangle_at_other_sizes(self):
-        """A ragged shore, laid out anew by each number of points: single places were left bad at some numbers."""
+        """Each number of points gives a ragged shore other sites. Single places stayed bad at some numbers."""
         for points in (16000, 18500, 21000, 24000):
             with self.subTest(points=points):
                 self.assert_good(self.mesh(COAST, f"meshing.points={points}", *AUTOMATIC))

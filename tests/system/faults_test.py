@@ -37,7 +37,7 @@ TABLE = []
 
 
 class SmallDisk:
-    """A file system in memory, at a directory of its own."""
+    """A file system in memory, at a separate directory."""
 
     def __init__(self, test):
         self.test = test
@@ -171,7 +171,7 @@ class Faults(unittest.TestCase):
                 started = self.start(folder, ranks)
                 since = time.monotonic()
                 folder.rename(work / "elsewhere")  # in one step: the run may be making or removing a file in it
-                # Before the look at it the run makes it anew: then there is a mesh.
+                # If the run makes the directory again before it looks for it, the run makes a mesh.
                 code, told = self.end_of("the directory vanishes", ranks, started, since)
                 self.assertIn(code, (0, FILE), told)
                 if code == FILE:
@@ -189,7 +189,7 @@ class Faults(unittest.TestCase):
                 self.assertEqual(list(folder.iterdir()), [])
 
     def dies_in(self, phase, folder, points):
-        """The exit code of a run on 3 ranks; one of them is killed as soon as the live line tells of the phase."""
+        """Returns the exit code of a run on 3 ranks. One of them is killed as soon as the live line shows the phase."""
         mine, its = pty.openpty()
         with subprocess.Popen(command(self.arguments(folder, points), 3), env=environment(1) | {"TERM": "xterm"},
                               stdin=subprocess.DEVNULL, stdout=its, stderr=its, start_new_session=True) as started:
@@ -221,7 +221,7 @@ class Faults(unittest.TestCase):
         while not is_enough(text) and select.select([terminal], [], [], max(0.0, end - time.monotonic()))[0]:
             try:
                 part = os.read(terminal, 1 << 16)
-            except OSError:  # what the reading end says when nobody can write any more
+            except OSError:  # the reading end raises this when nobody can write
                 break
             if not part:
                 break

@@ -72,7 +72,7 @@ BY_FREEFEM = """
 
 
 class Expected:
-    """What the HDF5 file holds."""
+    """The content of the HDF5 file."""
 
     def __init__(self, path):
         with h5py.File(path) as file:
@@ -103,7 +103,7 @@ class Expected:
         return np.where(labels < 1 << 30, labels, 0)
 
     def length(self, label):
-        """Of the boundary with a label."""
+        """Returns the length of the boundary with a label."""
         ends = self.points[self.edges[self.labels == label]]
         return np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum()
 

@@ -363,7 +363,7 @@ class Formats(unittest.TestCase):
                 done = run("convert", self.work / f"{stem}.h5", target / f"{stem}.{ending}", ranks=ranks)
                 self.assertEqual(done.returncode, 0, done.stderr)
             paths = list(target.glob(f"{stem}.*"))
-            self.assertEqual(len(paths), len(endings) + 2)  # .ele and .edge beside .node
+            self.assertEqual(len(paths), len(endings) + 2)  # .ele and .edge belong to .node
             for path in paths:
                 self.assertEqual(path.read_bytes(), (self.work / path.name).read_bytes(), path)
 

@@ -68,7 +68,7 @@ class DirtyInputs(unittest.TestCase):
     """On 1 and 3 ranks the same words."""
 
     def validated(self, name, text):
-        """What the program says of a contour, on both."""
+        """Returns what the program prints for a contour, on 1 and 3 ranks."""
         said = []
         with Workspace() as work:
             (work / name).write_bytes(text if isinstance(text, bytes) else text.encode())
@@ -83,7 +83,7 @@ class DirtyInputs(unittest.TestCase):
         return said[0]
 
     def all_validated(self, table):
-        """The same for each row, two at a time."""
+        """Returns what validated() returns for each row; two rows run at a time."""
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             return list(pool.map(lambda row: self.validated(row[1], row[2]), table))
 
@@ -138,7 +138,8 @@ class DirtyInputs(unittest.TestCase):
 
 class Markers(unittest.TestCase):
     def test_markers_of_segments_are_those_of_edges(self):
-        """The right side of the square has a marker of its own, though nothing turns at a vertex in the middle."""
+        """The right side of the square has a separate marker, though the boundary does not turn at the vertex in its
+        middle."""
         text = POLY.replace("8 2 0 0", "9 2 0 0").replace("8 0.4 0.6\n", "8 0.4 0.6\n9 0.5 0.1\n")
         text = text.replace("8 1\n1 1 2 1\n", "9 1\n1 1 9 1\n9 9 2 -4\n")
         with Workspace() as work:

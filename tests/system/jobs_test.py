@@ -96,7 +96,7 @@ class Jobs(unittest.TestCase):
                          self.hash_of(self.work / "long" / "square.h5"))
 
     def wait_for_end(self, job):
-        """Of a job that may be queued again; the text of its log."""
+        """Waits for the end of a job that may be queued again. Returns the text of its log."""
         environment = dict(os.environ, SLURM_CONF=str(self.slurm / "slurm.conf"))
         end = time.monotonic() + 240
         while time.monotonic() < end:

@@ -203,7 +203,7 @@ def numbers_of_points(vertices):
 
 
 def table(options):
-    """Runs what is not yet in the file of results, and writes the table anew after each run."""
+    """Runs what is not yet in the file of results, and writes the table again after each run."""
     results = options.output.with_suffix(".jsonl")
     rows = [json.loads(line) for line in results.read_text().splitlines()] if results.exists() else []
     known = {(row["shape"], row["asked"], row["sizing"]) for row in rows}

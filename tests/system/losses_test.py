@@ -20,7 +20,8 @@ KEPT = "nothing of the shape is simplified"
 
 
 def counts_of(text):
-    """Lost loops by state, and all loops, as a warning tells them; none if there is no warning."""
+    """Returns the number of lost loops by state and the number of all loops, as the warning gives them. Without a
+    warning they are zeros and None."""
     counts = dict.fromkeys(LOST.values(), 0)
     told = re.search(r"(\d+) of (\d+) loops lost \(([^)]*)\)", text)
     if told is None:

@@ -33,7 +33,7 @@ def measure(config, points):
 
 
 def is_small(config, limit):
-    """True if points cost no more than allowed, and no more than --dry-run foretells."""
+    """True if a point costs no more than allowed, and no more than --dry-run predicts."""
     few, few_bytes = measure(config, FEW)
     many, many_bytes = measure(config, MANY)
     each = (many_bytes - few_bytes) / (many - few)

@@ -8,10 +8,10 @@ from scipy.spatial import cKDTree
 
 from ring_tools import segments_of
 
-SHARP = 56.0  # [degrees] inside angle of a boundary vertex below which bad triangles beside it are forced
+SHARP = 56.0  # [degrees] inside angle of a boundary vertex below which bad triangles next to it are forced
 EDGES_AWAY = 3.0  # [local edges] how far from such a vertex a triangle is still at it
 NARROW = 1.2  # [local size] two arms that meet are nearer than this up to NARROW h / sin(angle)
-SLACK = 2.0  # [degrees] that the middle of a triangle may lie beside its wedge, whose arms may bend
+SLACK = 2.0  # [degrees] by which the middle of a triangle may miss its wedge, whose arms may bend
 SAMPLES = 9  # points along a facet, ends included
 SAME = 1e-9  # [longer side of the curve's box] two vertices are one
 GOOD, BAD = 1.2, 1.5  # alpha
@@ -166,7 +166,7 @@ class MeshMeasures:
         self.asked = np.asarray(sizes, float)[found]
 
     def is_input_vertex(self):
-        """Which points are vertices of the rings."""
+        """Returns True for the points that are vertices of the rings."""
         vertices = np.concatenate(self.rings)
         away, _ = cKDTree(vertices).query(self.points)
         return away <= SAME * np.ptp(vertices, axis=0).max()
@@ -185,7 +185,8 @@ class MeshMeasures:
         return float(away[worst]), places[worst]
 
     def lost(self):
-        """The same from the curve (its vertices and points between them) to the facets, at the size of the facets."""
+        """Returns the largest distance from the curve (its vertices and points between them) to the facets, over the
+        size of the facets, and the place of it."""
         starts, ends = segments_of(self.rings)
         count = np.maximum(1, np.ceil(np.hypot(*(ends - starts).T) / (0.25 * self.size.min()))).astype(int)
         count = np.minimum(count, 64)

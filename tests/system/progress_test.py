@@ -41,7 +41,7 @@ def read_all(terminal):
 
 
 def run_on_terminal(given, ranks=1, columns=100, kind="xterm", interrupt_after=None):
-    """Exit code and output of a run whose output is a terminal of so many columns."""
+    """Returns the exit code and the output of a run on a terminal with this number of columns."""
     mine, its = pty.openpty()
     fcntl.ioctl(its, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
     with subprocess.Popen(command(given, ranks), env=environment(1) | {"TERM": kind}, stdin=subprocess.DEVNULL,

@@ -112,7 +112,8 @@ class Variables(unittest.TestCase):
         if not is_open_mpi():
             self.skipTest("variables of Open MPI")
         own = {"OMPI_MCA_btl": "self,vader,tcp", "OMPI_MCA_orte_base_help_aggregate": "0", "PMIX_MCA_gds": "hash",
-               "OMPI_MCA_mpi_yield_when_idle": "0", "HYDRA_IFACE": "lo", "OMP_WAIT_POLICY": "active"}
+               "OMPI_MCA_mpi_yield_when_idle": "0", "OMPI_MCA_ess_base_verbose": "0", "HYDRA_IFACE": "lo",
+               "OMP_WAIT_POLICY": "active"}
         program = "import json, os; print(json.dumps(dict(os.environ)))"
         done = subprocess.run([*outer(1, "--mca", "coll", "^hcoll", "--bind-to", "core"), "-c", program],
                               env=environment(1) | own, capture_output=True, text=True, timeout=60, check=True)

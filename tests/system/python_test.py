@@ -322,7 +322,7 @@ class Package(unittest.TestCase):
     def test_installs_without_a_network(self):
         with Workspace() as work:
             source = work / "source"
-            subprocess.run(["cp", "-r", PACKAGE, source], check=True)  # the build leaves files beside its source
+            subprocess.run(["cp", "-r", PACKAGE, source], check=True)  # the build leaves files in its source
             done = subprocess.run([sys.executable, "-m", "pip", "install", "--no-build-isolation", "--no-deps",
                                    "--no-index", "--target", work / "site", source], capture_output=True, text=True,
                                   check=False, timeout=300)

@@ -26,7 +26,7 @@ from random_shapes import RandomConfig
 from trime_run import Workspace, command, environment
 
 PATIENCE = 300  # seconds until a run counts as hanging; most take less than one
-MEBIBYTES = 1024  # of one rank: the largest meshes here have some 10^4 points
+MEBIBYTES = 1024  # of one rank: the largest meshes here have about 10^4 points
 MOST_POINTS = 20000  # that are meshed; a config that asks for more is only validated
 DONE, USAGE, GEOMETRY, INCOMPLETE = 0, 2, 3, 5
 ALLOWED = {DONE, USAGE, GEOMETRY, INCOMPLETE}

@@ -41,7 +41,7 @@ def rough_disc(rng, disc, count):
 
 
 def subdivided(rng, rings, vertices):
-    """The same rings with more vertices on their sides, in line with them, `vertices` in all."""
+    """Returns the rings with more vertices on their sides, in line with them, and `vertices` in total."""
     starts = np.concatenate(rings)
     ends = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings])
     weights = np.hypot(*(ends - starts).T)

@@ -95,7 +95,7 @@ class Restart(unittest.TestCase):
         arguments = [CIRCLE, "meshing.points=1500", "output.interval=3", "output.formats=vtkhdf xdmf text"]
 
         def series(directory):
-            """Names of all files; what tells of more than one mesh."""
+            """Returns the names of all files, and the lines that depend on several meshes."""
             names = sorted(str(path.relative_to(directory)) for path in directory.rglob("*") if path.is_file())
             told = [directory / "mesh.vtkhdf.series", directory / "mesh_series.xdmf",
                     directory / "mesh" / "mesh_tria_quality_stat_overall.txt"]
@@ -126,8 +126,8 @@ class Restart(unittest.TestCase):
     # Signals
 
     def start(self, directory, ranks, *more):
-        """A run that is up: it has said its first word, so that mpirun hands signals on, and the ranks know what to do
-        with them. A process group of its own, so that a test can end all of it."""
+        """Starts a run, and waits for its first line. From then on mpirun forwards signals, and the ranks handle them.
+        The run is a separate process group, so that a test can end all of it."""
         arguments = [CIRCLE, f"meshing.points={MANY}", "sizing.type=automatic", *places(directory), *more]
         self.said = tempfile.TemporaryFile()
         self.addCleanup(self.said.close)

@@ -34,7 +34,8 @@ def signed_area(ring):
 
 
 def normalized(rings, low=(0.0, 0.0), high=(1.0, 1.0)):
-    """As `normalize` of a contour: bounding box centred in the container, longer side 0.8 of its shorter side."""
+    """Returns the rings as `normalize` of a contour places them: the bounding box is centred in the container, and its
+    longer side is 0.8 of the container's shorter side."""
     low, high, points = np.array(low), np.array(high), np.concatenate(rings)
     box_low, box_high = points.min(axis=0), points.max(axis=0)
     scale = 0.8 * (high - low).min() / (box_high - box_low).max()

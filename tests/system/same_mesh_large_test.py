@@ -24,7 +24,7 @@ FIELDS = {  # sections of the config, number of points
     "valley": (DOMAIN.format("0.001+abs(x-0.5)"), 100_000),
     "jump": (DOMAIN.format("x<0.5?1:0.03"), 100_000),
     "uniform": (DISC, 100_000),  # rests soon: tiles sleep
-    "many": (DISC, 300_000),  # ranks have tiles in their middle that sleep beside others that do not
+    "many": (DISC, 300_000),  # in the middle of a rank some tiles sleep, and others do not
 }
 METHODS = ("hybrid", "distmesh", "cvd")
 ONE_METHOD = {"many": (1, 7, 16)}  # fields that take long: one method, on these numbers of ranks

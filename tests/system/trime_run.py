@@ -12,28 +12,28 @@ MPIEXEC = os.environ.get("TRIME_MPIEXEC", "mpirun")
 
 
 def environment(threads):
-    """For more ranks and threads than cores, also as root in a container."""
+    """Returns the environment for more ranks and threads than cores, also as root in a container."""
     return dict(os.environ, OMP_NUM_THREADS=str(threads), OMP_WAIT_POLICY="passive", OMPI_ALLOW_RUN_AS_ROOT="1",
                 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_rmaps_base_oversubscribe="1",
                 OMPI_MCA_hwloc_base_binding_policy="none", OMPI_MCA_mpi_yield_when_idle="1")
 
 
 def command(arguments, ranks):
-    """The command line; one rank runs without mpirun."""
+    """Returns the command line. One rank runs without mpirun."""
     start = [] if ranks == 1 else [MPIEXEC, "-np", str(ranks)]
     return start + [PROGRAM] + [str(argument) for argument in arguments]
 
 
 def run(*arguments, ranks=1, threads=1, timeout=120, cwd=None):
-    """A finished run: returncode, stdout, stderr. Without the second that Open MPI leaves ranks to end in, twice, after
-    any exit code but 0."""
+    """Returns a finished run: returncode, stdout, stderr. Open MPI waits a second, twice, for ranks to end after a
+    failure; here it does not."""
     at_once = {"OMPI_MCA_odls_base_sigkill_timeout": "0"}
     return subprocess.run(command(arguments, ranks), env=environment(threads) | at_once, cwd=cwd, capture_output=True,
                           text=True, timeout=timeout, check=False)
 
 
 class Workspace:
-    """A directory of its own for a test, removed at its end."""
+    """A separate directory for a test, which is removed at the end of the test."""
 
     def __enter__(self):
         self.path = pathlib.Path(tempfile.mkdtemp(prefix="trime-system-"))

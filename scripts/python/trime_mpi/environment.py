@@ -14,7 +14,8 @@ LAUNCHER = re.compile(r"(OMPI|PMIX|PRTE|PMI|HYDI)_|MPI_LOCAL(NRANKS|RANKID)$")
 SETTING = re.compile(r"(OMPI|PRTE|PMIX)_MCA_|(OMPI|PRTE)_ALLOW_")
 # Names of this kind that Open MPI's launcher sets.
 OF_A_JOB = re.compile(
-    r"(OMPI|PRTE)_MCA_(ess|ess_\w+|initial_wdir|mpi_oversubscribe|shmem_RUNTIME_QUERY_hint|(orte|prte)_(app_num"
+    r"(OMPI|PRTE)_MCA_(ess|ess_base_(jobid|num_procs|vpid)|initial_wdir|mpi_oversubscribe"
+    r"|shmem_RUNTIME_QUERY_hint|(orte|prte)_(app_num"
     r"|base_applied_binding|bound_at_launch|cpu_model|cpu_type|do_not_barrier|ess_\w+|externally_bound|hnp_uri"
     r"|jobfam_session_dir|launch|local_daemon_uri|num_nodes|num_restarts|parent_uri|precondition_transports"
     r"|top_session_dir))$")

@@ -21,7 +21,7 @@ JOBS = "jobs"  # folder of scripts, records and logs in the output directory
 
 SCRIPT = """#!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Written by scripts/scaling.py --backend slurm: all cases on {ranks} ranks of {threads} threads, in turns.
+# Written by scripts/scaling.py --backend slurm: all cases on {ranks} ranks of {threads} threads, alternately.
 #SBATCH --job-name=trime_scaling
 #SBATCH --output={directory}/{name}.log
 #SBATCH --ntasks={ranks}
