@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measures the quality of the three methods on the shapes for which figures of TriMe++ exist.
 
-The script writes a config for each row, runs trime_mpi on one rank, and prints a table in Markdown: median, mean and
-largest alpha, the smallest angle, the conformity to the size (standard deviation of L / (s h)), sweeps, full sweeps and
-seconds. A sweep over a coarse mesh counts as a fraction of a full sweep: its number of points over the final number.
+The script writes a config for each row, runs trime_mpi on one rank, and prints a table in Markdown. Its columns are
+median, mean and largest alpha, the smallest angle, the conformity to the size (standard deviation of L / (s h)),
+sweeps, full sweeps and seconds. A sweep over a coarse mesh counts as a fraction of a full sweep: its number of points over the final number.
 The last columns are the figures of TriMe++ (commit 3929c19, the better of one and two threads) for the same shape and
 number of points.
 

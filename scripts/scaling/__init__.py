@@ -11,4 +11,6 @@
   model, traffic_model, model_report     fit the time as a sum of terms, check the fit, and extrapolate it
   least_squares                          fits the factors of the terms
   errors                                 has the exceptions that end a command
+
+The folder sweeps holds ini files, and reference.csv the published times of TriMe++.
 """

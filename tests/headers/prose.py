@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads the prose of the project: sentences of Markdown pages, of comments and of messages in C++, and their faults.
+"""Reads the prose of the project: sentences of Markdown pages, of comments and messages in C++, and of docstrings in
+Python, and their faults.
 
 A sentence is plain if it has no word of prose_words.txt, at most MOST_WORDS words, and a verb. Verbs are known by
 prose_verbs.txt: if a good sentence is refused because its verb is missing there, add the verb.
 """
+import ast
 import functools
+import inspect
 import pathlib
 import re
 from typing import NamedTuple
@@ -80,7 +83,7 @@ def passages_of_page(text):
 
 
 def passages_of_comments(text):
-    """Yields the comments of C++; a comment behind code is one of its own."""
+    """Yields the comments of C++; a comment behind code is a separate one."""
     collected, first, behind_code = [], 0, False  # the last: a comment that began behind code
     for number, line in enumerate(text.splitlines() + [""], 1):
         match = re.match(r"^(\s*)//[/!]?<? ?(.*)$", line)
@@ -120,10 +123,28 @@ def passages_of_messages(text):
             collected = []
 
 
+def passages_of_docstrings(text):
+    """Yields the paragraphs of docstrings in Python as comments, without indented lines (code, tables) and usage."""
+    for node in ast.walk(ast.parse(text)):
+        if not isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) or not ast.get_docstring(node):
+            continue
+        collected, first = [], 0
+        for number, line in enumerate([*inspect.cleandoc(node.body[0].value.value).splitlines(), ""]):
+            breaks = not line or line.startswith((" ", "Usage:"))
+            if (breaks or ITEM.match(line)) and collected:
+                yield Passage(first, "comment", " ".join(collected))
+                collected = []
+            if not breaks:
+                first = first if collected else node.body[0].lineno + number
+                collected.append(ITEM.sub("", line))
+
+
 def passages(name, text):
     """All passages of a file by the ending of its name."""
     if name.endswith(".md"):
         return list(passages_of_page(text))
+    if name.endswith(".py"):
+        return sorted(passages_of_docstrings(text))
     messages = [passage for passage in passages_of_messages(text) if len(passage.text.split()) > 3]
     return sorted([*passages_of_comments(text), *messages])
 
@@ -171,8 +192,8 @@ def count_verbs(sentence):
 
 
 def is_fragment(sentence, kind, is_first):
-    """True if the sentence lacks the verb that one of its kind needs: cells, messages, first sentences of items and
-    comments may be names of things, but a comment that begins like half a sentence needs a verb of its own."""
+    """True if the sentence lacks a verb that sentences of this kind need. Cells, messages, and first sentences of items
+    and comments may be names of things, but a comment that begins like half a sentence needs another verb."""
     if kind in ("cell", "message") or sentence.endswith("?") or not re.search("[A-Za-z]{2}", sentence):
         return False
     opens_as_fragment = FRAGMENT_OPENERS.match(sentence)

@@ -22,6 +22,7 @@ HEADERS = sorted((ROOT / "include" / "trime").rglob("*.hpp"))
 CHECKED = (
     "*.md", "configs/*.md", "jobs/*.md", "scripts/README.md", "scripts/packaging/*.md",
     "src/*.md", "tests/*.md",
+    "scripts/**/*.py", "tests/**/*.py",
 )
 # Tables made from C++ by a script or by --help-config: their words are corrected there, not on the page.
 MADE_TABLES = ("configs/keys.md", "src/rules.md")
@@ -97,6 +98,13 @@ class Reader(unittest.TestCase):
         self.assertEqual(prose.passages("a.hpp", header),
                          [(2, "comment", "One two."), (4, "comment", "x three"), (5, "comment", "four more"),
                           (7, "comment", "five"), (8, "message", "cannot read the file: ")])
+
+    def test_finds_the_passages_of_python(self):
+        code = ('"""One\ntwo.\n\nUsage: a.py\n  --b   code\n* three\n"""\nclass A:\n    """Four\n    five."""\n'
+                '    def b(self):\n        """Six."""\n        return "no docstring"\n')
+        self.assertEqual(prose.passages("a.py", code),
+                         [(1, "comment", "One two."), (6, "comment", "three"), (9, "comment", "Four five."),
+                          (12, "comment", "Six.")])
 
     def test_knows_verbs(self):
         for sentence, count in (("The same.", 0), ("Of a sum.", 0), ("It is sorted.", 1), ("What is near.", 1),
