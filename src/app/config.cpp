@@ -164,13 +164,15 @@ void read_shape(const Settings& settings, const fs::path& directory, RunOptions&
 
 void read_domain(const Settings& settings, RunOptions& options, Diagnostics& problems) {
   meshing::MeshOptions& mesh = options.mesh;
-  check_interval(settings, "domain", "x", problems, std::pair{unit_square.min.x, unit_square.max.x});
-  check_interval(settings, "domain", "y", problems, std::pair{unit_square.min.y, unit_square.max.y});
+  check_interval(settings, "domain", "x", problems,
+                 std::pair{geometry::unit_square.min.x, geometry::unit_square.max.x});
+  check_interval(settings, "domain", "y", problems,
+                 std::pair{geometry::unit_square.min.y, geometry::unit_square.max.y});
   check_side(settings, "x", problems);
   check_side(settings, "y", problems);
   options.periodic_x = settings.boolean("domain", "periodic_x");
   options.periodic_y = settings.boolean("domain", "periodic_y");
-  mesh.container = unit_square;
+  mesh.container = geometry::unit_square;
   options.container_is_automatic = !options.periodic_x && !options.periodic_y;
   for (const auto& [key, side] : {std::pair<const char*, double*>{"x_min", &mesh.container.min.x},
                                   {"x_max", &mesh.container.max.x},

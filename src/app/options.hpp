@@ -4,6 +4,7 @@
 
 #include "trime/core/log.hpp"
 #include "trime/formats/exchange.hpp"
+#include "trime/geometry/frame.hpp"
 #include "trime/geometry/vec2.hpp"
 #include "trime/io/mesh_series.hpp"
 #include "trime/meshing/options.hpp"
@@ -46,9 +47,6 @@ struct FixedPointsFile {
   bool file_is_relative = false;
   std::string normalize_with; ///< name of the contour whose normalisation they undergo; empty: none
 };
-
-/// The container where the config gives no sides.
-inline constexpr geometry::Box unit_square{{0, 0}, {1, 1}};
 
 /// Section [checkpoint].
 struct CheckpointOptions {

@@ -194,7 +194,8 @@ ExitCode make_mesh(const Job& job) {
     const auto timing = timers.scope("shape");
     return read_shape(options, is_run ? ShapeUse::boundary : ShapeUse::queries, comm, log, job.places);
   }();
-  if (const geometry::Box& box = input.container; options.container_is_automatic && box.max != unit_square.max)
+  if (const geometry::Box& box = input.container;
+      options.container_is_automatic && box.max != geometry::unit_square.max)
     log.info("container: x from {:.9g} to {:.9g}, y from {:.9g} to {:.9g}, around the shape: [domain] gives no sides",
              box.min.x, box.max.x, box.min.y, box.max.y);
   options.mesh.container = input.container;

@@ -75,23 +75,17 @@ geometry::Box box_of(const PartOptions& part, const contours::Contour& contour) 
   return box;
 }
 
-/// The unit square, if the shape lies in it or is made of what needs a container: the domain itself, formulas, contours
-/// that are normalised into it. Else a box around the shape.
+/// The container where the options give no side.
 geometry::Box automatic_container(const RunOptions& options, std::span<const contours::Contour> contours) {
-  constexpr double margin = 0.05; // of the longer side: as much as users leave who write the sides by hand
   std::vector<std::string> names;
   std::vector<geometry::Box> boxes;
   for (std::size_t k = 0; k < options.parts.size(); ++k) {
     const PartOptions& part = options.parts[k];
     names.push_back(part.name);
-    boxes.push_back(part.type == "expression" || part.normalize ? unit_square : box_of(part, contours[k]));
+    boxes.push_back(part.type == "expression" || part.normalize ? geometry::unit_square : box_of(part, contours[k]));
   }
-  boxes.push_back(unit_square); // the domain
-  const geometry::Box box = shape::Region::parse(options.region, names).box(boxes);
-  if (!(box.width() > 0 && box.height() > 0) || (unit_square.contains(box.min) && unit_square.contains(box.max)))
-    return unit_square;
-  const double side = margin * std::fmax(box.width(), box.height());
-  return {box.min - geometry::Vec2{side, side}, box.max + geometry::Vec2{side, side}};
+  boxes.push_back(geometry::unit_square); // the domain
+  return geometry::container_around(shape::Region::parse(options.region, names).box(boxes));
 }
 
 /// @param contour of a part that is one @param place becomes what its vertices undergo @param places gets it, on rank 0

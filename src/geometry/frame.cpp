@@ -1,7 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/geometry/frame.hpp"
 
+#include <cmath>
+
 namespace trime::geometry {
+
+Box container_around(const Box& box) {
+  constexpr double margin = 0.05; // of the longer side: as much as users leave who give the container themselves
+  if (!(box.width() > 0 && box.height() > 0) || (unit_square.contains(box.min) && unit_square.contains(box.max)))
+    return unit_square;
+  const double side = margin * std::fmax(box.width(), box.height());
+  return {box.min - Vec2{side, side}, box.max + Vec2{side, side}};
+}
 
 Frame::Frame(const Box& container, bool periodic_x, bool periodic_y)
     : container_(container), lattice_(container), periods_(Periods::of(container_, lattice_, periodic_x, periodic_y)) {
