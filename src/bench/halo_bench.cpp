@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a sweep exchanges: the ghosts of the halo, and the sites that change their owner. Argument: points on all ranks.
-// For mpirun; every benchmark runs a fixed number of iterations, the same on each rank.
+// Times the communication of a sweep: the ghosts of the halo, and the sites that change their owner. Argument: points
+// on all ranks. For mpirun; every benchmark runs a fixed number of iterations, the same on each rank.
 #include "bench/bench_points.hpp"
 #include "decomposition/halo.hpp"
 #include "decomposition/migration.hpp"
@@ -57,7 +57,7 @@ void halo_values(benchmark::State& state) {
   state.counters["ghosts"] = static_cast<double>(stage.ghosts());
 }
 
-/// Every site moves by 0.02 spacings, to and fro; some cross the border between two ranks.
+/// Every site moves by 0.02 spacings, back and forth; some cross the border between two ranks.
 void migration(benchmark::State& state) {
   Stage stage(state);
   double step = 0.02 * spacing_of(state.range(0));

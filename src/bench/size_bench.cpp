@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The automatic size field of a rough closed coast with 5000 segments: set-up for a mesh of so many points, and what
-// each look-up costs, for random points and for points row by row.
+// The automatic size field of a rough closed coast with 5000 segments: set-up for a mesh of this number of points, and
+// the time of each look-up, for random points and for points row by row.
 #include "bench/bench_points.hpp"
 #include "core/angle.hpp"
 #include "trime/sizing/automatic_size.hpp"

@@ -43,7 +43,7 @@ struct Stage {
       sizes.values().push_back(size(p));
   }
 
-  /// Every site moves by `step` spacings in a direction of its own; the order of the sites stays.
+  /// Every site moves by `step` spacings in a different direction; the order of the sites stays.
   void shake(double step, std::uint64_t round) {
     for (std::size_t i = 0; i < sites.size(); ++i) {
       const geometry::Vec2 p = sites[i].position;

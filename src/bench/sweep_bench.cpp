@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The passes of a sweep over a relaxed mesh where nothing changes any more: certified update and move, and the quality,
+// Times the passes of a sweep over a relaxed mesh where nothing changes: certified update and move, and the quality,
 // for each kind of processor. Arguments: number of points; rule (0 bars, 1 cells, 2 triangles).
 #include "bench/bench_points.hpp"
 #include "core/simd_level.hpp"

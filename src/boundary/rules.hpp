@@ -51,15 +51,15 @@ struct BoundaryRules {
   static constexpr double deviation_step = 0.25;
   /// [places] Of such a piece, at most; the worst ones are short. Not measured.
   static constexpr int deviation_places = 16;
-  /// [1] If the boundary was simplified for an h so many times larger than that of the mesh, that is told. Not
-  /// measured.
+  /// [1] The report says so if the boundary was simplified for an h that is larger than that of the mesh by this
+  /// factor. Not measured.
   static constexpr double told_coarseness = 1.1;
   /// [1] A larger share of the shape's area that is lost or added is a warning. Not measured.
   static constexpr double warned_loss = 0.001;
-  /// [sites] Halving of chords may always make so many; beyond, halving_growth is the bound.
+  /// [sites] Halving of chords may always make this number; beyond, halving_growth is the bound.
   static constexpr std::size_t always_halved = 4000000;
-  /// [1] Halving may make so many times the sites of the layout. With more the boundary is at fault, and an error says
-  /// so.
+  /// [1] Halving may make this number times the sites of the layout. More means that the boundary is at fault, and an
+  /// error says so.
   static constexpr std::size_t halving_growth = 16;
   /// [h] Way along the curve between two samples of the size, which is interpolated between them. A size that grows by
   /// 0.1 of the way changes by 5 % on it.
@@ -76,7 +76,7 @@ struct BoundaryRules {
   static constexpr double longest_chord = 1.6;
   /// [h] A path takes no shorter chord, unless its ends are neighbours. The same as place_spacing.
   static constexpr double shortest_chord = 0.25;
-  /// [places] The end of a chord is looked for among so many places behind its start, which bounds the time.
+  /// [places] Number of places after its start where the end of a chord is searched, which bounds the time.
   static constexpr std::size_t farthest_place = 64;
   /// [h] One chord stands for no longer way along the curve.
   static constexpr double farthest_way = 6;
@@ -94,7 +94,7 @@ struct BoundaryRules {
   static constexpr double back_and_forth = 1e3;
   /// [1] Around a place where it is lowered, the size grows by this share of the way. Triangles can follow about 0.5.
   static constexpr double gradation = 0.2;
-  /// [rounds] So often the boundary is laid anew with the limits that the last layout asks for.
+  /// [rounds] How often the boundary is laid out again with the limits that the last layout asks for.
   static constexpr int lowering_rounds = 2;
   /// [h] A shorter chord asks for a smaller size: a corner, or something near, has made it so short.
   static constexpr double short_chord = 0.65;
@@ -113,7 +113,7 @@ struct BoundaryRules {
   /// [1] Size over the width of a channel: the side of an equilateral triangle over its height.
   static constexpr double width_factor = 1.15;
   /// [chords] Sites on the two arms of one sharp corner are near to each other at any size, and ask for no smaller one.
-  /// The corner is looked for among so many chords on both sides.
+  /// The corner is searched among this number of chords on both sides.
   static constexpr int longest_arms = 24;
   /// [h] A smaller island or lake is dropped: no triangle of size h fits around or into it.
   static constexpr double least_perimeter = 3;

@@ -12,13 +12,13 @@
 
 namespace trime_check {
 
-/// One of the closed curves of which the boundary consists.
+/// One of the closed curves of the boundary.
 struct Loop {
   std::vector<std::size_t> facets; ///< in the order in which they follow each other
   std::string kind;                ///< around a component (outer), around a hole, or a band around a periodic container
 };
 
-/// What is counted on the way, to be compared with what the file says of itself.
+/// Counts to compare with the numbers in the file.
 struct Counted {
   std::int64_t edges = 0, loops = 0, clockwise = 0, not_delaunay = 0, components = 0;
   std::int64_t euler_characteristic = 0, unused = 0, corners = 0;
@@ -36,7 +36,7 @@ Counted check_surface(const StoredFile& file, const Mesh& mesh, Report& report);
 /// Sizes of points and facets.
 void check_sizes(const StoredFile& file, const Mesh& mesh, Report& report);
 
-/// What the tables and attributes say of the mesh: labels, kinds and names of loops, counts, format.
+/// Checks the tables and attributes of the mesh: labels, kinds and names of loops, counts, format.
 void check_tables(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report);
 
 /// Alpha, beta, sizes, the quality summary, and the certificate as it is stored.

@@ -97,7 +97,7 @@ std::vector<Ring> read_rings(const std::string& text) {
   };
   std::string all = text + "\n";
   for (char& c : all)
-    c = c == '\r' ? '\n' : c; // an empty line after CR LF is told from a blank one below
+    c = c == '\r' ? '\n' : c; // the code below distinguishes an empty line after CR LF from a blank one
   bool after_return = false;
   std::size_t begin = 0;
   for (std::size_t k = 0; k < all.size(); ++k) {

@@ -18,7 +18,7 @@ namespace {
 constexpr double least_samples = 64;
 // [longer side of the container] The two sides of a curve are asked so far from it, or at this share of a piece of it.
 constexpr double beside = 1e-7, beside_share = 1e-2;
-// [longer side of the container] What lies nearer is not told from the curve.
+// [longer side of the container] A place nearer than this counts as on the curve.
 constexpr double least_beside = 1e-11;
 // Places in a row and in a column of the grid over the shape.
 constexpr int grid_places = 128;
@@ -72,8 +72,8 @@ public:
   }
 
 private:
-  /// @brief How far the boundary may lie from the curves at the nearest facet.
-  /// Its length counts where it is longer than was asked: a size that jumps is another one on the rest of its curve.
+  /// @brief Returns how far the boundary may lie from the curves at the nearest facet. Its length counts where it is
+  /// longer than was asked: a size that jumps is different on the rest of its curve.
   double reach(const Nearest& facet) const {
     if (mesh_.facets.empty())
       return 0;
@@ -82,7 +82,7 @@ private:
     return changes_.stray * std::max(mesh_.asked_sizes[facet.number], std::hypot(d.x, d.y));
   }
 
-  /// The same at a triangle, which may lie where a hole was filled, far from any facet.
+  /// Returns the same distance at a triangle, which may lie where a hole was filled, far from any facet.
   double reach(const Triangle& triangle, Point middle) const {
     double size = 0;
     for (const std::int64_t id : triangle)

@@ -15,7 +15,7 @@ struct ChangedLoop {
   double length = 0;
 };
 
-/// What became of the shape before it was meshed.
+/// How the shape was simplified before it was meshed.
 struct Changes {
   bool are_known = true; ///< false: the file is a step of a run, which does not say
   std::vector<ChangedLoop> loops;

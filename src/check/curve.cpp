@@ -16,7 +16,7 @@ namespace {
 
 constexpr double degrees_per_radian = 57.295779513082320877;
 constexpr double full_turn = 6.283185307179586477;
-constexpr double least_arcs = 16; // of which samples of a circle are the middles
+constexpr double least_arcs = 16; // with the samples of a circle in their middles
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 namespace index = boost::geometry::index;

@@ -26,7 +26,7 @@ public:
   virtual double distance(Point p) const = 0;
   virtual bool contains(Point p) const = 0;
   virtual Box box() const = 0;
-  /// Vertices that turn by more than so many degrees.
+  /// Returns the vertices that turn by more than this number of degrees.
   virtual std::vector<Point> corners(double degrees) const = 0;
   virtual double length() const = 0;
   /// Pieces no longer than `spacing`, none across a vertex.

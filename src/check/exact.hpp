@@ -17,7 +17,7 @@ bool is_inside_circle(Point a, Point b, Point c, Point d);
 
 using Integer = boost::multiprecision::cpp_int;
 
-/// @brief Coordinates as integers: multiples of the largest power of two of which all of them are multiples.
+/// @brief Coordinates as integers: multiples of the largest common power of two.
 class IntegerPlane {
 public:
   /// @pre all are finite

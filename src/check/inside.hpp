@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which points lie inside of rings of straight sides.
+// Finds which points lie inside of rings of straight sides.
 #pragma once
 
 #include "config_text.hpp"
@@ -10,9 +10,9 @@
 
 namespace trime_check {
 
-/// @brief Insides of rings by even-odd. A segment tree over y: in a node lie sides that run through its whole height,
-/// from left to right. So a question is a binary search in each node above its height. Where sides of a node cross, or
-/// touch but for rounding, all of them are asked. n log n to build, log^2 n for a question.
+/// @brief Inside test for rings by the even-odd rule, with a segment tree over y. A node holds sides that run through
+/// its whole height, from left to right. So a query is a binary search in each node above its height. Where sides of a
+/// node cross, or touch within rounding, the query examines all of them. O(n log n) to build, O(log^2 n) for a query.
 class InsideTest {
 public:
   explicit InsideTest(const std::vector<Ring>& rings);

@@ -30,7 +30,8 @@ struct Periods {
   double x = 0, y = 0;
 
   bool any() const { return x > 0 || y > 0; }
-  /// The image of p nearest to q. Exact for coordinates on the lattice, of which the periods are multiples.
+  /// Returns the image of p nearest to q. Exact for coordinates on the lattice, since the periods are multiples of its
+  /// step.
   Point near(Point p, Point q) const {
     const auto shift = [](double d, double period) { return period > 0 ? -period * std::round(d / period) : 0.0; };
     return {p.x + shift(p.x - q.x, x), p.y + shift(p.y - q.y, y)};

@@ -20,7 +20,7 @@ using NumberedTree = index::rtree<std::pair<Shape, std::size_t>, index::rstar<16
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// The nearest of all images but for one number.
+/// Returns the nearest of all images except those of one number.
 template <class Shape>
 Nearest nearest_in(const NumberedTree<Shape>& tree, const std::vector<Point>& images, std::size_t but) {
   Nearest best{0, infinity};

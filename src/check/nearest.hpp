@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What lies nearest to a place, images of periodic containers too.
+// Finds the nearest thing to a place, including images in periodic containers.
 #pragma once
 
 #include "mesh.hpp"
@@ -13,7 +13,7 @@ namespace trime_check {
 /// p and its images one period away, p first.
 std::vector<Point> images_of(Point p, const Periods& periods);
 
-/// The one that is nearest; `distance` is infinite if there is none.
+/// The nearest one; `distance` is infinite if there is no candidate.
 struct Nearest {
   std::size_t number = 0;
   double distance = 0;
@@ -25,7 +25,7 @@ public:
   PointFinder(const std::vector<Point>& points, const Periods& periods);
   ~PointFinder();
   Nearest nearest(Point p) const;
-  /// The nearest one but for the point of this number.
+  /// Returns the nearest one except the point with this number.
   Nearest nearest_other(std::size_t number) const;
 
 private:

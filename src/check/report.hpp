@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a reader sees: one line a check.
+// Prints the report: one line per check.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace trime_check {
 /// Exit codes of the program; those of trime_mpi where both have them.
 enum class ExitCode : int { sound = 0, internal_error = 1, usage = 2, file = 4, damaged = 5 };
 
-/// What ends the program before it can judge anything.
+/// An error that ends the program before it can judge anything.
 class Failure : public std::runtime_error {
 public:
   Failure(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
@@ -46,7 +46,7 @@ public:
   /// Two numbers that must be equal.
   void equal(const std::string& name, std::int64_t expected, std::int64_t found, const std::string& meaning,
              const std::string& place = "");
-  /// What could not be checked, and why. It is no failure.
+  /// Notes what could not be checked, and why. It is not a failure.
   void skip(const std::string& name, const std::string& reason);
 
   std::string text() const;

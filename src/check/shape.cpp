@@ -15,7 +15,7 @@
 namespace trime_check {
 namespace {
 
-// What the documentation of the config says (configs/shapes.md).
+// Constants from the documentation of the config (configs/shapes.md).
 constexpr double normalized_share = 0.8; // [shorter side of the container] longer side of a normalised contour
 constexpr double margin = 0.05;          // [longer side of the shape] around it, where the container is automatic
 constexpr Box unit_square{{0, 0}, {1, 1}};
@@ -46,7 +46,7 @@ private:
   double scale_;
 };
 
-/// What the config says of one part, before the container is known.
+/// One part of the config, before the container is known.
 struct Source {
   std::string name, type, reason;
   std::vector<Ring> rings; // of all but circles
@@ -127,8 +127,8 @@ Box region_box(const Region& region, const std::vector<Box>& parts) {
   return boxes.back();
 }
 
-/// The unit square where the shape fits in there, or does not say how large it is. Nothing if a contour that is not
-/// read would have to tell.
+/// Returns the unit square if the shape fits into it, or does not say how large it is. Returns nothing if a contour
+/// that is not read would decide.
 std::optional<Box> container_of(const ConfigText& config, const std::vector<Source>& parts, const Region& region) {
   Box box = unit_square;
   bool is_given = config.is_true("domain", "periodic_x") || config.is_true("domain", "periodic_y");

@@ -15,7 +15,7 @@ namespace trime_check {
 struct Part {
   std::string name;
   std::unique_ptr<Curve> curve; ///< none: a formula, or a file that is not read
-  std::string reason;           ///< why there is none
+  std::string reason;           ///< why there is no shape
 };
 
 /// Finds the parts near a place.
@@ -45,8 +45,8 @@ struct Shape {
   std::string fixed_points_reason; ///< why they are not known
 
   double side() const { return std::fmax(container.max.x - container.min.x, container.max.y - container.min.y); }
-  /// @brief The part that a name in a mesh file tells: its own, or that of a contour that is not read here and a name
-  /// or marker of its features behind a point. Null: there is none.
+  /// @brief Returns the part with the name in a mesh file: the part with this name, or a contour that is not read here,
+  /// followed by a point and a name or marker of its features. Null if no part fits.
   const Part* part_of_label(const std::string& label) const;
   /// Does the region name it?
   bool is_used(const Part& part) const { return region->uses(static_cast<std::size_t>(&part - parts.data())); }

@@ -19,7 +19,7 @@ constexpr double slack = 1.01;
 // [h asked for] The boundary strays so far from its facets, at most: what the certificate says of chords.
 constexpr double chord = 0.75;
 
-/// Finds places, but for a few steps of the lattice: sorted in columns of such a width.
+/// Finds places to within a few steps of the lattice: sorted in columns of that width.
 class PlaceSet {
 public:
   PlaceSet(const std::vector<Point>& places, const Shape& shape) : shape_(shape), reach_(on_lattice * shape.step) {
@@ -137,7 +137,7 @@ private:
     return "";
   }
 
-  /// Loops of the shape of which nothing was cut, dropped or smoothed: the curve is the one of the config.
+  /// Returns the loops of the shape that were not cut, dropped or smoothed: their curve is the one of the config.
   std::set<std::int64_t> changed_tags(bool& any) const {
     std::set<std::int64_t> tags;
     const std::vector<std::string> states = file_.names("/trime_mpi/rings/state");

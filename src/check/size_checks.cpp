@@ -10,12 +10,12 @@ namespace {
 
 // A size is the length of the edges around it, within this factor: triangles may be four times worse than good ones.
 constexpr double size_factor = 12;
-// Of the mean over all edges: the file takes h in the middle of an edge, where a steep size is another than at its
-// ends.
+// Tolerance of the mean over all edges: the file uses h in the middle of an edge, where a steep size differs from that
+// at its ends.
 constexpr double mean_factor = 1.5;
 // Narrow places lower the size to no less of it (configs/boundaries.md).
 constexpr double least_share = 0.05;
-// Of all points or facets: where the size is an expression, so many places may be odd ones.
+// Share of all points or facets that may be odd where the size is an expression.
 constexpr double local_share = 0.25;
 constexpr double floor_slack = 1.1; // the size changes along a facet
 constexpr double single_precision = 1e-6;
@@ -24,7 +24,7 @@ struct Range {
   double low = 0, high = 0;
 };
 
-/// What the config says of sizes.
+/// The sizes in the config.
 struct Sizing {
   bool is_expression = false; ///< it may jump, so the size between points is anything
   double gradation = 0;       ///< it changes by no more per length
@@ -37,7 +37,7 @@ struct Sizing {
   }
 };
 
-/// What is wrong is wrong, but of a few places of an expression nothing can be said.
+/// Reports wrong sizes, except at a few places of an expression, which are not judged.
 void judge(const std::string& name, const Tally& wrong, std::size_t all, const Sizing& sizing,
            const std::string& meaning, Report& report) {
   if (sizing.is_expression && wrong.count > 0 &&
@@ -48,7 +48,7 @@ void judge(const std::string& name, const Tally& wrong, std::size_t all, const S
     report.none(name, wrong, meaning);
 }
 
-/// Means of the edges at each point; 0 where there are none.
+/// Returns the means of the edges at each point; 0 where there are no edges.
 std::vector<double> mean_edges(const Mesh& mesh) {
   std::vector<double> length(mesh.points.size(), 0);
   std::vector<std::int64_t> edges(mesh.points.size(), 0);

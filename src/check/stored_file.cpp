@@ -88,7 +88,7 @@ std::string without_padding(const char* text, std::size_t size) {
 } // namespace
 
 StoredFile::StoredFile(const std::string& path) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // errors are told in our words
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // this program words the errors
   struct stat status {};
   if (stat(path.c_str(), &status) != 0)
     throw no_mesh(path, fmt::format("cannot be opened: {}", std::strerror(errno)));

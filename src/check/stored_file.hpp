@@ -29,13 +29,13 @@ public:
 
   bool has(const std::string& name) const;
   std::optional<double> number(const std::string& object, const std::string& attribute) const;
-  /// All values of an attribute; empty if there is none, or no numbers.
+  /// Returns all values of an attribute; empty if it is missing or has no numbers.
   std::vector<double> numbers(const std::string& object, const std::string& attribute) const;
   std::optional<std::uint64_t> hash(const std::string& object, const std::string& attribute) const;
   std::optional<std::string> text_attribute(const std::string& object, const std::string& attribute) const;
-  /// A text that is a dataset; empty if there is none.
+  /// Returns a text that is a dataset; empty if it is missing.
   std::string text(const std::string& name) const;
-  /// Columns of a table; empty if there is none, or if its type is another.
+  /// Return columns of a table; empty if the column is missing or has another type.
   std::vector<double> column(const std::string& name) const;
   std::vector<std::string> names(const std::string& name) const;
 
@@ -43,8 +43,8 @@ private:
   std::int64_t file_ = -1;
 };
 
-/// Reads all arrays; what is missing or has another type or shape is told by the check `arrays`. Then the mesh is of
-/// use only if true is returned.
+/// Reads all arrays; the check `arrays` reports what is missing or has another type or shape. The mesh can be used only
+/// if the function returns true.
 bool read_mesh(const StoredFile& file, Mesh& mesh, Report& report);
 
 } // namespace trime_check

@@ -124,7 +124,7 @@ void check_quality(const StoredFile& file, const Mesh& mesh, Report& report) {
   report.none("quality", summary, "numbers in /trime_mpi/quality that are not those of the triangles");
 }
 
-/// What the file says was counted, beside what is counted here.
+/// Compares the counts in the file with those made here.
 void check_stored_checks(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report) {
   const std::vector<std::string> names = file.names("/trime_mpi/checks/name");
   const std::vector<double> expected = file.column("/trime_mpi/checks/expected");
@@ -152,7 +152,7 @@ void check_stored_checks(const StoredFile& file, const Mesh& mesh, const Counted
       {"corners", static_cast<double>(counted.corners)},
       {"area", counted.area},
   };
-  // Those with a largest value; turns_kept has a least one, of all others both numbers are the same.
+  // The checks with a largest value. turns_kept has a smallest one; for all others both numbers are equal.
   const std::array<std::string, 6> limits{"vertex_distance", "generalisation", "chord_deviation",
                                           "arc_deviation",   "area_residual",  "worst_alpha"};
   Tally wrong;

@@ -82,7 +82,7 @@ private:
     report_.none("orientation", clockwise, "triangles that are flat or clockwise (CGAL, exact)");
   }
 
-  /// The corner of the other triangle at an inner edge, beside the corners of this one.
+  /// Returns the corner of the other triangle at an inner edge, as the image next to the corners of this one.
   bool is_delaunay(const Side& one, const Side& other) const {
     const auto [a, b, c] = mesh_.corners(mesh_.triangles[one.triangle]);
     const std::int64_t apex = mesh_.triangles[other.triangle][other.corner];
@@ -191,9 +191,9 @@ private:
     return mesh_.periods.near(mesh_.at(mesh_.facets[facet][1]), a) - a;
   }
 
-  /// @brief Twice the area on the left of a loop, whose kind it tells; unrolled in a periodic container. One that winds
-  /// around it gets the area between it and a fixed point: the sum over all loops is that of the region, but for whole
-  /// containers.
+  /// @brief Returns twice the area on the left of a loop, which shows its kind; unrolled in a periodic container. A
+  /// loop that winds around it gets the area between it and a fixed point: the sum over all loops is that of the
+  /// region, except for whole containers.
   Integer twice_area_left_of(Loop& loop) const {
     const Point origin = mesh_.at(mesh_.facets[loop.facets[0]][0]);
     Integer area = 0;

@@ -12,7 +12,7 @@ namespace {
 constexpr double format_version = 1, cell_dim = 2, cell_corners = 3;
 // [h asked for] The boundary strays so far from its facets, at most: what the certificate says of chords.
 constexpr double chord = 0.75;
-// Of areas: both sides are sums of many terms.
+// Relative tolerance of areas: both sides are sums of many terms.
 constexpr double area_tolerance = 1e-9;
 
 /// Attributes and views by which other programs know what the file is.

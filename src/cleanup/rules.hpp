@@ -11,7 +11,8 @@ namespace trime::cleanup {
 
 /// The numbers of the clean-up.
 struct CleanupRules {
-  // --- which triangles are mended -----------------------------------------------------------------------------------
+  // --- which triangles are improved
+  // -----------------------------------------------------------------------------------
   /// [alpha] Triangles above it are bad. The square with 1e5 points ends at about this alpha, from 1.21 before.
   static constexpr double bad_alpha = 1.07;
   /// [alpha] Above it insertions and deletions are tried, too: what is nearly good is left to moves.
@@ -29,7 +30,7 @@ struct CleanupRules {
   static constexpr double divide_alpha = 1.1;
   /// [alpha] Chords on curves may be longer (bent_at_last) for triangles from it on.
   static constexpr double bend_alpha = 1.1;
-  /// [alpha] Least that makes a triangle with 0, 1, 2, 3 vertices on the boundary worth a contest beside a worse one.
+  /// [alpha] Least that makes a triangle with 0, 1, 2, 3 vertices on the boundary worth a contest next to a worse one.
   /// Measured: of such contests 7 % helped below 1.1, and 4 % below 1.15 with three vertices on the boundary.
   static constexpr std::array<double, 4> least_beside_worse = {1.1, 1.1, 1.12, 1.15};
   /// [alpha] Smaller triangles are tried above it in the first stage: they take many sites, which the worst places get
@@ -70,8 +71,8 @@ struct CleanupRules {
   static constexpr int most_narrowings = 5;
   /// [1] Share of the reach: sites within it rest where a patch finds nothing that may move.
   static constexpr double given_up_share = 0.5;
-  /// [levels] Of the Hilbert curve along which the sites of a patch are inserted: fine enough to tell all apart. Not
-  /// measured.
+  /// [levels] Levels of the Hilbert curve along which the sites of a patch are inserted: fine enough to separate all of
+  /// them. Not measured.
   static constexpr int curve_level = 8;
   /// [triangles] Searched, at most, to learn on which side of the boundary one without inner vertices lies. Not
   /// measured.
@@ -106,7 +107,7 @@ struct CleanupRules {
   /// [1] Share by which a sum has to fall to count as better, in a sweep or by an operation: less is not worth the
   /// edits.
   static constexpr double least_gain = 0.02;
-  /// [h] A site that has moved farther does not rest any more.
+  /// [h] A site that has moved farther no longer rests.
   static constexpr double waking_move = 0.05;
 
   // --- chords that stand for curves ---------------------------------------------------------------------------------
@@ -133,7 +134,7 @@ struct CleanupRules {
   /// [sweeps] Of a trial with smaller triangles. Half of them decide whether it is given up.
   static constexpr int refine_sweeps = 20;
   /// [1] Share of the excess by which the largest alpha has to fall for smaller triangles. Measured: where little was
-  /// enough the next try mended the rest; North America with 22000 points, largest alpha 1.511 to 1.376.
+  /// enough the next try improved the rest; North America with 22000 points, largest alpha 1.511 to 1.376.
   static constexpr double refine_gain = 0.01;
   /// [triangles] Tried in one patch, at most.
   static constexpr int most_tried = 200;
@@ -197,7 +198,8 @@ struct CleanupRules {
   /// cell of a contender, and in its patch, reach to none but neighbours. Where that is too little, a round is done
   /// again with more neighbours. Not measured.
   static constexpr double foresight = 2;
-  /// [log2] Width of the cells of which the worst site contends, over once to twice its h: fewer contenders to compare.
+  /// [log2] Width of the cells in which the worst site contends, divided by once to twice its h: it leaves fewer
+  /// contenders to compare.
   static constexpr int contender_cell = 2;
   /// [1] Share of the sites by which their number may fall, or rise if no number was asked for.
   static constexpr double largest_loss = 0.005;
@@ -208,7 +210,8 @@ struct CleanupRules {
   /// more. It does not depend on how many patches share what is left, so that a round need not count them before.
   /// Measured: with 20000 points all shipped configs give the meshes that equal shares of the rest gave.
   static constexpr GlobalId patch_budget = 10;
-  /// [1] Share of the sites: with less room, or so many fewer than wanted, the handicaps apply.
+  /// [1] Share of the sites: with less room than this, or with fewer sites than wanted by this share, the handicaps
+  /// apply.
   static constexpr double scarcity = 0.001;
   /// [1] Factor on the sum of a trial with fewer sites where sites have become scarce.
   static constexpr double handicap_if_scarce = 1.5;

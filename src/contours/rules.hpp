@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The numbers of the module contours: what coordinates are read, and where they come to lie.
+// The numbers of the module contours: limits of coordinates, and where the normalisation puts them.
 #pragma once
 
 namespace trime::contours {

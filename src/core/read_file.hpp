@@ -10,9 +10,9 @@ namespace trime {
 /// [bytes] Larger files are refused: a contour of 2^31 bytes has about 5 10^7 vertices, and every rank holds them.
 inline constexpr std::int64_t most_bytes_of_a_file = std::int64_t{1} << 31;
 
-/// @brief Returns the content of a regular file. Pipes and devices are refused, because they may have no end. @throws
+/// @brief Returns the content of a regular file. Pipes and devices are refused, because they may have no end. Throws
 /// FileError with the reason of the system if it cannot be opened or read (also for a directory), with `hint` at the
-/// end if it cannot be opened. @throws FileError with its size if it has more bytes than `most`
+/// end if it cannot be opened. Throws FileError with its size if it has more bytes than `most`.
 /// @note Serial: in a parallel run one rank reads and sends the text to the others.
 std::string read_file(const std::string& path, const std::string& hint = "", std::int64_t most = most_bytes_of_a_file);
 

@@ -14,10 +14,10 @@ struct Vertex {
   bool sound;
 };
 
-/// c = (|a|^2 b - |b|^2 a) turned, over 2 a x b. With the rounding errors of the two sums of products in the numerators
-/// (4 eps S) and of the determinant (2 eps D), S and D being the sums of magnitudes, each coordinate of c is exact to
-/// (4 eps S / 2 + |c| (2 eps D)) / det plus a few eps |c|; everything is rounded up generously. It is not sound if the
-/// determinant is as small as its error.
+/// c = (|a|^2 b - |b|^2 a) turned, over 2 a x b. Rounding errors are 4 eps S in the two sums of products of the
+/// numerators and 2 eps D in the determinant, where S and D are the sums of magnitudes. So each coordinate of c is
+/// exact to (4 eps S / 2 + |c| (2 eps D)) / det plus a few eps |c|. Everything is rounded up generously. It is not
+/// sound if the determinant is as small as its error.
 inline Vertex circumcenter(double ax, double ay, double bx, double by) {
   const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by;
   const double axby = ax * by, aybx = ay * bx, determinant = axby - aybx;

@@ -34,7 +34,7 @@ struct WrapRules {
   static constexpr double many_larger = 0.2;
   /// [1] Share of such stars below which a shorter reach is tried first again.
   static constexpr double few_larger = 1e-4;
-  /// [stars] So many are counted before the reach is chosen anew.
+  /// [stars] Number that is counted before the reach is chosen again.
   static constexpr double stars_to_learn = 500;
   /// [1] Cost of a star that is searched alone from scratch; in a relaxed mesh, with its last ring, one costs 1.
   static constexpr double cost_of_search = 5;
@@ -42,9 +42,9 @@ struct WrapRules {
   static constexpr double cost_of_group = 3;
   /// [1] And so much more for each lane of the processor.
   static constexpr double cost_of_lane = 0.77;
-  /// [sites] A group has so many at least.
+  /// [sites] Smallest number in a group.
   static constexpr std::size_t fewest_in_group = 3;
-  /// [groups] Where ties are everywhere, at most so many groups are left alone before one is tried again.
+  /// [groups] Where ties are everywhere, largest number of groups that are skipped before one is tried again.
   static constexpr int longest_pause = 64;
 };
 

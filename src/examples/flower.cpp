@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A shape of one's own: a six-pointed star with a round hole, given by a signed distance, meshed and written by all
-// ranks.   mpirun -np 2 flower [POINTS [DIRECTORY]]
+// A custom shape: a six-pointed star with a round hole, given by a signed distance, meshed and written by all ranks.
+// mpirun -np 2 flower [POINTS [DIRECTORY]]
 #include <trime/comm/communicator.hpp>
 #include <trime/core/error.hpp>
 #include <trime/io/describe.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A size field of one's own: elements of relative size 1 + 3 x + 3 y in the rectangle [0.1, 0.9] x [0.3, 0.7].
-//   mpirun -np 2 graded_rectangle [POINTS [DIRECTORY]]
+// A custom size field: elements of relative size 1 + 3 x + 3 y in the rectangle [0.1, 0.9] x [0.3, 0.7]. mpirun -np 2
+// graded_rectangle [POINTS [DIRECTORY]]
 #include <trime/comm/communicator.hpp>
 #include <trime/core/error.hpp>
 #include <trime/io/describe.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A solver of one's own on the ranks that made the mesh: plain arrays, no file. Poisson's equation by linear elements
-// and conjugate gradients.   mpirun -np 2 own_solver [POINTS]
+// A custom solver on the ranks that made the mesh: plain arrays, no file. Poisson's equation by linear elements and
+// conjugate gradients.   mpirun -np 2 own_solver [POINTS]
 #include "plate.hpp"
 
 #include <trime/handover/halo_exchange.hpp>

@@ -37,13 +37,13 @@ inline trime::shape::RegionShape shape() {
           frame};
 }
 
-/// What LocalMesh::facet_parts has for a name.
+/// Returns the value of LocalMesh::facet_parts for a name.
 inline int part_number(const trime::shape::RegionShape& shape, const std::string& name) {
   const std::vector<std::string>& names = shape.boundary().part_names;
   return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-/// This rank's part of a mesh of about so many points. Collective.
+/// Makes a mesh of about this number of points, and returns this rank's part. Collective.
 inline trime::handover::LocalMesh mesh(const trime::comm::Communicator& comm, const trime::shape::RegionShape& shape,
                                        trime::GlobalId points, trime::handover::Overlap overlap) {
   trime::meshing::MeshOptions options; // container [0, 1] x [0, 1]

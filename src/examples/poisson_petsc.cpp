@@ -97,7 +97,7 @@ constexpr std::size_t position(PetscInt i) {
   return static_cast<std::size_t>(i);
 }
 
-/// What this rank has of the DMPlex as arrays, by the number of a vertex or cell from the first one.
+/// This rank's part of the DMPlex as arrays, indexed by the number of a vertex or cell from the first one.
 struct Cells {
   std::vector<Vec2> places;                      // of the vertices
   std::vector<std::array<PetscInt, 3>> corners;  // of the cells

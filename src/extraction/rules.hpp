@@ -6,12 +6,12 @@
 
 namespace trime::extraction {
 
-/// Which triangles are listed, and which of them a corner excuses.
+/// Decides which triangles are listed, and which of them a corner excuses.
 struct ExtractionRules {
   /// [1] Triangles of a larger alpha are counted and the worst of them listed: an angle below 22 degrees or above 98.
   /// Not measured.
   static constexpr double listed_alpha = 2;
-  /// [triangles] So many are listed at most: one look at the report. Not measured.
+  /// [triangles] Largest number in the list: one look at the report. Not measured.
   static constexpr std::size_t most_listed = 10;
   /// [degrees] A corner with a smaller angle inside does not hold an equilateral triangle. Not measured.
   static constexpr double sharp_degrees = 60;

@@ -25,7 +25,7 @@ struct GeneraliseRules {
   static constexpr double node_spacing = 0.4;
   /// [narrow width] Nodes are added where the other side is nearer than this. Not measured.
   static constexpr double node_reach = 1.5;
-  /// [rounds] Of adding nodes, each of which at least halves a spacing. Not measured.
+  /// [rounds] Rounds of adding nodes; each node at least halves a spacing. Not measured.
   static constexpr int node_rounds = 24;
   /// [radians] Arcs have nodes at most so far apart: 15 degrees. Not measured.
   static constexpr double arc_step = 0.2617993877991494;
@@ -60,14 +60,14 @@ struct GeneraliseRules {
   /// [1] A curve is ragged where 1 - cosine of its turns adds up to more on that way: one turn of 75 degrees, or
   /// several smaller ones. Not measured.
   static constexpr double ragged_turn = 0.75;
-  /// [vertices] A loop keeps at least so many. Not measured.
+  /// [vertices] Smallest number that a loop keeps. Not measured.
   static constexpr std::size_t least_vertices = 6;
   /// [1] If curves cross after thinning, it is tried again with this part of the share. Not measured.
   static constexpr double finer_thinning = 0.2;
   /// [h] Holes with a smaller perimeter are filled: no triangle of size h fits around them. Not measured.
   static constexpr double smallest_hole = 3;
-  /// [h] Narrow parts of the outside beside a component with a smaller perimeter are closed, so that small components
-  /// grow together before they are dropped. Not measured.
+  /// [h] Narrow parts of the outside next to a component with a smaller perimeter are closed, so that small components
+  /// join before they are dropped. Not measured.
   static constexpr double small_component = 5;
   /// [rounds] If all of the shape is narrow, half the width counts as narrow; so often at most. Not measured.
   static constexpr int narrower_rounds = 20;
@@ -75,7 +75,7 @@ struct GeneraliseRules {
   static constexpr int most_passes = 8;
   /// [h] Features of ragged curves that are smaller are smoothed away. Not measured.
   static constexpr double flow_reach = 0.45;
-  /// [steps] In so many that is done; each looks anew where the curve is still ragged. Not measured.
+  /// [steps] Number of steps of the smoothing; each step finds again where the curve is still ragged. Not measured.
   static constexpr int flow_steps = 8;
   /// [h] Distance of nodes on curves that are smoothed. Not measured.
   static constexpr double flow_spacing = 0.12;
@@ -83,7 +83,7 @@ struct GeneraliseRules {
   static constexpr double flow_join = 0.4;
   /// [h] Shorter ways count as so long, lest rates become infinite. Not measured.
   static constexpr double flow_least_way = 0.005;
-  /// [h] Within this way along the curve, to both sides, turns to and fro make it ragged. Not measured.
+  /// [h] Within this distance along the curve, to both sides, turns back and forth make it ragged. Not measured.
   static constexpr double ragged_way = 1;
   /// [radians] If the turns there add up to so much more than the turn in all, the curve begins to move. Not measured.
   static constexpr double least_ragged = 0.5;

@@ -6,21 +6,21 @@ namespace trime::mesh {
 
 /// The numbers of mesh: how large cells, tiles and bins are.
 struct MeshRules {
-  /// [points] A cell of the container grid, and a bin, hold about so many.
+  /// [points] Mean number in a cell of the container grid, and in a bin.
   static constexpr double points_per_cell = 3.3;
-  /// [points] A tile holds so many at most, a unit of work for one thread. Its quarter, the least that uniform tiles
-  /// hold, is wide enough to sleep. The shares of ranks differ by up to as many. Not measured.
+  /// [points] Largest number in a tile, which is a unit of work for one thread. A quarter of it, the least that uniform
+  /// tiles hold, is wide enough to sleep. The shares of ranks differ by up to this number. Not measured.
   static constexpr double points_per_tile = 512;
-  /// [points] A tile of a small mesh may hold so many all the same. Not measured.
+  /// [points] A tile of a small mesh may always hold this number. Not measured.
   static constexpr double fewest_per_tile = 80;
-  /// [tiles] There are about so many at least, so that ranks and threads get equal shares, down to fewest_per_tile. Not
-  /// measured.
+  /// [tiles] Smallest number of tiles, about, so that ranks and threads get equal shares; fewest_per_tile limits it.
+  /// Not measured.
   static constexpr double wanted_tiles = 200;
-  /// [points] A tile of a large mesh holds so many at most. Not measured.
+  /// [points] Largest number in a tile of a large mesh. Not measured.
   static constexpr double most_per_tile = 1000;
-  /// [tiles] From so many on tiles grow with the mesh, up to most_per_tile. Not measured.
+  /// [tiles] From this number on tiles grow with the mesh, up to most_per_tile. Not measured.
   static constexpr double many_tiles = 4000;
-  /// [units] The shorter side of the container has so many at least, so that they are nearly square. Not
+  /// [units] Smallest number of units along the shorter side of the container, so that they are nearly square. Not
   /// measured.
   static constexpr double units_across = 32;
   /// [levels] Units are no smaller than that, however slender the container is. Not measured.
@@ -32,11 +32,11 @@ struct MeshRules {
   /// [points] Mean number of sites in the bin of a site at most: the bins of a tile, halved as often as needed, then
   /// hold 1.7 to 7 sites, mostly 3.3.
   static constexpr double most_in_bin = 7;
-  /// [bins] A tile has so many bins for each site at most, unless a bin is too full.
+  /// [bins] Largest number of bins of a tile for each site, unless a bin is too full.
   static constexpr int bins_per_site = 4;
   /// [points] A bin with more is too full, and those of its tile are halved again. Not measured.
   static constexpr int fullest_bin = 16;
-  /// [bins] A tile has so many bins for each site at most, however its sites are clustered: it bounds the memory. Not
+  /// [bins] Largest number of bins of a tile for each site, however its sites are clustered: it bounds the memory. Not
   /// measured.
   static constexpr int most_bins_per_site = 64;
   /// [1] A tile has 2^k x 2^k bins with k at most this: 2^24 bins, whose numbers and counts fit into 32 bits.

@@ -12,14 +12,14 @@ namespace trime::meshing {
 struct MeshingRules {
   /// [h] Larger circumradii are not searched first: a relaxed mesh has 0.6, a start up to largest_circumradius.
   static constexpr double cap = 2.5;
-  /// [h] No circumradius of a start is larger, but for voids. Observed, not proven.
+  /// [h] No circumradius of a start is larger, except in voids. Observed, not proven.
   static constexpr double largest_circumradius = 1.5;
   /// [points] With fewer the whole container is searched: it costs little, and h may be as large.
   static constexpr GlobalId few_points = 2000;
   /// [1] To 2500 h: a void that no start can leave.
   static constexpr int cap_doublings = 10;
-  /// [points] Of so many stars the lemma is not asked, which looks at all of them: the clean-up leaves a few per cent.
-  /// Not measured.
+  /// [points] Share of uncertain stars up to which the lemma is not used, since it examines all stars: the clean-up
+  /// leaves a few per cent. Not measured.
   static constexpr double few_stars = 0.1;
   /// [FeatureOptions::tolerance] So far chords of the clean-up may pass from the curve: it looks at the worst triangles
   /// only. Not measured.
@@ -30,13 +30,13 @@ struct MeshingRules {
   static constexpr double shortage_note = 0.99;
   /// [points] Fewer missing ones are never mentioned: a triangle. Not measured.
   static constexpr GlobalId shortage_slack = 3;
-  /// [places] At so many, about, the sizes of all ranks are compared before the run. Not measured.
+  /// [places] Number of places, about, where the sizes of all ranks are compared before the run. Not measured.
   static constexpr std::size_t compared_sizes = 1000;
 };
 
 /// The numbers of the forecast on a terminal; no mesh depends on them.
 struct ForecastRules {
-  /// [sweeps] A stage is expected to take so many until its own gains tell more. Not measured.
+  /// [sweeps] Expected length of a stage, until its gains allow a better estimate. Not measured.
   static constexpr int usual_sweeps = 21;
   /// [sweeps of the final mesh] What follows the sweeps takes as long: clean-up, proof, output. Measured: 20 to 30 on
   /// squares of 1e6 to 1e8 points.

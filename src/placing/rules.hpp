@@ -12,7 +12,7 @@ struct PlacingRules {
   /// [spacings] Width of the strip along the boundary that lattice sites leave free. 0.4 to 0.55 were best: on a disc
   /// mean alpha was 1.0029 with 0.45, 1.0034 with 0.7.
   static constexpr double lattice_strip = 0.45;
-  /// [sites] A run of a row of the lattice near the boundary is halved until it has no more than so many, or is clear.
+  /// [sites] A run of a row of the lattice near the boundary is halved until it has at most this number, or is clear.
   /// Not measured.
   static constexpr std::int64_t shortest_half = 3;
   /// [h] The same for quantiles of the density. With it, 25 of the sites of a poker with 1e4 points lay in discs,

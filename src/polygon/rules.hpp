@@ -8,7 +8,7 @@ namespace trime::polygon {
 
 /// The numbers of the polygon module.
 struct PolygonRules {
-  /// [chord lengths] A site nearer to a chord than this encroaches, though it may lie outside of the disc: beside the
+  /// [chord lengths] A site nearer to a chord than this encroaches, though it may lie outside of the disc: near the
   /// ends of a chord its disc is thin.
   static constexpr double near_chord = 0.05;
   /// [chord lengths] So far from the middle of a chord a site in its disc is pushed, and a new one placed: the radius

@@ -15,9 +15,9 @@ struct ShapeRules {
   /// [steps] A vertex that an edge of a contour passes so near by, with a touch or a crossing there, lies on that edge:
   /// snapping moves each end by up to one. Not measured.
   static constexpr double on_edge = 2;
-  /// [steps] Where rings touch they are parted by so much. At a touch with 64 steps, 4e-12 of the container's side,
-  /// triangles on both sides are as good as elsewhere (a largest alpha of 1.12 beside two touching squares).
-  /// Not measured.
+  /// [steps] Distance by which touching rings are separated. At a touch with 64 steps, 4e-12 of the container's side,
+  /// triangles on both sides are as good as elsewhere (a largest alpha of 1.12 next to two touching squares). Not
+  /// measured.
   static constexpr double touch_gap = 64;
   /// [1] A vertex whose arms enclose a half angle of a smaller sine stays where rings are parted, if another can move.
   /// Not measured.
@@ -33,19 +33,19 @@ struct ShapeRules {
   static constexpr double nearly_equal = 1e-3;
   /// [1] A closed chain of fewer vertices is no loop.
   static constexpr std::size_t fewest_vertices = 3;
-  /// [chains] A formula may have so many: it bounds time and memory.
+  /// [chains] Largest number for a formula: it bounds time and memory.
   static constexpr std::size_t most_chains = 1 << 14;
   /// [1] A piece of a contour at a periodic border finds its partner across within this share of the longer side.
   static constexpr double partner_reach = 1e-5;
-  /// [segments] Meetings of segments are looked for in chunks of so many: what is found does not depend on the threads.
-  /// Not measured.
+  /// [segments] Size of the chunks in which meetings of segments are searched: the result does not depend on the
+  /// threads. Not measured.
   static constexpr LocalIndex meeting_chunk = 2048;
-  /// [meetings] Of a chunk with so many, the rest is not looked for: it bounds the memory. Not measured.
+  /// [meetings] The search in a chunk ends at this number: it bounds the memory. Not measured.
   static constexpr std::size_t most_meetings = 8192;
   /// [pairs] With more for each segment in the bins of the grid a tree is built: that costs about as much. Measured:
   /// with bins a ring of 10^6 segments is looked through in a quarter of the time.
   static constexpr std::int64_t enough_pairs = 32;
-  /// [steps] A circle has a radius of so many lattice steps at least.
+  /// [steps] Smallest radius of a circle, in lattice steps.
   static constexpr int smallest_radius = 64;
 };
 

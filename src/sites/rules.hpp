@@ -16,8 +16,8 @@ struct SiteRules {
   /// [bins] The same of a rank with few sites, whose sweeps are so short that asking costs more than a wider halo: 64
   /// ranks asked in 17 rounds in place of 46 on a coast of 10^6 points.
   static constexpr int wide_halo_margin = 3;
-  /// [sites] A rank with fewer sites of its own fetches the wider halo. With 6000 it was 14 rounds, but there were half
-  /// as many ghosts again in the last stage of 256 ranks. A quarter more or less: Not measured.
+  /// [sites] A rank with fewer owned sites fetches the wider halo. With 6000 it was 14 rounds, but there were half as
+  /// many ghosts again in the last stage of 256 ranks. A quarter more or less: Not measured.
   static constexpr int few_owned = 3000;
   /// [rounds] Of asking for more bins: every round reaches at least one bin farther, and two suffice in practice. More
   /// means a fault of the program.

@@ -46,21 +46,21 @@ struct SweepRules {
   static constexpr int pushes_allowed = 3;
   /// [1] Share of those to be deleted that go in one round: the room that one leaves may be enough for the others.
   static constexpr double deleted_share = 1.0 / 3;
-  /// [rounds] Where no rule moves sites, an offender is pushed or chosen for deletion in so many rounds: a bound, since
-  /// patient_settling_rounds ends it.
+  /// [rounds] Where no rule moves sites, an offender is pushed or chosen for deletion within this number of rounds: a
+  /// bound, since patient_settling_rounds ends it.
   static constexpr int settling_rounds = 12;
   /// [rounds] From this round of settling on, every offender is deleted, so that settling ends.
   static constexpr int patient_settling_rounds = 8;
 
-  /// [sweeps] h is evaluated anew after so many: the size field may be dear, and sites have moved little by then. With
-  /// other changes of the same time, 6 in place of 4 left mean alpha as it was.
+  /// [sweeps] h is evaluated again after this number: the size field may be expensive, and sites have moved little by
+  /// then. With other changes of the same time, 6 in place of 4 left mean alpha as it was.
   static constexpr int sweeps_of_a_size = 6;
   /// [sweeps] Sites that are to be deleted wait so long for the next sorting, which is what deletes them.
   static constexpr int sweeps_of_a_sort = 8;
   /// [h] Sites are sorted again when one may have come so far since: searches become long.
   static constexpr double drift_in_sizes = 4;
   /// [sides of the narrowest tile around] Sites are sorted again when one may have come so far since: what lies around
-  /// a tile is found in the tiles beside it.
+  /// a tile is found in the tiles next to it.
   static constexpr double drift_in_tiles = 0.25;
   /// [1] A scale of the rule (of the lengths of bars) stays as it is until it would change by this share; then all
   /// tiles wake.
@@ -86,9 +86,9 @@ struct SweepRules {
 struct StopRules {
   /// [sweeps] From one measurement of the quality to the next: measuring takes about as long as a move.
   static constexpr int measuring_interval = 3;
-  /// [sweeps] Gains are counted over so many: two measurements, so that one odd sweep decides nothing.
+  /// [sweeps] Gains are counted over this number: two measurements, so that one odd sweep decides nothing.
   static constexpr int window = 2 * measuring_interval;
-  /// [sweeps] A rule has so many before it may stall: bars and cells first pay for the disorder of the start.
+  /// [sweeps] A rule may stall only after this number: bars and cells first pay for the disorder of the start.
   static constexpr int earliest = 9;
   /// [1] As good as stalled if the mean of alpha falls by less in a window: nobody sees it. Together with a higher
   /// momentum, a square of 1e6 points took 21 sweeps in place of 48, for a mean alpha of 1.0002 in place of 1.0001.

@@ -10,9 +10,9 @@ namespace trime::tracing {
 struct TracingRules {
   /// [halvings] From the coarse grid, whose cells are looked at first, to the fine one. Not measured.
   static constexpr int grid_levels = 2;
-  /// [cells] The coarse grid has so many along a side at least. Not measured.
+  /// [cells] Smallest number of cells of the coarse grid along a side. Not measured.
   static constexpr int fewest_coarse_cells = 16;
-  /// [cells] And so many at most: it bounds time and memory. Not measured.
+  /// [cells] Largest number of cells of the coarse grid along a side: it bounds time and memory. Not measured.
   static constexpr int most_coarse_cells = 4096;
   /// [cells] Fine cells that the zero set may meet, at most: it bounds the memory.
   static constexpr std::size_t most_near_zero = std::size_t{1} << 25;
@@ -22,13 +22,13 @@ struct TracingRules {
   static constexpr double smallest_turn = 0.07;
   /// [halvings] A chord is halved so often at most.
   static constexpr int deepest_chord = 48;
-  /// [vertices] So many come into one chord at most, before thinning.
+  /// [vertices] Largest number in one chord, before thinning.
   static constexpr std::size_t most_in_chord = 4096;
-  /// [vertices] So many has a formula at most, before thinning: it bounds the memory.
+  /// [vertices] Largest number for a formula, before thinning: it bounds the memory.
   static constexpr std::size_t most_vertices = std::size_t{1} << 23;
   /// [1] The curve strays from a chord by this share of its length at most: turns stay below 9 degrees.
   static constexpr double stray_share = 0.02;
-  /// [chords] The curve is looked for so far beside the middle of a chord: it may be far in a sharp tip.
+  /// [chords] Distance from the middle of a chord up to which the curve is searched: it may be far in a sharp tip.
   static constexpr double farthest_beside = 16;
   /// [chords] A corner is looked for so far from its chord at most.
   static constexpr double farthest_corner = 64;
