@@ -4,9 +4,9 @@
 
 The script writes a config for each row, runs trime_mpi on one rank, and prints a table in Markdown. Its columns are
 median, mean and largest alpha, the smallest angle, the conformity to the size (standard deviation of L / (s h)),
-sweeps, full sweeps and seconds. A sweep over a coarse mesh counts as a fraction of a full sweep: its number of points over the final number.
-The last columns are the figures of TriMe++ (commit 3929c19, the better of one and two threads) for the same shape and
-number of points.
+sweeps, full sweeps and seconds. A sweep over a coarse mesh counts as a fraction of a full sweep: its number of points
+over the final number. The last columns are the figures of TriMe++ (commit 3929c19, the better of one and two threads)
+for the same shape and number of points.
 
   scripts/quality_table.py                                  # the shapes that need no data
   scripts/quality_table.py --data DIR                       # with DIR/poker.xy and DIR/north_america.xy
