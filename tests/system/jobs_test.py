@@ -5,10 +5,12 @@
 The test is skipped, with the reason, if SLURM cannot start: without root, or without the packages.
 """
 import csv
+import json
 import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -66,6 +68,18 @@ class Jobs(unittest.TestCase):
     def table(self, directory):
         with (self.work / directory / "scaling.csv").open(encoding="utf-8") as stream:
             return list(csv.DictReader(stream))
+
+    def test_python_under_srun(self):
+        """Each of two processes of Python starts a run of one rank, and one of two."""
+        folders = {ranks: self.work / f"python{ranks}" for ranks in (1, 2)}
+        for folder in folders.values():
+            folder.mkdir()
+        program = f"srun --mpi=none -n 2 {sys.executable} {ROOT}/tests/system/mesh_in_a_job.py"
+        self.submit("-n", "2", "-o", self.work / "python-%j.log", "--wrap",
+                    " && ".join(f"{program} {folder} {ranks}" for ranks, folder in folders.items()))
+        for ranks, folder in folders.items():
+            found = [json.loads(path.read_text(encoding="utf-8")) for path in folder.glob("*.json")]
+            self.assertEqual([(one.get("ranks"), one.get("read")) for one in found], [(ranks, found[0]["hash"])] * 2)
 
     def test_single_node(self):
         job, log = self.submit("jobs/single_node.sbatch", SMALL)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A Python program that mpirun starts, for python_in_jobs_test.py. Each of its ranks makes a mesh, and reads it.
+"""A Python program that mpirun or srun starts, for python_in_jobs_test.py and jobs_test.py. Each of its ranks makes a
+mesh, and reads it.
 
     mpirun -n 2 /usr/bin/python3 mesh_in_a_job.py DIRECTORY RANKS [mpi4py] [wrong=RANK]...
 
@@ -25,7 +26,8 @@ DISC = {"shape": {"region": "disc", "disc": {"type": "circle", "center": (0.5, 0
 
 def main():
     directory, ranks = pathlib.Path(sys.argv[1]), int(sys.argv[2])
-    rank = int(os.environ.get("OMPI_COMM_WORLD_RANK", os.environ.get("PMI_RANK", 0)))
+    names = ("OMPI_COMM_WORLD_RANK", "PMI_RANK", "SLURM_PROCID")  # of mpirun, mpiexec, srun
+    rank = int(next((os.environ[name] for name in names if name in os.environ), 0))
     config = DISC | ({"sizing": {"gradaton": 0.1}} if f"wrong={rank}" in sys.argv else {})
     found = {}
     try:

@@ -130,6 +130,13 @@ class Variables(unittest.TestCase):
         self.assertNotIn("OMPI_MCA_pmix", run_environment(job | {"OMPI_MCA_pmix": "^s1,s2,cray,isolated"}))
         self.assertEqual(run_environment(job | {"OMPI_MCA_pmix": "ext3x"})["OMPI_MCA_pmix"], "ext3x")
 
+    def test_what_slurm_sets_stays_behind(self):
+        """Except the number of the job. A batch script is no process of a job: its runs may use all nodes."""
+        batch = {"SLURM_JOB_ID": "7", "SLURM_JOBID": "7", "SLURM_NODELIST": "a,b", "SLURM_PROCID": "0"}
+        self.assertEqual(run_environment(batch), run_environment({}) | batch)
+        left = run_environment(batch | {"SLURM_STEP_ID": "0", "SLURM_STEP_NUM_TASKS": "2"})
+        self.assertEqual([name for name in left if name.startswith("SLURM")], ["SLURM_JOB_ID"])
+
     def test_what_mpich_sets_stays_behind(self):
         job = {"PMI_FD": "6", "PMI_RANK": "0", "PMI_SIZE": "2", "HYDI_CONTROL_FD": "7", "MPI_LOCALNRANKS": "2",
                "MPI_LOCALRANKID": "0"}

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes the environment for a run of the program, also in a Python program that mpirun has started.
+"""Makes the environment for a run of the program, also in a Python program that mpirun or srun has started.
 
-mpirun gives the processes of its job variables that name this job. If a second MPI program finds them, it takes itself
-for a process of that job, and fails. Some of them begin with OMPI_MCA_, like the settings of users, which the program
-must get. Therefore this module knows the whole names of the variables that mpirun sets.
+They give the processes of their job variables that name this job. If a second MPI program finds them, it takes itself
+for a process of that job, and fails. Some variables of mpirun begin with OMPI_MCA_, like the settings of users, which
+the program must get. Therefore this module knows the whole names of the variables that mpirun sets.
 """
 import os
 import re
 
-# Names that launchers set: Open MPI with ORTE (up to version 4) or PRRTE (from version 5), PMIx, MPICH.
-LAUNCHER = re.compile(r"(OMPI|PMIX|PRTE|PMI|HYDI)_|MPI_LOCAL(NRANKS|RANKID)$")
+# Names that launchers set: Open MPI with ORTE (up to version 4) or PRRTE (from version 5), PMIx, MPICH, SLURM. The
+# program writes SLURM_JOB_ID into the mesh file.
+LAUNCHER = re.compile(r"(OMPI|PMIX|PRTE|PMI|HYDI)_|MPI_LOCAL(NRANKS|RANKID)$|SLURM_(?!JOB_ID$)")
 # Names that users set for Open MPI, PRRTE and PMIx.
 SETTING = re.compile(r"(OMPI|PRTE|PMIX)_MCA_|(OMPI|PRTE)_ALLOW_")
 # Names of this kind that Open MPI's launcher sets.
@@ -25,8 +26,9 @@ PLACES_OF_A_JOB = re.compile(r"OMPI_MCA_(rmaps_(?!base_oversubscribe$)|hwloc_bas
 
 
 def is_inside_a_job(variables):
-    """True if a launcher of MPI has started this process. variables: the environment of the process."""
-    return any(name in variables for name in ("OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"))
+    """True if mpirun, mpiexec or srun has started this process, and not if a batch script has. variables: the
+    environment of the process."""
+    return any(name in variables for name in ("OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "SLURM_STEP_ID"))
 
 
 def is_of_the_job(name, value):
@@ -43,8 +45,8 @@ def run_environment(variables=None):
     """Returns the environment for a run of the program, which is a separate job with any number of ranks.
 
     variables is the environment of the caller (default: os.environ). The run gets all settings of the user. Inside of a
-    job it does not get the placement of the job's processes. There the ranks and threads of the run also yield their
-    cores while they wait, since the processes of the outer job use the same cores.
+    job it does not get the placement of the job's processes, and uses only this machine. There the ranks and threads of
+    the run also yield their cores while they wait, since the processes of the outer job use the same cores.
     """
     variables = dict(os.environ if variables is None else variables)
     inside = is_inside_a_job(variables)
