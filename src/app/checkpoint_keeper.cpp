@@ -257,7 +257,7 @@ void CheckpointKeeper::write(CheckpointWish wish, const meshing::RunState& state
   stop_at(file);
 }
 
-/// The next run shall not stop by it.
+/// Removes the file, so that the next run does not stop because of it.
 void CheckpointKeeper::remove_stop_file() const {
   if (unlink(options_.stop_file.c_str()) != 0 && errno != ENOENT)
     context_.log.warning("cannot remove the stop file {}: {}; remove it, or the next run stops by it, too",

@@ -34,7 +34,7 @@ struct IniSection {
 /// @brief Mistakes with their places.
 class Diagnostics {
 public:
-  /// @param file name of the file as it shall stand in the messages
+  /// @param file name of the file for messages
   explicit Diagnostics(std::string file) : file_(std::move(file)) {}
   void add(int line, std::string message) { problems_.push_back({line, std::move(message)}); }
   /// Place of a line as it stands before messages: "file:17", "command line", or "file" for the whole of it.

@@ -8,7 +8,7 @@
 
 namespace trime::app {
 
-/// Numbers by which that is judged.
+/// Numbers that decide which sentence the report prints.
 struct LimitRules {
   /// [1] Smaller shares of time or memory are not worth a sentence.
   static constexpr double worth_telling = 0.05;

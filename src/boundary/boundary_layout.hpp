@@ -24,7 +24,7 @@ struct LoopSite {
   std::int32_t loop = 0; ///< whose number the metric does not know
 };
 
-/// How a junction of two pieces, at the start of one of them, becomes a site.
+/// The role as a site of a junction of two pieces, at the start of one of them.
 SiteKind kind_of_junction(const geometry::Loop& loop, std::size_t piece, double corner_angle);
 
 /// @brief The stretches of a loop between its corners, and the sites that belong on them. Ranks may lay out shares of a

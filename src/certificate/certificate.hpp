@@ -21,10 +21,10 @@ struct Expectation {
   double corner_angle = 30;         ///< [degrees] where `meshed` turns by more, a vertex is expected
 };
 
-/// @brief The certificate: manifold, positive, Euler characteristic, area, Delaunay, chords, corners, fixed
-/// points, agreement of all stars with each other and with `mesh`, the arrays that will be written: exact integers
-/// throughout. Then the boundary of the mesh against that of the shape, see prove_boundary. Collective.
-/// O(points + pieces log(pieces))
+/// @brief The certificate: manifold, positive, Euler characteristic, area, Delaunay, chords, corners, fixed points,
+/// agreement of all stars with each other and with `mesh`, the arrays that will be written: exact integers throughout.
+/// Then it compares the boundary of the mesh with that of the shape, see prove_boundary. Collective. O(points + pieces
+/// log(pieces))
 mesh::Checks certify(const sites::StageView& view, const decomposition::Numbering& numbering,
                      const Expectation& expectation, const mesh::DistributedMesh& mesh);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Patches of a round are dealt out: sites on the boundary, where most patches lie, belong to few ranks.
+// Distributes the patches of a round over the ranks: sites on the boundary, where most patches lie, belong to few
+// ranks.
 #pragma once
 
 #include "cleanup/cleanup_choice.hpp"

@@ -44,7 +44,7 @@ struct ConeChoice {
   static constexpr std::int64_t most_listed = 512; ///< longer lists are not tried
 
   double min_x, min_y, max_x, max_y; ///< of the cell
-  double slack;                      ///< so much too high the field may become
+  double slack;                      ///< how much too high the field may become
   double bend;                       ///< a quarter of the slope and of the square of the cell's side
   std::int64_t chosen[most];
 };

@@ -166,7 +166,8 @@ private:
            (winner.at[3] <= at[3] + margin);
   }
 
-  /// By how much other cones may be higher at the corners if they shall be too high by the slack at most inside.
+  /// Returns by how much other cones may be higher at the corners, so that they are too high by at most the slack
+  /// inside.
   TRIME_INLINE static V slack_of(const ConeChoice& choice, V x, V y) {
     const V zero{}, dx = larger(zero, larger(choice.min_x - x, x - choice.max_x));
     const V dy = larger(zero, larger(choice.min_y - y, y - choice.max_y)), squared = dx * dx + dy * dy;

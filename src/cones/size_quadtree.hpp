@@ -22,7 +22,7 @@ public:
   static constexpr int most_levels = 20; ///< below a block
   static constexpr int most_cones = 12;  ///< in a cell that is not split for them
 
-  /// @brief Groups of blocks are dealt to the ranks and threads; every rank gets the whole tree. Collective.
+  /// @brief Distributes groups of blocks over the ranks and threads; every rank gets the whole tree. Collective.
   SizeQuadtree(const comm::Communicator& comm, const Source& source);
 
   /// Value at p, or at the nearest point of the box.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// "Did you mean ...?": the known name that is nearest to a misspelt one.
+// Finds the known name that is nearest to a misspelt one, for "Did you mean ...?".
 #pragma once
 
 #include <span>

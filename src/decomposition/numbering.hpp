@@ -35,7 +35,7 @@ struct Numbering {
 
 /// @brief Numbers the sites by the Hilbert key of their coordinates, ties lexicographic. Because ranks own ascending
 /// ranges of the same curve, this is one scan and a sort inside each bin. @pre the halo of `points` is fresh.
-/// O(sites); threads. Collective.
+/// O(sites), by all threads. Collective.
 Numbering canonical_numbering(const comm::Communicator& comm, const mesh::BinnedPoints& points, const Halo& halo);
 
 } // namespace trime::decomposition

@@ -77,7 +77,7 @@ public:
   StarPass update(const mesh::BinnedPoints& points, StarTable& stars, const mesh::LocalSizes& sizes,
                   std::span<const StarWish> wanted, std::vector<mesh::BinRef>& missing) const;
 
-  /// @brief Computes the stars of these owned sites, certain or not, each named once. Threads.
+  /// @brief Computes the stars of these owned sites, certain or not, each named once. Uses all threads.
   /// @param affected receives owned sites and ghosts that have a changed star here next to them; some several times
   /// @param missing as in update
   StarPass certify(const mesh::BinnedPoints& points, StarTable& stars, const mesh::LocalSizes& sizes,

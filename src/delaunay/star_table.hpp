@@ -70,7 +70,7 @@ public:
 
   /// @brief Moves the rings to a new numbering of the owned sites. Rings with a neighbour that has no new index (a
   /// ghost, a deleted or migrated site) become empty. All stars become uncertain. Holds two sets of rings for as long
-  /// as it takes. O(n); threads.
+  /// as it takes. O(n), by all threads.
   /// @param new_index by old index of an owned site: its new index or -1
   void renumber(std::span<const LocalIndex> new_index, LocalIndex new_size);
   /// @brief Does the same in place, where few sites go and come. Stars stay certain, except those next to a site that

@@ -15,7 +15,7 @@ struct Extraction {
   mesh::DistributedMesh mesh;
   mesh::QualitySummary quality;
 };
-/// @pre stars of all sites are certain, bins and halo fresh. O(points); threads.
+/// @pre stars of all sites are certain, bins and halo fresh. O(points), by all threads.
 /// @throws GeometryError on all ranks together if the size at an edge is not positive and finite. Collective.
 /// @param asked h before it was lowered, for the facets
 Extraction extract_mesh(const sites::StageView& view, const decomposition::Numbering& numbering,

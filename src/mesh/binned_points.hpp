@@ -42,7 +42,7 @@ public:
   /// all but one of interior sites at equal coordinates (a boundary site stays, the larger push count is kept).
   /// Forgets the ghosts.
   /// @param new_index if not null: for each input site its new local index, -1 if dropped
-  /// @return number of dropped sites. O(n); threads.
+  /// @return number of dropped sites. O(n), by all threads.
   LocalIndex assign_owned(std::span<const Site> sites, LocalIndex first_tile, LocalIndex last_tile,
                           std::vector<LocalIndex>* new_index = nullptr);
 
@@ -99,7 +99,7 @@ public:
 
   /// @brief Returns for each of the tiles [first_tile, last_tile) the b for which 2^b x 2^b bins suit its sites. It is
   /// the smallest b for which a site shares its bin with a few others on average, with at most four bins per site. The
-  /// next assign_owned uses intermediate results. O(n); threads.
+  /// next assign_owned uses intermediate results. O(n), by all threads.
   /// @post assign_owned with the same sites and tiles must come next; another number of them is an InternalError
   std::vector<std::uint8_t> suitable_bin_bits(std::span<const Site> sites, LocalIndex first_tile, LocalIndex last_tile);
 
@@ -176,7 +176,7 @@ private:
   bool has_leads_ = true;
 };
 
-/// Prepares an advance in which every owned site stays, until the caller changes its next place. Threads.
+/// Prepares an advance in which every owned site stays, until the caller changes its next place. Uses all threads.
 void prepare_to_stay(BinnedPoints& points);
 
 /// Returns the data that would be sent with an owned site to its next place. @pre it has one

@@ -53,7 +53,7 @@ public:
     const auto t = static_cast<std::size_t>(tile - first_tile_);
     return {kept_[t], kept_[t + 1]};
   }
-  /// Calls move(k, from) for the k-th site in the new order, which is the site `from` in the old one. Threads.
+  /// Calls move(k, from) for the k-th site in the new order, which is the site `from` in the old one. Uses all threads.
   template <class Move>
   void for_each(const Move& move) const;
   /// For each of the sites before sorting its index in the new order, -1 if dropped.

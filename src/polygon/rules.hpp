@@ -28,7 +28,7 @@ struct PolygonRules {
   static constexpr int farthest_cell = 15;
   /// [entries] Of all lists of discs together, always allowed: 16 MiB. Cells grow if there would be more.
   static constexpr double entries = 0x1p22;
-  /// [entries] Of these lists, allowed for each chord: one for each of its cells.
+  /// [entries] Number of entries in these lists for each chord: one for each of its cells.
   static constexpr double entries_per_chord = 64;
   /// [entries] Of these lists, at most: 128 MiB.
   static constexpr double most_entries = 0x1p25;

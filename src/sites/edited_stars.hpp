@@ -35,7 +35,7 @@ private:
 
 /// @brief Marks stars as uncertain that the changes may have changed. A star without gaps changes only if a site of its
 /// ring goes, which the caller must see, or if a site enters the disc of a triangle. A star with gaps may change
-/// through anything within twice its cap. O(changes log changes + sites). Threads.
+/// through anything within twice its cap. O(changes log changes + sites). Uses all threads.
 /// @pre h at the owned sites is known; no periods
 void doubt_stars(const mesh::BinnedPoints& points, const mesh::LocalSizes& sizes, const delaunay::StarBuilder& builder,
                  std::vector<ChangedPlace> changes, delaunay::StarTable& stars);

@@ -15,7 +15,7 @@ class ConeTree;
 
 namespace trime::sizing {
 
-/// Where the size shall be no larger than a limit.
+/// A place where the size must be at most a limit.
 struct SizeLimit {
   geometry::Vec2 place;
   double size;

@@ -34,8 +34,8 @@ struct SweepRules {
   static constexpr double largest_momentum = 0.95;
   /// [sweeps] The momentum of sweep k after a restart is k / (k + this), as is usual for Nesterov's method.
   static constexpr int momentum_delay = 3;
-  /// [1] k in the energy of TriangleRule: the resistance to a change of area is half that to shear. alpha - 1 fell to
-  /// less than half of what the cells leave, and the deviation of lengths from h grew by a sixth at most.
+  /// [1] k in the energy of TriangleRule: it makes the resistance to a change of area half that to shear. With it alpha
+  /// - 1 fell to less than half of what the cells leave, and the deviation of lengths from h grew by at most a sixth.
   static constexpr double triangle_stiffness = 0.25;
   /// [1] Share of the Newton step of TriangleRule, since neighbours move at the same time. From 0.9 on the shortest
   /// waves come to life.

@@ -22,10 +22,11 @@ namespace trime::sweep {
 /// neighbours (else one of them had changed, and this one been looked at). The region of all such stars is bounded by
 /// edges of stars certified by emptiness, which are edges of the one Delaunay triangulation; inside, the lemma holds.
 ///
-/// Boundary sites keep no stars, but where the diametral disc of a chord holds no site the chord is an edge of that
-/// triangulation as well, and may be part of the border: the disc of a triangle on the chord reaches less far beyond it
-/// than that of the chord. No boundary site is in such a disc (BoundarySites); inner sites are rarely in one, and then
-/// the stars next to the boundary in the tiles around are certified by the empty-circle test.
+/// Boundary sites keep no stars. But where the diametral disc of a chord holds no site, the chord is an edge of that
+/// triangulation as well, and may be part of the border. The reason is that the disc of a triangle on the chord reaches
+/// less far beyond the chord than the disc of the chord. No boundary site is in such a disc (BoundarySites); inner
+/// sites are rarely in one, and then the stars next to the boundary in the tiles around are certified by the
+/// empty-circle test.
 class StarCertifier {
 public:
   /// @pre each star of an inner site was certain before the last moves, or its ring is empty; h is known at all sites;

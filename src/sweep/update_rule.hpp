@@ -100,9 +100,9 @@ private:
 /// Why it comes after the cells: where h varies, a mesh must hold dislocations, and between them it is strained. alpha
 /// sees shear alone. Voronoi cells resist a change of area 7 times as much as shear, so they leave the strain as shear.
 /// A dislocation in a material without resistance to a change of area has no shear (its displacement is b/(2 pi i) log
-/// z, which is analytic). k = 1/4 makes the resistance to a change of area half that to shear: alpha - 1 falls to less
-/// than half, and the standard deviation of L / (s h) grows by a sixth at most. The order of the mesh, that is where
-/// its dislocations lie, is better left to the cells.
+/// z, which is analytic). With k = 1/4 the resistance to a change of area is half that to shear: alpha - 1 falls to
+/// less than half, and the standard deviation of L / (s h) grows by a sixth at most. The order of the mesh, that is
+/// where its dislocations lie, is better left to the cells.
 ///
 /// W is taken as constant in a step, so that a mesh with A = W everywhere stays as it is.
 class TriangleRule final : public UpdateRule {
