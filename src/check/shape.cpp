@@ -278,6 +278,59 @@ const Part* Shape::part_of_label(const std::string& label) const {
   return whole && !whole->curve ? whole : nullptr;
 }
 
+namespace {
+
+/// Sets container, lattice and periods. @param mesh its box is the container if that is not known
+void set_container(Shape& shape, const ConfigText& config, const std::vector<Source>& sources,
+                   const std::vector<Point>& mesh) {
+  const std::optional<Box> container = container_of(config, sources, *shape.region);
+  shape.container = container ? *container : box_of({mesh});
+  if (!container)
+    shape.container_reason = "it follows from a contour that is not read here";
+  shape.step = lattice_step(shape);
+  const auto period = [&](const char* key, double side) {
+    return config.is_true("domain", key) ? std::round(side / shape.step) * shape.step : 0;
+  };
+  shape.periods = {period("periodic_x", shape.container.max.x - shape.container.min.x),
+                   period("periodic_y", shape.container.max.y - shape.container.min.y)};
+}
+
+/// The fixed points as their file has them.
+void read_fixed_points(Shape& shape, const ConfigText& config) {
+  const std::string points = config.path("meshing", "fixed_points");
+  if (points.empty())
+    return;
+  const std::optional<std::string> text = read_text(points);
+  if (!text)
+    shape.fixed_points_reason = fmt::format("{} cannot be read", points);
+  else if (is_projected(config))
+    shape.fixed_points_reason = fmt::format("{}: they are projected", points);
+  if (text)
+    for (const Ring& ring : read_rings(*text + "\n"))
+      shape.fixed_points.insert(shape.fixed_points.end(), ring.begin(), ring.end());
+}
+
+/// Appends the part of a source, and normalises the fixed points if they go with it.
+void add_part(Shape& shape, const Source& source, bool has_fixed_points) {
+  Part part{source.name, nullptr, source.reason};
+  std::vector<Ring> rings = source.rings;
+  if (source.normalised && source.reason.empty()) {
+    const Normalisation fit(source.box(), shape.container);
+    rings = fit.apply(rings);
+    if (has_fixed_points)
+      for (Point& p : shape.fixed_points)
+        p = fit.apply(p);
+  } else if (has_fixed_points)
+    shape.fixed_points_reason = source.reason.empty() ? "the part they go with is not normalised" : source.reason;
+  if (source.type == "circle")
+    part.curve = make_circle(source.center, source.radius);
+  else if (source.reason.empty())
+    part.curve = make_polygon(std::move(rings));
+  shape.parts.push_back(std::move(part));
+}
+
+} // namespace
+
 Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh) {
   Shape shape;
   const std::string region = config.value("shape", "region");
@@ -290,44 +343,11 @@ Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh) {
   }
   shape.numbers.emplace("domain", sources.size());
   shape.region = std::make_unique<Region>(region, shape.numbers);
-  const std::optional<Box> container = container_of(config, sources, *shape.region);
-  shape.container = container ? *container : box_of({mesh});
-  if (!container)
-    shape.container_reason = "it follows from a contour that is not read here";
-  shape.step = lattice_step(shape);
-  const auto period = [&](const char* key, double side) {
-    return config.is_true("domain", key) ? std::round(side / shape.step) * shape.step : 0;
-  };
-  shape.periods = {period("periodic_x", shape.container.max.x - shape.container.min.x),
-                   period("periodic_y", shape.container.max.y - shape.container.min.y)};
-
+  set_container(shape, config, sources, mesh);
+  read_fixed_points(shape, config);
   const std::string companion = config.value("meshing", "fixed_points_normalize_with");
-  const std::string points = config.path("meshing", "fixed_points");
-  std::optional<std::string> text;
-  if (!points.empty() && !(text = read_text(points)))
-    shape.fixed_points_reason = fmt::format("{} cannot be read", points);
-  else if (text && is_projected(config))
-    shape.fixed_points_reason = fmt::format("{}: they are projected", points);
-  if (text)
-    for (const Ring& ring : read_rings(*text + "\n"))
-      shape.fixed_points.insert(shape.fixed_points.end(), ring.begin(), ring.end());
-  for (const Source& source : sources) {
-    Part part{source.name, nullptr, source.reason};
-    std::vector<Ring> rings = source.rings;
-    if (source.normalised && source.reason.empty()) {
-      const Normalisation fit(source.box(), shape.container);
-      rings = fit.apply(rings);
-      if (source.name == companion)
-        for (Point& p : shape.fixed_points)
-          p = fit.apply(p);
-    } else if (source.name == companion && !companion.empty())
-      shape.fixed_points_reason = source.reason.empty() ? "the part they go with is not normalised" : source.reason;
-    if (source.type == "circle")
-      part.curve = make_circle(source.center, source.radius);
-    else if (source.reason.empty())
-      part.curve = make_polygon(std::move(rings));
-    shape.parts.push_back(std::move(part));
-  }
+  for (const Source& source : sources)
+    add_part(shape, source, source.name == companion);
   shape.parts.push_back({"domain", make_container(shape.container, shape.periods), ""});
   shape.finder = std::make_unique<PartFinder>(shape.parts);
   return shape;

@@ -227,21 +227,11 @@ private:
       const bool strict = !changed.contains(mesh_.facet_tags[k]);
       if (strict ? !part->curve : !reason.empty())
         continue;
-      const double limit = on_curve * shape_.side() + (strict ? 0 : within * mesh_.asked_sizes[k]);
       ++judged;
-      const auto distance = [&](std::int64_t id) { return part->curve ? shape_.distance(*part, mesh_.at(id)) : 0; };
-      const bool strays = std::ranges::any_of(mesh_.facets[k], [&](auto id) { return distance(id) > limit; });
-      const bool may_cross = !strict || (strays && across-- > 0);
-      for (const std::int64_t id : mesh_.facets[k]) {
-        double away = distance(id);
-        if (may_cross && away > limit) // what was joined, or lies beyond a corner left out, may lie at another part
-          away = std::min(away, shape_.distance_from_any(mesh_.at(id), limit));
-        if (away > limit)
-          off.note([&] {
-            return fmt::format("point {} at {}: {:.3g} from {}, limit {:.3g}", id, place_of(mesh_.at(id)), away,
-                               part->name, limit);
-          });
-      }
+      const double limit = on_curve * shape_.side() + (strict ? 0 : within * mesh_.asked_sizes[k]);
+      const bool strays = std::ranges::any_of(
+          mesh_.facets[k], [&](std::int64_t id) { return distance_of(*part, mesh_.at(id)) > limit; });
+      check_ends(k, *part, limit, !strict || (strays && across-- > 0), off);
     }
     report_.none("facet_parts", foreign, "facets of parts that the region of the config does not have");
     if (judged == 0 && !mesh_.facets.empty())
@@ -250,6 +240,23 @@ private:
       report_.none("on_curve", off,
                    fmt::format("ends of {} facets ({} in all) that do not lie on the curve of their part", judged,
                                mesh_.facets.size()));
+  }
+
+  /// Distance from the curve of a part; 0 if the part has none.
+  double distance_of(const Part& part, Point p) const { return part.curve ? shape_.distance(part, p) : 0; }
+
+  /// Notes the ends of facet k that lie farther than `limit` from its part; with `may_cross` another part will do.
+  void check_ends(std::size_t k, const Part& part, double limit, bool may_cross, Tally& off) const {
+    for (const std::int64_t id : mesh_.facets[k]) {
+      double away = distance_of(part, mesh_.at(id));
+      if (may_cross && away > limit) // what was joined, or lies beyond a corner left out, may lie at another part
+        away = std::min(away, shape_.distance_from_any(mesh_.at(id), limit));
+      if (away > limit)
+        off.note([&] {
+          return fmt::format("point {} at {}: {:.3g} from {}, limit {:.3g}", id, place_of(mesh_.at(id)), away,
+                             part.name, limit);
+        });
+    }
   }
 
   Changes changes() const {

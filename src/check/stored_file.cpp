@@ -219,17 +219,63 @@ std::vector<double> StoredFile::column(const std::string& name) const {
 
 namespace {
 
-void read_vtk(const StoredFile& file, Mesh& mesh, Tally& wrong) {
+/// Reads arrays of a file, and notes those that are missing or have another type or shape.
+struct ArrayReader {
+  const StoredFile& file;
+  Tally& wrong;
+
+  std::vector<double> reals(const std::string& name, const char* type, std::vector<std::int64_t> shape) const {
+    return file.array<double>(name, type, std::move(shape), wrong);
+  }
+  std::vector<std::int64_t> integers(const std::string& name, const char* type, std::vector<std::int64_t> shape) const {
+    return file.array<std::int64_t>(name, type, std::move(shape), wrong);
+  }
+};
+
+/// Points, triangles and facets; points and triangles from the plain arrays where the file has them.
+void read_elements(const ArrayReader& reader, Mesh& mesh) {
+  const std::size_t columns = mesh.has_plain ? 2 : 3;
+  const std::vector<double> xy = mesh.has_plain ? reader.reals("/Mesh/mesh/geometry", "float64", {-1, 2})
+                                                : reader.reals("/VTKHDF/Points", "float64", {-1, 3});
+  const std::vector<std::int64_t> ids = mesh.has_plain ? reader.integers("/Mesh/mesh/topology", "int64", {-1, 3})
+                                                       : reader.integers("/VTKHDF/Connectivity", "int64", {-1});
+  const std::vector<std::int64_t> ends = reader.integers("/Mesh/facets/topology", "int64", {-1, 2});
+  for (std::size_t k = 0; k + columns <= xy.size(); k += columns)
+    mesh.points.push_back({xy[k], xy[k + 1]});
+  for (std::size_t k = 0; k + 3 <= ids.size(); k += 3)
+    mesh.triangles.push_back({ids[k], ids[k + 1], ids[k + 2]});
+  for (std::size_t k = 0; k < ends.size(); k += 2)
+    mesh.facets.push_back({ends[k], ends[k + 1]});
+}
+
+/// What belongs to facets, triangles and points.
+void read_fields(const ArrayReader& reader, Mesh& mesh) {
+  const auto n = std::ssize(mesh.points), m = std::ssize(mesh.triangles), b = std::ssize(mesh.facets);
+  mesh.facet_tags = reader.integers("/Mesh/facets/values", "int32", {b});
+  mesh.facet_parts = reader.integers("/Mesh/facets/parts", "int32", {b});
+  mesh.facet_labels = reader.integers("/Mesh/facets/labels", "int32", {b});
+  if (reader.file.has("/Mesh/facets/markers"))
+    mesh.facet_markers = reader.integers("/Mesh/facets/markers", "int32", {b});
+  mesh.asked_sizes = reader.reals("/Mesh/facets/asked_size", "float32", {b});
+  const std::string fields = mesh.has_vtk ? "/VTKHDF/" : "/Mesh/";
+  mesh.alpha = reader.reals(fields + "CellData/alpha", "float32", {m});
+  mesh.beta = reader.reals(fields + "CellData/beta", "float32", {m});
+  mesh.region = reader.integers(fields + "CellData/region", "int32", {m});
+  mesh.boundary = reader.integers(fields + "PointData/boundary", "int32", {n});
+  mesh.size = reader.reals(fields + "PointData/size", "float32", {n});
+  mesh.fixed = reader.integers(fields + "PointData/fixed", "uint8", {n});
+  if (mesh.has_plain)
+    mesh.petsc_points = reader.reals("/geometry/vertices", "float64", {n, 2});
+}
+
+void read_vtk(const ArrayReader& reader, Mesh& mesh) {
   const auto n = std::ssize(mesh.points), m = std::ssize(mesh.triangles);
-  const auto integers = [&](const std::string& name, const char* type, std::int64_t count) {
-    return file.array<std::int64_t>("/VTKHDF/" + name, type, {count}, wrong);
-  };
-  mesh.vtk_points = file.array<double>("/VTKHDF/Points", "float64", {n, 3}, wrong);
-  mesh.connectivity = integers("Connectivity", "int64", 3 * m);
-  mesh.offsets = integers("Offsets", "int64", m + 1);
-  mesh.types = integers("Types", "uint8", m);
-  for (const char* name : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"})
-    for (const std::int64_t count : integers(name, "int64", 1))
+  mesh.vtk_points = reader.reals("/VTKHDF/Points", "float64", {n, 3});
+  mesh.connectivity = reader.integers("/VTKHDF/Connectivity", "int64", {3 * m});
+  mesh.offsets = reader.integers("/VTKHDF/Offsets", "int64", {m + 1});
+  mesh.types = reader.integers("/VTKHDF/Types", "uint8", {m});
+  for (const char* name : {"/VTKHDF/NumberOfPoints", "/VTKHDF/NumberOfCells", "/VTKHDF/NumberOfConnectivityIds"})
+    for (const std::int64_t count : reader.integers(name, "int64", {1}))
       mesh.counts.push_back(count);
 }
 
@@ -237,47 +283,15 @@ void read_vtk(const StoredFile& file, Mesh& mesh, Tally& wrong) {
 
 bool read_mesh(const StoredFile& file, Mesh& mesh, Report& report) {
   Tally wrong;
-  const auto reals = [&](const std::string& name, const char* type, std::vector<std::int64_t> shape) {
-    return file.array<double>(name, type, std::move(shape), wrong);
-  };
-  const auto integers = [&](const std::string& name, const char* type, std::vector<std::int64_t> shape) {
-    return file.array<std::int64_t>(name, type, std::move(shape), wrong);
-  };
+  const ArrayReader reader{file, wrong};
   mesh.has_vtk = file.has("/VTKHDF");
   mesh.has_plain = !mesh.has_vtk || file.has("/Mesh/mesh");
-  const std::size_t columns = mesh.has_plain ? 2 : 3;
-  const std::vector<double> xy =
-      mesh.has_plain ? reals("/Mesh/mesh/geometry", "float64", {-1, 2}) : reals("/VTKHDF/Points", "float64", {-1, 3});
-  const std::vector<std::int64_t> ids = mesh.has_plain ? integers("/Mesh/mesh/topology", "int64", {-1, 3})
-                                                       : integers("/VTKHDF/Connectivity", "int64", {-1});
-  const std::vector<std::int64_t> ends = integers("/Mesh/facets/topology", "int64", {-1, 2});
-  const std::int64_t n = std::ssize(xy) / static_cast<std::int64_t>(columns), m = std::ssize(ids) / 3,
-                     b = std::ssize(ends) / 2;
-  for (std::size_t k = 0; k + columns <= xy.size(); k += columns)
-    mesh.points.push_back({xy[k], xy[k + 1]});
-  for (std::size_t k = 0; k + 3 <= ids.size(); k += 3)
-    mesh.triangles.push_back({ids[k], ids[k + 1], ids[k + 2]});
-  for (std::size_t k = 0; k < ends.size(); k += 2)
-    mesh.facets.push_back({ends[k], ends[k + 1]});
-  mesh.facet_tags = integers("/Mesh/facets/values", "int32", {b});
-  mesh.facet_parts = integers("/Mesh/facets/parts", "int32", {b});
-  mesh.facet_labels = integers("/Mesh/facets/labels", "int32", {b});
-  if (file.has("/Mesh/facets/markers"))
-    mesh.facet_markers = integers("/Mesh/facets/markers", "int32", {b});
-  mesh.asked_sizes = reals("/Mesh/facets/asked_size", "float32", {b});
-  const std::string fields = mesh.has_vtk ? "/VTKHDF/" : "/Mesh/";
-  mesh.alpha = reals(fields + "CellData/alpha", "float32", {m});
-  mesh.beta = reals(fields + "CellData/beta", "float32", {m});
-  mesh.region = integers(fields + "CellData/region", "int32", {m});
-  mesh.boundary = integers(fields + "PointData/boundary", "int32", {n});
-  mesh.size = reals(fields + "PointData/size", "float32", {n});
-  mesh.fixed = integers(fields + "PointData/fixed", "uint8", {n});
-  if (mesh.has_plain)
-    mesh.petsc_points = reals("/geometry/vertices", "float64", {n, 2});
+  read_elements(reader, mesh);
+  read_fields(reader, mesh);
   if (mesh.has_vtk)
-    read_vtk(file, mesh, wrong);
+    read_vtk(reader, mesh);
   mesh.periods = {file.number("/trime_mpi", "period_x").value_or(0), file.number("/trime_mpi", "period_y").value_or(0)};
-  if (m == 0)
+  if (mesh.triangles.empty())
     wrong.note([] { return std::string("there are no triangles"); });
   report.none("arrays", wrong, "arrays that are missing, or have another type or shape than src/files.md says");
   return wrong.count == 0;

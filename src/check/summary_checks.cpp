@@ -124,20 +124,10 @@ void check_quality(const StoredFile& file, const Mesh& mesh, Report& report) {
   report.none("quality", summary, "numbers in /trime_mpi/quality that are not those of the triangles");
 }
 
-/// Compares the counts in the file with those made here.
-void check_stored_checks(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report) {
-  const std::vector<std::string> names = file.names("/trime_mpi/checks/name");
-  const std::vector<double> expected = file.column("/trime_mpi/checks/expected");
-  const std::vector<double> found = file.column("/trime_mpi/checks/found");
-  const std::vector<double> passed = file.column("/trime_mpi/checks/passed");
-  const double complete = file.number("/trime_mpi", "complete").value_or(-1);
-  if (names.empty() && complete == 0 &&
-      file.text_attribute("/trime_mpi", "stop_reason").value_or("").starts_with("none")) {
-    report.skip("stored_checks", "the mesh is a step of a run, which has no certificate");
-    return;
-  }
+/// The numbers of the file's checks that are counted here too, by their names.
+std::map<std::string, double> numbers_here(const Mesh& mesh, const Counted& counted) {
   const auto triangles = static_cast<double>(mesh.triangles.size()), facets = static_cast<double>(mesh.facets.size());
-  const std::map<std::string, double> here{
+  return {
       {"star_listings", 3 * triangles},
       {"written_points", static_cast<double>(mesh.points.size())},
       {"written_triangles", triangles},
@@ -152,39 +142,64 @@ void check_stored_checks(const StoredFile& file, const Mesh& mesh, const Counted
       {"corners", static_cast<double>(counted.corners)},
       {"area", counted.area},
   };
+}
+
+/// Does a check of the file hold by its own two numbers?
+bool holds(const std::string& name, double expected, double found) {
   // The checks with a largest value. turns_kept has a smallest one; for all others both numbers are equal.
   const std::array<std::string, 6> limits{"vertex_distance", "generalisation", "chord_deviation",
                                           "arc_deviation",   "area_residual",  "worst_alpha"};
-  Tally wrong;
-  std::size_t matched = 0;
+  if (std::ranges::find(limits, name) != limits.end())
+    return found <= expected;
+  return name == "turns_kept" ? found >= expected : found == expected;
+}
+
+/// Notes the lines of the file's table of checks that are not what is found here. Returns the least value in the column
+/// `passed`, at most 1.
+double compare_checks(const StoredFile& file, const std::map<std::string, double>& here, Tally& wrong) {
+  const std::vector<std::string> names = file.names("/trime_mpi/checks/name");
+  const std::vector<double> expected = file.column("/trime_mpi/checks/expected");
+  const std::vector<double> found = file.column("/trime_mpi/checks/found");
+  const std::vector<double> passed = file.column("/trime_mpi/checks/passed");
   double all = 1;
   for (std::size_t k = 0; k < std::min({names.size(), expected.size(), found.size(), passed.size()}); ++k) {
-    const bool limit = std::ranges::find(limits, names[k]) != limits.end();
-    const bool holds = limit                      ? found[k] <= expected[k]
-                       : names[k] == "turns_kept" ? found[k] >= expected[k]
-                                                  : found[k] == expected[k];
     const auto own = here.find(names[k]);
-    matched += own != here.end();
     const bool same = own == here.end() || near(own->second, found[k], 1e-12);
-    if (!same || holds != (passed[k] == 1))
+    if (!same || holds(names[k], expected[k], found[k]) != (passed[k] == 1))
       wrong.note([&] {
         return fmt::format("{}: the file says expected {:.12g}, found {:.12g}, passed {}{}", names[k], expected[k],
                            found[k], passed[k], same ? "" : fmt::format("; it is {:.12g}", own->second));
       });
     all = std::min(all, passed[k]);
   }
+  return all;
+}
+
+/// Compares the counts in the file with those made here.
+void check_stored_checks(const StoredFile& file, const Mesh& mesh, const Counted& counted, Report& report) {
+  const double complete = file.number("/trime_mpi", "complete").value_or(-1);
   const std::string reason = file.text_attribute("/trime_mpi", "stop_reason").value_or("");
+  const std::vector<std::string> names = file.names("/trime_mpi/checks/name");
+  if (names.empty() && complete == 0 && reason.starts_with("none")) {
+    report.skip("stored_checks", "the mesh is a step of a run, which has no certificate");
+    return;
+  }
+  const std::map<std::string, double> here = numbers_here(mesh, counted);
+  Tally wrong;
+  const double all = compare_checks(file, here, wrong);
   const double must_be = reason == "sweep cap" ? 0 : all;
   if (complete != must_be)
     wrong.note([&] { return fmt::format("`complete` is {}, expected {}", complete, must_be); });
-  if (matched + 1 < here.size()) // files of older versions have no written_points
-    wrong.note([&] { return fmt::format("{} of {} known checks are missing", here.size() - matched, here.size()); });
-  const auto compare_count = [&](const char* name, double value) {
-    if (file.number("/trime_mpi", name) != value)
-      wrong.note([&] { return fmt::format("`{}` is not {}", name, value); });
+  const auto missing = static_cast<std::size_t>(std::ranges::count_if(
+      here, [&](const auto& known) { return std::ranges::find(names, known.first) == names.end(); }));
+  if (missing > 1) // files of older versions have no written_points
+    wrong.note([&] { return fmt::format("{} of {} known checks are missing", missing, here.size()); });
+  const auto compare_count = [&](const char* name, std::size_t count) {
+    if (file.number("/trime_mpi", name) != static_cast<double>(count))
+      wrong.note([&] { return fmt::format("`{}` is not {}", name, count); });
   };
-  compare_count("points", static_cast<double>(mesh.points.size()));
-  compare_count("triangles", triangles);
+  compare_count("points", mesh.points.size());
+  compare_count("triangles", mesh.triangles.size());
   report.none("stored_checks", wrong, "lines of /trime_mpi/checks and counts that are not what is found here");
 }
 

@@ -232,18 +232,16 @@ private:
     const std::vector<double> counts = file_.column("/trime_mpi/tags/edge_count");
     const std::vector<double> lengths = file_.column("/trime_mpi/tags/edge_length_sum");
     const std::size_t parts = file_.names("/trime_mpi/tags/part_name").size();
-    Tally wrong, points;
+    Tally wrong;
     std::set<std::int64_t> seen;
     std::map<double, std::size_t> rows;
     for (std::size_t row = 0; row < ids.size(); ++row)
       rows.emplace(ids[row], row);
-    std::vector<std::int64_t> expected(mesh_.points.size(), 0);
     for (const Loop& loop : loops_) {
       const std::int64_t tag = mesh_.facet_tags[loop.facets[0]];
       double length = 0;
       for (const std::size_t k : loop.facets) {
         length += std::hypot(step(k).x, step(k).y);
-        expected[static_cast<std::size_t>(mesh_.facets[k][0])] = mesh_.facet_tags[k];
         const std::int64_t part = mesh_.facet_parts[k];
         if (mesh_.facet_tags[k] != tag || part < 0 || part >= static_cast<std::int64_t>(parts))
           wrong.note([&] { return fmt::format("tag or part of facet {}: {}", k, place_of(mesh_, mesh_.facets[k])); });
@@ -259,14 +257,23 @@ private:
     }
     if (ids.size() != loops_.size())
       wrong.note([&] { return fmt::format("/trime_mpi/tags has {} loops, the mesh {}", ids.size(), loops_.size()); });
+    report_.none("tags", wrong, "facets and loops whose tags are not one to a loop, or not those of the table");
+    check_boundary_array();
+  }
+
+  void check_boundary_array() {
+    std::vector<std::int64_t> expected(mesh_.points.size(), 0);
+    for (const Loop& loop : loops_)
+      for (const std::size_t k : loop.facets)
+        expected[static_cast<std::size_t>(mesh_.facets[k][0])] = mesh_.facet_tags[k];
+    Tally wrong;
     for (std::size_t i = 0; i < expected.size(); ++i)
       if (mesh_.boundary[i] != expected[i])
-        points.note([&] {
+        wrong.note([&] {
           return fmt::format("point {} at {}: expected {}, found {}", i, place_of(mesh_.points[i]), expected[i],
                              mesh_.boundary[i]);
         });
-    report_.none("tags", wrong, "facets and loops whose tags are not one to a loop, or not those of the table");
-    report_.none("boundary_array", points, "points whose value in `boundary` is not the tag of their loop, 0 inside");
+    report_.none("boundary_array", wrong, "points whose value in `boundary` is not the tag of their loop, 0 inside");
   }
 
   void check_fixed() {
