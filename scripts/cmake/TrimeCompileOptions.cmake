@@ -28,3 +28,24 @@ function(trime_precompile target)
       <memory> <optional> <span> <string> <unordered_map> <vector> ${ARGN})
   endif()
 endfunction()
+
+# trime_unite(TARGET): compiles up to twelve sources as one, which parses their headers once. Not in the builds of users
+# and of preset ci: there each source must compile alone.
+function(trime_unite target)
+  if(NOT TRIME_UNITY)
+    return()
+  endif()
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "_avx(2|512)\\.cpp$") # with options of their own
+  list(TRANSFORM sources PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/" REGEX "^[^/]")
+  execute_process(COMMAND ${Python3_EXECUTABLE} "${PROJECT_SOURCE_DIR}/scripts/cmake/unity_groups.py" 12 ${sources}
+    OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY OUTPUT_STRIP_TRAILING_WHITESPACE)
+  string(REPLACE "\n" ";" lines "${lines}")
+  foreach(line IN LISTS lines)
+    string(REGEX MATCH "^(.*)\t(.*)$" line "${line}")
+    set_source_files_properties("${CMAKE_MATCH_2}" PROPERTIES UNITY_GROUP "${CMAKE_MATCH_1}")
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()
