@@ -21,11 +21,14 @@ endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -g1 -DNDEBUG")
 
 # trime_precompile(TARGET HEADER...): parses the headers that most sources include, and those given, once a target. Not
-# in the builds of users and of preset ci: there a source that forgets an include must fail.
+# in the builds of users and of preset ci: there a source that forgets an include must fail. TRIME_PRECOMPILE_GTEST is for
+# ci: only the headers given, which those of GoogleTest are.
 function(trime_precompile target)
   if(TRIME_PRECOMPILE)
     target_precompile_headers(${target} PRIVATE <fmt/format.h> <algorithm> <array> <cmath> <cstdint> <functional>
       <memory> <optional> <span> <string> <unordered_map> <vector> ${ARGN})
+  elseif(TRIME_PRECOMPILE_GTEST AND ARGN)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
   endif()
 endfunction()
 
