@@ -32,7 +32,7 @@ trime_test_packages=(
   mpich libhdf5-mpich-dev                         # the other MPI, beside Open MPI, which stays the default
   doxygen                                         # reference pages of the public headers: scripts/doxygen.sh
   clang clang-format libomp-dev libclang-rt-14-dev # second compiler with its OpenMP and sanitizers, house style
-  flake8                                          # rules for Python
+  flake8 universal-ctags                          # rules for Python; finds functions that are too long
 )
 
 # To run the program on a simulated cluster, beside the first list: scripts/simulate_cluster.sh.
