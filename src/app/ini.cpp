@@ -55,7 +55,7 @@ private:
     const std::string_view name = text.back() == ']' ? trim(text.substr(1, text.size() - 2)) : std::string_view{};
     in_section_ = is_name(name, true);
     if (!in_section_) {
-      problems_.add(number, fmt::format("expected a section such as [domain], found {}", quoted(text)));
+      problems_.add(number, fmt::format("expected a section such as [domain], found {}", trime::quoted(text)));
       skip_ = true; // its keys would only be reported as misplaced
       return;
     }
@@ -72,18 +72,18 @@ private:
   void entry(std::string_view text, int number) {
     const std::size_t equals = text.find('=');
     if (equals == std::string_view::npos) {
-      problems_.add(number, fmt::format("expected 'key = value' or '[section]', found {}", quoted(text)));
+      problems_.add(number, fmt::format("expected 'key = value' or '[section]', found {}", trime::quoted(text)));
       return;
     }
     const std::string_view key = trim(text.substr(0, equals)), value = trim(text.substr(equals + 1));
     if (!is_name(key, false)) {
-      problems_.add(number, fmt::format("{} is no name of a key (letters, digits, '_', '-')", quoted(key)));
+      problems_.add(number, fmt::format("{} is no name of a key (letters, digits, '_', '-')", trime::quoted(key)));
     } else if (skip_) {
       return;
     } else if (!in_section_) {
-      problems_.add(number, fmt::format("key {} stands before the first [section]", quoted(key)));
+      problems_.add(number, fmt::format("key {} stands before the first [section]", trime::quoted(key)));
     } else if (value.empty()) {
-      problems_.add(number, fmt::format("key {} has no value; write one, or remove the line", quoted(key)));
+      problems_.add(number, fmt::format("key {} has no value; write one, or remove the line", trime::quoted(key)));
     } else {
       store({document_.sections.back().name, std::string(key), std::string(value), number});
     }
@@ -95,7 +95,7 @@ private:
       document_.entries.push_back(std::move(entry));
     else
       problems_.add(entry.line, fmt::format("key {} is set twice in [{}], first on line {}; keep one of them",
-                                            quoted(entry.key), shown(entry.section), first->second));
+                                            trime::quoted(entry.key), shown(entry.section), first->second));
   }
 
   static constexpr std::size_t most_told = 30; // earlier places of one section: as many as Diagnostics::text shows
@@ -161,7 +161,7 @@ void apply_override(IniDocument& document, std::string_view text, Diagnostics& p
   const std::size_t dot = left.rfind('.');
   if (equals == std::string_view::npos || dot == std::string_view::npos || !is_name(left.substr(0, dot), true) ||
       !is_name(left.substr(dot + 1), false)) {
-    problems.add(command_line_origin, fmt::format("expected section.key=value, found {}", quoted(text)));
+    problems.add(command_line_origin, fmt::format("expected section.key=value, found {}", trime::quoted(text)));
     return;
   }
   const IniEntry entry{std::string(left.substr(0, dot)), std::string(left.substr(dot + 1)),
