@@ -21,7 +21,7 @@ def run(text):
 
 
 def function(lines):
-    """A function of so many lines."""
+    """A function with this number of lines."""
     return "int f(int a) {\n" + "  a += 1;\n" * (lines - 3) + "  return a;\n}\n"
 
 
