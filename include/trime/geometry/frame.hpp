@@ -13,7 +13,7 @@ inline constexpr Box unit_square{{0, 0}, {1, 1}};
 
 /// @brief The container of a shape where the user gives none: the unit square if it contains `box` or `box` has no
 /// area, else `box` with a margin of 5 % of its longer side all around.
-/// @param box around the shape: Region::box of the boxes of its parts. A part without a box of its own counts as the
+/// @param box around the shape: Region::box of the boxes of its parts. A part without a box counts as the
 /// unit square: the `domain`, a function, a contour that is normalised.
 Box container_around(const Box& box);
 
