@@ -244,9 +244,13 @@ ExitCode make_mesh(const Job& job) {
                               placement,
                               boundary,
                               input.normalized,
-                              job.places.ring_lines(boundary),
                               input.map,
-                              input.part_markers()};
+                              {boundary.part_names,
+                               input.part_markers(),
+                               options.region,
+                               {boundary.periods.x, boundary.periods.y},
+                               input.map.crs,
+                               job.places.ring_lines(boundary)}};
   const meshing::MeshResult result = run_mesher(job, provenance, *size.field, mesh_options, series, keeper, saved);
   const SizeSummary sizes = summarize_size(size.description, result.mesh, comm);
   io::WrittenFiles files;
