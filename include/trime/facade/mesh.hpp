@@ -64,7 +64,7 @@ public:
   bool certified() const;
   const mesh::Checks& checks() const;
   const mesh::QualitySummary& quality() const;
-  /// Of points and triangles; the same for any number of ranks and threads.
+  /// The hash of points and triangles is the same for any number of ranks and threads.
   std::uint64_t hash() const;
 
   /// The names that facets() knows, by mesh::DistributedMesh::facet_parts.
@@ -109,7 +109,7 @@ private:
 /// a shape or a size that cannot be meshed; FileError for a contour that cannot be read. Always on all ranks together
 /// @note Collective over `comm`. Any part of the ranks of a program may call it, see MPI_Comm_split.
 Mesh make_mesh(MPI_Comm comm, const Shape& shape, const MeshOptions& options);
-/// The same with a size of one's own.
+/// Does the same with your own size.
 Mesh make_mesh(MPI_Comm comm, const Shape& shape, const Size& size, const MeshOptions& options);
 
 /// @brief A mesh that Mesh::write or the program `trime_mpi` wrote, on any number of ranks. Memory: the mesh.

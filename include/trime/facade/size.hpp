@@ -28,7 +28,7 @@ public:
   /// A field of the lower level. @pre not null
   Size(std::shared_ptr<const sizing::SizeField> field) : field_(std::move(field)) {}
 
-  /// What it is made of: a function, a field, the automatic size, or none of them for a uniform size.
+  /// A size is a function, a field, the automatic size, or none of them: then it is uniform.
   const std::function<double(geometry::Vec2)>& function() const { return function_; }
   const std::shared_ptr<const sizing::SizeField>& field() const { return field_; }
   bool is_automatic() const { return is_automatic_; }
