@@ -18,12 +18,12 @@ namespace trime::record {
 
 /// What the shape gives to the mesh that is made of it.
 struct Origin {
-  std::vector<std::string> part_names;    ///< by DistributedMesh::facet_parts
-  std::vector<std::int32_t> part_markers; ///< for each of these; 0: none
-  std::string region;                     ///< name of region 1: the expression that joins the parts
-  geometry::Vec2 period{0, 0};            ///< sides of a periodic container, 0 where it is not periodic
-  std::string crs{};                      ///< reference system of the coordinates; empty: none is known
-  std::vector<std::int32_t> ring_lines{}; ///< for each loop of the shape its line in a file; shorter: 0 for the rest
+  std::vector<std::string> part_names{};    ///< by DistributedMesh::facet_parts
+  std::vector<std::int32_t> part_markers{}; ///< for each of these; 0: none
+  std::string region{};                     ///< name of region 1: the expression that joins the parts
+  geometry::Vec2 period{0, 0};              ///< sides of a periodic container, 0 where it is not periodic
+  std::string crs{};                        ///< reference system of the coordinates; empty: none is known
+  std::vector<std::int32_t> ring_lines{};   ///< for each loop of the shape its line in a file; shorter: 0 for the rest
 };
 
 /// The origin of a mesh of this shape.

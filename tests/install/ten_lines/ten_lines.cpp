@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The ten lines of the first page.
+// clang-format off
 #include <trime/trime.hpp>
 int main(int argc, char** argv) {
   trime::Environment mpi(argc, argv);
