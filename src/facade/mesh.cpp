@@ -56,6 +56,13 @@ meshing::MeshOptions lower_options(const MeshOptions& given, const Box& containe
   return options;
 }
 
+/// Says in the file what the size was.
+std::string text_of(const Size& size) {
+  if (size.is_automatic())
+    return fmt::format("automatic, gradation {:.6g}", size.gradation());
+  return size.function() || size.field() ? "a function of the program" : "uniform";
+}
+
 /// The names and other things that are there for readers of the file.
 record::Origin origin_of(const io::Metadata& metadata) {
   record::Origin origin;
@@ -225,7 +232,7 @@ Mesh make_mesh(MPI_Comm handle, const Shape& shape, const Size& size, const Mesh
   made->communicator = comm;
   made->result = meshing::Mesher(*comm, boundary, *field, lower, log, timers).run();
   made->origin = {boundary.part_names, built.made.part_markers, shape.text(), {boundary.periods.x, boundary.periods.y}};
-  made->metadata = record::describe(made->result, made->origin);
+  made->metadata = record::describe(made->result, made->origin, text_of(size), *comm);
   return Mesh(std::move(made));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "record/groups.hpp"
 
-#include "trime/comm/communicator.hpp"
+#include "core/thread_loop.hpp"
 #include "trime/io/describe.hpp"
 #include "trime/io/mesh_file.hpp"
 #include "trime/meshing/make_mesh.hpp"
@@ -9,8 +9,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ctime>
+#include <limits>
 #include <numeric>
+#include <span>
 
 namespace trime::record {
 namespace {
@@ -174,15 +177,42 @@ io::MetadataGroup tags_group(const Origin& origin, const std::vector<polygon::Lo
            {"region_name", std::vector<std::string>{origin.region}}}};
 }
 
+SizeRange size_range(const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
+  constexpr std::size_t part = 1 << 14;
+  struct Extremes {
+    float smallest = std::numeric_limits<float>::infinity(), largest = 0;
+  };
+  std::vector<Extremes> of_part((mesh.size.size() + part - 1) / part);
+  thread_loop(std::ssize(of_part), 1, [&](std::ptrdiff_t k, int) {
+    const std::size_t first = static_cast<std::size_t>(k) * part;
+    Extremes& extremes = of_part[static_cast<std::size_t>(k)];
+    for (const float size : std::span(mesh.size).subspan(first, std::min(part, mesh.size.size() - first)))
+      extremes = {std::min(extremes.smallest, size), std::max(extremes.largest, size)};
+  });
+  SizeRange range{std::numeric_limits<double>::infinity(), 0};
+  for (const Extremes& extremes : of_part) {
+    range.smallest = std::min(range.smallest, static_cast<double>(extremes.smallest));
+    range.largest = std::max(range.largest, static_cast<double>(extremes.largest));
+  }
+  range.smallest = comm.min(range.smallest);
+  range.largest = comm.max(range.largest);
+  return range;
+}
+
 Origin origin_of(const shape::RegionShape& shape) {
   const geometry::Boundary& boundary = shape.boundary();
   return {boundary.part_names, shape.part_markers(), shape.region().text(), {boundary.periods.x, boundary.periods.y}};
 }
 
-io::Metadata describe(const meshing::MeshResult& result, const Origin& origin) {
+io::Metadata describe(const meshing::MeshResult& result, const Origin& origin, const std::string& sizing,
+                      const comm::Communicator& comm) {
+  const SizeRange sizes = size_range(result.mesh, comm);
   const Attributes made{{"created_utc", utc_time()},
                         {"mpi_library", comm::library_version()},
                         {"hdf5_library", io::hdf5_version()},
+                        {"sizing", sizing},
+                        {"smallest_size", sizes.smallest},
+                        {"largest_size", sizes.largest},
                         {"complete", std::int64_t{is_complete(result)}}};
   return {joined({format_attributes(), made, place_attributes(origin),
                   mesh_attributes(result.mesh, result.triangulations + 1), result_attributes(result)}),

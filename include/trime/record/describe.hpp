@@ -2,8 +2,10 @@
 // What a mesh file says of its mesh: names and markers of the boundary, periods, loops, quality, checks and history.
 #pragma once
 
+#include "trime/comm/communicator.hpp"
 #include "trime/geometry/vec2.hpp"
 #include "trime/io/metadata.hpp"
+#include "trime/mesh/distributed_mesh.hpp"
 #include "trime/meshing/options.hpp"
 
 #include <cstdint>
@@ -26,11 +28,21 @@ struct Origin {
   std::vector<std::int32_t> ring_lines{};   ///< for each loop of the shape its line in a file; shorter: 0 for the rest
 };
 
+/// The least and the largest h at a point of the mesh.
+struct SizeRange {
+  double smallest = 0, largest = 0;
+};
+/// Finds them on all ranks. O(points here). @note Collective.
+SizeRange size_range(const mesh::DistributedMesh& mesh, const comm::Communicator& comm);
+
 /// The origin of a mesh of this shape.
 Origin origin_of(const shape::RegionShape& shape);
 
 /// @brief The metadata that io::write_mesh takes: the file is one that `trime_mpi info`, `trime_mpi convert` and
-/// `trime_check` accept. Not collective. O(loops + sweeps).
-io::Metadata describe(const meshing::MeshResult& result, const Origin& origin);
+/// `trime_check` accept. O(points here + loops + sweeps).
+/// @param sizing describes the size; "uniform" for a uniform one, which `trime_check` checks more closely
+/// @note Collective.
+io::Metadata describe(const meshing::MeshResult& result, const Origin& origin, const std::string& sizing,
+                      const comm::Communicator& comm);
 
 } // namespace trime::record
