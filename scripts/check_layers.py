@@ -40,12 +40,16 @@ ARROWS = {
                 "sites", "fitting", "start", "sweep", "cleanup", "extraction", "certificate"],
     "io": ["comm", "geometry", "mesh"],
     "checkpoint": ["comm", "sweep", "meshing", "io"],
+    "record": ["comm", "geometry", "mesh", "shape", "polygon", "boundary", "sweep", "meshing", "io"],
     "formats": ["comm", "geometry", "mesh", "projection", "io"],
     "handover": ["comm", "geometry", "mesh"],
+    "facade": ["comm", "geometry", "contours", "tracing", "shape", "sizing", "boundary", "sweep", "mesh", "meshing", "io",
+               "record", "formats", "handover"],
     "app": ["comm", "geometry", "contours", "tracing", "shape", "projection", "sizing", "polygon", "boundary",
-            "sites", "fitting", "meshing", "io", "checkpoint", "formats"],
+            "sites", "fitting", "meshing", "io", "checkpoint", "record", "formats"],
 }
 # Foreign headers that only some modules may see, as (pattern, name, modules).
+UMBRELLA = "facade"  # its headers include include/trime/trime.hpp, which lies in no folder
 VERIFIER = "check"  # a program of its own, which shares no code with the modules
 FOREIGN = [
     (re.compile(r"mpi\.h$"), "MPI", {"comm"}),
@@ -107,7 +111,8 @@ def source_files(root):
     """Yields (file, module, public) for all headers and sources of the modules."""
     for folder, public in (("include/trime", True), ("src", False)):
         for path in sorted((root / folder).rglob("*.[hc]pp")):
-            module = path.relative_to(root / folder).parts[0]
+            parts = path.relative_to(root / folder).parts
+            module = parts[0] if len(parts) > 1 else UMBRELLA
             if module not in ("bench", "examples"):
                 yield path, module, public
 

@@ -296,9 +296,13 @@ ExitCode MeshRun::run() {
                               placement_,
                               boundary(),
                               input_.normalized,
-                              job_.places.ring_lines(boundary()),
                               input_.map,
-                              input_.domain().part_markers()};
+                              {boundary().part_names,
+                               input_.domain().part_markers(),
+                               job_.options.region,
+                               {boundary().periods.x, boundary().periods.y},
+                               input_.map.crs,
+                               job_.places.ring_lines(boundary())}};
   const meshing::MeshResult result = make_mesh(provenance);
   const SizeSummary sizes = summarize_size(size_.description, result.mesh, job_.comm);
   keeper_.go_to_the_end();

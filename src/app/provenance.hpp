@@ -11,6 +11,7 @@
 #include "trime/io/mesh_file.hpp"
 #include "trime/meshing/make_mesh.hpp"
 #include "trime/meshing/mesher.hpp"
+#include "trime/record/describe.hpp"
 
 #include <cstdint>
 #include <string>
@@ -26,9 +27,8 @@ struct Provenance {
   const Placement& placement;
   const geometry::Boundary& boundary;
   const std::vector<NormalizedPart>& normalized;
-  std::vector<std::int32_t> ring_lines; ///< UserPlaces::ring_lines
   const MapSystem& map;
-  std::vector<std::int32_t> part_markers; ///< RegionShape::part_markers
+  record::Origin origin; ///< ring_lines: UserPlaces::ring_lines
 };
 
 /// Everything that the group /trime_mpi holds. Not collective.

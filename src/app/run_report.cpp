@@ -2,12 +2,10 @@
 #include "app/run_report.hpp"
 
 #include "app/run_limit.hpp"
-#include "core/thread_loop.hpp"
+#include "trime/record/describe.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <span>
 
 namespace trime::app {
 namespace {
@@ -173,25 +171,8 @@ std::string times_text(const Measurements& measured) {
 } // namespace
 
 SizeSummary summarize_size(std::string description, const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
-  constexpr std::size_t part = 1 << 14;
-  struct Extremes {
-    float smallest = std::numeric_limits<float>::infinity(), largest = 0;
-  };
-  std::vector<Extremes> of_part((mesh.size.size() + part - 1) / part);
-  thread_loop(std::ssize(of_part), 1, [&](std::ptrdiff_t k, int) {
-    const std::size_t first = static_cast<std::size_t>(k) * part;
-    Extremes& extremes = of_part[static_cast<std::size_t>(k)];
-    for (const float size : std::span(mesh.size).subspan(first, std::min(part, mesh.size.size() - first)))
-      extremes = {std::min(extremes.smallest, size), std::max(extremes.largest, size)};
-  });
-  SizeSummary summary{std::move(description), std::numeric_limits<double>::infinity(), 0};
-  for (const Extremes& extremes : of_part) {
-    summary.smallest = std::min(summary.smallest, static_cast<double>(extremes.smallest));
-    summary.largest = std::max(summary.largest, static_cast<double>(extremes.largest));
-  }
-  summary.smallest = comm.min(summary.smallest);
-  summary.largest = comm.max(summary.largest);
-  return summary;
+  const record::SizeRange range = record::size_range(mesh, comm);
+  return {std::move(description), range.smallest, range.largest};
 }
 
 int final_retriangulation(const meshing::MeshResult& result) {

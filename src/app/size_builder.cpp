@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/size_builder.hpp"
 
-#include "core/angle.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/formula.hpp"
 #include "trime/sizing/automatic_size.hpp"
@@ -17,7 +16,7 @@ BuiltSize automatic_size(const RunOptions& options, const geometry::Domain& doma
   const geometry::Boundary& boundary = domain.boundary();
   sizing::AutomaticSizeOptions automatic;
   automatic.gradation = options.sizing.gradation;
-  automatic.feature_floor = feature_floor(options.mesh, boundary.area);
+  automatic.feature_floor = sizing::feature_floor(options.mesh.points, options.mesh.edge_length, boundary.area);
   automatic.container = domain.frame().container();
   automatic.period_x = boundary.periods.x;
   automatic.period_y = boundary.periods.y;
@@ -66,13 +65,6 @@ BuiltSize expression_size(const RunOptions& options, const geometry::Domain& dom
 }
 
 } // namespace
-
-double feature_floor(const meshing::MeshOptions& mesh, double area) {
-  if (mesh.edge_length)
-    return 0.5 * *mesh.edge_length;
-  const auto points = static_cast<double>(std::max<GlobalId>(mesh.points.value_or(1), 1));
-  return 0.5 * std::sqrt(2 / sqrt_3 * area / points);
-}
 
 BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, const comm::Communicator& comm) {
   BuiltSize size;

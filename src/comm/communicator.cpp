@@ -2,6 +2,8 @@
 #include "trime/comm/communicator.hpp"
 
 #include "comm/mpi_call.hpp"
+#include "comm/running_mpi.hpp"
+#include "trime/comm/from_mpi.hpp"
 #include "trime/core/timer.hpp"
 
 #include <algorithm>
@@ -41,20 +43,28 @@ void abort_job(int exit_code) {
   std::_Exit(exit_code);
 }
 
-#ifdef SMPI_H // SimGrid's MPI, which knows no threads
+#ifdef SMPI_H // SimGrid's MPI
 bool is_simulated() {
   return true;
 }
-constexpr int needed_thread_level = MPI_THREAD_SINGLE;
 #else
 bool is_simulated() {
   return false;
 }
-constexpr int needed_thread_level = MPI_THREAD_FUNNELED;
 #endif
 
+namespace {
+
+const Environment* owner = nullptr; // who started MPI; like MPI itself, it is there once in a process
+
+} // namespace
+
 Environment::Environment(int& argc, char**& argv) {
-  setenv("OMPI_MCA_fcoll", "^vulcan", 0); // stays if the user has chosen a writer
+  if (mpi_is_running()) {
+    join_running_mpi();
+    return;
+  }
+  avoid_wrong_writer();
   int provided = MPI_THREAD_SINGLE;
   check(MPI_Init_thread(&argc, &argv, needed_thread_level, &provided));
   set_wall_clock(mpi_seconds);
@@ -62,15 +72,12 @@ Environment::Environment(int& argc, char**& argv) {
     fmt::print(stderr, "trime_mpi: this MPI gives thread level {}, at least MPI_THREAD_FUNNELED is needed\n", provided);
     MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitCode::internal_error));
   }
+  owner = this;
   begin_simulated_work();
 }
 
 Environment::~Environment() {
-  if (std::uncaught_exceptions() > 0)
-    return;
-  int finalized = 0;
-  MPI_Finalized(&finalized);
-  if (finalized)
+  if (owner != this || std::uncaught_exceptions() > 0 || !mpi_is_running())
     return;
   end_simulated_work();
   MPI_Finalize();
@@ -85,10 +92,20 @@ std::string library_version() {
 }
 
 Communicator Communicator::world() {
+  join_running_mpi();
   return Communicator(duplicate(MPI_COMM_WORLD));
 }
 Communicator Communicator::self() {
   return Communicator(duplicate(MPI_COMM_SELF));
+}
+
+Communicator Communicator::Native::duplicate_of(MPI_Comm comm) {
+  return Communicator(duplicate(comm));
+}
+Communicator duplicate_of(MPI_Comm comm) {
+  check_usable(comm);
+  join_running_mpi();
+  return Communicator::Native::duplicate_of(comm);
 }
 
 Communicator Communicator::node() const {
@@ -112,7 +129,7 @@ Communicator& Communicator::operator=(Communicator&& other) noexcept {
   return *this;
 }
 Communicator::~Communicator() {
-  if (native_ && native_->comm != MPI_COMM_NULL && std::uncaught_exceptions() == 0) {
+  if (native_ && native_->comm != MPI_COMM_NULL && std::uncaught_exceptions() == 0 && mpi_is_running()) {
     const InMpi in_mpi;
     MPI_Comm_free(&native_->comm);
   }

@@ -9,6 +9,9 @@
 namespace trime::comm {
 
 struct Communicator::Native {
+  /// @pre MPI is running, and `comm` is one of its communicators
+  static Communicator duplicate_of(MPI_Comm comm);
+
   MPI_Comm comm = MPI_COMM_NULL;
   int rank = 0;
   mutable Counters counters{}; // of this rank

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The problem that the two solvers solve: -Laplace(u) = f in a plate with a round hole. On the part "plate" of the
-// boundary u is given, on the part "hole" its slope along the normal.
+// The problem that 04_solver and 07_petsc solve: -Laplace(u) = f in a plate with a round hole. On the part "plate" of
+// the boundary u is given, on the part "hole" its slope along the normal.
 #pragma once
 
-#include <trime/comm/communicator.hpp>
-#include <trime/core/error.hpp>
-#include <trime/handover/local_mesh.hpp>
-#include <trime/meshing/make_mesh.hpp>
-#include <trime/shape/region_shape.hpp>
-#include <trime/sizing/size_field.hpp>
+#include <trime/trime.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace plate {
 
-using trime::geometry::Vec2;
+using trime::Vec2;
 
 /// The exact u, its gradient and f.
 inline double solution(Vec2 p) {
@@ -29,30 +22,13 @@ inline double source(Vec2 p) {
   return 3 * solution(p);
 }
 
-inline trime::shape::RegionShape shape() {
-  using trime::shape::Part;
-  const trime::geometry::Frame frame({{0, 0}, {1, 1}});
-  return {{Part::rectangle("plate", {{0.05, 0.05}, {0.95, 0.95}}, frame), Part::circle("hole", {0.5, 0.5}, 0.2, frame)},
-          "difference(plate, hole)",
-          frame};
-}
-
-/// Returns the value of LocalMesh::facet_parts for a name.
-inline int part_number(const trime::shape::RegionShape& shape, const std::string& name) {
-  const std::vector<std::string>& names = shape.boundary().part_names;
-  return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
-/// Makes a mesh of about this number of points, and returns this rank's part. Collective.
-inline trime::handover::LocalMesh mesh(const trime::comm::Communicator& comm, const trime::shape::RegionShape& shape,
-                                       trime::GlobalId points, trime::handover::Overlap overlap) {
-  trime::meshing::MeshOptions options;
-  options.points = points;
-  trime::Log log(trime::LogLevel::warning, comm.is_root());
-  const trime::meshing::MeshResult result = make_mesh(comm, shape, trime::sizing::UniformSize(), options, log);
-  if (!is_complete(result)) // the same on all ranks
+/// This rank's part of a mesh of about so many points. Collective.
+inline trime::LocalMesh mesh(MPI_Comm comm, trime::GlobalId points, trime::handover::Overlap overlap) {
+  auto shape = trime::rectangle("plate", {0.05, 0.05}, {0.95, 0.95}) - trime::circle("hole", {0.5, 0.5}, 0.2);
+  auto mesh = trime::make_mesh(comm, shape, {.points = points});
+  if (!mesh.certified()) // the same on all ranks
     throw trime::GeometryError("a check of the mesh failed: solve on another number of points");
-  return make_local_mesh(comm, result.mesh, overlap);
+  return mesh.local(overlap);
 }
 
 } // namespace plate

@@ -3,6 +3,7 @@
 
 #include "comm/agree.hpp"
 #include "comm/native.hpp"
+#include "comm/running_mpi.hpp"
 #include "core/thread_loop.hpp"
 #include "io/hdf5_values.hpp"
 #include "io/lone_failure.hpp"
@@ -107,6 +108,8 @@ void SlabFile::agree_on(hid_t code, const std::string& action) const {
 SlabFile::SlabFile(const comm::Communicator& comm, std::string path, std::int64_t bytes)
     : comm_(comm), path_(std::move(path)), write_back_(path_) {
   const bool alone = comm_.size() == 1;
+  if (!alone)
+    comm::warn_of_wrong_writer(comm_.is_root());
   Hdf5Properties access;
   std::string opening;
   agreed([&] {

@@ -2,9 +2,11 @@
 #include "trime/sizing/automatic_size.hpp"
 
 #include "cones/size_quadtree.hpp"
+#include "core/angle.hpp"
 #include "sizing/boundary_features.hpp"
 #include "trime/core/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace trime::sizing {
@@ -26,6 +28,12 @@ std::unique_ptr<const SizeQuadtree> make_tree(const comm::Communicator& comm, co
 }
 
 } // namespace
+
+double feature_floor(std::optional<GlobalId> points, std::optional<double> edge_length, double area) {
+  if (edge_length)
+    return 0.5 * *edge_length;
+  return 0.5 * std::sqrt(2 / sqrt_3 * area / static_cast<double>(std::max<GlobalId>(points.value_or(1), 1)));
+}
 
 AutomaticSize::AutomaticSize(const comm::Communicator& comm, const geometry::Boundary& boundary,
                              const AutomaticSizeOptions& options)

@@ -45,12 +45,12 @@ class Solvers(unittest.TestCase):
         return on_one
 
     def test_own_solver(self):
-        self.check_solver("own_solver")
+        self.check_solver("04_solver")
 
-    @unittest.skipUnless((EXAMPLES / "poisson_petsc").exists(), "built without PETSc")
+    @unittest.skipUnless((EXAMPLES / "07_petsc").exists(), "built without PETSc")
     def test_petsc(self):
-        runs = self.check_solver("poisson_petsc")
-        self.assertAlmostEqual(runs[0][2] / solve("own_solver", SIZES[0], 1)[2], 1, delta=SOLVER_TOLERANCE)
+        runs = self.check_solver("07_petsc")
+        self.assertAlmostEqual(runs[0][2] / solve("04_solver", SIZES[0], 1)[2], 1, delta=SOLVER_TOLERANCE)
 
 
 class EdgeCut(unittest.TestCase):

@@ -5,6 +5,7 @@
 #include "app/config.hpp"
 #include "app/shape_builder.hpp"
 #include "trime/core/error.hpp"
+#include "trime/sizing/automatic_size.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,12 +35,8 @@ struct Built {
 };
 
 TEST(SizeBuilder, TheFeatureFloorIsHalfAnEdge) {
-  meshing::MeshOptions mesh;
-  mesh.edge_length = 0.1;
-  EXPECT_EQ(feature_floor(mesh, 1), 0.05);
-  mesh.edge_length.reset();
-  mesh.points = 1000000;
-  const double edge = 2 * feature_floor(mesh, 1); // two equilateral triangles for each point
+  EXPECT_EQ(sizing::feature_floor({}, 0.1, 1), 0.05);
+  const double edge = 2 * sizing::feature_floor(1000000, {}, 1); // two equilateral triangles for each point
   EXPECT_NEAR(2 * 1e6 * std::sqrt(3.0) / 4 * edge * edge, 1, 1e-12);
 }
 

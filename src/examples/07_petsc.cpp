@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Poisson's equation by PETSc on the ranks that made the mesh; no file lies between. The cells of the ranks become a
 // DMPlex, the parts of the boundary its labels, by name; linear elements, conjugate gradients with algebraic multigrid.
-//   mpirun -np 2 poisson_petsc [POINTS [options of PETSc, such as -ksp_monitor -pc_type hypre]]
+//   mpirun -n 2 07_petsc [POINTS [options of PETSc, such as -ksp_monitor -pc_type hypre]]
 #include "plate.hpp"
 
 #include <petscdmplex.h>
@@ -18,7 +18,6 @@ using plate::Vec2;
 using trime::at;
 using trime::GlobalId;
 using trime::LocalIndex;
-using trime::comm::Communicator;
 using trime::handover::LocalMesh;
 
 /// PETSc's integers may have 32 bits.
@@ -303,19 +302,22 @@ PetscErrorCode assemble_and_solve(DM dm, const char* flux, const Cells& cells, V
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode run(const Communicator& comm, GlobalId points) {
+PetscErrorCode run(MPI_Comm comm, GlobalId points) {
   PetscFunctionBeginUser;
   DM dm = nullptr;
   Vec local = nullptr;
   PetscInt steps = 0;
   PetscReal error = 0;
+  GlobalId total_points = 0, total_triangles = 0;
   const double start = MPI_Wtime();
-  const trime::shape::RegionShape shape = plate::shape();
-  LocalMesh mesh = plate::mesh(comm, shape, points, trime::handover::Overlap::none);
-  const double meshed = MPI_Wtime();
-  PetscCall(make_plex(mesh, shape.boundary().part_names, &dm));
-  const GlobalId total_points = mesh.total_points, total_triangles = mesh.total_triangles;
-  mesh = {}; // PETSc has it now
+  double meshed = 0;
+  {
+    const trime::LocalMesh mesh = plate::mesh(comm, points, trime::handover::Overlap::none);
+    meshed = MPI_Wtime();
+    total_points = mesh.arrays().total_points;
+    total_triangles = mesh.arrays().total_triangles;
+    PetscCall(make_plex(mesh.arrays(), mesh.facet_names(), &dm)); // PETSc has it now
+  }
   const double handed_over = MPI_Wtime();
   PetscCall(number_unknowns(dm, "plate"));
   PetscCall(DMCreateLocalVector(dm, &local));
@@ -324,27 +326,24 @@ PetscErrorCode run(const Communicator& comm, GlobalId points) {
   PetscCall(assemble_and_solve(dm, "hole", cells, local, &steps));
   PetscCall(measure_error(cells, local, &error));
   const double solved = MPI_Wtime();
-  if (comm.is_root())
-    std::printf("%lld points, %lld triangles; %d steps; error %.6e; seconds: mesh %.2f, DMPlex %.2f, solve %.2f\n",
-                static_cast<long long>(total_points), static_cast<long long>(total_triangles), static_cast<int>(steps),
-                error, meshed - start, handed_over - meshed, solved - handed_over);
+  PetscCall(PetscPrintf(
+      comm, "%lld points, %lld triangles; %d steps; error %.6e; seconds: mesh %.2f, DMPlex %.2f, solve %.2f\n",
+      static_cast<long long>(total_points), static_cast<long long>(total_triangles), static_cast<int>(steps), error,
+      meshed - start, handed_over - meshed, solved - handed_over));
   PetscCall(VecDestroy(&local));
   PetscCall(DMDestroy(&dm));
   PetscFunctionReturn(0);
 }
 
 int main(int argc, char** argv) {
-  const trime::comm::Environment mpi(argc, argv); // PETSc takes the MPI that it finds running
-  const Communicator comm = Communicator::world();
   const GlobalId points = argc > 1 ? std::atoll(argv[1]) : 5000;
+  PetscCall(PetscInitialize(&argc, &argv, nullptr, nullptr)); // starts MPI: no trime::Environment is needed
   try {
-    PetscCall(PetscInitialize(&argc, &argv, nullptr, nullptr));
-    PetscCall(run(comm, points));
-    PetscCall(PetscFinalize());
-    return 0;
+    PetscCall(run(PETSC_COMM_WORLD, points));
   } catch (const trime::Error& error) { // all ranks have the same one
-    if (comm.is_root())
-      std::fprintf(stderr, "poisson_petsc: error: %s\n", error.what());
+    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, stderr, "error: %s\n", error.what()));
     return static_cast<int>(error.code());
   }
+  PetscCall(PetscFinalize());
+  return 0;
 }

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From the size of a program to the size field of the lower level.
+#pragma once
+
+#include "trime/comm/communicator.hpp"
+#include "trime/facade/size.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/vec2.hpp"
+#include "trime/meshing/options.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <memory>
+
+namespace trime {
+
+/// @pre `size` outlives the field @throws ConfigError on all ranks together @note Collective.
+std::shared_ptr<const sizing::SizeField> build_size(const Size& size, const geometry::Boundary& boundary,
+                                                    const meshing::MeshOptions& options,
+                                                    const comm::Communicator& comm);
+
+} // namespace trime

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "facade/check_options.hpp"
+
+#include "comm/agree.hpp"
+#include "trime/core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace trime {
+namespace {
+
+template <class T>
+std::string text_of(const std::optional<T>& value) {
+  return value ? fmt::format("{}", *value) : "none";
+}
+
+std::string text_of(const std::optional<Box>& box) {
+  return box ? fmt::format("({}, {}) to ({}, {})", box->min.x, box->min.y, box->max.x, box->max.y) : "none";
+}
+
+/// What the ranks must agree on, one item each line.
+std::vector<std::string> items_of(const Shape& shape, const MeshOptions& options) {
+  const boundary::FeatureOptions& features = options.features;
+  std::vector<std::string> items{"shape " + shape.text(),
+                                 "points " + text_of(options.points),
+                                 "edge_length " + text_of(options.edge_length),
+                                 fmt::format("method {}", static_cast<int>(options.method)),
+                                 "min_size " + text_of(options.min_size),
+                                 "max_size " + text_of(options.max_size),
+                                 "container " + text_of(options.container),
+                                 fmt::format("periodic_x, periodic_y {}, {}", options.periodic_x, options.periodic_y),
+                                 fmt::format("max_sweeps {}", options.max_sweeps),
+                                 fmt::format("worst_alpha {}", options.worst_alpha),
+                                 fmt::format("seed {}", options.seed),
+                                 fmt::format("features {} {} {} {} {} {}", features.corner_angle, features.keep_all,
+                                             features.refine_narrow, features.tolerance, features.within,
+                                             static_cast<int>(features.narrow)),
+                                 fmt::format("{} fixed points", options.fixed_points.size())};
+  for (const Vec2 p : options.fixed_points)
+    items.push_back(fmt::format("fixed point ({}, {})", p.x, p.y));
+  return items;
+}
+
+void check_same(const Shape& shape, const MeshOptions& options, const comm::Communicator& comm) {
+  const std::vector<std::string> items = items_of(shape, options);
+  const std::string here = fmt::format("{}", fmt::join(items, "\n"));
+  const std::string of_root = comm.broadcast(here);
+  comm::run_agreed(comm, [&] {
+    if (here == of_root)
+      return;
+    std::size_t start = 0;
+    for (const std::string& item : items) {
+      const std::string theirs = of_root.substr(start, of_root.find('\n', start) - start);
+      if (item != theirs)
+        throw ConfigError(fmt::format("the ranks ask for different meshes: rank 0 has '{}', another one '{}'; expected "
+                                      "the same shape and options on all ranks",
+                                      theirs, item));
+      start += theirs.size() + 1;
+    }
+  });
+}
+
+void check_positive(const std::optional<double>& value, const char* name) {
+  if (value && !(*value > 0 && std::isfinite(*value)))
+    throw ConfigError(fmt::format("MeshOptions::{}: expected a finite number above 0, found {}", name, *value));
+}
+
+void check_values(const MeshOptions& options) {
+  if (options.points.has_value() == options.edge_length.has_value())
+    throw ConfigError(fmt::format("MeshOptions: expected one of points and edge_length, found {}; for example "
+                                  "{{.points = 5000}}",
+                                  options.points ? "both" : "none"));
+  if (options.points && *options.points < 3)
+    throw ConfigError(fmt::format("MeshOptions::points: expected at least 3, found {}", *options.points));
+  check_positive(options.edge_length, "edge_length");
+  check_positive(options.min_size, "min_size");
+  check_positive(options.max_size, "max_size");
+  if (options.min_size && options.max_size && *options.min_size > *options.max_size)
+    throw ConfigError(fmt::format("MeshOptions: expected min_size <= max_size, found {} and {}", *options.min_size,
+                                  *options.max_size));
+  if ((options.periodic_x || options.periodic_y) && !options.container)
+    throw ConfigError("MeshOptions: periodic_x and periodic_y need a container, whose sides are the periods");
+  if (options.max_sweeps < 0)
+    throw ConfigError(fmt::format("MeshOptions::max_sweeps: expected at least 0, found {}", options.max_sweeps));
+  for (const Vec2 p : options.fixed_points)
+    if (!std::isfinite(p.x) || !std::isfinite(p.y))
+      throw ConfigError(fmt::format("MeshOptions::fixed_points: expected finite numbers, found ({}, {})", p.x, p.y));
+}
+
+} // namespace
+
+void check_options(const Shape& shape, const MeshOptions& options, const comm::Communicator& comm) {
+  check_same(shape, options, comm);
+  check_values(options); // the same on all ranks
+}
+
+} // namespace trime

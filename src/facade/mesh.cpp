@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trime/facade/mesh.hpp"
+
+#include "comm/agree.hpp"
+#include "facade/build_shape.hpp"
+#include "facade/build_size.hpp"
+#include "facade/check_options.hpp"
+#include "facade/names.hpp"
+#include "trime/comm/from_mpi.hpp"
+#include "trime/core/error.hpp"
+#include "trime/core/log.hpp"
+#include "trime/core/timer.hpp"
+#include "trime/formats/exchange.hpp"
+#include "trime/io/mesh_file.hpp"
+#include "trime/io/stored_mesh.hpp"
+#include "trime/meshing/make_mesh.hpp"
+#include "trime/meshing/mesher.hpp"
+#include "trime/record/describe.hpp"
+
+#include <cstdio>
+#include <filesystem>
+
+namespace trime {
+
+namespace fs = std::filesystem;
+
+struct Mesh::Implementation {
+  std::shared_ptr<const comm::Communicator> communicator;
+  meshing::MeshResult result;
+  record::Origin origin;
+  io::Metadata metadata; ///< of the file
+};
+
+namespace {
+
+/// @throws ConfigError @pre a collective function of a mesh begins
+void check_running() {
+  if (!comm::mpi_is_running())
+    throw ConfigError("MPI was finalised before the last use of a mesh: expected MPI_Finalize after it");
+}
+
+meshing::MeshOptions lower_options(const MeshOptions& given, const Box& container) {
+  meshing::MeshOptions options;
+  options.points = given.points;
+  options.edge_length = given.edge_length;
+  options.method = given.method;
+  options.min_size = given.min_size;
+  options.max_size = given.max_size;
+  options.container = container;
+  options.features = given.features;
+  options.max_sweeps = given.max_sweeps;
+  options.worst_alpha = given.worst_alpha;
+  options.seed = given.seed;
+  for (std::size_t k = 0; k < given.fixed_points.size(); ++k)
+    options.fixed_points.push_back({given.fixed_points[k], fmt::format("MeshOptions::fixed_points[{}]", k)});
+  return options;
+}
+
+/// Says in the file what the size was.
+std::string text_of(const Size& size) {
+  if (size.is_automatic())
+    return fmt::format("automatic, gradation {:.6g}", size.gradation());
+  return size.function() || size.field() ? "a function of the program" : "uniform";
+}
+
+/// The names and other things that are there for readers of the file.
+record::Origin origin_of(const io::Metadata& metadata) {
+  record::Origin origin;
+  origin.part_names = io::column_of<std::string>(metadata, "tags", "part_name");
+  origin.part_markers = io::column_of<std::int32_t>(metadata, "tags", "part_marker");
+  const auto& regions = io::column_of<std::string>(metadata, "tags", "region_name");
+  origin.region = regions.empty() ? "" : regions[0];
+  origin.period = {io::attribute_of<double>(metadata, "period_x"), io::attribute_of<double>(metadata, "period_y")};
+  origin.crs = io::attribute_of<std::string>(metadata, "crs");
+  return origin;
+}
+
+mesh::Checks checks_of(const io::Metadata& metadata) {
+  mesh::Checks checks;
+  if (io::find_group(metadata, "checks") == nullptr)
+    return checks;
+  const auto& names = io::column_of<std::string>(metadata, "checks", "name");
+  const auto& expected = io::column_of<double>(metadata, "checks", "expected");
+  const auto& found = io::column_of<double>(metadata, "checks", "found");
+  const auto& passed = io::column_of<std::int32_t>(metadata, "checks", "passed");
+  const auto& meanings = io::column_of<std::string>(metadata, "checks", "meaning");
+  for (std::size_t k = 0; k < names.size(); ++k)
+    checks.push_back({names.at(k), expected.at(k), found.at(k), passed.at(k) != 0, meanings.at(k)});
+  return checks;
+}
+
+mesh::QualitySummary quality_of(const io::Metadata& metadata) {
+  mesh::QualitySummary quality;
+  const io::MetadataGroup* group = io::find_group(metadata, "quality");
+  for (const auto& [name, value] : {std::pair{"alpha_median", &quality.alpha.median},
+                                    {"alpha_mean", &quality.alpha.mean},
+                                    {"alpha_max", &quality.alpha.max},
+                                    {"alpha_half_mean", &quality.alpha.half_mean},
+                                    {"alpha_std", &quality.alpha.std},
+                                    {"beta_median", &quality.beta.median},
+                                    {"beta_mean", &quality.beta.mean},
+                                    {"beta_max", &quality.beta.max},
+                                    {"beta_half_mean", &quality.beta.half_mean},
+                                    {"beta_std", &quality.beta.std},
+                                    {"min_angle_degrees", &quality.min_angle_degrees},
+                                    {"size_mean", &quality.size_mean},
+                                    {"size_std", &quality.size_std}})
+    if (group != nullptr)
+      for (const io::Attribute& attribute : group->attributes)
+        if (attribute.name == name && std::holds_alternative<double>(attribute.value))
+          *value = std::get<double>(attribute.value);
+  return quality;
+}
+
+/// On rank 0, for all. Collective.
+void refuse_to_replace(const std::vector<std::string>& paths, const comm::Communicator& comm) {
+  comm::run_agreed(comm, [&] {
+    std::error_code error;
+    if (comm.is_root())
+      for (const std::string& path : paths)
+        if (fs::exists(fs::symlink_status(path, error)))
+          throw FileError(
+              fmt::format("{} exists; set WriteOptions::overwrite to replace it, or choose another path", path));
+  });
+}
+
+void make_directory_of(const fs::path& path, const comm::Communicator& comm) {
+  comm::run_agreed(comm, [&] {
+    std::error_code error;
+    if (comm.is_root() && path.has_parent_path())
+      fs::create_directories(path.parent_path(), error);
+    if (error)
+      throw FileError(fmt::format("the directory {} cannot be made: {}", path.parent_path().string(), error.message()));
+  });
+}
+
+} // namespace
+
+Mesh::Mesh(std::unique_ptr<Implementation> implementation) : implementation_(std::move(implementation)) {}
+Mesh::Mesh(Mesh&&) noexcept = default;
+Mesh& Mesh::operator=(Mesh&&) noexcept = default;
+Mesh::~Mesh() = default;
+
+GlobalId Mesh::points() const {
+  return result().mesh.point_slab.total;
+}
+GlobalId Mesh::triangles() const {
+  return result().mesh.triangle_slab.total;
+}
+bool Mesh::certified() const {
+  return io::attribute_of<std::int64_t>(implementation_->metadata, "complete") != 0;
+}
+const mesh::Checks& Mesh::checks() const {
+  return result().checks;
+}
+const mesh::QualitySummary& Mesh::quality() const {
+  return result().quality;
+}
+std::uint64_t Mesh::hash() const {
+  return result().mesh.hash;
+}
+const std::vector<std::string>& Mesh::facet_names() const {
+  return implementation_->origin.part_names;
+}
+const meshing::MeshResult& Mesh::result() const {
+  return implementation_->result;
+}
+const comm::Communicator& Mesh::communicator() const {
+  return *implementation_->communicator;
+}
+
+std::vector<std::array<GlobalId, 2>> Mesh::facets(const std::string& name) const {
+  const std::int32_t part = number_of(name, facet_names());
+  const mesh::DistributedMesh& mesh = result().mesh;
+  std::vector<std::array<GlobalId, 2>> found;
+  for (std::size_t k = 0; k < mesh.facets.size(); ++k)
+    if (mesh.facet_parts[k] == part)
+      found.push_back(mesh.facets[k]);
+  return found;
+}
+
+LocalMesh Mesh::local(handover::Overlap overlap) const {
+  check_running();
+  return {handover::make_local_mesh(communicator(), result().mesh, overlap), facet_names(),
+          implementation_->communicator};
+}
+
+void Mesh::write(const std::string& path, const WriteOptions& options) const {
+  check_running();
+  const comm::Communicator& comm = communicator();
+  const record::Origin& origin = implementation_->origin;
+  const fs::path file(path);
+  if (file.extension() == ".h5") {
+    io::MeshFileOptions target;
+    target.directory = file.has_parent_path() ? file.parent_path().string() : ".";
+    target.name = file.stem().string();
+    target.overwrite = options.overwrite;
+    target.vtkhdf = options.vtkhdf;
+    target.xdmf = options.xdmf;
+    target.is_final = true;
+    target.part_markers = origin.part_markers;
+    if (!options.overwrite)
+      refuse_to_replace({target.path(".h5"), target.path(".xdmf"), target.path(".vtkhdf")}, comm);
+    for (const std::string& warning : io::check_output(target, comm))
+      fmt::print(stderr, "warning: {}\n", warning);
+    io::write_mesh(target, result().mesh, implementation_->metadata, comm);
+    return;
+  }
+  const auto format = formats::format_of_path(path);
+  if (!format)
+    throw ConfigError(fmt::format("{}: expected a path that ends in .h5, or in the ending of another format, such as "
+                                  ".msh, .vtu or .geojson",
+                                  path));
+  if (!options.overwrite)
+    refuse_to_replace(formats::paths_of(*format, path), comm);
+  make_directory_of(file, comm);
+  formats::write(*format, path, result().mesh, {origin.part_names, {origin.region}, origin.period, origin.crs}, nullptr,
+                 comm);
+}
+
+Mesh make_mesh(MPI_Comm handle, const Shape& shape, const Size& size, const MeshOptions& options) {
+  const auto comm = std::make_shared<const comm::Communicator>(comm::duplicate_of(handle));
+  check_options(shape, options, *comm);
+  Log quiet(LogLevel::warning, comm->is_root() && options.log == nullptr, stderr);
+  Log& log = options.log != nullptr ? *options.log : quiet;
+  const BuiltShape built = build_shape(shape, options, *comm, log);
+  const geometry::Boundary& boundary = built.made.boundary;
+  const meshing::MeshOptions lower = lower_options(options, built.container);
+  const std::shared_ptr<const sizing::SizeField> field = build_size(size, boundary, lower, *comm);
+  TimerTable timers;
+  auto made = std::make_unique<Mesh::Implementation>();
+  made->communicator = comm;
+  made->result = meshing::Mesher(*comm, boundary, *field, lower, log, timers).run();
+  made->origin = {boundary.part_names, built.made.part_markers, shape.text(), {boundary.periods.x, boundary.periods.y}};
+  made->metadata = record::describe(made->result, made->origin, text_of(size), *comm);
+  return Mesh(std::move(made));
+}
+
+Mesh make_mesh(MPI_Comm comm, const Shape& shape, const MeshOptions& options) {
+  return make_mesh(comm, shape, sizes::uniform(), options);
+}
+
+Mesh read_mesh(MPI_Comm handle, const std::string& path) {
+  auto read = std::make_unique<Mesh::Implementation>();
+  read->communicator = std::make_shared<const comm::Communicator>(comm::duplicate_of(handle));
+  read->metadata = io::read_metadata(
+      path, {"history", "quality", "checks", "worst_triangles", "tags", "sharp_corners", "rings", "normalization"},
+      *read->communicator);
+  read->origin = origin_of(read->metadata);
+  read->result.checks = checks_of(read->metadata);
+  read->result.quality = quality_of(read->metadata);
+  read->result.mesh = io::read_mesh(path, read->metadata, *read->communicator);
+  return Mesh(std::move(read));
+}
+
+} // namespace trime

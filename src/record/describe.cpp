@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "record/groups.hpp"
+
+#include "core/thread_loop.hpp"
+#include "trime/io/describe.hpp"
+#include "trime/io/mesh_file.hpp"
+#include "trime/meshing/make_mesh.hpp"
+#include "trime/shape/region_shape.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <limits>
+#include <numeric>
+#include <span>
+
+namespace trime::record {
+namespace {
+
+/// Names of the parts along a loop, in order, each once: "square" or "square+disc".
+std::string loop_name(const Origin& origin, const polygon::LoopSummary& loop) {
+  std::string name;
+  for (const std::int32_t part : loop.parts)
+    name += (name.empty() ? "" : "+") + origin.part_names.at(static_cast<std::size_t>(part));
+  return name;
+}
+
+std::string kind_name(const polygon::LoopSummary& loop) {
+  using Kind = polygon::LoopSummary::Kind;
+  return loop.kind == Kind::outer ? "outer" : loop.kind == Kind::hole ? "hole" : "band";
+}
+
+std::string utc_time() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+Attributes joined(std::initializer_list<Attributes> lists) {
+  Attributes all;
+  for (const Attributes& list : lists)
+    all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
+} // namespace
+
+Attributes format_attributes() {
+  return {{"format", std::string("trime_mpi-mesh")}, {"format_version", std::int64_t{1}}};
+}
+
+Attributes place_attributes(const Origin& origin) {
+  return {{"crs", origin.crs},           // reference system of the coordinates; empty: none is known
+          {"period_x", origin.period.x}, // 0: not periodic; else images of a triangle's corners count
+          {"period_y", origin.period.y}};
+}
+
+Attributes mesh_attributes(const mesh::DistributedMesh& mesh, int retriangulation) {
+  return {{"points", mesh.point_slab.total},
+          {"triangles", mesh.triangle_slab.total},
+          {"retriangulation", std::int64_t{retriangulation}},
+          {"mesh_hash", mesh.hash},
+          {"mesh_hash_hex", fmt::format("{:016x}", mesh.hash)}};
+}
+
+Attributes result_attributes(const meshing::MeshResult& result) {
+  return {{"iterations", std::int64_t{result.history.empty() ? 0 : result.history.back().sweep}},
+          {"stop_reason", sweep::to_string(result.stop_reason)},
+          {"requested_points", result.requested_points},
+          {"count_reason", result.count_reason},
+          {"start_reason", result.start_reason},
+          {"edge_length", result.edge_length},
+          {"corners", result.corners},
+          {"components", std::int64_t{result.components}},
+          {"holes", std::int64_t{result.holes}},
+          {"shape_area", result.shape_area},
+          {"cleanup_patches", result.cleanup.patches},
+          {"cleanup_better", result.cleanup.better},
+          {"cleanup_moved", result.cleanup.moved},
+          {"cleanup_inserted", result.cleanup.inserted},
+          {"cleanup_deleted", result.cleanup.deleted},
+          {"cleanup_on_boundary", result.cleanup.on_boundary},
+          {"cleanup_left", result.cleanup.left},
+          {"dropped_islands", result.features.dropped_islands},
+          {"dropped_lakes", result.features.dropped_lakes},
+          {"dropped_area", result.features.dropped_area},
+          {"corners_left_out", result.features.corners_left_out},
+          {"largest_deviation", result.features.largest_deviation},
+          {"segments_halved", result.features.segments_halved},
+          {"size_limits", result.features.size_limits},
+          {"lowest_size_share", result.features.lowest_size_share},
+          {"narrow_cut", result.features.cut},
+          {"narrow_closed", result.features.closed},
+          {"narrow_widened", result.features.widened},
+          {"holes_filled", result.features.filled},
+          {"vertices_smoothed", result.features.smoothed},
+          {"coarseness", result.features.coarseness},
+          {"lost_share", result.features.lost_share},
+          {"added_share", result.features.added_share}};
+}
+
+io::MetadataGroup history_group(const std::vector<sweep::SweepRecord>& history) {
+  using Record = sweep::SweepRecord;
+  return {
+      "history",
+      {},
+      {column<std::int64_t>("sweep", history, &Record::sweep), column<std::int64_t>("points", history, &Record::points),
+       column<std::int64_t>("stage", history, &Record::stage),
+       column<std::int64_t>("by_bars", history, &Record::by_bars),
+       column<double>("median_alpha", history, &Record::median_alpha),
+       column<double>("mean_alpha", history, &Record::mean_alpha),
+       column<double>("max_alpha", history, &Record::max_alpha), column<double>("max_move", history, &Record::max_move),
+       column<double>("moving_share", history, &Record::moving_share),
+       column<std::int64_t>("rebuilt_stars", history, &Record::rebuilt_stars),
+       column<std::int64_t>("pushed", history, &Record::pushed),
+       column<std::int64_t>("deleted", history, &Record::deleted),
+       column<double>("seconds", history, &Record::seconds)}};
+}
+
+io::MetadataGroup sharp_corners_group(const std::vector<boundary::SharpCorner>& corners) {
+  using Corner = boundary::SharpCorner;
+  return {"sharp_corners",
+          {{"below_degrees", boundary::FeatureReport::sharp_angle}},
+          {column<double>("x", corners, [](const Corner& c) { return c.place.x; }),
+           column<double>("y", corners, [](const Corner& c) { return c.place.y; }),
+           column<double>("degrees", corners, &Corner::degrees)}};
+}
+
+io::MetadataGroup rings_group(const Origin& origin, const std::vector<boundary::LoopFate>& loops) {
+  using Fate = boundary::LoopFate;
+  std::vector<std::int32_t> numbers(loops.size()), lines = origin.ring_lines;
+  std::iota(numbers.begin(), numbers.end(), 1);
+  lines.resize(loops.size());
+  const auto all_tags = [](const Fate& fate) {
+    std::string text;
+    for (const std::int32_t tag : fate.tags)
+      text += fmt::format("{}{}", text.empty() ? "" : " ", tag);
+    return text;
+  };
+  return {
+      "rings",
+      {},
+      {{"loop", std::move(numbers)},
+       {"line", std::move(lines)},
+       column<std::string>("part_name", loops,
+                           [&](const Fate& fate) { return origin.part_names.at(static_cast<std::size_t>(fate.part)); }),
+       column<std::string>("state", loops, [](const Fate& fate) { return std::string(to_string(fate.state)); }),
+       column<std::int32_t>("tag", loops, [](const Fate& fate) { return fate.tags.empty() ? 0 : fate.tags[0]; }),
+       column<std::string>("tags", loops, all_tags),
+       column<double>("x", loops, [](const Fate& fate) { return fate.place.x; }),
+       column<double>("y", loops, [](const Fate& fate) { return fate.place.y; }),
+       column<double>("area", loops, &Fate::area),
+       column<double>("length", loops, &Fate::length),
+       column<double>("remaining_length", loops, &Fate::remaining_length),
+       column<double>("largest_deviation", loops, &Fate::largest_deviation)}};
+}
+
+io::MetadataGroup tags_group(const Origin& origin, const std::vector<polygon::LoopSummary>& loops) {
+  using polygon::LoopSummary;
+  std::vector<std::int32_t> part_ids(origin.part_names.size());
+  std::iota(part_ids.begin(), part_ids.end(), 0);
+  return {"tags",
+          {},
+          {column<std::int32_t>("edge_id", loops, &LoopSummary::tag),
+           column<std::string>("edge_name", loops, [&](const LoopSummary& loop) { return loop_name(origin, loop); }),
+           column<std::string>("edge_kind", loops, kind_name),
+           column<std::int64_t>("edge_count", loops, &LoopSummary::edges),
+           column<double>("edge_length_sum", loops, &LoopSummary::length),
+           {"part_id", part_ids},
+           {"part_name", origin.part_names},
+           {"part_marker", origin.part_markers},
+           {"region_id", std::vector<std::int32_t>{1}},
+           {"region_name", std::vector<std::string>{origin.region}}}};
+}
+
+SizeRange size_range(const mesh::DistributedMesh& mesh, const comm::Communicator& comm) {
+  constexpr std::size_t part = 1 << 14;
+  struct Extremes {
+    float smallest = std::numeric_limits<float>::infinity(), largest = 0;
+  };
+  std::vector<Extremes> of_part((mesh.size.size() + part - 1) / part);
+  thread_loop(std::ssize(of_part), 1, [&](std::ptrdiff_t k, int) {
+    const std::size_t first = static_cast<std::size_t>(k) * part;
+    Extremes& extremes = of_part[static_cast<std::size_t>(k)];
+    for (const float size : std::span(mesh.size).subspan(first, std::min(part, mesh.size.size() - first)))
+      extremes = {std::min(extremes.smallest, size), std::max(extremes.largest, size)};
+  });
+  SizeRange range{std::numeric_limits<double>::infinity(), 0};
+  for (const Extremes& extremes : of_part) {
+    range.smallest = std::min(range.smallest, static_cast<double>(extremes.smallest));
+    range.largest = std::max(range.largest, static_cast<double>(extremes.largest));
+  }
+  range.smallest = comm.min(range.smallest);
+  range.largest = comm.max(range.largest);
+  return range;
+}
+
+Origin origin_of(const shape::RegionShape& shape) {
+  const geometry::Boundary& boundary = shape.boundary();
+  return {boundary.part_names, shape.part_markers(), shape.region().text(), {boundary.periods.x, boundary.periods.y}};
+}
+
+io::Metadata describe(const meshing::MeshResult& result, const Origin& origin, const std::string& sizing,
+                      const comm::Communicator& comm) {
+  const SizeRange sizes = size_range(result.mesh, comm);
+  const Attributes made{{"created_utc", utc_time()},
+                        {"mpi_library", comm::library_version()},
+                        {"hdf5_library", io::hdf5_version()},
+                        {"sizing", sizing},
+                        {"smallest_size", sizes.smallest},
+                        {"largest_size", sizes.largest},
+                        {"complete", std::int64_t{is_complete(result)}}};
+  return {joined({format_attributes(), made, place_attributes(origin),
+                  mesh_attributes(result.mesh, result.triangulations + 1), result_attributes(result)}),
+          {},
+          {history_group(result.history), io::quality_group(result.quality), io::checks_group(result.checks),
+           io::bad_triangles_group(result.quality), tags_group(origin, result.loops),
+           sharp_corners_group(result.features.sharp_corners), rings_group(origin, result.features.loops)}};
+}
+
+} // namespace trime::record

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The pieces of the metadata of a mesh, from which describe() and the program put theirs together.
+#pragma once
+
+#include "trime/boundary/feature_summary.hpp"
+#include "trime/io/metadata.hpp"
+#include "trime/mesh/distributed_mesh.hpp"
+#include "trime/meshing/options.hpp"
+#include "trime/polygon/loop_summary.hpp"
+#include "trime/record/describe.hpp"
+#include "trime/sweep/sweep_history.hpp"
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace trime::record {
+
+using Attributes = std::vector<io::Attribute>;
+
+/// One value of each element as a column.
+template <class T, class Element, class Value>
+io::Column column(const std::string& name, const std::vector<Element>& elements, const Value& value) {
+  std::vector<T> values;
+  for (const Element& element : elements)
+    values.push_back(static_cast<T>(std::invoke(value, element)));
+  return {name, std::move(values)};
+}
+
+/// Name and version of the format of the file.
+Attributes format_attributes();
+/// Reference system and periods.
+Attributes place_attributes(const Origin& origin);
+/// Counts and hash. @param retriangulation counts from 1
+Attributes mesh_attributes(const mesh::DistributedMesh& mesh, int retriangulation);
+/// How the run went, and what became of the features of the shape.
+Attributes result_attributes(const meshing::MeshResult& result);
+
+io::MetadataGroup history_group(const std::vector<sweep::SweepRecord>& history);
+/// Returns the tables that explain the numbers in /Mesh/facets: `values` are edge_id, `parts` are part_id.
+io::MetadataGroup tags_group(const Origin& origin, const std::vector<polygon::LoopSummary>& loops);
+/// Corners where small angles cannot be avoided.
+io::MetadataGroup sharp_corners_group(const std::vector<boundary::SharpCorner>& corners);
+/// Returns the table of the loops of the shape.
+io::MetadataGroup rings_group(const Origin& origin, const std::vector<boundary::LoopFate>& loops);
+
+} // namespace trime::record

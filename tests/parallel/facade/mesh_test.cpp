@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The library in one header: meshes of programs that have MPI running, on all ranks, on some of them, and on one.
+#include "support/temporary_directory.hpp"
+#include "trime/comm/from_mpi.hpp"
+#include "trime/trime.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+namespace trime {
+namespace {
+
+int rank_of(MPI_Comm comm) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  return rank;
+}
+
+Shape plate() {
+  return rectangle("plate", {0, 0}, {2, 1}) - circle("hole", {1, .5}, .2);
+}
+
+/// The message of an error of this class; empty if there was none. All ranks must come here together.
+template <class Expected, class Work>
+std::string error_of(const Work& work) {
+  std::string message;
+  try {
+    work();
+  } catch (const Expected& error) {
+    message = error.what();
+  }
+  MPI_Barrier(MPI_COMM_WORLD); // nobody is left behind in a collective
+  return message;
+}
+
+void expect_in(const std::string& part, const std::string& text) {
+  EXPECT_NE(text.find(part), std::string::npos) << "expected '" << part << "' in: " << text;
+}
+
+TEST(Facade, MeshesOnTheWorldAsOnOneRank) {
+  const Mesh mesh = make_mesh(MPI_COMM_WORLD, plate(), {.points = 1500});
+  const Mesh alone = make_mesh(MPI_COMM_SELF, plate(), {.points = 1500});
+  EXPECT_TRUE(mesh.certified());
+  EXPECT_EQ(mesh.hash(), alone.hash());
+  EXPECT_EQ(mesh.points(), alone.points());
+  EXPECT_EQ(mesh.quality().alpha.mean, alone.quality().alpha.mean);
+  EXPECT_EQ(mesh.facet_names()[0], "plate");
+  EXPECT_EQ(mesh.facet_names()[1], "hole");
+}
+
+TEST(Facade, HalfOfTheRanksMakeAMeshOfTheirOwn) {
+  const int rank = rank_of(MPI_COMM_WORLD), half = rank % 2;
+  MPI_Comm part = MPI_COMM_NULL;
+  MPI_Comm_split(MPI_COMM_WORLD, half, rank, &part);
+  const GlobalId points = half == 0 ? 800 : 1200;
+  const Mesh mesh = make_mesh(part, plate(), {.points = points});
+  MPI_Comm_free(&part); // the mesh has a duplicate
+  EXPECT_EQ(mesh.hash(), make_mesh(MPI_COMM_SELF, plate(), {.points = points}).hash());
+  const LocalMesh local = mesh.local();
+  EXPECT_EQ(local.sum(static_cast<double>(local.owned_points())), static_cast<double>(mesh.points()));
+}
+
+TEST(Facade, BoundaryEdgesByName) {
+  const Mesh mesh = make_mesh(MPI_COMM_WORLD, plate(), {.points = 2000});
+  const LocalMesh local = mesh.local();
+  double length = 0;
+  for (const Facet& facet : local.facets("hole")) {
+    const Vec2 a = local.points()[at(facet.first)], b = local.points()[at(facet.second)];
+    EXPECT_NEAR(geometry::length(a - Vec2{1, .5}), .2, 1e-9);
+    if (facet.owned)
+      length += geometry::length(b - a);
+  }
+  EXPECT_NEAR(local.sum(length), 2 * std::acos(-1.0) * .2, 0.01);
+  const auto slab = static_cast<double>(mesh.facets("hole").size());
+  double owned = 0;
+  for (const Facet& facet : local.facets("hole"))
+    owned += facet.owned ? 1 : 0;
+  EXPECT_EQ(local.sum(slab), local.sum(owned));
+}
+
+TEST(Facade, GhostsGetTheValuesOfTheirOwners) {
+  const LocalMesh local = make_mesh(MPI_COMM_WORLD, plate(), {.points = 1000}).local(); // the mesh is gone
+  std::vector<double> values(local.points().size(), -1);
+  for (LocalIndex i = 0; i < local.owned_points(); ++i)
+    values[at(i)] = static_cast<double>(local.global_id(i));
+  local.update_ghosts(values);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    EXPECT_EQ(values[i], static_cast<double>(local.global_id(static_cast<LocalIndex>(i))));
+}
+
+TEST(Facade, AFileIsReadBackWithItsNames) {
+  const comm::Communicator world = comm::Communicator::world();
+  const test::TemporaryDirectory directory(world);
+  const std::string path = directory.path() + "/deep/er/plate.h5";
+  const Mesh mesh = make_mesh(MPI_COMM_WORLD, plate(), {.points = 700});
+  mesh.write(path);
+  expect_in("exists", error_of<FileError>([&] { mesh.write(path); }));
+  mesh.write(path, {.overwrite = true});
+  const Mesh read = read_mesh(MPI_COMM_WORLD, path);
+  EXPECT_EQ(read.hash(), mesh.hash());
+  EXPECT_EQ(read.certified(), mesh.certified());
+  EXPECT_EQ(read.facet_names(), mesh.facet_names());
+  EXPECT_EQ(read.checks().size(), mesh.checks().size());
+  EXPECT_EQ(read.quality().alpha.mean, mesh.quality().alpha.mean);
+  const LocalMesh local = read.local();
+  EXPECT_GT(local.sum(static_cast<double>(local.facets("hole").size())), 0);
+  read.write(directory.path() + "/other/plate.msh");
+  expect_in("exists", error_of<FileError>([&] { read.write(directory.path() + "/other/plate.msh"); }));
+  expect_in("expected a path that ends in .h5", error_of<ConfigError>([&] { read.write("plate.docx"); }));
+}
+
+TEST(Facade, SizesByAFunctionAndAutomatically) {
+  const MeshOptions options{.points = 1500};
+  const auto growing = [](Vec2 p) { return 1 + 3 * p.x; };
+  const Mesh graded = make_mesh(MPI_COMM_WORLD, plate(), growing, options);
+  const Mesh automatic = make_mesh(MPI_COMM_WORLD, plate(), sizes::automatic(0.2), options);
+  const Mesh uniform = make_mesh(MPI_COMM_WORLD, plate(), sizes::uniform(), options);
+  EXPECT_TRUE(graded.certified());
+  EXPECT_TRUE(automatic.certified());
+  EXPECT_EQ(uniform.hash(), make_mesh(MPI_COMM_WORLD, plate(), options).hash());
+  EXPECT_EQ(std::set<std::uint64_t>({graded.hash(), automatic.hash(), uniform.hash()}).size(), 3u);
+  EXPECT_EQ(automatic.hash(), make_mesh(MPI_COMM_SELF, plate(), sizes::automatic(0.2), options).hash());
+}
+
+TEST(Facade, AllKindsOfParts) {
+  const auto disc = [](Vec2 p) { return std::hypot(p.x - 3, p.y - 0.5) - 0.5; };
+  const Shape shape =
+      (rings("frame", {{{0, 0}, {2, 0}, {2, 2}, {0, 2}}, {{.5, .5}, {.5, 1.5}, {1.5, 1.5}, {1.5, .5}}}) +
+       function("disc", disc, {{2.5, 0}, {3.5, 1}})) &
+      rectangle("window", {-1, -1}, {3, 5});
+  EXPECT_EQ(shape.text(), "intersection(union(frame, disc), window)");
+  const Mesh mesh = make_mesh(MPI_COMM_WORLD, shape, {.edge_length = 0.1});
+  EXPECT_TRUE(mesh.certified());
+  EXPECT_EQ(mesh.facet_names()[2], "window");
+}
+
+TEST(Facade, TextOfOperators) {
+  const Shape a = rectangle("a", {0, 0}, {1, 1}), b = circle("b", {0, 0}, 1), c = circle("c", {1, 1}, 1);
+  EXPECT_EQ((a - b - c).text(), "difference(a, b, c)");
+  EXPECT_EQ((a - (b - c)).text(), "difference(a, difference(b, c))");
+  EXPECT_EQ((a + (b + c)).text(), "union(a, b, c)");
+  EXPECT_EQ((domain() - (a & b)).text(), "difference(domain, intersection(a, b))");
+}
+
+TEST(Facade, PeriodicMeshes) {
+  const Mesh mesh =
+      make_mesh(MPI_COMM_WORLD, domain() - circle("hole", {.5, .5}, .2),
+                {.points = 800, .container = Box{{0, 0}, {1, 1}}, .periodic_x = true, .periodic_y = true});
+  EXPECT_TRUE(mesh.certified());
+}
+
+TEST(Facade, ASecondEnvironmentDoesNothing) {
+  int argc = 0;
+  char** argv = nullptr;
+  { const Environment second(argc, argv); }
+  EXPECT_TRUE(comm::mpi_is_running());
+}
+
+TEST(FacadeErrors, Communicators) {
+  const auto mesh_on = [](MPI_Comm comm) { return [=] { make_mesh(comm, plate(), {.points = 100}); }; };
+  expect_in("MPI_COMM_NULL", error_of<ConfigError>(mesh_on(MPI_COMM_NULL)));
+  MPI_Comm freed = MPI_COMM_NULL;
+  MPI_Comm_dup(MPI_COMM_WORLD, &freed);
+  const MPI_Comm copy = freed;
+  MPI_Comm_free(&freed);
+  expect_in("it was freed before", error_of<ConfigError>(mesh_on(copy)));
+  int size = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  if (size == 1)
+    return;
+  MPI_Comm half = MPI_COMM_NULL, both = MPI_COMM_NULL;
+  const int group = rank_of(MPI_COMM_WORLD) % 2;
+  MPI_Comm_split(MPI_COMM_WORLD, group, 0, &half);
+  MPI_Intercomm_create(half, 0, MPI_COMM_WORLD, 1 - group, 0, &both);
+  expect_in("MPI_Intercomm_merge", error_of<ConfigError>(mesh_on(both)));
+  MPI_Comm_free(&both);
+  MPI_Comm_free(&half);
+}
+
+TEST(FacadeErrors, Options) {
+  const auto mesh_with = [](const MeshOptions& options) {
+    return [=] { make_mesh(MPI_COMM_WORLD, plate(), options); };
+  };
+  expect_in("one of points and edge_length, found none", error_of<ConfigError>(mesh_with({})));
+  expect_in("found both", error_of<ConfigError>(mesh_with({.points = 100, .edge_length = 0.1})));
+  expect_in("at least 3, found 2", error_of<ConfigError>(mesh_with({.points = 2})));
+  expect_in("edge_length: expected a finite number above 0", error_of<ConfigError>(mesh_with({.edge_length = -1})));
+  expect_in("min_size <= max_size",
+            error_of<ConfigError>(mesh_with({.points = 100, .min_size = 0.2, .max_size = 0.1})));
+  expect_in("need a container", error_of<ConfigError>(mesh_with({.points = 100, .periodic_x = true})));
+  expect_in("container", error_of<GeometryError>(mesh_with({.points = 100, .container = Box{{0, 0}, {1, 1}}})));
+  expect_in("MeshOptions::fixed_points[0]",
+            error_of<GeometryError>(mesh_with({.points = 100, .fixed_points = {{1, .5}}}))); // in the hole
+  if (const comm::Communicator world = comm::Communicator::world(); world.size() > 1) {
+    const GlobalId points = 100 + world.rank();
+    expect_in("rank 0 has 'points 100', another one 'points 101'",
+              error_of<ConfigError>(mesh_with({.points = points})));
+  }
+}
+
+TEST(FacadeErrors, Shapes) {
+  const auto mesh_of = [](const Shape& shape) { return [=] { make_mesh(MPI_COMM_WORLD, shape, {.points = 100}); }; };
+  const Shape square = rectangle("a", {0, 0}, {1, 1});
+  expect_in("two different parts are called 'a'", error_of<ConfigError>(mesh_of(square - circle("a", {0, 0}, .5))));
+  expect_in("letters, digits", error_of<ConfigError>(mesh_of(circle("my part", {0, 0}, .5))));
+  expect_in("which means the container", error_of<ConfigError>(mesh_of(circle("domain", {0, 0}, .5))));
+  expect_in("the part 'c'", error_of<GeometryError>(mesh_of(circle("c", {0, 0}, 0))));
+  expect_in("the part 'r'", error_of<GeometryError>(mesh_of(rectangle("r", {1, 1}, {0, 0}))));
+  expect_in("nowhere.xy", error_of<FileError>(mesh_of(contour("f", "nowhere.xy"))));
+  const int last = comm::Communicator::world().size() - 1;
+  const bool fails = rank_of(MPI_COMM_WORLD) == last;
+  const auto throwing = [=](Vec2 p) {
+    if (fails)
+      throw std::runtime_error("no table");
+    return std::hypot(p.x - .5, p.y - .5) - .3;
+  };
+  expect_in("the function of the part 'f' failed at",
+            error_of<GeometryError>(mesh_of(function("f", throwing, {{0, 0}, {1, 1}}))));
+}
+
+TEST(FacadeErrors, SizesThatFailOnOneRank) {
+  const int last = comm::Communicator::world().size() - 1;
+  const bool fails = rank_of(MPI_COMM_WORLD) == last;
+  const auto mesh_with = [](const Size& size) {
+    return [=] { make_mesh(MPI_COMM_WORLD, plate(), size, {.points = 300}); };
+  };
+  const auto nan = [=](Vec2 p) { return fails ? std::numeric_limits<double>::quiet_NaN() : 1 + p.x; };
+  expect_in("expected a positive finite size, found nan", error_of<GeometryError>(mesh_with(Size(nan))));
+  const auto throwing = [=](Vec2 p) {
+    if (fails)
+      throw std::out_of_range("beyond my table");
+    return 1 + p.x;
+  };
+  const std::string message = error_of<GeometryError>(mesh_with(Size(throwing)));
+  expect_in("the size function failed at (", message);
+  expect_in("beyond my table", message);
+  expect_in("gradation", error_of<ConfigError>(mesh_with(sizes::automatic(-1))));
+}
+
+TEST(FacadeErrors, UnknownBoundaryNames) {
+  const Mesh mesh = make_mesh(MPI_COMM_WORLD, plate(), {.points = 300});
+  const std::string message = error_of<ConfigError>([&] { mesh.facets("hol"); });
+  expect_in("no boundary 'hol'; did you mean 'hole'?", message);
+  expect_in("known: plate, hole", message);
+  const LocalMesh local = mesh.local();
+  expect_in("did you mean 'plate'", error_of<ConfigError>([&] { local.facets("plat"); }));
+}
+
+} // namespace
+} // namespace trime
