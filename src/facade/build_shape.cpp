@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <optional>
 
 namespace trime {
 namespace {
@@ -130,28 +131,36 @@ shape::Part build_part(const UsedPart& part, const geometry::Frame& frame) {
   return shape::Part::contour(name, part.contour, {}, frame);
 }
 
+std::vector<geometry::FixedPoint> fixed_points_of(const MeshOptions& options) {
+  std::vector<geometry::FixedPoint> points;
+  for (std::size_t k = 0; k < options.fixed_points.size(); ++k)
+    points.push_back({options.fixed_points[k], fmt::format("MeshOptions::fixed_points[{}]", k)});
+  return points;
+}
+
 } // namespace
 
-BuiltShape build_shape(const Shape& shape, const MeshOptions& options, const comm::Communicator& comm, Log& log) {
+geometry::Domain build_domain(const Shape& shape, const MeshOptions& options, const comm::Communicator& comm, Log& log) {
   std::vector<UsedPart> used;
   comm::run_agreed(comm, [&] { collect(shape, used); });
   read_contours(used, comm);
-  BuiltShape built;
+  std::optional<geometry::Domain> domain;
   std::vector<std::string> warnings;
   comm::run_agreed(comm, [&] {
-    built.container = container_of(shape, options, used);
-    check_box(built.container, "MeshOptions::container");
-    const geometry::Frame frame(built.container, options.periodic_x, options.periodic_y);
+    const Box container = container_of(shape, options, used);
+    check_box(container, "MeshOptions::container");
+    const geometry::Frame frame(container, options.periodic_x, options.periodic_y);
     std::vector<shape::Part> parts;
     for (const UsedPart& part : used) {
       parts.push_back(build_part(part, frame));
       warnings.insert(warnings.end(), parts.back().warnings().begin(), parts.back().warnings().end());
     }
-    built.made = shape::boundary_of(std::move(parts), shape.text(), frame);
+    domain = shape::domain_of(std::move(parts), shape.text(), frame);
+    domain->set_fixed_points(fixed_points_of(options));
   });
   for (const std::string& warning : warnings)
     log.warning("{}", warning);
-  return built;
+  return std::move(*domain);
 }
 
 } // namespace trime

@@ -5,18 +5,13 @@
 #include "trime/comm/communicator.hpp"
 #include "trime/core/log.hpp"
 #include "trime/facade/mesh.hpp"
-#include "trime/geometry/vec2.hpp"
-#include "trime/shape/marked_boundary.hpp"
+#include "trime/geometry/domain.hpp"
 
 namespace trime {
 
-struct BuiltShape {
-  shape::MarkedBoundary made;
-  geometry::Box container;
-};
-
-/// @brief Reads contours on rank 0, chooses the container as the program does, and makes the boundary.
+/// @brief Reads contours on rank 0, chooses the container as the program does, and makes the boundary with its fixed
+/// points.
 /// @throws ConfigError, GeometryError, FileError on all ranks together @note Collective.
-BuiltShape build_shape(const Shape& shape, const MeshOptions& options, const comm::Communicator& comm, Log& log);
+geometry::Domain build_domain(const Shape& shape, const MeshOptions& options, const comm::Communicator& comm, Log& log);
 
 } // namespace trime

@@ -31,7 +31,7 @@ private:
 
 } // namespace
 
-std::shared_ptr<const sizing::SizeField> build_size(const Size& size, const geometry::Boundary& boundary,
+std::shared_ptr<const sizing::SizeField> build_size(const Size& size, const geometry::Domain& domain,
                                                     const meshing::MeshOptions& options,
                                                     const comm::Communicator& comm) {
   if (size.field())
@@ -40,10 +40,11 @@ std::shared_ptr<const sizing::SizeField> build_size(const Size& size, const geom
     return std::make_shared<const CalledSize>(size.function());
   if (!size.is_automatic())
     return std::make_shared<const sizing::UniformSize>();
+  const geometry::Boundary& boundary = domain.boundary();
   sizing::AutomaticSizeOptions automatic;
   automatic.gradation = size.gradation();
   automatic.feature_floor = sizing::feature_floor(options.points, options.edge_length, boundary.area);
-  automatic.container = options.container;
+  automatic.container = domain.frame().container();
   automatic.period_x = boundary.periods.x;
   automatic.period_y = boundary.periods.y;
   return sizing::make_automatic_size(comm, boundary, automatic);

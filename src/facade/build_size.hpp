@@ -4,8 +4,7 @@
 
 #include "trime/comm/communicator.hpp"
 #include "trime/facade/size.hpp"
-#include "trime/geometry/boundary.hpp"
-#include "trime/geometry/vec2.hpp"
+#include "trime/geometry/domain.hpp"
 #include "trime/meshing/options.hpp"
 #include "trime/sizing/size_field.hpp"
 
@@ -14,7 +13,7 @@
 namespace trime {
 
 /// @pre `size` outlives the field @throws ConfigError on all ranks together @note Collective.
-std::shared_ptr<const sizing::SizeField> build_size(const Size& size, const geometry::Boundary& boundary,
+std::shared_ptr<const sizing::SizeField> build_size(const Size& size, const geometry::Domain& domain,
                                                     const meshing::MeshOptions& options,
                                                     const comm::Communicator& comm);
 

@@ -39,20 +39,17 @@ void check_running() {
     throw ConfigError("MPI was finalised before the last use of a mesh: expected MPI_Finalize after it");
 }
 
-meshing::MeshOptions lower_options(const MeshOptions& given, const Box& container) {
+meshing::MeshOptions lower_options(const MeshOptions& given) {
   meshing::MeshOptions options;
   options.points = given.points;
   options.edge_length = given.edge_length;
   options.method = given.method;
   options.min_size = given.min_size;
   options.max_size = given.max_size;
-  options.container = container;
   options.features = given.features;
   options.max_sweeps = given.max_sweeps;
   options.worst_alpha = given.worst_alpha;
   options.seed = given.seed;
-  for (std::size_t k = 0; k < given.fixed_points.size(); ++k)
-    options.fixed_points.push_back({given.fixed_points[k], fmt::format("MeshOptions::fixed_points[{}]", k)});
   return options;
 }
 
@@ -223,15 +220,15 @@ Mesh make_mesh(MPI_Comm handle, const Shape& shape, const Size& size, const Mesh
   check_options(shape, options, *comm);
   Log quiet(LogLevel::warning, comm->is_root() && options.log == nullptr, stderr);
   Log& log = options.log != nullptr ? *options.log : quiet;
-  const BuiltShape built = build_shape(shape, options, *comm, log);
-  const geometry::Boundary& boundary = built.made.boundary;
-  const meshing::MeshOptions lower = lower_options(options, built.container);
-  const std::shared_ptr<const sizing::SizeField> field = build_size(size, boundary, lower, *comm);
+  const geometry::Domain domain = build_domain(shape, options, *comm, log);
+  const geometry::Boundary& boundary = domain.boundary();
+  const meshing::MeshOptions lower = lower_options(options);
+  const std::shared_ptr<const sizing::SizeField> field = build_size(size, domain, lower, *comm);
   TimerTable timers;
   auto made = std::make_unique<Mesh::Implementation>();
   made->communicator = comm;
-  made->result = meshing::Mesher(*comm, boundary, *field, lower, log, timers).run();
-  made->origin = {boundary.part_names, built.made.part_markers, shape.text(), {boundary.periods.x, boundary.periods.y}};
+  made->result = meshing::Mesher(*comm, domain, *field, lower, log, timers).run();
+  made->origin = {boundary.part_names, domain.part_markers(), shape.text(), {boundary.periods.x, boundary.periods.y}};
   made->metadata = record::describe(made->result, made->origin, text_of(size), *comm);
   return Mesh(std::move(made));
 }

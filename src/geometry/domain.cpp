@@ -42,7 +42,7 @@ void check_parts(const Boundary& boundary, std::size_t markers) {
 /// Compares vertices with a frame.
 class VertexCheck {
 public:
-  explicit VertexCheck(const Frame& frame) : frame_(frame), allowed_(frame.inner()) {
+  explicit VertexCheck(const Frame& frame) : frame_(frame) {
     const Periods& periods = frame.periods(); // loops of a periodic container lie within one image of it
     const double margin = reach_in_steps * frame.step();
     const Vec2 around{periods.x + margin, periods.y + margin};
@@ -77,7 +77,8 @@ void check_loop(const Loop& loop, const VertexCheck& vertices) {
     const Piece& piece = loop.pieces[k];
     vertices.check(piece.start, loop.tag);
     if (piece.circular)
-      vertices.check_inside(piece.point(0.5 * piece.length()), loop.tag);
+      for (const double share : {0.25, 0.5, 0.75}) // an arc may leave the container between its ends
+        vertices.check_inside(piece.point(share * piece.length()), loop.tag);
     const bool is_last = k + 1 == loop.pieces.size();
     const Vec2 next = is_last ? loop.pieces.front().start + loop.winding : loop.pieces[k + 1].start;
     if (piece.end != next)
