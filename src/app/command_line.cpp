@@ -15,7 +15,7 @@ namespace {
 
 struct Flags {
   bool help_config = false, version = false, validate = false, dry_run = false, print_config = false, quiet = false,
-       overwrite = false;
+       verbose = false, overwrite = false;
   std::optional<std::string> threads, level, time_limit;
 };
 
@@ -35,7 +35,8 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
   app.add_option("--report", line.report, "write the report of the run as JSON, with the numbers of /trime_mpi");
   app.add_option("--record", line.report)->group(""); // its name before; not in the help
   app.add_option("--threads", flags.threads, "threads per rank: parallel.setup_threads and mesh_threads");
-  app.add_option("--log-level", flags.level, "debug, info, warning, error, silent: log.level");
+  app.add_option("--log-level", flags.level, "debug, info, summary, warning, error, silent: log.level");
+  app.add_flag("--verbose", flags.verbose, "also print what each phase does, rows of the sweeps and the whole report");
   app.add_flag("--quiet", flags.quiet, "print only warnings and errors");
   app.add_option("--restart", line.restart,
                  "go on from a checkpoint: its file, or `auto` for the newest of this config, if there is one");
@@ -98,8 +99,8 @@ void refuse_what_is_missing(const CommandLine& line, const Flags& flags) {
     throw ConfigError("no config file is given; usage: trime_mpi CONFIG [section.key=value ...], see --help");
   if (!line.report.empty() && line.action != Action::mesh)
     throw ConfigError("'--report' is for runs that make a mesh; leave it out here");
-  if (flags.quiet && flags.level)
-    throw ConfigError("'--quiet' and '--log-level' contradict each other; give one of them");
+  if (flags.quiet + flags.verbose + flags.level.has_value() > 1)
+    throw ConfigError("'--quiet', '--verbose' and '--log-level' contradict each other; give one of them");
 }
 
 } // namespace
@@ -134,6 +135,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       line.overrides.push_back(key + *flags.threads);
   if (flags.level)
     line.overrides.push_back("log.level=" + *flags.level);
+  if (flags.verbose)
+    line.overrides.push_back("log.level=info");
   if (flags.quiet)
     line.overrides.push_back("log.level=warning");
   return line;

@@ -331,11 +331,9 @@ void read_checkpoint(const Settings& settings, CheckpointOptions& options) {
 }
 
 void read_log(const Settings& settings, RunOptions& options) {
-  constexpr std::pair<const char*, LogLevel> levels[] = {{"debug", LogLevel::debug},
-                                                         {"info", LogLevel::info},
-                                                         {"warning", LogLevel::warning},
-                                                         {"error", LogLevel::error},
-                                                         {"silent", LogLevel::silent}};
+  constexpr std::pair<const char*, LogLevel> levels[] = {{"debug", LogLevel::debug},     {"info", LogLevel::info},
+                                                         {"summary", LogLevel::summary}, {"warning", LogLevel::warning},
+                                                         {"error", LogLevel::error},     {"silent", LogLevel::silent}};
   for (const auto& [name, level] : levels)
     if (settings.text("log", "level") == name)
       options.log_level = level;

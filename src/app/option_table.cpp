@@ -326,9 +326,11 @@ constexpr Option table[] = {
     {.section = "log",
      .key = "level",
      .kind = OptionKind::word,
-     .fallback = "info",
-     .choices = "debug info warning error silent",
-     .meaning = "least important message that is printed"},
+     .fallback = "summary",
+     .choices = "debug info summary warning error silent",
+     .meaning = "the least important messages that are printed: `summary`: warnings, and at most 20 lines at the end; "
+                "`info`: also what each phase does, rows of the sweeps and the whole report, as with `--verbose`; "
+                "`warning`: only warnings and errors, as with `--quiet`"},
     {.section = "log",
      .key = "interval",
      .kind = OptionKind::integer,

@@ -70,7 +70,7 @@ struct RunOptions {
   std::vector<formats::Format> exchange; ///< formats of other programs in which the final mesh is written, too
   bool write = true;                     ///< false: nothing is written
   CheckpointOptions checkpoint;
-  LogLevel log_level = LogLevel::info;
+  LogLevel log_level = LogLevel::summary;
   int log_interval = 0;
   std::string resolved;              ///< the whole config with all defaults, as a complete ini
   std::vector<std::string> warnings; ///< one sentence each

@@ -9,6 +9,7 @@
 #include "app/option_table.hpp"
 #include "app/provenance.hpp"
 #include "app/run_report.hpp"
+#include "app/run_summary.hpp"
 #include "app/shape_builder.hpp"
 #include "app/size_builder.hpp"
 #include "app/stop_file.hpp"
@@ -95,21 +96,28 @@ std::string estimate(const RunOptions& options, const geometry::Boundary& bounda
     text += fmt::format("{} rank{} x {} threads: about {:.0f} points per rank, {:.0f} per thread\n", placement.ranks,
                         placement.ranks == 1 ? "" : "s", placement.threads, points / placement.ranks,
                         points / placement.ranks / placement.threads);
-  return text + fmt::format("output: {} (not written)\n", options.output.file.path(".h5"));
+  return text + fmt::format("output: {} (not written)", options.output.file.path(".h5"));
 }
 
-/// Returns the output of --dry-run about the boundary.
-std::string outlook_text(const meshing::Outlook& outlook) {
-  std::string text;
+/// A count with two digits that matter: 513.7 becomes 510.
+double rounded(double count) {
+  const double unit = std::pow(10, std::max(0.0, std::floor(std::log10(std::max(count, 1.0))) - 1));
+  return std::round(count / unit) * unit;
+}
+
+/// Prints what --dry-run finds out about the boundary.
+void print_outlook(const meshing::Outlook& outlook, Log& log) {
   for (const std::string& line : boundary::describe(outlook.features))
-    text += "boundary: " + line + "\n";
-  if (outlook.keeps_all)
-    return text + "nothing of the shape is simplified at this size\n";
+    log.summary("boundary: {}", line);
+  if (outlook.keeps_all) {
+    log.summary("nothing of the shape is simplified at this size");
+    return;
+  }
   if (const std::string warning = boundary::loss_warning(outlook.features); !warning.empty())
-    text += "warning: " + warning + "\n";
-  return text + fmt::format("{} {:.2g} points ({} {:.2g}) keep everything\n",
-                            outlook.is_enough ? "about" : "more than about", outlook.keeping_points,
-                            outlook.is_enough ? "edge_length =" : "edge_length below", outlook.keeping_edge_length);
+    log.warning("{}", warning);
+  log.summary("{} {:.0f} points ({} {:.2g}) keep everything", outlook.is_enough ? "about" : "more than about",
+              rounded(outlook.keeping_points), outlook.is_enough ? "edge_length =" : "edge_length below",
+              outlook.keeping_edge_length);
 }
 
 /// Throws as the run would.
@@ -224,16 +232,16 @@ ExitCode make_mesh(const Job& job) {
   const bool is_dry_run = job.line.action == Action::dry_run;
   if (!is_run) {
     check_fixed_points(mesh_options, *input.shape, log);
-    print(comm, estimate(options, boundary, placement, is_dry_run));
+    log.summary("{}", estimate(options, boundary, placement, is_dry_run));
   }
   check_share(expected_points(options, boundary), placement.ranks);
   if (!is_run) {
     Log quiet(LogLevel::error, comm.is_root());         // its warnings were printed before
     if (is_dry_run || mesh_options.features.keep_all) { // where nothing gives way the layout may fail
-      const std::string text =
-          outlook_text(meshing::Mesher(comm, boundary, *size.field, mesh_options, quiet, timers).outlook());
+      const meshing::Outlook outlook =
+          meshing::Mesher(comm, boundary, *size.field, mesh_options, quiet, timers).outlook();
       if (is_dry_run)
-        print(comm, text);
+        print_outlook(outlook, log);
     }
     return ExitCode::done;
   }
@@ -265,7 +273,11 @@ ExitCode make_mesh(const Job& job) {
     io::write_report_file(job.line.report, describe_run(provenance, result, sizes, measured),
                           {static_cast<int>(exit_code(result)), files.paths}, comm);
   keeper.remove_all();
-  log.info("{}", run_report(result, sizes, measured, files, input.normalized));
+  const std::vector<std::int64_t> edges = edges_of_parts(result.mesh, boundary.part_names.size(), comm);
+  if (options.log_level <= LogLevel::info)
+    log.info("{}", run_report(result, sizes, measured, files, input.normalized));
+  else
+    log.summary("{}", run_summary({provenance, result, sizes, measured, files, edges}));
   if (!is_complete(result))
     log.warning("{}", incompleteness(result, options.write));
   return exit_code(result);

@@ -65,6 +65,38 @@ std::string simplification_line(const FeatureReport& report) {
   return line;
 }
 
+/// The beginning of a warning, such as "it has 8 pieces instead of 1 and 5 holes instead of 6, ", or nothing.
+std::string changed_numbers(const FeatureReport& report) {
+  std::string text;
+  if (report.components != report.given_components)
+    text = fmt::format("{} instead of {}", counted(report.components, "piece", "pieces"), report.given_components);
+  if (report.holes != report.given_holes)
+    text += fmt::format("{}{} instead of {}", text.empty() ? "" : " and ", counted(report.holes, "hole", "holes"),
+                        report.given_holes);
+  return text.empty() ? text : "it has " + text + ", ";
+}
+
+/// The end of a warning, such as ", 2 of 3 loops are lost (1 dropped, 1 hole filled)", or nothing.
+std::string lost_loops(const FeatureReport& report) {
+  using State = LoopFate::State;
+  const auto number_of = [&](State state) {
+    return static_cast<GlobalId>(std::count_if(report.loops.begin(), report.loops.end(),
+                                               [&](const LoopFate& fate) { return fate.state == state; }));
+  };
+  const GlobalId dropped = number_of(State::dropped), filled = number_of(State::filled),
+                 merged = number_of(State::merged), lost = dropped + filled + merged;
+  if (lost == 0)
+    return {};
+  std::string text = fmt::format(", {} of {} {} lost ({})", lost, counted(std::ssize(report.loops), "loop", "loops"),
+                                 lost == 1 ? "is" : "are",
+                                 listed({{dropped, "dropped", "dropped"},
+                                         {filled, "hole filled", "holes filled"},
+                                         {merged, "merged with others", "merged with others"}}));
+  if (merged > 0)
+    text += fmt::format(", the mesh has {}", counted(loops_of_mesh(report), "loop", "loops"));
+  return text;
+}
+
 } // namespace
 
 FeatureReport report_features(const BoundarySites& boundary, std::span<const sizing::SizeLimit> limits,
@@ -106,37 +138,33 @@ void report_losses(const geometry::Boundary& given, const geometry::Boundary& me
   const double twice = std::fmax(0, lost - given.area); // what one pass added, and a later one took away
   lost -= twice;
   added -= twice;
+  report.given_components = given.components();
+  report.given_holes = given.holes();
+  report.components = meshed.components();
+  report.holes = meshed.holes();
   report.lost_share = lost / given.area;
   report.added_share = added / given.area;
   report.loops = find_loop_fates(given, meshed, asked, lattice);
 }
 
 std::string loss_warning(const FeatureReport& report) {
-  using State = LoopFate::State;
-  const auto number_of = [&](State state) {
-    return static_cast<GlobalId>(std::count_if(report.loops.begin(), report.loops.end(),
-                                               [&](const LoopFate& fate) { return fate.state == state; }));
-  };
-  const GlobalId dropped = number_of(State::dropped), filled = number_of(State::filled),
-                 merged = number_of(State::merged), lost = dropped + filled + merged;
-  if (lost == 0 && !(std::fmax(report.lost_share, report.added_share) > BoundaryRules::warned_loss))
+  const std::string loops = lost_loops(report), numbers = changed_numbers(report);
+  if (loops.empty() && numbers.empty() &&
+      !(std::fmax(report.lost_share, report.added_share) > BoundaryRules::warned_loss))
     return {};
-  std::string text = fmt::format("the shape is simplified at this size: {:.3g} % of its area lost, {:.3g} % added",
-                                 100 * report.lost_share, 100 * report.added_share);
-  if (lost > 0)
-    text += fmt::format(", {} of {} loops lost ({})", lost, report.loops.size(),
-                        listed({{dropped, "dropped", "dropped"},
-                                {filled, "hole filled", "holes filled"},
-                                {merged, "merged with others", "merged with others"}}));
-  if (merged > 0)
-    text += fmt::format(", the mesh has {}", counted(loops_of_mesh(report), "loop", "loops"));
+  std::string text = fmt::format("the shape is simplified at this size: {}{:.3g} % of its area is lost, {:.3g} % is "
+                                 "added{}",
+                                 numbers, 100 * report.lost_share, 100 * report.added_share, loops);
   if (report.coarseness > BoundaryRules::told_coarseness)
-    text += fmt::format(", as for triangles {:.2g} times as large: what the next smaller ones keep takes more points "
-                        "than asked for",
-                        report.coarseness);
-  return text + ". More points (a smaller edge_length) keep more, --dry-run says how many keep everything; "
-                "meshing.keep_features = true keeps all at any price. The table /trime_mpi/rings of the file says what "
-                "became of each loop";
+    text +=
+        fmt::format(". The simplification is that for triangles {:.2g} times as large: keeping more would take more "
+                    "points than were asked for",
+                    report.coarseness);
+  text += ". More points (a smaller edge_length) keep more, and --dry-run says how many keep everything. ";
+  if (report.components > report.given_components)
+    text += "A smaller meshing.simplify_within keeps narrow connections. ";
+  return text + "meshing.keep_features = true keeps everything, however many points that takes. The table "
+                "/trime_mpi/rings in the file says what became of each loop";
 }
 
 std::vector<std::string> describe(const FeatureReport& report) {
