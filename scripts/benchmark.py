@@ -31,7 +31,7 @@ from gmsh_rival import Rival
 from quality_table import COAST, POKER, automatic
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-SQUARE = "[shape]\nregion = domain\n"
+SQUARE = "[shape]\ngeometry = domain\n"
 CASES = {
     "square 1e4": (SQUARE, 10_000),
     "square 1e5": (SQUARE, 100_000),

@@ -113,26 +113,27 @@ PartOptions part_of(const Settings& settings, const std::string& name, const fs:
   return part;
 }
 
-/// The region must parse; parts that it does not use are worth a word.
-void read_region(const Settings& settings, RunOptions& options, Diagnostics& problems) {
-  options.region = settings.text("shape", "region");
-  if (options.region.empty()) {
-    if (!settings.is_set("shape", "region"))
-      problems.add(whole_file,
-                   settings.parts().empty()
-                       ? "no shape is given; set 'region' in [shape] and describe its parts, or 'region = domain'"
-                       : fmt::format("'region' in [shape] is not set; for example 'region = {}'", settings.parts()[0]));
+/// The geometry must parse. Parts that it does not use are worth a warning.
+void read_geometry(const Settings& settings, RunOptions& options, Diagnostics& problems) {
+  options.geometry = settings.text("shape", "geometry");
+  if (options.geometry.empty()) {
+    if (!settings.is_set("shape", "geometry"))
+      problems.add(whole_file, settings.parts().empty()
+                                   ? "no shape is given: set 'geometry' in [shape] and describe its parts, or set "
+                                     "'geometry = domain' to mesh the whole container"
+                                   : fmt::format("'geometry' in [shape] is not set; for example 'geometry = {}'",
+                                                 settings.parts()[0]));
     return;
   }
   try {
-    const shape::Region region = shape::Region::parse(options.region, settings.parts());
+    const shape::Region region = shape::Region::parse(options.geometry, settings.parts());
     for (int part = 0; part < static_cast<int>(settings.parts().size()); ++part)
       if (!std::binary_search(region.parts().begin(), region.parts().end(), part))
-        options.warnings.push_back(fmt::format("part '{}' does not occur in the region '{}' and is left out",
+        options.warnings.push_back(fmt::format("the part '{}' does not occur in the geometry '{}', so it is left out",
                                                shown(settings.parts()[static_cast<std::size_t>(part)]),
-                                               shown(options.region)));
+                                               shown(options.geometry)));
   } catch (const Error& error) {
-    problems.add(settings.line("shape", "region"), error.what());
+    problems.add(settings.line("shape", "geometry"), error.what());
   }
 }
 
@@ -155,10 +156,11 @@ void read_projection(const Settings& settings, RunOptions& options, Diagnostics&
                       part.name, options.projection));
 }
 
-void read_shape(const Settings& settings, const fs::path& directory, RunOptions& options, Diagnostics& problems) {
+void read_shape_options(const Settings& settings, const fs::path& directory, RunOptions& options,
+                        Diagnostics& problems) {
   for (const std::string& name : settings.parts())
     options.parts.push_back(part_of(settings, name, directory, problems));
-  read_region(settings, options, problems);
+  read_geometry(settings, options, problems);
   read_projection(settings, options, problems);
 }
 
@@ -224,8 +226,10 @@ void check_bounds_of_edge_length(const Settings& settings, const meshing::MeshOp
                              *mesh.edge_length, *mesh.max_size));
 }
 
-constexpr std::pair<const char*, sweep::Method> methods[] = {
-    {"distmesh", sweep::Method::distmesh}, {"cvd", sweep::Method::cvd}, {"hybrid", sweep::Method::hybrid}};
+constexpr std::pair<const char*, sweep::Method> methods[] = {{"distmesh", sweep::Method::distmesh},
+                                                             {"cvd", sweep::Method::cvd}, // mesh files store this word
+                                                             {"cvt", sweep::Method::cvd},
+                                                             {"hybrid", sweep::Method::hybrid}};
 
 void read_meshing(const Settings& settings, meshing::MeshOptions& mesh, Diagnostics& problems) {
   read_resolution(settings, mesh, problems);
@@ -252,8 +256,8 @@ void read_meshing(const Settings& settings, meshing::MeshOptions& mesh, Diagnost
 }
 
 /// The file, and a part that is a normalised contour.
-void read_fixed_points(const Settings& settings, const fs::path& directory, RunOptions& options,
-                       Diagnostics& problems) {
+void read_fixed_points_options(const Settings& settings, const fs::path& directory, RunOptions& options,
+                               Diagnostics& problems) {
   const std::string file = settings.text("meshing", "fixed_points");
   const std::string name = settings.text("meshing", "fixed_points_normalize_with");
   if (file != "none") {
@@ -312,8 +316,8 @@ void read_output(const Settings& settings, RunOptions& options, Diagnostics& pro
   options.output.text = is_wanted("text");
   for (const std::string& word : formats)
     if (const auto format = formats::format_of_word(word); format && options.write)
-      options.exchange.push_back(*format);
-  if (!options.exchange.empty() && (options.periodic_x || options.periodic_y))
+      options.exports.push_back(*format);
+  if (!options.exports.empty() && (options.periodic_x || options.periodic_y))
     problems.add(settings.line("output", "formats"),
                  fmt::format("'formats = {}' in [output]: a periodic container can be written as vtkhdf, xdmf and text "
                              "only",
@@ -338,6 +342,46 @@ void read_log(const Settings& settings, RunOptions& options) {
     if (settings.text("log", "level") == name)
       options.log_level = level;
   options.log_interval = static_cast<int>(settings.integer("log", "interval"));
+}
+
+/// The names of earlier versions.
+constexpr std::string_view old_geometry = "region", old_method = "cvd";
+
+/// Gives an entry that has an old name its present one. @return a warning, or nothing
+std::string use_present_name(IniEntry& entry) {
+  if (entry.section == "meshing" && entry.key == "method" && entry.value == old_method)
+    entry.value = "cvt"; // without a warning: a matter of taste
+  if (entry.section != "shape" || entry.key != old_geometry)
+    return {};
+  entry.key = "geometry";
+  return fmt::format("'region' in [shape] has a new name; write 'geometry = {}' instead", shown(entry.value));
+}
+
+/// Reads the text and the overrides. Keys and values of earlier versions get their present names, with a warning.
+IniDocument read_document(std::string_view text, const std::vector<std::string>& overrides, Diagnostics& problems,
+                          std::vector<std::string>& warnings) {
+  IniDocument document = parse_ini(text, problems);
+  const auto use_present_names = [&](IniDocument& changed) {
+    const bool has_both = changed.find("shape", "geometry") && changed.find("shape", old_geometry);
+    for (IniEntry& entry : changed.entries)
+      if (const int line = entry.line; has_both && entry.section == "shape" && entry.key == old_geometry)
+        problems.add(line,
+                     "'region' in [shape] is the old name of 'geometry', which is set, too; keep only 'geometry'");
+      else if (const std::string warning = use_present_name(entry); !warning.empty())
+        warnings.push_back(problems.place(line) + ": " + warning);
+    if (has_both)
+      std::erase_if(changed.entries,
+                    [](const IniEntry& entry) { return entry.section == "shape" && entry.key == old_geometry; });
+  };
+  use_present_names(document);
+  for (const std::string& text_of_override : overrides) {
+    const bool is_old = text_of_override.starts_with("shape.region=");
+    if (is_old)
+      warnings.push_back("command line: 'shape.region' has a new name; write 'shape.geometry=...' instead");
+    apply_override(document, is_old ? "shape.geometry" + text_of_override.substr(12) : text_of_override, problems);
+  }
+  use_present_names(document); // a method on the command line
+  return document;
 }
 
 /// A contour or a mesh where a config belongs, which newcomers try.
@@ -367,20 +411,18 @@ std::string method_name(sweep::Method method) {
 RunOptions parse_config(std::string_view text, const std::string& path, const std::vector<std::string>& overrides) {
   refuse_other_files(path);
   Diagnostics problems(path);
-  IniDocument document = parse_ini(text, problems);
-  for (const std::string& override_text : overrides)
-    apply_override(document, override_text, problems);
+  RunOptions options;
+  IniDocument document = read_document(text, overrides, problems, options.warnings);
   if (!document.find("output", "name")) {
     const std::string stem = fs::path(path).stem().string();
     document.entries.push_back({"output", "name", stem.empty() ? "mesh" : stem, whole_file});
   }
   const Settings settings(document, problems);
-  RunOptions options;
   read_domain(settings, options, problems);
-  read_shape(settings, fs::path(path).parent_path(), options, problems);
+  read_shape_options(settings, fs::path(path).parent_path(), options, problems);
   read_sizing(settings, options, problems);
   read_meshing(settings, options.mesh, problems);
-  read_fixed_points(settings, fs::path(path).parent_path(), options, problems);
+  read_fixed_points_options(settings, fs::path(path).parent_path(), options, problems);
   read_parallel(settings, options);
   read_output(settings, options, problems);
   read_checkpoint(settings, options.checkpoint);

@@ -57,7 +57,7 @@ struct CheckpointOptions {
 
 struct RunOptions {
   std::vector<PartOptions> parts;
-  std::string region;
+  std::string geometry;   ///< the expression that joins the parts
   std::string projection; ///< of the contours: empty: none; `auto`; or a reference system that PROJ knows
   bool periodic_x = false, periodic_y = false; ///< sides of the container, for the frame in which the shape is made
   bool container_is_automatic = false;         ///< no side is given: the one of `mesh` may become one around the shape
@@ -67,7 +67,7 @@ struct RunOptions {
   int setup_threads = 0;                 ///< per rank, while shape and size field are made; 0: chosen from the machine
   int mesh_threads = 0;                  ///< per rank, from then on; 0: chosen from the machine
   io::SeriesOptions output;              ///< without the period, which the boundary of the shape knows
-  std::vector<formats::Format> exchange; ///< formats of other programs in which the final mesh is written, too
+  std::vector<formats::Format> exports; ///< formats of other programs in which the final mesh is written, too
   bool write = true;                     ///< false: nothing is written
   CheckpointOptions checkpoint;
   LogLevel log_level = LogLevel::summary;

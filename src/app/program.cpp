@@ -4,7 +4,7 @@
 #include "app/checkpoint_keeper.hpp"
 #include "app/command_line.hpp"
 #include "app/config.hpp"
-#include "app/exchange.hpp"
+#include "app/convert.hpp"
 #include "app/machine.hpp"
 #include "app/option_table.hpp"
 #include "app/provenance.hpp"
@@ -220,7 +220,7 @@ ExitCode make_mesh(const Job& job) {
   if (const double points = expected_points(options, boundary); options.write)
     for (const std::string& warning : is_run ? series.check(points) : series.look(points))
       log.warning("{}", warning);
-  check_exchange(options, comm);
+  check_exports(options, comm);
   if (!job.line.report.empty())
     io::check_report_file(job.line.report, comm);
   const BuiltSize size = [&] {
@@ -264,8 +264,8 @@ ExitCode make_mesh(const Job& job) {
     const auto timing = timers.scope("output");
     files = series.write_final({final_retriangulation(result), result.mesh, result.quality, metadata});
     const formats::Names names{
-        boundary.part_names, {options.region}, {boundary.periods.x, boundary.periods.y}, input.map.crs};
-    for (const std::string& path : write_exchange(options, result.mesh, names, job.files, comm))
+        boundary.part_names, {options.geometry}, {boundary.periods.x, boundary.periods.y}, input.map.crs};
+    for (const std::string& path : write_exports(options, result.mesh, names, job.files, comm))
       files.paths.push_back(path);
   }
   const Measurements measured = gather_measurements(timers, comm);

@@ -268,7 +268,7 @@ io::MetadataGroup tags_group(const Provenance& p, const std::vector<polygon::Loo
            {"part_name", boundary.part_names},
            {"part_marker", p.part_markers},
            {"region_id", std::vector<std::int32_t>{1}},
-           {"region_name", std::vector<std::string>{p.options.region}}}};
+           {"region_name", std::vector<std::string>{p.options.geometry}}}};
 }
 
 } // namespace

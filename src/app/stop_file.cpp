@@ -2,7 +2,7 @@
 #include "app/stop_file.hpp"
 
 #include "app/checkpoint_names.hpp"
-#include "app/exchange.hpp"
+#include "app/convert.hpp"
 #include "comm/agree.hpp"
 #include "core/file_kind.hpp"
 #include "io/output_files.hpp"
@@ -42,7 +42,7 @@ bool is_input(const std::string& file, const RunOptions& options, const CommandL
 
 bool is_output(const std::string& file, const RunOptions& options, const CommandLine& line) {
   const io::MeshFileOptions& output = options.output.file;
-  for (const std::string& path : exchange_paths(options))
+  for (const std::string& path : export_paths(options))
     if (is_same(file, path))
       return true;
   const fs::path place = place_of(file), folder = place.parent_path();

@@ -12,7 +12,7 @@ from dense_coast import dense_coast, text_of_coast
 from trime_run import Workspace, run
 
 VERTICES = 2**15  # StartRules::many_pieces is half of that
-CONFIG = ("[shape]\nregion = land\n[shape.land]\ntype = contour\nfile = land.xy\nnormalize = true\n"
+CONFIG = ("[shape]\ngeometry = land\n[shape.land]\ntype = contour\nfile = land.xy\nnormalize = true\n"
           "[sizing]\ntype = automatic\n[meshing]\npoints = 3000\n")
 
 

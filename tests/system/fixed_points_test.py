@@ -12,7 +12,7 @@ from trime_run import Workspace, run
 
 CONTOUR = "0 0\n4 0\n4 4\n0 4\n"  # normalised to [0.1, 0.9]^2: x -> 0.1 + 0.2 x
 CONFIG = """[shape]
-region = plate
+geometry = plate
 [shape.plate]
 type = contour
 file = plate.xy

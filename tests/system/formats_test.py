@@ -28,7 +28,7 @@ ogr.UseExceptions()
 WORDS = "gmsh gmsh2 medit freefem triangle vtu 2dm fort14 geojson"
 ENDINGS = ["msh", "msh2", "mesh", "freefem", "node", "vtu", "2dm", "14", "geojson"]
 OWN = """[shape]
-region = difference(union(open_sea, bay, sunk), island)
+geometry = difference(union(open_sea, bay, sunk), island)
 [shape.open_sea]
 type = rectangle
 x_min = 0.1
@@ -393,7 +393,7 @@ class Formats(unittest.TestCase):
                  (["convert", own, self.work / "no" / "a.msh"], FILE, r"cannot create .*no/a\.msh"),
                  (["info"], USAGE, r"'trime_mpi info' needs one file, found 0 files"),
                  (["info", plain], FILE, r"no mesh file"),
-                 ([self.work / "own.ini", "--overwrite"], USAGE, r"'--overwrite' is for 'trime_mpi convert'"),
+                 ([self.work / "own.ini", "--overwrite"], USAGE, r"'--overwrite' belongs to 'trime_mpi convert'"),
                  ([self.work / "own.ini", f"output.directory={self.work}", "output.formats=gmsh", "output.name=own",
                    "output.overwrite=false"], FILE, r"own\.(h5|msh) exists"),
                  ([ROOT / "configs" / "torus.ini", "output.formats=gmsh"], USAGE, r"'formats = gmsh' .* periodic")]

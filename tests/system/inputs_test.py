@@ -23,7 +23,7 @@ from trime_run import Workspace, run
 
 osr.UseExceptions()
 
-CONFIG = "[shape]\nregion = land\n[shape.land]\ntype = contour\nfile = {}\n[meshing]\npoints = {}\n"
+CONFIG = "[shape]\ngeometry = land\n[shape.land]\ntype = contour\nfile = {}\n[meshing]\npoints = {}\n"
 
 
 def gdal(*arguments):
@@ -376,12 +376,12 @@ class Maps(unittest.TestCase):
     def test_a_part_that_is_not_used_may_lie_anywhere(self):
         with Workspace() as work:
             part = "[shape.{}]\ntype = circle\ncenter = {} {}\nradius = 0.4\n"
-            (work / "case.ini").write_text("[domain]\nx_max = 1\n[shape]\nregion = disc\n" +
+            (work / "case.ini").write_text("[domain]\nx_max = 1\n[shape]\ngeometry = disc\n" +
                                            part.format("disc", 0.5, 0.5) +
                                            part.format("far", 50, 50) + "[meshing]\npoints = 500\n")
             done = run(work / "case.ini", "--validate")
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            self.assertRegex(done.stdout, "warning: part 'far' does not occur in the region 'disc' and is left out")
+            self.assertRegex(done.stdout, "warning: the part 'far' does not occur in the geometry 'disc', so it is left out")
 
     def test_fixed_points_are_projected_too(self):
         with Workspace() as work:

@@ -13,7 +13,7 @@ from real_shapes import shape
 from ring_tools import rings_of, signed_area, text_of
 from trime_run import Workspace, run
 
-CONFIG = ("[shape]\nregion = sea\n[shape.sea]\ntype = contour\nfile = sea.xy\nnormalize = true\n"
+CONFIG = ("[shape]\ngeometry = sea\n[shape.sea]\ntype = contour\nfile = sea.xy\nnormalize = true\n"
           "[meshing]\npoints = 800\nworst_alpha = 1e300\n")
 LOST = {"dropped": "dropped", "hole filled": "filled", "holes filled": "filled", "merged with others": "merged"}
 KEPT = "nothing of the shape is simplified"

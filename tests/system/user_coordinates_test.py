@@ -17,7 +17,7 @@ from trime_run import Workspace, run
 
 EAST, NORTH, SIDE = 4.5e6, 5.4e6, 2e5
 SQUARE = [(EAST, NORTH), (EAST + SIDE, NORTH), (EAST + SIDE, NORTH + SIDE), (EAST, NORTH + SIDE)]
-CONFIG = ("[shape]\nregion = sea\n[shape.sea]\ntype = contour\nfile = coast.xy\nnormalize = true\n"
+CONFIG = ("[shape]\ngeometry = sea\n[shape.sea]\ntype = contour\nfile = coast.xy\nnormalize = true\n"
           "[meshing]\npoints = 1000\n")
 
 

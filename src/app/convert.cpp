@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/exchange.hpp"
+#include "app/convert.hpp"
 
 #include "comm/agree.hpp"
 #include "core/file_kind.hpp"
@@ -157,24 +157,24 @@ std::string quality_text(const Metadata& metadata) {
 
 } // namespace
 
-std::vector<std::string> exchange_paths(const RunOptions& options) {
+std::vector<std::string> export_paths(const RunOptions& options) {
   std::vector<std::string> paths;
-  for (const formats::Format format : options.exchange)
+  for (const formats::Format format : options.exports)
     for (const std::string& path : formats::paths_of(format, path_of(format, options.output.file)))
       paths.push_back(path);
   return paths;
 }
 
-void check_exchange(const RunOptions& options, const comm::Communicator& comm) {
-  refuse_to_replace(exchange_paths(options), options.output.file.overwrite,
+void check_exports(const RunOptions& options, const comm::Communicator& comm) {
+  refuse_to_replace(export_paths(options), options.output.file.overwrite,
                     "set output.overwrite = true to replace it, or another output.name", comm);
 }
 
-std::vector<std::string> write_exchange(const RunOptions& options, const mesh::DistributedMesh& mesh,
-                                        const formats::Names& names, io::RunFiles* files,
-                                        const comm::Communicator& comm) {
+std::vector<std::string> write_exports(const RunOptions& options, const mesh::DistributedMesh& mesh,
+                                       const formats::Names& names, io::RunFiles* files,
+                                       const comm::Communicator& comm) {
   std::vector<std::string> paths;
-  for (const formats::Format format : options.exchange)
+  for (const formats::Format format : options.exports)
     for (const std::string& path :
          formats::write(format, path_of(format, options.output.file), mesh, names, files, comm))
       paths.push_back(path);
