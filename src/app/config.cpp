@@ -146,13 +146,13 @@ void read_projection(const Settings& settings, RunOptions& options, Diagnostics&
   const auto is_contour = [](const PartOptions& part) { return part.type == "contour"; };
   if (std::none_of(options.parts.begin(), options.parts.end(), is_contour))
     problems.add(settings.line("shape", "projection"),
-                 fmt::format("'projection = {}' in [shape] is for contours, and no part has 'type = contour'",
+                 fmt::format("'projection = {}' in [shape] applies to contours only, but no part has 'type = contour'",
                              options.projection));
   for (const PartOptions& part : options.parts)
     if (part.normalize)
       problems.add(
           settings.line("shape." + part.name, "normalize"),
-          fmt::format("'normalize = true' in [shape.{}] and 'projection = {}' in [shape]: expected one of them",
+          fmt::format("'normalize = true' in [shape.{}] and 'projection = {}' in [shape]: expected only one of them",
                       part.name, options.projection));
 }
 
@@ -199,7 +199,7 @@ void read_resolution(const Settings& settings, meshing::MeshOptions& mesh, Diagn
   if (points && length)
     problems.add(settings.later_line("meshing", "points", "edge_length"),
                  "both 'points' and 'edge_length' are set in [meshing]; keep one of them (on the command line, "
-                 "'meshing.points=' takes the value of the file away)");
+                 "'meshing.points=' removes the value of the file)");
   if (!points && !length)
     problems.add(whole_file, "set 'points' or 'edge_length' in [meshing], for example 'points = 5000'");
   const double area = mesh.container.width() * mesh.container.height();
@@ -270,13 +270,13 @@ void read_fixed_points_options(const Settings& settings, const fs::path& directo
   const auto part = std::find_if(options.parts.begin(), options.parts.end(),
                                  [&](const PartOptions& candidate) { return candidate.name == name; });
   if (file == "none")
-    problems.add(line, "'fixed_points_normalize_with' in [meshing] means nothing without 'fixed_points'");
+    problems.add(line, "'fixed_points_normalize_with' in [meshing] has no effect without 'fixed_points'");
   else if (part == options.parts.end())
     problems.add(line, fmt::format("'fixed_points_normalize_with = {}' in [meshing]: no part has this name{}", name,
                                    suggestion(name, settings.parts())));
   else if (part->type != "contour" || !part->normalize)
     problems.add(line, fmt::format("'fixed_points_normalize_with = {}' in [meshing]: expected a part of type contour "
-                                   "with 'normalize = true'; without it the points need no normalisation",
+                                   "with 'normalize = true'; without it, leave the key out",
                                    name));
   options.fixed_points.normalize_with = name;
 }
@@ -290,13 +290,13 @@ void read_parallel(const Settings& settings, RunOptions& options) {
 void check_name(const Settings& settings, const std::string& name, Diagnostics& problems) {
   if (name.find('/') != std::string::npos || name == "." || name == "..")
     problems.add(settings.line("output", "name"),
-                 fmt::format("'name = {}' in [output]: expected the stem of a file name, without directory; set "
-                             "'directory' for that",
+                 fmt::format("'name = {}' in [output]: expected the stem of a file name without a directory; set "
+                             "output.directory for the directory",
                              shown(name)));
   if (name.size() > io::longest_name)
     problems.add(settings.line("output", "name"),
-                 fmt::format("'name = {}' in [output]: expected at most {} bytes, found {}: file systems hold names of "
-                             "{}, and files of the run need the rest behind it; set a shorter output.name",
+                 fmt::format("'name = {}' in [output]: expected at most {} bytes, found {}. File systems allow names "
+                             "of {} bytes, and the run adds endings to the name; set a shorter output.name",
                              shown(name), io::longest_name, name.size(), io::longest_file_name));
 }
 
@@ -389,14 +389,15 @@ void refuse_other_files(const std::string& path) {
   const std::string ending = fs::path(path).extension().string();
   for (const char* contour : {".xy", ".geojson", ".json", ".shp", ".poly", ".msh"})
     if (ending == contour)
-      throw ConfigError(fmt::format("{0}: expected a config, found a contour by its ending; name it in a config, as "
-                                    "'file = {0}' in a section [shape.NAME] with 'type = contour'; configs/coast.ini "
-                                    "is an example",
-                                    path));
+      throw ConfigError(
+          fmt::format("{0}: expected a config, found a contour (by its ending). Name it in a config: 'file = {0}' in a "
+                      "section [shape.NAME] with 'type = contour'; configs/coast.ini is an example",
+                      path));
   if (ending == ".h5" || ending == ".vtkhdf")
-    throw ConfigError(fmt::format("{0}: expected a config, found a mesh file by its ending; 'trime_mpi info {0}' tells "
-                                  "what is in it, 'trime_mpi convert {0} OUT.ENDING' writes it for other programs",
-                                  path));
+    throw ConfigError(
+        fmt::format("{0}: expected a config, found a mesh file (by its ending). 'trime_mpi info {0}' prints what it "
+                    "holds, and 'trime_mpi convert {0} OUT.ENDING' writes it for other programs",
+                    path));
 }
 
 } // namespace

@@ -60,9 +60,9 @@ double expected_points(const RunOptions& options, const geometry::Boundary& boun
 void check_share(double points, int ranks) {
   constexpr auto most = static_cast<double>(sites::SiteRules::most_owned);
   if (points / ranks > most)
-    throw ConfigError(
-        fmt::format("about {:.3g} points are too many for {} rank{}: a rank owns {:.3g} at most; start {:.0f} or more",
-                    points, ranks, ranks == 1 ? "" : "s", most, std::ceil(points / most)));
+    throw ConfigError(fmt::format(
+        "about {:.3g} points are too many for {} rank{}: a rank can own at most {:.3g}; start {:.0f} or more", points,
+        ranks, ranks == 1 ? "" : "s", most, std::ceil(points / most)));
 }
 
 /// Bytes at the peak.
@@ -204,7 +204,8 @@ ExitCode make_mesh(const Job& job) {
   }();
   if (const geometry::Box& box = input.container;
       options.container_is_automatic && box.max != geometry::unit_square.max)
-    log.info("container: x from {:.9g} to {:.9g}, y from {:.9g} to {:.9g}, around the shape: [domain] gives no sides",
+    log.info("container: x from {:.9g} to {:.9g}, y from {:.9g} to {:.9g}, chosen around the shape because [domain] "
+             "sets no sides",
              box.min.x, box.max.x, box.min.y, box.max.y);
   options.mesh.container = input.container;
   log.set_rewriter([&places = job.places](const std::string& message) { return places.explain(message); });

@@ -23,8 +23,8 @@ std::string topology(int pieces, int holes) {
 }
 
 std::string start_text(const Provenance& p) {
-  return fmt::format("{} on {} x {}", p.line.config, counted(p.placement.ranks, "rank", "ranks"),
-                     counted(p.placement.threads, "thread", "threads"));
+  return fmt::format("{}, {} x {} on {}", p.line.config, counted(p.placement.ranks, "rank", "ranks"),
+                     counted(p.placement.threads, "thread", "threads"), counted(p.placement.nodes, "node", "nodes"));
 }
 
 std::string shape_text(const Provenance& p) {

@@ -75,8 +75,9 @@ void Settings::check_sections(const IniDocument& document, Diagnostics& problems
     if (reserved)
       problems.add(section.line, fmt::format("'{}' cannot name a part: it has a meaning in 'geometry'", shown(name)));
     else if (!is_part_name(name))
-      problems.add(section.line,
-                   fmt::format("'{}' cannot name a part: use letters, digits and '_', a letter first", shown(name)));
+      problems.add(
+          section.line,
+          fmt::format("'{}' cannot name a part: use letters, digits and '_', and begin with a letter", shown(name)));
     else if (part_names_.insert(name).second)
       parts_.push_back(name);
   }

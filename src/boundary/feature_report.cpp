@@ -60,7 +60,7 @@ std::string simplification_line(const FeatureReport& report) {
               {report.thinned, "piece of ragged curves thinned", "pieces of ragged curves thinned"},
               {report.smoothed, "vertex of ragged curves smoothed", "vertices of ragged curves smoothed"}});
   if (!line.empty())
-    line = fmt::format("at the size of the triangles: {}; {:.3g} % of the area lost, {:.3g} % added", line,
+    line = fmt::format("simplified to the size of the triangles: {}; {:.3g} % of the area lost, {:.3g} % added", line,
                        100 * report.lost_share, 100 * report.added_share);
   return line;
 }
@@ -173,20 +173,20 @@ std::vector<std::string> describe(const FeatureReport& report) {
   if (std::string line = simplification_line(report); !line.empty())
     lines.push_back(std::move(line));
   if (report.dropped_islands + report.dropped_lakes > 0)
-    lines.push_back(fmt::format("{} and {} with a perimeter below {:g} local sizes dropped, {:.3g} of the area",
+    lines.push_back(fmt::format("{} and {} with a perimeter below {:g} local sizes were dropped, {:.3g} of the area",
                                 counted(report.dropped_islands, "island", "islands"),
                                 counted(report.dropped_lakes, "lake", "lakes"), BoundaryRules::least_perimeter,
                                 report.dropped_share));
   if (report.corners_left_out > 0)
-    lines.push_back(fmt::format("{} below the resolution left out, at most {:.2f} local sizes from the facets",
+    lines.push_back(fmt::format("{} below the resolution were left out, at most {:.2f} local sizes from the facets",
                                 counted(report.corners_left_out, "corner", "corners"), report.largest_deviation));
   if (report.segments_halved > 0)
     lines.push_back(fmt::format("{} halved: another part of the boundary is near, or the curve bends",
                                 counted(report.segments_halved, "chord was", "chords were")));
   if (report.size_limits > 0)
-    lines.push_back(
-        fmt::format("size lowered at {}, down to {:.2g} of what was asked for: channels and corners are narrower",
-                    counted(report.size_limits, "place", "places"), report.lowest_size_share));
+    lines.push_back(fmt::format("the size was lowered at {}, down to {:.2g} of the requested size, since channels and "
+                                "corners there are narrower",
+                                counted(report.size_limits, "place", "places"), report.lowest_size_share));
   if (!report.sharp_corners.empty()) {
     std::string list;
     for (std::size_t k = 0; k < std::min(most_listed, report.sharp_corners.size()); ++k)

@@ -27,8 +27,8 @@ void refuse_unread_formats(const std::string& path) {
   for (const std::string_view extension :
        {".kml", ".kmz", ".gpkg", ".dxf", ".svg", ".gml", ".shx", ".dbf", ".zip", ".node"})
     if (ends_with_extension(path, extension))
-      throw ConfigError(fmt::format("{}: contours of type '{}' are not read; expected .xy, .geojson, .poly, .shp or "
-                                    ".msh (GDAL reads many formats of maps: ogr2ogr OUT.geojson {})",
+      throw ConfigError(fmt::format("{}: expected a contour file of a known type, found '{}'; known are .xy, .geojson, "
+                                    ".poly, .shp or .msh (GDAL reads many formats of maps: ogr2ogr OUT.geojson {})",
                                     path, extension, path));
 }
 

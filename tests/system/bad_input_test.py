@@ -217,7 +217,7 @@ class Rows:
                       [r"case\.ini:3: \[domain\] has the sides .* set x_min, x_max, y_min and y_max around the shape"])
 
     def sizes_that_no_number_of_points_reaches(self):
-        yield Row(GOOD, USAGE, [r"max_size = 1e-300: expected more than numbers can tell"],
+        yield Row(GOOD, USAGE, [r"max_size = 1e-300: expected more than numbers can hold"],
                   extra=["sizing.max_size=1e-300"], modes=([],))
 
     def unknown_part_in_region(self):
@@ -325,7 +325,7 @@ class BadInput(unittest.TestCase):
             (work / "case.ini").write_text(GOOD, encoding="utf-8")
             done = run(work / "case.ini", f"output.directory={work}/result", "parallel.mesh_threads=4096", timeout=300)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            self.assertRegex(done.stdout + done.stderr, r"warning: 4096 threads were asked for, and a rank uses \d+:")
+            self.assertRegex(done.stdout + done.stderr, r"warning: 4096 threads were requested, but a rank uses only \d+:")
 
     def test_output_exists(self):
         with Workspace() as work:

@@ -34,7 +34,8 @@ def filling_of_mesh(file):
 
 class DenseContours(unittest.TestCase):
     def mesh(self, work, ranks):
-        done = run(work / "land.ini", f"output.directory={work}", f"output.name=on_{ranks}", ranks=ranks)
+        done = run(work / "land.ini", f"output.directory={work}", f"output.name=on_{ranks}", "--verbose",
+                   ranks=ranks)
         self.assertEqual(done.returncode, 0, f"{ranks} ranks:\n{done.stdout}{done.stderr}")
         thinned = re.search(r"(\d+) pieces of ragged curves thinned", done.stdout)
         self.assertTrue(thinned, done.stdout)

@@ -235,7 +235,7 @@ TEST(Config, RefusesValuesThatMakeNoSense) {
   expect_refused("meshing.edge_length=0.1", "both 'points' and 'edge_length'");
   expect_refused("meshing.radius=1", "unknown key 'radius' in [meshing]; it belongs to [shape.NAME]");
   expect_refused("output.formats=vtk", "expected a list of");
-  expect_refused("output.name=a/b", "without directory");
+  expect_refused("output.name=a/b", "without a directory");
   expect_refused("log.level=loud", "expected one of debug, info");
   expect_refused("parallel.setup_threads=-1", "expected an integer from 0");
 }
@@ -263,7 +263,7 @@ TEST(Config, AChangedTypeShowsTheKeysThatNoLongerBelong) {
 }
 
 TEST(Config, RefusesWhatMeansNothing) {
-  expect_refused("meshing.fixed_points_normalize_with=box", "means nothing without 'fixed_points'");
+  expect_refused("meshing.fixed_points_normalize_with=box", "has no effect without 'fixed_points'");
   expect_refused("checkpoint.interval=-1", "'interval = -1' in [checkpoint]");
   expect_refused("checkpoint.keep=0", "'keep = 0' in [checkpoint]");
 }
@@ -300,10 +300,10 @@ TEST(Config, TheContainerIsAutomaticWhereNoSideIsGiven) {
 
 TEST(Config, TakesFormatsOfOtherProgramsButNotForPeriodicContainers) {
   using formats::Format;
-  EXPECT_TRUE(parse_config(good, "c.ini", {}).exchange.empty());
-  EXPECT_EQ(parse_config(good, "c.ini", {"output.formats=vtkhdf gmsh fort14"}).exchange,
+  EXPECT_TRUE(parse_config(good, "c.ini", {}).exports.empty());
+  EXPECT_EQ(parse_config(good, "c.ini", {"output.formats=vtkhdf gmsh fort14"}).exports,
             (std::vector{Format::gmsh, Format::adcirc}));
-  EXPECT_TRUE(parse_config(good, "c.ini", {"output.formats=gmsh", "output.interval=0"}).exchange.empty());
+  EXPECT_TRUE(parse_config(good, "c.ini", {"output.formats=gmsh", "output.interval=0"}).exports.empty());
   EXPECT_NE(errors_of(good, {"output.formats=xdmf vtu", "domain.periodic_y=true"})
                 .find("'formats = xdmf vtu' in [output]: a periodic container"),
             std::string::npos);
