@@ -60,8 +60,8 @@ def run(program, config, points, threads, directory, overrides):
     file.write_text(f"{config}[meshing]\npoints = {points}\n[output]\ndirectory = {directory}\nname = m\n"
                     "overwrite = true\n", encoding="utf-8")
     begun = time.perf_counter()
-    done = subprocess.run([str(program), str(file), *overrides, "--log-level=info"], capture_output=True, text=True, check=False,
-                          env=os.environ | {"OMP_NUM_THREADS": str(threads)})
+    done = subprocess.run([str(program), str(file), *overrides, "--log-level=info"], capture_output=True,
+                          text=True, check=False, env=os.environ | {"OMP_NUM_THREADS": str(threads)})
     command = time.perf_counter() - begun
     if done.returncode != 0:
         sys.exit(f"benchmark.py: {program} ended with {done.returncode}:\n{done.stdout}{done.stderr}")

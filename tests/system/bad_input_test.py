@@ -325,7 +325,8 @@ class BadInput(unittest.TestCase):
             (work / "case.ini").write_text(GOOD, encoding="utf-8")
             done = run(work / "case.ini", f"output.directory={work}/result", "parallel.mesh_threads=4096", timeout=300)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            self.assertRegex(done.stdout + done.stderr, r"warning: 4096 threads were requested, but a rank uses only \d+:")
+            self.assertRegex(done.stdout + done.stderr,
+                             r"warning: 4096 threads were requested, but a rank uses only \d+:")
 
     def test_output_exists(self):
         with Workspace() as work:

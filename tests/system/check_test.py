@@ -272,7 +272,8 @@ class Check(unittest.TestCase):
              "features": [{"type": "Feature", "properties": {"name": "Isle"},
                            "geometry": {"type": "Polygon", "coordinates": [ring]}}]}))
         config = self.work / "map.ini"
-        config.write_text("[shape]\ngeometry = difference(land, pond)\n[shape.land]\ntype = contour\nfile = map.geojson\n"
+        config.write_text("[shape]\ngeometry = difference(land, pond)\n[shape.land]\ntype = contour\n"
+                          "file = map.geojson\n"
                           "attribute = name\n[shape.pond]\ntype = circle\ncenter = 6000 3000\nradius = 700\n"
                           f"[meshing]\npoints = {POINTS}\n")
         done = run(config, f"output.directory={self.work}")

@@ -33,7 +33,7 @@ class FixedPoints(unittest.TestCase):
         (directory / "plate.xy").write_text(CONTOUR)
         (directory / "points.xy").write_text(points)
         (directory / "job.ini").write_text(CONFIG.format(directory=directory))
-        return run(directory / "job.ini", *overrides, ranks=2)
+        return run(directory / "job.ini", *overrides, "--verbose", ranks=2)
 
     def expect_vertices(self, directory, expected):
         with h5py.File(directory / "job.h5", "r") as file:

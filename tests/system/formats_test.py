@@ -384,7 +384,8 @@ class Formats(unittest.TestCase):
         (self.work / "text.h5").write_text("no mesh\n")
         own = self.work / "own.h5"
         cases = [(["convert", own], USAGE, r"needs two files, found 1 file; usage: .*convert IN.h5 OUT.ENDING"),
-                 (["convert", own, self.work / "a.stl"], USAGE, r"the ending of '.*a\.stl' is not that of a format: .* \.msh \(gmsh\)"),
+                 (["convert", own, self.work / "a.stl"], USAGE,
+                  r"the ending of '.*a\.stl' is not that of a format: .* \.msh \(gmsh\)"),
                  (["convert", own, self.work / "own.msh"], FILE, r"own\.msh exists; add --overwrite"),
                  (["convert", self.work / "none.h5", self.work / "a.msh"], FILE, r"cannot open .*none\.h5: No such"),
                  (["convert", self.work / "text.h5", self.work / "a.msh"], FILE, r"cannot open .*text\.h5"),

@@ -144,7 +144,8 @@ class HardShapes(unittest.TestCase):
         self.mesh([comb(40, 0.01)], "meshing.points=1000", "sizing.type=automatic")
         self.error([comb(40, 0.01)], "meshing.points=1000", "sizing.type=automatic", "meshing.keep_features=true",
                    code=2,
-                   says=["points = 1000 are too few", "boundary alone needs", "the shortest boundary edge, 0.01 long, is at ("])
+                   says=["points = 1000 are too few", "boundary alone needs",
+                         "the shortest boundary edge, 0.01 long, is at ("])
 
     def test_touching(self):
         self.error(two("union", disc("a", 0.3, 0.5, 0.2), disc("b", 0.7, 0.5, 0.2)), "meshing.points=1000", code=3,

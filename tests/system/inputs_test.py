@@ -276,7 +276,8 @@ class Maps(unittest.TestCase):
     def mesh(self, work, name, *overrides, ranks=1):
         """The mesh of a contour file; its hash."""
         (work / "case.ini").write_text(CONFIG.format(name, 3000))
-        done = run(work / "case.ini", f"output.directory={work}", "output.overwrite=true", *overrides, ranks=ranks)
+        done = run(work / "case.ini", f"output.directory={work}", "output.overwrite=true", "--verbose", *overrides,
+                   ranks=ranks)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         with h5py.File(work / "case.h5") as file:
             return int(file["trime_mpi"].attrs["mesh_hash"]), done
@@ -371,7 +372,8 @@ class Maps(unittest.TestCase):
             for zone, told in ((32632, False), (32636, True)):
                 said = run(work / "case.ini", "--validate", f"shape.projection=EPSG:{zone}").stdout
                 (self.assertRegex if told else self.assertNotRegex)(
-                    said, r"warning: 'projection = EPSG:\d+' stretches lengths by a factor of 1\.0\d .* EPSG:32632 \(UTM zone 32\)")
+                    said, r"warning: 'projection = EPSG:\d+' stretches lengths by a factor of 1\.0\d "
+                          r".* EPSG:32632 \(UTM zone 32\)")
 
     def test_a_part_that_is_not_used_may_lie_anywhere(self):
         with Workspace() as work:
@@ -381,7 +383,8 @@ class Maps(unittest.TestCase):
                                            part.format("far", 50, 50) + "[meshing]\npoints = 500\n")
             done = run(work / "case.ini", "--validate")
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            self.assertRegex(done.stdout, "warning: the part 'far' does not occur in the geometry 'disc', so it is left out")
+            self.assertRegex(done.stdout,
+                             "warning: the part 'far' does not occur in the geometry 'disc', so it is left out")
 
     def test_fixed_points_are_projected_too(self):
         with Workspace() as work:

@@ -125,7 +125,8 @@ class Running(unittest.TestCase):
     def test_rings_and_fixed_points_as_arrays(self):
         square = np.array([[0.1, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]])
         place = np.array([[0.2, 0.45]])
-        mesh = trime_mpi.mesh({"shape": {"geometry": "a", "a": {"type": "contour", "rings": [square, 0.25 + square / 2]}},
+        mesh = trime_mpi.mesh({"shape": {"geometry": "a",
+                                         "a": {"type": "contour", "rings": [square, 0.25 + square / 2]}},
                                "meshing": {"points": 800, "fixed_points": place}})
         self.assertLess(np.abs(mesh.points - place).max(axis=1).min(), 1e-9)
         self.assertAlmostEqual(mesh.attributes["shape_area"], 0.64 - 0.16, places=9)
@@ -177,7 +178,8 @@ class Running(unittest.TestCase):
         with Workspace() as work, contextlib.chdir(work):
             pathlib.Path("ring.xy").write_text("0 0\n1 0\n1 1\n0 1\n", encoding="utf-8")
             pathlib.Path("points.xy").write_text("0.25 0.5\n", encoding="utf-8")
-            config = {"shape": {"geometry": "a", "a": {"type": "contour", "file": "ring.xy"}}, "meshing": {"points": 300}}
+            config = {"shape": {"geometry": "a", "a": {"type": "contour", "file": "ring.xy"}},
+                      "meshing": {"points": 300}}
             pathlib.Path("out").mkdir()
             mesh = trime_mpi.mesh(config, options={"meshing.fixed_points": pathlib.Path("points.xy")},
                                   output="out/m.h5", threads=1)
