@@ -59,9 +59,9 @@ checkpoint::Found CheckpointKeeper::named(const std::string& file) const {
   try {
     return checkpoint::read_checkpoint(file, context_.comm);
   } catch (const FileError& error) {
-    throw FileError(fmt::format(
-        "{}; '--restart auto' takes the newest complete checkpoint {}, and starts from the beginning if there is none",
-        error.what(), context_.output.path(".checkpoint-K.h5")));
+    throw FileError(fmt::format("{}; '--restart auto' takes the newest complete checkpoint {}, and starts from the "
+                                "beginning if there is no checkpoint",
+                                error.what(), context_.output.path(".checkpoint-K.h5")));
   }
 }
 

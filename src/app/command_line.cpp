@@ -43,13 +43,12 @@ void declare(CLI::App& app, CommandLine& line, Flags& flags) {
                  "continue from a checkpoint: its file, or `auto` for the newest one of this config, if there is one");
   app.add_option("--time-limit", flags.time_limit,
                  "HH:MM:SS: write a checkpoint and stop before this much time has passed (exit code 75)");
-  app.footer("Exit codes: 0 done, 1 internal error, 2 wrong usage or config (or too few points for the boundary),\n"
-             "3 wrong geometry, 4 a file cannot be read or written, 5 mesh written but marked as incomplete\n"
-             "(too many sweeps, or a failed check), 6 out of memory, 75 stopped at a checkpoint: continue with\n"
-             "--restart auto.\n"
-             "Signals: USR1 writes a checkpoint and stops the run, USR2 writes a checkpoint.\n"
-             "A run that signal n ends has exit code 128 + n (130: Ctrl-C, 143: SIGTERM; mpirun returns 1), and\n"
-             "says whether it has written the final mesh.");
+  app.footer("Exit codes: 0 done, 1 internal error, 2 wrong usage or config (or too few points for the boundary),\n3 "
+             "wrong geometry, 4 a file cannot be read or written.\nExit code 5: the mesh is written but marked as "
+             "incomplete (too many sweeps, or a failed check).\nExit code 6: out of memory. Exit code 75: stopped at a "
+             "checkpoint; continue with --restart auto.\nSignals: USR1 writes a checkpoint and stops the run, USR2 "
+             "writes a checkpoint.\nA run that signal n ends has exit code 128 + n (130: Ctrl-C, 143: SIGTERM; mpirun "
+             "returns 1), and\nsays whether it has written the final mesh.");
 }
 
 /// The words that stand in the place of a config and have files behind them. A config of such a name is ./convert.

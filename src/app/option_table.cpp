@@ -200,9 +200,9 @@ constexpr Option table[] = {
      .kind = OptionKind::boolean,
      .fallback = "false",
      .meaning = "true: the mesh keeps every corner, island, lake and narrow part, however small, and the size is "
-                "lowered around them; false: parts of the shape narrower than 0.5 h (h: the local size) are cut, "
+                "lowered around them. False: parts of the shape narrower than 0.5 h (h: the local size) are cut, "
                 "islands and lakes with a perimeter below 3 h are dropped, and corners may be left out (see "
-                "`feature_tolerance`); the report counts all of these"},
+                "`feature_tolerance`). The report counts all of these"},
     {.section = "meshing",
      .key = "simplify_within",
      .fallback = "0.5",

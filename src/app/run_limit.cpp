@@ -39,10 +39,9 @@ Cause set_up(const Measurements& m) {
   double share = 0;
   for (const char* phase : phases)
     share += m.share(phase);
-  return {share * (1 - 1.0 / m.ranks),
-          fmt::format("set-up: {:.0f} % of the time goes to shape, size field, boundary and start, most of which each "
-                      "rank does for itself",
-                      percent(share))};
+  return {share * (1 - 1.0 / m.ranks), fmt::format("set-up: {:.0f} % of the time goes to shape, size field, boundary "
+                                                   "and start, and most of this work is repeated on each rank",
+                                                   percent(share))};
 }
 
 Cause output(const Measurements& m) {

@@ -39,8 +39,8 @@ void fail_for_few_points(const LayoutContext& context, double fewest, bool count
                                           : "more than numbers can hold"));
   if (const std::size_t inside = context.fixed.inside().size(); inside > 0)
     throw ConfigError(fmt::format("points = {} are too few for this shape: the {} fixed points inside and {:.0f} on "
-                                  "its boundary (each corner takes one, and so does each place where the boundary "
-                                  "comes near itself) add up to {:.0f}; use more points, or fewer fixed points",
+                                  "its boundary add up to {:.0f}. Each corner takes a point, and so does each place "
+                                  "where the boundary comes near itself; use more points, or fewer fixed points",
                                   points, inside, fewest - static_cast<double>(inside), fewest));
   throw ConfigError(
       fmt::format("points = {} are too few for this shape: its boundary alone needs {:.0f} (each corner takes one, and "
@@ -53,9 +53,9 @@ void fail_for_few_points(const LayoutContext& context, const Fewest& fewest) {
     fail_for_few_points(context, fewest.points, fewest.counted);
   const geometry::Vec2 place = 0.5 * (fewest.shortest.a + fewest.shortest.b);
   throw ConfigError(
-      fmt::format("points = {} are too few for this shape: its boundary alone needs {}{:.0f} (each corner takes one, "
-                  "and so does each place where the boundary comes near itself); the shortest boundary edge, {:.3g} "
-                  "long, is at ({:.6g}, {:.6g}); use more points, or simplify the shape there",
+      fmt::format("points = {} are too few for this shape: its boundary alone needs {}{:.0f}. Each corner takes a "
+                  "point, and so does each place where the boundary comes near itself; the shortest boundary edge, "
+                  "{:.3g} long, is at ({:.6g}, {:.6g}); use more points, or simplify the shape there",
                   *context.options.points, fewest.counted ? "" : "more than ", fewest.points,
                   geometry::length(fewest.shortest.b - fewest.shortest.a), place.x, place.y));
 }

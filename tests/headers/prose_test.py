@@ -23,7 +23,7 @@ CHECKED = (
     "*.md", "configs/*.md", "jobs/*.md", "scripts/README.md", "scripts/packaging/*.md",
     "src/*.md", "tests/*.md",
     "scripts/**/*.py", "tests/**/*.py",
-    "include/trime/**/*.hpp",
+    "include/trime/**/*.hpp", "src/app/*.cpp", "src/app/*.hpp",
 )
 # Tables made from C++ by a script or by --help-config: their words are corrected there, not on the page.
 MADE_TABLES = ("src/rules.md",)

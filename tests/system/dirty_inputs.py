@@ -109,7 +109,7 @@ REFUSED = [
      r"a\.poly:\d+: 3 segments meet at vertex"),
     ("too short", "a.poly", POLY[:60], GEOMETRY, r"a\.poly:\d+: expected .*vertex|a\.poly:\d+: expected vertex"),
     ("space", "a.poly", POLY.replace("8 2 0 0", "8 3 0 0"), GEOMETRY, r"a\.poly:2: expected a plane \.poly"),
-    ("no .node", "a.poly", "0 2 0 0\n" + POLY[POLY.index("8 1\n"):], FILE, r"a\.node.*no vertices of its own"),
+    ("no .node", "a.poly", "0 2 0 0\n" + POLY[POLY.index("8 1\n"):], FILE, r"a\.node.*itself has no vertices"),
     ("Gmsh", "a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", GEOMETRY, r"a\.msh:1: .*Gmsh"),
     ("on the ellipsoid", "a.msh", MSH.replace("EUCLIDEAN", "ELLIPSOID"), GEOMETRY, r"a\.msh:2: .*projection"),
     ("missing point", "a.msh", MSH.replace("3;0;1", "3;4;1"), GEOMETRY, r"a\.msh:13: expected points from 0 to 3"),

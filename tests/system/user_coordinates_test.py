@@ -67,8 +67,8 @@ class UserCoordinates(unittest.TestCase):
             for ranks, name in ((1, "one"), (3, "three")):
                 done = run(config, f"output.directory={directory}", f"output.name={name}", "--verbose", ranks=ranks)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-                self.assertIn("container: x from 4490000 to 4710000, y from 5390000 to 5610000, chosen around the shape",
-                              done.stdout)
+                self.assertIn("container: x from 4490000 to 4710000, y from 5390000 to 5610000, "
+                              "chosen around the shape", done.stdout)
                 with h5py.File(directory / f"{name}.h5", "r") as file:
                     hashes.add(int(file["trime_mpi"].attrs["mesh_hash"]))
                     points = file["Mesh/mesh/geometry"][:]
