@@ -140,5 +140,15 @@ TEST(LossWarning, CountsLoopsAndArea) {
     EXPECT_NE(warning.find(words), std::string::npos) << warning;
 }
 
+TEST(LossWarning, CountsPiecesEvenIfNoLoopIsLost) {
+  const Boundary given = boundary_of({box(0.1, 0.1, 0.6, 0.6, 1)});
+  const Boundary meshed = boundary_of({box(0.1, 0.1, 0.34999, 0.6, 1), box(0.35001, 0.1, 0.6, 0.6, 2)});
+  FeatureReport report;
+  report_losses(given, meshed, {}, {}, UniformSize(h), unit_lattice(), report);
+  const std::string warning = loss_warning(report);
+  EXPECT_NE(warning.find("it has 2 pieces instead of 1, 0.004 % of its area is lost"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("simplify_within"), std::string::npos) << warning;
+}
+
 } // namespace
 } // namespace trime::boundary
