@@ -31,7 +31,7 @@ from gmsh_rival import Rival
 from quality_table import COAST, POKER, automatic
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-SQUARE = "[shape]\nregion = domain\n"
+SQUARE = "[shape]\ngeometry = domain\n"
 CASES = {
     "square 1e4": (SQUARE, 10_000),
     "square 1e5": (SQUARE, 100_000),
@@ -60,8 +60,8 @@ def run(program, config, points, threads, directory, overrides):
     file.write_text(f"{config}[meshing]\npoints = {points}\n[output]\ndirectory = {directory}\nname = m\n"
                     "overwrite = true\n", encoding="utf-8")
     begun = time.perf_counter()
-    done = subprocess.run([str(program), str(file), *overrides], capture_output=True, text=True, check=False,
-                          env=os.environ | {"OMP_NUM_THREADS": str(threads)})
+    done = subprocess.run([str(program), str(file), *overrides, "--log-level=info"], capture_output=True,
+                          text=True, check=False, env=os.environ | {"OMP_NUM_THREADS": str(threads)})
     command = time.perf_counter() - begun
     if done.returncode != 0:
         sys.exit(f"benchmark.py: {program} ended with {done.returncode}:\n{done.stdout}{done.stderr}")

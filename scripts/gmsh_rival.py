@@ -74,7 +74,7 @@ def geometry_of(config):
     shape = configparser.ConfigParser()
     shape.read_string(config)
     geometry = Geometry()
-    if shape["shape"]["region"] == "domain":
+    if shape["shape"]["geometry"] == "domain":
         geometry.ring([0j, 1 + 0j, 1 + 1j, 1j])
     for part in (shape[name] for name in shape.sections() if name.startswith("shape.")):
         if part["type"] == "contour":
@@ -110,7 +110,7 @@ class Rival:
     def __init__(self, config, ours, points, directory):
         self.directory = directory
         self.geometry = geometry_of(config)
-        self.uniform = "region = domain" in config
+        self.uniform = "geometry = domain" in config
         self.scale = 1.0
         if self.uniform:
             self.scale = (1 / (0.8660254 * points)) ** 0.5

@@ -123,7 +123,7 @@ def run(program, name, factor, case, directory):
     config, *overrides = CASES[case]
     environment = dict(os.environ, OMP_NUM_THREADS="1", TRIME_RULE=f"{name} {factor}")
     command = [program, ROOT / "configs" / config, *overrides, f"output.directory={directory}", f"output.name={case}",
-               "output.overwrite=true", "output.formats=text"]
+               "output.overwrite=true", "output.formats=text", "--log-level=info"]
     try:
         done = subprocess.run(["/usr/bin/env", "bash", "-c", 'TIMEFORMAT="user %U"; time "$@"', "bash",
                                *map(str, command)],

@@ -25,11 +25,11 @@ except ImportError:
              "/usr/bin/python3")
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-SQUARE = ("[shape]\nregion = plate\n[shape.plate]\ntype = rectangle\nx_min = 0.1\nx_max = 0.9\n"
+SQUARE = ("[shape]\ngeometry = plate\n[shape.plate]\ntype = rectangle\nx_min = 0.1\nx_max = 0.9\n"
           "y_min = 0.1\ny_max = 0.9\n")
-POKER = ("[shape]\nregion = difference(spade, hole)\n[shape.spade]\ntype = contour\nfile = {data}/poker.xy\n"
+POKER = ("[shape]\ngeometry = difference(spade, hole)\n[shape.spade]\ntype = contour\nfile = {data}/poker.xy\n"
          "normalize = true\n[shape.hole]\ntype = circle\ncenter = 0.5 0.7\nradius = 0.1\n")
-COAST = "[shape]\nregion = coast\n[shape.coast]\ntype = contour\nfile = {data}/north_america.xy\nnormalize = true\n"
+COAST = "[shape]\ngeometry = coast\n[shape.coast]\ntype = contour\nfile = {data}/north_america.xy\nnormalize = true\n"
 
 
 def automatic(gradation):

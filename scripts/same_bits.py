@@ -39,7 +39,7 @@ POINTS = 2000
 
 # Every function of formulas, in sizes and in a shape.
 SIZE = """[shape]
-region = plate
+geometry = plate
 [shape.plate]
 type = rectangle
 x_min = 0.1
@@ -51,7 +51,7 @@ type = expression
 expression = 0.4 + exp(-3*x)*sin(9*y)^2 + 0.3*x^1.7 + 0.1*log(1+x+y) + 0.05*tanh(4*x-2)*cos(30*y) + atan(x/y)/20
 """
 REGION = """[shape]
-region = difference(flower, hole)
+geometry = difference(flower, hole)
 [shape.flower]
 type = expression
 sdf = sqrt((x-0.5)^2+(y-0.5)^2) - 0.3 - 0.05*sin(5*atan2(y-0.5,x-0.5)) - 0.01*log10(2+cosh(3*x)) - 0.01*exp(-y^2.5)

@@ -47,7 +47,7 @@ def circle(n, x=0.5, y=0.5, radius=0.4):
 
 def contour(directory, rings, more="", points=2000, formats="none"):
     write_rings(directory / "shape.xy", rings)
-    return ("[shape]\nregion = s\n[shape.s]\ntype = contour\nfile = shape.xy\n" +
+    return ("[shape]\ngeometry = s\n[shape.s]\ntype = contour\nfile = shape.xy\n" +
             tail(points, formats).replace("[output]", more + "[output]"))
 
 
@@ -81,7 +81,7 @@ def places_of_islands(n):
 def parts_config(bodies):
     names = ", ".join(f"p{k}" for k in range(len(bodies)))
     return (f"[domain]\nx_min = 0\nx_max = 1\ny_min = 0\ny_max = 1\n[shape]\n"
-            f"region = difference(domain, union({names}))\n"
+            f"geometry = difference(domain, union({names}))\n"
             + "".join(f"[shape.p{k}]\n{body}" for k, body in enumerate(bodies)))
 
 
@@ -105,14 +105,14 @@ def circles_as_parts(directory, n):
 def misspelt_keys(directory, n):
     """Lines of keys that do not exist, which are errors: the program must report them soon."""
     del directory
-    return "[shape]\nregion = domain\n[meshing]\n" + "".join(f"a{k} = 1\n" for k in range(n))
+    return "[shape]\ngeometry = domain\n[meshing]\n" + "".join(f"a{k} = 1\n" for k in range(n))
 
 
 @case(100000)
 def repeated_sections(directory, n):
     """The same section many times, which is an error: the program must report it soon."""
     del directory
-    return "[shape]\nregion = domain\n" + "[meshing]\npoints = 5\n" * n
+    return "[shape]\ngeometry = domain\n" + "[meshing]\npoints = 5\n" * n
 
 
 def comb(n, turn=math.pi / 4, x=0.5, y=0.5, length=0.8):
@@ -145,7 +145,7 @@ def comb_cut_by_lines(directory, n):
     """The comb as a part, united with another comb next to its teeth."""
     write_rings(directory / "a.xy", [comb(n)])
     write_rings(directory / "b.xy", [comb(n // 10, 1.25 * math.pi, 0.85, 0.15, 0.3)])
-    return ("[shape]\nregion = union(a, b)\n[shape.a]\ntype = contour\nfile = a.xy\n"
+    return ("[shape]\ngeometry = union(a, b)\n[shape.a]\ntype = contour\nfile = a.xy\n"
             "[shape.b]\ntype = contour\nfile = b.xy\n" + tail())
 
 
@@ -160,7 +160,7 @@ def circles_against_a_comb(directory, n):
         u, v = (k + 0.3) * step - 0.4, 0.2 * (k % 3)
         circles.append(f"[shape.p{k}]\ntype = circle\ncenter = {0.5 + turn * (u - v)} {0.5 + turn * (u + v)}\n"
                        f"radius = {0.4 * step}\n")
-    return (f"[shape]\nregion = difference(a, union({names}))\n[shape.a]\ntype = contour\nfile = a.xy\n" +
+    return (f"[shape]\ngeometry = difference(a, union({names}))\n[shape.a]\ntype = contour\nfile = a.xy\n" +
             "".join(circles) + tail())
 
 
@@ -185,7 +185,7 @@ def rings_of_a_poly(directory, n):
     text += [f"{len(segments)} 0\n"] + [f"{k + 1} {a + 1} {b + 1}\n" for k, (a, b) in enumerate(segments)]
     text += [f"{n}\n"] + [f"{k + 1} {x:.17g} {y:.17g}\n" for k, (x, y, _) in enumerate(islands)]
     (directory / "shape.poly").write_text("".join(text), encoding="utf-8")
-    return "[shape]\nregion = s\n[shape.s]\ntype = contour\nfile = shape.poly\n" + tail()
+    return "[shape]\ngeometry = s\n[shape.s]\ntype = contour\nfile = shape.poly\n" + tail()
 
 
 @case(2500, validate=False)
@@ -259,7 +259,7 @@ def fractal_coast(directory, n):
 def sizes_over_six_decades(directory, n):
     """A size that grows from 1e-6 in the middle."""
     del directory
-    return ("[shape]\nregion = domain\n[sizing]\ntype = expression\n"
+    return ("[shape]\ngeometry = domain\n[sizing]\ntype = expression\n"
             "expression = max(1e-6, sqrt((x-0.5)^2+(y-0.5)^2))\n" + tail(n))
 
 
@@ -268,7 +268,7 @@ def graded_torus(directory, n):
     """A torus with a size that varies."""
     del directory
     return ("[domain]\nx_min = 0\nx_max = 1\ny_min = 0\ny_max = 1\nperiodic_x = true\nperiodic_y = true\n[shape]\n"
-            "region = domain\n[sizing]\ntype = expression\nexpression = 1+0.8*sin(2*pi*x)*sin(2*pi*y)\n" + tail(n))
+            "geometry = domain\n[sizing]\ntype = expression\nexpression = 1+0.8*sin(2*pi*x)*sin(2*pi*y)\n" + tail(n))
 
 
 def limit_memory():

@@ -59,10 +59,9 @@ checkpoint::Found CheckpointKeeper::named(const std::string& file) const {
   try {
     return checkpoint::read_checkpoint(file, context_.comm);
   } catch (const FileError& error) {
-    throw FileError(
-        fmt::format("{}; '--restart auto' takes the newest whole checkpoint {}, and starts anew if there is "
-                    "none",
-                    error.what(), context_.output.path(".checkpoint-K.h5")));
+    throw FileError(fmt::format("{}; '--restart auto' takes the newest complete checkpoint {}, and starts from the "
+                                "beginning if there is no checkpoint",
+                                error.what(), context_.output.path(".checkpoint-K.h5")));
   }
 }
 
@@ -84,24 +83,24 @@ std::optional<meshing::SavedRun> CheckpointKeeper::find(const std::string& resta
     try {
       return checked(checkpoint::read_checkpoint(file, context_.comm), file);
     } catch (const FileError& error) { // on all ranks together
-      context_.log.warning("{}; it is left out", error.what());
+      context_.log.warning("{}; this checkpoint is ignored", error.what());
     }
   }
-  context_.log.info("restart: no checkpoint of {} is there; the run starts at its beginning", context_.output.path(""));
+  context_.log.info("restart: there is no checkpoint of {}; the run starts from the beginning",
+                    context_.output.path(""));
   return std::nullopt;
 }
 
 /// Throws on all ranks unless the checkpoint belongs to this config.
 meshing::SavedRun CheckpointKeeper::checked(checkpoint::Found found, const std::string& file) {
   if (const std::vector<std::string> keys = differing_keys(found.title.origin.config, origin_.config); !keys.empty())
-    throw ConfigError(fmt::format("{} is of a run with another config: {}; start anew without --restart, or give that "
-                                  "config",
-                                  file, fmt::join(keys, "; ")));
+    throw ConfigError(fmt::format(
+        "{} comes from a run with another config: {}; start from the beginning without --restart, or use that config",
+        file, fmt::join(keys, "; ")));
   if (found.title.origin.program != origin_.program)
-    throw FileError(
-        fmt::format("{} was written by {}, and this is {}: expected the same program, since others may make "
-                    "another mesh",
-                    file, found.title.origin.program, origin_.program));
+    throw FileError(fmt::format(
+        "{} was written by {}, and this is {}: expected the same program, since another one may make a different mesh",
+        file, found.title.origin.program, origin_.program));
   number_ = found.title.number;
   context_.log.info("restart: from {}", file);
   return std::move(found.run);
@@ -207,24 +206,23 @@ void CheckpointKeeper::set_number() {
 /// On all ranks together: a run that was asked to stop goes on, since a mesh is worth more than an end without one.
 void CheckpointKeeper::tell_unwritten(CheckpointWish wish, const std::string& reason) {
   SignalRequests& signals = context_.signals;
-  const char* advice = "free some space in output.directory, or see that it can be written";
+  const char* advice = "free some space in output.directory, or make it writable";
   if (wish == CheckpointWish::stop && context_.comm.max(std::int64_t{signals.asks_to_end()}) > 0)
-    throw FileError(fmt::format("no checkpoint: {}; a signal ends the run, and its work is lost; next time {}, or send "
-                                "USR1: then a run without a checkpoint goes on",
+    throw FileError(fmt::format("checkpoint failed: {}; a signal ends the run, and its work is lost. Next time {}, or "
+                                "send USR1: if a checkpoint fails then, the run continues",
                                 reason, advice));
   signals.forget_writing();
   if (is_last_)
     signals.set_last(false);
   if (wish != CheckpointWish::stop) {
-    context_.log.warning("no checkpoint: {}; the run goes on; {}", reason, advice);
+    context_.log.warning("checkpoint failed: {}; the run continues; {}", reason, advice);
     return;
   }
   signals.forget_stopping();
   stops_no_more_ = true; // else each sweep would try again, and fail
-  context_.log.warning(
-      "no checkpoint: {}; the run does not stop{}, but goes on to its end; to stop it at a checkpoint, "
-      "{}, then send USR1",
-      reason, reason_.empty() ? "" : " (" + reason_ + ")", advice);
+  context_.log.warning("checkpoint failed: {}; the run does not stop{}, but continues to its end. To stop it at a "
+                       "checkpoint, {}, then send USR1",
+                       reason, reason_.empty() ? "" : " (" + reason_ + ")", advice);
   reason_.clear();
 }
 
@@ -260,7 +258,7 @@ void CheckpointKeeper::write(CheckpointWish wish, const meshing::RunState& state
 /// Removes the file, so that the next run does not stop because of it.
 void CheckpointKeeper::remove_stop_file() const {
   if (unlink(options_.stop_file.c_str()) != 0 && errno != ENOENT)
-    context_.log.warning("cannot remove the stop file {}: {}; remove it, or the next run stops by it, too",
+    context_.log.warning("cannot remove the stop file {}: {}; remove it, otherwise it stops the next run, too",
                          options_.stop_file, std::strerror(errno));
 }
 
@@ -268,7 +266,7 @@ void CheckpointKeeper::remove_stop_file() const {
 void CheckpointKeeper::stop_at(const std::string& file) const {
   if (context_.comm.is_root() && !options_.stop_file.empty())
     remove_stop_file();
-  throw meshing::StoppedAtCheckpoint(fmt::format("stopped at the checkpoint {}{}; go on with --restart {}", file,
+  throw meshing::StoppedAtCheckpoint(fmt::format("stopped at the checkpoint {}{}; continue with --restart {}", file,
                                                  reason_.empty() ? "" : " (" + reason_ + ")", file));
 }
 

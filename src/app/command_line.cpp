@@ -15,38 +15,40 @@ namespace {
 
 struct Flags {
   bool help_config = false, version = false, validate = false, dry_run = false, print_config = false, quiet = false,
-       overwrite = false;
+       verbose = false, overwrite = false;
   std::optional<std::string> threads, level, time_limit;
 };
 
 void declare(CLI::App& app, CommandLine& line, Flags& flags) {
   app.add_option("CONFIG", line.config, "config file, for example configs/square.ini");
-  app.add_option("overrides", line.overrides, "section.key=value: set after the file; an empty value means the default")
+  app.add_option("overrides", line.overrides,
+                 "section.key=value: replaces the value in the file; an empty value restores the default")
       ->expected(0, -1);
   app.add_flag("--help-config", flags.help_config, "list all keys of a config file");
-  app.add_flag("--version", flags.version, "print versions and how the program was built");
+  app.add_flag("--version", flags.version, "print the versions of the program and of its libraries");
   app.add_flag("--validate", flags.validate,
-               "check config, shape and output, estimate the memory, mesh and write nothing");
+               "check config, shape and output files and estimate the memory, without making a mesh");
   app.add_flag("--dry-run", flags.dry_run,
-               "the same, say how the work is shared out, what of the shape is simplified, and how many "
-               "points keep everything");
+               "like --validate, and also report how the work is divided, what will be simplified, and how many points "
+               "would keep every feature of the shape");
   app.add_flag("--print-config", flags.print_config, "print the config with all defaults, as a complete file");
-  app.add_flag("--overwrite", flags.overwrite, "convert: replace OUT");
-  app.add_option("--report", line.report, "write the report of the run as JSON, with the numbers of /trime_mpi");
-  app.add_option("--record", line.report)->group(""); // its name before; not in the help
-  app.add_option("--threads", flags.threads, "threads per rank: parallel.setup_threads and mesh_threads");
-  app.add_option("--log-level", flags.level, "debug, info, warning, error, silent: log.level");
+  app.add_flag("--overwrite", flags.overwrite, "replace OUT (only with convert)");
+  app.add_option("--report", line.report, "write the report of the run to this file, as JSON");
+  app.add_option("--record", line.report)->group(""); // its name in earlier versions; not in the help
+  app.add_option("--threads", flags.threads, "threads per rank: sets parallel.setup_threads and parallel.mesh_threads");
+  app.add_option("--log-level", flags.level, "debug, info, summary, warning, error or silent: sets log.level");
+  app.add_flag("--verbose", flags.verbose, "also print what each phase does, some sweeps and the whole report");
   app.add_flag("--quiet", flags.quiet, "print only warnings and errors");
   app.add_option("--restart", line.restart,
-                 "go on from a checkpoint: its file, or `auto` for the newest of this config, if there is one");
+                 "continue from a checkpoint: its file, or `auto` for the newest one of this config, if there is one");
   app.add_option("--time-limit", flags.time_limit,
-                 "HH:MM:SS: stop at a checkpoint before the run has taken so long, with exit code 75");
-  app.footer("Exit codes: 0 done, 1 internal error, 2 usage or config (also fewer points than the boundary takes),\n"
-             "3 geometry, 4 file, 5 mesh written but marked (sweep cap, or a check failed), 6 out of memory,\n"
-             "75 stopped at a checkpoint: run again with --restart auto.\n"
-             "Signals: USR1 writes a checkpoint and stops, USR2 writes one and goes on.\n"
-             "A run ended by signal n leaves with 128 + n (130: Ctrl-C, 143: SIGTERM; mpirun makes 1 of it) and\n"
-             "says whether the final mesh is there.");
+                 "HH:MM:SS: write a checkpoint and stop before this much time has passed (exit code 75)");
+  app.footer("Exit codes: 0 done, 1 internal error, 2 wrong usage or config (or too few points for the boundary),\n3 "
+             "wrong geometry, 4 a file cannot be read or written.\nExit code 5: the mesh is written but marked as "
+             "incomplete (too many sweeps, or a failed check).\nExit code 6: out of memory. Exit code 75: stopped at a "
+             "checkpoint; continue with --restart auto.\nSignals: USR1 writes a checkpoint and stops the run, USR2 "
+             "writes a checkpoint.\nA run that signal n ends has exit code 128 + n (130: Ctrl-C, 143: SIGTERM; mpirun "
+             "returns 1), and\nsays whether it has written the final mesh.");
 }
 
 /// The words that stand in the place of a config and have files behind them. A config of such a name is ./convert.
@@ -66,7 +68,7 @@ void take_files(CommandLine& line, const Flags& flags) {
   const bool converts = line.action == Action::convert;
   line.overwrite = flags.overwrite;
   if (flags.overwrite && !converts)
-    throw ConfigError("'--overwrite' is for 'trime_mpi convert'; a run takes output.overwrite=true");
+    throw ConfigError("'--overwrite' belongs to 'trime_mpi convert'; for a run, set output.overwrite=true");
   if (!converts && line.action != Action::info)
     return;
   line.files = std::exchange(line.overrides, {});
@@ -84,22 +86,22 @@ double seconds_of(const std::string& text) {
   if (found != 3 || static_cast<std::size_t>(used) != text.size() || hours < 0 || minutes < 0 || minutes > 59 ||
       seconds < 0 || seconds > 59 || hours + minutes + seconds == 0)
     throw ConfigError(fmt::format("'--time-limit {}': expected hours, minutes and seconds as HH:MM:SS, more than 0; "
-                                  "say 00:55:00",
+                                  "for example 00:55:00",
                                   shown(text)));
   return 3600.0 * hours + 60 * minutes + seconds;
 }
 
 void refuse_what_is_missing(const CommandLine& line, const Flags& flags) {
   if ((!line.restart.empty() || flags.time_limit) && line.action != Action::mesh)
-    throw ConfigError("'--restart' and '--time-limit' are for runs that make a mesh; leave them out here");
+    throw ConfigError("'--restart' and '--time-limit' need a run that makes a mesh; leave them out here");
   const bool needs_config =
       line.action != Action::version && line.action != Action::help_config && line.action != Action::help;
   if (needs_config && line.config.empty())
-    throw ConfigError("no config file is given; usage: trime_mpi CONFIG [section.key=value ...], see --help");
+    throw ConfigError("the config file is missing; usage: trime_mpi CONFIG [section.key=value ...], see --help");
   if (!line.report.empty() && line.action != Action::mesh)
-    throw ConfigError("'--report' is for runs that make a mesh; leave it out here");
-  if (flags.quiet && flags.level)
-    throw ConfigError("'--quiet' and '--log-level' contradict each other; give one of them");
+    throw ConfigError("'--report' needs a run that makes a mesh; leave it out here");
+  if (flags.quiet + flags.verbose + flags.level.has_value() > 1)
+    throw ConfigError("'--quiet', '--verbose' and '--log-level' contradict each other; give one of them");
 }
 
 } // namespace
@@ -134,6 +136,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       line.overrides.push_back(key + *flags.threads);
   if (flags.level)
     line.overrides.push_back("log.level=" + *flags.level);
+  if (flags.verbose)
+    line.overrides.push_back("log.level=info");
   if (flags.quiet)
     line.overrides.push_back("log.level=warning");
   return line;

@@ -113,26 +113,27 @@ PartOptions part_of(const Settings& settings, const std::string& name, const fs:
   return part;
 }
 
-/// The region must parse; parts that it does not use are worth a word.
-void read_region(const Settings& settings, RunOptions& options, Diagnostics& problems) {
-  options.region = settings.text("shape", "region");
-  if (options.region.empty()) {
-    if (!settings.is_set("shape", "region"))
-      problems.add(whole_file,
-                   settings.parts().empty()
-                       ? "no shape is given; set 'region' in [shape] and describe its parts, or 'region = domain'"
-                       : fmt::format("'region' in [shape] is not set; for example 'region = {}'", settings.parts()[0]));
+/// The geometry must parse. Parts that it does not use are worth a warning.
+void read_geometry(const Settings& settings, RunOptions& options, Diagnostics& problems) {
+  options.geometry = settings.text("shape", "geometry");
+  if (options.geometry.empty()) {
+    if (!settings.is_set("shape", "geometry"))
+      problems.add(whole_file, settings.parts().empty()
+                                   ? "no shape is given: set 'geometry' in [shape] and describe its parts, or set "
+                                     "'geometry = domain' to mesh the whole container"
+                                   : fmt::format("'geometry' in [shape] is not set; for example 'geometry = {}'",
+                                                 settings.parts()[0]));
     return;
   }
   try {
-    const shape::Region region = shape::Region::parse(options.region, settings.parts());
+    const shape::Region region = shape::Region::parse(options.geometry, settings.parts());
     for (int part = 0; part < static_cast<int>(settings.parts().size()); ++part)
       if (!std::binary_search(region.parts().begin(), region.parts().end(), part))
-        options.warnings.push_back(fmt::format("part '{}' does not occur in the region '{}' and is left out",
+        options.warnings.push_back(fmt::format("the part '{}' does not occur in the geometry '{}', so it is left out",
                                                shown(settings.parts()[static_cast<std::size_t>(part)]),
-                                               shown(options.region)));
+                                               shown(options.geometry)));
   } catch (const Error& error) {
-    problems.add(settings.line("shape", "region"), error.what());
+    problems.add(settings.line("shape", "geometry"), error.what());
   }
 }
 
@@ -145,20 +146,21 @@ void read_projection(const Settings& settings, RunOptions& options, Diagnostics&
   const auto is_contour = [](const PartOptions& part) { return part.type == "contour"; };
   if (std::none_of(options.parts.begin(), options.parts.end(), is_contour))
     problems.add(settings.line("shape", "projection"),
-                 fmt::format("'projection = {}' in [shape] is for contours, and no part has 'type = contour'",
+                 fmt::format("'projection = {}' in [shape] applies to contours only, but no part has 'type = contour'",
                              options.projection));
   for (const PartOptions& part : options.parts)
     if (part.normalize)
       problems.add(
           settings.line("shape." + part.name, "normalize"),
-          fmt::format("'normalize = true' in [shape.{}] and 'projection = {}' in [shape]: expected one of them",
+          fmt::format("'normalize = true' in [shape.{}] and 'projection = {}' in [shape]: expected only one of them",
                       part.name, options.projection));
 }
 
-void read_shape(const Settings& settings, const fs::path& directory, RunOptions& options, Diagnostics& problems) {
+void read_shape_options(const Settings& settings, const fs::path& directory, RunOptions& options,
+                        Diagnostics& problems) {
   for (const std::string& name : settings.parts())
     options.parts.push_back(part_of(settings, name, directory, problems));
-  read_region(settings, options, problems);
+  read_geometry(settings, options, problems);
   read_projection(settings, options, problems);
 }
 
@@ -197,7 +199,7 @@ void read_resolution(const Settings& settings, const geometry::Box& container, m
   if (points && length)
     problems.add(settings.later_line("meshing", "points", "edge_length"),
                  "both 'points' and 'edge_length' are set in [meshing]; keep one of them (on the command line, "
-                 "'meshing.points=' takes the value of the file away)");
+                 "'meshing.points=' removes the value of the file)");
   if (!points && !length)
     problems.add(whole_file, "set 'points' or 'edge_length' in [meshing], for example 'points = 5000'");
   const double area = container.width() * container.height();
@@ -224,8 +226,10 @@ void check_bounds_of_edge_length(const Settings& settings, const meshing::MeshOp
                              *mesh.edge_length, *mesh.max_size));
 }
 
-constexpr std::pair<const char*, sweep::Method> methods[] = {
-    {"distmesh", sweep::Method::distmesh}, {"cvd", sweep::Method::cvd}, {"hybrid", sweep::Method::hybrid}};
+constexpr std::pair<const char*, sweep::Method> methods[] = {{"distmesh", sweep::Method::distmesh},
+                                                             {"cvd", sweep::Method::cvd}, // mesh files store this word
+                                                             {"cvt", sweep::Method::cvd},
+                                                             {"hybrid", sweep::Method::hybrid}};
 
 void read_meshing(const Settings& settings, const geometry::Box& container, meshing::MeshOptions& mesh,
                   Diagnostics& problems) {
@@ -253,8 +257,8 @@ void read_meshing(const Settings& settings, const geometry::Box& container, mesh
 }
 
 /// The file, and a part that is a normalised contour.
-void read_fixed_points(const Settings& settings, const fs::path& directory, RunOptions& options,
-                       Diagnostics& problems) {
+void read_fixed_points_options(const Settings& settings, const fs::path& directory, RunOptions& options,
+                               Diagnostics& problems) {
   const std::string file = settings.text("meshing", "fixed_points");
   const std::string name = settings.text("meshing", "fixed_points_normalize_with");
   if (file != "none") {
@@ -267,13 +271,13 @@ void read_fixed_points(const Settings& settings, const fs::path& directory, RunO
   const auto part = std::find_if(options.parts.begin(), options.parts.end(),
                                  [&](const PartOptions& candidate) { return candidate.name == name; });
   if (file == "none")
-    problems.add(line, "'fixed_points_normalize_with' in [meshing] means nothing without 'fixed_points'");
+    problems.add(line, "'fixed_points_normalize_with' in [meshing] has no effect without 'fixed_points'");
   else if (part == options.parts.end())
     problems.add(line, fmt::format("'fixed_points_normalize_with = {}' in [meshing]: no part has this name{}", name,
                                    suggestion(name, settings.parts())));
   else if (part->type != "contour" || !part->normalize)
     problems.add(line, fmt::format("'fixed_points_normalize_with = {}' in [meshing]: expected a part of type contour "
-                                   "with 'normalize = true'; without it the points need no normalisation",
+                                   "with 'normalize = true'; without it, leave the key out",
                                    name));
   options.fixed_points.normalize_with = name;
 }
@@ -287,13 +291,13 @@ void read_parallel(const Settings& settings, RunOptions& options) {
 void check_name(const Settings& settings, const std::string& name, Diagnostics& problems) {
   if (name.find('/') != std::string::npos || name == "." || name == "..")
     problems.add(settings.line("output", "name"),
-                 fmt::format("'name = {}' in [output]: expected the stem of a file name, without directory; set "
-                             "'directory' for that",
+                 fmt::format("'name = {}' in [output]: expected the stem of a file name without a directory; set "
+                             "output.directory for the directory",
                              shown(name)));
   if (name.size() > io::longest_name)
     problems.add(settings.line("output", "name"),
-                 fmt::format("'name = {}' in [output]: expected at most {} bytes, found {}: file systems hold names of "
-                             "{}, and files of the run need the rest behind it; set a shorter output.name",
+                 fmt::format("'name = {}' in [output]: expected at most {} bytes, found {}. File systems allow names "
+                             "of {} bytes, and the run adds endings to the name; set a shorter output.name",
                              shown(name), io::longest_name, name.size(), io::longest_file_name));
 }
 
@@ -313,8 +317,8 @@ void read_output(const Settings& settings, RunOptions& options, Diagnostics& pro
   options.output.text = is_wanted("text");
   for (const std::string& word : formats)
     if (const auto format = formats::format_of_word(word); format && options.write)
-      options.exchange.push_back(*format);
-  if (!options.exchange.empty() && (options.periodic_x || options.periodic_y))
+      options.exports.push_back(*format);
+  if (!options.exports.empty() && (options.periodic_x || options.periodic_y))
     problems.add(settings.line("output", "formats"),
                  fmt::format("'formats = {}' in [output]: a periodic container can be written as vtkhdf, xdmf and text "
                              "only",
@@ -332,15 +336,53 @@ void read_checkpoint(const Settings& settings, CheckpointOptions& options) {
 }
 
 void read_log(const Settings& settings, RunOptions& options) {
-  constexpr std::pair<const char*, LogLevel> levels[] = {{"debug", LogLevel::debug},
-                                                         {"info", LogLevel::info},
-                                                         {"warning", LogLevel::warning},
-                                                         {"error", LogLevel::error},
-                                                         {"silent", LogLevel::silent}};
+  constexpr std::pair<const char*, LogLevel> levels[] = {{"debug", LogLevel::debug},     {"info", LogLevel::info},
+                                                         {"summary", LogLevel::summary}, {"warning", LogLevel::warning},
+                                                         {"error", LogLevel::error},     {"silent", LogLevel::silent}};
   for (const auto& [name, level] : levels)
     if (settings.text("log", "level") == name)
       options.log_level = level;
   options.log_interval = static_cast<int>(settings.integer("log", "interval"));
+}
+
+/// The names of earlier versions.
+constexpr std::string_view old_geometry = "region", old_method = "cvd";
+
+/// Gives an entry that has an old name its present one. @return a warning, or nothing
+std::string use_present_name(IniEntry& entry) {
+  if (entry.section == "meshing" && entry.key == "method" && entry.value == old_method)
+    entry.value = "cvt"; // without a warning: a matter of taste
+  if (entry.section != "shape" || entry.key != old_geometry)
+    return {};
+  entry.key = "geometry";
+  return fmt::format("'region' in [shape] has a new name; write 'geometry = {}' instead", shown(entry.value));
+}
+
+/// Reads the text and the overrides. Keys and values of earlier versions get their present names, with a warning.
+IniDocument read_document(std::string_view text, const std::vector<std::string>& overrides, Diagnostics& problems,
+                          std::vector<std::string>& warnings) {
+  IniDocument document = parse_ini(text, problems);
+  const auto use_present_names = [&](IniDocument& changed) {
+    const bool has_both = changed.find("shape", "geometry") && changed.find("shape", old_geometry);
+    for (IniEntry& entry : changed.entries)
+      if (const int line = entry.line; has_both && entry.section == "shape" && entry.key == old_geometry)
+        problems.add(line,
+                     "'region' in [shape] is the old name of 'geometry', which is set, too; keep only 'geometry'");
+      else if (const std::string warning = use_present_name(entry); !warning.empty())
+        warnings.push_back(problems.place(line) + ": " + warning);
+    if (has_both)
+      std::erase_if(changed.entries,
+                    [](const IniEntry& entry) { return entry.section == "shape" && entry.key == old_geometry; });
+  };
+  use_present_names(document);
+  for (const std::string& text_of_override : overrides) {
+    const bool is_old = text_of_override.starts_with("shape.region=");
+    if (is_old)
+      warnings.push_back("command line: 'shape.region' has a new name; write 'shape.geometry=...' instead");
+    apply_override(document, is_old ? "shape.geometry" + text_of_override.substr(12) : text_of_override, problems);
+  }
+  use_present_names(document); // a method on the command line
+  return document;
 }
 
 /// A contour or a mesh where a config belongs, which newcomers try.
@@ -348,14 +390,15 @@ void refuse_other_files(const std::string& path) {
   const std::string ending = fs::path(path).extension().string();
   for (const char* contour : {".xy", ".geojson", ".json", ".shp", ".poly", ".msh"})
     if (ending == contour)
-      throw ConfigError(fmt::format("{0}: expected a config, found a contour by its ending; name it in a config, as "
-                                    "'file = {0}' in a section [shape.NAME] with 'type = contour'; configs/coast.ini "
-                                    "is an example",
-                                    path));
+      throw ConfigError(
+          fmt::format("{0}: expected a config, found a contour (by its ending). Name it in a config: 'file = {0}' in a "
+                      "section [shape.NAME] with 'type = contour'; configs/coast.ini is an example",
+                      path));
   if (ending == ".h5" || ending == ".vtkhdf")
-    throw ConfigError(fmt::format("{0}: expected a config, found a mesh file by its ending; 'trime_mpi info {0}' tells "
-                                  "what is in it, 'trime_mpi convert {0} OUT.ENDING' writes it for other programs",
-                                  path));
+    throw ConfigError(
+        fmt::format("{0}: expected a config, found a mesh file (by its ending). 'trime_mpi info {0}' prints what it "
+                    "holds, and 'trime_mpi convert {0} OUT.ENDING' writes it for other programs",
+                    path));
 }
 
 } // namespace
@@ -370,20 +413,18 @@ std::string method_name(sweep::Method method) {
 RunOptions parse_config(std::string_view text, const std::string& path, const std::vector<std::string>& overrides) {
   refuse_other_files(path);
   Diagnostics problems(path);
-  IniDocument document = parse_ini(text, problems);
-  for (const std::string& override_text : overrides)
-    apply_override(document, override_text, problems);
+  RunOptions options;
+  IniDocument document = read_document(text, overrides, problems, options.warnings);
   if (!document.find("output", "name")) {
     const std::string stem = fs::path(path).stem().string();
     document.entries.push_back({"output", "name", stem.empty() ? "mesh" : stem, whole_file});
   }
   const Settings settings(document, problems);
-  RunOptions options;
   read_domain(settings, options, problems);
-  read_shape(settings, fs::path(path).parent_path(), options, problems);
+  read_shape_options(settings, fs::path(path).parent_path(), options, problems);
   read_sizing(settings, options, problems);
   read_meshing(settings, options.container, options.mesh, problems);
-  read_fixed_points(settings, fs::path(path).parent_path(), options, problems);
+  read_fixed_points_options(settings, fs::path(path).parent_path(), options, problems);
   read_parallel(settings, options);
   read_output(settings, options, problems);
   read_checkpoint(settings, options.checkpoint);

@@ -62,8 +62,8 @@ private:
     skip_ = false;
     std::vector<int>& lines = opened_[std::string(name)];
     for (const int line : lines)
-      problems_.add(
-          number, fmt::format("section [{}] was opened before, on line {}; put its keys together", shown(name), line));
+      problems_.add(number, fmt::format("the section [{}] occurs twice, first on line {}; put its keys together",
+                                        shown(name), line));
     if (lines.size() < most_told)
       lines.push_back(number);
     document_.sections.push_back({std::string(name), number});
@@ -77,13 +77,14 @@ private:
     }
     const std::string_view key = trim(text.substr(0, equals)), value = trim(text.substr(equals + 1));
     if (!is_name(key, false)) {
-      problems_.add(number, fmt::format("{} is no name of a key (letters, digits, '_', '-')", trime::quoted(key)));
+      problems_.add(
+          number, fmt::format("{} is not a valid name of a key: use letters, digits, '_' and '-'", trime::quoted(key)));
     } else if (skip_) {
       return;
     } else if (!in_section_) {
-      problems_.add(number, fmt::format("key {} stands before the first [section]", trime::quoted(key)));
+      problems_.add(number, fmt::format("the key {} comes before the first [section]", trime::quoted(key)));
     } else if (value.empty()) {
-      problems_.add(number, fmt::format("key {} has no value; write one, or remove the line", trime::quoted(key)));
+      problems_.add(number, fmt::format("the key {} has no value; write one, or remove the line", trime::quoted(key)));
     } else {
       store({document_.sections.back().name, std::string(key), std::string(value), number});
     }
@@ -94,7 +95,7 @@ private:
     if (is_first)
       document_.entries.push_back(std::move(entry));
     else
-      problems_.add(entry.line, fmt::format("key {} is set twice in [{}], first on line {}; keep one of them",
+      problems_.add(entry.line, fmt::format("the key {} is set twice in [{}], first on line {}; keep one of them",
                                             trime::quoted(entry.key), shown(entry.section), first->second));
   }
 

@@ -88,28 +88,26 @@ void report_placement(const Placement& placement, const comm::Communicator& comm
            fewest == most ? std::to_string(most) : fmt::format("{} to {}", fewest, most), most == 1 ? "" : "s", setup,
            placement.nodes, placement.nodes == 1 ? "" : "s");
   if (placement.asked > used)
-    log.warning(
-        "{} threads were asked for, and a rank uses {}: at most 16 for each of its cores, or 64; the mesh is the "
-        "same",
-        placement.asked, used);
+    log.warning("{} threads were requested, but a rank uses only {}: at most 16 per core, or 64; the mesh is the same",
+                placement.asked, used);
   if (const int started = ranks_started(); comm.size() == 1 && started > 1)
-    log.warning(
-        "{} ranks were started, but this one is alone, and makes the whole mesh: the launcher is not that of {}; "
-        "start with the mpiexec of that MPI, or see jobs/README.md for srun",
-        started, comm::library_version());
+    log.warning("{} processes were launched, but each sees only itself and makes the whole mesh: mpiexec belongs to a "
+                "different MPI than this program ({}); start the program with the mpiexec of that MPI, or see "
+                "jobs/README.md for srun",
+                started, comm::library_version());
   if (comm::is_simulated())
     return; // its cores are not those of this machine
   if (crowded > 0 && node_cores > 0 && most_used > node_cores)
     log.warning("{} of {} ranks have more threads than cores they may use (rank 0: {} threads, {} cores); the node has "
-                "{} core{}: set --threads {} instead",
+                "{} core{}: set --threads {}",
                 crowded, placement.ranks, used, placement.cores, node_cores, node_cores == 1 ? "" : "s", node_cores);
   else if (crowded > 0)
     log.warning("{} of {} ranks have more threads than cores they may use (rank 0: {} threads, {} cores); start with "
                 "mpirun --map-by slot:PE={} or --bind-to none, or set --threads",
                 crowded, placement.ranks, used, placement.cores, most_used);
   else if (shared > 0)
-    log.warning("{} of {} ranks share their cores with others and have more threads than cores together; {}", shared,
-                placement.ranks,
+    log.warning("{} of {} ranks share their cores with other ranks, and together they have more threads than cores; {}",
+                shared, placement.ranks,
                 fitting > 0 ? fmt::format("set --threads {} or start fewer ranks", fitting) : "start fewer ranks");
 }
 

@@ -69,7 +69,7 @@ void stop_at_checkpoint(int) {
   }
   if (requests->last_stands())
     leave_at_checkpoint();
-  constexpr char text[] = "trime_mpi: no checkpoint is written so late; the run goes on to its end\n";
+  constexpr char text[] = "trime_mpi: it is too late for a checkpoint; the run continues to its end\n";
   if (tells != 0 && write(STDERR_FILENO, text, sizeof text - 1) < 0)
     tells = 0;
 }

@@ -30,16 +30,15 @@ void check_degrees(const Contour& contour) {
   for (const ContourRing& ring : contour.rings)
     for (std::size_t k = 0; k < ring.points.size(); ++k)
       if (std::fabs(ring.points[k].y) > 90 || std::fabs(ring.points[k].x) > 360)
-        refuse(
-            contour, ring, k,
-            "expected longitude (-360 to 360) and latitude (-90 to 90) in degrees, in this order; without 'projection' "
-            "in [shape] coordinates are taken as they are");
+        refuse(contour, ring, k,
+               "expected longitude (-360 to 360) and latitude (-90 to 90) in degrees, in this order; without "
+               "'projection' in [shape] coordinates are used as they are");
 }
 
 Vec2 projected(const projection::Transform& transform, const Contour& contour, const ContourRing& ring, std::size_t k) {
   const auto to = transform.apply(ring.points[k]);
   if (!to)
-    refuse(contour, ring, k, "it lies where the projection is not defined; take another one");
+    refuse(contour, ring, k, "the projection is not defined there; choose another one");
   return *to;
 }
 
@@ -94,14 +93,13 @@ double extent_of(std::span<const Contour> contours) {
 void tell_of_degrees(const RunOptions& options, const Contour& map, double extent, Log& log) {
   const double edge = options.mesh.edge_length.value_or(0), least = options.mesh.min_size.value_or(0);
   if (std::fmax(edge, least) > extent)
-    log.warning(
-        "{} = {:g} is longer than the whole shape, {:.3g}: the coordinates of {} are within 360 and 90, so they "
-        "are most likely longitude and latitude in degrees, while lengths of metres are asked for; set "
-        "'projection = auto' in [shape], which meshes them in metres",
-        edge >= least ? "edge_length" : "min_size", std::fmax(edge, least), extent, map.source);
+    log.warning("{} = {:g} is longer than the whole shape ({:.3g}). The coordinates of {} are within 360 and 90, so "
+                "they are most likely longitude and latitude in degrees, but the length seems to be in metres; set "
+                "'projection = auto' in [shape] to mesh them in metres",
+                edge >= least ? "edge_length" : "min_size", std::fmax(edge, least), extent, map.source);
   else
-    log.info("{} tells no reference system: if it has longitude and latitude, 'projection = auto' in [shape] meshes "
-             "them in metres",
+    log.info("{} does not say in which reference system its coordinates are: if they are longitude and latitude, "
+             "'projection = auto' in [shape] meshes them in metres",
              map.source);
 }
 
@@ -142,9 +140,8 @@ void warn_of_distortion(std::span<const Contour> contours, const std::string& pl
     return;
   const int zone = std::clamp(static_cast<int>(std::floor((worst.place.x + 180) / 6)) + 1, 1, 60);
   log.warning(
-      "'projection = {}' makes lengths {:.3g} times as long as they are at longitude {:.6g}, latitude {:.6g}: it "
-      "is made for another place; 'projection = auto' suits the data, and EPSG:{} (UTM zone {}) what is near "
-      "that place",
+      "'projection = {}' stretches lengths by a factor of {:.3g} at longitude {:.6g}, latitude {:.6g}, since it is "
+      "made for another place; use 'projection = auto', or EPSG:{} (UTM zone {}) for data near that place",
       plane, worst.most, worst.place.x, worst.place.y, (worst.place.y < 0 ? 32700 : 32600) + zone, zone);
 }
 
@@ -163,7 +160,7 @@ MapSystem as_it_is(const RunOptions& options, std::span<const Contour> contours,
                   "'projection = auto' in [shape] meshes them in metres");
     return {crs, projection::well_known_text(crs), crs};
   } catch (const ConfigError& error) { // nobody has asked for it
-    log.warning("the reference system of the contours is left out: {}", error.what());
+    log.warning("the mesh file does not name the reference system of the contours: {}", error.what());
     return {};
   }
 }
@@ -194,7 +191,8 @@ MapSystem project_contours(const RunOptions& options, std::span<Contour> contour
         check_degrees(contour);
     map.crs = options.projection == "auto" ? local_plane_of(contours) : options.projection;
     if (projection::is_geographic(map.crs))
-      throw ConfigError("expected a plane, in metres or the like, found longitude and latitude");
+      throw ConfigError(
+          "expected a system with coordinates in metres or the like, found one in longitude and latitude");
     for (Contour& contour : contours)
       if (!contour.rings.empty()) {
         if (map.crs_of_files.empty())

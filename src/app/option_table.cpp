@@ -20,69 +20,69 @@ constexpr Option table[] = {
      .fallback = "auto",
      .choices = "auto",
      .range = coordinate,
-     .meaning =
-         "left side of the container, a rectangle a little larger than the shape; auto: 0, or around a shape that "
-         "does not fit into the unit square"},
+     .meaning = "left side of the container, a rectangle a little larger than the shape; auto: 0, or a little left of "
+                "a shape that does not fit into the unit square"},
     {.section = "domain",
      .key = "x_max",
      .fallback = "auto",
      .choices = "auto",
      .range = coordinate,
-     .meaning = "right side; auto: 1, or likewise"},
+     .meaning = "right side of the container; auto: 1, or a little right of such a shape"},
     {.section = "domain",
      .key = "y_min",
      .fallback = "auto",
      .choices = "auto",
      .range = coordinate,
-     .meaning = "lower side; auto: 0, or likewise"},
+     .meaning = "lower side of the container; auto: 0, or a little below such a shape"},
     {.section = "domain",
      .key = "y_max",
      .fallback = "auto",
      .choices = "auto",
      .range = coordinate,
-     .meaning = "upper side; auto: 1, or likewise"},
+     .meaning = "upper side of the container; auto: 1, or a little above such a shape"},
     {.section = "domain",
      .key = "periodic_x",
      .kind = OptionKind::boolean,
      .fallback = "false",
-     .meaning = "left and right side are the same"},
+     .meaning = "true: the left and the right side of the container are the same line"},
     {.section = "domain",
      .key = "periodic_y",
      .kind = OptionKind::boolean,
      .fallback = "false",
-     .meaning = "lower and upper side are the same"},
+     .meaning = "true: the lower and the upper side of the container are the same line"},
     {.section = "domain",
      .key = "cells_x",
      .kind = OptionKind::integer,
      .fallback = "auto",
      .choices = "auto",
      .range = {1, 1e6},
-     .meaning = "columns of the container grid; auto: about 3.3 points a cell"},
+     .meaning = "number of columns of the container grid; auto: about 3.3 points per cell"},
     {.section = "domain",
      .key = "cells_y",
      .kind = OptionKind::integer,
      .fallback = "auto",
      .choices = "auto",
      .range = {1, 1e6},
-     .meaning = "rows of the container grid"},
+     .meaning = "number of rows of the container grid; auto: about 3.3 points per cell"},
 
     {.section = "shape",
-     .key = "region",
+     .key = "geometry",
      .kind = OptionKind::text,
      .meaning =
-         "the shape, made of named parts: a name, `domain` for the container itself, or `union`, `intersection`, "
-         "`difference` of two or more, nested: `difference(spade, union(hole, slot))`"},
+         "the shape, made of named parts: a name, `domain` for the container itself, or `union`, `intersection` or "
+         "`difference` of two or more of these, which may be nested, such as `difference(spade, union(hole, slot))`"},
     {.section = "shape",
      .key = "projection",
      .kind = OptionKind::text,
      .fallback = "none",
-     .meaning = "the plane in which contours in longitude and latitude are meshed: `auto` for a local one in metres, "
-                "or one that PROJ knows, such as `EPSG:32633`; none: coordinates are taken as they are"},
+     .meaning =
+         "the plane in which contours in longitude and latitude are meshed: `auto` chooses a local plane in metres; "
+         "any other value is a system that PROJ knows, such as `EPSG:32633`; none: coordinates are used as they are"},
     {.section = "shape.NAME",
      .key = "type",
      .kind = OptionKind::word,
      .choices = "rectangle circle triangle contour expression",
-     .meaning = "what the part NAME is; one section per part"},
+     .meaning = "the type of the part NAME; each part has one section"},
     {.section = "shape.NAME", .key = "x_min", .part_type = "rectangle", .meaning = "left side"},
     {.section = "shape.NAME", .key = "x_max", .part_type = "rectangle", .meaning = "right side"},
     {.section = "shape.NAME", .key = "y_min", .part_type = "rectangle", .meaning = "lower side"},
@@ -100,139 +100,143 @@ constexpr Option table[] = {
      .key = "file",
      .part_type = "contour",
      .kind = OptionKind::path,
-     .meaning = "rings: `.xy`, one `x y` a line, a blank line or `>` ends a ring, `#` comments; the polygons of a "
-                "`.geojson` or `.shp`; `.poly` of Triangle; `.msh` of JIGSAW; holes by even-odd nesting"},
+     .meaning = "the rings of the contour. A `.xy` file has one `x y` per line; an empty line or `>` ends a ring, and "
+                "`#` begins a comment. Other formats: polygons of a `.geojson` or `.shp`, `.poly` of Triangle, `.msh` "
+                "of JIGSAW. A ring inside another one is a hole (even-odd rule)"},
     {.section = "shape.NAME",
      .key = "attribute",
      .part_type = "contour",
      .kind = OptionKind::text,
      .fallback = "none",
-     .meaning = "attribute of the features of a `.geojson` or `.shp` that names the boundary, e.g. `name`: texts make "
-                "parts `NAME.TEXT`, integers are markers"},
+     .meaning = "an attribute of the features of a `.geojson` or `.shp` that names the boundary, such as `name`: texts "
+                "make parts `NAME.TEXT`, integers become markers"},
     {.section = "shape.NAME",
      .key = "normalize",
      .part_type = "contour",
      .kind = OptionKind::boolean,
      .fallback = "false",
-     .meaning = "centre the bounding box in the container and scale its longer side to 0.8 of the container's shorter "
-                "side"},
+     .meaning = "true: the contour is moved to the centre of the container and scaled until its longer side is 0.8 of "
+                "the container's shorter side"},
     {.section = "shape.NAME",
      .key = "sdf",
      .part_type = "expression",
      .kind = OptionKind::text,
-     .meaning = "signed distance as a formula of x and y, negative inside, e.g. `sqrt((x-0.5)^2+(y-0.5)^2)-0.3`"},
+     .meaning = "signed distance as a formula of x and y, negative inside, such as `sqrt((x-0.5)^2+(y-0.5)^2)-0.3`"},
 
     {.section = "sizing",
      .key = "type",
      .kind = OptionKind::word,
      .fallback = "uniform",
      .choices = "uniform automatic expression",
-     .meaning = "relative size of the elements"},
+     .meaning =
+         "how the size of the triangles varies; `automatic` makes them small where the shape is narrow or curved"},
     {.section = "sizing",
      .key = "gradation",
      .fallback = "0.1",
      .range = {0, 2},
-     .meaning =
-         "largest gradient of the automatic size, TriMe++'s K; 0: uniform; above 0.5 triangles can hardly follow"},
+     .meaning = "largest gradient of the automatic size (K in TriMe++); 0: uniform; triangles can hardly follow "
+                "gradients above 0.5"},
     {.section = "sizing",
      .key = "expression",
      .kind = OptionKind::text,
      .fallback = "none",
-     .meaning = "relative size as a formula of x and y, e.g. `1+3*x+3*y`, for type expression"},
+     .meaning = "relative size as a formula of x and y, such as `1+3*x+3*y`; used if `type` is expression"},
     {.section = "sizing",
      .key = "min_size",
      .fallback = "none",
      .choices = "none",
      .range = positive,
-     .meaning = "no edge is asked to be shorter; a length, as `edge_length`"},
+     .meaning = "lower bound of the size, a length like `edge_length`"},
     {.section = "sizing",
      .key = "max_size",
      .fallback = "none",
      .choices = "none",
      .range = positive,
-     .meaning = "no edge is asked to be longer"},
+     .meaning = "upper bound of the size, a length like `edge_length`"},
 
     {.section = "meshing",
      .key = "method",
      .kind = OptionKind::word,
      .fallback = "hybrid",
-     .choices = "distmesh cvd hybrid",
-     .meaning =
-         "how points move: repulsive bars, centroidal Voronoi cells, or both and then towards equilateral triangles"},
+     .choices = "distmesh cvt hybrid",
+     .meaning = "how the points move: `distmesh`: by repulsive forces along the edges; `cvt`: to the centroids of "
+                "their Voronoi cells (centroidal Voronoi tessellation; `cvd` means the same); `hybrid`: by both, and "
+                "finally towards equilateral triangles"},
     {.section = "meshing",
      .key = "points",
      .kind = OptionKind::integer,
      .range = {3, most_points},
-     .meaning = "total number of points; exactly one of `points` and `edge_length`"},
+     .meaning = "total number of points; set either `points` or `edge_length`"},
     {.section = "meshing",
      .key = "edge_length",
      .range = positive,
-     .meaning = "edge length, the mean one if sizes differ; exactly one of `points` and `edge_length`"},
+     .meaning = "length of the edges, or their mean length if the size varies; set either `points` or `edge_length`"},
     {.section = "meshing",
      .key = "initial_fraction",
      .fallback = "auto",
      .choices = "auto",
      .range = {0, 1, true},
-     .meaning = "share of the points placed before the first sweep; the others are inserted where triangles are large; "
-                "auto: the program chooses and says why"},
+     .meaning = "share of the points that are placed before the first sweep; the others are inserted later where "
+                "triangles are large; auto: the program chooses, and says why"},
     {.section = "meshing",
      .key = "fixed_points",
      .kind = OptionKind::path,
      .fallback = "none",
-     .meaning =
-         "file of `x y` lines: points that are kept exactly and never move; on the boundary they become corners"},
+     .meaning = "a file of `x y` lines: the mesh has a point at exactly each of these places; those on the boundary "
+                "become corners"},
     {.section = "meshing",
      .key = "fixed_points_normalize_with",
      .kind = OptionKind::text,
      .fallback = "none",
-     .meaning = "normalised contour NAME whose normalisation the fixed points undergo, too"},
+     .meaning = "name of a normalised contour; the fixed points are moved and scaled as that contour is"},
     {.section = "meshing",
      .key = "corner_angle",
      .fallback = "30",
      .range = {0, 180, true},
-     .meaning = "degrees; a corner is a vertex of the shape's boundary that turns by more than this, or by more than "
-                "120: it becomes a vertex of the mesh"},
+     .meaning = "degrees; a vertex of the shape's boundary is a corner, and thus a vertex of the mesh, if the boundary "
+                "turns there by more than this, or by more than 120"},
     {.section = "meshing",
      .key = "keep_features",
      .kind = OptionKind::boolean,
      .fallback = "false",
-     .meaning = "true: every corner, island, lake and narrow part is kept, however small, and the size is lowered "
-                "around it; false: parts of the shape narrower than 0.5 h (h: the local size) are cut, islands and "
-                "lakes with a perimeter below 3 h are dropped, and corners may be left out, see `feature_tolerance`; "
-                "the report counts them"},
+     .meaning = "true: the mesh keeps every corner, island, lake and narrow part, however small, and the size is "
+                "lowered around them. False: parts of the shape narrower than 0.5 h (h: the local size) are cut, "
+                "islands and lakes with a perimeter below 3 h are dropped, and corners may be left out (see "
+                "`feature_tolerance`). The report counts all of these"},
     {.section = "meshing",
      .key = "simplify_within",
      .fallback = "0.5",
      .range = {0, 1},
-     .meaning = "times h: how far the boundary of the mesh may lie from that of the shape, where that is narrower or "
-                "rougher than the triangles; with 0.25 only what is half as large is simplified, with 0 nothing; means "
-                "nothing with `keep_features`"},
+     .meaning = "in units of h: how far the boundary of the mesh may lie from that of the shape where the shape is "
+                "narrower or rougher than the triangles. Smaller values simplify smaller features only, and 0 "
+                "simplifies nothing. Ignored if keep_features = true"},
     {.section = "meshing",
      .key = "narrow",
      .kind = OptionKind::word,
      .fallback = "keep",
      .choices = "keep close",
-     .meaning = "parts of the outside that are narrower than a third of h (slits, cracks, walls): keep: their sides "
-                "are moved apart; close: they are filled, as they always are beside components with a perimeter below "
-                "5 h; means nothing with `keep_features`"},
+     .meaning = "what happens to parts of the outside that are narrower than a third of h (slits, cracks, walls): "
+                "`keep` moves their sides apart; `close` fills them. Next to components with a perimeter below 5 h "
+                "they are always filled. Ignored if keep_features = true"},
     {.section = "meshing",
      .key = "refine_narrow",
      .kind = OptionKind::boolean,
      .fallback = "true",
-     .meaning = "true: a uniform size is lowered where the shape is narrower than the triangles; false: it is the same "
-                "everywhere"},
+     .meaning = "true: a uniform size is lowered where the shape is narrower than the triangles; false: a uniform size "
+                "is the same everywhere"},
     {.section = "meshing",
      .key = "feature_tolerance",
      .fallback = "0.1",
      .range = {0, 0.3},
-     .meaning = "a corner less than 2 h from the next may be left out if the boundary of the mesh passes within this "
-                "times h of it"},
+     .meaning = "in units of h: a corner less than 2 h from the next one may be left out if the boundary of the mesh "
+                "passes it at no more than this distance"},
     {.section = "meshing",
      .key = "worst_alpha",
      .fallback = "5",
      .range = {1, 1e300},
-     .meaning = "a mesh with a worse triangle ends with exit code 5, written and marked, unless a corner of less than "
-                "60 degrees is within 3 edges of it"},
+     .meaning =
+         "largest alpha (circumradius over twice the inradius) of a good mesh: if a triangle has more, and no corner "
+         "below 60 degrees is within 3 edges of it, the file is marked as incomplete and the exit code is 5"},
     {.section = "meshing",
      .key = "seed",
      .kind = OptionKind::integer,
@@ -244,98 +248,104 @@ constexpr Option table[] = {
      .kind = OptionKind::integer,
      .fallback = "500",
      .range = {0, 1e6},
-     .meaning = "most sweeps of a run; one that needs more ends with exit code 5, and its mesh is written and marked"},
+     .meaning = "largest number of sweeps; if a run needs more, its mesh is written and marked as incomplete, and the "
+                "exit code is 5"},
     {.section = "meshing",
      .key = "stop_tolerance",
      .fallback = "auto",
      .choices = "auto",
      .range = positive,
      .meaning =
-         "a rule has stalled once six sweeps lower alpha - 1, its mean and its median, by less than this share; auto: "
-         "0.04 for most final meshes, and other shares for coarse meshes and for the last rule of `hybrid`"},
+         "a method stops once six sweeps lower both the mean and the median of alpha - 1 by less than this share; "
+         "auto: 0.04 for most final meshes, and other shares for coarse meshes and for the last method of `hybrid`"},
 
     {.section = "meshing",
      .key = "cleanup",
      .kind = OptionKind::boolean,
      .fallback = "true",
-     .meaning = "after the sweeps, mend the worst triangles: move, insert and delete points around them"},
+     .meaning = "true: after the sweeps, the program improves the worst triangles by moving, inserting and deleting "
+                "points around them"},
 
     {.section = "parallel",
      .key = "setup_threads",
      .kind = OptionKind::integer,
      .fallback = "0",
      .range = {0, 4096},
-     .meaning = "threads of a rank while shape and size field are made; 0: as for `mesh_threads`"},
+     .meaning = "threads per rank while shape and size field are made; 0: as many as for `mesh_threads`"},
     {.section = "parallel",
      .key = "mesh_threads",
      .kind = OptionKind::integer,
      .fallback = "0",
      .range = {0, 4096},
-     .meaning = "threads of a rank from then on; 0: OMP_NUM_THREADS, else all cores that the rank may use"},
+     .meaning =
+         "threads per rank after that; 0: OMP_NUM_THREADS if it is set, otherwise all cores that the rank may use"},
 
     {.section = "output",
      .key = "directory",
      .kind = OptionKind::path,
      .fallback = "out",
-     .meaning = "where the files go, relative to the working directory; made if missing"},
+     .meaning =
+         "directory of the output files, relative to the working directory; the program makes it if it is missing"},
     {.section = "output",
      .key = "name",
      .kind = OptionKind::text,
-     .meaning = "stem of the file names; without it that of the config file"},
+     .meaning = "stem of the file names; default: the stem of the config file"},
     {.section = "output",
      .key = "overwrite",
      .kind = OptionKind::boolean,
      .fallback = "false",
-     .meaning = "replace existing files: all that an older run of this name has left"},
+     .meaning = "true: the run replaces existing files, that is all files that an earlier run of this name has left"},
     {.section = "output",
      .key = "formats",
      .kind = OptionKind::words,
      .fallback = "vtkhdf xdmf",
      .choices = "vtkhdf xdmf text gmsh gmsh2 medit freefem triangle vtu 2dm fort14 geojson",
-     .meaning =
-         "`vtkhdf`: for ParaView and VTK; `xdmf`: for ParaView, FEniCS, PETSc; both lie in one file NAME.h5. "
-         "`text`: the files of TriMe++, in the folder NAME. The others are for other programs and hold the final "
-         "mesh with the names of its boundary"},
+     .meaning = "`vtkhdf`: for ParaView and VTK; `xdmf`: for ParaView, FEniCS and PETSc; one file NAME.h5 serves both. "
+                "`text`: the files of TriMe++, in the directory NAME. The others are for other programs; they hold the "
+                "final mesh and the names of its boundary"},
     {.section = "output",
      .key = "interval",
      .kind = OptionKind::integer,
      .fallback = "-1",
      .range = {-2, 1e9},
-     .meaning = "0: no mesh; -1: the final mesh; -2: the first and the final one; n: the first, every n-th and the "
-                "final one, one file each"},
+     .meaning = "which meshes are written: 0: none; -1: the final one; -2: the first and the final one; n: the first, "
+                "every n-th and the final one, each in a separate file"},
 
     {.section = "checkpoint",
      .key = "interval",
      .fallback = "0",
      .range = not_negative,
-     .meaning = "seconds from one checkpoint to the next; 0: only on the signals USR1 and USR2"},
+     .meaning = "seconds between two checkpoints; 0: checkpoints are written only on the signals USR1 and USR2"},
     {.section = "checkpoint",
      .key = "keep",
      .kind = OptionKind::integer,
      .fallback = "2",
      .range = {1, most_checkpoints},
-     .meaning = "files NAME.checkpoint-K.h5 that are written in turn; all go once the mesh is written"},
+     .meaning = "number of checkpoint files NAME.checkpoint-K.h5; the run overwrites the oldest one, and deletes all "
+                "once the mesh is written"},
     {.section = "checkpoint",
      .key = "stop_file",
      .kind = OptionKind::text,
      .fallback = "none",
      .choices = "none",
-     .meaning = "a run that finds this file, relative to the working directory, removes it and stops at a checkpoint "
-                "(exit code 75): for sites where no signal comes through"},
+     .meaning = "name of a file, relative to the working directory. A run that finds this file removes it, writes a "
+                "checkpoint and stops with exit code 75. Meant for machines on which signals do not reach a job"},
 
     {.section = "log",
      .key = "level",
      .kind = OptionKind::word,
-     .fallback = "info",
-     .choices = "debug info warning error silent",
-     .meaning = "least important message that is printed"},
+     .fallback = "summary",
+     .choices = "debug info summary warning error silent",
+     .meaning = "which messages are printed: `summary`: warnings, and a summary of at most 20 lines at the end; "
+                "`info`: also what each phase does, some sweeps and the whole report (`--verbose`); `warning`: only "
+                "warnings and errors (`--quiet`)"},
     {.section = "log",
      .key = "interval",
      .kind = OptionKind::integer,
      .fallback = "0",
      .range = {0, 1e9},
-     .meaning = "rows of the table of sweeps: the first of every n sweeps, on a terminal too, above the live line; 0: "
-                "sparse rows, none on a terminal"},
+     .meaning = "prints a row for the first of every n sweeps, also on a terminal; 0: rows appear only with `level = "
+                "info`, for fewer and fewer sweeps, and not on a terminal"},
 };
 
 void add_once(std::vector<std::string>& names, const char* name) {

@@ -57,7 +57,7 @@ struct CheckpointOptions {
 
 struct RunOptions {
   std::vector<PartOptions> parts;
-  std::string region;
+  std::string geometry;   ///< the expression that joins the parts
   std::string projection; ///< of the contours: empty: none; `auto`; or a reference system that PROJ knows
   bool periodic_x = false, periodic_y = false; ///< sides of the container, for the frame in which the shape is made
   geometry::Box container = geometry::unit_square;
@@ -68,10 +68,10 @@ struct RunOptions {
   int setup_threads = 0;                 ///< per rank, while shape and size field are made; 0: chosen from the machine
   int mesh_threads = 0;                  ///< per rank, from then on; 0: chosen from the machine
   io::SeriesOptions output;              ///< without the period, which the boundary of the shape knows
-  std::vector<formats::Format> exchange; ///< formats of other programs in which the final mesh is written, too
+  std::vector<formats::Format> exports; ///< formats of other programs in which the final mesh is written, too
   bool write = true;                     ///< false: nothing is written
   CheckpointOptions checkpoint;
-  LogLevel log_level = LogLevel::info;
+  LogLevel log_level = LogLevel::summary;
   int log_interval = 0;
   std::string resolved;              ///< the whole config with all defaults, as a complete ini
   std::vector<std::string> warnings; ///< one sentence each

@@ -4,11 +4,12 @@
 #include "app/checkpoint_keeper.hpp"
 #include "app/command_line.hpp"
 #include "app/config.hpp"
-#include "app/exchange.hpp"
+#include "app/convert.hpp"
 #include "app/machine.hpp"
 #include "app/option_table.hpp"
 #include "app/provenance.hpp"
 #include "app/run_report.hpp"
+#include "app/run_summary.hpp"
 #include "app/shape_builder.hpp"
 #include "app/size_builder.hpp"
 #include "app/stop_file.hpp"
@@ -59,9 +60,9 @@ double expected_points(const RunOptions& options, const geometry::Boundary& boun
 void check_share(double points, int ranks) {
   constexpr auto most = static_cast<double>(sites::SiteRules::most_owned);
   if (points / ranks > most)
-    throw ConfigError(
-        fmt::format("about {:.3g} points are too many for {} rank{}: a rank owns {:.3g} at most; start {:.0f} or more",
-                    points, ranks, ranks == 1 ? "" : "s", most, std::ceil(points / most)));
+    throw ConfigError(fmt::format(
+        "about {:.3g} points are too many for {} rank{}: a rank can own at most {:.3g}; start {:.0f} or more", points,
+        ranks, ranks == 1 ? "" : "s", most, std::ceil(points / most)));
 }
 
 /// Bytes at the peak.
@@ -95,21 +96,28 @@ std::string estimate(const RunOptions& options, const geometry::Boundary& bounda
     text += fmt::format("{} rank{} x {} threads: about {:.0f} points per rank, {:.0f} per thread\n", placement.ranks,
                         placement.ranks == 1 ? "" : "s", placement.threads, points / placement.ranks,
                         points / placement.ranks / placement.threads);
-  return text + fmt::format("output: {} (not written)\n", options.output.file.path(".h5"));
+  return text + fmt::format("output: {} (not written)", options.output.file.path(".h5"));
 }
 
-/// Returns the output of --dry-run about the boundary.
-std::string outlook_text(const meshing::Outlook& outlook) {
-  std::string text;
+/// A count with two digits that matter: 513.7 becomes 510.
+double rounded(double count) {
+  const double unit = std::pow(10, std::max(0.0, std::floor(std::log10(std::max(count, 1.0))) - 1));
+  return std::round(count / unit) * unit;
+}
+
+/// Prints what --dry-run finds out about the boundary.
+void print_outlook(const meshing::Outlook& outlook, Log& log) {
   for (const std::string& line : boundary::describe(outlook.features))
-    text += "boundary: " + line + "\n";
-  if (outlook.keeps_all)
-    return text + "nothing of the shape is simplified at this size\n";
+    log.summary("boundary: {}", line);
+  if (outlook.keeps_all) {
+    log.summary("nothing of the shape is simplified at this size");
+    return;
+  }
   if (const std::string warning = boundary::loss_warning(outlook.features); !warning.empty())
-    text += "warning: " + warning + "\n";
-  return text + fmt::format("{} {:.2g} points ({} {:.2g}) keep everything\n",
-                            outlook.is_enough ? "about" : "more than about", outlook.keeping_points,
-                            outlook.is_enough ? "edge_length =" : "edge_length below", outlook.keeping_edge_length);
+    log.warning("{}", warning);
+  log.summary("{} {:.0f} points ({} {:.2g}) keep everything", outlook.is_enough ? "about" : "more than about",
+              rounded(outlook.keeping_points), outlook.is_enough ? "edge_length =" : "edge_length below",
+              outlook.keeping_edge_length);
 }
 
 /// Throws as the run would.
@@ -185,8 +193,8 @@ ShapeInput read_input(const Job& job) {
   }();
   const geometry::Box& box = input.domain().frame().container();
   if (options.container_is_automatic && box.max != geometry::unit_square.max)
-    job.log.info("container: x from {:.9g} to {:.9g}, y from {:.9g} to {:.9g}, around the shape: [domain] gives no "
-                 "sides",
+    job.log.info("container: x from {:.9g} to {:.9g}, y from {:.9g} to {:.9g}, chosen around the shape because [domain] "
+                 "sets no sides",
                  box.min.x, box.max.x, box.min.y, box.max.y);
   job.log.set_rewriter([&places = job.places](const std::string& message) { return places.explain(message); });
   input.set_fixed_points(read_fixed_points(options, input, job.comm));
@@ -237,7 +245,7 @@ void MeshRun::check_output() {
   if (job_.options.write)
     for (const std::string& warning : job_.is_run() ? series_.check(points_) : series_.look(points_))
       job_.log.warning("{}", warning);
-  check_exchange(job_.options, job_.comm);
+  check_exports(job_.options, job_.comm);
   if (!job_.line.report.empty())
     io::check_report_file(job_.line.report, job_.comm);
 }
@@ -245,15 +253,15 @@ void MeshRun::check_output() {
 ExitCode MeshRun::preview() {
   const bool is_dry_run = job_.line.action == Action::dry_run;
   check_fixed_points(*input_.shape, job_.log);
-  print(job_.comm, estimate(job_.options, boundary(), placement_, is_dry_run));
+  job_.log.summary("{}", estimate(job_.options, boundary(), placement_, is_dry_run));
   check_share(points_, placement_.ranks);
   if (!is_dry_run && !job_.options.mesh.features.keep_all) // where nothing gives way the layout may fail
     return ExitCode::done;
   Log quiet(LogLevel::error, job_.comm.is_root()); // its warnings were printed before
   const meshing::Mesher mesher(job_.comm, input_.domain(), *size_.field, job_.options.mesh, quiet, job_.timers);
-  const std::string text = outlook_text(mesher.outlook());
+  const meshing::Outlook outlook = mesher.outlook();
   if (is_dry_run)
-    print(job_.comm, text);
+    print_outlook(outlook, job_.log);
   return ExitCode::done;
 }
 
@@ -282,8 +290,8 @@ io::WrittenFiles MeshRun::publish(const Provenance& provenance, const meshing::M
   const auto timing = job_.timers.scope("output");
   io::WrittenFiles files = series_.write_final({final_retriangulation(result), result.mesh, result.quality, metadata});
   const formats::Names names{
-      boundary().part_names, {job_.options.region}, {boundary().periods.x, boundary().periods.y}, input_.map.crs};
-  for (const std::string& path : write_exchange(job_.options, result.mesh, names, job_.files, job_.comm))
+      boundary().part_names, {job_.options.geometry}, {boundary().periods.x, boundary().periods.y}, input_.map.crs};
+  for (const std::string& path : write_exports(job_.options, result.mesh, names, job_.files, job_.comm))
     files.paths.push_back(path);
   return files;
 }
@@ -299,7 +307,7 @@ ExitCode MeshRun::run() {
                               input_.map,
                               {boundary().part_names,
                                input_.domain().part_markers(),
-                               job_.options.region,
+                               job_.options.geometry,
                                {boundary().periods.x, boundary().periods.y},
                                input_.map.crs,
                                job_.places.ring_lines(boundary())}};
@@ -312,7 +320,11 @@ ExitCode MeshRun::run() {
     io::write_report_file(job_.line.report, describe_run(provenance, result, sizes, measured),
                           {static_cast<int>(exit_code(result)), files.paths}, job_.comm);
   keeper_.remove_all();
-  job_.log.info("{}", run_report(result, sizes, measured, files, input_.normalized));
+  const std::vector<std::int64_t> edges = edges_of_parts(result.mesh, boundary().part_names.size(), job_.comm);
+  if (job_.options.log_level <= LogLevel::info)
+    job_.log.info("{}", run_report(result, sizes, measured, files, input_.normalized));
+  else
+    job_.log.summary("{}", run_summary({provenance, result, sizes, measured, files, edges}));
   if (!is_complete(result))
     job_.log.warning("{}", incompleteness(result, job_.options.write));
   return exit_code(result);

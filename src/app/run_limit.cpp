@@ -29,8 +29,8 @@ Cause imbalance(const Measurements& m) {
   const double densest =
       static_cast<double>(m.counters[Counter::densest_tile].max) / std::max(1.0, m.mean(Counter::points));
   return {waiting(m, "sweeps", Counter::sites_swept),
-          fmt::format("imbalance {:.2f}: one rank sweeps so many times the mean; the densest tile holds {:.0f} % of a "
-                      "rank's points",
+          fmt::format("imbalance {:.2f}: one rank sweeps this many times as many points as the mean; the densest tile "
+                      "holds {:.0f} % of a rank's points",
                       m.imbalance(Counter::sites_swept), percent(densest))};
 }
 
@@ -39,10 +39,9 @@ Cause set_up(const Measurements& m) {
   double share = 0;
   for (const char* phase : phases)
     share += m.share(phase);
-  return {share * (1 - 1.0 / m.ranks),
-          fmt::format("set-up: {:.0f} % of the time goes to shape, size field, boundary and start, most of which each "
-                      "rank does for itself",
-                      percent(share))};
+  return {share * (1 - 1.0 / m.ranks), fmt::format("set-up: {:.0f} % of the time goes to shape, size field, boundary "
+                                                   "and start, and most of this work is repeated on each rank",
+                                                   percent(share))};
 }
 
 Cause output(const Measurements& m) {
@@ -65,7 +64,7 @@ Cause latency(const Measurements& m) {
   const double passes = std::max(1.0, m.mean(Counter::passes));
   const double fetches = m.mean(Counter::fetch_rounds) / passes;
   return {seconds / std::max(m.total, LimitRules::latency),
-          fmt::format("latency: {:.1f} collectives and {:.1f} messages for each sweep, of few sites{}",
+          fmt::format("latency: each sweep needs {:.1f} collectives and {:.1f} messages for only a few sites{}",
                       collectives / passes, m.mean(Counter::messages) / passes,
                       fetches >= LimitRules::many_fetch_rounds
                           ? fmt::format("; the halo is fetched {:.1f} times a sweep", fetches)
@@ -98,7 +97,8 @@ std::string run_limit(const Measurements& m) {
   const Cause& first = *std::ranges::max_element(causes, {}, &Cause::share);
   return first.share >= LimitRules::worth_telling
              ? first.text
-             : fmt::format("nothing that is counted costs more than {:.0f} %", percent(LimitRules::worth_telling));
+             : fmt::format("no measured cause takes more than {:.0f} % of the time",
+                           percent(LimitRules::worth_telling));
 }
 
 } // namespace trime::app

@@ -73,10 +73,11 @@ void Settings::check_sections(const IniDocument& document, Diagnostics& problems
     const std::string name = section.name.substr(part_prefix.size());
     const bool reserved = std::find(reserved_names.begin(), reserved_names.end(), name) != reserved_names.end();
     if (reserved)
-      problems.add(section.line, fmt::format("'{}' cannot name a part: it has a meaning in region", shown(name)));
+      problems.add(section.line, fmt::format("'{}' cannot name a part: it has a meaning in 'geometry'", shown(name)));
     else if (!is_part_name(name))
-      problems.add(section.line,
-                   fmt::format("'{}' cannot name a part: use letters, digits and '_', a letter first", shown(name)));
+      problems.add(
+          section.line,
+          fmt::format("'{}' cannot name a part: use letters, digits and '_', and begin with a letter", shown(name)));
     else if (part_names_.insert(name).second)
       parts_.push_back(name);
   }

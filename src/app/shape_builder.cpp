@@ -24,7 +24,7 @@ RunOptions with_used_parts(const RunOptions& options) {
   std::vector<std::string> names;
   for (const PartOptions& part : options.parts)
     names.push_back(part.name);
-  const std::vector<int> found = shape::Region::parse(options.region, names).parts();
+  const std::vector<int> found = shape::Region::parse(options.geometry, names).parts();
   RunOptions used = options;
   used.parts.clear();
   for (int k = 0; k < static_cast<int>(options.parts.size()); ++k) {
@@ -85,7 +85,7 @@ geometry::Box automatic_container(const RunOptions& options, std::span<const con
     boxes.push_back(part.type == "expression" || part.normalize ? geometry::unit_square : box_of(part, contours[k]));
   }
   boxes.push_back(geometry::unit_square); // the domain
-  return geometry::container_around(shape::Region::parse(options.region, names).box(boxes));
+  return geometry::container_around(shape::Region::parse(options.geometry, names).box(boxes));
 }
 
 /// @param contour of a part that is one @param place becomes what its vertices undergo @param places gets it, on rank 0
@@ -148,9 +148,9 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
   places = std::move(found);
   ShapeInput input{{}, {}, fixed_points_place, std::move(normalized), std::move(map)};
   if (use == ShapeUse::queries)
-    input.shape.emplace(std::move(parts), options.region, frame);
+    input.shape.emplace(std::move(parts), options.geometry, frame);
   else
-    input.alone.emplace(shape::domain_of(std::move(parts), options.region, frame));
+    input.alone.emplace(shape::domain_of(std::move(parts), options.geometry, frame));
   return input;
 }
 

@@ -2,7 +2,7 @@
 #include "app/stop_file.hpp"
 
 #include "app/checkpoint_names.hpp"
-#include "app/exchange.hpp"
+#include "app/convert.hpp"
 #include "comm/agree.hpp"
 #include "core/file_kind.hpp"
 #include "io/output_files.hpp"
@@ -42,7 +42,7 @@ bool is_input(const std::string& file, const RunOptions& options, const CommandL
 
 bool is_output(const std::string& file, const RunOptions& options, const CommandLine& line) {
   const io::MeshFileOptions& output = options.output.file;
-  for (const std::string& path : exchange_paths(options))
+  for (const std::string& path : export_paths(options))
     if (is_same(file, path))
       return true;
   const fs::path place = place_of(file), folder = place.parent_path();
@@ -55,8 +55,8 @@ bool is_output(const std::string& file, const RunOptions& options, const Command
 
 void check(const std::string& file, const RunOptions& options, const CommandLine& line) {
   if (const std::string kind = irregular_kind(file); !kind.empty())
-    throw FileError(fmt::format("'stop_file = {}' in [checkpoint]: expected a regular file, or nothing yet, found {}; "
-                                "name another one",
+    throw FileError(fmt::format("'stop_file = {}' in [checkpoint]: expected the name of a regular file, or of none "
+                                "yet, found {}; choose another name",
                                 file, kind));
   const char* role = is_same(file, line.config)       ? "the config"
                      : is_input(file, options, line)  ? "an input of the run"
@@ -64,7 +64,7 @@ void check(const std::string& file, const RunOptions& options, const CommandLine
                                                       : nullptr;
   if (role)
     throw ConfigError(fmt::format("'stop_file = {}' in [checkpoint] is {}, and a run removes the stop file that it "
-                                  "finds; name a file that is nothing else",
+                                  "finds; choose a name that no other file has",
                                   file, role));
 }
 

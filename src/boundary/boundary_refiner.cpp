@@ -280,12 +280,13 @@ void BoundaryRefiner::fail(const Cut& cut) const {
   }
   if (cut.point >= 0) {
     const Vec2 p = inside_[static_cast<std::size_t>(cut.point)];
-    cause = fmt::format("the fixed point ({:.17g}, {:.17g}) lies too near to it, but not on it", p.x, p.y);
+    cause = fmt::format("the fixed point ({:.17g}, {:.17g}) lies very near to it, but not on it", p.x, p.y);
   }
   throw GeometryError(fmt::format(
       "the boundary is too narrow near ({:.17g}, {:.17g}): {}; expected parts that are at least {:.3g} apart (the "
-      "resolution of the container), divided in {} rounds down to a chord of {:.3g}. More points are not the cure: "
-      "simplify the contour there, or move its parts clearly apart or together, or make the container smaller",
+      "resolution of the container), but they are still too near after {} rounds of division, with a boundary edge of "
+      "{:.3g}. More points do not help: simplify the contour there, move its parts clearly apart or together, or make "
+      "the container smaller",
       from.x, from.y, cause, BoundaryRules::shortest_in_steps * lattice_.step(), rounds_, geometry::length(to - from)));
 }
 

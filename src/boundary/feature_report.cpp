@@ -60,9 +60,41 @@ std::string simplification_line(const FeatureReport& report) {
               {report.thinned, "piece of ragged curves thinned", "pieces of ragged curves thinned"},
               {report.smoothed, "vertex of ragged curves smoothed", "vertices of ragged curves smoothed"}});
   if (!line.empty())
-    line = fmt::format("at the size of the triangles: {}; {:.3g} % of the area lost, {:.3g} % added", line,
+    line = fmt::format("simplified to the size of the triangles: {}; {:.3g} % of the area lost, {:.3g} % added", line,
                        100 * report.lost_share, 100 * report.added_share);
   return line;
+}
+
+/// The beginning of a warning, such as "it has 8 pieces instead of 1 and 5 holes instead of 6, ", or nothing.
+std::string changed_numbers(const FeatureReport& report) {
+  std::string text;
+  if (report.components != report.given_components)
+    text = fmt::format("{} instead of {}", counted(report.components, "piece", "pieces"), report.given_components);
+  if (report.holes != report.given_holes)
+    text += fmt::format("{}{} instead of {}", text.empty() ? "" : " and ", counted(report.holes, "hole", "holes"),
+                        report.given_holes);
+  return text.empty() ? text : "it has " + text + ", ";
+}
+
+/// The end of a warning, such as ", 2 of 3 loops are lost (1 dropped, 1 hole filled)", or nothing.
+std::string lost_loops(const FeatureReport& report) {
+  using State = LoopFate::State;
+  const auto number_of = [&](State state) {
+    return static_cast<GlobalId>(std::count_if(report.loops.begin(), report.loops.end(),
+                                               [&](const LoopFate& fate) { return fate.state == state; }));
+  };
+  const GlobalId dropped = number_of(State::dropped), filled = number_of(State::filled),
+                 merged = number_of(State::merged), lost = dropped + filled + merged;
+  if (lost == 0)
+    return {};
+  std::string text = fmt::format(", {} of {} {} lost ({})", lost, counted(std::ssize(report.loops), "loop", "loops"),
+                                 lost == 1 ? "is" : "are",
+                                 listed({{dropped, "dropped", "dropped"},
+                                         {filled, "hole filled", "holes filled"},
+                                         {merged, "merged with others", "merged with others"}}));
+  if (merged > 0)
+    text += fmt::format(", the mesh has {}", counted(loops_of_mesh(report), "loop", "loops"));
+  return text;
 }
 
 } // namespace
@@ -106,37 +138,33 @@ void report_losses(const geometry::Boundary& given, const geometry::Boundary& me
   const double twice = std::fmax(0, lost - given.area); // what one pass added, and a later one took away
   lost -= twice;
   added -= twice;
+  report.given_components = given.components();
+  report.given_holes = given.holes();
+  report.components = meshed.components();
+  report.holes = meshed.holes();
   report.lost_share = lost / given.area;
   report.added_share = added / given.area;
   report.loops = find_loop_fates(given, meshed, asked, lattice);
 }
 
 std::string loss_warning(const FeatureReport& report) {
-  using State = LoopFate::State;
-  const auto number_of = [&](State state) {
-    return static_cast<GlobalId>(std::count_if(report.loops.begin(), report.loops.end(),
-                                               [&](const LoopFate& fate) { return fate.state == state; }));
-  };
-  const GlobalId dropped = number_of(State::dropped), filled = number_of(State::filled),
-                 merged = number_of(State::merged), lost = dropped + filled + merged;
-  if (lost == 0 && !(std::fmax(report.lost_share, report.added_share) > BoundaryRules::warned_loss))
+  const std::string loops = lost_loops(report), numbers = changed_numbers(report);
+  if (loops.empty() && numbers.empty() &&
+      !(std::fmax(report.lost_share, report.added_share) > BoundaryRules::warned_loss))
     return {};
-  std::string text = fmt::format("the shape is simplified at this size: {:.3g} % of its area lost, {:.3g} % added",
-                                 100 * report.lost_share, 100 * report.added_share);
-  if (lost > 0)
-    text += fmt::format(", {} of {} loops lost ({})", lost, report.loops.size(),
-                        listed({{dropped, "dropped", "dropped"},
-                                {filled, "hole filled", "holes filled"},
-                                {merged, "merged with others", "merged with others"}}));
-  if (merged > 0)
-    text += fmt::format(", the mesh has {}", counted(loops_of_mesh(report), "loop", "loops"));
+  std::string text = fmt::format("the shape is simplified at this size: {}{:.3g} % of its area is lost, {:.3g} % is "
+                                 "added{}",
+                                 numbers, 100 * report.lost_share, 100 * report.added_share, loops);
   if (report.coarseness > BoundaryRules::told_coarseness)
-    text += fmt::format(", as for triangles {:.2g} times as large: what the next smaller ones keep takes more points "
-                        "than asked for",
-                        report.coarseness);
-  return text + ". More points (a smaller edge_length) keep more, --dry-run says how many keep everything; "
-                "meshing.keep_features = true keeps all at any price. The table /trime_mpi/rings of the file says what "
-                "became of each loop";
+    text +=
+        fmt::format(". The simplification is that for triangles {:.2g} times as large: keeping more would take more "
+                    "points than were asked for",
+                    report.coarseness);
+  text += ". More points (a smaller edge_length) keep more, and --dry-run says how many keep everything. ";
+  if (report.components > report.given_components)
+    text += "A smaller meshing.simplify_within keeps narrow connections. ";
+  return text + "meshing.keep_features = true keeps everything, however many points that takes. The table "
+                "/trime_mpi/rings in the file says what became of each loop";
 }
 
 std::vector<std::string> describe(const FeatureReport& report) {
@@ -145,20 +173,20 @@ std::vector<std::string> describe(const FeatureReport& report) {
   if (std::string line = simplification_line(report); !line.empty())
     lines.push_back(std::move(line));
   if (report.dropped_islands + report.dropped_lakes > 0)
-    lines.push_back(fmt::format("{} and {} with a perimeter below {:g} local sizes dropped, {:.3g} of the area",
+    lines.push_back(fmt::format("{} and {} with a perimeter below {:g} local sizes were dropped, {:.3g} of the area",
                                 counted(report.dropped_islands, "island", "islands"),
                                 counted(report.dropped_lakes, "lake", "lakes"), BoundaryRules::least_perimeter,
                                 report.dropped_share));
   if (report.corners_left_out > 0)
-    lines.push_back(fmt::format("{} below the resolution left out, at most {:.2f} local sizes from the facets",
+    lines.push_back(fmt::format("{} below the resolution were left out, at most {:.2f} local sizes from the facets",
                                 counted(report.corners_left_out, "corner", "corners"), report.largest_deviation));
   if (report.segments_halved > 0)
     lines.push_back(fmt::format("{} halved: another part of the boundary is near, or the curve bends",
                                 counted(report.segments_halved, "chord was", "chords were")));
   if (report.size_limits > 0)
-    lines.push_back(
-        fmt::format("size lowered at {}, down to {:.2g} of what was asked for: channels and corners are narrower",
-                    counted(report.size_limits, "place", "places"), report.lowest_size_share));
+    lines.push_back(fmt::format("the size was lowered at {}, down to {:.2g} of the requested size, since channels and "
+                                "corners there are narrower",
+                                counted(report.size_limits, "place", "places"), report.lowest_size_share));
   if (!report.sharp_corners.empty()) {
     std::string list;
     for (std::size_t k = 0; k < std::min(most_listed, report.sharp_corners.size()); ++k)

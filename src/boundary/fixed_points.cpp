@@ -232,8 +232,8 @@ void FixedPoints::warn_of_close_ones(const BoundaryGuard& guard, const sizing::S
           ? fmt::format("({:.9g}, {:.9g}) is {:.3g} from the boundary", close.first.x, close.first.y, close.distance)
           : fmt::format("({:.9g}, {:.9g}) and ({:.9g}, {:.9g}) are {:.3g} apart", close.first.x, close.first.y,
                         close.second.x, close.second.y, close.distance);
-  log.warning("{} of {} fixed points inside are nearer than the local size to each other or to the boundary: expect "
-              "small angles there; the closest: {}, {:.2g} of the size",
+  log.warning("{} of {} fixed points inside are nearer to each other or to the boundary than the local size: expect "
+              "small angles there. The nearest: {}, {:.2g} of the size",
               count, inside_.size(), what, close.least);
 }
 

@@ -215,7 +215,7 @@ mesh::Checks prove_boundary(const BoundaryTruth& truth, const mesh::DistributedM
   return {
       count_check("irregular_boundary_points", 0, cycles.irregular,
                   "boundary points without exactly one facet in and one out"),
-      count_check("boundary_cycles", loops, cycles.cycles, "loops of the shape; closed cycles of facets"),
+      count_check("boundary_cycles", loops, cycles.cycles, "loops of the simplified shape; closed cycles of facets"),
       count_check("foreign_tags", 0, cycles.changes + exchanged,
                   "points where facets change their tag, and 1 if the tags of the cycles are not those of the loops"),
       count_check("corner_places", truth.sites.corners, found.corners,

@@ -314,7 +314,7 @@ mesh::Checks certify(const StageView& view, const decomposition::Numbering& numb
   checks.push_back(
       check("star_listings", 3 * counts.triangles, counts.listings, "every triangle is listed by its three stars"));
   checks.push_back(check("star_disagreements", 0, 3 * counts.hash_of_triangles != counts.hash_of_listings,
-                         "and all three list the same one"));
+                         "all three stars list the same triangle"));
   checks.push_back(check("written_points", counts.points,
                          counts.hash_of_written_points == counts.hash_of_points ? mesh.point_slab.total : -1,
                          "the points to be written are the proven ones, bit for bit and in this order"));
@@ -327,7 +327,7 @@ mesh::Checks certify(const StageView& view, const decomposition::Numbering& numb
   checks.push_back(check("not_positive", 0, counts.not_positive, "triangles that are not counter-clockwise"));
   checks.push_back(check("euler_characteristic", expectation.meshed.euler_characteristic(),
                          counts.points - counts.edges + counts.triangles,
-                         "of the shape; in the plane components minus holes"));
+                         "of the simplified shape; in the plane, components minus holes"));
   const std::int64_t sides = 3 * counts.triangles + chords; // of triangles and facets: odd numbers are wrong, too
   checks.push_back({"edge_count", 0.5 * static_cast<double>(sides), static_cast<double>(counts.edges),
                     sides == 2 * counts.edges, "inner edges have two triangles, facets one"});

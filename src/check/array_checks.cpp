@@ -15,14 +15,14 @@ void check_views(const Mesh& mesh, Report& report) {
     const Point p = mesh.points[i];
     if (mesh.has_vtk &&
         (mesh.vtk_points[3 * i] != p.x || mesh.vtk_points[3 * i + 1] != p.y || mesh.vtk_points[3 * i + 2] != 0))
-      points.note([&] { return fmt::format("/VTKHDF/Points[{}] beside {}", i, place_of(p)); });
+      points.note([&] { return fmt::format("/VTKHDF/Points[{}] and {}", i, place_of(p)); });
     if (mesh.has_plain && (mesh.petsc_points[2 * i] != p.x || mesh.petsc_points[2 * i + 1] != p.y))
-      points.note([&] { return fmt::format("/geometry/vertices[{}] beside {}", i, place_of(p)); });
+      points.note([&] { return fmt::format("/geometry/vertices[{}] and {}", i, place_of(p)); });
   }
   for (std::size_t t = 0; mesh.has_vtk && t < mesh.triangles.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k)
       if (mesh.connectivity[3 * t + k] != mesh.triangles[t][k])
-        cells.note([&] { return fmt::format("/VTKHDF/Connectivity[{}] beside {}", 3 * t + k, place_of(mesh, t)); });
+        cells.note([&] { return fmt::format("/VTKHDF/Connectivity[{}] and {}", 3 * t + k, place_of(mesh, t)); });
     if (mesh.offsets[t] != static_cast<std::int64_t>(3 * t) || mesh.types[t] != vtk_triangle)
       cells.note([&] { return fmt::format("/VTKHDF/Offsets or Types [{}]", t); });
   }

@@ -333,9 +333,11 @@ void add_part(Shape& shape, const Source& source, bool has_fixed_points) {
 
 Shape make_shape(const ConfigText& config, const std::vector<Point>& mesh) {
   Shape shape;
-  const std::string region = config.value("shape", "region");
+  std::string region = config.value("shape", "geometry");
   if (region.empty())
-    throw Failure(ExitCode::usage, "the config has no 'region' in [shape]");
+    region = config.value("shape", "region"); // the name of the key in configs of earlier versions
+  if (region.empty())
+    throw Failure(ExitCode::usage, "the config has no 'geometry' in [shape]");
   std::vector<Source> sources;
   for (const std::string& name : config.parts()) {
     shape.numbers.emplace(name, sources.size());

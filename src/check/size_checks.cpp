@@ -124,7 +124,7 @@ void check_points(const Mesh& mesh, const Sizing& sizing, Report& report) {
   std::string left_out;
   if (beside_fixed > 0)
     left_out +=
-        fmt::format("; {} beside fixed points that lie closer to each other or to the boundary than the size are "
+        fmt::format("; {} next to fixed points that lie closer to each other or to the boundary than the size are "
                     "left out",
                     beside_fixed);
   if (at_floor > 0)

@@ -224,7 +224,7 @@ private:
     }
     report_.add("area", polygon == triangles, fmt::format("{:.17g}", plane_.area(polygon)),
                 fmt::format("{:.17g}", plane_.area(triangles)),
-                "area inside the loops of facets, beside the sum over the triangles (Boost, exact integers)");
+                "area inside the loops of facets, compared with the sum over the triangles (Boost, exact integers)");
   }
 
   void check_tags() {

@@ -208,7 +208,8 @@ void check_tables(const StoredFile& file, const Mesh& mesh, const Counted& count
   else
     report.none("attributes", Attributes(file, mesh, counted).compare(),
                 "attributes of /trime_mpi that are not what is found here: components, holes, corners, sizes, areas");
-  report.skip("provenance", "who made the mesh and how is only told: texts, versions, `crs`, times, counters, history, "
+  report.skip("provenance", "this program prints, but does not check, who made the mesh and how: texts, versions, "
+                            "`crs`, times, counters, history, "
                             "`normalization`, `rings`, `sharp_corners`, `worst_triangles`, other attributes");
 }
 

@@ -243,10 +243,9 @@ void check_format(const std::string& path, const io::Metadata& metadata) {
   const std::string& format = attribute<std::string>(metadata, "format");
   const std::int64_t version = attribute<std::int64_t>(metadata, "format_version");
   if (format != format_name || version != format_version)
-    throw FileError(
-        fmt::format("{} has the format '{}', version {}; expected '{}', version {}: a checkpoint serves the "
-                    "trime_mpi that wrote it",
-                    path, format, version, format_name, format_version));
+    throw FileError(fmt::format("{} has the format '{}', version {}; expected '{}', version {}: only the trime_mpi "
+                                "that wrote a checkpoint can read it",
+                                path, format, version, format_name, format_version));
 }
 
 std::string text_of(const io::Metadata& metadata, const std::string& name) {

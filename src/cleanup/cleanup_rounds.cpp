@@ -55,7 +55,7 @@ void CleanupRounds::run_stage(int stage) {
     if (outcome == Outcome::nothing_left)
       return;
     if (outcome == Outcome::neighbours_missing)
-      throw InternalError("a patch of the clean-up reaches to a rank that was made a neighbour, and is none");
+      throw InternalError("a patch of the clean-up reaches to a rank that should be a neighbour, but is not");
   }
 }
 

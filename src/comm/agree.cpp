@@ -48,7 +48,7 @@ std::optional<Error> error_of(const std::function<void()>& work) {
   } catch (const std::exception& e) {
     return InternalError(e.what());
   } catch (...) { // a user's shape or size may throw anything; a rank that left with it would leave the others waiting
-    return InternalError("an exception that is no std::exception");
+    return InternalError("an exception that is not a std::exception");
   }
   return std::nullopt;
 }

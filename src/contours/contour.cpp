@@ -72,8 +72,8 @@ Normalization fit_to_container(const Contour& contour, const Box& container) {
       box.include(p);
   const double side = std::fmax(box.width(), box.height());
   if (!(side >= ContourRules::smallest_normalized)) // also where all coordinates are equal
-    throw GeometryError(fmt::format("{}: the rings are {:g} wide and {:g} high; expected {:g} at least, to normalize "
-                                    "them: scale the coordinates up",
+    throw GeometryError(fmt::format("{}: the rings are {:g} wide and {:g} high; expected at least {:g} for normalize = "
+                                    "true; scale the coordinates up",
                                     contour.source, box.width(), box.height(), ContourRules::smallest_normalized));
   Normalization fit;
   fit.from = 0.5 * (box.min + box.max);

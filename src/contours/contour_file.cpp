@@ -27,8 +27,8 @@ void refuse_unread_formats(const std::string& path) {
   for (const std::string_view extension :
        {".kml", ".kmz", ".gpkg", ".dxf", ".svg", ".gml", ".shx", ".dbf", ".zip", ".node"})
     if (ends_with_extension(path, extension))
-      throw ConfigError(fmt::format("{}: contours of type '{}' are not read; expected .xy, .geojson, .poly, .shp or "
-                                    ".msh (GDAL reads many formats of maps: ogr2ogr OUT.geojson {})",
+      throw ConfigError(fmt::format("{}: expected a contour file of a known type, found '{}'; known are .xy, .geojson, "
+                                    ".poly, .shp or .msh (GDAL reads many formats of maps: ogr2ogr OUT.geojson {})",
                                     path, extension, path));
 }
 
@@ -160,7 +160,7 @@ Contour read_contour(const std::string& path, const std::string& hint, const std
   const std::string text = read_file(path, hint);
   if (ends_with_extension(path, ".poly") && lacks_vertices(text)) {
     const std::string stem = path.substr(0, path.size() - std::string_view(".poly").size());
-    return parse_poly(text, path, read_file(stem + ".node", fmt::format(" ({} has no vertices of its own)", path)));
+    return parse_poly(text, path, read_file(stem + ".node", fmt::format(" ({} itself has no vertices)", path)));
   }
   return parse_contour(text, path, attribute);
 }

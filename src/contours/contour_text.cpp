@@ -110,14 +110,15 @@ std::string hint_for(std::string_view line, bool first) {
   if (first && is_letter(line.front()) && !line.starts_with("nan") && !line.starts_with("inf"))
     return "; if this is a header, put '#' before it";
   if (line.front() == '{' || line.front() == '<')
-    return "; this looks like GeoJSON or XML: convert it to lines 'x y' with a blank line between rings";
+    return "; this looks like GeoJSON or XML: rename GeoJSON to NAME.geojson; convert other formats to lines 'x y' "
+           "with a blank line between rings";
   if (line.find(',') != std::string_view::npos)
     return "; write decimals with a point, and blanks or one comma between the two numbers";
   double number = 0;
   int numbers = 0;
   while (numbers < 4 && is_number(take_word(line), number))
     ++numbers;
-  return numbers == 3 && trimmed(line).empty() ? "; found three numbers, but points of the plane have two" : "";
+  return numbers == 3 && trimmed(line).empty() ? "; found three numbers, but points in the plane have two" : "";
 }
 
 } // namespace
@@ -164,7 +165,7 @@ std::optional<Vec2> VertexReader::read(std::string_view line, int number) {
   if (!first_ || !are_columns(column_names(line), false))
     refuse(line, number);
   first_ = false;
-  warnings_.push_back(fmt::format("{}:{}: '{}' is taken as the names of the columns and left out", source_, number,
+  warnings_.push_back(fmt::format("{}:{}: '{}' seems to hold the names of the columns and is ignored", source_, number,
                                   line.substr(0, most_shown)));
   return std::nullopt;
 }

@@ -117,10 +117,10 @@ void FeatureRings::check_ends() const {
       first = &ends[k];
   }
   if (first != nullptr)
-    throw GeometryError(fmt::format("{}:{}: expected polygons, or lines of which each ends where it starts or where "
-                                    "another one ends; found one with its end at ({}, {}) alone: close the ring, or "
-                                    "make a polygon of it",
-                                    contour_.source, first->line, first->position.x, first->position.y));
+    throw GeometryError(
+        fmt::format("{}:{}: expected polygons, or lines that end where they start or where another line ends; found a "
+                    "line whose end at ({}, {}) no other line shares: close the ring, or make it a polygon",
+                    contour_.source, first->line, first->position.x, first->position.y));
 }
 
 void FeatureRings::join_lines() {

@@ -36,7 +36,7 @@ public:
     read_holes();
     if (lines_.next())
       contour.warnings.push_back(
-          fmt::format("{}:{}: regional attributes are left out: the mesh has one region", source_, lines_.number()));
+          fmt::format("{}:{}: regional attributes are ignored: the mesh has one region", source_, lines_.number()));
     if (segments_.empty())
       throw GeometryError(fmt::format("{}: expected segments that make rings, found none", source_));
     tell_unused(contour.warnings);
@@ -128,8 +128,8 @@ private:
       used[static_cast<std::size_t>(s.from)] = used[static_cast<std::size_t>(s.to)] = 1;
     const auto unused = std::find(used.begin(), used.end(), 0);
     if (const auto count = std::count(used.begin(), used.end(), 0); count > 0)
-      warnings.push_back(fmt::format("{}:{}: {} vert{} here first, on no segment; left out: points that are to be kept "
-                                     "go into the file of [meshing] fixed_points",
+      warnings.push_back(fmt::format("{}:{}: {} vert{} here first, on no segment; they are ignored: write points that "
+                                     "the mesh shall keep into the file of [meshing] fixed_points",
                                      source_, vertices_[static_cast<std::size_t>(unused - used.begin())].line, count,
                                      count == 1 ? "ex lies," : "ices lie,"));
   }

@@ -109,7 +109,7 @@ std::vector<std::size_t> rings_around_material(const std::vector<Ring>& rings, c
     if (const std::size_t ring = nesting.around(hole.position, 0); ring != nowhere)
       is_hole[ring] = 1;
     else
-      warnings.push_back(fmt::format("{}:{}: the hole ({}, {}) lies outside of all rings; it means nothing", source,
+      warnings.push_back(fmt::format("{}:{}: the hole point ({}, {}) lies outside all rings and is ignored", source,
                                      hole.line, hole.position.x, hole.position.y));
   std::vector<std::size_t> kept;
   std::size_t inner = 0, first = nowhere;
@@ -122,8 +122,8 @@ std::vector<std::size_t> rings_around_material(const std::vector<Ring>& rings, c
       first = k;
   }
   if (inner > 0)
-    warnings.push_back(fmt::format("{}:{}: {} ring{} no hole point inside, here first, so both sides are meshed; lines "
-                                   "inside are not kept: to make a hole add a hole point",
+    warnings.push_back(fmt::format("{}:{}: {} ring{} no hole point inside (the first one begins here), so both sides "
+                                   "are meshed. Lines inside the shape are not kept: to make a hole, add a hole point",
                                    source, rings[first][0].line, inner, inner == 1 ? " has" : "s have"));
   return kept;
 }

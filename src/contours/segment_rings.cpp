@@ -52,8 +52,9 @@ void drop_useless(std::vector<FileSegment>& segments, const std::string& source,
       segments[kept++] = segments[k];
   segments.resize(kept);
   if (kept < before)
-    warnings.push_back(fmt::format("{}:{}: {} segment{} without length or given before, here first; left out", source,
-                                   line, before - kept, before - kept == 1 ? "" : "s"));
+    warnings.push_back(
+        fmt::format("{}:{}: {} segment{} without length or given before, here first; the mesh ignores such segments",
+                    source, line, before - kept, before - kept == 1 ? "" : "s"));
 }
 
 /// Segments at each vertex.
@@ -80,10 +81,10 @@ public:
         if (const int count = first_[at(v) + 1] - first_[at(v)]; count % 2 != 0) {
           const FileVertex& vertex = vertices_[at(v)];
           throw GeometryError(fmt::format(
-              "{}:{}: {} segment{} vertex {} at ({}, {}); expected rings, so two at each vertex: {}", source, s.line,
-              count, count == 1 ? " ends at" : "s meet at", vertex.number, vertex.position.x, vertex.position.y,
-              count == 1 ? "close the ring, or take the open line out"
-                         : "take out the line that leads into the area: lines inside are not kept"));
+              "{}:{}: {} segment{} vertex {} at ({}, {}); expected rings, with two segments at each vertex: {}", source,
+              s.line, count, count == 1 ? " ends at" : "s meet at", vertex.number, vertex.position.x, vertex.position.y,
+              count == 1 ? "close the ring, or remove the open line"
+                         : "remove the line that leads into the area: lines inside are not kept"));
         }
   }
 

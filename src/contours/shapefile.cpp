@@ -54,10 +54,9 @@ void check_index(const std::string& path) {
   for (std::size_t k = length_at; k < length_at + 4 && k < bytes.size(); ++k)
     told = told << 8 | static_cast<unsigned char>(bytes[k]);
   if (bytes.size() < head || 2 * told != bytes.size() || (bytes.size() - head) % row != 0)
-    throw FileError(
-        fmt::format("{} is damaged or cut off: expected {} bytes, a head of {} and {} for each record, as its "
-                    "head tells; found {}",
-                    path, 2 * told, head, row, bytes.size()));
+    throw FileError(fmt::format("{} is damaged or cut off: expected {} bytes, a header of {} and {} for each record, "
+                                "as its header says; found {}",
+                                path, 2 * told, head, row, bytes.size()));
 }
 
 /// @param bytes of the file
@@ -65,15 +64,15 @@ File open(const std::string& path, std::string_view bytes) {
   SAHooks hooks = hooks_of_libshp();
   if (!std::filesystem::exists(beside(path, ".shx", ".SHX")))
     throw FileError(fmt::format("cannot open {}: a shapefile is at least NAME.shp and NAME.shx, expected both in one "
-                                "directory; copy all files of the set, or make it anew by ogr2ogr",
+                                "directory; copy all files of the set, or write it again with ogr2ogr",
                                 beside(path, ".shx", ".shx")));
   if (!bytes.starts_with(std::string_view("\0\0\x27\x0a", 4))) // libshp reads anything as an empty shapefile
-    throw FileError(fmt::format("{} is no shapefile: expected the file code 9994 in its first 4 bytes", path));
+    throw FileError(fmt::format("{} is not a shapefile: expected the file code 9994 in its first 4 bytes", path));
   check_index(beside(path, ".shx", ".SHX"));
   File file(SHPOpenLL(path.c_str(), "rb", &hooks));
   if (!file)
-    throw FileError(fmt::format("{} is no shapefile, or damaged: expected one that libshp opens, found: {}", path,
-                                said().empty() ? "no header of a shapefile" : trimmed(said())));
+    throw FileError(fmt::format("{} is not a shapefile, or it is damaged: expected one that libshp opens, found: {}",
+                                path, said().empty() ? "no header of a shapefile" : trimmed(said())));
   return file;
 }
 

@@ -11,10 +11,9 @@
 namespace trime {
 
 std::string out_of_memory_text() {
-  return fmt::format(
-      "out of memory; ask for fewer points, or use more nodes (about {:.0f} bytes per point are needed, and what the "
-      "shape and the size field take on each rank)",
-      bytes_per_point);
+  return fmt::format("out of memory; use fewer points or more nodes: the mesh needs about {:.0f} bytes per point, and "
+                     "each rank needs memory for the shape and the size field",
+                     bytes_per_point);
 }
 
 void return_free_memory() {

@@ -93,7 +93,7 @@ void Log::phase(const std::string& name) {
 void Log::progress(const ProgressStep& step) {
   if (!shows_progress())
     return;
-  const bool has_rows = terminal_.empty() || interval_ > 0;
+  const bool has_rows = interval_ > 0 || (terminal_.empty() && level_ <= LogLevel::info);
   if (has_rows && (step.is_shown || step.number >= next_row_))
     print_row(step);
   const double now = wall_seconds();

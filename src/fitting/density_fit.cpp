@@ -152,7 +152,7 @@ private:
     if (fit.inner + static_cast<double>(fit.laid.stage.placed_first()) < FitRules::enough_points * points_)
       fit.shortage = context_.options.min_size
                          ? fmt::format("min_size = {:g} leaves no room for more", *context_.options.min_size)
-                         : "the discs of the chords leave no room for more";
+                         : "no more points fit, since the circles on the boundary edges must stay empty";
     return fit;
   }
 
@@ -190,10 +190,9 @@ private:
       if (std::fabs(ratio - 1) < FitRules::close_enough)
         break;
       if (round == FitRules::edge_length_rounds) {
-        context_.log.warning(
-            "edge_length = {} is not met: the mean size of the fitted field is {:.6g}; bounds near the "
-            "edge length, or jumps of the size, leave no better factor",
-            *context_.options.edge_length, trial.totals.mean_size);
+        context_.log.warning("edge_length = {} is not reached: the mean size is {:.6g}, because min_size or max_size "
+                             "is near the edge length, or because the size jumps",
+                             *context_.options.edge_length, trial.totals.mean_size);
         break;
       }
       factor *= ratio;

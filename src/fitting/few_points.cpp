@@ -32,21 +32,19 @@ void Fewest::consider(const Stage& stage, double trial_points, bool all_counted)
 void fail_for_few_points(const LayoutContext& context, double fewest, bool counted) {
   const GlobalId points = context.options.points.value_or(0);
   if (context.options.max_size)
-    throw ConfigError(fmt::format("points = {} are too few for max_size = {}: expected {}; ask for more points or a "
-                                  "larger max_size",
-                                  points, *context.options.max_size,
-                                  std::isfinite(fewest)
-                                      ? fmt::format("{} {:.0f}", counted ? "at least" : "far more than", fewest)
-                                      : "more than numbers can tell"));
-  if (const std::size_t inside = context.fixed.inside().size(); inside > 0)
     throw ConfigError(
-        fmt::format("points = {} are too few for this shape: the {} fixed points inside and {:.0f} on its "
-                    "boundary (every corner, and every place where the boundary comes near itself, takes "
-                    "its own) make {:.0f}; ask for more, or for fewer fixed points",
-                    points, inside, fewest - static_cast<double>(inside), fewest));
+        fmt::format("points = {} are too few for max_size = {}: expected {}; use more points or a larger max_size",
+                    points, *context.options.max_size,
+                    std::isfinite(fewest) ? fmt::format("{} {:.0f}", counted ? "at least" : "far more than", fewest)
+                                          : "more than numbers can hold"));
+  if (const std::size_t inside = context.fixed.inside().size(); inside > 0)
+    throw ConfigError(fmt::format("points = {} are too few for this shape: the {} fixed points inside and {:.0f} on "
+                                  "its boundary add up to {:.0f}. Each corner takes a point, and so does each place "
+                                  "where the boundary comes near itself; use more points, or fewer fixed points",
+                                  points, inside, fewest - static_cast<double>(inside), fewest));
   throw ConfigError(
-      fmt::format("points = {} are too few for this shape: its boundary alone needs {:.0f} (every corner, and "
-                  "every place where the boundary comes near itself, takes its own); ask for more",
+      fmt::format("points = {} are too few for this shape: its boundary alone needs {:.0f} (each corner takes one, and "
+                  "so does each place where the boundary comes near itself); use more points",
                   points, fewest));
 }
 
@@ -54,12 +52,12 @@ void fail_for_few_points(const LayoutContext& context, const Fewest& fewest) {
   if (context.options.max_size || context.fixed.inside().size() > 0)
     fail_for_few_points(context, fewest.points, fewest.counted);
   const geometry::Vec2 place = 0.5 * (fewest.shortest.a + fewest.shortest.b);
-  throw ConfigError(fmt::format(
-      "points = {} are too few for this shape: its boundary alone needs {}{:.0f} (every corner, and every place where "
-      "the boundary comes near itself, takes its own; the shortest chord, {:.3g} long, is at ({:.6g}, {:.6g})); ask "
-      "for more, or simplify the shape there",
-      *context.options.points, fewest.counted ? "" : "more than ", fewest.points,
-      geometry::length(fewest.shortest.b - fewest.shortest.a), place.x, place.y));
+  throw ConfigError(
+      fmt::format("points = {} are too few for this shape: its boundary alone needs {}{:.0f}. Each corner takes a "
+                  "point, and so does each place where the boundary comes near itself; the shortest boundary edge, "
+                  "{:.3g} long, is at ({:.6g}, {:.6g}); use more points, or simplify the shape there",
+                  *context.options.points, fewest.counted ? "" : "more than ", fewest.points,
+                  geometry::length(fewest.shortest.b - fewest.shortest.a), place.x, place.y));
 }
 
 void check_edge_length(const FitOptions& options) {

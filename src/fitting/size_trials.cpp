@@ -90,7 +90,7 @@ double smallest_sampled_size(const LayoutContext& context) {
       sample({box.min.x + (i + 0.5) / FitRules::samples_per_side * box.width(),
               box.min.y + (j + 0.5) / FitRules::samples_per_side * box.height()});
   if (!(smallest < INFINITY))
-    throw GeometryError("the size field is positive nowhere near the shape: expected a positive size everywhere");
+    throw GeometryError("the size field is not positive anywhere near the shape: expected a positive size everywhere");
   return smallest;
 }
 

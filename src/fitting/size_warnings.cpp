@@ -33,8 +33,8 @@ void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary,
       look(p, {0, stride.y});
     }
   if (steepest > LayoutRules::warned_slope)
-    log.warning("the edge length that is asked for changes by {:.3g} times the way near ({:.4g}, {:.4g}); triangles "
-                "can follow about 0.5: expect fewer points and small angles, or take more points or a gentler size",
+    log.warning("the size field has gradient {:.3g} near ({:.4g}, {:.4g}); triangles can follow about 0.5: expect "
+                "fewer points and small angles, or use more points or a smoother size",
                 steepest, place.x, place.y);
 }
 
@@ -56,8 +56,8 @@ void warn_of_fine_features(const Stage& stage, bool has_least_size, Log& log) {
   }
   const double share = has_least_size ? LayoutRules::warned_share_of_chords : 0;
   if (static_cast<double>(count) > share * static_cast<double>(sites.size()))
-    log.warning("{} of {} chords of the boundary are far shorter than the edges that are asked for there: expect small "
-                "angles beside them; the worst, {:.3g} long where {:.3g} is asked for, is at ({:.6g}, {:.6g}){}",
+    log.warning("{} of {} boundary edges are far shorter than the requested size there: expect small angles next to "
+                "them; the worst, {:.3g} long where the size is {:.3g}, is at ({:.6g}, {:.6g}){}",
                 count, sites.size(), length, size, place.x, place.y,
                 has_least_size ? "; a smaller min_size would help" : "");
 }

@@ -31,15 +31,15 @@ const FormatName& name_of(Format format) {
 void check_fits(Format format, const mesh::DistributedMesh& mesh, const Names& with) {
   const char* word = name_of(format).word;
   if (with.period.x != 0 || with.period.y != 0)
-    throw ConfigError(fmt::format("the format '{}' has no periodic containers: expected a mesh without, found one with "
-                                  "sides of {:.9g} and {:.9g} (0: not periodic); take vtkhdf, xdmf or text",
+    throw ConfigError(fmt::format("the format '{}' cannot hold a periodic mesh; found one with the periods {:.9g} and "
+                                  "{:.9g} (0: not periodic); use vtkhdf, xdmf or text",
                                   word, with.period.x, with.period.y));
   constexpr GlobalId most = std::numeric_limits<std::int32_t>::max();
   const GlobalId triangles = mesh.triangle_slab.total, facets = mesh.facet_slab.total;
   const GlobalId elements = format == Format::triangle ? (3 * triangles + facets) / 2 : triangles + facets; // .edge
   if (format != Format::gmsh && format != Format::vtu && format != Format::geojson && elements > most)
     throw ConfigError(fmt::format("the format '{}' counts with 32 bits: expected at most {} triangles and edges, found "
-                                  "{}; take gmsh, vtu, vtkhdf or xdmf",
+                                  "{}; use gmsh, vtu, vtkhdf or xdmf",
                                   word, most, elements));
 }
 

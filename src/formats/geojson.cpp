@@ -51,9 +51,9 @@ private:
   static Vec2 on_earth(const projection::Transform& transform, Vec2 p) {
     if (const auto place = transform.undo(p))
       return *place;
-    throw FileError(fmt::format("the point ({:.9g}, {:.9g}) of the mesh has no longitude and latitude; take another "
-                                "format than geojson",
-                                p.x, p.y));
+    throw FileError(fmt::format(
+        "the point ({:.9g}, {:.9g}) of the mesh has no longitude and latitude; use another format than geojson", p.x,
+        p.y));
   }
 
   GlobalId first_;

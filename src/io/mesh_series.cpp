@@ -104,8 +104,9 @@ std::vector<std::string> MeshSeries::go_on_after(int retriangulation) {
       members_.push_back(
           {stem, quality_of(read_metadata(options_.file.directory + "/" + stem + ".h5", {"quality"}, comm_))});
     } catch (const FileError& error) {
-      warnings.push_back(fmt::format("{}.h5: a step of the run before the restart cannot be read: {}; it is left out",
-                                     stem, error.what()));
+      warnings.push_back(
+          fmt::format("{}.h5: a step of the run before the restart cannot be read: {}; the series does not list it",
+                      stem, error.what()));
     }
   }
   return warnings;

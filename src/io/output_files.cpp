@@ -110,8 +110,8 @@ std::vector<std::string> leftovers(const MeshFileOptions& options) {
            (file[options.name.size()] == '.' || file.compare(options.name.size(), 6, step_infix) == 0);
   };
   for (const std::string& path : files_in(options.directory, is_left))
-    told.push_back(fmt::format("{} was left by a run that was killed, or belongs to one that still works on the same "
-                               "output; remove it if there is none",
+    told.push_back(fmt::format("{} was left by a run that was killed, or belongs to a run that still writes the same "
+                               "output; remove it if there is no such run",
                                path));
   return told;
 }

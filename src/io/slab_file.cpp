@@ -363,8 +363,8 @@ void SlabFile::compare_beside(const Work& work, const SlabArray& array, std::int
     expected.resize(bytes);
     array.fill(first + begin, rows, expected.data());
     if (std::memcmp(expected.data(), read + static_cast<std::size_t>(begin) * array.row_bytes(), bytes) != 0)
-      throw FileError(fmt::format("{}: rows {} to {} of {} were not written as they should be; the file system or the "
-                                  "MPI-IO layer is at fault (try another directory, or OMPI_MCA_io=romio321)",
+      throw FileError(fmt::format("{}: rows {} to {} of {} were not written correctly; the file system or the MPI-IO "
+                                  "layer is at fault (try another directory, or OMPI_MCA_io=romio321)",
                                   path_, array.slab.first + first + begin, array.slab.first + first + begin + rows,
                                   array.path));
   });

@@ -101,7 +101,7 @@ Metadata read_state_metadata(const std::string& path, const std::vector<std::str
     const Hdf5Input file(path);
     if (!file.has(root_group))
       throw FileError(
-          fmt::format("{} is no checkpoint of trime_mpi: expected the group {}, found none", path, root_group));
+          fmt::format("{} is not a checkpoint of trime_mpi: expected the group {}, found none", path, root_group));
     metadata.attributes = file.attributes(root_group);
     metadata.texts = file.texts(root_group);
     for (const std::string& group : file.groups(root_group)) {

@@ -108,7 +108,7 @@ Metadata read_metadata(const std::string& path, const std::vector<std::string>& 
     const Hdf5Input file(path);
     if (!file.has(root_group))
       throw FileError(
-          fmt::format("{} is no mesh file of trime_mpi: expected the group {}, found none", path, root_group));
+          fmt::format("{} is not a mesh file of trime_mpi: expected the group {}, found none", path, root_group));
     metadata.attributes = file.attributes(root_group);
     metadata.texts = file.texts(root_group);
     for (const std::string& group : groups)

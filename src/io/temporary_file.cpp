@@ -113,9 +113,10 @@ void TemporaryFile::rename_to(const std::string& final_path, bool replaces) {
     throw FileError(fmt::format("cannot write {}: {}", path_, system_error()));
   synchronise(path_, O_RDWR, fsync);
   if (!replaces && !rename_to_absent(path_, final_path))
-    throw FileError(fmt::format("{} has come to exist since this run began, and output.overwrite = false; the new mesh "
-                                "is not written: set output.overwrite = true to replace it, or another output.name",
-                                final_path));
+    throw FileError(
+        fmt::format("another program has written {} since this run began, and output.overwrite = false, so the new "
+                    "mesh is not written; set output.overwrite = true to replace it, or another output.name",
+                    final_path));
   if (replaces)
     rename_before_disk(final_path);
   has_its_name();
@@ -155,7 +156,7 @@ std::string length_problem(const std::string& path, std::size_t added) {
     const std::size_t most = longest_file_name - (end == path.size() ? added : 0);
     if (end - at > most)
       return fmt::format("expected names of at most {} bytes{}, found {} with {}", most,
-                         added > 0 && end == path.size() ? ", since a file has a longer one while it is written" : "",
+                         added > 0 && end == path.size() ? ", since a file has a longer name while it is written" : "",
                          trime::quoted(path.substr(at, end - at)), end - at);
     at = end + 1;
   }

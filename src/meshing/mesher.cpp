@@ -149,8 +149,8 @@ void Run::check_input(const SavedRun& saved) const {
   fields.field("size_hash", then.sizes);
   const auto check = [](std::int64_t kept, std::int64_t now, const char* what) {
     if (kept != now)
-      throw FileError(fmt::format("the checkpoint is of a run with another {}: expected the hash {:016x}, found "
-                                  "{:016x}; an input file has changed since, or the program; start anew",
+      throw FileError(fmt::format("the checkpoint comes from a run with another {}: expected the hash {:016x}, found "
+                                  "{:016x}; an input file or the program has changed since; start from the beginning",
                                   what, static_cast<std::uint64_t>(kept), static_cast<std::uint64_t>(now)));
   };
   check(then.shape, input_.shape, "shape or other fixed points");
@@ -276,7 +276,8 @@ void Run::tell_of_start(MeshResult& result) const {
   const GlobalId points = result.mesh.point_slab.total;
   result.count_reason = count_reason(points);
   if (static_cast<double>(points) < MeshingRules::shortage_warning * static_cast<double>(result.requested_points))
-    run_.log.warning("{} points were asked for, {} made: {}", result.requested_points, points, result.count_reason);
+    run_.log.warning("{} points were asked for, but the mesh has {}{}{}", result.requested_points, points,
+                     result.count_reason.empty() ? "" : ": ", result.count_reason);
 }
 
 /// Why there are fewer points than asked for; empty if there are nearly as many.
@@ -287,9 +288,9 @@ std::string Run::count_reason(GlobalId points) const {
     return {};
   if (!scheme_.shortage().empty())
     return scheme_.shortage();
-  return fmt::format("{} points came too near to the boundary or to each other and were taken out; the start left "
-                     "out the rest",
-                     placed_ + cleanup_.inserted - cleanup_.deleted - points);
+  return fmt::format(
+      "{} points were removed because they came too near to the boundary or to each other; the start left out the rest",
+      placed_ + cleanup_.inserted - cleanup_.deleted - points);
 }
 
 } // namespace

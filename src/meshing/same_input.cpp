@@ -74,8 +74,8 @@ void check_same(std::int64_t hash, const char* what, const comm::Communicator& c
   const std::int64_t least = comm.min(hash), most = comm.max(hash);
   if (least != most)
     throw InternalError(
-        fmt::format("the ranks have unlike bits of the {}: expected one hash, found {:016x} and {:016x}; "
-                    "run on nodes with the same processors and libraries",
+        fmt::format("the ranks compute different bits of the {}: expected one hash, found {:016x} and {:016x}; use "
+                    "nodes with the same processors and libraries, and a size that does not depend on the rank",
                     what, static_cast<std::uint64_t>(least), static_cast<std::uint64_t>(most)));
 }
 
@@ -86,7 +86,8 @@ InputHashes check_same_input(const geometry::Domain& domain, const sizing::SizeF
   std::int64_t sizes = 0;
   comm::run_agreed(comm, [&] {
     if (const std::string fault = arithmetic_fault(); !fault.empty())
-      throw InternalError("the arithmetic of this program would make other meshes here: " + fault);
+      throw InternalError(
+          "the floating-point self-test failed, so this build would make different meshes on this machine: " + fault);
     sizes = hash_of_sizes(domain.boundary(), size);
   });
   const std::int64_t shape = hash_of(domain);

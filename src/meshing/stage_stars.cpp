@@ -100,11 +100,12 @@ void StageStars::check_periods(const Stage& stage) const {
   if (builder_->cap(stage.typical_size) < limit || run_.comm.sum(count_incomplete_fans(stage.view(run_.lattice))) == 0)
     return;
   const double size = limit / MeshingRules::largest_circumradius;
-  throw GeometryError(fmt::format(
-      "the periodic container needs triangles with circumradii below a quarter of its period, which takes a period "
-      "of about three edges; found an element size of {:.3g} in a period of {:.3g}; about {} points are enough",
-      stage.typical_size, 4 * limit,
-      static_cast<GlobalId>(std::ceil(run_.given_boundary.area / (row_height * size * size)))));
+  throw GeometryError(
+      fmt::format("the triangles are too large for the periodic container: their circumradii must be below a quarter "
+                  "of the period, which takes about three edges per period; found an element size of {:.3g} in a "
+                  "period of {:.3g}; about {} points are enough",
+                  stage.typical_size, 4 * limit,
+                  static_cast<GlobalId>(std::ceil(run_.given_boundary.area / (row_height * size * size)))));
 }
 
 } // namespace trime::meshing

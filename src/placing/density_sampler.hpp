@@ -178,8 +178,8 @@ private:
   }
 
   [[noreturn]] static void fail_for_small_size(geometry::Vec2 p, double h) {
-    throw GeometryError(fmt::format("the size near ({}, {}) is {}: so small a size asks for far more points than there "
-                                    "can be; give the size field a larger least value, or set min_size",
+    throw GeometryError(fmt::format("the size near ({}, {}) is {}: such a small size needs far more points than are "
+                                    "possible; make the size larger there, or set min_size",
                                     p.x, p.y, h));
   }
 

@@ -41,7 +41,7 @@ Object make_crs(const Context& context, const std::string& crs) {
   const bool lacks_type = crs.starts_with("+") && crs.find("+type=crs") == std::string::npos;
   Object object(proj_create(context.get(), lacks_type ? (crs + " +type=crs").c_str() : crs.c_str()));
   if (!object || proj_is_crs(object.get()) == 0)
-    throw ConfigError(fmt::format("'{}' is no coordinate reference system that PROJ knows ({}); expected one such as "
+    throw ConfigError(fmt::format("PROJ does not know the coordinate reference system '{}' ({}); expected one such as "
                                   "EPSG:32633, or '+proj=utm +zone=33 +datum=WGS84'",
                                   crs.size() > 60 ? crs.substr(0, 60) + "..." : crs, reason(context)));
   return object;
@@ -70,7 +70,8 @@ Transform::Transform(const std::string& from, const std::string& to) : handle_(s
   if (plain)
     handle_->way.reset(proj_normalize_for_visualization(context, plain.get()));
   if (!handle_->way)
-    throw ConfigError(fmt::format("PROJ knows no way from '{}' to '{}' ({})", from, to, reason(handle_->context)));
+    throw ConfigError(
+        fmt::format("PROJ cannot convert coordinates from '{}' to '{}' ({})", from, to, reason(handle_->context)));
 }
 
 Transform::~Transform() = default;
@@ -147,9 +148,10 @@ std::string local_plane(std::span<const Vec2> degrees_east_north) {
     const std::array<double, 3> d = direction(p);
     const double cosine = d[0] * center[0] + d[1] * center[1] + d[2] * center[2];
     if (!(cosine >= sin_cos(farthest_degrees * degrees).cos))
-      throw GeometryError(fmt::format("'projection = auto' is for shapes within {} degrees of their middle: expected "
-                                      "that of longitude {} and latitude {}, found ({}, {}); name a projection",
-                                      farthest_degrees, east, north, p.x, p.y));
+      throw GeometryError(
+          fmt::format("'projection = auto' needs a shape within {} degrees of its middle, which is at longitude {} and "
+                      "latitude {}; found a vertex at ({}, {}); set a projection by its name, such as EPSG:32633",
+                      farthest_degrees, east, north, p.x, p.y));
   }
   return fmt::format("+proj=stere +lat_0={} +lon_0={} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m +no_defs +type=crs",
                      north, east);

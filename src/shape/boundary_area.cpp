@@ -44,10 +44,10 @@ void check_area(const Boundary& boundary, const std::string& region, const Frame
     length += loop.length();
   if (const double least = 0.5 * VertexTable::merge_steps * frame.step() * length; !(boundary.area > least)) {
     const Vec2 p = boundary.loops.front().pieces.front().start;
-    throw GeometryError(fmt::format("the region '{}' is thinner than the resolution of the container: expected an area "
-                                    "above {:.3g} inside of a boundary of length {:.6g}, found {:.3g}; its boundary "
-                                    "begins at ({:.10g}, {:.10g})",
-                                    region, least, length, boundary.area, p.x, p.y));
+    throw GeometryError(
+        fmt::format("the geometry '{}' is thinner than the resolution of the container: expected an area above {:.3g} "
+                    "inside of a boundary of length {:.6g}, found {:.3g}; its boundary begins at ({:.10g}, {:.10g})",
+                    region, least, length, boundary.area, p.x, p.y));
   }
 }
 

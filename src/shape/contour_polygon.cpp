@@ -182,13 +182,13 @@ void Placement::check_turns(const std::vector<Vec2>& p, const std::vector<int>& 
 void Placement::tell_touches(const std::vector<RingTouch>& touches, std::vector<std::string>& warnings) const {
   const std::size_t told = std::min(touches.size(), most_told);
   for (const RingTouch& touch : std::span(touches).first(told))
-    warnings.push_back(fmt::format("{}:{}: rings touch at {} (line {} too); they are parted there by {:.2g}, and no "
-                                   "triangles join through this point",
+    warnings.push_back(fmt::format("{}:{}: two rings touch at {} (the other one at line {}); they are moved apart by "
+                                   "{:.2g} there, so that no triangles meet across this point",
                                    contour_.source, touch.line, in_file(touch.place), touch.other_line,
                                    ShapeRules::touch_gap * frame_.step() / normalization_.scale));
   if (told < touches.size())
-    warnings.push_back(
-        fmt::format("{}: rings touch in {} more places and are parted there", contour_.source, touches.size() - told));
+    warnings.push_back(fmt::format("{}: rings touch in {} more places and are moved apart there", contour_.source,
+                                   touches.size() - told));
 }
 
 void Placement::report(const SegmentGrid& grid, const SegmentPair& pair) const {
@@ -204,13 +204,14 @@ void Placement::report(const SegmentGrid& grid, const SegmentPair& pair) const {
   const bool same = ring[0] == ring[1], crossing = meeting_of(s, t) == Meeting::crossing;
   const bool is_map =
       contour_.source.ends_with(".shp") || contour_.source.ends_with("json"); // no lines, no rings of text
-  const char* remedy = same && is_map     ? "a ring must neither cross nor touch itself; ogr2ogr -makevalid may mend it"
+  const char* remedy = same && is_map ? "a ring must neither cross nor touch itself; ogr2ogr -makevalid may repair it"
                        : same && crossing ? "a ring must not cross itself; is a blank line between two rings missing?"
                        : same             ? "a ring touches itself; is a blank line between two rings missing?"
-                       : crossing         ? "two rings must not cross; to join areas, make each a part of its own and "
-                                            "unite them in 'region'"
-                                  : "two rings touch or overlap along an edge, or cross at a vertex; make each a "
-                                    "part of its own and unite them in 'region', or take the common edge out";
+                       : crossing
+                           ? "two rings must not cross; to join areas, make each one a separate part and unite them in "
+                             "'geometry', or dissolve their common borders first, as QGIS does"
+                           : "two rings touch or overlap along an edge, or cross at a vertex; make each one a separate "
+                             "part and unite them in 'geometry', or dissolve their common borders first, as QGIS does";
   throw GeometryError(fmt::format("{}:{}: the edge that starts here {} the edge that starts at line {} near {}; {}",
                                   contour_.source, line[0], crossing ? "crosses" : "touches", line[1],
                                   in_file(meeting_point(s, t)), remedy));

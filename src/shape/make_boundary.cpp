@@ -82,7 +82,7 @@ public:
     if (frame_.periods().any())
       finish_periodic_area();
     if (boundary_.loops.empty() && !boundary_.covers_torus)
-      throw GeometryError(fmt::format("the region '{}' is empty: no part of the plane lies in it", region_.text()));
+      throw GeometryError(fmt::format("the geometry '{}' is empty: it contains nothing of the plane", region_.text()));
     check_area(boundary_, region_.text(), frame_);
     std::vector<std::int32_t> markers = name_markers(boundary_, given_, frame_);
     return {frame_, std::move(boundary_), std::move(markers)};
@@ -247,8 +247,8 @@ void BoundaryMaker::check_container() const {
     return;
   const Vec2 p = arrangement_.vertices().point(farthest->from);
   throw GeometryError(fmt::format(
-      "the region '{}' {} the container [{}, {}] x [{}, {}]: part '{}' reaches ({:.9g}, {:.9g}), {:.3g} "
-      "beyond it; enlarge [domain], move the part, or intersect with 'domain'",
+      "the geometry '{}' {} the container [{}, {}] x [{}, {}]: part '{}' reaches ({:.9g}, {:.9g}), {:.3g} beyond it; "
+      "enlarge [domain], move the part, or intersect with 'domain'",
       region_.text(), outside == kept_.size() ? "lies outside" : "lies partly outside", box.min.x, box.max.x, box.min.y,
       box.max.y, boundary_.part_names[index_of(arrangement_.pieces()[farthest->piece])], p.x, p.y, worst));
 }
@@ -287,13 +287,13 @@ void BoundaryMaker::report_node(LocalIndex node) const {
     list += fmt::format("{}'{}'", list.empty() ? "" : ", ", name);
   const Vec2 p = nodes_->point(node);
   if (arrivals == departures)
-    throw GeometryError(fmt::format("the boundary of the region '{}' touches itself at ({:.12g}, {:.12g}) (part {}); "
+    throw GeometryError(fmt::format("the boundary of the geometry '{}' touches itself at ({:.12g}, {:.12g}) (part {}); "
                                     "expected curves that do not meet: move the parts apart, or make them overlap",
                                     region_.text(), p.x, p.y, list));
-  throw GeometryError(fmt::format("boundaries of parts of the region '{}' nearly coincide at ({:.12g}, {:.12g}) (part "
-                                  "{}): they are nearer than about {:.2g} to each other but not equal; make them "
-                                  "equal, or move them apart",
-                                  region_.text(), p.x, p.y, list, VertexTable::merge_steps * frame_.step()));
+  throw GeometryError(
+      fmt::format("boundaries of parts of the geometry '{}' nearly coincide at ({:.12g}, {:.12g}) (part {}): they are "
+                  "nearer than about {:.2g} to each other but not equal; make them equal, or move them apart",
+                  region_.text(), p.x, p.y, list, VertexTable::merge_steps * frame_.step()));
 }
 
 void BoundaryMaker::chain() {

@@ -23,7 +23,7 @@ bool is_name_character(char c) {
 std::string unknown_part_message(const std::string& name, std::span<const std::string> part_names) {
   std::vector<std::string> known(part_names.begin(), part_names.end());
   known.emplace_back(domain_name);
-  return fmt::format("unknown part '{}' in region; known: {}{}", name, fmt::join(known, ", "), suggestion(name, known));
+  return fmt::format("unknown part '{}' in the geometry; known parts: {}{}", name, fmt::join(known, ", "), suggestion(name, known));
 }
 
 } // namespace
@@ -46,7 +46,7 @@ public:
 private:
   [[noreturn]] void fail(const std::string& what) const {
     const std::string found = position_ < text_.size() ? fmt::format("'{}'", text_.substr(position_, 20)) : "the end";
-    throw ConfigError(fmt::format("region, column {}: {}, found {} in '{}'", position_ + 1, what, found, text_));
+    throw ConfigError(fmt::format("geometry, column {}: {}, found {} in '{}'", position_ + 1, what, found, text_));
   }
 
   void skip_blanks() {
@@ -87,7 +87,7 @@ private:
 
   void operation(int node, const std::string& word, int depth) {
     if (word != "union" && word != "intersection" && word != "difference")
-      throw ConfigError(fmt::format("region: expected union(...), intersection(...) or difference(...) instead of "
+      throw ConfigError(fmt::format("geometry: expected union(...), intersection(...) or difference(...) instead of "
                                     "'{}(...)' in '{}'{}",
                                     word, text_, suggestion(word, operation_names)));
     std::vector<int> operands;

@@ -196,7 +196,7 @@ void StarCertifier::verify() const {
   for (const LocalIndex i : sites)
     different += all.certain(i) && !std::ranges::equal(all.ring(i), state_.stars().ring(i));
   if (const std::int64_t sum = state_.comm().sum(different); sum > 0)
-    throw InternalError(fmt::format("{} stars differ from those computed anew", sum));
+    throw InternalError(fmt::format("{} stars differ from those computed again", sum));
 }
 
 } // namespace trime::sweep

@@ -21,7 +21,7 @@ namespace {
 
 using namespace trime::io;
 
-constexpr const char* config = "[shape]\nregion = difference(plate, hole)\n"
+constexpr const char* config = "[shape]\ngeometry = difference(plate, hole)\n"
                                "[shape.plate]\ntype = rectangle\nx_min = 0.1\nx_max = 0.9\ny_min = 0.1\ny_max = 0.9\n"
                                "[shape.hole]\ntype = circle\ncenter = 0.5 0.5\nradius = 0.2\n"
                                "[meshing]\npoints = 60\n[parallel]\nsetup_threads = 1\nmesh_threads = 1\n"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A damaged mesh file: `trime_mpi info`, or `trime_mpi convert` into one of the formats. One of them for each input,
 // since reading the metadata, which both do, takes most of the time.
-#include "app/exchange.hpp"
+#include "app/convert.hpp"
 #include "damaged_file.hpp"
 #include "fuzz.hpp"
 

@@ -17,7 +17,7 @@ from trime_run import Workspace, run
 GOOD = """[domain]
 x_min = 0
 [shape]
-region = part
+geometry = part
 [shape.part]
 type = rectangle
 x_min = 0.1
@@ -168,8 +168,8 @@ class Rows:
         short = r"^(?=.{1,1200}$)trime_mpi: error: .*case\.ini.*"
         yield Row(GOOD + long + " = 1\n", USAGE, [short + r"unknown key 'x+\.\.\.' in \[meshing\]"])
         for text in (GOOD.replace("points = 500", "points = " + long), GOOD + f"[{long}]\n", GOOD + f"[shape.{long}\n",
-                     GOOD + f"[shape.{long}]\n", GOOD.replace("region = part", "region = " + long),
-                     GOOD.replace("region = part", "region = " + "union(part, " * 60000 + "part" + ")" * 60000),
+                     GOOD + f"[shape.{long}]\n", GOOD.replace("geometry = part", "geometry = " + long),
+                     GOOD.replace("geometry = part", "geometry = " + "union(part, " * 60000 + "part" + ")" * 60000),
                      GOOD + f"fixed_points = p.xy\nfixed_points_normalize_with = {long}\n", GOOD + f"{long} =\n",
                      GOOD + f"[sizing]\ntype = expression\nexpression = {'1+' * 3000}\n"):
             yield Row(text, USAGE, [short])
@@ -217,14 +217,14 @@ class Rows:
                       [r"case\.ini:3: \[domain\] has the sides .* set x_min, x_max, y_min and y_max around the shape"])
 
     def sizes_that_no_number_of_points_reaches(self):
-        yield Row(GOOD, USAGE, [r"max_size = 1e-300: expected more than numbers can tell"],
+        yield Row(GOOD, USAGE, [r"max_size = 1e-300: expected more than numbers can hold"],
                   extra=["sizing.max_size=1e-300"], modes=([],))
 
     def unknown_part_in_region(self):
-        text = GOOD.replace("region = part", "region = difference(part, hool)")
-        yield Row(text, USAGE, [rf"case\.ini:{line_of(text, 'hool')}:.*region.*hool|hool.*region"])
+        text = GOOD.replace("geometry = part", "geometry = difference(part, hool)")
+        yield Row(text, USAGE, [rf"case\.ini:{line_of(text, 'hool')}:.*geometry.*hool|hool.*geometry"])
         for formula in ("difference(part", "union()", "difference(part)", "part part", "domaine"):
-            yield Row(GOOD.replace("region = part", f"region = {formula}"), USAGE, [r"case\.ini:4:"])
+            yield Row(GOOD.replace("geometry = part", f"geometry = {formula}"), USAGE, [r"case\.ini:4:"])
 
     def bad_size_formulas(self):
         start = GOOD + "[sizing]\ntype = expression\n"
@@ -249,9 +249,9 @@ class Rows:
             yield Row(text, GEOMETRY, [r"(?i)container|domain"])
 
     def empty_shape(self):
-        text = GOOD.replace("region = part", "region = difference(part, part)")
+        text = GOOD.replace("geometry = part", "geometry = difference(part, part)")
         yield Row(text, GEOMETRY, [r"(?i)empty|nothing"])
-        text = GOOD.replace("region = part", "region = intersection(part, far)") + \
+        text = GOOD.replace("geometry = part", "geometry = intersection(part, far)") + \
             "[shape.far]\ntype = circle\ncenter = 0.05 0.05\nradius = 0.01\n"
         yield Row(text, GEOMETRY, [r"(?i)empty|nothing"])
 
@@ -325,7 +325,8 @@ class BadInput(unittest.TestCase):
             (work / "case.ini").write_text(GOOD, encoding="utf-8")
             done = run(work / "case.ini", f"output.directory={work}/result", "parallel.mesh_threads=4096", timeout=300)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            self.assertRegex(done.stdout + done.stderr, r"warning: 4096 threads were asked for, and a rank uses \d+:")
+            self.assertRegex(done.stdout + done.stderr,
+                             r"warning: 4096 threads were requested, but a rank uses only \d+:")
 
     def test_output_exists(self):
         with Workspace() as work:

@@ -16,7 +16,7 @@ class Rows:
     def names_that_are_too_long(self):
         """Only the file system reported some of them, after the run."""
         for name in ("x" * 163, "x" * 200, "x" * 250):
-            yield Row(GOOD, USAGE, [rf"name = x+\.\.\.' in \[output\]: expected at most 162 bytes, found {len(name)}:"],
+            yield Row(GOOD, USAGE, [rf"name = x+.*' in \[output\]: expected at most 162 bytes, found {len(name)}\."],
                       extra=[f"output.name={name}", "output.formats=text"])
         for path in ("d" * 300, "a/" + "d" * 256 + "/b", "d/" * 2000):
             yield Row(GOOD, FILE, [r"cannot make the output directory .*expected .* set output\.directory"],
@@ -99,7 +99,7 @@ class BadOutput(unittest.TestCase):
                        "output.interval=5",
                        "output.formats=vtkhdf xdmf text gmsh triangle geojson", "checkpoint.interval=1e-9", ranks=2)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            self.assertNotIn("no checkpoint", done.stdout + done.stderr)
+            self.assertNotIn("checkpoint failed", done.stdout + done.stderr)
 
 
 if __name__ == "__main__":

@@ -37,7 +37,7 @@ class Shapes(unittest.TestCase):
             (self.work / file).write_text(text, "ascii")
         path = self.work / f"{name}.ini"
         domain = f"[domain]\n{domain}" if domain else ""
-        path.write_text(f"{domain}[shape]\nregion = {region}\n{parts}[meshing]\n{meshing}", "ascii")
+        path.write_text(f"{domain}[shape]\ngeometry = {region}\n{parts}[meshing]\n{meshing}", "ascii")
         return path
 
     def mesh(self, config, codes=(0,)):

@@ -111,7 +111,7 @@ class Tables(unittest.TestCase):
 
     def test_kinds_in_a_periodic_container(self):
         config = self.work / "strip.ini"
-        config.write_text("[domain]\nperiodic_x = true\n[shape]\nregion = difference(domain, disc)\n[shape.disc]\n"
+        config.write_text("[domain]\nperiodic_x = true\n[shape]\ngeometry = difference(domain, disc)\n[shape.disc]\n"
                           "type = circle\ncenter = 1 0.5\nradius = 0.2\n[meshing]\npoints = 900\n", "ascii")
         whole = self.mesh(config)
         with h5py.File(whole) as file:
@@ -123,7 +123,7 @@ class Tables(unittest.TestCase):
         (self.work / "frame.poly").write_text("4 2 0 1\n1 0.1 0.1 0\n2 0.9 0.1 0\n3 0.9 0.9 0\n4 0.1 0.9 0\n"
                                               "4 1\n1 1 2 1\n2 2 3 5\n3 3 4 1\n4 4 1 1\n0\n", "ascii")
         config = self.work / "frame.ini"
-        config.write_text("[shape]\nregion = frame\n[shape.frame]\ntype = contour\nfile = frame.poly\n"
+        config.write_text("[shape]\ngeometry = frame\n[shape.frame]\ntype = contour\nfile = frame.poly\n"
                           "[meshing]\npoints = 700\n", "ascii")
         whole = self.mesh(config)
         self.finds(whole, lambda f: change(f, FACETS + "markers", 3, 2), "markers")

@@ -272,7 +272,8 @@ class Check(unittest.TestCase):
              "features": [{"type": "Feature", "properties": {"name": "Isle"},
                            "geometry": {"type": "Polygon", "coordinates": [ring]}}]}))
         config = self.work / "map.ini"
-        config.write_text("[shape]\nregion = difference(land, pond)\n[shape.land]\ntype = contour\nfile = map.geojson\n"
+        config.write_text("[shape]\ngeometry = difference(land, pond)\n[shape.land]\ntype = contour\n"
+                          "file = map.geojson\n"
                           "attribute = name\n[shape.pond]\ntype = circle\ncenter = 6000 3000\nradius = 700\n"
                           f"[meshing]\npoints = {POINTS}\n")
         done = run(config, f"output.directory={self.work}")
@@ -325,7 +326,7 @@ class Check(unittest.TestCase):
         for name, ring in (("comb", comb), ("star", star)):
             (self.work / f"{name}.xy").write_text("".join(f"{x!r} {y!r}\n" for x, y in ring), "ascii")
         config = self.work / "crossing.ini"
-        config.write_text("[shape]\nregion = difference(comb, star)\n" +
+        config.write_text("[shape]\ngeometry = difference(comb, star)\n" +
                           "".join(f"[shape.{name}]\ntype = contour\nfile = {name}.xy\n" for name in ("comb", "star")) +
                           "[meshing]\npoints = 4000\nkeep_features = true\ncorner_angle = 3\n"
                           "[output]\nname = crossing\n", "ascii")
@@ -372,7 +373,7 @@ class Check(unittest.TestCase):
         for name, (parts, corners, left_out) in shapes.items():
             with self.subTest(shape=name):
                 config = self.work / f"{name}.ini"
-                config.write_text("[shape]\nregion = union(a, b)\n" +
+                config.write_text("[shape]\ngeometry = union(a, b)\n" +
                                   "".join(f"[shape.{part}]\n{text}" for part, text in zip("ab", parts)) +
                                   "[meshing]\npoints = 500\nsimplify_within = 0\n", "ascii")
                 done = run(config, f"output.directory={self.work}")
@@ -426,7 +427,7 @@ class Check(unittest.TestCase):
 
     def test_command_line(self):
         whole = self.mesh("square")
-        (self.work / "bad.ini").write_text("[shape]\nregion = nowhere\n", "ascii")
+        (self.work / "bad.ini").write_text("[shape]\ngeometry = nowhere\n", "ascii")
         for code, arguments in ((2, []), (2, ["--nonsense"]), (2, [whole, self.work / "bad.ini"]),
                                 (4, [whole, self.work / "none.ini"]), (0, ["--help"]), (0, ["--version"])):
             with self.subTest(arguments=arguments):

@@ -22,7 +22,7 @@ LAKES = sum(signed_area(ring) < 0 for ring in COAST_RINGS)
 EULER = len(COAST_RINGS) - 2 * LAKES
 
 SPADE = f"""[shape]
-region = difference(spade, hole)
+geometry = difference(spade, hole)
 [shape.spade]
 type = contour
 file = {ROOT}/configs/spade.xy
@@ -36,7 +36,7 @@ method = distmesh
 """
 
 COAST = """[shape]
-region = coast
+geometry = coast
 [shape.coast]
 type = contour
 file = coast.xy

@@ -12,7 +12,7 @@ from dense_coast import dense_coast, text_of_coast
 from trime_run import Workspace, run
 
 VERTICES = 2**15  # StartRules::many_pieces is half of that
-CONFIG = ("[shape]\nregion = land\n[shape.land]\ntype = contour\nfile = land.xy\nnormalize = true\n"
+CONFIG = ("[shape]\ngeometry = land\n[shape.land]\ntype = contour\nfile = land.xy\nnormalize = true\n"
           "[sizing]\ntype = automatic\n[meshing]\npoints = 3000\n")
 
 
@@ -34,7 +34,8 @@ def filling_of_mesh(file):
 
 class DenseContours(unittest.TestCase):
     def mesh(self, work, ranks):
-        done = run(work / "land.ini", f"output.directory={work}", f"output.name=on_{ranks}", ranks=ranks)
+        done = run(work / "land.ini", f"output.directory={work}", f"output.name=on_{ranks}", "--verbose",
+                   ranks=ranks)
         self.assertEqual(done.returncode, 0, f"{ranks} ranks:\n{done.stdout}{done.stderr}")
         thinned = re.search(r"(\d+) pieces of ragged curves thinned", done.stdout)
         self.assertTrue(thinned, done.stdout)

@@ -154,7 +154,7 @@ class Config:
         self.periods = np.where([domain.get(f"periodic_{axis}", "false") == "true" for axis in "xy"],
                                 self.high - self.low, np.inf)
         self.side = (self.high - self.low).max()
-        self.region = self.ini["shape"]["region"]
+        self.region = self.ini["shape"]["geometry"]
         self.parts = {name.removeprefix("shape."): self.part(section) for name, section in self.ini.items()
                       if name.startswith("shape.")}
 

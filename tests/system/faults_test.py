@@ -81,7 +81,7 @@ class Faults(unittest.TestCase):
     @staticmethod
     def arguments(folder, points):
         return [CONFIG, f"meshing.points={points}", f"output.directory={folder}", "output.name=mesh",
-                "output.overwrite=true"]
+                "output.overwrite=true", "--verbose"]
 
     def start(self, folder, ranks, *more, points=POINTS, limit=None):
         """A run that has said its first word. Its group of processes is its own."""

@@ -12,7 +12,7 @@ from trime_run import Workspace, run
 
 CONTOUR = "0 0\n4 0\n4 4\n0 4\n"  # normalised to [0.1, 0.9]^2: x -> 0.1 + 0.2 x
 CONFIG = """[shape]
-region = plate
+geometry = plate
 [shape.plate]
 type = contour
 file = plate.xy
@@ -33,7 +33,7 @@ class FixedPoints(unittest.TestCase):
         (directory / "plate.xy").write_text(CONTOUR)
         (directory / "points.xy").write_text(points)
         (directory / "job.ini").write_text(CONFIG.format(directory=directory))
-        return run(directory / "job.ini", *overrides, ranks=2)
+        return run(directory / "job.ini", *overrides, "--verbose", ranks=2)
 
     def expect_vertices(self, directory, expected):
         with h5py.File(directory / "job.h5", "r") as file:

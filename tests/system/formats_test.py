@@ -28,7 +28,7 @@ ogr.UseExceptions()
 WORDS = "gmsh gmsh2 medit freefem triangle vtu 2dm fort14 geojson"
 ENDINGS = ["msh", "msh2", "mesh", "freefem", "node", "vtu", "2dm", "14", "geojson"]
 OWN = """[shape]
-region = difference(union(open_sea, bay, sunk), island)
+geometry = difference(union(open_sea, bay, sunk), island)
 [shape.open_sea]
 type = rectangle
 x_min = 0.1
@@ -384,7 +384,8 @@ class Formats(unittest.TestCase):
         (self.work / "text.h5").write_text("no mesh\n")
         own = self.work / "own.h5"
         cases = [(["convert", own], USAGE, r"needs two files, found 1 file; usage: .*convert IN.h5 OUT.ENDING"),
-                 (["convert", own, self.work / "a.stl"], USAGE, r"a\.stl' has none of the endings .* \.msh \(gmsh\)"),
+                 (["convert", own, self.work / "a.stl"], USAGE,
+                  r"the ending of '.*a\.stl' is not that of a format: .* \.msh \(gmsh\)"),
                  (["convert", own, self.work / "own.msh"], FILE, r"own\.msh exists; add --overwrite"),
                  (["convert", self.work / "none.h5", self.work / "a.msh"], FILE, r"cannot open .*none\.h5: No such"),
                  (["convert", self.work / "text.h5", self.work / "a.msh"], FILE, r"cannot open .*text\.h5"),
@@ -393,7 +394,7 @@ class Formats(unittest.TestCase):
                  (["convert", own, self.work / "no" / "a.msh"], FILE, r"cannot create .*no/a\.msh"),
                  (["info"], USAGE, r"'trime_mpi info' needs one file, found 0 files"),
                  (["info", plain], FILE, r"no mesh file"),
-                 ([self.work / "own.ini", "--overwrite"], USAGE, r"'--overwrite' is for 'trime_mpi convert'"),
+                 ([self.work / "own.ini", "--overwrite"], USAGE, r"'--overwrite' belongs to 'trime_mpi convert'"),
                  ([self.work / "own.ini", f"output.directory={self.work}", "output.formats=gmsh", "output.name=own",
                    "output.overwrite=false"], FILE, r"own\.(h5|msh) exists"),
                  ([ROOT / "configs" / "torus.ini", "output.formats=gmsh"], USAGE, r"'formats = gmsh' .* periodic")]
@@ -410,7 +411,7 @@ class Formats(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         done = run("convert", self.work / "torus.h5", self.work / "torus.vtu")
         self.assertEqual(done.returncode, USAGE)
-        self.assertRegex(done.stderr, r"the format 'vtu' has no periodic containers")
+        self.assertRegex(done.stderr, r"the format 'vtu' cannot hold a periodic mesh")
 
     def test_info(self):
         done = run("info", self.work / "own.h5", ranks=2)

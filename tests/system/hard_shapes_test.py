@@ -85,17 +85,17 @@ def config(shape, work):
     """Path of the config of a shape: rings, or the text of its sections."""
     if not isinstance(shape, str):
         (work / "c.xy").write_text("\n".join("".join(f"{x!r} {y!r}\n" for x, y in ring) for ring in shape), "ascii")
-        shape = "[shape]\nregion = c\n[shape.c]\ntype = contour\nfile = c.xy\n"
+        shape = "[shape]\ngeometry = c\n[shape.c]\ntype = contour\nfile = c.xy\n"
     (work / "c.ini").write_text(shape, encoding="ascii")
     return work / "c.ini"
 
 
 def two(region, first, second):
     """Sections of a region of two parts a and b."""
-    return f"[shape]\nregion = {region}(a, b)\n" + first + second
+    return f"[shape]\ngeometry = {region}(a, b)\n" + first + second
 
 
-ANNULUS = "[shape]\nregion = difference(a, b)\n" + disc("a", 0.5, 0.5, 0.4)
+ANNULUS = "[shape]\ngeometry = difference(a, b)\n" + disc("a", 0.5, 0.5, 0.4)
 
 
 # What is finer than the triangles has bad ones; here the certificate is asked, not the angles.
@@ -144,7 +144,8 @@ class HardShapes(unittest.TestCase):
         self.mesh([comb(40, 0.01)], "meshing.points=1000", "sizing.type=automatic")
         self.error([comb(40, 0.01)], "meshing.points=1000", "sizing.type=automatic", "meshing.keep_features=true",
                    code=2,
-                   says=["points = 1000 are too few", "boundary alone needs", "the shortest chord, 0.01 long, is at ("])
+                   says=["points = 1000 are too few", "boundary alone needs",
+                         "the shortest boundary edge, 0.01 long, is at ("])
 
     def test_touching(self):
         self.error(two("union", disc("a", 0.3, 0.5, 0.2), disc("b", 0.7, 0.5, 0.2)), "meshing.points=1000", code=3,

@@ -27,9 +27,9 @@ class Incomplete(unittest.TestCase):
         with Workspace() as directory:
             square = "0.1 0.1\n0.9 0.1\n0.9 0.9\n0.1 0.9\n"
             (directory / "c.xy").write_text(square + "\n0.3 0.1001\n0.7 0.1001\n0.7 0.5\n0.3 0.5\n", "ascii")
-            (directory / "c.ini").write_text("[shape]\nregion = c\n[shape.c]\ntype = contour\nfile = c.xy\n"
+            (directory / "c.ini").write_text("[shape]\ngeometry = c\n[shape.c]\ntype = contour\nfile = c.xy\n"
                                              "[meshing]\npoints = 2000\ncleanup = false\n", "ascii")
-            done = run(directory / "c.ini", "meshing.worst_alpha=1.0001", f"output.directory={directory}")
+            done = run(directory / "c.ini", "meshing.worst_alpha=1.0001", f"output.directory={directory}", "--verbose")
             self.assertIn(done.returncode, (0, 5), done.stdout + done.stderr)
             with h5py.File(directory / "c.h5", "r") as file:
                 checks = file["trime_mpi/checks"]

@@ -23,7 +23,7 @@ from trime_run import Workspace, run
 
 osr.UseExceptions()
 
-CONFIG = "[shape]\nregion = land\n[shape.land]\ntype = contour\nfile = {}\n[meshing]\npoints = {}\n"
+CONFIG = "[shape]\ngeometry = land\n[shape.land]\ntype = contour\nfile = {}\n[meshing]\npoints = {}\n"
 
 
 def gdal(*arguments):
@@ -104,7 +104,7 @@ class DirtyInputs(unittest.TestCase):
         self.assertGreaterEqual(len(READ) + len(REFUSED), 30)
 
     def test_what_is_left_out_is_told(self):
-        for text, message in (("region attributes", r":\d+: regional attributes are left out"),
+        for text, message in (("region attributes", r":\d+: regional attributes are ignored"),
                               ("region attributes", r":11: 1 vertex lies, here first, on no segment"),
                               ("no section of holes", r":7: 1 ring has no hole point inside")):
             row = next(row for row in READ if text in row[0] and row[1] == "a.poly")
@@ -126,7 +126,7 @@ class DirtyInputs(unittest.TestCase):
                 (work / "a.shp").write_bytes(b"nothing of the kind" * 20)
                 done = run(work / "case.ini", "--validate", ranks=ranks)
                 self.assertEqual(done.returncode, FILE, done.stdout + done.stderr)
-                self.assertRegex(done.stderr, r"a\.shp is no shapefile")
+                self.assertRegex(done.stderr, r"a\.shp is not a shapefile")
                 (work / "a.shp").write_bytes(whole)
                 index = (work / "a.shx").read_bytes()  # says that it has 200 million records
                 (work / "a.shx").write_bytes(index[:24] + (50 + 4 * 200_000_000).to_bytes(4, "big") + index[28:])
@@ -276,7 +276,8 @@ class Maps(unittest.TestCase):
     def mesh(self, work, name, *overrides, ranks=1):
         """The mesh of a contour file; its hash."""
         (work / "case.ini").write_text(CONFIG.format(name, 3000))
-        done = run(work / "case.ini", f"output.directory={work}", "output.overwrite=true", *overrides, ranks=ranks)
+        done = run(work / "case.ini", f"output.directory={work}", "output.overwrite=true", "--verbose", *overrides,
+                   ranks=ranks)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         with h5py.File(work / "case.h5") as file:
             return int(file["trime_mpi"].attrs["mesh_hash"]), done
@@ -360,7 +361,7 @@ class Maps(unittest.TestCase):
                              r"warning: .*'projection = auto' in \[shape\]")
             (work / "a.prj").unlink()
             self.assertRegex(run(work / "case.ini", "--validate").stdout,
-                             r"a\.shp tells no reference system: .* 'projection = auto' in \[shape\]")
+                             r"a\.shp does not say in which reference system .* 'projection = auto' in \[shape\]")
             self.assertRegex(run(work / "case.ini", "--validate", "sizing.min_size=200").stdout,
                              r"warning: min_size = 200 is longer than the whole shape.*a\.shp.*'projection = auto'")
 
@@ -371,17 +372,19 @@ class Maps(unittest.TestCase):
             for zone, told in ((32632, False), (32636, True)):
                 said = run(work / "case.ini", "--validate", f"shape.projection=EPSG:{zone}").stdout
                 (self.assertRegex if told else self.assertNotRegex)(
-                    said, r"warning: 'projection = EPSG:\d+' makes lengths 1\.0\d times .* EPSG:32632 \(UTM zone 32\)")
+                    said, r"warning: 'projection = EPSG:\d+' stretches lengths by a factor of 1\.0\d "
+                          r".* EPSG:32632 \(UTM zone 32\)")
 
     def test_a_part_that_is_not_used_may_lie_anywhere(self):
         with Workspace() as work:
             part = "[shape.{}]\ntype = circle\ncenter = {} {}\nradius = 0.4\n"
-            (work / "case.ini").write_text("[domain]\nx_max = 1\n[shape]\nregion = disc\n" +
+            (work / "case.ini").write_text("[domain]\nx_max = 1\n[shape]\ngeometry = disc\n" +
                                            part.format("disc", 0.5, 0.5) +
                                            part.format("far", 50, 50) + "[meshing]\npoints = 500\n")
             done = run(work / "case.ini", "--validate")
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            self.assertRegex(done.stdout, "warning: part 'far' does not occur in the region 'disc' and is left out")
+            self.assertRegex(done.stdout,
+                             "warning: the part 'far' does not occur in the geometry 'disc', so it is left out")
 
     def test_fixed_points_are_projected_too(self):
         with Workspace() as work:
@@ -409,7 +412,7 @@ class Maps(unittest.TestCase):
                 for projection, code, message in (
                         ("auto", GEOMETRY, r"a\.geojson:\d+: the vertex \(9, 98\.3\) .*latitude"),
                         ("EPSG:1", USAGE, r"'projection = EPSG:1' in \[shape\]: .*EPSG:32633"),
-                        ("EPSG:4326", USAGE, r"expected a plane")):
+                        ("EPSG:4326", USAGE, r"expected a system with coordinates in metres")):
                     if projection != "auto":
                         (work / "a.geojson").write_text(geojson(["9 48", "9.4 48", "9.4 48.3", "9 48.3"]))
                     else:
@@ -419,7 +422,7 @@ class Maps(unittest.TestCase):
                     self.assertRegex(done.stderr, message)
             done = run(work / "case.ini", "--validate", "shape.projection=auto", "shape.land.normalize=true")
             self.assertEqual(done.returncode, USAGE, done.stdout + done.stderr)
-            self.assertRegex(done.stderr, "expected one of them")
+            self.assertRegex(done.stderr, "expected only one of them")
 
 
 if __name__ == "__main__":

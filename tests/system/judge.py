@@ -117,7 +117,7 @@ def config_text(points, sizing):
     size = "type = uniform" if sizing == "uniform" else f"type = automatic\ngradation = {sizing}"
     if sizing.startswith("="):
         size = f"type = expression\nexpression = {sizing[1:]}"
-    return (f"[shape]\nregion = it\n[shape.it]\ntype = contour\nfile = it.xy\nnormalize = true\n[sizing]\n{size}\n"
+    return (f"[shape]\ngeometry = it\n[shape.it]\ntype = contour\nfile = it.xy\nnormalize = true\n[sizing]\n{size}\n"
             f"[meshing]\npoints = {points}\n")
 
 

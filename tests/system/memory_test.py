@@ -13,8 +13,8 @@ from dense_coast import dense_coast, text_of_coast
 # What a point may cost when it is added, from one run to a larger one: the fixed costs of the program cancel out.
 FEW, MANY = 200000, 800000
 SEGMENTS = 2**17  # of a contour
-CASES = (("uniform", ["[shape]", "region = domain"], 145),
-         ("graded", ["[shape]", "region = domain", "[sizing]", "type = expression", "expression = 1+3*x+3*y"], 150))
+CASES = (("uniform", ["[shape]", "geometry = domain"], 145),
+         ("graded", ["[shape]", "geometry = domain", "[sizing]", "type = expression", "expression = 1+3*x+3*y"], 150))
 
 
 def output_of(config, *more):
@@ -48,7 +48,7 @@ def is_foretold(directory):
     """True if --dry-run knows what a contour takes that has many more vertices than the mesh has points."""
     (directory / "coast.xy").write_text(text_of_coast(dense_coast(1, 0.12, SEGMENTS)), "ascii")
     config = directory / "coast.ini"
-    config.write_text("[shape]\nregion = land\n[shape.land]\ntype = contour\nfile = coast.xy\nnormalize = true\n"
+    config.write_text("[shape]\ngeometry = land\n[shape.land]\ntype = contour\nfile = coast.xy\nnormalize = true\n"
                       "[sizing]\ntype = automatic\n[meshing]\npoints = 5000\n", "ascii")
     foretold = float(re.search(r"over all ranks, at most ([\d.]+) per rank", output_of(config, "--dry-run"))[1])
     report = output_of(config, f"output.directory={directory}")

@@ -20,7 +20,7 @@ if "mpi4py" in sys.argv:
 sys.path.insert(0, str(ROOT / "scripts" / "python"))
 import trime_mpi  # noqa: E402  (found by the line above)
 
-DISC = {"shape": {"region": "disc", "disc": {"type": "circle", "center": (0.5, 0.5), "radius": 0.4}},
+DISC = {"shape": {"geometry": "disc", "disc": {"type": "circle", "center": (0.5, 0.5), "radius": 0.4}},
         "meshing": {"points": 700}}
 
 

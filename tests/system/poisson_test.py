@@ -20,7 +20,7 @@ from trime_run import Workspace, run
 POINTS = (500, 2000, 8000, 32000)
 
 DISC = """[shape]
-region = disc
+geometry = disc
 [shape.disc]
 type = circle
 center = 0.5 0.5
@@ -32,7 +32,7 @@ Circle(1) = {2, 1, 3}; Circle(2) = {3, 1, 2};
 Curve Loop(1) = {1, 2}; Plane Surface(1) = {1};
 """
 L_SHAPE = """[shape]
-region = difference(square, quarter)
+geometry = difference(square, quarter)
 [shape.square]
 type = rectangle
 x_min = 0.1

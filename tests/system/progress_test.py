@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests what a run prints while it runs: one live line on a terminal, few rows of a table elsewhere, nothing with
---quiet.
+"""Tests what a run prints: one live line on a terminal, a summary at the end, rows of a table with --verbose, and only
+warnings with --quiet.
 """
 import fcntl
 import json
@@ -79,7 +79,7 @@ class Progress(unittest.TestCase):
                     self.assertTrue(any(line.startswith(phase) for line in live), phase)
                 # Nothing of it stays, and no message stands behind it in a line.
                 self.assertEqual([line for line in shown(text) if " % move" in line or line == "certificate"], [])
-                self.assertIn("Checks", shown(text))
+                self.assertTrue(any(line.startswith("Checks ") for line in shown(text)), text)
                 self.assertEqual(rows(text), [])
 
     def test_the_line_fits_into_the_window(self):
@@ -100,7 +100,7 @@ class Progress(unittest.TestCase):
 
     def test_sparse_rows_in_a_log(self):
         with Workspace() as work:
-            done = run(*arguments(work), ranks=2)
+            done = run(*arguments(work, "--verbose"), ranks=2)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertNotIn("\r", done.stdout)
             self.assertNotIn("\x1b", done.stdout)
@@ -112,6 +112,49 @@ class Progress(unittest.TestCase):
             self.assertEqual(len(widths), 1, "columns stand")
             code, text = run_on_terminal(arguments(work), kind="dumb")
             self.assertEqual((code, text.count("\x1b")), (0, 0))
+
+    def test_a_summary_without_rows_in_a_log(self):
+        """At most 20 lines, each of one fact, and the numbers are those of the JSON report."""
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks), Workspace() as work:
+                done = run(*arguments(work, "--report", work / "r.json"), ranks=ranks)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                lines = [line for line in done.stdout.splitlines() if not line.startswith("warning: ")]
+                self.assertLessEqual(len(lines), 20, done.stdout)
+                self.assertEqual(rows(done.stdout), [])
+                words = [line[:11].strip() for line in lines]
+                self.assertEqual(len(set(words)), len(words), "each fact once")
+                facts = {line[:11].strip(): line[11:] for line in lines}
+                report = json.loads((work / "r.json").read_text(encoding="utf-8"))
+                attributes, checks = report["attributes"], report["groups"]["checks"]["columns"]["passed"]
+                self.assertEqual(facts["Mesh hash"], attributes["mesh_hash_hex"])
+                self.assertEqual(facts["Checks"], f"{len(checks)} of {len(checks)} passed")
+                self.assertIn(f"{attributes['points']} points, {attributes['triangles']} triangles, ", facts["Mesh"])
+                self.assertIn("; 1 piece, 1 hole", facts["Mesh"])
+                self.assertIn("; 1 piece, 1 hole", facts["Shape"])
+                self.assertRegex(facts["Run"], rf"spade.ini, {ranks} ranks? x 1 thread on 1 node$")
+                self.assertRegex(facts["Names"], r"^edges of spade \d+, hole \d+$")
+                self.assertEqual(sum(map(int, re.findall(r" (\d+)", facts["Names"]))),
+                                 int(re.search(r"(\d+) boundary edges", facts["Mesh"])[1]))
+                self.assertRegex(facts["Quality"],
+                                 r"alpha median 1\.\d+, .* at \(\S+, \S+\).*; smallest angle \S+ degrees")
+                self.assertRegex(facts["Time"], r"^\S+ s: [a-z -]+ \d+ %, [a-z -]+ \d+ %; memory")
+                self.assertTrue(facts["Files"].startswith(f"{work}/spade.h5 .xdmf .xmf .vtkhdf  ("), facts["Files"])
+
+    def test_quiet_keeps_warnings_and_only_these(self):
+        with Workspace() as work:
+            (work / "two.xy").write_text("0.1 0.3\n0.4 0.3\n0.4 0.499\n0.6 0.499\n0.6 0.3\n0.9 0.3\n0.9 0.7\n0.6 0.7\n"
+                                         "0.6 0.501\n0.4 0.501\n0.4 0.7\n0.1 0.7\n", encoding="utf-8")
+            (work / "two.ini").write_text("[shape]\nregion = two\n[shape.two]\ntype = contour\nfile = two.xy\n"
+                                          "[meshing]\npoints = 300\n", encoding="utf-8")
+            for more in ([], ["--validate"], ["--dry-run"]):
+                done = run(work / "two.ini", f"output.directory={work}/out", "--quiet", *more)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                lines = done.stdout.splitlines()
+                self.assertTrue(all(line.startswith("warning: ") for line in lines), done.stdout)
+                self.assertRegex(lines[0], r"two\.ini:2: 'region' in \[shape\] has a new name; write 'geometry = two'")
+                pieces = [line for line in lines if "it has 2 pieces instead of 1, " in line]
+                self.assertEqual(len(pieces), 0 if more == ["--validate"] else 1, done.stdout)
 
     def test_quiet_is_silent(self):
         with Workspace() as work:

@@ -24,7 +24,7 @@ sys.path.insert(0, str(PACKAGE))
 import trime_mpi  # noqa: E402  (found by the line above)
 from trime_mpi import raster  # noqa: E402
 
-DISC = {"shape": {"region": "difference(disc, hole)",
+DISC = {"shape": {"geometry": "difference(disc, hole)",
                   "disc": {"type": "circle", "center": (0.5, 0.5), "radius": 0.4},
                   "hole": {"type": "rectangle", "x_min": 0.4, "x_max": 0.6, "y_min": 0.4, "y_max": 0.6}},
         "meshing": {"points": 1500}}
@@ -97,7 +97,7 @@ class Reading(unittest.TestCase):
         self.assertGreater(mesh.counters["run"]["messages"]["sum"], 0)
         self.assertGreater(mesh.timers["sweeps"]["max"], 0)
         self.assertEqual({loop["kind"] for loop in mesh.loops.values()}, {"outer", "hole"})
-        self.assertIn("region = difference(disc, hole)", mesh.config)
+        self.assertIn("geometry = difference(disc, hole)", mesh.config)
         self.assertIn("gradation", mesh.config_resolved)
         self.assertEqual(mesh.fixed.sum(), mesh.attributes["corners"])
 
@@ -125,7 +125,8 @@ class Running(unittest.TestCase):
     def test_rings_and_fixed_points_as_arrays(self):
         square = np.array([[0.1, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]])
         place = np.array([[0.2, 0.45]])
-        mesh = trime_mpi.mesh({"shape": {"region": "a", "a": {"type": "contour", "rings": [square, 0.25 + square / 2]}},
+        mesh = trime_mpi.mesh({"shape": {"geometry": "a",
+                                         "a": {"type": "contour", "rings": [square, 0.25 + square / 2]}},
                                "meshing": {"points": 800, "fixed_points": place}})
         self.assertLess(np.abs(mesh.points - place).max(axis=1).min(), 1e-9)
         self.assertAlmostEqual(mesh.attributes["shape_area"], 0.64 - 0.16, places=9)
@@ -142,7 +143,7 @@ class Running(unittest.TestCase):
                                    ([Geo("LinearRing", one.tolist()) for one in (square, hole)], {}, ["a"]),
                                    (named, {"attribute": "name"}, ["a.plate"])):
             with self.subTest(rings=type(rings), part=part):
-                mesh = trime_mpi.mesh({"shape": {"region": "a", "a": {"type": "contour", "rings": rings, **part}},
+                mesh = trime_mpi.mesh({"shape": {"geometry": "a", "a": {"type": "contour", "rings": rings, **part}},
                                        "meshing": {"points": 500}}, threads=1)
                 self.assertAlmostEqual(mesh.attributes["shape_area"], 0.64 - 0.16, places=9)
                 self.assertEqual(list(mesh.boundaries), names)
@@ -167,7 +168,7 @@ class Running(unittest.TestCase):
             config = {"a": {"type": "contour", "rings": square}, "sizing": {"type": "expression"},
                       "meshing": {"points": 500}}
             config[section][key] = value
-            config["shape"] = {"region": "a", "a": config.pop("a")}
+            config["shape"] = {"geometry": "a", "a": config.pop("a")}
             with self.subTest(key=key, value=value), self.assertRaisesRegex(trime_mpi.ConfigError, message):
                 trime_mpi.mesh(config)
         with self.assertRaisesRegex(trime_mpi.ConfigError, r"options\['sizing.expression'\].*found an array"):
@@ -177,7 +178,8 @@ class Running(unittest.TestCase):
         with Workspace() as work, contextlib.chdir(work):
             pathlib.Path("ring.xy").write_text("0 0\n1 0\n1 1\n0 1\n", encoding="utf-8")
             pathlib.Path("points.xy").write_text("0.25 0.5\n", encoding="utf-8")
-            config = {"shape": {"region": "a", "a": {"type": "contour", "file": "ring.xy"}}, "meshing": {"points": 300}}
+            config = {"shape": {"geometry": "a", "a": {"type": "contour", "file": "ring.xy"}},
+                      "meshing": {"points": 300}}
             pathlib.Path("out").mkdir()
             mesh = trime_mpi.mesh(config, options={"meshing.fixed_points": pathlib.Path("points.xy")},
                                   output="out/m.h5", threads=1)
@@ -206,10 +208,10 @@ class Running(unittest.TestCase):
     def test_each_exit_code_has_its_class(self):
         bow = np.array([[0.1, 0.1], [0.9, 0.9], [0.9, 0.1], [0.1, 0.9]])
         with self.assertRaisesRegex(trime_mpi.GeometryError, "cross"):
-            trime_mpi.mesh({"shape": {"region": "a", "a": {"type": "contour", "rings": bow}},
+            trime_mpi.mesh({"shape": {"geometry": "a", "a": {"type": "contour", "rings": bow}},
                             "meshing": {"points": 500}})
         with self.assertRaisesRegex(trime_mpi.FileError, "nothing.xy"):
-            trime_mpi.mesh({"shape": {"region": "a", "a": {"type": "contour", "file": "nothing.xy"}},
+            trime_mpi.mesh({"shape": {"geometry": "a", "a": {"type": "contour", "file": "nothing.xy"}},
                             "meshing": {"points": 500}})
         with self.assertRaises(trime_mpi.IncompleteError) as caught:
             trime_mpi.mesh(changed(meshing={"points": 1500, "max_sweeps": 2}))
@@ -229,7 +231,7 @@ class Running(unittest.TestCase):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             ring = np.array([[0.1, 0.1], [0.9, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]])  # a vertex twice
-            mesh = trime_mpi.mesh({"shape": {"region": "a", "a": {"type": "contour", "rings": ring}},
+            mesh = trime_mpi.mesh({"shape": {"geometry": "a", "a": {"type": "contour", "rings": ring}},
                                    "meshing": {"points": 500}})
         self.assertEqual([str(one.message) for one in caught], mesh.warnings)
         self.assertTrue(mesh.warnings)

@@ -67,9 +67,9 @@ class RandomConfig:
             names.append(f"p{k}")
             kind = self.rng.choice(["rectangle", "circle", "triangle", "contour", "contour", "expression"])
             self.parts.append((f"shape.p{k}", {"type": kind} | getattr(self, kind)(f"p{k}")))
-        return {"region": self.region(names)}
+        return {"geometry": self.geometry(names)}
 
-    def region(self, names):
+    def geometry(self, names):
         """The first part holds most of what there is."""
         rng, text = self.rng, names[0]
         if any(self.periodic) and rng.random() < 0.5:
@@ -176,7 +176,7 @@ class RandomConfig:
 
     def spoil(self, sections):
         """One number becomes another one; what decides how large the mesh is stays."""
-        stay = ("points", "edge_length", "type", "region", "file", "fixed_points", "method", "sdf", "expression",
+        stay = ("points", "edge_length", "type", "geometry", "file", "fixed_points", "method", "sdf", "expression",
                 "narrow")
         numbers = [(values, key) for _, values in sections for key in values if key not in stay]
         if numbers:

@@ -67,7 +67,7 @@ class Restart(unittest.TestCase):
                 if done.returncode != STOPPED:
                     break
                 self.assertFalse(stop.exists(), "the next run would stop by it")
-                self.assertIn("go on with --restart", done.stderr)
+                self.assertIn("continue with --restart", done.stderr)
                 self.assertFalse((directory / "mesh.h5").exists())
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             self.assertGreater(runs, 5)
@@ -128,7 +128,7 @@ class Restart(unittest.TestCase):
     def start(self, directory, ranks, *more):
         """Starts a run, and waits for its first line. From then on mpirun forwards signals, and the ranks handle them.
         The run is a separate process group, so that a test can end all of it."""
-        arguments = [CIRCLE, f"meshing.points={MANY}", "sizing.type=automatic", *places(directory), *more]
+        arguments = [CIRCLE, f"meshing.points={MANY}", "sizing.type=automatic", *places(directory), "--verbose", *more]
         self.said = tempfile.TemporaryFile()
         self.addCleanup(self.said.close)
         started = subprocess.Popen(command(arguments, ranks), env=environment(1), stdout=self.said,
@@ -247,7 +247,7 @@ class Restart(unittest.TestCase):
             for ranks in (1, 3):
                 self.refused(directory, "missing.h5", FILE, "missing.h5", ranks=ranks)
                 self.refused(directory, "foreign.h5", FILE, "foreign.h5", ranks=ranks)
-                self.refused(directory, "mesh_of_others.h5", FILE, "no checkpoint of trime_mpi", ranks=ranks)
+                self.refused(directory, "mesh_of_others.h5", FILE, "not a checkpoint of trime_mpi", ranks=ranks)
                 for share in (0.1, 0.5, 0.99):
                     (directory / "short.h5").write_bytes(good.read_bytes()[:int(share * size)])
                     self.refused(directory, "short.h5", FILE, "short.h5", ranks=ranks)
@@ -306,7 +306,7 @@ class Restart(unittest.TestCase):
             newest.write_bytes(newest.read_bytes()[:5000])
             done = run(*arguments, *places(directory), "--restart", "auto", ranks=2)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-            self.assertIn("it is left out", done.stdout + done.stderr)
+            self.assertIn("this checkpoint is ignored", done.stdout + done.stderr)
             self.assertEqual(hash_and_history(directory), expected)
 
     def test_without_a_checkpoint_a_run_goes_on(self):
@@ -329,7 +329,7 @@ class Restart(unittest.TestCase):
                 self.goes_on(*self.signalled(directory, ranks, signal.SIGUSR1))
             code, told = self.signalled(directory, 1, signal.SIGTERM)
             self.assertEqual(code, FILE, told)
-            self.assertRegex(told, "no checkpoint: .*is a directory.*its work is lost")
+            self.assertRegex(told, "checkpoint failed: .*is a directory.*its work is lost")
 
     def goes_on(self, code, told):
         self.assertEqual(code, 0, told)
@@ -363,7 +363,8 @@ class Restart(unittest.TestCase):
             (directory / "mesh.checkpoint-1001.h5").write_bytes(b"of nobody")
             for ranks, number in ((2, 2), (1, 1)):  # six sweeps, then seven
                 (directory / "stop").touch()
-                done = run(*arguments, *places(directory), stop, "checkpoint.keep=1", "--restart", "auto", ranks=ranks)
+                done = run(*arguments, *places(directory), stop, "checkpoint.keep=1", "--restart", "auto", "--verbose",
+                           ranks=ranks)
                 self.assertEqual(done.returncode, STOPPED, done.stdout + done.stderr)
                 self.assertRegex(done.stdout, rf"restart: from .*/mesh.checkpoint-{number}\.h5")
             done = run(*arguments, *places(directory), "checkpoint.keep=1", "--restart", "auto", ranks=3)

@@ -16,8 +16,8 @@ import unittest
 
 from trime_run import Workspace, run
 
-DOMAIN = "[shape]\nregion = domain\n[sizing]\ntype = expression\nexpression = {}\n"
-DISC = "[shape]\nregion = disc\n[shape.disc]\ntype = circle\ncenter = 0.5 0.5\nradius = 0.4\n"
+DOMAIN = "[shape]\ngeometry = domain\n[sizing]\ntype = expression\nexpression = {}\n"
+DISC = "[shape]\ngeometry = disc\n[shape.disc]\ntype = circle\ncenter = 0.5 0.5\nradius = 0.4\n"
 FIELDS = {  # sections of the config, number of points
     "steep": (DOMAIN.format("10^(2*x)"), 50_000),
     "steepest": (DOMAIN.format("10^(5*x)"), 100_000),

@@ -17,7 +17,7 @@ from trime_run import Workspace, run
 
 EAST, NORTH, SIDE = 4.5e6, 5.4e6, 2e5
 SQUARE = [(EAST, NORTH), (EAST + SIDE, NORTH), (EAST + SIDE, NORTH + SIDE), (EAST, NORTH + SIDE)]
-CONFIG = ("[shape]\nregion = sea\n[shape.sea]\ntype = contour\nfile = coast.xy\nnormalize = true\n"
+CONFIG = ("[shape]\ngeometry = sea\n[shape.sea]\ntype = contour\nfile = coast.xy\nnormalize = true\n"
           "[meshing]\npoints = 1000\n")
 
 
@@ -26,7 +26,7 @@ class UserCoordinates(unittest.TestCase):
         text = "# Gauss-Krueger\r" + "".join(f"{x!r} {y!r}\r".replace("e", "D") for x, y in ring)
         (directory / "coast.xy").write_bytes(text.encode("ascii"))
         (directory / "job.ini").write_text(CONFIG, "ascii")
-        return run(directory / "job.ini", *overrides, f"output.directory={directory}", ranks=2)
+        return run(directory / "job.ini", *overrides, f"output.directory={directory}", "--verbose", ranks=2)
 
     def test_the_way_back(self):
         with Workspace() as directory:
@@ -65,10 +65,10 @@ class UserCoordinates(unittest.TestCase):
             config.write_text(CONFIG.replace("normalize = true\n", ""))
             hashes = set()
             for ranks, name in ((1, "one"), (3, "three")):
-                done = run(config, f"output.directory={directory}", f"output.name={name}", ranks=ranks)
+                done = run(config, f"output.directory={directory}", f"output.name={name}", "--verbose", ranks=ranks)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-                self.assertIn("container: x from 4490000 to 4710000, y from 5390000 to 5610000, around the shape",
-                              done.stdout)
+                self.assertIn("container: x from 4490000 to 4710000, y from 5390000 to 5610000, "
+                              "chosen around the shape", done.stdout)
                 with h5py.File(directory / f"{name}.h5", "r") as file:
                     hashes.add(int(file["trime_mpi"].attrs["mesh_hash"]))
                     points = file["Mesh/mesh/geometry"][:]

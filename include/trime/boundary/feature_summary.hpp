@@ -39,13 +39,16 @@ struct FeatureReport {
   double lost_share = 0,
          added_share = 0;      ///< areas divided by the area of the shape, including dropped islands and lakes
   std::vector<LoopFate> loops; ///< one for each loop of the shape, in their order
+  int given_components = 0, given_holes = 0; ///< of the shape as it was given
+  int components = 0, holes = 0;             ///< of the simplified shape, which the mesh has
 };
 
 /// Returns one line of text for each kind of change; no lines for a boundary that was kept as it is.
 std::vector<std::string> describe(const FeatureReport& report);
 
 /// Returns a warning that says what of the shape is missing in the mesh, and what the user can do. It is empty if no
-/// loop is lost and at most 0.1 % of the area is lost or added.
+/// loop is lost, the numbers of components and holes are those of the shape, and at most 0.1 % of the area is lost or
+/// added.
 std::string loss_warning(const FeatureReport& report);
 
 } // namespace trime::boundary

@@ -11,8 +11,8 @@
 
 namespace trime {
 
-/// The importance of a message, ascending.
-enum class LogLevel { debug, info, warning, error, silent };
+/// The importance of a message, ascending: `info` has the details of each phase, `summary` the result of a run.
+enum class LogLevel { debug, info, summary, warning, error, silent };
 
 /// A step of a run, as the log shows it.
 struct ProgressStep {
@@ -42,22 +42,26 @@ public:
     write(LogLevel::info, fmt::format(f, std::forward<A>(a)...));
   }
   template <class... A>
+  void summary(fmt::format_string<A...> f, A&&... a) {
+    write(LogLevel::summary, fmt::format(f, std::forward<A>(a)...));
+  }
+  template <class... A>
   void warning(fmt::format_string<A...> f, A&&... a) {
     write(LogLevel::warning, fmt::format(f, std::forward<A>(a)...));
   }
 
   /// Sets the first word of the live line. Does nothing unless the output is a terminal.
   void phase(const std::string& name);
-  /// @brief Updates the live line, at most ten times a second. If the output is not a terminal, or if an interval is
-  /// set, also prints rows: for the first step at or after each multiple of the interval, or for the steps 1, 2, 5, 10,
-  /// 20, 50, ... if the interval is 0.
+  /// @brief Updates the live line, at most ten times a second, and prints rows. With an interval, there is a row for the
+  /// first step at or after each multiple of it. Without one, there are rows for the steps 1, 2, 5, 10, 20, 50, ... if
+  /// the level is at most `info` and the output is not a terminal.
   void progress(const ProgressStep& step);
   void set_progress_interval(int interval) { interval_ = interval; }
   /// From now on the log prints each message, except progress, as `rewrite` returns it.
   void set_rewriter(std::function<std::string(const std::string&)> rewrite) { rewrite_ = std::move(rewrite); }
 
 private:
-  bool shows_progress() const { return active_ && level_ <= LogLevel::info; }
+  bool shows_progress() const { return active_ && level_ <= LogLevel::summary; }
   void write(LogLevel level, const std::string& message);
   void print_row(const ProgressStep& step);
   void draw_live_line();

@@ -3,7 +3,7 @@
 
     import trime_mpi
 
-    mesh = trime_mpi.mesh({"shape": {"region": "disc"},
+    mesh = trime_mpi.mesh({"shape": {"geometry": "disc"},
                            "shape.disc": {"type": "circle", "center": (0.5, 0.5), "radius": 0.4},
                            "meshing": {"points": 20000}}, ranks=2)
     mesh.points, mesh.triangles, mesh.boundaries["disc"].facets

@@ -71,7 +71,7 @@ TEST(Machine, WarnsOfTheLauncherOfAnotherMpi) {
   const comm::Communicator world = comm::Communicator::world(), alone = comm::Communicator::self();
   const Variable four("OMPI_COMM_WORLD_SIZE", "4");
   const Placement fits = placement(1, 1, 1);
-  EXPECT_NE(report(fits, alone).find("4 ranks were started, but this one is alone"), std::string::npos);
+  EXPECT_NE(report(fits, alone).find("4 processes were launched, but each sees only itself"), std::string::npos);
   if (world.size() > 1) {
     EXPECT_EQ(report(fits, world), "");
   }

@@ -14,7 +14,7 @@
 namespace trime::app {
 namespace {
 
-const std::string plate = "[shape]\nregion = plate\n[shape.plate]\ntype = rectangle\nx_min = 0.1\nx_max = 0.9\n"
+const std::string plate = "[shape]\ngeometry = plate\n[shape.plate]\ntype = rectangle\nx_min = 0.1\nx_max = 0.9\n"
                           "y_min = 0.3\ny_max = 0.7\n[meshing]\npoints = 1000\n";
 
 /// The size field of the plate with some overrides.

@@ -77,13 +77,13 @@ TEST(SameInput, ABitOfTheShapeIsFound) {
   double& radius = boundary.loops[0].pieces[0].radius;
   if (is_last())
     radius = std::nextafter(radius, 1);
-  EXPECT_EQ(error_of({frame, boundary}, sizing::UniformSize(0.1)).find("unlike bits of the shape") != std::string::npos,
+  EXPECT_EQ(error_of({frame, boundary}, sizing::UniformSize(0.1)).find("different bits of the shape") != std::string::npos,
             world().size() > 1);
 }
 
 TEST(SameInput, ABitOfTheSizeIsFound) {
   const sizing::UniformSize size(is_last() ? std::nextafter(0.1, 1) : 0.1);
-  EXPECT_EQ(error_of({frame, disc()}, size).find("unlike bits of the size field") != std::string::npos,
+  EXPECT_EQ(error_of({frame, disc()}, size).find("different bits of the size field") != std::string::npos,
             world().size() > 1);
 }
 

@@ -25,6 +25,10 @@ TEST(CommandLine, ReadsConfigOverridesAndOptionsInAnyOrder) {
   EXPECT_EQ(line.as_given.rfind("trime_mpi --threads 3 a.ini", 0), 0u);
 }
 
+TEST(CommandLine, VerboseIsTheLevelOfDetails) {
+  EXPECT_EQ(parse({"a.ini", "--verbose"}).overrides, std::vector<std::string>{"log.level=info"});
+}
+
 TEST(CommandLine, KnowsItsActions) {
   EXPECT_EQ(parse({"a.ini", "--validate"}).action, Action::validate);
   EXPECT_EQ(parse({"a.ini", "--dry-run"}).action, Action::dry_run);
@@ -60,6 +64,8 @@ TEST(CommandLine, RefusesWhatItCannotDo) {
   for (const char* limit : {"", "10", "1:2", "00:00:00", "00:60:00", "00:00:60", "-1:00:00", "1:00:00x", "1:00:00.5"})
     EXPECT_THROW(parse({"a.ini", "--time-limit", limit}), ConfigError) << limit;
   EXPECT_THROW(parse({"a.ini", "--quiet", "--log-level", "debug"}), ConfigError);
+  EXPECT_THROW(parse({"a.ini", "--verbose", "--log-level", "debug"}), ConfigError);
+  EXPECT_THROW(parse({"a.ini", "--verbose", "--quiet"}), ConfigError);
 }
 
 } // namespace

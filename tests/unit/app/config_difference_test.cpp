@@ -8,7 +8,7 @@
 namespace trime::app {
 namespace {
 
-const char* const config = "[shape]\nregion = domain\n[meshing]\npoints = 1000\n";
+const char* const config = "[shape]\ngeometry = domain\n[meshing]\npoints = 1000\n";
 
 std::string resolved(const std::vector<std::string>& overrides) {
   return parse_config(config, "c.ini", overrides).resolved;

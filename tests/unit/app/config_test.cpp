@@ -13,7 +13,7 @@
 namespace trime::app {
 namespace {
 
-const std::string good = "[shape]\nregion = difference(box, hole)\n"                                           // 1, 2
+const std::string good = "[shape]\ngeometry = difference(box, hole)\n"                                         // 1, 2
                          "[shape.box]\ntype = rectangle\nx_min = 0.1\nx_max = 0.9\ny_min = 0.1\ny_max = 0.9\n" // 3-8
                          "[shape.hole]\ntype = circle\ncenter = 0.5 0.5\nradius = 0.1\n"                       // 9-12
                          "[meshing]\nmethod = distmesh\npoints = 5000\n";                                      // 13-15
@@ -35,19 +35,20 @@ void expect_refused(const std::string& override_text, const std::string& expecte
 }
 
 TEST(Config, ExpressionShape) {
-  const std::string text = "[shape]\nregion = f\n[shape.f]\ntype = expression\nsdf = x^2 + y^2 - 0.25\n"
+  const std::string text = "[shape]\ngeometry = f\n[shape.f]\ntype = expression\nsdf = x^2 + y^2 - 0.25\n"
                            "[meshing]\nmethod = distmesh\npoints = 5000\n";
   const RunOptions options = parse_config(text, "c.ini", {});
   EXPECT_EQ(options.parts.at(0).type, "expression");
   EXPECT_EQ(options.parts.at(0).sdf, "x^2 + y^2 - 0.25");
   const std::string wrong = errors_of(text, {"shape.f.sdf=x^2 + z"});
   EXPECT_NE(wrong.find("'sdf' in [shape.f]"), std::string::npos) << wrong;
-  const std::string missing = errors_of("[shape]\nregion = f\n[shape.f]\ntype = expression\n[meshing]\npoints = 50\n");
+  const std::string missing =
+      errors_of("[shape]\ngeometry = f\n[shape.f]\ntype = expression\n[meshing]\npoints = 50\n");
   EXPECT_NE(missing.find("[shape.f] of type expression needs 'sdf'"), std::string::npos) << missing;
 }
 
 TEST(Config, FixedPoints) {
-  const std::string text = "[shape]\nregion = map\n[shape.map]\ntype = contour\nfile = map.xy\nnormalize = true\n"
+  const std::string text = "[shape]\ngeometry = map\n[shape.map]\ntype = contour\nfile = map.xy\nnormalize = true\n"
                            "[meshing]\nmethod = distmesh\npoints = 5000\nfixed_points = p.xy\n";
   const RunOptions plain = parse_config(text, "dir/c.ini", {});
   EXPECT_EQ(plain.fixed_points.file, "dir/p.xy");
@@ -104,7 +105,7 @@ TEST(Config, UnderstandsAGoodFile) {
   EXPECT_EQ(options.parts[1].radius, 0.2);
   EXPECT_EQ(options.parts[2].file, "dir/a/b.xy");
   EXPECT_TRUE(options.parts[2].normalize);
-  EXPECT_EQ(options.region, "difference(box, hole)");
+  EXPECT_EQ(options.geometry, "difference(box, hole)");
   EXPECT_EQ(options.mesh.points, 5000);
   EXPECT_FALSE(options.mesh.edge_length.has_value());
   EXPECT_EQ(options.mesh.features.corner_angle, 45);
@@ -115,8 +116,36 @@ TEST(Config, UnderstandsAGoodFile) {
   EXPECT_FALSE(options.output.file.vtkhdf);
   EXPECT_FALSE(options.output.text);
   EXPECT_EQ(options.log_level, LogLevel::debug);
-  ASSERT_EQ(options.warnings.size(), 1u); // map does not occur in the region
+  ASSERT_EQ(options.warnings.size(), 1u); // map does not occur in the geometry
   EXPECT_NE(options.warnings[0].find("'map'"), std::string::npos);
+}
+
+TEST(Config, TakesTheOldNameOfTheGeometryWithAWarning) {
+  std::string old = good;
+  old.replace(old.find("geometry"), 8, "region");
+  const RunOptions options = parse_config(old, "dir/c.ini", {});
+  EXPECT_EQ(options.geometry, "difference(box, hole)");
+  EXPECT_EQ(options.warnings, (std::vector<std::string>{"dir/c.ini:2: 'region' in [shape] has a new name; write "
+                                                        "'geometry = difference(box, hole)' instead"}));
+  EXPECT_NE(options.resolved.find("geometry = difference(box, hole)\n"), std::string::npos) << options.resolved;
+  EXPECT_EQ(options.resolved.find("region"), std::string::npos) << options.resolved;
+  for (const std::string& text : {good, old}) {
+    const RunOptions changed = parse_config(text, "c.ini", {"shape.region=box"});
+    EXPECT_EQ(changed.geometry, "box");
+    EXPECT_NE(changed.warnings.at(text == old ? 1 : 0).find("write 'shape.geometry=...' instead"), std::string::npos);
+  }
+  EXPECT_EQ(errors_of("[shape]\ngeometry = domain\nregion = domain\n[meshing]\npoints = 50\n"),
+            "dir/c.ini:3: 'region' in [shape] is the old name of 'geometry', which is set, too; keep only 'geometry'");
+}
+
+TEST(Config, TakesBothWordsForCentroidalVoronoiTessellations) {
+  for (const char* word : {"cvt", "cvd"}) {
+    const RunOptions options = parse_config(good, "c.ini", {fmt::format("meshing.method={}", word)});
+    EXPECT_EQ(options.mesh.method, sweep::Method::cvd);
+    EXPECT_TRUE(options.warnings.empty());
+    EXPECT_NE(options.resolved.find("method = cvt\n"), std::string::npos) << options.resolved;
+  }
+  EXPECT_EQ(method_name(sweep::Method::cvd), "cvd"); // the word in mesh files
 }
 
 TEST(Config, SaysWhatBecomesOfNarrowParts) {
@@ -167,7 +196,7 @@ TEST(Config, ASectionMayBeMeantByItsBeginning) {
 
 TEST(Config, TellsAllMistakesAtOnceInTheOrderOfTheFile) {
   EXPECT_EQ(errors_of("[domain]\nx_min = 1\nx_max = 1\n[sizing]\ngradaton = 0.2\n[meshin]\nseed = 1\n[shape]\n"
-                      "region = hole\n[shape.hole]\ntype = circle\ncenter = 0.5\nradus = 1\n[meshing]\nmethod = cdv\n"
+                      "geometry = hole\n[shape.hole]\ntype = circle\ncenter = 0.5\nradus = 1\n[meshing]\nmethod = cdv\n"
                       "points = 0\n",
                       {"log.levle=info"}),
             "dir/c.ini:3: [domain] needs x_min < x_max, found 1 and 1\n"
@@ -175,7 +204,7 @@ TEST(Config, TellsAllMistakesAtOnceInTheOrderOfTheFile) {
             "dir/c.ini:6: unknown section [meshin]; did you mean 'meshing'?\n"
             "dir/c.ini:12: 'center = 0.5' in [shape.hole]: expected two numbers X Y separated by a blank\n"
             "dir/c.ini:13: unknown key 'radus' in [shape.hole]; did you mean 'radius'?\n"
-            "dir/c.ini:15: 'method = cdv' in [meshing]: expected one of distmesh, cvd, hybrid; did you mean 'cvd'?\n"
+            "dir/c.ini:15: 'method = cdv' in [meshing]: expected one of distmesh, cvt, hybrid; did you mean 'cvt'?\n"
             "dir/c.ini:16: 'points = 0' in [meshing]: expected an integer from 3 to 100000000000\n"
             "command line: unknown key 'levle' in [log]; did you mean 'level'?");
 }
@@ -196,8 +225,8 @@ TEST(Config, RefusesValuesThatMakeNoSense) {
   expect_refused("shape.box.x_max=0.1", "needs x_min < x_max, found 0.1 and 0.1");
   expect_refused("shape.hole.type=circel", "did you mean 'circle'?");
   expect_refused("shape.hole.x_min=1", "'x_min' in [shape.hole] belongs to type rectangle, but the type is circle");
-  expect_refused("shape.region=difference(box, hol)", "hol");
-  expect_refused("shape.region=difference(box", "region");
+  expect_refused("shape.geometry=difference(box, hol)", "hol");
+  expect_refused("shape.geometry=difference(box", "geometry");
   expect_refused("shape.union.type=circle", "'union' cannot name a part");
   expect_refused("shape.2nd.type=circle", "'2nd' cannot name a part");
   expect_refused("meshing.corner_angle=181", "expected a number > 0 and <= 180");
@@ -206,7 +235,7 @@ TEST(Config, RefusesValuesThatMakeNoSense) {
   expect_refused("meshing.edge_length=0.1", "both 'points' and 'edge_length'");
   expect_refused("meshing.radius=1", "unknown key 'radius' in [meshing]; it belongs to [shape.NAME]");
   expect_refused("output.formats=vtk", "expected a list of");
-  expect_refused("output.name=a/b", "without directory");
+  expect_refused("output.name=a/b", "without a directory");
   expect_refused("log.level=loud", "expected one of debug, info");
   expect_refused("parallel.setup_threads=-1", "expected an integer from 0");
 }
@@ -234,7 +263,7 @@ TEST(Config, AChangedTypeShowsTheKeysThatNoLongerBelong) {
 }
 
 TEST(Config, RefusesWhatMeansNothing) {
-  expect_refused("meshing.fixed_points_normalize_with=box", "means nothing without 'fixed_points'");
+  expect_refused("meshing.fixed_points_normalize_with=box", "has no effect without 'fixed_points'");
   expect_refused("checkpoint.interval=-1", "'interval = -1' in [checkpoint]");
   expect_refused("checkpoint.keep=0", "'keep = 0' in [checkpoint]");
 }
@@ -271,10 +300,10 @@ TEST(Config, TheContainerIsAutomaticWhereNoSideIsGiven) {
 
 TEST(Config, TakesFormatsOfOtherProgramsButNotForPeriodicContainers) {
   using formats::Format;
-  EXPECT_TRUE(parse_config(good, "c.ini", {}).exchange.empty());
-  EXPECT_EQ(parse_config(good, "c.ini", {"output.formats=vtkhdf gmsh fort14"}).exchange,
+  EXPECT_TRUE(parse_config(good, "c.ini", {}).exports.empty());
+  EXPECT_EQ(parse_config(good, "c.ini", {"output.formats=vtkhdf gmsh fort14"}).exports,
             (std::vector{Format::gmsh, Format::adcirc}));
-  EXPECT_TRUE(parse_config(good, "c.ini", {"output.formats=gmsh", "output.interval=0"}).exchange.empty());
+  EXPECT_TRUE(parse_config(good, "c.ini", {"output.formats=gmsh", "output.interval=0"}).exports.empty());
   EXPECT_NE(errors_of(good, {"output.formats=xdmf vtu", "domain.periodic_y=true"})
                 .find("'formats = xdmf vtu' in [output]: a periodic container"),
             std::string::npos);
@@ -303,7 +332,7 @@ TEST(Config, BoundsOfTheSizeAreInOrder) {
 
 TEST(Config, TheEdgeLengthIsWithinTheBoundsOfTheSize) {
   const auto errors = [](const char* bound) {
-    return errors_of("[domain]\nx_min = 0\nx_max = 1\ny_min = 0\ny_max = 1\n[shape]\nregion = domain\n"
+    return errors_of("[domain]\nx_min = 0\nx_max = 1\ny_min = 0\ny_max = 1\n[shape]\ngeometry = domain\n"
                      "[meshing]\nedge_length = 0.03\n",
                      {bound});
   };

@@ -40,13 +40,13 @@ TEST(Ini, TellsEveryMistakeWithItsLine) {
   Diagnostics problems("a.ini");
   parse_ini("early = 1\n[domain\nlost = 1\n[meshing]\nseed = 1\njunk\nseed = 2\npoints =\n= 3\n[meshing]\n[]\n",
             problems);
-  EXPECT_EQ(problems.text(), "a.ini:1: key 'early' stands before the first [section]\n"
+  EXPECT_EQ(problems.text(), "a.ini:1: the key 'early' comes before the first [section]\n"
                              "a.ini:2: expected a section such as [domain], found '[domain'\n"
                              "a.ini:6: expected 'key = value' or '[section]', found 'junk'\n"
-                             "a.ini:7: key 'seed' is set twice in [meshing], first on line 5; keep one of them\n"
-                             "a.ini:8: key 'points' has no value; write one, or remove the line\n"
-                             "a.ini:9: '' is no name of a key (letters, digits, '_', '-')\n"
-                             "a.ini:10: section [meshing] was opened before, on line 4; put its keys together\n"
+                             "a.ini:7: the key 'seed' is set twice in [meshing], first on line 5; keep one of them\n"
+                             "a.ini:8: the key 'points' has no value; write one, or remove the line\n"
+                             "a.ini:9: '' is not a valid name of a key: use letters, digits, '_' and '-'\n"
+                             "a.ini:10: the section [meshing] occurs twice, first on line 4; put its keys together\n"
                              "a.ini:11: expected a section such as [domain], found '[]'");
 }
 
@@ -113,7 +113,7 @@ TEST(Ini, MessagesDoNotGrowAsASquare) {
   parse_ini(text, problems);
   EXPECT_GE(problems.size(), std::size_t{2 * count - 2}); // each section and key but the first
   EXPECT_LE(problems.size(), std::size_t{32 * count});
-  EXPECT_NE(problems.text().find("a.ini:3: section [meshing] was opened before, on line 1"), std::string::npos);
+  EXPECT_NE(problems.text().find("a.ini:3: the section [meshing] occurs twice, first on line 1"), std::string::npos);
 }
 
 } // namespace

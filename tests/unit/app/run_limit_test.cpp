@@ -27,14 +27,14 @@ Measurements good_run() {
 }
 
 TEST(RunLimit, SaysSoIfNothingCostsMuch) {
-  EXPECT_EQ(run_limit(good_run()), "nothing that is counted costs more than 5 %");
+  EXPECT_EQ(run_limit(good_run()), "no measured cause takes more than 5 % of the time");
 }
 
 TEST(RunLimit, TellsOfImbalanceAndTheDensestTile) {
   Measurements m = good_run();
   m.counters[Counter::sites_swept].max = 1800000;
   m.counters[Counter::densest_tile].max = 4000;
-  EXPECT_EQ(run_limit(m), "imbalance 1.80: one rank sweeps so many times the mean; the densest tile holds 40 % of a "
+  EXPECT_EQ(run_limit(m), "imbalance 1.80: one rank sweeps this many times as many points as the mean; the densest tile holds 40 % of a "
                           "rank's points");
 }
 
@@ -62,9 +62,9 @@ TEST(RunLimit, TellsOfLatencyAndOfFetchRounds) {
   Measurements m = good_run();
   m.total = 0.01;
   m.phases.clear();
-  EXPECT_EQ(run_limit(m), "latency: 2.0 collectives and 2.0 messages for each sweep, of few sites");
+  EXPECT_EQ(run_limit(m), "latency: each sweep needs 2.0 collectives and 2.0 messages for only a few sites");
   m.counters[Counter::fetch_rounds] = {600, 150, 150};
-  EXPECT_EQ(run_limit(m), "latency: 2.0 collectives and 2.0 messages for each sweep, of few sites; the halo is fetched "
+  EXPECT_EQ(run_limit(m), "latency: each sweep needs 2.0 collectives and 2.0 messages for only a few sites; the halo is fetched "
                           "1.5 times a sweep");
 }
 

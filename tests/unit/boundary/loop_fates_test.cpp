@@ -134,9 +134,20 @@ TEST(LossWarning, CountsLoopsAndArea) {
   EXPECT_NEAR(two.lost_share, 0.0004 / given.area, 1e-12);
   EXPECT_NEAR(two.added_share, 0.0001 / given.area, 1e-12);
   const std::string warning = loss_warning(two);
-  for (const char* words : {"0.16 % of its area lost, 0.04 % added", "2 of 3 loops lost (1 dropped, 1 hole filled)",
-                            "keep_features", "edge_length"})
+  for (const char* words :
+       {"it has 1 piece instead of 2 and 0 holes instead of 1, 0.16 % of its area is lost, 0.04 % is added",
+        "2 of 3 loops are lost (1 dropped, 1 hole filled)", "keep_features", "edge_length"})
     EXPECT_NE(warning.find(words), std::string::npos) << warning;
+}
+
+TEST(LossWarning, CountsPiecesEvenIfNoLoopIsLost) {
+  const Boundary given = boundary_of({box(0.1, 0.1, 0.6, 0.6, 1)});
+  const Boundary meshed = boundary_of({box(0.1, 0.1, 0.34999, 0.6, 1), box(0.35001, 0.1, 0.6, 0.6, 2)});
+  FeatureReport report;
+  report_losses(given, meshed, {}, {}, UniformSize(h), unit_lattice(), report);
+  const std::string warning = loss_warning(report);
+  EXPECT_NE(warning.find("it has 2 pieces instead of 1, 0.004 % of its area is lost"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("simplify_within"), std::string::npos) << warning;
 }
 
 } // namespace

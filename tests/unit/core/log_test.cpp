@@ -48,6 +48,11 @@ TEST(Log, PrintsTheFirstRowAtOrAfterEachMultipleOfTheInterval) {
   EXPECT_EQ(rows(LogLevel::info, 1, 9), "head\n0\n3\n6\n9\n");
 }
 
+TEST(Log, ASummaryHasRowsOnlyIfAnIntervalIsSet) {
+  EXPECT_EQ(rows(LogLevel::summary, 0, 120), "");
+  EXPECT_EQ(rows(LogLevel::summary, 10, 45), "head\n0\n12\n21\n30\n42\n");
+}
+
 TEST(Log, QuietPrintsNoProgress) {
   EXPECT_EQ(rows(LogLevel::warning, 1, 30), "");
 }

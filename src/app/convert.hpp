@@ -14,13 +14,13 @@
 namespace trime::app {
 
 /// Files of other formats that the run will write.
-std::vector<std::string> exchange_paths(const RunOptions& options);
+std::vector<std::string> export_paths(const RunOptions& options);
 
 /// @throws FileError on all ranks if one of the files is there and may not be replaced @note Collective.
-void check_exchange(const RunOptions& options, const comm::Communicator& comm);
+void check_exports(const RunOptions& options, const comm::Communicator& comm);
 
 /// Writes the mesh in all formats of the options, next to the mesh file. @return the paths @note Collective.
-std::vector<std::string> write_exchange(const RunOptions& options, const mesh::DistributedMesh& mesh,
+std::vector<std::string> write_exports(const RunOptions& options, const mesh::DistributedMesh& mesh,
                                         const formats::Names& names, io::RunFiles* files,
                                         const comm::Communicator& comm);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/exchange.hpp"
+#include "app/convert.hpp"
 
 #include "comm/agree.hpp"
 #include "core/file_kind.hpp"
@@ -66,8 +66,7 @@ formats::Format format_of_output(const std::string& path) {
   std::string endings;
   for (const formats::FormatName& name : formats::all_formats())
     endings += fmt::format("{}{} ({})", endings.empty() ? "" : ", ", name.ending, name.word);
-  throw ConfigError(
-      fmt::format("'{}' has none of the endings that tell the format: expected {}", shown(path), endings));
+  throw ConfigError(fmt::format("the ending of '{}' is not that of a format: expected {}", shown(path), endings));
 }
 
 bool is_marked(const Metadata& metadata) {
@@ -97,8 +96,8 @@ template <class T>
 const T& row(const Metadata& metadata, const char* group, const char* name, std::size_t k) {
   const std::vector<T>& column = io::column_of<T>(metadata, group, name);
   if (k >= column.size())
-    throw FileError(fmt::format("/trime_mpi/{}/{} has {} rows, and other columns beside it have more: expected columns "
-                                "of one length; the file is damaged",
+    throw FileError(fmt::format("/trime_mpi/{}/{} has {} rows, but other columns of the same table have more: expected "
+                                "columns of equal length; the file is damaged",
                                 group, name, column.size()));
   return column[k];
 }
@@ -129,7 +128,7 @@ std::string boundary_text(const Metadata& metadata) {
 
 std::string checks_text(const Metadata& metadata) {
   if (!io::find_group(metadata, "checks"))
-    return "\nno checks: a step of a run\n";
+    return "\nno checks: this mesh is an intermediate step of a run\n";
   const auto& names = io::column_of<std::string>(metadata, "checks", "name");
   std::string failed;
   for (std::size_t k = 0; k < names.size(); ++k)
@@ -157,24 +156,24 @@ std::string quality_text(const Metadata& metadata) {
 
 } // namespace
 
-std::vector<std::string> exchange_paths(const RunOptions& options) {
+std::vector<std::string> export_paths(const RunOptions& options) {
   std::vector<std::string> paths;
-  for (const formats::Format format : options.exchange)
+  for (const formats::Format format : options.exports)
     for (const std::string& path : formats::paths_of(format, path_of(format, options.output.file)))
       paths.push_back(path);
   return paths;
 }
 
-void check_exchange(const RunOptions& options, const comm::Communicator& comm) {
-  refuse_to_replace(exchange_paths(options), options.output.file.overwrite,
+void check_exports(const RunOptions& options, const comm::Communicator& comm) {
+  refuse_to_replace(export_paths(options), options.output.file.overwrite,
                     "set output.overwrite = true to replace it, or another output.name", comm);
 }
 
-std::vector<std::string> write_exchange(const RunOptions& options, const mesh::DistributedMesh& mesh,
-                                        const formats::Names& names, io::RunFiles* files,
-                                        const comm::Communicator& comm) {
+std::vector<std::string> write_exports(const RunOptions& options, const mesh::DistributedMesh& mesh,
+                                       const formats::Names& names, io::RunFiles* files,
+                                       const comm::Communicator& comm) {
   std::vector<std::string> paths;
-  for (const formats::Format format : options.exchange)
+  for (const formats::Format format : options.exports)
     for (const std::string& path :
          formats::write(format, path_of(format, options.output.file), mesh, names, files, comm))
       paths.push_back(path);
