@@ -172,17 +172,16 @@ void read_domain(const Settings& settings, RunOptions& options, Diagnostics& pro
   check_side(settings, "y", problems);
   options.periodic_x = settings.boolean("domain", "periodic_x");
   options.periodic_y = settings.boolean("domain", "periodic_y");
-  mesh.container = geometry::unit_square;
   options.container_is_automatic = !options.periodic_x && !options.periodic_y;
-  for (const auto& [key, side] : {std::pair<const char*, double*>{"x_min", &mesh.container.min.x},
-                                  {"x_max", &mesh.container.max.x},
-                                  {"y_min", &mesh.container.min.y},
-                                  {"y_max", &mesh.container.max.y}})
+  for (const auto& [key, side] : {std::pair<const char*, double*>{"x_min", &options.container.min.x},
+                                  {"x_max", &options.container.max.x},
+                                  {"y_min", &options.container.min.y},
+                                  {"y_max", &options.container.max.y}})
     if (const auto given = settings.optional_number("domain", key)) {
       *side = *given;
       options.container_is_automatic = false;
     }
-  check_aspect(settings, mesh.container, problems);
+  check_aspect(settings, options.container, problems);
   if (const auto cells = settings.optional_integer("domain", "cells_x"))
     mesh.cells_x = static_cast<int>(*cells);
   if (const auto cells = settings.optional_integer("domain", "cells_y"))
@@ -190,7 +189,8 @@ void read_domain(const Settings& settings, RunOptions& options, Diagnostics& pro
 }
 
 /// Exactly one of points and edge_length, and no edge length that asks for an absurd number of points.
-void read_resolution(const Settings& settings, meshing::MeshOptions& mesh, Diagnostics& problems) {
+void read_resolution(const Settings& settings, const geometry::Box& container, meshing::MeshOptions& mesh,
+                     Diagnostics& problems) {
   mesh.points = settings.optional_integer("meshing", "points");
   mesh.edge_length = settings.optional_number("meshing", "edge_length");
   const bool points = settings.is_set("meshing", "points"), length = settings.is_set("meshing", "edge_length");
@@ -200,7 +200,7 @@ void read_resolution(const Settings& settings, meshing::MeshOptions& mesh, Diagn
                  "'meshing.points=' takes the value of the file away)");
   if (!points && !length)
     problems.add(whole_file, "set 'points' or 'edge_length' in [meshing], for example 'points = 5000'");
-  const double area = mesh.container.width() * mesh.container.height();
+  const double area = container.width() * container.height();
   const double expected = mesh.edge_length ? area / (row_height * *mesh.edge_length * *mesh.edge_length) : 0;
   if (expected > most_points)
     problems.add(
@@ -227,8 +227,9 @@ void check_bounds_of_edge_length(const Settings& settings, const meshing::MeshOp
 constexpr std::pair<const char*, sweep::Method> methods[] = {
     {"distmesh", sweep::Method::distmesh}, {"cvd", sweep::Method::cvd}, {"hybrid", sweep::Method::hybrid}};
 
-void read_meshing(const Settings& settings, meshing::MeshOptions& mesh, Diagnostics& problems) {
-  read_resolution(settings, mesh, problems);
+void read_meshing(const Settings& settings, const geometry::Box& container, meshing::MeshOptions& mesh,
+                  Diagnostics& problems) {
+  read_resolution(settings, container, mesh, problems);
   check_bounds_of_edge_length(settings, mesh, problems);
   for (const auto& [name, method] : methods)
     if (settings.text("meshing", "method") == name)
@@ -381,7 +382,7 @@ RunOptions parse_config(std::string_view text, const std::string& path, const st
   read_domain(settings, options, problems);
   read_shape(settings, fs::path(path).parent_path(), options, problems);
   read_sizing(settings, options, problems);
-  read_meshing(settings, options.mesh, problems);
+  read_meshing(settings, options.container, options.mesh, problems);
   read_fixed_points(settings, fs::path(path).parent_path(), options, problems);
   read_parallel(settings, options);
   read_output(settings, options, problems);

@@ -60,8 +60,9 @@ struct RunOptions {
   std::string region;
   std::string projection; ///< of the contours: empty: none; `auto`; or a reference system that PROJ knows
   bool periodic_x = false, periodic_y = false; ///< sides of the container, for the frame in which the shape is made
-  bool container_is_automatic = false;         ///< no side is given: the one of `mesh` may become one around the shape
-  meshing::MeshOptions mesh;                   ///< without the fixed points, which are read when the shape is
+  geometry::Box container = geometry::unit_square;
+  bool container_is_automatic = false; ///< no side is given: the container may become one around the shape
+  meshing::MeshOptions mesh;           ///< without the fixed points, which are read when the shape is
   FixedPointsFile fixed_points;
   SizingOptions sizing;
   int setup_threads = 0;                 ///< per rank, while shape and size field are made; 0: chosen from the machine

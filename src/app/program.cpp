@@ -113,10 +113,11 @@ std::string outlook_text(const meshing::Outlook& outlook) {
 }
 
 /// Throws as the run would.
-void check_fixed_points(const meshing::MeshOptions& options, const shape::RegionShape& shape, Log& log) {
-  const geometry::Lattice lattice(options.container);
-  const boundary::FixedPoints checked(shape.boundary(), options.container, options.fixed_points, lattice, log);
-  for (const boundary::FixedPoint& point : options.fixed_points) {
+void check_fixed_points(const shape::RegionShape& shape, Log& log) {
+  const geometry::Lattice& lattice = shape.frame().lattice();
+  const std::vector<geometry::FixedPoint>& points = shape.domain().fixed_points();
+  const boundary::FixedPoints checked(shape.boundary(), shape.frame().container(), points, lattice, log);
+  for (const geometry::FixedPoint& point : points) {
     const geometry::Vec2 p = shape.boundary().periods.wrap(lattice.snap(point.position));
     if (std::binary_search(checked.inside().begin(), checked.inside().end(), p, geometry::lexicographically_less) &&
         !shape.inside(p))
@@ -126,7 +127,7 @@ void check_fixed_points(const meshing::MeshOptions& options, const shape::Region
   }
 }
 
-/// Config, shape and what surrounds them, ready to be meshed.
+/// What a command line and its config ask for.
 struct Job {
   const comm::Communicator& comm;
   const CommandLine& line;
@@ -137,34 +138,22 @@ struct Job {
   UserPlaces& places;
   Log& log;
   TimerTable& timers;
+
+  bool is_run() const { return line.action == Action::mesh; }
 };
 
-/// The mesher with what is written while it runs.
-meshing::MeshResult run_mesher(const Job& job, const Provenance& provenance, const sizing::SizeField& size,
-                               const meshing::MeshOptions& options, io::MeshSeries& series, CheckpointKeeper& keeper,
-                               const std::optional<meshing::SavedRun>& saved) {
-  meshing::Mesher mesher(job.comm, provenance.boundary, size, options, job.log, job.timers);
-  mesher.on_snapshot([&](const meshing::Snapshot& snapshot) { // timed by the mesher
-    series.write_step({snapshot.retriangulation, snapshot.mesh, snapshot.quality, describe_step(provenance, snapshot)});
-  });
-  if (saved) {
-    mesher.go_on_from(*saved);
-    int triangulations = 0;
-    StateFields::restoring(saved->state.numbers).field("triangulations", triangulations);
-    if (job.options.write)
-      for (const std::string& warning : series.go_on_after(triangulations))
-        job.log.warning("{}", warning);
-  }
-  mesher.keep_checkpoints(keeper);
-  return mesher.run();
-}
-
-io::SeriesOptions series_options(const Job& job, const ShapeInput& input) {
-  const geometry::Boundary& boundary = input.boundary();
+io::SeriesOptions series_options(const Job& job, const geometry::Domain& domain) {
+  const geometry::Boundary& boundary = domain.boundary();
   io::SeriesOptions options = job.options.output;
-  options.file.part_markers = input.part_markers();
+  options.file.part_markers = domain.part_markers();
   options.file.run_files = job.files;
   options.period = {boundary.periods.x, boundary.periods.y};
+  return options;
+}
+
+io::MeshFileOptions checkpoint_options(const Job& job) {
+  io::MeshFileOptions options = job.options.output.file;
+  options.run_files = job.files;
   return options;
 }
 
@@ -176,98 +165,152 @@ sweep::StarTests of_root(const sweep::StarTests& tests, const comm::Communicator
   return {of_root[0] == '1', of_root[1] == '1', of_root[2] == '1'};
 }
 
-ExitCode make_mesh(const Job& job) {
-  const comm::Communicator& comm = job.comm;
-  RunOptions options = job.options;
-  options.mesh.star_tests = of_root(options.mesh.star_tests, comm);
-  const bool is_run = job.line.action == Action::mesh;
-  Log& log = job.log;
-  TimerTable& timers = job.timers;
-  const Placement placement = place_threads(options.setup_threads, options.mesh_threads, comm);
+/// Sets the threads of the set-up.
+Placement set_up_threads(const Job& job) {
+  const Placement placement = place_threads(job.options.setup_threads, job.options.mesh_threads, job.comm);
   use_threads(placement, placement.setup_threads);
-  report_placement(placement, comm, log);
+  report_placement(placement, job.comm, job.log);
+  return placement;
+}
+
+/// The shape with its fixed points. Messages name the user's places from here on.
+ShapeInput read_input(const Job& job) {
+  const RunOptions& options = job.options;
   for (const std::string& warning : options.warnings)
-    log.warning("{}", warning);
-  check_stop_file(options, job.line, comm);
+    job.log.warning("{}", warning);
+  check_stop_file(options, job.line, job.comm);
+  ShapeInput input = [&] {
+    const auto timing = job.timers.scope("shape");
+    return read_shape(options, job.is_run() ? ShapeUse::boundary : ShapeUse::queries, job.comm, job.log, job.places);
+  }();
+  const geometry::Box& box = input.domain().frame().container();
+  if (options.container_is_automatic && box.max != geometry::unit_square.max)
+    job.log.info("container: x from {:.9g} to {:.9g}, y from {:.9g} to {:.9g}, around the shape: [domain] gives no "
+                 "sides",
+                 box.min.x, box.max.x, box.min.y, box.max.y);
+  job.log.set_rewriter([&places = job.places](const std::string& message) { return places.explain(message); });
+  input.set_fixed_points(read_fixed_points(options, input, job.comm));
+  return input;
+}
 
-  const ShapeInput input = [&] {
-    const auto timing = timers.scope("shape");
-    return read_shape(options, is_run ? ShapeUse::boundary : ShapeUse::queries, comm, log, job.places);
-  }();
-  if (const geometry::Box& box = input.container;
-      options.container_is_automatic && box.max != geometry::unit_square.max)
-    log.info("container: x from {:.9g} to {:.9g}, y from {:.9g} to {:.9g}, around the shape: [domain] gives no sides",
-             box.min.x, box.max.x, box.min.y, box.max.y);
-  options.mesh.container = input.container;
-  log.set_rewriter([&places = job.places](const std::string& message) { return places.explain(message); });
-  const geometry::Boundary& boundary = input.boundary();
-  meshing::MeshOptions mesh_options = options.mesh;
-  mesh_options.fixed_points = read_fixed_points(options, input, comm);
-  io::MeshFileOptions checkpoint_output = options.output.file;
-  checkpoint_output.run_files = job.files;
-  CheckpointKeeper keeper({comm, checkpoint_output, job.signals, timers, log}, options.checkpoint, job.line.time_limit,
-                          {program_name(), options.resolved});
-  const std::optional<meshing::SavedRun> saved = keeper.find(job.line.restart); // before directories are made
-  io::MeshSeries series(series_options(job, input), comm);
-  if (const double points = expected_points(options, boundary); options.write)
-    for (const std::string& warning : is_run ? series.check(points) : series.look(points))
-      log.warning("{}", warning);
-  check_exchange(options, comm);
-  if (!job.line.report.empty())
-    io::check_report_file(job.line.report, comm);
-  const BuiltSize size = [&] {
-    const auto timing = timers.scope("size field");
-    return build_size(options, boundary, comm);
-  }();
-  if (placement.threads != placement.setup_threads)
-    use_threads(placement, placement.threads);
-  const bool is_dry_run = job.line.action == Action::dry_run;
-  if (!is_run) {
-    check_fixed_points(mesh_options, *input.shape, log);
-    print(comm, estimate(options, boundary, placement, is_dry_run));
+/// One mesh, from the config to its files. All functions are collective.
+class MeshRun {
+public:
+  /// Prepares: reads all input and checks that the output can be written.
+  explicit MeshRun(const Job& job)
+      : job_(job), placement_(set_up_threads(job)), input_(read_input(job)),
+        keeper_({job.comm, checkpoint_options(job), job.signals, job.timers, job.log}, job.options.checkpoint,
+                job.line.time_limit, {program_name(), job.options.resolved}),
+        saved_(keeper_.find(job.line.restart)), // before directories are made
+        series_(series_options(job, input_.domain()), job.comm), points_(expected_points(job.options, boundary())) {
+    check_output();
+    size_ = [&] {
+      const auto timing = job.timers.scope("size field");
+      return build_size(job.options, input_.domain(), job.comm);
+    }();
+    if (placement_.threads != placement_.setup_threads)
+      use_threads(placement_, placement_.threads);
   }
-  check_share(expected_points(options, boundary), placement.ranks);
-  if (!is_run) {
-    Log quiet(LogLevel::error, comm.is_root());         // its warnings were printed before
-    if (is_dry_run || mesh_options.features.keep_all) { // where nothing gives way the layout may fail
-      const std::string text =
-          outlook_text(meshing::Mesher(comm, boundary, *size.field, mesh_options, quiet, timers).outlook());
-      if (is_dry_run)
-        print(comm, text);
-    }
+
+  /// Prints what a run would do.
+  ExitCode preview();
+  /// Makes the mesh and its files.
+  ExitCode run();
+
+private:
+  const geometry::Boundary& boundary() const { return input_.boundary(); }
+  void check_output();
+  meshing::MeshResult make_mesh(const Provenance& provenance);
+  io::WrittenFiles publish(const Provenance& provenance, const meshing::MeshResult& result, const SizeSummary& sizes);
+
+  const Job& job_;
+  const Placement placement_;
+  const ShapeInput input_;
+  CheckpointKeeper keeper_;
+  const std::optional<meshing::SavedRun> saved_; // where the run goes on
+  io::MeshSeries series_;
+  const double points_; // about as many as the mesh will have
+  BuiltSize size_;
+};
+
+void MeshRun::check_output() {
+  if (job_.options.write)
+    for (const std::string& warning : job_.is_run() ? series_.check(points_) : series_.look(points_))
+      job_.log.warning("{}", warning);
+  check_exchange(job_.options, job_.comm);
+  if (!job_.line.report.empty())
+    io::check_report_file(job_.line.report, job_.comm);
+}
+
+ExitCode MeshRun::preview() {
+  const bool is_dry_run = job_.line.action == Action::dry_run;
+  check_fixed_points(*input_.shape, job_.log);
+  print(job_.comm, estimate(job_.options, boundary(), placement_, is_dry_run));
+  check_share(points_, placement_.ranks);
+  if (!is_dry_run && !job_.options.mesh.features.keep_all) // where nothing gives way the layout may fail
     return ExitCode::done;
-  }
+  Log quiet(LogLevel::error, job_.comm.is_root()); // its warnings were printed before
+  const meshing::Mesher mesher(job_.comm, input_.domain(), *size_.field, job_.options.mesh, quiet, job_.timers);
+  const std::string text = outlook_text(mesher.outlook());
+  if (is_dry_run)
+    print(job_.comm, text);
+  return ExitCode::done;
+}
 
-  const Provenance provenance{job.line,
-                              options,
-                              job.config_text,
-                              placement,
-                              boundary,
-                              input.normalized,
-                              job.places.ring_lines(boundary),
-                              input.map,
-                              input.part_markers()};
-  const meshing::MeshResult result = run_mesher(job, provenance, *size.field, mesh_options, series, keeper, saved);
-  const SizeSummary sizes = summarize_size(size.description, result.mesh, comm);
-  io::WrittenFiles files;
-  keeper.go_to_the_end();
-  if (options.write) {
-    const io::Metadata metadata = describe_run(provenance, result, sizes, gather_measurements(timers, comm));
-    const auto timing = timers.scope("output");
-    files = series.write_final({final_retriangulation(result), result.mesh, result.quality, metadata});
-    const formats::Names names{
-        boundary.part_names, {options.region}, {boundary.periods.x, boundary.periods.y}, input.map.crs};
-    for (const std::string& path : write_exchange(options, result.mesh, names, job.files, comm))
-      files.paths.push_back(path);
+/// The mesher with what is written while it runs.
+meshing::MeshResult MeshRun::make_mesh(const Provenance& provenance) {
+  meshing::Mesher mesher(job_.comm, input_.domain(), *size_.field, job_.options.mesh, job_.log, job_.timers);
+  mesher.on_snapshot([&](const meshing::Snapshot& snapshot) { // timed by the mesher
+    series_.write_step(
+        {snapshot.retriangulation, snapshot.mesh, snapshot.quality, describe_step(provenance, snapshot)});
+  });
+  if (saved_) {
+    mesher.go_on_from(*saved_);
+    int triangulations = 0;
+    StateFields::restoring(saved_->state.numbers).field("triangulations", triangulations);
+    if (job_.options.write)
+      for (const std::string& warning : series_.go_on_after(triangulations))
+        job_.log.warning("{}", warning);
   }
-  const Measurements measured = gather_measurements(timers, comm);
-  if (!job.line.report.empty())
-    io::write_report_file(job.line.report, describe_run(provenance, result, sizes, measured),
-                          {static_cast<int>(exit_code(result)), files.paths}, comm);
-  keeper.remove_all();
-  log.info("{}", run_report(result, sizes, measured, files, input.normalized));
+  mesher.keep_checkpoints(keeper_);
+  return mesher.run();
+}
+
+io::WrittenFiles MeshRun::publish(const Provenance& provenance, const meshing::MeshResult& result,
+                                  const SizeSummary& sizes) {
+  const io::Metadata metadata = describe_run(provenance, result, sizes, gather_measurements(job_.timers, job_.comm));
+  const auto timing = job_.timers.scope("output");
+  io::WrittenFiles files = series_.write_final({final_retriangulation(result), result.mesh, result.quality, metadata});
+  const formats::Names names{
+      boundary().part_names, {job_.options.region}, {boundary().periods.x, boundary().periods.y}, input_.map.crs};
+  for (const std::string& path : write_exchange(job_.options, result.mesh, names, job_.files, job_.comm))
+    files.paths.push_back(path);
+  return files;
+}
+
+ExitCode MeshRun::run() {
+  check_share(points_, placement_.ranks);
+  const Provenance provenance{job_.line,
+                              job_.options,
+                              job_.config_text,
+                              placement_,
+                              boundary(),
+                              input_.normalized,
+                              job_.places.ring_lines(boundary()),
+                              input_.map,
+                              input_.domain().part_markers()};
+  const meshing::MeshResult result = make_mesh(provenance);
+  const SizeSummary sizes = summarize_size(size_.description, result.mesh, job_.comm);
+  keeper_.go_to_the_end();
+  const io::WrittenFiles files = job_.options.write ? publish(provenance, result, sizes) : io::WrittenFiles{};
+  const Measurements measured = gather_measurements(job_.timers, job_.comm);
+  if (!job_.line.report.empty())
+    io::write_report_file(job_.line.report, describe_run(provenance, result, sizes, measured),
+                          {static_cast<int>(exit_code(result)), files.paths}, job_.comm);
+  keeper_.remove_all();
+  job_.log.info("{}", run_report(result, sizes, measured, files, input_.normalized));
   if (!is_complete(result))
-    log.warning("{}", incompleteness(result, options.write));
+    job_.log.warning("{}", incompleteness(result, job_.options.write));
   return exit_code(result);
 }
 
@@ -293,7 +336,7 @@ ExitCode run_program(int argc, const char* const* argv, const comm::Communicator
     return ExitCode::done;
   }
   const std::string config_text = read_shared(line.config, comm);
-  const RunOptions options = parse_config(config_text, line.config, line.overrides);
+  RunOptions options = parse_config(config_text, line.config, line.overrides);
   if (line.action == Action::print_config) {
     print(comm, options.resolved);
     return ExitCode::done;
@@ -302,7 +345,10 @@ ExitCode run_program(int argc, const char* const* argv, const comm::Communicator
   log.set_progress_interval(options.log_interval);
   if (line.action == Action::mesh)
     timers.on_section([&log](const std::string& name) { log.phase(name == "measure" ? "sweeps" : name); });
-  return make_mesh({comm, line, config_text, options, files, signals, places, log, timers});
+  options.mesh.star_tests = of_root(options.mesh.star_tests, comm);
+  const Job job{comm, line, config_text, options, files, signals, places, log, timers};
+  MeshRun run(job);
+  return job.is_run() ? run.run() : run.preview();
 }
 
 } // namespace trime::app

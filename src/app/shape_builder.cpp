@@ -127,7 +127,7 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
   MapSystem map;
   std::vector<contours::Contour> contours = read_contours(options, comm, log, map);
   const geometry::Box container =
-      options.container_is_automatic ? automatic_container(options, contours) : options.mesh.container;
+      options.container_is_automatic ? automatic_container(options, contours) : options.container;
   const geometry::Frame frame(container, options.periodic_x, options.periodic_y);
   std::vector<shape::Part> parts;
   contours::Normalization fixed_points_place;
@@ -146,15 +146,15 @@ ShapeInput read_shape(const RunOptions& given, ShapeUse use, const comm::Communi
       log.warning("{}", warning);
   }
   places = std::move(found);
-  ShapeInput input{{}, {}, container, fixed_points_place, std::move(normalized), std::move(map)};
+  ShapeInput input{{}, {}, fixed_points_place, std::move(normalized), std::move(map)};
   if (use == ShapeUse::queries)
     input.shape.emplace(std::move(parts), options.region, frame);
   else
-    input.alone = shape::boundary_of(std::move(parts), options.region, frame);
+    input.alone.emplace(shape::domain_of(std::move(parts), options.region, frame));
   return input;
 }
 
-std::vector<boundary::FixedPoint> read_fixed_points(const RunOptions& options, const ShapeInput& input,
+std::vector<geometry::FixedPoint> read_fixed_points(const RunOptions& options, const ShapeInput& input,
                                                     const comm::Communicator& comm) {
   const FixedPointsFile& source = options.fixed_points;
   if (source.file.empty())
@@ -175,7 +175,7 @@ std::vector<boundary::FixedPoint> read_fixed_points(const RunOptions& options, c
       project_contour(read, input.map.crs);
   });
   read = contours::contour_of_bytes(comm.broadcast(contours::to_bytes(read)));
-  std::vector<boundary::FixedPoint> points;
+  std::vector<geometry::FixedPoint> points;
   for (std::size_t k = 0; k < read.rings[0].points.size(); ++k)
     points.push_back({input.fixed_points_place.apply(read.rings[0].points[k]),
                       fmt::format("{}:{}", source.file, read.rings[0].lines[k])});

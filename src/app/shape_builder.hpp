@@ -7,9 +7,9 @@
 #include "app/user_places.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/contours/contour.hpp"
+#include "trime/geometry/domain.hpp"
 #include "trime/shape/region_shape.hpp"
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -23,12 +23,14 @@ enum class ShapeUse { boundary, queries };
 
 /// The content of the shape sections of a config and their files.
 struct ShapeInput {
-  const geometry::Boundary& boundary() const { return shape ? shape->boundary() : alone.boundary; }
-  const std::vector<std::int32_t>& part_markers() const { return shape ? shape->part_markers() : alone.part_markers; }
+  const geometry::Domain& domain() const { return shape ? shape->domain() : *alone; }
+  const geometry::Boundary& boundary() const { return domain().boundary(); }
+  void set_fixed_points(std::vector<geometry::FixedPoint> points) {
+    shape ? shape->set_fixed_points(std::move(points)) : alone->set_fixed_points(std::move(points));
+  }
 
   std::optional<shape::RegionShape> shape; ///< for queries only
-  shape::MarkedBoundary alone;             ///< the boundary, if there is no shape
-  geometry::Box container;                 ///< that of the options, or around the shape if that is automatic
+  std::optional<geometry::Domain> alone;   ///< if there is no shape
   contours::Normalization
       fixed_points_place;                 ///< what fixed points undergo: that of the contour they are normalised with
   std::vector<NormalizedPart> normalized; ///< in the order of the parts
@@ -46,7 +48,7 @@ ShapeInput read_shape(const RunOptions& options, ShapeUse use, const comm::Commu
 /// no file.
 /// @throws GeometryError, ConfigError, FileError on all ranks together
 /// @note Collective.
-std::vector<boundary::FixedPoint> read_fixed_points(const RunOptions& options, const ShapeInput& input,
+std::vector<geometry::FixedPoint> read_fixed_points(const RunOptions& options, const ShapeInput& input,
                                                     const comm::Communicator& comm);
 
 } // namespace trime::app

@@ -13,12 +13,12 @@
 namespace trime::app {
 namespace {
 
-BuiltSize automatic_size(const RunOptions& options, const geometry::Boundary& boundary,
-                         const comm::Communicator& comm) {
+BuiltSize automatic_size(const RunOptions& options, const geometry::Domain& domain, const comm::Communicator& comm) {
+  const geometry::Boundary& boundary = domain.boundary();
   sizing::AutomaticSizeOptions automatic;
   automatic.gradation = options.sizing.gradation;
   automatic.feature_floor = feature_floor(options.mesh, boundary.area);
-  automatic.container = options.mesh.container;
+  automatic.container = domain.frame().container();
   automatic.period_x = boundary.periods.x;
   automatic.period_y = boundary.periods.y;
   BuiltSize size;
@@ -30,10 +30,11 @@ BuiltSize automatic_size(const RunOptions& options, const geometry::Boundary& bo
 }
 
 /// A formula of a periodic container must have its periods: compares both ends of some lines across it.
-void check_periods(const Formula& formula, const RunOptions& options, const geometry::Periods& period) {
+void check_periods(const Formula& formula, const RunOptions& options, const geometry::Frame& frame) {
   constexpr int lines = 64;
   constexpr double same = 1e-6; // relative
-  const geometry::Box& box = options.mesh.container;
+  const geometry::Box& box = frame.container();
+  const geometry::Periods& period = frame.periods();
   const auto compare = [&](geometry::Vec2 p, geometry::Vec2 shift) {
     const geometry::Vec2 q = p + shift;
     const double at_p = formula.evaluate(p.x, p.y), at_q = formula.evaluate(q.x, q.y);
@@ -52,14 +53,15 @@ void check_periods(const Formula& formula, const RunOptions& options, const geom
   }
 }
 
-BuiltSize expression_size(const RunOptions& options, const geometry::Boundary& boundary) {
+BuiltSize expression_size(const RunOptions& options, const geometry::Domain& domain) {
   const SizingOptions& sizing = options.sizing;
-  const geometry::Box box = boundary.periods.any() ? options.mesh.container : boundary.bounding_box();
+  const geometry::Box box =
+      domain.frame().periods().any() ? domain.frame().container() : domain.boundary().bounding_box();
   BuiltSize size;
   size.formula = std::make_unique<const Formula>(sizing.expression, sizing.expression_place);
   size.field = std::make_unique<const sizing::ExpressionSize>(*size.formula, box);
   size.description = "expression " + sizing.expression;
-  check_periods(*size.formula, options, boundary.periods);
+  check_periods(*size.formula, options, domain.frame());
   return size;
 }
 
@@ -72,12 +74,12 @@ double feature_floor(const meshing::MeshOptions& mesh, double area) {
   return 0.5 * std::sqrt(2 / sqrt_3 * area / points);
 }
 
-BuiltSize build_size(const RunOptions& options, const geometry::Boundary& boundary, const comm::Communicator& comm) {
+BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, const comm::Communicator& comm) {
   BuiltSize size;
   if (options.sizing.type == "automatic") {
-    size = automatic_size(options, boundary, comm);
+    size = automatic_size(options, domain, comm);
   } else if (options.sizing.type == "expression") {
-    size = expression_size(options, boundary); // the same on all ranks, errors too
+    size = expression_size(options, domain); // the same on all ranks, errors too
   } else {
     size.field = std::make_unique<const sizing::UniformSize>();
     size.description = "uniform";

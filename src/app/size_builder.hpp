@@ -5,7 +5,7 @@
 #include "app/options.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/core/formula.hpp"
-#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/domain.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <memory>
@@ -30,6 +30,6 @@ double feature_floor(const meshing::MeshOptions& mesh, double area);
 
 /// @throws ConfigError on all ranks together
 /// @note Collective.
-BuiltSize build_size(const RunOptions& options, const geometry::Boundary& boundary, const comm::Communicator& comm);
+BuiltSize build_size(const RunOptions& options, const geometry::Domain& domain, const comm::Communicator& comm);
 
 } // namespace trime::app

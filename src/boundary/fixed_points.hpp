@@ -7,9 +7,9 @@
 #include "mesh/binned_points.hpp"
 #include "mesh/tile_range.hpp"
 #include "polygon/boundary_guard.hpp"
-#include "trime/boundary/fixed_point.hpp"
 #include "trime/core/log.hpp"
 #include "trime/geometry/boundary.hpp"
+#include "trime/geometry/domain.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/sizing/size_field.hpp"
 
@@ -19,6 +19,8 @@
 #include <vector>
 
 namespace trime::boundary {
+
+using geometry::FixedPoint;
 
 /// @brief Replicated: the same on every rank. Positions are canonical lattice points. Immutable; the boundary and the
 /// list of points that it is made from must outlive it.

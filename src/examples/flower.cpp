@@ -51,11 +51,13 @@ int main(int argc, char** argv) {
     file.overwrite = true;
     trime::io::check_output(file, comm); // before the work: makes the directory, or says why it cannot
 
-    trime::meshing::MeshOptions options; // container [0, 1] x [0, 1]
+    const geometry::Frame frame(geometry::unit_square); // the container in which the shape is traced
+    const geometry::Domain domain = trime::meshing::traced_domain(comm, Flower(), frame);
+    trime::meshing::MeshOptions options;
     options.points = argc > 1 ? std::atoll(argv[1]) : 5000;
     trime::Log log(trime::LogLevel::warning, comm.is_root());
     const trime::meshing::MeshResult result =
-        trime::meshing::make_mesh(comm, Flower(), trime::sizing::UniformSize(), options, log);
+        trime::meshing::make_mesh(comm, domain, trime::sizing::UniformSize(), options, log);
 
     trime::io::write_mesh(file, result.mesh, trime::io::describe(result.mesh, result.quality, result.checks), comm);
 

@@ -30,9 +30,9 @@ int main(int argc, char** argv) {
     file.overwrite = true;
     trime::io::check_output(file, comm); // before the work: makes the directory, or says why it cannot
 
-    trime::meshing::MeshOptions options; // container [0, 1] x [0, 1]
+    trime::meshing::MeshOptions options;
     options.points = argc > 1 ? std::atoll(argv[1]) : 5000;
-    const geometry::Frame frame(options.container);
+    const geometry::Frame frame(geometry::unit_square); // the container
     // Parts are joined by name; with more of them the region could be "difference(plate, union(hole, slot))".
     const trime::shape::RegionShape shape({trime::shape::Part::rectangle("plate", {{0.1, 0.3}, {0.9, 0.7}}, frame)},
                                           "plate", frame);

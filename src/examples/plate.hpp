@@ -46,7 +46,7 @@ inline int part_number(const trime::shape::RegionShape& shape, const std::string
 /// Makes a mesh of about this number of points, and returns this rank's part. Collective.
 inline trime::handover::LocalMesh mesh(const trime::comm::Communicator& comm, const trime::shape::RegionShape& shape,
                                        trime::GlobalId points, trime::handover::Overlap overlap) {
-  trime::meshing::MeshOptions options; // container [0, 1] x [0, 1]
+  trime::meshing::MeshOptions options;
   options.points = points;
   trime::Log log(trime::LogLevel::warning, comm.is_root());
   const trime::meshing::MeshResult result = make_mesh(comm, shape, trime::sizing::UniformSize(), options, log);

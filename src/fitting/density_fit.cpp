@@ -142,7 +142,7 @@ private:
   /// @param uniform size of a uniform mesh of so many points
   /// @param smallest size for a factor of 1
   DensityFit for_points(double uniform, double smallest) {
-    FactorBracket bracket(points_, smallest, context_.options.container);
+    FactorBracket bracket(points_, smallest, context_.domain.frame().container());
     Search found = search(approached(estimated_factor(uniform, uniform / smallest)), bracket);
     if (found.accepted)
       return std::move(*found.accepted);
@@ -169,7 +169,7 @@ private:
       return std::move(best.fit);
     }
     trials_.hold(best.fit.laid);
-    FactorBracket bracket(points_, smallest, context_.options.container);
+    FactorBracket bracket(points_, smallest, context_.domain.frame().container());
     const double factor = best.fit.laid.fitted.factor;
     bracket.add(factor, best.points);
     search_.expect(FitRules::uncrowded_power);

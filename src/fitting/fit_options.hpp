@@ -5,7 +5,6 @@
 
 #include "trime/boundary/feature_options.hpp"
 #include "trime/core/types.hpp"
-#include "trime/geometry/vec2.hpp"
 
 #include <optional>
 
@@ -13,7 +12,6 @@ namespace trime::fitting {
 
 /// See MeshOptions for the meaning of each; the defaults are there.
 struct FitOptions {
-  geometry::Box container;
   std::optional<int> cells_x, cells_y;
   std::optional<GlobalId> points; ///< exactly one of points and edge_length is set
   std::optional<double> edge_length;

@@ -33,7 +33,7 @@ using sites::Stage;
 /// axes. Cells that were given keep about their size.
 std::unique_ptr<SiteState> make_state(const LayoutContext& context, const BoundarySites& boundary, double spacing) {
   const FitOptions& options = context.options;
-  const geometry::Box& container = options.container;
+  const geometry::Box& container = context.domain.frame().container();
   geometry::Box around;
   for (const BoundarySite& site : boundary.sites)
     around.include(site.position);

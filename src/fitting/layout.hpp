@@ -10,8 +10,7 @@
 #include "sizing/lowered_size.hpp"
 #include "trime/core/log.hpp"
 #include "trime/core/timer.hpp"
-#include "trime/geometry/boundary.hpp"
-#include "trime/geometry/lattice.hpp"
+#include "trime/geometry/domain.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <memory>
@@ -22,15 +21,16 @@ namespace trime::fitting {
 /// What the set-up works from. Keeps references; see Mesher.
 struct LayoutContext {
   const comm::Communicator& comm;
-  const geometry::Boundary& given_boundary; ///< without the corners that fixed points make
+  const geometry::Domain& domain;
   const sizing::SizeField& relative_size;
   const FitOptions& options;
-  const geometry::Lattice& lattice;
   Log& log;
   TimerTable& timers;
   const boundary::FixedPoints& fixed; ///< with the boundary on which sites are laid
   bool cuts_thin_components = false;  ///< as generalise::Choice has it: no other boundary has so few points
   bool is_level = false;              ///< the relative size is the same everywhere, though its class does not say so
+  const geometry::Boundary& given_boundary = domain.boundary(); ///< without the corners that fixed points make
+  const geometry::Lattice& lattice = domain.frame().lattice();
 };
 
 /// What the size field of the last stage follows from.

@@ -31,9 +31,8 @@ double fitted_factor(const LayoutContext& context, double points) {
     options.points = static_cast<GlobalId>(fewer);
   else
     options.edge_length = *options.edge_length * longer;
-  const LayoutContext small{context.comm,   context.given_boundary, context.relative_size,
-                            options,        context.lattice,        context.log,
-                            context.timers, context.fixed,          context.cuts_thin_components};
+  const LayoutContext small{context.comm, context.domain, context.relative_size, options,
+                            context.log,  context.timers, context.fixed,         context.cuts_thin_components};
   double factor = 0, on_boundary = 0;
   if (context.relative_size.is_uniform()) {
     const LatticeFit fit = fit_lattice(small);

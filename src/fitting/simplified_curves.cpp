@@ -51,7 +51,7 @@ bool serve(const CurvesAtSize& curves, double factor) {
 generalise::Choice generalise_choice(const LayoutContext& context) {
   const bool closes = context.options.features.narrow == boundary::NarrowOutside::close;
   return {closes ? generalise::Narrow::close : generalise::Narrow::keep, context.cuts_thin_components,
-          geometry::Frame(context.options.container).inner()};
+          geometry::Frame(context.domain.frame().container()).inner()};
 }
 
 bool generalises(const LayoutContext& context) {

@@ -47,7 +47,7 @@ placing::LatticeRuns fitting_runs(const LayoutContext& context, const Stage& sta
   const placing::LatticeStart start(context.given_boundary, *stage.guard, context.lattice);
   const mesh::TileRange tiles = placing::own_share(stage);
   const GlobalId wanted = *context.options.points - stage.placed_first();
-  const geometry::Box& container = context.options.container;
+  const geometry::Box& container = context.domain.frame().container();
   const double none = 4 * (container.width() + container.height()); // no site fits at all
   // The discs of the boundary may leave no room at all, however fine the lattice (thin shapes, few points): nothing
   // below half the size of the chords is tried.

@@ -84,7 +84,7 @@ double smallest_sampled_size(const LayoutContext& context) {
       sample(loop.pieces[k].point(0.5 * loop.pieces[k].length()));
     }
   const geometry::Box box =
-      context.given_boundary.periods.any() ? context.options.container : context.given_boundary.bounding_box();
+      context.given_boundary.periods.any() ? context.domain.frame().container() : context.given_boundary.bounding_box();
   for (int j = 0; j < FitRules::samples_per_side; ++j)
     for (int i = 0; i < FitRules::samples_per_side; ++i)
       sample({box.min.x + (i + 0.5) / FitRules::samples_per_side * box.width(),

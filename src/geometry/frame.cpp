@@ -1,9 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/geometry/frame.hpp"
 
+#include "trime/core/error.hpp"
+
 #include <cmath>
 
 namespace trime::geometry {
+
+namespace {
+
+const Box& checked(const Box& container) {
+  const double width = container.width(), height = container.height();
+  if (!(width > 0 && height > 0 && std::isfinite(width) && std::isfinite(height)))
+    throw GeometryError(fmt::format("expected a container whose width and height are positive and finite, found [{}, "
+                                    "{}] x [{}, {}]",
+                                    container.min.x, container.max.x, container.min.y, container.max.y));
+  return container;
+}
+
+} // namespace
 
 Box container_around(const Box& box) {
   constexpr double margin = 0.05; // of the longer side: as much as users leave who give the container themselves
@@ -14,7 +29,8 @@ Box container_around(const Box& box) {
 }
 
 Frame::Frame(const Box& container, bool periodic_x, bool periodic_y)
-    : container_(container), lattice_(container), periods_(Periods::of(container_, lattice_, periodic_x, periodic_y)) {
+    : container_(checked(container)), lattice_(container),
+      periods_(Periods::of(container_, lattice_, periodic_x, periodic_y)) {
   const double step = lattice_.step(), inverse = lattice_.inverse_step();
   inner_.min = {std::ceil(container.min.x * inverse) * step, std::ceil(container.min.y * inverse) * step};
   inner_.max = {std::floor(container.max.x * inverse) * step, std::floor(container.max.y * inverse) * step};

@@ -7,7 +7,7 @@
 namespace trime::meshing {
 
 MeshedBoundary::MeshedBoundary(const RunContext& run)
-    : fixed_(run.given_boundary, run.options.container, run.options.fixed_points, run.lattice, run.log) {}
+    : fixed_(run.given_boundary, run.domain.frame().container(), run.domain.fixed_points(), run.lattice, run.log) {}
 
 void MeshedBoundary::follow(std::shared_ptr<const geometry::Boundary> curves, const polygon::DroppedLoops& dropped) {
   laid_ = std::move(curves);

@@ -30,10 +30,9 @@ class Run {
 public:
   /// @param saved where to go on; null: from the start
   Run(const RunContext& run, const SnapshotObserver& observer, Checkpoints* checkpoints, const SavedRun* saved)
-      : run_(run), saved_(saved),
-        input_(check_same_input(run.given_boundary, run.options.fixed_points, run.relative_size, run.comm)),
-        boundary_(run), layout_{run.comm, run.given_boundary, run.relative_size, run.fit, run.lattice,
-                                run.log,  run.timers,         boundary_.fixed()},
+      : run_(run), saved_(saved), input_(check_same_input(run.domain, run.relative_size, run.comm)),
+        boundary_(run), layout_{run.comm, run.domain, run.relative_size, run.fit,
+                                run.log,  run.timers, boundary_.fixed()},
         scheme_(layout_, start_options(run.options)), stars_(run), snapshots_(run, boundary_, stars_, observer),
         checkpoints_(run, checkpoints, [this](StateFields& fields) { visit(fields); }),
         relaxation_(run, stars_, snapshots_, checkpoints_) {}
@@ -303,9 +302,9 @@ public:
   const SavedRun* saved = nullptr;
 };
 
-Mesher::Mesher(const comm::Communicator& comm, const geometry::Boundary& boundary, const sizing::SizeField& size,
+Mesher::Mesher(const comm::Communicator& comm, const geometry::Domain& domain, const sizing::SizeField& size,
                const MeshOptions& options, Log& log, TimerTable& timers)
-    : implementation_(new Implementation{{comm, boundary, size, options, log, timers}, {}, nullptr, nullptr}) {}
+    : implementation_(new Implementation{{comm, domain, size, options, log, timers}, {}, nullptr, nullptr}) {}
 Mesher::~Mesher() = default;
 
 void Mesher::on_snapshot(SnapshotObserver observer) {

@@ -11,8 +11,8 @@ namespace trime::meshing {
 
 Outlook look_ahead(const RunContext& run) {
   MeshedBoundary boundary(run);
-  const fitting::LayoutContext layout{run.comm, run.given_boundary, run.relative_size, run.fit, run.lattice,
-                                      run.log,  run.timers,         boundary.fixed()};
+  const fitting::LayoutContext layout{run.comm, run.domain, run.relative_size, run.fit,
+                                      run.log,  run.timers, boundary.fixed()};
   const fitting::LaidOutlook ahead = fitting::look_ahead(layout);
   const sites::Stage& stage = ahead.laid.stage;
   boundary.follow(stage.curves, stage.polygon.dropped);

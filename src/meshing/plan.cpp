@@ -6,8 +6,7 @@
 namespace trime::meshing {
 
 fitting::FitOptions fit_options(const MeshOptions& options) {
-  return {.container = options.container,
-          .cells_x = options.cells_x,
+  return {.cells_x = options.cells_x,
           .cells_y = options.cells_y,
           .points = options.points,
           .edge_length = options.edge_length,

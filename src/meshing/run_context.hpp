@@ -6,8 +6,7 @@
 #include "trime/comm/communicator.hpp"
 #include "trime/core/log.hpp"
 #include "trime/core/timer.hpp"
-#include "trime/geometry/boundary.hpp"
-#include "trime/geometry/lattice.hpp"
+#include "trime/geometry/domain.hpp"
 #include "trime/meshing/options.hpp"
 #include "trime/sizing/size_field.hpp"
 
@@ -17,24 +16,28 @@ namespace trime::meshing {
 
 /// The input of a run, and the options of its parts. Keeps references.
 struct RunContext {
-  RunContext(const comm::Communicator& communicator, const geometry::Boundary& boundary, const sizing::SizeField& size,
+  RunContext(const comm::Communicator& communicator, const geometry::Domain& its_domain, const sizing::SizeField& size,
              const MeshOptions& mesh_options, Log& its_log, TimerTable& its_timers)
-      : comm(communicator), given_boundary(boundary), relative_size(size), options(mesh_options),
-        fit(fit_options(mesh_options)), sweeps(sweep_options(mesh_options)), lattice(mesh_options.container),
-        log(its_log), timers(its_timers) {}
+      : comm(communicator), domain(its_domain), given_boundary(domain.boundary()), relative_size(size),
+        options(mesh_options), fit(fit_options(mesh_options)), sweeps(sweep_options(mesh_options)),
+        lattice(domain.frame().lattice()), log(its_log), timers(its_timers) {}
 
   const comm::Communicator& comm;
-  const geometry::Boundary& given_boundary; ///< as the caller owns it; its periods are those of the run
+  const geometry::Domain& domain;           ///< as the caller owns it
+  const geometry::Boundary& given_boundary; ///< of the domain
   const sizing::SizeField& relative_size;
   const MeshOptions options;
   const fitting::FitOptions fit;
   const sweep::SweepOptions sweeps;
-  const geometry::Lattice lattice; ///< of the container
+  const geometry::Lattice& lattice; ///< of the container
   Log& log;
   TimerTable& timers;
 
   /// Longer side of the container.
-  double side() const { return std::max(options.container.width(), options.container.height()); }
+  double side() const {
+    const geometry::Box& container = domain.frame().container();
+    return std::max(container.width(), container.height());
+  }
 };
 
 } // namespace trime::meshing

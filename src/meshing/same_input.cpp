@@ -31,8 +31,11 @@ private:
   std::uint64_t value_ = 0;
 };
 
-std::int64_t hash_of(const Boundary& boundary, std::span<const boundary::FixedPoint> fixed) {
+std::int64_t hash_of(const geometry::Domain& domain) {
   Hash hash;
+  hash.add(domain.frame().container().min);
+  hash.add(domain.frame().container().max);
+  const Boundary& boundary = domain.boundary();
   hash.add({boundary.periods.x, boundary.periods.y});
   for (const Loop& loop : boundary.loops)
     for (const Piece& piece : loop.pieces) {
@@ -47,7 +50,7 @@ std::int64_t hash_of(const Boundary& boundary, std::span<const boundary::FixedPo
       hash.add(piece.start_angle);
       hash.add(piece.sweep);
     }
-  for (const boundary::FixedPoint& point : fixed)
+  for (const geometry::FixedPoint& point : domain.fixed_points())
     hash.add(point.position);
   return hash.value();
 }
@@ -78,15 +81,15 @@ void check_same(std::int64_t hash, const char* what, const comm::Communicator& c
 
 } // namespace
 
-InputHashes check_same_input(const Boundary& boundary, std::span<const boundary::FixedPoint> fixed,
-                             const sizing::SizeField& size, const comm::Communicator& comm) {
+InputHashes check_same_input(const geometry::Domain& domain, const sizing::SizeField& size,
+                             const comm::Communicator& comm) {
   std::int64_t sizes = 0;
   comm::run_agreed(comm, [&] {
     if (const std::string fault = arithmetic_fault(); !fault.empty())
       throw InternalError("the arithmetic of this program would make other meshes here: " + fault);
-    sizes = hash_of_sizes(boundary, size);
+    sizes = hash_of_sizes(domain.boundary(), size);
   });
-  const std::int64_t shape = hash_of(boundary, fixed);
+  const std::int64_t shape = hash_of(domain);
   check_same(shape, "shape", comm);
   check_same(sizes, "size field", comm);
   return {shape, sizes};

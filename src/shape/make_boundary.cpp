@@ -69,7 +69,7 @@ public:
   }
 
   /// @param owned the parts, to be freed; or null
-  MarkedBoundary make(std::vector<Part>* owned) {
+  geometry::Domain make(std::vector<Part>* owned) {
     classify();
     if (!kept_.empty())
       check_container();
@@ -85,7 +85,7 @@ public:
       throw GeometryError(fmt::format("the region '{}' is empty: no part of the plane lies in it", region_.text()));
     check_area(boundary_, region_.text(), frame_);
     std::vector<std::int32_t> markers = name_markers(boundary_, given_, frame_);
-    return {std::move(boundary_), std::move(markers)};
+    return {frame_, std::move(boundary_), std::move(markers)};
   }
 
 private:
@@ -102,6 +102,7 @@ private:
     std::vector<PlacedPart> placed;
     for (const int index : region_.parts()) {
       const Part& part = index < static_cast<int>(parts.size()) ? parts[index] : domain_;
+      check_frame(part, frame_);
       for (const Vec2 shift : image_shifts(part, frame_))
         placed.push_back({&part, index, shift});
     }
@@ -381,11 +382,11 @@ void BoundaryMaker::finish_periodic_area() {
 
 } // namespace
 
-MarkedBoundary make_boundary(const Region& region, std::span<const Part> parts, const Frame& frame) {
+geometry::Domain make_boundary(const Region& region, std::span<const Part> parts, const Frame& frame) {
   return BoundaryMaker(region, parts, frame).make(nullptr);
 }
 
-MarkedBoundary make_boundary(const Region& region, std::vector<Part>&& parts, const Frame& frame) {
+geometry::Domain make_boundary(const Region& region, std::vector<Part>&& parts, const Frame& frame) {
   return BoundaryMaker(region, parts, frame).make(&parts);
 }
 

@@ -2,8 +2,8 @@
 // From the parts and the region to the boundary of the shape.
 #pragma once
 
+#include "trime/geometry/domain.hpp"
 #include "trime/geometry/frame.hpp"
-#include "trime/shape/marked_boundary.hpp"
 #include "trime/shape/part.hpp"
 #include "trime/shape/region.hpp"
 
@@ -22,8 +22,8 @@ namespace trime::shape {
 /// O(M log M) for M pieces.
 /// @throws GeometryError if the region is empty, leaves the container, or its boundary touches itself, or if a part
 /// sticks out of a periodic side by more than one period
-MarkedBoundary make_boundary(const Region& region, std::span<const Part> parts, const geometry::Frame& frame);
+geometry::Domain make_boundary(const Region& region, std::span<const Part> parts, const geometry::Frame& frame);
 /// Does the same, and frees the parts before it makes loops, unless a periodic container or markers need them longer.
-MarkedBoundary make_boundary(const Region& region, std::vector<Part>&& parts, const geometry::Frame& frame);
+geometry::Domain make_boundary(const Region& region, std::vector<Part>&& parts, const geometry::Frame& frame);
 
 } // namespace trime::shape

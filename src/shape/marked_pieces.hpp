@@ -15,7 +15,7 @@ namespace trime::shape {
 /// Has any segment of these parts a marker?
 bool have_markers(std::span<const Part> parts);
 
-/// @brief Gives pieces whose segment has a marker a part of their own, see MarkedBoundary.
+/// @brief Gives pieces whose segment has a marker a part of their own, see geometry::Domain.
 /// @param parts those that Piece::part names; the boundary may have the domain behind them
 /// @return the marker of each name of a part, 0 for none
 std::vector<std::int32_t> name_markers(geometry::Boundary& boundary, std::span<const Part> parts,

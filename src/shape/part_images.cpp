@@ -47,6 +47,29 @@ Box box_of(const Part& part) {
   return box;
 }
 
+void check_frame(const Part& part, const Frame& frame) {
+  const auto fail = [&](Vec2 p, const std::string& expected) {
+    const Box& box = frame.container();
+    throw GeometryError(
+        fmt::format("part '{}' was made in another frame: expected {} of the container [{:.9g}, {:.9g}] "
+                    "x [{:.9g}, {:.9g}], found ({:.17g}, {:.17g}); make parts and shape in one frame",
+                    part.name(), expected, box.min.x, box.max.x, box.min.y, box.max.y, p.x, p.y));
+  };
+  const auto check = [&](Vec2 p) {
+    if (!frame.reach().contains(p))
+      fail(p, "points within twice the size");
+    if (frame.lattice().snap(p) != p)
+      fail(p, "points on the lattice");
+  };
+  if (const Circle* circle = part.as_circle()) {
+    for (const Vec2 p : quadrant_vertices(*circle))
+      check(p);
+    return;
+  }
+  for (const Segment& segment : part.as_polygon()->grid.segments())
+    check(segment.a);
+}
+
 Part domain_part(const Frame& frame) {
   const Vec2 periods{frame.periods().x, frame.periods().y};
   return Part::rectangle(std::string(domain_name), {frame.inner().min - periods, frame.inner().max + periods}, frame);

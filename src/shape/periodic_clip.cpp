@@ -88,10 +88,9 @@ contours::Contour clip_to_periods(const Part& traced, const Frame& frame) {
   const Frame plain(frame.container());
   const std::vector<Part> parts{traced, Part::rectangle("container", frame.inner(), plain)};
   const std::array<std::string, 2> names{"traced", "container"};
-  const Boundary clipped =
-      make_boundary(Region::parse("intersection(traced, container)", names), parts, plain).boundary;
+  const geometry::Domain clipped = make_boundary(Region::parse("intersection(traced, container)", names), parts, plain);
   Rings rings;
-  for (const Loop& loop : clipped.loops) {
+  for (const Loop& loop : clipped.boundary().loops) {
     rings.emplace_back();
     for (const Piece& piece : loop.pieces)
       rings.back().push_back(piece.start);

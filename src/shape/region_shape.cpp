@@ -31,8 +31,8 @@ std::vector<std::string> names_of(const std::vector<Part>& parts) {
 } // namespace
 
 RegionShape::RegionShape(std::vector<Part> parts, std::string_view region, const Frame& frame)
-    : frame_(frame), parts_(std::move(parts)), region_(Region::parse(region, names_of(parts_))),
-      made_(make_boundary(region_, parts_, frame)), tree_(made_.boundary) {
+    : parts_(std::move(parts)), region_(Region::parse(region, names_of(parts_))),
+      domain_(make_boundary(region_, parts_, frame)), tree_(domain_.boundary()) {
   parts_.push_back(domain_part(frame));
   shifts_.resize(parts_.size());
   for (const int part : region_.parts())
@@ -40,7 +40,7 @@ RegionShape::RegionShape(std::vector<Part> parts, std::string_view region, const
 }
 
 bool RegionShape::inside(Vec2 p) const {
-  const Vec2 canonical = frame_.periods().wrap(p);
+  const Vec2 canonical = frame().periods().wrap(p);
   return region_.contains([&](int part) {
     for (const Vec2 shift : shifts_[part])
       if (parts_[part].inside(canonical - shift))
@@ -49,7 +49,7 @@ bool RegionShape::inside(Vec2 p) const {
   });
 }
 
-MarkedBoundary boundary_of(std::vector<Part> parts, std::string_view region, const Frame& frame) {
+geometry::Domain domain_of(std::vector<Part> parts, std::string_view region, const Frame& frame) {
   return make_boundary(Region::parse(region, names_of(parts)), std::move(parts), frame);
 }
 

@@ -27,6 +27,7 @@ public:
   /// O(n log n) for n limits. @pre `field` outlives this object
   LoweredSize(const SizeField& field, const std::vector<SizeLimit>& limits, double gradation,
               const geometry::Periods& periods);
+  LoweredSize(const SizeField&&, const std::vector<SizeLimit>&, double, const geometry::Periods&) = delete;
   ~LoweredSize() override;
   /// About 60 ns among a thousand limits. What is no valid size comes through as it is.
   double size(geometry::Vec2 p) const override;

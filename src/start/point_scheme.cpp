@@ -28,11 +28,10 @@ int divisions_for(double points) {
 } // namespace
 
 PointScheme::PointScheme(const fitting::LayoutContext& context, const StartOptions& options)
-    : level_(context.relative_size), given_context_(context), level_context_{context.comm,    context.given_boundary,
-                                                                             level_,          context.options,
-                                                                             context.lattice, context.log,
-                                                                             context.timers,  context.fixed,
-                                                                             false,           true},
+    : level_(context.relative_size),
+      given_context_(context), level_context_{context.comm,    context.domain, level_,
+                                              context.options, context.log,    context.timers,
+                                              context.fixed,   false,          true},
       context_(&given_context_), fit_(context.options), options_(options) {
   choose();
 }

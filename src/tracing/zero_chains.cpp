@@ -273,8 +273,10 @@ void Marcher::check_signs() const {
   if (lowest_ >= 0)
     throw GeometryError(fmt::format("part '{}': the function is negative nowhere in the container, so nothing lies "
                                     "inside; its smallest value is {:.6g}, at ({:.9g}, {:.9g}); is the sign reversed, "
-                                    "or the part narrower than {:.2g}?",
-                                    function_.name(), lowest_, lowest_place_.x, lowest_place_.y, 2 * width_));
+                                    "the part narrower than {:.2g}, or outside of the container [{:.9g}, {:.9g}] x "
+                                    "[{:.9g}, {:.9g}]?",
+                                    function_.name(), lowest_, lowest_place_.x, lowest_place_.y, 2 * width_, box_.min.x,
+                                    box_.max.x, box_.min.y, box_.max.y));
   if (highest_ < 0)
     throw GeometryError(fmt::format("part '{}': the function is negative in the whole container, so it has no "
                                     "boundary; its largest value is {:.6g}, at ({:.9g}, {:.9g}); for the whole "

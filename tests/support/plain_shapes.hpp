@@ -38,12 +38,12 @@ inline shape::RegionShape disc_with_hole(geometry::Vec2 center = {0.55, 0.5}, do
       unit_frame()};
 }
 
-inline meshing::MeshResult mesh_silently(const comm::Communicator& comm, const geometry::Boundary& boundary,
+inline meshing::MeshResult mesh_silently(const comm::Communicator& comm, const geometry::Domain& domain,
                                          const sizing::SizeField& size, const meshing::MeshOptions& options,
                                          const meshing::SnapshotObserver& observer = {}) {
   Log log(LogLevel::silent, false);
   TimerTable timers;
-  meshing::Mesher mesher(comm, boundary, size, options, log, timers);
+  meshing::Mesher mesher(comm, domain, size, options, log, timers);
   mesher.on_snapshot(observer);
   return mesher.run();
 }

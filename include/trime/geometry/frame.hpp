@@ -20,7 +20,7 @@ Box container_around(const Box& box);
 /// The container with its lattice and periods. Immutable; cheap to copy.
 class Frame {
 public:
-  /// @pre width and height of `container` are positive and finite
+  /// @throws GeometryError if the width or the height of `container` is not positive and finite
   explicit Frame(const Box& container, bool periodic_x = false, bool periodic_y = false);
 
   const Box& container() const { return container_; }

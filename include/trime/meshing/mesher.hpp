@@ -5,7 +5,7 @@
 #include "trime/comm/communicator.hpp"
 #include "trime/core/log.hpp"
 #include "trime/core/timer.hpp"
-#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/domain.hpp"
 #include "trime/meshing/options.hpp"
 #include "trime/meshing/outlook.hpp"
 #include "trime/sizing/size_field.hpp"
@@ -32,10 +32,14 @@ struct SavedRun;
 /// Makes one mesh. Use make_mesh unless you need snapshots, checkpoints or an outlook.
 class Mesher {
 public:
-  /// @brief Keeps references: all arguments must outlive the object. `boundary` and `size` must have the same bits on
+  /// @brief Keeps references: all arguments must outlive the object. `domain` and `size` must have the same bits on
   /// every rank.
-  Mesher(const comm::Communicator& comm, const geometry::Boundary& boundary, const sizing::SizeField& size,
+  Mesher(const comm::Communicator& comm, const geometry::Domain& domain, const sizing::SizeField& size,
          const MeshOptions& options, Log& log, TimerTable& timers);
+  Mesher(const comm::Communicator&, const geometry::Domain&&, const sizing::SizeField&, const MeshOptions&, Log&,
+         TimerTable&) = delete;
+  Mesher(const comm::Communicator&, const geometry::Domain&, const sizing::SizeField&&, const MeshOptions&, Log&,
+         TimerTable&) = delete;
   ~Mesher();
 
   /// @brief Sets the observer, which is called with the triangulations that MeshOptions::snapshot_interval asks for.

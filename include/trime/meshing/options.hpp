@@ -4,10 +4,8 @@
 
 #include "trime/boundary/feature_options.hpp"
 #include "trime/boundary/feature_summary.hpp"
-#include "trime/boundary/fixed_point.hpp"
 #include "trime/cleanup/cleanup_counts.hpp"
 #include "trime/core/types.hpp"
-#include "trime/geometry/vec2.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
 #include "trime/mesh/quality.hpp"
 #include "trime/mesh/validity.hpp"
@@ -31,13 +29,9 @@ struct MeshOptions {
   std::uint64_t seed = 1;
   int max_sweeps = 500;
 
-  geometry::Box container{{0, 0}, {1, 1}};  ///< which of its sides are periodic, Boundary::periods says
   std::optional<int> cells_x, cells_y;      ///< container grid; empty: about 3.3 points a cell
   std::optional<double> min_size, max_size; ///< absolute bounds on h
   boundary::FeatureOptions features;        ///< which corners, islands and lakes the mesh keeps
-  /// @brief Points that the mesh keeps bit for bit (on the lattice) and never moves. On the boundary (to within 1e-10
-  /// of the container) they become corners; outside of the shape they are a GeometryError.
-  std::vector<boundary::FixedPoint> fixed_points;
 
   start::Start start = start::Start::automatic; ///< lattice for a uniform size field, else coarse to fine
   /// Share of the points that are placed before the first sweep. The others are inserted in stages, where triangles are

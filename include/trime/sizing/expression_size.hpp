@@ -20,6 +20,7 @@ public:
   /// @param box the shape's bounding box
   /// @throws ConfigError that names the place and the value if the formula is not positive and finite on the grid
   ExpressionSize(const Formula& formula, const geometry::Box& box);
+  ExpressionSize(const Formula&&, const geometry::Box&) = delete;
 
   /// @brief Returns the value of the formula, or the smallest share if that is larger. Outside the box it uses the
   /// nearest point of the box. Between the points of the grid the formula may fail: then the invalid value is returned,

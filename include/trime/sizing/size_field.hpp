@@ -57,6 +57,7 @@ public:
   ScaledSize(const SizeField& field, double factor, double min_size = 0,
              double max_size = std::numeric_limits<double>::infinity())
       : field_(field), factor_(factor), min_size_(min_size), max_size_(max_size) {}
+  ScaledSize(const SizeField&&, double, double = 0, double = 0) = delete;
   /// Returns an invalid value unchanged, so that the caller finds it.
   double size(geometry::Vec2 p) const override {
     const double relative = field_.size(p);

@@ -12,6 +12,7 @@ class ExpressionShape final : public Shape {
 public:
   /// @pre `formula` outlives this object
   explicit ExpressionShape(const Formula& formula) : formula_(formula) {}
+  explicit ExpressionShape(const Formula&&) = delete;
   double signed_distance(geometry::Vec2 p) const override { return formula_.evaluate(p.x, p.y); }
 
 private:

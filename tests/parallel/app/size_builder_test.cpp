@@ -20,8 +20,8 @@ const std::string plate = "[shape]\nregion = plate\n[shape.plate]\ntype = rectan
 struct Built {
   explicit Built(const std::vector<std::string>& overrides)
       : options(parse_config(plate, "c.ini", overrides)), log(LogLevel::silent, false),
-        boundary(read_shape(options, ShapeUse::boundary, comm, log, places).boundary()),
-        size(build_size(options, boundary, comm)) {}
+        domain(read_shape(options, ShapeUse::boundary, comm, log, places).domain()),
+        size(build_size(options, domain, comm)) {}
 
   double at(double x, double y) const { return size.field->size({x, y}); }
 
@@ -29,7 +29,7 @@ struct Built {
   RunOptions options;
   Log log;
   UserPlaces places;
-  geometry::Boundary boundary;
+  geometry::Domain domain;
   BuiltSize size;
 };
 

@@ -29,6 +29,14 @@ public:
   double size(Vec2 p) const override { return 0.5 + p.x; }
 };
 
+RegionShape with_points(RegionShape shape, const std::vector<Vec2>& places) {
+  std::vector<geometry::FixedPoint> points;
+  for (const Vec2 p : places)
+    points.push_back({p, "test"});
+  shape.set_fixed_points(std::move(points));
+  return shape;
+}
+
 std::vector<Vec2> wanted_points() {
   std::vector<Vec2> points;
   for (int k = 0; k < 10; ++k)
@@ -47,9 +55,7 @@ MeshResult run(const comm::Communicator& comm, const sizing::SizeField& size) {
   options.points = 1500;
   options.method = Method::distmesh;
   options.max_sweeps = 10;
-  for (const Vec2 p : wanted_points())
-    options.fixed_points.push_back({p, "test"});
-  return mesh_silently(comm, ring().boundary(), size, options);
+  return mesh_silently(comm, with_points(ring(), wanted_points()).domain(), size, options);
 }
 
 void expect_fixed_points(const sizing::SizeField& size) {
@@ -88,17 +94,18 @@ TEST(FixedPointsInMesh, ManyOfThemLeaveRoomForAllPoints) {
   MeshOptions options;
   options.points = 2000;
   options.max_sweeps = 10;
+  std::vector<Vec2> places;
   for (std::uint64_t k = 0; k < 500; ++k) {
     const Vec2 p{random_unit(7, RandomPurpose::test, k, 0), random_unit(7, RandomPurpose::test, k, 1)};
     const double radius = geometry::length(p - Vec2{0.5, 0.5});
     if (radius > 0.12 && radius < 0.38)
-      options.fixed_points.push_back({p, "test"});
+      places.push_back(p);
   }
   for (const bool graded : {false, true}) {
     const sizing::UniformSize uniform;
     const GradedSize slope;
     const sizing::SizeField& size = graded ? static_cast<const sizing::SizeField&>(slope) : uniform;
-    const MeshResult result = mesh_silently(world, ring().boundary(), size, options);
+    const MeshResult result = mesh_silently(world, with_points(ring(), places).domain(), size, options);
     EXPECT_LE(result.mesh.point_slab.total, 2000);
     EXPECT_GE(result.mesh.point_slab.total, 1960) << graded;
   }
@@ -110,10 +117,9 @@ TEST(FixedPointsInMesh, FarFromOthersTrianglesStayGood) {
   MeshOptions options;
   options.points = 2000;
   options.method = Method::distmesh;
-  for (const Vec2 p : {Vec2{0.31, 0.42}, {0.55, 0.27}, {0.7, 0.713}})
-    options.fixed_points.push_back({p, "test"});
+  const RegionShape shape = with_points(testing::square(), {{0.31, 0.42}, {0.55, 0.27}, {0.7, 0.713}});
   const sizing::UniformSize size;
-  const MeshResult result = mesh_silently(world, testing::square().boundary(), size, options);
+  const MeshResult result = mesh_silently(world, shape.domain(), size, options);
   EXPECT_LT(result.quality.alpha.mean, 1.05);
   EXPECT_LT(result.quality.alpha.max, 2.2);
 }

@@ -56,7 +56,7 @@ MeshResult run(const comm::Communicator& comm, const Case& c, bool cleanup = tru
   const sizing::UniformSize uniform;
   const GradedSize graded;
   const sizing::SizeField& size = c.graded ? static_cast<const sizing::SizeField&>(graded) : uniform;
-  return mesh_silently(comm, c.shape.boundary(), size, options);
+  return mesh_silently(comm, c.shape.domain(), size, options);
 }
 
 std::vector<std::int64_t> listed(const CleanupCounts& counts) {
@@ -157,19 +157,19 @@ TEST(Cleanup, ASmallCircleIsNoFeatureThatMayBeLeftOut) {
       options.edge_length = size;
       options.features.tolerance = tolerance;
       const sizing::UniformSize uniform;
-      expect_certified(mesh_silently(world, shape.boundary(), uniform, options));
+      expect_certified(mesh_silently(world, shape.domain(), uniform, options));
     }
 }
 
 /// A circle whose radius jumps at random from vertex to vertex.
-geometry::Boundary ragged_circle(int n, std::uint64_t seed) {
+geometry::Domain ragged_circle(int n, std::uint64_t seed) {
   std::vector<Vec2> points;
   for (int k = 0; k < n; ++k) {
     const SinCos to = sin_cos(2 * pi * k / n);
     const double radius = 0.35 + 0.06 * (random_unit(seed, RandomPurpose::test, k, 0) - 0.5);
     points.push_back(Vec2{0.5, 0.5} + radius * Vec2{to.cos, to.sin});
   }
-  return testing::boundary_of({testing::polygon_loop(std::move(points))});
+  return {testing::unit_frame(), testing::boundary_of({testing::polygon_loop(std::move(points))})};
 }
 
 /// Corners that the layout leaves out, but on which a site comes to lie when a chord is halved: they stay.
@@ -187,14 +187,14 @@ TEST(Cleanup, KeepsCornersOnWhichHalvingPutsSites) {
     options.points = curve.points;
     options.max_sweeps = 30;
     options.features.corner_angle = 10;
-    const geometry::Boundary boundary = ragged_circle(curve.vertices, curve.seed);
-    const MeshResult result = mesh_silently(world, boundary, uniform, options);
+    const geometry::Domain domain = ragged_circle(curve.vertices, curve.seed);
+    const MeshResult result = mesh_silently(world, domain, uniform, options);
     expect_certified(result);
     EXPECT_GT(result.features.corners_left_out, 0);
     EXPECT_GT(result.features.segments_halved, 0);
     EXPECT_GT(result.cleanup.on_boundary, 0);
     if (world.is_root()) {
-      EXPECT_EQ(result.mesh.hash, mesh_silently(comm::Communicator::self(), boundary, uniform, options).mesh.hash);
+      EXPECT_EQ(result.mesh.hash, mesh_silently(comm::Communicator::self(), domain, uniform, options).mesh.hash);
     }
   }
 }
@@ -208,11 +208,13 @@ TEST(Cleanup, KeepsFixedPoints) {
   options.points = 900;
   options.max_sweeps = 30;
   const std::vector<Vec2> places{{0.3, 0.1}, {0.34, 0.1}, {0.5, 0.5}, {0.51, 0.515}, {0.625, 0.9}};
+  std::vector<geometry::FixedPoint> fixed;
   for (const Vec2 p : places)
-    options.fixed_points.push_back({p, {}});
+    fixed.push_back({p, {}});
   const sizing::UniformSize uniform;
-  const RegionShape shape = square();
-  const MeshResult result = Mesher(world, shape.boundary(), uniform, options, log, timers).run();
+  RegionShape shape = square();
+  shape.set_fixed_points(fixed);
+  const MeshResult result = Mesher(world, shape.domain(), uniform, options, log, timers).run();
   expect_certified(result);
   EXPECT_GT(result.cleanup.better, 0);
   const std::vector<Vec2> points = testing::gather_all(world, result.mesh.points);

@@ -44,15 +44,14 @@ private:
 /// What a layout needs.
 struct Setting {
   Setting(const comm::Communicator& of, const geometry::Boundary& given, const sizing::SizeField& relative)
-      : comm(of), boundary(given), size(relative),
-        fixed(given, geometry::Box{{0, 0}, {1, 1}}, {}, testing::unit_lattice(), log) {}
-  LayoutContext context() { return {comm, boundary, size, options, lattice, log, timers, fixed}; }
+      : comm(of), domain(geometry::Frame({{0, 0}, {1, 1}}), given), size(relative),
+        fixed(domain.boundary(), geometry::Box{{0, 0}, {1, 1}}, {}, testing::unit_lattice(), log) {}
+  LayoutContext context() { return {comm, domain, size, options, log, timers, fixed}; }
 
   const comm::Communicator& comm;
-  const geometry::Boundary& boundary;
+  const geometry::Domain domain;
   const sizing::SizeField& size;
   const FitOptions options{};
-  const geometry::Lattice lattice = testing::unit_lattice();
   Log log{LogLevel::silent, false};
   TimerTable timers;
   const boundary::FixedPoints fixed;

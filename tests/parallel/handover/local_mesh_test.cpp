@@ -33,22 +33,22 @@ struct Case {
   DistributedMesh whole, part;
 };
 
-Case meshed(const std::string& name, const geometry::Boundary& boundary) {
+Case meshed(const std::string& name, const geometry::Domain& domain) {
   meshing::MeshOptions options;
   options.points = 600;
   options.method = sweep::Method::distmesh;
   options.max_sweeps = 5;
   const sizing::UniformSize size;
-  return {name, testing::mesh_silently(comm::Communicator::self(), boundary, size, options).mesh,
-          testing::mesh_silently(world(), boundary, size, options).mesh};
+  return {name, testing::mesh_silently(comm::Communicator::self(), domain, size, options).mesh,
+          testing::mesh_silently(world(), domain, size, options).mesh};
 }
 
 const std::vector<Case>& cases() {
   static const std::vector<Case> made = [] {
     std::vector<Case> list;
-    list.push_back(meshed("disc with a hole", testing::disc_with_hole().boundary()));
-    list.push_back(meshed("thin triangle", testing::triangle({0.1, 0.5}, {0.9, 0.5}, {0.6, 0.54}).boundary()));
-    list.push_back(meshed("periodic", testing::periodic_shapes().front().boundary()));
+    list.push_back(meshed("disc with a hole", testing::disc_with_hole().domain()));
+    list.push_back(meshed("thin triangle", testing::triangle({0.1, 0.5}, {0.9, 0.5}, {0.6, 0.54}).domain()));
+    list.push_back(meshed("periodic", testing::periodic_shapes().front().domain()));
     for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
       const DistributedMesh whole = test::holed_square(seed % 2 == 0 ? 3 : 11);
       list.push_back({"slabs cut by seed " + std::to_string(seed), whole, test::slabs_of(whole, world(), seed)});

@@ -48,7 +48,8 @@ MeshOptions small() {
 
 MeshResult run(const comm::Communicator& comm, const tracing::Shape& shape) {
   Log log(LogLevel::silent, false);
-  return make_mesh(comm, shape, sizing::UniformSize(), small(), log);
+  return make_mesh(comm, traced_domain(comm, shape, geometry::Frame(geometry::unit_square)), sizing::UniformSize(),
+                   small(), log);
 }
 
 /// How often a disc that never fails is asked.

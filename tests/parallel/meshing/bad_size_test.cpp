@@ -33,7 +33,7 @@ MeshOptions with_points(GlobalId points, Start start = Start::automatic) {
 }
 
 MeshResult run(const comm::Communicator& comm, const sizing::SizeField& size, const MeshOptions& options) {
-  return testing::mesh_silently(comm, testing::square().boundary(), size, options);
+  return testing::mesh_silently(comm, testing::square().domain(), size, options);
 }
 
 /// The message of an error of this class, on every rank; empty if there was none.

@@ -25,7 +25,7 @@ CountedRun run(const comm::Communicator& comm, MeshOptions options) {
   comm.counters().take(); // of earlier tests
   const sizing::UniformSize size;
   const shape::RegionShape shape = testing::disc_with_hole();
-  CountedRun counted{Mesher(comm, shape.boundary(), size, options, log, timers).run(), {}};
+  CountedRun counted{Mesher(comm, shape.domain(), size, options, log, timers).run(), {}};
   counted.measured = app::gather_measurements(timers, comm);
   return counted;
 }

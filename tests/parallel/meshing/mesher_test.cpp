@@ -60,7 +60,7 @@ MeshResult run(const comm::Communicator& comm, const Case& c, const SnapshotObse
   const sizing::UniformSize uniform;
   const GradedSize graded;
   const sizing::SizeField& size = c.graded ? static_cast<const sizing::SizeField&>(graded) : uniform;
-  return mesh_silently(comm, c.shape.boundary(), size, c.options, observer);
+  return mesh_silently(comm, c.shape.domain(), size, c.options, observer);
 }
 
 void expect_certified(const MeshResult& result) {
@@ -186,7 +186,7 @@ TEST(Mesher, TheNumberOfPointsIsMetWhereTheSizeVariesAThousandfold) {
   const RegionShape shape = square();
   MeshOptions options = with_points(4000);
   options.max_sweeps = 20;
-  const MeshResult result = mesh_silently(world, shape.boundary(), spike, options);
+  const MeshResult result = mesh_silently(world, shape.domain(), spike, options);
   EXPECT_GE(result.mesh.point_slab.total, 3900) << result.count_reason;
   EXPECT_LE(result.mesh.point_slab.total, 4000);
   expect_certified(result);
@@ -301,7 +301,6 @@ TEST(Mesher, RoomyContainerWithGivenCells) {
   const geometry::Frame frame(geometry::Box{{0, 0}, {3000, 3000}});
   const RegionShape disc({Part::circle("d", {1.5, 1.5}, 1, frame)}, "d", frame);
   MeshOptions options = with_points(300);
-  options.container = frame.container();
   options.cells_x = options.cells_y = 10;
   expect_same_everywhere({"roomy", disc, options});
 }

@@ -30,14 +30,13 @@ MeshResult run(const comm::Communicator& comm, const RegionShape& shape, Method 
   Log log(LogLevel::silent, false);
   TimerTable timers;
   MeshOptions options;
-  options.container = shape.frame().container();
   options.points = points;
   options.method = method;
   options.max_sweeps = 10;
   const sizing::UniformSize uniform;
   const WavySize wavy;
   const sizing::SizeField& size = graded ? static_cast<const sizing::SizeField&>(wavy) : uniform;
-  return Mesher(comm, shape.boundary(), size, options, log, timers).run();
+  return Mesher(comm, shape.domain(), size, options, log, timers).run();
 }
 
 TEST(PeriodicMesh, IsCertifiedAndTheSameEverywhere) {

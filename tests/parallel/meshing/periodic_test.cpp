@@ -38,9 +38,8 @@ using sweep::Sweeper;
 using sweep::SweepRecord;
 using sweep::UpdateRule;
 
-MeshOptions options_for(const Frame& frame, GlobalId points, Method method) {
+MeshOptions options_for(GlobalId points, Method method) {
   MeshOptions options;
-  options.container = frame.container();
   options.points = points;
   options.method = method;
   options.max_sweeps = 10;
@@ -49,7 +48,7 @@ MeshOptions options_for(const Frame& frame, GlobalId points, Method method) {
 
 MeshResult run(const comm::Communicator& comm, const RegionShape& shape, const MeshOptions& options,
                const sizing::SizeField& size) {
-  return testing::mesh_silently(comm, shape.boundary(), size, options);
+  return testing::mesh_silently(comm, shape.domain(), size, options);
 }
 
 double check_of(const MeshResult& result, const std::string& name) {
@@ -100,17 +99,17 @@ void expect_same_everywhere(const RegionShape& shape, const MeshOptions& options
 
 TEST(PeriodicMesher, AllShapesAreCertifiedAndTheSameOnAnyRanks) {
   for (const RegionShape& shape : testing::periodic_shapes())
-    expect_same_everywhere(shape, options_for(shape.frame(), 900, Method::distmesh));
+    expect_same_everywhere(shape, options_for(900, Method::distmesh));
 }
 
 TEST(PeriodicMesher, ThreeEdgesMakeAPeriod) {
   for (const Method method : {Method::distmesh, Method::cvd, Method::hybrid})
-    expect_same_everywhere(testing::whole_torus(), options_for(testing::unit_torus(), 12, method));
+    expect_same_everywhere(testing::whole_torus(), options_for(12, method));
 }
 
 TEST(PeriodicMesher, AllMethodsMeshATorusWithAHole) {
   for (const Method method : {Method::cvd, Method::hybrid})
-    expect_same_everywhere(testing::torus_with_hole(), options_for(testing::unit_torus(), 700, method));
+    expect_same_everywhere(testing::torus_with_hole(), options_for(700, method));
 }
 
 /// Periodic along both axes.
@@ -124,7 +123,7 @@ public:
 
 TEST(PeriodicMesher, GradedSizesFromCoarseToFineAndByInsertion) {
   for (const RegionShape& shape : {testing::whole_torus(), testing::torus_with_hole()}) {
-    MeshOptions options = options_for(shape.frame(), 1000, Method::hybrid);
+    MeshOptions options = options_for(1000, Method::hybrid);
     expect_same_everywhere(shape, options, WavySize());
     options.initial_fraction = 0.3;
     expect_same_everywhere(shape, options, WavySize());
@@ -150,7 +149,7 @@ TEST(PeriodicMesher, AHexagonalTorusThatFitsIsAFixedPointOfAllMethods) {
   const RegionShape shape({}, "domain", frame);
   std::vector<std::vector<Vec2>> results;
   for (const Method method : {Method::distmesh, Method::cvd, Method::hybrid}) {
-    const MeshResult result = run(world, shape, options_for(frame, columns * rows, method), sizing::UniformSize());
+    const MeshResult result = run(world, shape, options_for(columns * rows, method), sizing::UniformSize());
     expect_certified(shape, result);
     EXPECT_EQ(result.mesh.point_slab.total, columns * rows);
     EXPECT_EQ(result.mesh.triangle_slab.total, 2 * columns * rows);
@@ -206,12 +205,12 @@ TEST(PeriodicMesher, APerturbedHexagonalTorusReturns) {
   const Frame frame(testing::hexagonal_container(columns, rows), true, true);
   const RegionShape shape({}, "domain", frame);
   const sizing::UniformSize size;
-  const MeshOptions options = options_for(frame, columns * rows, Method::hybrid);
+  const MeshOptions options = options_for(columns * rows, Method::hybrid);
   const FitOptions fit = fit_options(options);
   Log log(LogLevel::silent, false);
   TimerTable timers;
-  const FixedPoints none(shape.boundary(), options.container, {}, frame.lattice(), log);
-  const LayoutContext context{world, shape.boundary(), size, fit, frame.lattice(), log, timers, none};
+  const FixedPoints none(shape.boundary(), frame.container(), {}, frame.lattice(), log);
+  const LayoutContext context{world, shape.domain(), size, fit, log, timers, none};
   // Bars all the way, cells all the way, and cells after bars as the hybrid method has it.
   for (const auto& [by_bars, sweeps] : {std::pair{360, 360}, {0, 120}, {40, 160}}) {
     Stage layout = lay_boundary(context, 1.0 / columns, columns * rows).stage;

@@ -54,7 +54,7 @@ TEST(SteepSize, TheBoundaryStaysAsNearAsTheSizeInAValleyAsks) {
       options.points = points;
       options.max_sweeps = 20;
       const MeshResult result =
-          mesh_silently(comm::Communicator::world(), bar_with_spit().boundary(), Valleys(across), options);
+          mesh_silently(comm::Communicator::world(), bar_with_spit().domain(), Valleys(across), options);
       const mesh::Check check = generalisation_of(result);
       EXPECT_TRUE(check.passed) << check.found << " of " << check.expected;
       testing::expect_certified(result);
@@ -70,7 +70,7 @@ TEST(SteepSize, ASmallerDistanceLeavesLessButSimplifiesAllTheSame) {
     options.max_sweeps = 20;
     options.features.within = within;
     const MeshResult result =
-        mesh_silently(comm::Communicator::world(), bar_with_spit().boundary(), Valleys({25, 10}), options);
+        mesh_silently(comm::Communicator::world(), bar_with_spit().domain(), Valleys({25, 10}), options);
     const mesh::Check check = generalisation_of(result);
     EXPECT_TRUE(check.passed) << check.found << " of " << check.expected;
     testing::expect_certified(result);
@@ -83,7 +83,7 @@ TEST(SteepSize, NarrowValleysAreNotLookedIntoToTheirGround) {
   MeshOptions options;
   options.points = 400;
   options.max_sweeps = 20;
-  mesh_silently(comm::Communicator::world(), bar.boundary(), narrow, options);
+  mesh_silently(comm::Communicator::world(), bar.domain(), narrow, options);
   EXPECT_LT(narrow.asked(), 20'000'000); // 6e8 where trials with far too many sites are counted to the end
 }
 

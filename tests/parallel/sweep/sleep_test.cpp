@@ -29,10 +29,9 @@ struct SleepRun {
 
 enum class Stars { by_lemma, by_emptiness };
 
-SleepRun run(const comm::Communicator& comm, const RegionShape& shape, const Frame& frame, Method method,
-             bool sleepless = false, Stars stars = Stars::by_lemma) {
+SleepRun run(const comm::Communicator& comm, const RegionShape& shape, Method method, bool sleepless = false,
+             Stars stars = Stars::by_lemma) {
   meshing::MeshOptions options;
-  options.container = frame.container();
   options.points = 12000;
   options.method = method;
   options.max_sweeps = 30;
@@ -42,8 +41,8 @@ SleepRun run(const comm::Communicator& comm, const RegionShape& shape, const Fra
   Log log(LogLevel::silent, false);
   TimerTable timers(&comm.counters());
   comm.counters().take(); // of earlier tests
-  const meshing::MeshResult result =
-      meshing::Mesher(comm, shape.boundary(), sizing::UniformSize(), options, log, timers).run();
+  const sizing::UniformSize size;
+  const meshing::MeshResult result = meshing::Mesher(comm, shape.domain(), size, options, log, timers).run();
   const app::Measurements measured = app::gather_measurements(timers, comm);
   return {result.mesh.hash, result.history.back().sweep, result.history.back().mean_alpha,
           measured.counters[Counter::sites_swept].sum, measured.counters[Counter::sites_slept].sum};
@@ -70,8 +69,8 @@ TEST(Sleep, TheMeshIsThatOfSweepsInWhichNothingSleeps) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
     const RegionShape shape(c.parts, c.region, c.frame);
-    const SleepRun usual = run(comm::Communicator::world(), shape, c.frame, c.method),
-                   sleepless = run(comm::Communicator::world(), shape, c.frame, c.method, true);
+    const SleepRun usual = run(comm::Communicator::world(), shape, c.method),
+                   sleepless = run(comm::Communicator::world(), shape, c.method, true);
     EXPECT_EQ(usual.hash, sleepless.hash);
     EXPECT_EQ(usual.sweeps, sleepless.sweeps);
     EXPECT_EQ(usual.mean_alpha, sleepless.mean_alpha);
@@ -85,9 +84,9 @@ TEST(Sleep, WhichSitesSleepDoesNotDependOnRanks) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
     const RegionShape shape(c.parts, c.region, c.frame);
-    const SleepRun alone = run(comm::Communicator::self(), shape, c.frame, c.method);
+    const SleepRun alone = run(comm::Communicator::self(), shape, c.method);
     for (const Stars stars : {Stars::by_lemma, Stars::by_emptiness}) {
-      const SleepRun together = run(comm::Communicator::world(), shape, c.frame, c.method, false, stars);
+      const SleepRun together = run(comm::Communicator::world(), shape, c.method, false, stars);
       EXPECT_EQ(together.hash, alone.hash);
       EXPECT_EQ(together.swept, alone.swept);
       EXPECT_EQ(together.slept, alone.slept);

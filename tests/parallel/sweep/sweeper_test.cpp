@@ -43,7 +43,6 @@ enum class Stars { by_lemma, verified, by_emptiness };
 MeshResult run(const comm::Communicator& comm, const Case& c, GlobalId points, Stars stars) {
   const RegionShape shape(c.parts, c.region, c.frame);
   MeshOptions options;
-  options.container = c.frame.container();
   options.points = points;
   options.method = c.method;
   options.start = c.start;
@@ -54,7 +53,7 @@ MeshResult run(const comm::Communicator& comm, const Case& c, GlobalId points, S
   const sizing::UniformSize uniform;
   const GradedSize graded;
   const sizing::SizeField& size = c.graded ? static_cast<const sizing::SizeField&>(graded) : uniform;
-  return testing::mesh_silently(comm, shape.boundary(), size, options);
+  return testing::mesh_silently(comm, shape.domain(), size, options);
 }
 
 std::vector<Case> cases() {

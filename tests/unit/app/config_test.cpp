@@ -98,7 +98,7 @@ TEST(Config, UnderstandsAGoodFile) {
       good + "corner_angle = 45\n[parallel]\nmesh_threads = 3\n[shape.map]\ntype = contour\nfile = a/b.xy\n"
              "normalize = true\n[output]\nformats = xdmf\n[log]\nlevel = debug\n",
       "dir/c.ini", {"domain.x_max=2", "shape.hole.radius=0.2"});
-  EXPECT_EQ(options.mesh.container.max, (geometry::Vec2{2, 1}));
+  EXPECT_EQ(options.container.max, (geometry::Vec2{2, 1}));
   ASSERT_EQ(options.parts.size(), 3u);
   EXPECT_EQ(options.parts[0].box.min, (geometry::Vec2{0.1, 0.1}));
   EXPECT_EQ(options.parts[1].radius, 0.2);
@@ -265,8 +265,8 @@ TEST(Config, TheContainerIsAutomaticWhereNoSideIsGiven) {
   EXPECT_FALSE(parse_config(good, "c.ini", {"domain.periodic_x=true"}).container_is_automatic);
   const RunOptions one_side = parse_config(good, "c.ini", {"domain.x_max=3"});
   EXPECT_FALSE(one_side.container_is_automatic);
-  EXPECT_EQ(one_side.mesh.container.min, (geometry::Vec2{0, 0}));
-  EXPECT_EQ(one_side.mesh.container.max, (geometry::Vec2{3, 1}));
+  EXPECT_EQ(one_side.container.min, (geometry::Vec2{0, 0}));
+  EXPECT_EQ(one_side.container.max, (geometry::Vec2{3, 1}));
 }
 
 TEST(Config, TakesFormatsOfOtherProgramsButNotForPeriodicContainers) {

@@ -127,7 +127,7 @@ TEST(Contour, MarkersSurviveWhereRingsAreParted) {
   const RegionShape shape({Part::contour("sea", contour, {}, unit_frame)}, "sea", unit_frame);
   const geometry::Boundary& boundary = shape.boundary();
   EXPECT_EQ(boundary.part_names, (std::vector<std::string>{"sea", "sea.2", "sea.3"}));
-  EXPECT_EQ(shape.part_markers(), (std::vector<std::int32_t>{0, 2, 3}));
+  EXPECT_EQ(shape.domain().part_markers(), (std::vector<std::int32_t>{0, 2, 3}));
   ASSERT_EQ(boundary.loops.size(), 1u);
   int with_two = 0, with_three = 0;
   for (const geometry::Piece& piece : boundary.loops[0].pieces) {

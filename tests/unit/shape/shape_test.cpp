@@ -186,13 +186,13 @@ TEST(Shape, RaggedContourWithManyVerticesAndLakes) {
 
 void expect_same_boundary(const std::vector<Part>& parts, const std::string& region, const Frame& frame) {
   const RegionShape shape(parts, region, frame);
-  const MarkedBoundary alone = boundary_of(parts, region, frame);
-  EXPECT_EQ(alone.part_markers, shape.part_markers());
-  EXPECT_EQ(alone.boundary.part_names, shape.boundary().part_names);
-  EXPECT_EQ(alone.boundary.area, shape.boundary().area);
-  ASSERT_EQ(alone.boundary.loops.size(), shape.boundary().loops.size());
-  for (std::size_t k = 0; k < alone.boundary.loops.size(); ++k) {
-    const Loop &a = alone.boundary.loops[k], &b = shape.boundary().loops[k];
+  const geometry::Domain alone = domain_of(parts, region, frame);
+  EXPECT_EQ(alone.part_markers(), shape.domain().part_markers());
+  EXPECT_EQ(alone.boundary().part_names, shape.boundary().part_names);
+  EXPECT_EQ(alone.boundary().area, shape.boundary().area);
+  ASSERT_EQ(alone.boundary().loops.size(), shape.boundary().loops.size());
+  for (std::size_t k = 0; k < alone.boundary().loops.size(); ++k) {
+    const Loop &a = alone.boundary().loops[k], &b = shape.boundary().loops[k];
     ASSERT_EQ(a.pieces.size(), b.pieces.size());
     for (std::size_t i = 0; i < a.pieces.size(); ++i) {
       const Piece &p = a.pieces[i], &q = b.pieces[i];
@@ -214,7 +214,7 @@ TEST(Shape, TheBoundaryAloneIsThatOfTheShape) {
       expect_same_boundary(parts, "difference(s, c)", frame);
       expect_same_boundary(parts, "difference(domain, s, c)", frame);
     }
-  EXPECT_THROW(boundary_of({}, "s", unit_frame), ConfigError);
+  EXPECT_THROW(domain_of({}, "s", unit_frame), ConfigError);
 }
 
 } // namespace
