@@ -32,6 +32,7 @@ trime_test_packages=(
   mpich libhdf5-mpich-dev                         # the other MPI, beside Open MPI, which stays the default
   doxygen                                         # reference pages of the public headers: scripts/doxygen.sh
   clang clang-format libomp-dev libclang-rt-14-dev # second compiler with its OpenMP and sanitizers, house style
+  clang-tidy                                      # tidy.sh
   flake8 universal-ctags                          # rules for Python; finds functions that are too long
 )
 
