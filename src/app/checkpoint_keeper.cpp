@@ -107,17 +107,19 @@ meshing::SavedRun CheckpointKeeper::checked(checkpoint::Found found, const std::
 }
 
 void CheckpointKeeper::go_to_the_end() {
+  phase_ = Phase::done;
   alarm(0);
   context_.signals.set_last(false);
   context_.comm.barrier(); // a rank that has left before keeps the others from writing
 }
 
 void CheckpointKeeper::remove_all() {
+  TRIME_ASSERT(phase_ == Phase::done, "checkpoints are removed once the run goes to its end");
   alarm(0);
   context_.signals.set_last(false);
   if (found_stop_file_)
     remove_stop_file(); // found when nothing was left to stop
-  if (!has_written_ && number_ < 0)
+  if (number_ < 0)      // this run has neither read nor written any
     return;
   if (context_.comm.is_root())
     for (const std::string& file : checkpoint_files(context_.output))
@@ -160,6 +162,7 @@ CheckpointWish CheckpointKeeper::wish_of_root() {
 }
 
 CheckpointWish CheckpointKeeper::wish() {
+  TRIME_ASSERT(phase_ == Phase::sweeping, "no checkpoint is wished for after the sweeps");
   SignalRequests& signals = context_.signals;
   signals.set_stops_in_order(is_configured());
   const CheckpointWish of_root = context_.comm.is_root() ? wish_of_root() : CheckpointWish::none;
@@ -175,7 +178,7 @@ CheckpointWish CheckpointKeeper::wish_before_cleanup(bool stands) {
   if (is_configured())
     mine = std::max(mine, CheckpointWish::write);
   const auto all = static_cast<CheckpointWish>(context_.comm.max(std::int64_t{static_cast<int>(mine)}));
-  is_last_ = true;
+  phase_ = Phase::ending;
   if (stands) {
     end_in_time();
     if (context_.comm.max(std::int64_t{context_.signals.asks_to_stop()}) > 0)
@@ -212,7 +215,7 @@ void CheckpointKeeper::tell_unwritten(CheckpointWish wish, const std::string& re
                                 "send USR1: if a checkpoint fails then, the run continues",
                                 reason, advice));
   signals.forget_writing();
-  if (is_last_)
+  if (phase_ == Phase::ending)
     signals.set_last(false);
   if (wish != CheckpointWish::stop) {
     context_.log.warning("checkpoint failed: {}; the run continues; {}", reason, advice);
@@ -228,6 +231,7 @@ void CheckpointKeeper::tell_unwritten(CheckpointWish wish, const std::string& re
 
 void CheckpointKeeper::write(CheckpointWish wish, const meshing::RunState& state, const sites::SiteState& sites,
                              std::span<const std::uint64_t> activity) {
+  TRIME_ASSERT(phase_ != Phase::done, "a checkpoint of a run that goes to its end");
   const double begin = context_.timers.total();
   if (number_ < 0)
     set_number();
@@ -240,13 +244,12 @@ void CheckpointKeeper::write(CheckpointWish wish, const meshing::RunState& state
     return;
   }
   ++number_;
-  has_written_ = true;
   context_.signals.forget_writing();
   written_ = context_.timers.total();
   longest_writing_ = std::max(longest_writing_, written_ - begin);
   context_.log.info("checkpoint: {}, {:.2g} s", file, written_ - begin);
   if (wish != CheckpointWish::stop) {
-    if (!is_last_)
+    if (phase_ == Phase::sweeping)
       return;
     end_in_time();
     if (context_.comm.max(std::int64_t{context_.signals.asks_to_stop()}) == 0) // since the wish, and nobody looks again

@@ -27,6 +27,12 @@ struct KeeperContext {
 /// @brief Only the clock and files of rank 0 count; the ranks agree on their wish in the reduction of each sweep. If a
 /// checkpoint cannot be written, the program warns and the run continues; it ends only where a signal would have ended
 /// it.
+///
+/// The phase says what may be called; calls that change it check it:
+/// - sweeping: at first. find, then wish after each sweep, and write if the ranks agree on a wish.
+/// - ending: after wish_before_cleanup. write at most once: then a signal or the time limit ends the run at once.
+/// - done: after go_to_the_end. Signals are not heard any more. Only remove_all.
+/// A stop that could not be carried out, since its checkpoint was not written, is not wished again by rank 0.
 class CheckpointKeeper final : public meshing::Checkpoints {
 public:
   /// @param time_limit seconds since the start of the program; 0: none
@@ -50,6 +56,8 @@ public:
              std::span<const std::uint64_t> activity) override;
 
 private:
+  enum class Phase { sweeping, ending, done };
+
   bool is_configured() const { return options_.interval > 0 || time_limit_ > 0 || !options_.stop_file.empty(); }
   meshing::CheckpointWish wish_of_root();
   bool finds_stop_file();
@@ -68,7 +76,9 @@ private:
   const double time_limit_;
   const checkpoint::Origin origin_;
   std::int64_t number_ = -1; // of the last checkpoint; -1: not known yet
-  bool has_written_ = false, is_last_ = false, found_stop_file_ = false, stops_no_more_ = false;
+  Phase phase_ = Phase::sweeping;
+  bool found_stop_file_ = false; // on rank 0; it counts until a checkpoint stops the run
+  bool stops_no_more_ = false;   // a stop has failed
   double asked_ = 0, sweep_ = 0, written_ = 0, longest_writing_ = 0,
          looked_ = -1e9; // seconds of rank 0
   std::string reason_;   // of the last wish of rank 0

@@ -19,6 +19,9 @@ using geometry::Vec2;
 
 namespace {
 
+// [extent of a loop] No corner is left out farther from its chord: small loops keep their shape.
+constexpr double most_of_extent = 0.1;
+
 double extent_of(const geometry::Loop& loop) {
   geometry::Box box;
   for (const geometry::Piece& piece : loop.pieces)
@@ -118,13 +121,10 @@ private:
 } // namespace
 
 SiteKind kind_of_junction(const geometry::Loop& loop, std::size_t piece, double corner_angle) {
-  const double turn = loop.turn_degrees(piece);
-  if (turn > BoundaryRules::sharp_turn)
+  if (loop.turn_degrees(piece) > BoundaryRules::sharp_turn)
     return SiteKind::sharp_corner;
-  return turn > std::fmin(corner_angle, BoundaryRules::always_a_corner) || loop.pieces[piece].corner ||
-                 polygon::changes_part(loop, piece)
-             ? SiteKind::corner
-             : SiteKind::plain;
+  const double least_turn = std::fmin(corner_angle, BoundaryRules::always_a_corner);
+  return loop.pieces[piece].corner || polygon::is_corner(loop, piece, least_turn) ? SiteKind::corner : SiteKind::plain;
 }
 
 struct LoopLayout::Plan {
@@ -144,7 +144,7 @@ LoopLayout::Plan::Plan(const LoopMetric& measured, const geometry::Lattice& on, 
                        const FeatureTolerance& uncapped)
     : metric(measured), lattice(on), corner_angle(angle), tolerance(uncapped),
       stretches(cut_into_stretches(metric, corner_angle, tolerance.share)) {
-  tolerance.most = BoundaryRules::most_of_extent * extent_of(metric.loop());
+  tolerance.most = most_of_extent * extent_of(metric.loop());
   closed = stretches.list.size() == 1 && !metric.loop().winds();
   work_before.push_back(0);
   for (const Stretch& stretch : stretches.list)

@@ -16,6 +16,26 @@ using geometry::Vec2;
 
 namespace {
 
+// [radians] A junction of two arcs that turns by less lies within one circle: half a degree.
+constexpr double smooth_junction = pi / 360;
+
+// [tolerance] A chord that leaves corners farther off is divided. The layout keeps within 1.1; the rest is leeway
+// for snapping and halving.
+constexpr double most_deviation = 1.25;
+
+// [radians] A junction that turns by more becomes a site when its chord is divided.
+constexpr double junction_turn = pi / 4;
+
+// [rounds] Later rounds of halving look only at chords near the new sites.
+constexpr int full_rounds = 20;
+
+// [1] Halving may make this number times the sites of the layout. More means that the boundary is at fault, and an
+// error says so.
+constexpr std::size_t halving_growth = 16;
+
+// [sites] Halving of chords may always make this number; beyond, halving_growth is the bound.
+constexpr std::size_t always_halved = 4000000;
+
 constexpr std::ptrdiff_t chords_in_a_row = 64; // by one thread
 
 double nearest_power_of_two(double v) {
@@ -68,7 +88,7 @@ std::vector<BoundaryRefiner::Cut> BoundaryRefiner::begin(std::vector<LoopSite> l
     add_loop(of_loop);
     first = end;
   }
-  most_sites_ = std::max(BoundaryRules::always_halved, BoundaryRules::halving_growth * sites_.size());
+  most_sites_ = std::max(always_halved, halving_growth * sites_.size());
   std::vector<SiteTree::Entry> items(sites_.size());
   for (std::size_t k = 0; k < sites_.size(); ++k)
     items[k] = {boundary_.periods.wrap(sites_[k].position), static_cast<LocalIndex>(k)};
@@ -129,7 +149,7 @@ std::vector<BoundaryRefiner::Cut> BoundaryRefiner::find_cuts(const std::vector<L
     else if (const LocalIndex intruder = find_intruder(newest, k); intruder >= 0)
       cuts.push_back({k, intruder});
   };
-  if (rounds_ < BoundaryRules::full_rounds)
+  if (rounds_ < full_rounds)
     return gather_in_order<Cut>(std::ssize(sites_), chords_in_a_row, [&](std::ptrdiff_t k, std::vector<Cut>& cuts) {
       look(static_cast<LocalIndex>(k), cuts);
     });
@@ -212,9 +232,9 @@ bool BoundaryRefiner::curve_offends(LocalIndex chord) const {
     return true;
   const double tolerance = this->tolerance(a);
   const bool strays = tolerance > 0 && part.sharpest_turn > corner_angle_ * (pi / 180) &&
-                      part.deviation > BoundaryRules::most_deviation * tolerance; // from a corner, after a division
+                      part.deviation > most_deviation * tolerance; // from a corner, after a division
   // The arc of a circle has no corner that could be left out.
-  const bool is_smooth = part.sharpest_turn < BoundaryRules::smooth_junction;
+  const bool is_smooth = part.sharpest_turn < smooth_junction;
   return strays || (std::fabs(part.turn) > BoundaryRules::largest_turn && (is_smooth || part.deviation > tolerance));
 }
 
@@ -222,7 +242,7 @@ bool BoundaryRefiner::curve_offends(LocalIndex chord) const {
 BoundaryRefiner::CutPlace BoundaryRefiner::cut_place(const Site& a, const Site& b, double end) const {
   const LoopMetric& metric = metrics_[a.loop];
   const PartSummary part = summarize(a);
-  if (part.sharpest_turn > BoundaryRules::junction_turn) {
+  if (part.sharpest_turn > junction_turn) {
     const double t = metric.piece_t(static_cast<std::size_t>(part.sharpest));
     return {t > a.t ? t : t + metric.total(), part.sharpest};
   }

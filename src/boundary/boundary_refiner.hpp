@@ -3,12 +3,15 @@
 #pragma once
 
 #include "boundary/boundary_layout.hpp"
-#include "boundary/boundary_sites.hpp"
 #include "boundary/boundary_sizes.hpp"
+#include "boundary/feature_rule.hpp"
 #include "boundary/loop_metric.hpp"
 #include "boundary/segment_watch.hpp"
 #include "boundary/site_tree.hpp"
+#include "polygon/polygon.hpp"
 #include "trime/comm/communicator.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/lattice.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -31,6 +34,7 @@ struct Share {
 /// make_boundary_sites.
 class BoundaryRefiner {
 public:
+  /// @param affordable halving ends at this number of sites: the caller only wants to know that there are too many
   BoundaryRefiner(const geometry::Boundary& boundary, const BoundarySizes& sizes, const geometry::Lattice& lattice,
                   double corner_angle, std::span<const geometry::Vec2> inside, const FeatureRule& rule,
                   std::size_t affordable);
@@ -120,9 +124,22 @@ private:
   int rounds_ = 0;
 };
 
-/// @brief Makes the sites that one refiner would make, by all ranks together. Collective. If one rank throws, all ranks
-/// throw.
-/// @param make_ready the refiner of this rank: the same on all ranks; does not communicate
+/// @brief Lays out the sites of a boundary for an absolute element size, by all ranks together. Collective. If one rank
+/// throws, all do.
+///
+/// A junction of two pieces that turns by more than `corner_angle` degrees is a corner; `rule` says which corners and
+/// loops are left out. Between corners that are surely kept, or along a whole loop without corners, the sites lie at
+/// equal quantiles of the integral of ds/h. Where corners between them may be left out, a shortest path chooses the
+/// corners that stay, and places between them (site_path.hpp). Where two arms meet at less than 60 degrees, both get
+/// sites at equal distances from the corner until their gap reaches h (shells; Ruppert 1995). Then a chord is divided
+/// while another site lies in its diametral disc, or the curve between its ends leaves that disc, or the curve turns by
+/// more than 60 degrees and strays from the chord by more than the tolerance. It is divided in the middle, or, next to
+/// a sharp corner, on a power-of-two radius (concentric shells), so that the process ends for any angle. The discs are
+/// kept free of the points of `inside`, too. Sites always lie on the curve. Deterministic; O(B log^2 B) for B sites and
+/// pieces.
+/// @throws GeometryError with the place, if two parts of the boundary are too close to separate, or if the size asks
+/// for more than 2^27 sites
+/// @param make_ready returns the refiner of this rank: the same on all ranks; does not communicate
 polygon::BoundarySites make_boundary_sites(const comm::Communicator& comm,
                                            const std::function<std::unique_ptr<BoundaryRefiner>()>& make_ready);
 

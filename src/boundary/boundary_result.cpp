@@ -92,14 +92,6 @@ BoundarySites BoundaryRefiner::result() const {
   return out;
 }
 
-BoundarySites make_boundary_sites(const geometry::Boundary& boundary, const BoundarySizes& sizes,
-                                  const geometry::Lattice& lattice, double corner_angle, std::span<const Vec2> inside,
-                                  const FeatureRule& rule, std::size_t affordable) {
-  BoundaryRefiner refiner(boundary, sizes, lattice, corner_angle, inside, rule, affordable);
-  refiner.run(refiner.begin(refiner.lay_out({}), {}));
-  return refiner.result();
-}
-
 BoundarySites make_boundary_sites(const comm::Communicator& comm,
                                   const std::function<std::unique_ptr<BoundaryRefiner>()>& make_ready) {
   const Share share{comm.rank(), comm.size()};
@@ -116,13 +108,6 @@ BoundarySites make_boundary_sites(const comm::Communicator& comm,
     result = refiner->result();
   });
   return result;
-}
-
-BoundarySites make_boundary_sites(const geometry::Boundary& boundary, const sizing::SizeField& size,
-                                  const geometry::Lattice& lattice, double corner_angle, std::span<const Vec2> inside,
-                                  const FeatureRule& rule, std::size_t affordable) {
-  return make_boundary_sites(boundary, BoundarySizes(size, rule.size ? *rule.size : size), lattice, corner_angle,
-                             inside, rule, affordable);
 }
 
 } // namespace trime::boundary

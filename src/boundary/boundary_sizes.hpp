@@ -2,7 +2,6 @@
 // The element size along the curves of a boundary.
 #pragma once
 
-#include "boundary/boundary_sites.hpp"
 #include "sizing/lowered_size.hpp"
 #include "trime/core/types.hpp"
 #include "trime/geometry/boundary.hpp"
@@ -80,11 +79,5 @@ private:
   const sizing::SizeField &size_, &asked_;
   std::optional<Sampled> sampled_;
 };
-
-/// Makes the sites as make_boundary_sites in boundary_sites.hpp; the rule uses the size sizes.asked().
-polygon::BoundarySites make_boundary_sites(const geometry::Boundary& boundary, const BoundarySizes& sizes,
-                                           const geometry::Lattice& lattice, double corner_angle,
-                                           std::span<const geometry::Vec2> inside, const FeatureRule& rule,
-                                           std::size_t affordable);
 
 } // namespace trime::boundary

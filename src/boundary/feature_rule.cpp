@@ -10,6 +10,9 @@
 namespace trime::boundary {
 namespace {
 
+// [area of the shape] A loop that encloses more is never dropped.
+constexpr double largest_dropped_share = 0.01;
+
 using geometry::Loop;
 using geometry::Piece;
 using geometry::Vec2;
@@ -113,7 +116,7 @@ DroppedLoops drop_small_loops(const geometry::Boundary& boundary, const sizing::
     const bool asked_for =
         std::any_of(loop.pieces.begin(), loop.pieces.end(), [](const Piece& piece) { return piece.corner; });
     dropped[k] = !loop.winds() && !asked_for && is_small(boundary, loop, size, least_perimeter) &&
-                 std::fabs(enclosed_area(loop)) <= BoundaryRules::largest_dropped_share * boundary.area;
+                 std::fabs(enclosed_area(loop)) <= largest_dropped_share * boundary.area;
   }
   keep_one_component(boundary, dropped);
   std::vector<Vec2> staying; // a point of each loop that stays

@@ -16,8 +16,6 @@ namespace trime::boundary {
 struct FeatureRule {
   double tolerance = 0;
   double least_perimeter = 0;
-  /// The local size that counts, if it differs from that by which the sites are laid. Must outlive what uses the rule.
-  const sizing::SizeField* size = nullptr;
 };
 
 /// Signed, counter-clockwise positive; arcs included. O(pieces) @pre the loop does not wind around the container

@@ -15,6 +15,24 @@ using geometry::Vec2;
 
 namespace {
 
+// [h] A path takes no shorter chord, unless its ends are neighbours. The same as place_spacing.
+constexpr double shortest_chord = 0.25;
+
+// [places] Number of places after its start where the end of a chord is searched, which bounds the time.
+constexpr std::size_t farthest_place = 64;
+
+// [h] One chord stands for no longer way along the curve.
+constexpr double farthest_way = 6;
+
+// [h] Behind a place that is farther from the start of a chord no end of it is looked for.
+constexpr double farthest_reach = 2.5;
+
+// [1] Cost of a site in the disc of a neighbouring chord, which would be halved for it.
+constexpr double encroachment = 1;
+
+// [1] Cost of a closed path that goes along one chord and back: more than all other costs.
+constexpr double back_and_forth = 1e3;
+
 /// About the square of the logarithm.
 double mismatch(double ratio) {
   const double d = ratio - 1 / ratio;
@@ -70,7 +88,7 @@ public:
     first_.resize(n + 1, 0);
     for (std::size_t from = 0; from + 1 < n; ++from) {
       first_[from] = static_cast<LocalIndex>(chords_.size());
-      for (std::size_t to = from + 1; to < std::min(n, from + BoundaryRules::farthest_place); ++to) {
+      for (std::size_t to = from + 1; to < std::min(n, from + farthest_place); ++to) {
         const Vec2 along = places[to].position - places[from].position;
         const double length = geometry::length(along);
         if (!in_reach(from, to, length))
@@ -112,16 +130,14 @@ private:
   /// Behind a place far out, or far along a winding curve, no chord ends.
   bool in_reach(std::size_t from, std::size_t to, double length) const {
     const SitePlace &a = places_[from], &b = places_[to];
-    return to == from + 1 ||
-           (b.t - a.t < BoundaryRules::farthest_way && length < BoundaryRules::farthest_reach * a.size);
+    return to == from + 1 || (b.t - a.t < farthest_way && length < farthest_reach * a.size);
   }
 
   void add_chord(std::size_t from, std::size_t to, Vec2 along, double length) {
     const SitePlace &a = places_[from], &b = places_[to];
     const double h = 0.5 * (a.size + b.size);
     const bool neighbours = to == from + 1;
-    if (!(length > 0) ||
-        (!neighbours && (length > BoundaryRules::longest_chord * h || length < BoundaryRules::shortest_chord * h)))
+    if (!(length > 0) || (!neighbours && (length > BoundaryRules::longest_chord * h || length < shortest_chord * h)))
       return;
     const double tolerance = std::min(a.tolerance, b.tolerance);
     const double far = tolerance * length * (1 + 1e-9); // beyond it there is no need to divide
@@ -152,7 +168,7 @@ private:
     const double dot = -geometry::dot(out.along, in.along), cross = -geometry::cross(out.along, in.along);
     const double shorter = std::min(in.length, out.length);
     const bool encroaches = dot > shorter * shorter;
-    return fan_costs_(dot, cross) + of_lengths + (encroaches ? BoundaryRules::encroachment : 0);
+    return fan_costs_(dot, cross) + of_lengths + (encroaches ? encroachment : 0);
   }
 
   std::span<LocalIndex> into(std::size_t place) {
@@ -189,7 +205,7 @@ private:
           start = chords_[static_cast<std::size_t>(start)].before;
         const Chord& first = chords_[static_cast<std::size_t>(start)];
         if (start == c)
-          cost += BoundaryRules::back_and_forth;
+          cost += back_and_forth;
         else
           cost += joint_cost(chord, first, ratio_cost(chord, first));
       }

@@ -11,6 +11,9 @@ using geometry::Vec2;
 
 namespace {
 
+// [levels] Bounds that thinning; deeper, all places stay.
+constexpr int deepest_division = 64;
+
 /// Both ends and the junctions between them.
 std::vector<SitePlace> junctions_between(const LoopMetric& metric, double t0, double t1,
                                          const geometry::Lattice& lattice) {
@@ -80,7 +83,7 @@ void mark_kept(const std::vector<SitePlace>& places, std::vector<char>& kept) {
     }
     if (!far)
       continue;
-    if (part.depth == BoundaryRules::deepest_division) {
+    if (part.depth == deepest_division) {
       std::fill(kept.begin() + static_cast<std::ptrdiff_t>(part.from),
                 kept.begin() + static_cast<std::ptrdiff_t>(part.to), 1);
       continue;

@@ -16,6 +16,25 @@ using polygon::BoundarySites;
 
 namespace {
 
+// [h] Sites that are nearer to each other across the inside ask for a smaller size.
+constexpr double narrow_gap = 0.65;
+
+// [asked h] No limit of the size is lower, so that lowering ends in wedges.
+constexpr double least_limit = 0.05;
+
+// [chord lengths] Of the center of the circle that sees the chord at 75 degrees: 0.5 / tan(75 degrees).
+constexpr double lens_offset = 0.134;
+
+// [chord lengths] Radius of that circle: 0.5 / sin(75 degrees).
+constexpr double lens_radius = 0.5176;
+
+// [1] Size over the width of a channel: the side of an equilateral triangle over its height.
+constexpr double width_factor = 1.15;
+
+// [chords] Sites on the two arms of one sharp corner are near to each other at any size, and ask for no smaller one.
+// The corner is searched among this number of chords on both sides.
+constexpr int longest_arms = 24;
+
 constexpr int sites_in_a_row = 64; // by one thread
 
 /// Finds the limits of the chords [first, last).
@@ -43,19 +62,19 @@ private:
     const auto add = [&](Vec2 place, double limit, double h) {
       if (!(limit < BoundaryRules::least_lowering * h))
         return;
-      limit = std::fmax(limit, BoundaryRules::least_limit * asked_.size(place));
+      limit = std::fmax(limit, least_limit * asked_.size(place));
       if (limit < BoundaryRules::least_lowering * h) // else it is as low already as it may become
         limits.push_back({place, limit});
     };
     const geometry::Segment chord = boundary_.chord(k);
     const double at_site = site_sizes_[static_cast<std::size_t>(k - first_)];
-    add(chord.a, gap_across(k, BoundaryRules::narrow_gap * at_site), at_site);
+    add(chord.a, gap_across(k, narrow_gap * at_site), at_site);
     if (is_near_sharp(k))
       return; // in a wedge chords are short at any size
     const Vec2 middle = boundary_.periods.wrap(0.5 * (chord.a + chord.b));
     const double length = geometry::length(chord.b - chord.a), h = sizing::checked_size(size_, middle);
     const double limit = length < BoundaryRules::short_chord * h ? BoundaryRules::short_factor * length : h;
-    add(middle, std::fmin(limit, BoundaryRules::width_factor * width_across(k, chord, length)), h);
+    add(middle, std::fmin(limit, width_factor * width_across(k, chord, length)), h);
   }
 
   std::vector<double> sizes_at_sites() const {
@@ -69,15 +88,13 @@ private:
 
   /// The sites that the circles of these chords may meet.
   std::vector<SiteTree::Entry> items_near() const {
-    constexpr double lens =
-        0.5 + BoundaryRules::lens_offset + BoundaryRules::lens_radius; // [chord lengths] from an end
-    constexpr double rounding = 1 + 1e-9;                              // must not hide a site
+    constexpr double lens = 0.5 + lens_offset + lens_radius; // [chord lengths] from an end
+    constexpr double rounding = 1 + 1e-9;                    // must not hide a site
     geometry::Box box;
     for (LocalIndex k = first_; k < last_; ++k) {
       const geometry::Segment chord = boundary_.chord(k);
-      const double reach =
-          rounding * std::fmax(BoundaryRules::narrow_gap * site_sizes_[static_cast<std::size_t>(k - first_)],
-                               lens * geometry::length(chord.b - chord.a));
+      const double reach = rounding * std::fmax(narrow_gap * site_sizes_[static_cast<std::size_t>(k - first_)],
+                                                lens * geometry::length(chord.b - chord.a));
       box.include(chord.a - Vec2{reach, reach});
       box.include(chord.a + Vec2{reach, reach});
     }
@@ -91,9 +108,9 @@ private:
   /// Least distance from the chord's line of the sites that see it at a large angle; infinite without any.
   double width_across(LocalIndex k, const geometry::Segment& chord, double length) const {
     const Vec2 along = (1 / length) * (chord.b - chord.a), inward{-along.y, along.x};
-    const Vec2 center = 0.5 * (chord.a + chord.b) + BoundaryRules::lens_offset * length * inward;
+    const Vec2 center = 0.5 * (chord.a + chord.b) + lens_offset * length * inward;
     double width = std::numeric_limits<double>::infinity();
-    tree_.for_each_within(center, BoundaryRules::lens_radius * length, [&](const SiteTree::Entry& item) {
+    tree_.for_each_within(center, lens_radius * length, [&](const SiteTree::Entry& item) {
       const double height = geometry::dot(item.position - chord.a, inward);
       if (height > 0 && !is_near(k, item.index))
         width = std::fmin(width, height);
@@ -129,7 +146,7 @@ private:
   bool is_around_corner(LocalIndex k, LocalIndex other) const {
     LocalIndex forward = k, backward = k;
     bool sharp_ahead = is_sharp(k), sharp_behind = sharp_ahead;
-    for (int hop = 0; hop <= BoundaryRules::longest_arms; ++hop) {
+    for (int hop = 0; hop <= longest_arms; ++hop) {
       if ((forward == other && (hop <= 2 || sharp_ahead)) || (backward == other && (hop <= 2 || sharp_behind)))
         return true;
       forward = next(forward);

@@ -2,7 +2,7 @@
 // Where the boundary asks for smaller triangles than the size field does.
 #pragma once
 
-#include "boundary/boundary_sites.hpp"
+#include "polygon/polygon.hpp"
 #include "sizing/lowered_size.hpp"
 #include "trime/comm/communicator.hpp"
 

@@ -24,48 +24,51 @@ using polygon::BoundarySites;
 using sites::FlatFan;
 using sites::StageView;
 
-/// Everything that is counted, mergeable.
-struct Counts {
+/// Numbers and hashes, mergeable by addition.
+struct Tallies {
   std::int64_t points = 0, edges = 0, triangles = 0, facets = 0, listings = 0;
   std::uint64_t hash_of_listings = 0, hash_of_triangles = 0, hash_of_written = 0;
   std::uint64_t hash_of_facets = 0, hash_of_written_facets = 0;
   std::uint64_t hash_of_points = 0, hash_of_written_points = 0;
   std::int64_t not_positive = 0, not_delaunay = 0, incomplete = 0, unused = 0, corners = 0, junctions = 0, fixed = 0;
+
+  static constexpr std::size_t members = 19;
+
+  /// Calls visit(member) for all members of `counts`.
+  template <class Self, class Visit>
+  static void for_each_member(Self& counts, const Visit& visit) {
+    for (auto* number : {&counts.points, &counts.edges, &counts.triangles, &counts.facets, &counts.listings})
+      visit(*number);
+    for (auto* hash :
+         {&counts.hash_of_listings, &counts.hash_of_triangles, &counts.hash_of_written, &counts.hash_of_facets,
+          &counts.hash_of_written_facets, &counts.hash_of_points, &counts.hash_of_written_points})
+      visit(*hash);
+    for (auto* number : {&counts.not_positive, &counts.not_delaunay, &counts.incomplete, &counts.unused,
+                         &counts.corners, &counts.junctions, &counts.fixed})
+      visit(*number);
+  }
+};
+static_assert(sizeof(Tallies) == Tallies::members * sizeof(std::int64_t), "a member is missing in for_each_member");
+
+/// Everything that is counted, mergeable.
+struct Counts : Tallies {
   ExactArea area;
 
-  static constexpr std::size_t size = 22;
+  static constexpr std::size_t size = members + 3; // and the parts of the area
   std::array<std::int64_t, size> pack() const {
-    const auto parts = area.split();
-    const auto bits = [](std::uint64_t hash) { return static_cast<std::int64_t>(hash); };
-    return {points,
-            edges,
-            triangles,
-            facets,
-            listings,
-            bits(hash_of_listings),
-            bits(hash_of_triangles),
-            bits(hash_of_written),
-            bits(hash_of_facets),
-            bits(hash_of_written_facets),
-            bits(hash_of_points),
-            bits(hash_of_written_points),
-            not_positive,
-            not_delaunay,
-            incomplete,
-            unused,
-            corners,
-            junctions,
-            fixed,
-            parts[0],
-            parts[1],
-            parts[2]};
+    std::array<std::int64_t, size> packed{};
+    auto next = packed.begin();
+    for_each_member(*this, [&](const auto& member) { *next++ = static_cast<std::int64_t>(member); });
+    for (const std::int64_t part : area.split())
+      *next++ = part;
+    return packed;
   }
-  static Counts unpack(const std::array<std::int64_t, size>& p) {
-    const auto hash = [&](std::size_t k) { return static_cast<std::uint64_t>(p[k]); };
-    Counts c{p[0],     p[1],     p[2],  p[3],  p[4],  hash(5), hash(6), hash(7), hash(8), hash(9),
-             hash(10), hash(11), p[12], p[13], p[14], p[15],   p[16],   p[17],   p[18],   {}};
-    c.area = ExactArea::join({p[19], p[20], p[21]});
-    return c;
+  static Counts unpack(const std::array<std::int64_t, size>& packed) {
+    Counts counts;
+    auto next = packed.begin();
+    for_each_member(counts, [&]<class T>(T& member) { member = static_cast<T>(*next++); });
+    counts.area = ExactArea::join({next[0], next[1], next[2]});
+    return counts;
   }
   void add(const Counts& other) {
     auto sum = pack();

@@ -284,10 +284,18 @@ void CleanupRounds::settle_failures(const Attempt& attempt) {
 }
 
 CleanupCounts CleanupRounds::counts() const {
-  std::array<std::int64_t, 7> all{counts_.patches, counts_.better,      counts_.moved, counts_.inserted,
-                                  counts_.deleted, counts_.on_boundary, counts_.left};
+  constexpr std::array members{&CleanupCounts::patches,  &CleanupCounts::better,  &CleanupCounts::moved,
+                               &CleanupCounts::inserted, &CleanupCounts::deleted, &CleanupCounts::on_boundary,
+                               &CleanupCounts::left};
+  static_assert(sizeof(CleanupCounts) == members.size() * sizeof(std::int64_t), "a member is missing");
+  std::array<std::int64_t, members.size()> all{};
+  for (std::size_t k = 0; k < members.size(); ++k)
+    all[k] = counts_.*members[k];
   comm_.sum(all);
-  return {all[0], all[1], all[2], all[3], all[4], all[5], all[6]};
+  CleanupCounts sums;
+  for (std::size_t k = 0; k < members.size(); ++k)
+    sums.*members[k] = all[k];
+  return sums;
 }
 
 } // namespace trime::cleanup

@@ -5,6 +5,7 @@
 #include "comm/shared_work.hpp"
 #include "core/angle.hpp"
 #include "fitting/density_integral.hpp"
+#include "fitting/layout.hpp"
 #include "fitting/rules.hpp"
 #include "placing/density_sampler.hpp"
 #include "placing/work_share.hpp"
@@ -14,6 +15,16 @@
 
 namespace trime::fitting {
 namespace {
+
+// [points asked for] An estimate stops counting there.
+constexpr double far_too_many = 4;
+
+// [boundary sites] If corners are more than this share of the boundary sites, they crowd: the size is lowered around
+// many of them.
+constexpr double sparse_corners = 0.38;
+
+// [1] Where corners crowd the estimated factor grows by this at most.
+constexpr double most_crowding = 16;
 
 using geometry::Vec2;
 using polygon::BoundarySite;
@@ -109,12 +120,12 @@ CountEstimate::CountEstimate(const LayoutContext& context, double points, double
 std::optional<double> CountEstimate::points(double factor) {
   if (!reference_.guard)
     return std::nullopt;
-  const sizing::ScaledSize size = scaled(factor);
+  const sizing::ScaledSize size = context_.asked_size(factor);
   const std::optional<double> on_boundary = boundary_points(size);
   if (!on_boundary)
     return std::nullopt;
   const double placed = *on_boundary + static_cast<double>(context_.fixed.inside().size());
-  if (*on_boundary > FitRules::far_too_many * points_)
+  if (*on_boundary > far_too_many * points_)
     return placed;
   placing::share_by_density(reference_, size, context_.lattice, coarsening_);
   const mesh::TileRange tiles = placing::own_share(reference_);
@@ -124,23 +135,18 @@ std::optional<double> CountEstimate::points(double factor) {
                       .sites;
 }
 
-sizing::ScaledSize CountEstimate::scaled(double factor) const {
-  const FitOptions& options = context_.options;
-  return {context_.relative_size, factor, options.min_size.value_or(0), options.max_size.value_or(INFINITY)};
-}
-
 double CountEstimate::crowding(double factor) const {
-  const std::optional<double> sites = boundary_points(scaled(factor));
+  const std::optional<double> sites = boundary_points(context_.asked_size(factor));
   if (!sites || !(*sites > 0))
     return 1;
-  const double share = corners_ / (FitRules::sparse_corners * *sites);
-  return std::clamp(share * share, 1.0, FitRules::most_crowding);
+  const double share = corners_ / (sparse_corners * *sites);
+  return std::clamp(share * share, 1.0, most_crowding);
 }
 
 /// Simpson's rule, in steps of about the local size. Collective.
 std::optional<double> CountEstimate::boundary_points(const sizing::SizeField& size) const {
   const BoundarySites& polygon = reference_.polygon;
-  const double most = FitRules::far_too_many * points_;
+  const double most = far_too_many * points_;
   const auto count_on = [&](std::ptrdiff_t k, std::vector<double>& counts) {
     const geometry::Segment chord = polygon.chord(static_cast<LocalIndex>(k));
     const auto inverse = [&](double share) {

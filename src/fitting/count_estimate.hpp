@@ -2,7 +2,8 @@
 // About how many points a mesh will have at a factor of the relative size, without laying out its boundary.
 #pragma once
 
-#include "fitting/layout.hpp"
+#include "fitting/layout_context.hpp"
+#include "sites/stage.hpp"
 
 #include <optional>
 #include <vector>
@@ -28,7 +29,6 @@ public:
   double crowding(double factor) const;
 
 private:
-  sizing::ScaledSize scaled(double factor) const;
   std::optional<double> boundary_points(const sizing::SizeField& size) const;
 
   const LayoutContext& context_;

@@ -1,26 +1,55 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The factor of a size that differs from place to place.
-#include "fitting/count_estimate.hpp"
+#include "fitting/density_fit.hpp"
 
 #include "boundary/rules.hpp"
 #include "comm/agree.hpp"
+#include "fitting/count_estimate.hpp"
 #include "fitting/factor_search.hpp"
-#include "fitting/few_points.hpp"
+#include "fitting/points_of_length.hpp"
 #include "fitting/rules.hpp"
-#include "fitting/size_fit.hpp"
-#include "fitting/size_trials.hpp"
-#include "trime/core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <utility>
 
 namespace trime::fitting {
 namespace {
 
+// [trials] Of the factor of a graded size, each with a layout of the boundary: a bound; 3 to 6 are usual.
+constexpr int most_trials = 40;
+
+// [points asked for] With fewer the result says why.
+constexpr double enough_points = 0.98;
+
+// [rounds] Of estimates of the factor without layouts: a bound.
+constexpr int estimate_rounds = 6;
+
+// [1] A factor that changes by a smaller share ends the estimates.
+constexpr double estimate_precision = 0.02;
+
+// [1] The same where corners crowd: the estimate is rough there anyway.
+constexpr double crowded_precision = 0.2;
+
+// [rounds] In so many, at most, the factor and the limits of the size are found together, with a layout each.
+constexpr int approach_rounds = 8;
+
+// [boundary sites] If there are more limits of the size than this share, they hold so many points that crowded_power
+// applies.
+constexpr double crowded_share = 0.05;
+
+// [1] The points grow by this power of the factor where limits hold many of them: less than by -2, since limits
+// stay. First guess of the secant only.
+constexpr double crowded_power = -1.6;
+
+// [1] The last trial on the way leaves out one round of limits; its count is raised by this for them.
+constexpr double limits_to_come = 1.08;
+
+// [rounds] In so many, at most, the factor for an edge length is found.
+constexpr int edge_length_rounds = 12;
+
 using boundary::BoundaryRules;
+using DensityResult = std::variant<SizeTrial, TooFewPoints>;
 
 class DensitySolver {
 public:
@@ -29,13 +58,15 @@ public:
         rough_(coarsening < FitRules::reference_coarsening ? coarsening : 2 * coarsening),
         search_((1 - FitRules::goal_below * FitRules::close_enough) * points) {}
 
-  DensityFit solve() {
+  DensityResult solve() {
     const geometry::Boundary& boundary = context_.given_boundary;
     const double uniform = context_.options.points ? estimated_size(boundary.area, boundary.length(), points_)
                                                    : *context_.options.edge_length;
     double smallest = 0;
     comm::run_agreed(context_.comm, [&] { smallest = smallest_sampled_size(context_); });
-    return context_.options.points ? for_points(uniform, smallest) : for_edge_length(uniform / smallest);
+    if (context_.options.points)
+      return for_points(uniform, smallest);
+    return for_edge_length(uniform / smallest);
   }
 
 private:
@@ -46,14 +77,14 @@ private:
     CountEstimate estimate(context_, points_, FitRules::reference_spacing * uniform,
                            std::fmax(rough_, FitRules::reference_coarsening));
     search_.expect(FitRules::uncrowded_power);
-    for (int round = 0; round < FitRules::estimate_rounds; ++round) {
+    for (int round = 0; round < estimate_rounds; ++round) {
       const std::optional<double> points = estimate.points(factor);
       if (!points || !(*points > 0))
         break;
       const double guess = search_.next(factor, *points), crowding = estimate.crowding(guess);
       const double change = std::fabs(guess / factor - 1);
       factor = guess;
-      if (change < (crowding > 1 ? FitRules::crowded_precision : FitRules::estimate_precision)) {
+      if (change < (crowding > 1 ? crowded_precision : estimate_precision)) {
         factor *= crowding;
         break;
       }
@@ -64,21 +95,22 @@ private:
 
   /// @brief The trial as it is if its sites are nearly as many as wanted, or with a size so little larger or smaller
   /// that the sites inside make up the difference: those on the boundary may stay.
-  std::optional<DensityFit> accepted(SizeTrial& trial) const {
-    if (trial.fit.laid.stage.polygon.overfull)
+  std::optional<SizeTrial> accepted(SizeTrial& trial) const {
+    const sites::Stage& stage = trial.fit.stage;
+    if (stage.polygon.overfull)
       return std::nullopt;
     if (trial.points <= points_ &&
         (trial.points >= (1 - FitRules::close_enough) * points_ || trial.points > points_ - 2))
-      return std::move(trial.fit);
-    const double wanted = std::floor(points_ - static_cast<double>(trial.fit.laid.stage.placed_first()));
+      return std::move(trial);
+    const double wanted = std::floor(points_ - static_cast<double>(stage.placed_first()));
     if (context_.options.min_size || context_.options.max_size || !(wanted > 0))
       return std::nullopt;
     const double scale = std::sqrt(trial.fit.inner / wanted);
     if (!(scale > FitRules::least_scale && scale < FitRules::most_scale))
       return std::nullopt;
-    rescale(context_, trial.fit.laid, scale);
+    rescale(context_, trial.fitted, trial.fit.stage, scale);
     trial.fit.inner = wanted;
-    return std::move(trial.fit);
+    return std::move(trial);
   }
 
   /// A factor to go on from, and what came of it, if that is known.
@@ -90,20 +122,18 @@ private:
   /// found together, one layout for each step.
   Approach approached(double factor) {
     bool crowded = false;
-    for (int round = 0; round < FitRules::approach_rounds; ++round) {
-      FittedStage laid = trials_.lay(factor);
+    for (int round = 0; round < approach_rounds; ++round) {
+      sites::Stage laid = trials_.lay(factor);
       const bool first = trials_.limit_rounds() == 0;
-      search_.expect(crowded ? FitRules::crowded_power
-                             : FitRules::uncrowded_power); // trials with other limits tell nothing
+      search_.expect(crowded ? crowded_power : FitRules::uncrowded_power); // trials with other limits tell nothing
       if (!trials_.find_limits(laid))
         return {factor, trials_.count(std::move(laid), trials_.coarsening())};
       if (first) {
-        crowded = static_cast<double>(trials_.limits()) >
-                  FitRules::crowded_share * static_cast<double>(laid.stage.polygon.sites.size());
+        crowded =
+            static_cast<double>(trials_.limits()) > crowded_share * static_cast<double>(laid.polygon.sites.size());
         continue;
       }
-      const double growth =
-          crowded && trials_.limit_rounds() == BoundaryRules::lowering_rounds ? FitRules::limits_to_come : 1;
+      const double growth = crowded && trials_.limit_rounds() == BoundaryRules::lowering_rounds ? limits_to_come : 1;
       factor = search_.next(factor, growth * trials_.count(std::move(laid), rough_).points);
     }
     return {factor, std::nullopt};
@@ -111,7 +141,7 @@ private:
 
   /// What came of trials between factors that make too few and too many points.
   struct Search {
-    std::optional<DensityFit> accepted;
+    std::optional<SizeTrial> accepted;
     SizeTrial best; ///< else: the one with most points of those that are not too many
     Fewest fewest;
     bool fits = false; ///< there is a best one
@@ -119,15 +149,15 @@ private:
   Search search(Approach approach, FactorBracket& bracket) {
     Search found;
     double factor = approach.factor;
-    for (int round = 0; round < FitRules::most_trials && !bracket.is_closed(); ++round) {
+    for (int round = 0; round < most_trials && !bracket.is_closed(); ++round) {
       SizeTrial trial = approach.trial ? *std::exchange(approach.trial, std::nullopt) : trials_.run(factor);
       const double points = trial.points;
-      const bool overfull = trial.fit.laid.stage.polygon.overfull;
+      const bool overfull = trial.fit.stage.polygon.overfull;
       found.accepted = accepted(trial);
       if (found.accepted)
         return found;
       if (points > points_)
-        found.fewest.consider(trial.fit.laid.stage, points, trial.fit.inner <= FitRules::hopelessly_many * points_);
+        found.fewest.consider(trial.fit.stage, points, trial.fit.inner <= FitRules::hopelessly_many * points_);
       const double guess = search_.next(factor, points);
       if (bracket.add(factor, points))
         found.best = std::move(trial);
@@ -141,55 +171,52 @@ private:
 
   /// @param uniform size of a uniform mesh of so many points
   /// @param smallest size for a factor of 1
-  DensityFit for_points(double uniform, double smallest) {
+  DensityResult for_points(double uniform, double smallest) {
     FactorBracket bracket(points_, smallest, context_.domain.frame().container());
     Search found = search(approached(estimated_factor(uniform, uniform / smallest)), bracket);
     if (found.accepted)
       return std::move(*found.accepted);
     if (!found.fits)
-      fail_for_few_points(context_, found.fewest);
-    DensityFit fit = with_most_points(std::move(found), bracket.has_lower(), smallest);
-    if (fit.inner + static_cast<double>(fit.laid.stage.placed_first()) < FitRules::enough_points * points_)
+      return too_few_points(context_, found.fewest);
+    const bool jumps = bracket.has_lower() && found.best.points < enough_points * points_;
+    if (jumps && !found.best.fit.stage.curves && context_.options.features.keep_all &&
+        is_jump(found.best.points, points_))
+      return too_few_points(context_, found.fewest);
+    SizeTrial best = jumps && found.best.fit.stage.curves ? with_these_curves(std::move(found.best), smallest)
+                                                          : std::move(found.best);
+    StageFit& fit = best.fit;
+    if (fit.inner + static_cast<double>(fit.stage.placed_first()) < enough_points * points_)
       fit.shortage = context_.options.min_size
                          ? fmt::format("min_size = {:g} leaves no room for more", *context_.options.min_size)
                          : "no more points fit, since the circles on the boundary edges must stay empty";
-    return fit;
+    return best;
   }
 
-  /// @brief Where the number of points jumps, a little smaller size keeps parts of the shape that take too many of
-  /// them. Then the triangles become smaller and the curves stay as they are.
-  /// @param jumps smaller sizes were tried, and took too many
-  DensityFit with_most_points(Search found, bool jumps, double smallest) {
-    SizeTrial best = std::move(found.best);
-    if (best.points >= FitRules::enough_points * points_ || !jumps)
-      return std::move(best.fit);
-    if (!best.fit.laid.stage.curves) { // nothing was simplified
-      if (context_.options.features.keep_all && is_jump(best.points, points_))
-        fail_for_few_points(context_, found.fewest);
-      return std::move(best.fit);
-    }
-    trials_.hold(best.fit.laid);
+  /// Where the number of points jumps, a little smaller size keeps parts of the shape that take too many of them. Then
+  /// the triangles become smaller and the simplified curves stay as they are.
+  SizeTrial with_these_curves(SizeTrial best, double smallest) {
+    trials_.hold(best.fitted);
     FactorBracket bracket(points_, smallest, context_.domain.frame().container());
-    const double factor = best.fit.laid.fitted.factor;
+    const double factor = best.fitted.factor;
     bracket.add(factor, best.points);
     search_.expect(FitRules::uncrowded_power);
     const double next = bracket.next(factor, search_.next(factor, best.points), false);
     Search finer = search({next, std::nullopt}, bracket);
     if (finer.accepted)
       return std::move(*finer.accepted);
-    return std::move(finer.best.points > best.points ? finer.best.fit : best.fit);
+    return finer.best.points > best.points ? std::move(finer.best) : std::move(best);
   }
 
-  DensityFit for_edge_length(double factor) {
+  SizeTrial for_edge_length(double factor) {
     const double wanted = *context_.options.edge_length;
     SizeTrial trial = trials_.run(factor);
-    if (context_.is_level)
-      return std::move(trial.fit);
+    if (context_.lowers_uniform)
+      return trial;
     for (int round = 0;; ++round) {
       const double ratio = trial.totals.mean_size > 0 ? wanted / trial.totals.mean_size : 1;
       if (std::fabs(ratio - 1) < FitRules::close_enough)
         break;
-      if (round == FitRules::edge_length_rounds) {
+      if (round == edge_length_rounds) {
         context_.log.warning("edge_length = {} is not reached: the mean size is {:.6g}, because min_size or max_size "
                              "is near the edge length, or because the size jumps",
                              *context_.options.edge_length, trial.totals.mean_size);
@@ -198,7 +225,7 @@ private:
       factor *= ratio;
       trial = trials_.run(factor);
     }
-    return std::move(trial.fit);
+    return trial;
   }
 
   const LayoutContext& context_;
@@ -210,7 +237,7 @@ private:
 
 } // namespace
 
-DensityFit fit_density(const LayoutContext& context, double points, double coarsening) {
+DensityResult fit_density(const LayoutContext& context, double points, double coarsening) {
   check_edge_length(context.options);
   return DensitySolver(context, points, coarsening).solve();
 }

@@ -2,8 +2,9 @@
 // How many sites a size asks for inside a shape.
 #pragma once
 
-#include "fitting/layout.hpp"
+#include "fitting/layout_context.hpp"
 #include "placing/density_sampler.hpp"
+#include "sites/stage.hpp"
 #include "trime/comm/communicator.hpp"
 
 namespace trime::fitting {

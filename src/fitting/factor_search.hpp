@@ -25,9 +25,9 @@ public:
   /// What to try next, at most a factor of 4 away.
   double next(double factor, double points) {
     const double root = points > 0 ? 1 / std::sqrt(points) : 0;
-    if (last_factor_ > 0 && std::fabs(factor - last_factor_) > FitRules::apart * factor && root > 0 && last_root_ > 0)
-      slope_ = std::clamp((root - last_root_) / (factor - last_factor_) * (factor / root), FitRules::flattest_slope,
-                          FitRules::steepest_slope);
+    if (last_factor_ > 0 && std::fabs(factor - last_factor_) > apart * factor && root > 0 && last_root_ > 0)
+      slope_ =
+          std::clamp((root - last_root_) / (factor - last_factor_) * (factor / root), flattest_slope, steepest_slope);
     last_factor_ = factor;
     last_root_ = root;
     if (!(root > 0))
@@ -36,6 +36,13 @@ public:
   }
 
 private:
+  // [1] Least slope that a secant is trusted with, of the inverse root of the points over the factor: 0.075 is that of
+  // a power of -0.15.
+  static constexpr double flattest_slope = 0.075;
+  // [1] The largest one: that of a power of -3.
+  static constexpr double steepest_slope = 1.5;
+  // [1] Two factors that differ by a smaller share tell nothing of the slope.
+  static constexpr double apart = 0.01;
   double goal_;
   double slope_ = 1; // relative change of the inverse root over that of the factor
   double last_factor_ = 0, last_root_ = 0;
@@ -49,14 +56,13 @@ public:
   /// @param smallest size for a factor of 1: where even that is far larger than the container, nothing changes
   FactorBracket(double points, double smallest, const geometry::Box& container)
       : wanted_(points), smallest_(smallest), extent_(std::max(container.width(), container.height())),
-        largest_(FitRules::largest_size * (container.width() + container.height()) / smallest) {}
+        largest_(largest_size * (container.width() + container.height()) / smallest) {}
 
   bool has_lower() const { return low_ > 0; }
   bool has_upper() const { return high_ < INFINITY; }
   /// Takes a trial in. True if it has no more points than asked for, and a smaller factor than the others of that kind.
   bool add(double factor, double points) {
-    const bool same =
-        has_upper() && !has_lower() && std::fabs(points - last_points_) < FitRules::same_points * last_points_;
+    const bool same = has_upper() && !has_lower() && std::fabs(points - last_points_) < same_points * last_points_;
     saturated_ = same ? saturated_ + 1 : 0;
     last_points_ = points;
     if (points > wanted_) {
@@ -70,13 +76,13 @@ public:
   }
   /// No further trial helps: the bracket is narrow, no site fits into such sizes, or finer ones do not help.
   bool is_closed() const {
-    return low_ * smallest_ > extent_ || saturated_ == FitRules::saturated_trials ||
-           (has_upper() && low_ > (1 - FitRules::closest_factors) * high_);
+    return low_ * smallest_ > extent_ || saturated_ == saturated_trials ||
+           (has_upper() && low_ > (1 - closest_factors) * high_);
   }
   /// What to try next, near a guess. @param overfull the last trial had far too many sites
   double next(double factor, double guess, bool overfull) const {
     if (!has_upper())
-      return std::max(guess, (overfull ? FitRules::overfull_step : 1 + FitRules::least_step) * factor);
+      return std::max(guess, (overfull ? overfull_step : 1 + FitRules::least_step) * factor);
     if (!has_lower())
       return std::min(guess, (1 - FitRules::least_step) * factor);
     const double margin = FitRules::bracket_margin * (high_ - low_);
@@ -86,6 +92,18 @@ public:
   bool is_hopeless(double factor) const { return !has_upper() && factor > largest_; }
 
 private:
+  // [trials] After so many in a row that change nothing a finer size does not help. It takes several, since the first
+  // may be too coarse for any site inside.
+  static constexpr int saturated_trials = 8;
+  // [1] Two trials whose numbers of points differ by a smaller share have changed nothing.
+  static constexpr double same_points = 1e-3;
+  // [1] If the factors on both sides of the goal differ by a smaller share, no trial is made between them: the count
+  // jumps there.
+  static constexpr double closest_factors = 1e-4;
+  // [1] After a trial that was given up, with far too many sites, the factor grows at least by this.
+  static constexpr double overfull_step = 1.5;
+  // [width + height of the container] Larger sizes change nothing: a bound for the search.
+  static constexpr double largest_size = 64;
   double wanted_, smallest_, extent_, largest_;
   double low_ = 0, high_ = INFINITY;
   double last_points_ = 0;

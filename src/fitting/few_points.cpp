@@ -8,10 +8,22 @@
 #include <optional>
 
 namespace trime::fitting {
+namespace {
+
+// [points] If more are asked for and the count jumps past them, that is an error; with fewer the nearest count is
+// taken.
+constexpr double many_points = 64;
+
+// [points asked for] If the count jumps and fewer than this share come out, there is no mesh of so many points, and
+// an error says so.
+constexpr double least_of_jump = 0.5;
+
+} // namespace
+
 using sites::Stage;
 
 bool is_jump(double points, double wanted) {
-  return wanted > FitRules::many_points && points < FitRules::least_of_jump * wanted;
+  return wanted > many_points && points < least_of_jump * wanted;
 }
 
 void Fewest::consider(const Stage& stage, double trial_points, bool all_counted) {
@@ -29,35 +41,33 @@ void Fewest::consider(const Stage& stage, double trial_points, bool all_counted)
   }
 }
 
-void fail_for_few_points(const LayoutContext& context, double fewest, bool counted) {
+TooFewPoints too_few_points(const LayoutContext& context, double fewest, bool counted) {
   const GlobalId points = context.options.points.value_or(0);
   if (context.options.max_size)
-    throw ConfigError(
-        fmt::format("points = {} are too few for max_size = {}: expected {}; use more points or a larger max_size",
-                    points, *context.options.max_size,
-                    std::isfinite(fewest) ? fmt::format("{} {:.0f}", counted ? "at least" : "far more than", fewest)
-                                          : "more than numbers can hold"));
+    return {fmt::format("points = {} are too few for max_size = {}: expected {}; use more points or a larger max_size",
+                        points, *context.options.max_size,
+                        std::isfinite(fewest) ? fmt::format("{} {:.0f}", counted ? "at least" : "far more than", fewest)
+                                              : "more than numbers can hold")};
   if (const std::size_t inside = context.fixed.inside().size(); inside > 0)
-    throw ConfigError(fmt::format("points = {} are too few for this shape: the {} fixed points inside and {:.0f} on "
-                                  "its boundary add up to {:.0f}. Each corner takes a point, and so does each place "
-                                  "where the boundary comes near itself; use more points, or fewer fixed points",
-                                  points, inside, fewest - static_cast<double>(inside), fewest));
-  throw ConfigError(
-      fmt::format("points = {} are too few for this shape: its boundary alone needs {:.0f} (each corner takes one, and "
-                  "so does each place where the boundary comes near itself); use more points",
-                  points, fewest));
+    return {fmt::format("points = {} are too few for this shape: the {} fixed points inside and {:.0f} on "
+                        "its boundary add up to {:.0f}. Each corner takes a point, and so does each place "
+                        "where the boundary comes near itself; use more points, or fewer fixed points",
+                        points, inside, fewest - static_cast<double>(inside), fewest)};
+  return {fmt::format("points = {} are too few for this shape: its boundary alone needs {:.0f} (each corner takes one, "
+                      "and so does each place where the boundary comes near itself); use more points",
+                      points, fewest)};
 }
 
-void fail_for_few_points(const LayoutContext& context, const Fewest& fewest) {
+TooFewPoints too_few_points(const LayoutContext& context, const Fewest& fewest) {
   if (context.options.max_size || context.fixed.inside().size() > 0)
-    fail_for_few_points(context, fewest.points, fewest.counted);
+    return too_few_points(context, fewest.points, fewest.counted);
   const geometry::Vec2 place = 0.5 * (fewest.shortest.a + fewest.shortest.b);
-  throw ConfigError(
-      fmt::format("points = {} are too few for this shape: its boundary alone needs {}{:.0f}. Each corner takes a "
-                  "point, and so does each place where the boundary comes near itself; the shortest boundary edge, "
-                  "{:.3g} long, is at ({:.6g}, {:.6g}); use more points, or simplify the shape there",
-                  *context.options.points, fewest.counted ? "" : "more than ", fewest.points,
-                  geometry::length(fewest.shortest.b - fewest.shortest.a), place.x, place.y));
+  return {fmt::format(
+      "points = {} are too few for this shape: its boundary alone needs {}{:.0f}. Each corner takes a point, and so "
+      "does each place where the boundary comes near itself; the shortest boundary edge, {:.3g} long, is at ({:.6g}, "
+      "{:.6g}); use more points, or simplify the shape there",
+      *context.options.points, fewest.counted ? "" : "more than ", fewest.points,
+      geometry::length(fewest.shortest.b - fewest.shortest.a), place.x, place.y)};
 }
 
 void check_edge_length(const FitOptions& options) {

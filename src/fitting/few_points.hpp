@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Errors for points that are too few for the shape, and for bounds of the size that forbid the edge length.
+// What a search answers if the points are too few for the shape; and the error for bounds that forbid the edge length.
 #pragma once
 
-#include "fitting/layout.hpp"
+#include "fitting/layout_context.hpp"
+#include "sites/stage.hpp"
 
 #include <cmath>
+#include <string>
 
 namespace trime::fitting {
+
+/// The points asked for are too few for the shape, at any size. The same on all ranks.
+struct TooFewPoints {
+  std::string reason; ///< a whole message for the user
+};
 
 /// The boundary that takes the fewest points among those tried, and where it takes most of them.
 struct Fewest {
@@ -18,9 +25,9 @@ struct Fewest {
   void consider(const sites::Stage& stage, double trial_points, bool all_counted = true);
 };
 
-/// @param counted to the end; else there would be more @throws ConfigError always
-[[noreturn]] void fail_for_few_points(const LayoutContext& context, double fewest, bool counted = true);
-[[noreturn]] void fail_for_few_points(const LayoutContext& context, const Fewest& fewest);
+/// Returns the message for the user. @param counted to the end; else there would be more
+TooFewPoints too_few_points(const LayoutContext& context, double fewest, bool counted = true);
+TooFewPoints too_few_points(const LayoutContext& context, const Fewest& fewest);
 
 /// The boundary takes too many points at one size, and at the next larger there are less than half of those asked for:
 /// that is no mesh of so many points.

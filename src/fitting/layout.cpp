@@ -16,6 +16,16 @@
 namespace trime::fitting {
 namespace {
 
+// [area of the shape] The grid covers so much of the container with cells as small as the triangles. In an emptier
+// container cells are larger, since each costs memory.
+constexpr double emptiest_grid = 64;
+
+// [points asked for] A trial whose boundary takes more sites than this is given up before it is laid to its end.
+constexpr double affordable_growth = 1.5;
+
+// [sites] A boundary with so few sites is always laid to its end: that takes no time.
+constexpr double always_affordable = 1000;
+
 using boundary::BoundaryRefiner;
 using boundary::BoundaryRules;
 using boundary::BoundarySizes;
@@ -51,8 +61,7 @@ std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Bounda
   }
   // Of a shape that is nearly nothing but boundary, most cells hold no site.
   if (context.given_boundary.area > 0)
-    h = std::max(
-        h, h * std::sqrt(box.width() * box.height() / (LayoutRules::emptiest_grid * context.given_boundary.area)));
+    h = std::max(h, h * std::sqrt(box.width() * box.height() / (emptiest_grid * context.given_boundary.area)));
   const auto cells = [](const std::optional<int>& given, double share) -> std::optional<int> {
     if (!given)
       return given;
@@ -66,20 +75,15 @@ std::unique_ptr<SiteState> make_state(const LayoutContext& context, const Bounda
 
 /// The sizes of a stage from what `fitted` says and its coarsening.
 void set_sizes(const LayoutContext& context, const FittedSize& fitted, Stage& stage) {
-  const FitOptions& options = context.options;
-  stage.asked_size =
-      std::make_unique<sizing::ScaledSize>(context.relative_size, fitted.factor, options.min_size.value_or(0),
-                                           options.max_size.value_or(std::numeric_limits<double>::infinity()));
-  const auto& limits = fitted.limits;
-  const sizing::SizeField* within = stage.asked_size.get();
-  if (limits.empty()) {
-    stage.lowered_size.reset();
-  } else {
-    stage.lowered_size = std::make_unique<sizing::LoweredSize>(*stage.asked_size, limits, BoundaryRules::gradation,
-                                                               context.given_boundary.periods);
-    within = stage.lowered_size.get();
+  stage.asked_size = std::make_unique<sizing::ScaledSize>(context.asked_size(fitted.factor));
+  stage.lowered_size.reset();
+  const sizing::SizeField* last = stage.asked_size.get();
+  if (!fitted.limits.empty()) {
+    stage.lowered_size = std::make_unique<sizing::LoweredSize>(
+        *stage.asked_size, fitted.limits, BoundaryRules::gradation, context.given_boundary.periods);
+    last = stage.lowered_size.get();
   }
-  stage.size = std::make_unique<sizing::ScaledSize>(*within, stage.coarsening);
+  stage.size = std::make_unique<sizing::ScaledSize>(*last, stage.coarsening);
 }
 
 /// The size for which the curves were simplified, over the fitted one; at least 1.
@@ -89,38 +93,36 @@ double coarseness(const FittedSize& fitted) {
 
 /// The curves on which the sites of a stage lie: those of the shape, without what is narrower than its last size, or
 /// than a larger one if they are held.
-const geometry::Boundary& generalised_curves(const LayoutContext& context, FittedStage& laid) {
+const geometry::Boundary& generalised_curves(const LayoutContext& context, FittedSize& fitted, Stage& stage) {
   const geometry::Boundary& given = context.fixed.cornered_boundary();
-  CurvesAtSize& curves = laid.fitted.curves;
+  CurvesAtSize& curves = fitted.curves;
   if (!generalises(context))
     return given;
-  const double factor = laid.fitted.factor;
-  simplify_curves(context, *laid.stage.asked_size, factor, curves);
+  simplify_curves(context, *stage.asked_size, fitted.factor, curves);
   if (!curves.found)
     return given;
-  laid.stage.curves = {curves.found, &curves.found->boundary};
-  laid.stage.simplified = curves.found->counts;
-  laid.stage.simplified.coarseness = coarseness(laid.fitted);
+  stage.curves = {curves.found, &curves.found->boundary};
+  stage.simplified = curves.found->counts;
+  stage.simplified.coarseness = coarseness(fitted);
   return curves.found->boundary;
 }
 
 /// What lays the sites of a stage. The sizes must outlive it. Local.
 /// @param asked of the stage
 std::unique_ptr<BoundaryRefiner> make_refiner(const LayoutContext& context, std::size_t affordable,
-                                              const sizing::ScaledSize& asked, FittedStage& laid) {
-  Stage& stage = laid.stage;
+                                              const sizing::ScaledSize& asked, FittedSize& fitted, Stage& stage) {
   const bool keeps_all = context.options.features.keep_all;
   const FeatureRule rule{keeps_all ? 0 : context.options.features.tolerance,
-                         keeps_all ? 0 : BoundaryRules::least_perimeter, nullptr};
-  const geometry::Boundary& curves = generalised_curves(context, laid);
+                         keeps_all ? 0 : BoundaryRules::least_perimeter};
+  const geometry::Boundary& curves = generalised_curves(context, fitted, stage);
   const auto make = [&](const BoundarySizes& sizes) {
     return std::make_unique<BoundaryRefiner>(curves, sizes, context.lattice, context.options.features.corner_angle,
                                              context.fixed.inside(), rule, affordable);
   };
   if (stage.size->is_uniform())
     return make({*stage.size, asked});
-  std::shared_ptr<const SizeSamples>& samples = stage.curves ? laid.fitted.curves.samples : laid.fitted.samples;
-  if (!samples || !samples->serve(laid.fitted.factor))
+  std::shared_ptr<const SizeSamples>& samples = stage.curves ? fitted.curves.samples : fitted.samples;
+  if (!samples || !samples->serve(fitted.factor))
     samples = std::make_shared<SizeSamples>(curves, context.relative_size, *stage.asked_size);
   return make({*stage.size, asked, {*samples, *stage.asked_size, stage.lowered_size.get(), stage.coarsening}});
 }
@@ -132,53 +134,31 @@ double typical_size(const LayoutContext& context, double expected) {
 
 /// Sites alone.
 /// @param affordable so many of them
-FittedStage lay_bare(const LayoutContext& context, const FittedSize& fitted, double coarsening, double expected,
-                     std::size_t affordable) {
+Stage lay_bare(const LayoutContext& context, FittedSize& fitted, double coarsening, double expected,
+               std::size_t affordable) {
   const auto time = context.timers.scope("boundary");
-  FittedStage laid{fitted, {}};
-  Stage& stage = laid.stage;
+  Stage stage;
   stage.coarsening = coarsening;
   stage.typical_size = typical_size(context, expected);
   set_sizes(context, fitted, stage);
   const sizing::ScaledSize asked(*stage.asked_size, coarsening);
-  share_simplified_curves(context, *stage.asked_size, fitted.factor, laid.fitted.curves);
+  share_simplified_curves(context, *stage.asked_size, fitted.factor, fitted.curves);
   stage.polygon = make_boundary_sites(context.comm, [&] {
     if (stage.asked_size->is_uniform())
       stage.typical_size = coarsening * sizing::checked_size(*stage.asked_size, {});
-    return make_refiner(context, affordable, asked, laid);
+    return make_refiner(context, affordable, asked, fitted, stage);
   });
   stage.fixed_inside = static_cast<GlobalId>(context.fixed.inside().size());
-  return laid;
+  return stage;
 }
 
 constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
 
 } // namespace
 
-double estimated_size(double area, double perimeter, double n) {
-  const double a = 2 * area / std::sqrt(3.0), b = perimeter / 2;
-  return (b + std::sqrt(b * b + 4 * a * n)) / (2 * n);
-}
-
-FittedStage lay_boundary(const LayoutContext& context, double factor, double expected) {
-  FittedSize fitted{factor, {}};
-  for (int round = 0;; ++round) {
-    FittedStage laid = lay_bare(context, fitted, 1, expected, unlimited);
-    const std::vector<sizing::SizeLimit> more =
-        round < BoundaryRules::lowering_rounds ? further_limits(context, laid.stage) : std::vector<sizing::SizeLimit>{};
-    fitted.limits.insert(fitted.limits.end(), more.begin(), more.end());
-    fitted.samples = laid.fitted.samples;
-    fitted.curves = laid.fitted.curves;
-    if (more.empty()) {
-      complete(context, laid.stage);
-      return laid;
-    }
-  }
-}
-
-FittedStage lay_stage(const LayoutContext& context, const FittedSize& fitted, double coarsening, double expected) {
-  FittedStage laid = lay_bare(context, fitted, coarsening, expected, unlimited);
-  complete(context, laid.stage);
+Stage lay_stage(const LayoutContext& context, FittedSize& fitted, double coarsening, double expected) {
+  Stage laid = lay_bare(context, fitted, coarsening, expected, unlimited);
+  complete(context, laid);
   return laid;
 }
 
@@ -201,11 +181,10 @@ Stage lay_reference(const LayoutContext& context, BoundarySites polygon, double 
   return stage;
 }
 
-FittedStage try_boundary(const LayoutContext& context, const FittedSize& fitted, double expected) {
+Stage try_boundary(const LayoutContext& context, FittedSize& fitted, double expected) {
   const std::optional<GlobalId>& points = context.options.points;
   const std::size_t affordable =
-      points ? static_cast<std::size_t>(std::max(LayoutRules::always_affordable,
-                                                 LayoutRules::affordable_growth * static_cast<double>(*points)))
+      points ? static_cast<std::size_t>(std::max(always_affordable, affordable_growth * static_cast<double>(*points)))
              : unlimited;
   return lay_bare(context, fitted, 1, expected, affordable);
 }
@@ -238,14 +217,14 @@ void complete(const LayoutContext& context, Stage& trial, double grid_coarsening
   placing::share_by_density(trial, *trial.size, context.lattice, grid_coarsening);
 }
 
-void rescale(const LayoutContext& context, FittedStage& laid, double scale) {
+void rescale(const LayoutContext& context, FittedSize& fitted, Stage& laid, double scale) {
   const auto time = context.timers.scope("boundary");
-  laid.fitted.factor *= scale;
-  for (sizing::SizeLimit& limit : laid.fitted.limits)
+  fitted.factor *= scale;
+  for (sizing::SizeLimit& limit : fitted.limits)
     limit.size *= scale;
-  set_sizes(context, laid.fitted, laid.stage);
-  if (laid.stage.curves)
-    laid.stage.simplified.coarseness = coarseness(laid.fitted);
+  set_sizes(context, fitted, laid);
+  if (laid.curves)
+    laid.simplified.coarseness = coarseness(fitted);
 }
 
 void place_sites(const LayoutContext& context, Stage& stage, mesh::SiteList inner) {

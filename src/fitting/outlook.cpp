@@ -4,9 +4,10 @@
 #include "boundary/feature_rule.hpp"
 #include "boundary/rules.hpp"
 #include "comm/agree.hpp"
+#include "fitting/fit.hpp"
 #include "fitting/points_of_length.hpp"
 #include "fitting/rules.hpp"
-#include "fitting/size_fit.hpp"
+#include "fitting/simplified_curves.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -23,8 +24,30 @@ double scale_for(double on_boundary, double inner, double points) {
   return (std::sqrt(on_boundary * on_boundary + 4 * inner * points) - on_boundary) / (2 * inner);
 }
 
+/// The factor of the size, and how many of the points have their places before all others.
+struct Found {
+  double factor = 0, placed_first = 0;
+};
+
+/// For the points or the edge length in the context's options.
+std::variant<Found, TooFewPoints> fitted(const LayoutContext& context, double points) {
+  Fit fit(context);
+  if (context.relative_size.is_uniform()) {
+    std::variant<LatticeFit, TooFewPoints> lattice = fit.find_lattice();
+    if (TooFewPoints* few = std::get_if<TooFewPoints>(&lattice))
+      return std::move(*few);
+    const sites::Stage& stage = std::get<LatticeFit>(lattice).stage;
+    return Found{stage.asked_size->size({}) / context.relative_size.size({}),
+                 static_cast<double>(stage.placed_first())};
+  }
+  std::variant<StageFit, TooFewPoints> density = fit.find_density(points, LayoutRules::coarse_integral);
+  if (TooFewPoints* few = std::get_if<TooFewPoints>(&density))
+    return std::move(*few);
+  return Found{fit.factor(), static_cast<double>(std::get<StageFit>(density).stage.placed_first())};
+}
+
 /// The factor that a run of few points would go by, and from it that of the points asked for.
-double fitted_factor(const LayoutContext& context, double points) {
+std::variant<double, TooFewPoints> fitted_factor(const LayoutContext& context, double points) {
   FitOptions options = context.options;
   const double fewer = std::fmin(points, LayoutRules::outlook_points), longer = std::sqrt(points / fewer);
   if (options.points)
@@ -33,32 +56,24 @@ double fitted_factor(const LayoutContext& context, double points) {
     options.edge_length = *options.edge_length * longer;
   const LayoutContext small{context.comm, context.domain, context.relative_size, options,
                             context.log,  context.timers, context.fixed,         context.cuts_thin_components};
-  double factor = 0, on_boundary = 0;
-  if (context.relative_size.is_uniform()) {
-    const LatticeFit fit = fit_lattice(small);
-    factor = fit.stage.asked_size->size({}) / context.relative_size.size({});
-    on_boundary = static_cast<double>(fit.stage.placed_first());
-  } else {
-    const DensityFit fit = fit_density(small, fewer, LayoutRules::coarse_integral);
-    factor = fit.laid.fitted.factor;
-    on_boundary = static_cast<double>(fit.laid.stage.placed_first());
-  }
+  std::variant<Found, TooFewPoints> result = fitted(small, fewer);
+  if (TooFewPoints* few = std::get_if<TooFewPoints>(&result))
+    return std::move(*few);
+  const Found found = std::get<Found>(result);
   if (points == fewer)
-    return factor;
-  return factor / (options.points ? scale_for(on_boundary, fewer - on_boundary, points) : longer);
+    return found.factor;
+  return found.factor / (options.points ? scale_for(found.placed_first, fewer - found.placed_first, points) : longer);
 }
 
 /// Is nothing cut, closed, moved, thinned or dropped? Collective.
 bool keeps_all(const LayoutContext& context, double factor) {
-  const FitOptions& options = context.options;
   const geometry::Boundary& given = context.fixed.cornered_boundary();
   const bool by_one = one_rank_simplifies(context);
   bool keeps = false;
   comm::run_agreed(context.comm, [&] {
     if (by_one && !context.comm.is_root())
       return;
-    const sizing::ScaledSize size(context.relative_size, factor, options.min_size.value_or(0),
-                                  options.max_size.value_or(INFINITY));
+    const sizing::ScaledSize size = context.asked_size(factor);
     keeps =
         !boundary::drop_small_loops(given, size, boundary::BoundaryRules::least_perimeter, context.fixed.inside())
              .any() &&
@@ -70,8 +85,8 @@ bool keeps_all(const LayoutContext& context, double factor) {
 
 /// Down by powers of ten, then halves of the last of them on a logarithmic scale.
 void find_keeping_factor(const LayoutContext& context, LaidOutlook& outlook) {
-  const double factor = outlook.laid.fitted.factor;
-  const double on_boundary = std::fmax(1, static_cast<double>(outlook.laid.stage.placed_first()));
+  const double factor = outlook.factor;
+  const double on_boundary = std::fmax(1, static_cast<double>(outlook.stage.placed_first()));
   const double least = std::fmin(1 / LayoutRules::outlook_step, on_boundary / LayoutRules::outlook_sites) * factor;
   double low = factor, high = factor; // at `high` something is simplified
   outlook.keeps = context.options.features.keep_all || keeps_all(context, factor);
@@ -90,9 +105,9 @@ void find_keeping_factor(const LayoutContext& context, LaidOutlook& outlook) {
 
 } // namespace
 
-double LaidOutlook::points_at(double factor) const {
-  const double ratio = laid.fitted.factor / factor;
-  const double on_boundary = std::fmin(points, static_cast<double>(laid.stage.placed_first()));
+double LaidOutlook::points_at(double other) const {
+  const double ratio = factor / other;
+  const double on_boundary = std::fmin(points, static_cast<double>(stage.placed_first()));
   return ratio * (on_boundary + ratio * (points - on_boundary));
 }
 
@@ -102,16 +117,15 @@ LaidOutlook look_ahead(const LayoutContext& given) {
   LaidOutlook outlook;
   outlook.points = options.points ? static_cast<double>(*options.points)
                                   : points_of_length(given.given_boundary, *options.edge_length);
-  double factor = 0;
-  try {
-    factor = fitted_factor(context, outlook.points);
-  } catch (const ConfigError&) { // too few points, on all ranks together: the run then goes on like this, too
-    if (options.features.keep_all)
-      throw;
+  std::variant<double, TooFewPoints> factor = fitted_factor(context, outlook.points);
+  if (std::holds_alternative<TooFewPoints>(factor) && !options.features.keep_all) { // a run goes on like this, too
     context.cuts_thin_components = true;
     factor = fitted_factor(context, outlook.points);
   }
-  outlook.laid = try_boundary(context, {factor, {}}, outlook.points);
+  if (const TooFewPoints* few = std::get_if<TooFewPoints>(&factor))
+    throw ConfigError(few->reason);
+  outlook.factor = std::get<double>(factor);
+  outlook.stage = Fit(context).try_factor(outlook.factor, outlook.points);
   find_keeping_factor(context, outlook);
   return outlook;
 }

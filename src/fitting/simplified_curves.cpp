@@ -4,7 +4,6 @@
 #include "boundary/rules.hpp"
 #include "comm/agree.hpp"
 #include "core/thread_loop.hpp"
-#include "fitting/layout.hpp"
 #include "fitting/rules.hpp"
 #include "generalise/generalised_bytes.hpp"
 #include "sizing/curve_distance.hpp"
@@ -49,8 +48,7 @@ bool serve(const CurvesAtSize& curves, double factor) {
 } // namespace
 
 generalise::Choice generalise_choice(const LayoutContext& context) {
-  const bool closes = context.options.features.narrow == boundary::NarrowOutside::close;
-  return {closes ? generalise::Narrow::close : generalise::Narrow::keep, context.cuts_thin_components,
+  return {context.options.features.narrow == boundary::NarrowOutside::close, context.cuts_thin_components,
           geometry::Frame(context.domain.frame().container()).inner()};
 }
 
@@ -59,33 +57,36 @@ bool generalises(const LayoutContext& context) {
 }
 
 sizing::ScaledSize generalised_size(const LayoutContext& context, const sizing::SizeField& asked) {
-  return {asked, context.options.features.within / boundary::FeatureOptions{}.within};
+  return {asked, context.options.features.within / generalise::reference_distance};
 }
 
-void simplify_curves(const LayoutContext& context, const sizing::SizeField& asked, double factor,
-                     CurvesAtSize& curves) {
-  if (serve(curves, factor))
+namespace {
+
+std::unique_ptr<generalise::Generalised> generalised(const LayoutContext& context, const Boundary& from,
+                                                     const sizing::SizeField& h) {
+  return generalise::generalise(from, h, context.lattice, generalise_choice(context), context.fixed.inside());
+}
+
+/// Thins the given boundary for this factor and larger ones, unless it was for about this one.
+/// @param size by whose shares the boundary is simplified
+void thin_ahead(const LayoutContext& context, const sizing::SizeField& size, double factor, CurvesAtSize& curves) {
+  constexpr double ahead = LayoutRules::thinned_ahead;
+  if (curves.thinned_factor * ahead <= factor && factor <= curves.thinned_factor * ahead * ahead)
     return;
+  curves.thinned_factor = factor / ahead;
+  curves.thinned.reset(); // before there is another one
+  curves.thinned = generalise::thinned(context.fixed.cornered_boundary(), sizing::ScaledSize(size, 1 / ahead),
+                                       context.lattice, context.fixed.inside());
+}
+
+/// @brief Simplifies with smaller sizes where the curves came too far from the given ones. Null if they still do after
+/// some rounds. @param found what came of the first round; null stays null
+/// @param curves without `thinned` if one round did not do
+std::unique_ptr<generalise::Generalised> brought_near(const LayoutContext& context, const sizing::SizeField& asked,
+                                                      std::unique_ptr<generalise::Generalised> found,
+                                                      CurvesAtSize& curves) {
   const Boundary& given = context.fixed.cornered_boundary();
   const sizing::ScaledSize size = generalised_size(context, asked);
-  const auto generalised = [&](const Boundary& from, const sizing::SizeField& h) {
-    return generalise::generalise(from, h, context.lattice, generalise_choice(context), context.fixed.inside());
-  };
-  if (!(curves.thinned_factor * LayoutRules::thinned_ahead <= factor &&
-        factor <= curves.thinned_factor * LayoutRules::thinned_ahead * LayoutRules::thinned_ahead)) {
-    curves.thinned_factor = factor / LayoutRules::thinned_ahead;
-    curves.thinned.reset(); // before there is another one
-    curves.thinned = generalise::thinned(given, sizing::ScaledSize(size, 1 / LayoutRules::thinned_ahead),
-                                         context.lattice, context.fixed.inside());
-  }
-  curves.factor = factor;
-  curves.samples = nullptr;
-  curves.found.reset();
-  std::unique_ptr<generalise::Generalised> found = generalised(curves.thinned ? *curves.thinned : given, size);
-  if (!found && curves.thinned)
-    found = std::make_unique<generalise::Generalised>(generalise::Generalised{*curves.thinned, {}});
-  if (found && !curves.given)
-    curves.given = std::make_shared<geometry::PieceTree>(given);
   const double within = (1 - LayoutRules::distance_slack) * context.options.features.within;
   std::vector<SizeLimit> limits;
   std::unique_ptr<const sizing::LoweredSize> lowered; // of the last round
@@ -98,10 +99,31 @@ void simplify_curves(const LayoutContext& context, const sizing::SizeField& aske
       if (const Vec2 p = given.periods.wrap(one.place); sizing::is_valid_size(one.size))
         limits.push_back({p, (lowered ? lowered->size(p) : size.size(p)) * (within / one.in_sizes())});
     if (round == LayoutRules::nearer_rounds || limits.empty())
-      return;
+      return nullptr;
     lowered = std::make_unique<sizing::LoweredSize>(size, limits, BoundaryRules::gradation, given.periods);
-    found = generalised(given, *lowered);
+    found = generalised(context, given, *lowered);
   }
+  return found;
+}
+
+} // namespace
+
+void simplify_curves(const LayoutContext& context, const sizing::SizeField& asked, double factor,
+                     CurvesAtSize& curves) {
+  if (serve(curves, factor))
+    return;
+  const Boundary& given = context.fixed.cornered_boundary();
+  const sizing::ScaledSize size = generalised_size(context, asked);
+  thin_ahead(context, size, factor, curves);
+  curves.factor = factor;
+  curves.samples = nullptr;
+  curves.found.reset();
+  std::unique_ptr<generalise::Generalised> found = generalised(context, curves.thinned ? *curves.thinned : given, size);
+  if (!found && curves.thinned)
+    found = std::make_unique<generalise::Generalised>(generalise::Generalised{*curves.thinned, {}});
+  if (found && !curves.given)
+    curves.given = std::make_shared<geometry::PieceTree>(given);
+  found = brought_near(context, asked, std::move(found), curves);
   if (found && curves.thinned)
     found->counts.thinned += polygon::piece_count(given) - polygon::piece_count(*curves.thinned);
   curves.found = std::move(found);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "boundary/boundary_sizes.hpp"
+#include "fitting/layout_context.hpp"
 #include "generalise/generalise.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/piece_tree.hpp"
@@ -11,8 +12,6 @@
 #include <memory>
 
 namespace trime::fitting {
-
-struct LayoutContext;
 
 /// The boundary at the resolution of a size, and what belongs to it.
 struct CurvesAtSize {

@@ -9,47 +9,58 @@
 #include <utility>
 
 namespace trime::fitting {
+namespace {
+
+// [1] While the factor changes by a smaller share, limits of the size are scaled with it and not looked for again.
+constexpr double limits_reach = 0.15;
+
+// [samples] The smallest size over the shape is looked for on a grid of so many a side.
+constexpr int samples_per_side = 33;
+
+// [pieces] The size is sampled at about so many pieces of the boundary in that search.
+constexpr std::size_t most_sampled_pieces = 4096;
+
+} // namespace
+
 using boundary::BoundaryRules;
 using sites::Stage;
 
-void SizeTrials::hold(const FittedStage& laid) {
-  curves_ = laid.fitted.curves;
-  curves_.held = true;
-  limits_ = laid.fitted.limits;
-  limits_factor_ = laid.fitted.factor;
+void SizeTrials::hold(const FittedSize& fitted) {
+  fitted_.curves = fitted.curves;
+  fitted_.curves.held = true;
+  limits_ = fitted.limits;
+  limits_factor_ = fitted.factor;
   limit_rounds_ = BoundaryRules::lowering_rounds;
 }
 
-FittedStage SizeTrials::lay(double factor) {
-  if (!curves_.held && !(std::fabs(factor - limits_factor_) < FitRules::limits_reach * factor)) {
+Stage SizeTrials::lay(double factor) {
+  const bool held = fitted_.curves.held;
+  if (!held && !(std::fabs(factor - limits_factor_) < limits_reach * factor)) {
     limits_factor_ = factor;
     limits_.clear();
     limit_rounds_ = 0;
   }
-  FittedSize fitted{factor, limits_, samples_, curves_};
-  if (!curves_.held)
-    for (sizing::SizeLimit& limit : fitted.limits)
+  fitted_.factor = factor;
+  fitted_.limits = limits_;
+  if (!held)
+    for (sizing::SizeLimit& limit : fitted_.limits)
       limit.size *= factor / limits_factor_;
-  FittedStage laid = try_boundary(context_, fitted, points_);
-  samples_ = laid.fitted.samples;
-  curves_ = laid.fitted.curves;
-  return laid;
+  return try_boundary(context_, fitted_, points_);
 }
 
-bool SizeTrials::find_limits(const FittedStage& laid) {
-  if (limit_rounds_ == BoundaryRules::lowering_rounds || laid.stage.polygon.overfull)
+bool SizeTrials::find_limits(const Stage& laid) {
+  if (limit_rounds_ == BoundaryRules::lowering_rounds || laid.polygon.overfull)
     return false;
-  const std::vector<sizing::SizeLimit> more = further_limits(context_, laid.stage);
+  const std::vector<sizing::SizeLimit> more = further_limits(context_, laid);
   for (const sizing::SizeLimit& limit : more)
-    limits_.push_back({limit.place, limit.size * (limits_factor_ / laid.fitted.factor)});
+    limits_.push_back({limit.place, limit.size * (limits_factor_ / fitted_.factor)});
   limit_rounds_ = more.empty() ? BoundaryRules::lowering_rounds : limit_rounds_ + 1;
   return !more.empty();
 }
 
-SizeTrial SizeTrials::count(FittedStage laid, double coarsening) const {
-  SizeTrial trial;
-  trial.fit.laid = std::move(laid);
-  Stage& stage = trial.fit.laid.stage;
+SizeTrial SizeTrials::count(Stage laid, double coarsening) const {
+  SizeTrial trial{{std::move(laid), 0, {}}, fitted_, {}, 0};
+  Stage& stage = trial.fit.stage;
   complete(context_, stage, coarsening);
   if (!stage.polygon.overfull) {
     trial.totals = wanted_inside(context_, stage, coarsening,
@@ -61,10 +72,24 @@ SizeTrial SizeTrials::count(FittedStage laid, double coarsening) const {
 }
 
 SizeTrial SizeTrials::run(double factor) {
-  FittedStage laid = lay(factor);
+  Stage laid = lay(factor);
   while (find_limits(laid))
     laid = lay(factor);
   return count(std::move(laid), coarsening_);
+}
+
+/// Calls sample(p) for the start and the middle of some pieces of the boundary, spread evenly over them.
+template <class Sample>
+void for_each_sampled_piece(const geometry::Boundary& boundary, const Sample& sample) {
+  std::size_t pieces = 0;
+  for (const geometry::Loop& loop : boundary.loops)
+    pieces += loop.pieces.size();
+  const std::size_t stride = pieces / most_sampled_pieces + 1;
+  for (const geometry::Loop& loop : boundary.loops)
+    for (std::size_t k = 0; k < loop.pieces.size(); k += stride) {
+      sample(loop.pieces[k].start);
+      sample(loop.pieces[k].point(0.5 * loop.pieces[k].length()));
+    }
 }
 
 double smallest_sampled_size(const LayoutContext& context) {
@@ -74,21 +99,13 @@ double smallest_sampled_size(const LayoutContext& context) {
     if (sizing::is_valid_size(s) && s < smallest)
       smallest = s;
   };
-  std::size_t pieces = 0;
-  for (const geometry::Loop& loop : context.given_boundary.loops)
-    pieces += loop.pieces.size();
-  const std::size_t stride = pieces / FitRules::most_sampled_pieces + 1;
-  for (const geometry::Loop& loop : context.given_boundary.loops)
-    for (std::size_t k = 0; k < loop.pieces.size(); k += stride) {
-      sample(loop.pieces[k].start);
-      sample(loop.pieces[k].point(0.5 * loop.pieces[k].length()));
-    }
+  for_each_sampled_piece(context.given_boundary, sample);
   const geometry::Box box =
       context.given_boundary.periods.any() ? context.domain.frame().container() : context.given_boundary.bounding_box();
-  for (int j = 0; j < FitRules::samples_per_side; ++j)
-    for (int i = 0; i < FitRules::samples_per_side; ++i)
-      sample({box.min.x + (i + 0.5) / FitRules::samples_per_side * box.width(),
-              box.min.y + (j + 0.5) / FitRules::samples_per_side * box.height()});
+  for (int j = 0; j < samples_per_side; ++j)
+    for (int i = 0; i < samples_per_side; ++i)
+      sample({box.min.x + (i + 0.5) / samples_per_side * box.width(),
+              box.min.y + (j + 0.5) / samples_per_side * box.height()});
   if (!(smallest < INFINITY))
     throw GeometryError("the size field is not positive anywhere near the shape: expected a positive size everywhere");
   return smallest;

@@ -3,18 +3,19 @@
 #pragma once
 
 #include "fitting/density_integral.hpp"
+#include "fitting/few_points.hpp"
 #include "fitting/layout.hpp"
-#include "fitting/size_fit.hpp"
+#include "fitting/stage_fit.hpp"
 #include "sizing/lowered_size.hpp"
 
-#include <memory>
 #include <vector>
 
 namespace trime::fitting {
 
 /// What came of one factor.
 struct SizeTrial {
-  DensityFit fit;
+  StageFit fit;
+  FittedSize fitted;
   DensityTotals totals;
   double points = 0; ///< on the boundary and inside
 };
@@ -30,17 +31,19 @@ public:
 
   /// @brief Boundary sites within the limits that are known. For a factor near by they are scaled with it; those of one
   /// far away would keep corners that this one leaves out.
-  FittedStage lay(double factor);
+  sites::Stage lay(double factor);
   /// Looks for more limits, a few times. True if there are any: for other trials, this one was laid without them.
-  bool find_limits(const FittedStage& laid);
+  /// @param laid what lay() has returned last
+  bool find_limits(const sites::Stage& laid);
   /// How many points a layout will have, or a number that is far too large if it is. @param coarsening of the integral
-  SizeTrial count(FittedStage laid, double coarsening) const;
+  /// @param laid what lay() has returned last
+  SizeTrial count(sites::Stage laid, double coarsening) const;
   /// Lays with all limits that the factor needs, and counts.
   SizeTrial run(double factor);
 
   /// @brief From now on all trials have the boundary as it was simplified for this one, and its limits: smaller
   /// triangles need no others.
-  void hold(const FittedStage& laid);
+  void hold(const FittedSize& fitted);
 
   double coarsening() const { return coarsening_; }
   std::size_t limits() const { return limits_.size(); }
@@ -53,8 +56,7 @@ private:
   std::vector<sizing::SizeLimit> limits_; // found so far
   double limits_factor_ = 0;              // for which the search for them began
   int limit_rounds_ = 0;                  // of that search
-  std::shared_ptr<const boundary::SizeSamples> samples_;
-  CurvesAtSize curves_;
+  FittedSize fitted_;                     // of the last layout
 };
 
 /// @brief Smallest relative size at some places around the shape: on its boundary and on a grid over it. The grid

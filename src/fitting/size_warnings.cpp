@@ -6,6 +6,16 @@
 #include <cmath>
 
 namespace trime::fitting {
+namespace {
+
+// [1] A steeper size brings a warning. Triangles can follow about 0.5, see the warning.
+constexpr double warned_slope = 1;
+
+// [h] A shorter chord brings a warning: triangles beside it have small angles.
+constexpr double warned_chord = 0.1;
+
+} // namespace
+
 using sites::Stage;
 
 void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary, const geometry::Lattice& lattice,
@@ -32,7 +42,7 @@ void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary,
       look(p, {stride.x, 0});
       look(p, {0, stride.y});
     }
-  if (steepest > LayoutRules::warned_slope)
+  if (steepest > warned_slope)
     log.warning("the size field has gradient {:.3g} near ({:.4g}, {:.4g}); triangles can follow about 0.5: expect "
                 "fewer points and small angles, or use more points or a smoother size",
                 steepest, place.x, place.y);
@@ -40,13 +50,13 @@ void warn_of_steep_sizes(const Stage& stage, const geometry::Boundary& boundary,
 
 void warn_of_fine_features(const Stage& stage, bool has_least_size, Log& log) {
   const auto& sites = stage.polygon.sites;
-  double least = LayoutRules::warned_chord, length = 0, size = 0; // chord over local size
+  double least = warned_chord, length = 0, size = 0; // chord over local size
   geometry::Vec2 place;
   std::size_t count = 0;
   for (std::size_t k = 0; k < sites.size(); ++k) {
     const geometry::Segment chord = stage.polygon.chord(static_cast<LocalIndex>(k));
     const double its_length = geometry::length(chord.b - chord.a), h = stage.size->size(chord.a);
-    count += its_length < LayoutRules::warned_chord * h ? 1 : 0;
+    count += its_length < warned_chord * h ? 1 : 0;
     if (its_length < least * h) {
       least = its_length / h;
       length = its_length;

@@ -139,7 +139,7 @@ Plan plan_closings(const CurveMap& map, const std::vector<char>& given, const Re
   for (NarrowPart& part : find_narrow_parts(map, given, false, GeneraliseRules::narrow_outside)) {
     if (part.holds_kept || !matters(map.mesh(), part) || corners.holds(part))
       continue;
-    const bool stays = choice.narrow == Narrow::keep && !is_beside_small(map, regions, given, part);
+    const bool stays = !choice.closes_narrow && !is_beside_small(map, regions, given, part);
     (stays ? plan.apart : plan.changed).push_back(std::move(part));
   }
   for (int round = 0; round <= GeneraliseRules::opening_rounds && !plan.changed.empty(); ++round) {

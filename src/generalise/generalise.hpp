@@ -13,12 +13,13 @@
 
 namespace trime::generalise {
 
-/// The treatment of parts of the outside that are narrower than the resolution: slits, cracks, walls.
-enum class Narrow { keep, close };
+/// [h] Simplified curves lie within this distance of the given ones. All shares of h by which they are made belong to
+/// it: for another distance the size is scaled before.
+inline constexpr double reference_distance = 0.5;
 
 /// Options of the simplification.
 struct Choice {
-  Narrow narrow = Narrow::keep;
+  bool closes_narrow = false;        ///< slits, cracks and walls are closed; else their sides are moved apart
   bool cuts_thin_components = false; ///< components that are narrow all over are cut to pieces, not widened
   geometry::Box bounds = {{-INFINITY, -INFINITY},
                           {INFINITY, INFINITY}}; ///< lattice points; no vertex is moved out of it

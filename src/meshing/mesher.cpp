@@ -7,7 +7,7 @@
 #include "comm/agree.hpp"
 #include "core/free_memory.hpp"
 #include "extraction/extraction.hpp"
-#include "fitting/layout.hpp"
+#include "fitting/layout_context.hpp"
 #include "fitting/size_warnings.hpp"
 #include "meshing/checkpoint_writer.hpp"
 #include "meshing/outlook.hpp"

@@ -14,15 +14,15 @@ Outlook look_ahead(const RunContext& run) {
   const fitting::LayoutContext layout{run.comm, run.domain, run.relative_size, run.fit,
                                       run.log,  run.timers, boundary.fixed()};
   const fitting::LaidOutlook ahead = fitting::look_ahead(layout);
-  const sites::Stage& stage = ahead.laid.stage;
+  const sites::Stage& stage = ahead.stage;
   boundary.follow(stage.curves, stage.polygon.dropped);
   Outlook outlook;
   comm::run_agreed(run.comm, [&] {
-    outlook.features = boundary::report_features(stage.polygon, ahead.laid.fitted.limits, *stage.asked_size);
+    outlook.features = boundary::report_features(stage.polygon, {}, *stage.asked_size);
     boundary::report_losses(boundary.fixed().cornered_boundary(), boundary.curves(), stage.simplified,
                             stage.polygon.dropped, *stage.asked_size, run.lattice, outlook.features);
   });
-  const double ratio = ahead.keeping_factor / ahead.laid.fitted.factor;
+  const double ratio = ahead.keeping_factor / ahead.factor;
   outlook.is_enough = ahead.keeps;
   outlook.keeps_all = ahead.keeps && ratio == 1;
   if (run.relative_size.is_uniform()) {

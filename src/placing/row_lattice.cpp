@@ -12,6 +12,13 @@ using geometry::Vec2;
 
 namespace {
 
+// [points asked for] See tolerated_stretch.
+constexpr double tolerated_shortage = 0.002;
+
+// [1] A lattice between two periods is stretched to fit them. A stretch of this much counts as bad as a shortage of
+// tolerated_shortage when rows and columns are chosen.
+constexpr double tolerated_stretch = 0.02;
+
 constexpr double never = std::numeric_limits<double>::infinity();
 
 struct Fit {
@@ -29,8 +36,7 @@ Fit judge(std::int64_t columns, std::int64_t rows, double length, double width, 
   const double shear = rows % 2 == 0 ? 0 : 0.5 / n / row_height;
   const double shortage = std::fmax(0, wanted - m * n) / wanted;
   return {columns, rows,
-          (square(stretch) + square(shear)) / square(PlacingRules::tolerated_stretch) +
-              square(shortage / PlacingRules::tolerated_shortage)};
+          (square(stretch) + square(shear)) / square(tolerated_stretch) + square(shortage / tolerated_shortage)};
 }
 
 /// Best pair for rows of a `length`, as many as fit a `width`.

@@ -30,11 +30,6 @@ struct PlacingRules {
   static constexpr double most_in_deepest = 64;
   /// [cells] If a part of a tile takes more cells of the density, the size is far too small, and an error says so.
   static constexpr std::int64_t most_density_cells = 1 << 27;
-  /// [1] A lattice between two periods is stretched to fit them. A stretch of this much counts as bad as a shortage of
-  /// tolerated_shortage when rows and columns are chosen.
-  static constexpr double tolerated_stretch = 0.02;
-  /// [points asked for] See tolerated_stretch.
-  static constexpr double tolerated_shortage = 0.002;
   /// [chords] Kept for a cell of the density and its parts; where more are near, all chords are searched.
   static constexpr std::size_t most_near_chords = 48;
 };

@@ -20,6 +20,27 @@ using geometry::Vec2;
 
 namespace {
 
+// [cells] Of the guard's grid for each chord: most places then answer by one look-up.
+constexpr double cells_per_chord = 64;
+
+// [cells] Of the guard's grid, at least, where chords are few: a few KiB.
+constexpr double least_guard_cells = 4096;
+
+// [cells] Of the guard's grid, at most: 4 MiB.
+constexpr double most_guard_cells = 0x1p22;
+
+// [longer side of the grid] No side of a cell is shorter: bounds rows and columns of grids far from square.
+constexpr double least_cell_side = 0x1p-14;
+
+// [entries] Of all lists of discs together, always allowed: 16 MiB. Cells grow if there would be more.
+constexpr double entries = 0x1p22;
+
+// [entries] Number of entries in these lists for each chord: one for each of its cells.
+constexpr double entries_per_chord = 64;
+
+// [entries] Of these lists, at most: 128 MiB.
+constexpr double most_entries = 0x1p25;
+
 std::vector<Segment> chords_of(const BoundarySites& sites) {
   std::vector<Segment> chords;
   chords.reserve(sites.sites.size());
@@ -117,12 +138,10 @@ geometry::Box BoundaryGuard::choose_cells() {
     box.max.y = periods_.min.y + periods_.y;
   }
   const double n = static_cast<double>(chords_.segments().size()), area = box.width() * box.height();
-  const double cells =
-      std::clamp(PolygonRules::cells_per_chord * n, PolygonRules::least_guard_cells, PolygonRules::most_guard_cells);
-  const double affordable =
-      std::clamp(PolygonRules::entries_per_chord * n, PolygonRules::entries, PolygonRules::most_entries);
+  const double cells = std::clamp(cells_per_chord * n, least_guard_cells, most_guard_cells);
+  const double affordable = std::clamp(entries_per_chord * n, entries, most_entries);
   double side = std::sqrt(std::fmax(area / cells, area_of_discs / affordable));
-  side = std::fmax(side, std::fmax(box.width(), box.height()) * PolygonRules::least_cell_side);
+  side = std::fmax(side, std::fmax(box.width(), box.height()) * least_cell_side);
   cells_ = DiscCells(box, side);
   const double margin = 4 * side, far = std::numeric_limits<double>::infinity();
   return {{periods_.x > 0 ? box.min.x - margin : -far, periods_.y > 0 ? box.min.y - margin : -far},

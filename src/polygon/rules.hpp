@@ -15,23 +15,9 @@ struct PolygonRules {
   /// is 0.5, and just outside of it the next move would bring the site back. With it, pushes on a poker of 1e4 points
   /// ended within five sweeps.
   static constexpr double push_way = 0.6;
-  /// [cells] Of the guard's grid for each chord: most places then answer by one look-up.
-  static constexpr double cells_per_chord = 64;
-  /// [cells] Of the guard's grid, at least, where chords are few: a few KiB.
-  static constexpr double least_guard_cells = 4096;
-  /// [cells] Of the guard's grid, at most: 4 MiB.
-  static constexpr double most_guard_cells = 0x1p22;
-  /// [longer side of the grid] No side of a cell is shorter: bounds rows and columns of grids far from square.
-  static constexpr double least_cell_side = 0x1p-14;
   /// [cells] The way to the nearest disc is counted up to here; strips of rows read as many rows around them. Not
   /// measured.
   static constexpr int farthest_cell = 15;
-  /// [entries] Of all lists of discs together, always allowed: 16 MiB. Cells grow if there would be more.
-  static constexpr double entries = 0x1p22;
-  /// [entries] Number of entries in these lists for each chord: one for each of its cells.
-  static constexpr double entries_per_chord = 64;
-  /// [entries] Of these lists, at most: 128 MiB.
-  static constexpr double most_entries = 0x1p25;
   /// [1] Cosine of half a degree: a curve with a junction that turns by more is bent. Less is a round curve in pieces.
   static constexpr double cosine_of_bent = 0.99996;
   /// [1] Cosine of 30 degrees: a curve with a junction that turns by more is sharp. The same angle as the default of

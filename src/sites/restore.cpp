@@ -44,6 +44,8 @@ void SiteState::restore(const SavedTiles& saved, const SiteLoader& load, const s
   if (!fit(saved.tiles, grid_)) // the same on all ranks
     throw FileError(
         fmt::format("the {} tiles of the checkpoint do not fit the container of this run", saved.tiles.size()));
+  TRIME_ASSERT(state_ == State::empty || has_sites(), "sites of a checkpoint while others are on their way");
+  state_ = State::empty; // those of the first layout go
   share_out(saved.tiles, saved.counts);
   check_counts(saved.counts);
   const LocalIndex first = partition_.first_tile(comm_.rank()), last = partition_.last_tile(comm_.rank());
@@ -61,7 +63,7 @@ void SiteState::restore(const SavedTiles& saved, const SiteLoader& load, const s
   stars_.reset(points_.owned());
   halo_.reset(partition_, halo_margin());
   halo_.refresh(points_);
-  ghosts_are_here_ = true;
+  state_ = State::complete;
   restore_drifts(saved);
   restore_sizes(mine.sizes, new_index, size);
   comm_.counters().add(Counter::sites_started, points_.owned());

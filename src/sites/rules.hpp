@@ -10,12 +10,6 @@ namespace trime::sites {
 
 /// The numbers of the sites module.
 struct SiteRules {
-  /// [bins] Fetched unasked around the owned tiles. A bin has 3 to 4 sites, so two are wide enough for the discs of a
-  /// relaxed mesh; stars that need more ask for it.
-  static constexpr int halo_margin = 2;
-  /// [bins] The same of a rank with few sites, whose sweeps are so short that asking costs more than a wider halo: 64
-  /// ranks asked in 17 rounds in place of 46 on a coast of 10^6 points.
-  static constexpr int wide_halo_margin = 3;
   /// [sites] A rank with fewer owned sites fetches the wider halo. With 6000 it was 14 rounds, but there were half as
   /// many ghosts again in the last stage of 256 ranks. A quarter more or less: Not measured.
   static constexpr int few_owned = 3000;

@@ -25,8 +25,16 @@ struct Disc {
   double radius;
 };
 
-/// @brief Owned and ghost sites with their stars. After each change of sites (distribute, move_sites,
-/// edit_sites): compute_stars.
+/// @brief Owned and ghost sites with their stars. The state says which calls are allowed; those that change it check
+/// it:
+/// - empty: at first. Only share_out, distribute and restore.
+/// - sorted: after distribute and move_sites. The owned sites are in order, the ghosts are not here, and no star is
+///   certain. Only refresh, compute_stars, forget_sizes, distribute, move_sites and edit_sites.
+/// - complete: after refresh, compute_stars, restore, edit_sites and finish_advance. All except share_out and
+///   finish_advance.
+/// - advancing: after begin_advance. The owned sites are at their next places, the ghosts on their way. Only
+///   finish_advance, and questions about sites that no ghost is near.
+/// - released: after release_work_space. Only questions, and h is not known any more.
 class SiteState {
 public:
   /// @param box that holds all sites, now and later
@@ -72,7 +80,7 @@ public:
   /// Collective.
   void refresh(const sizing::SizeField& size);
   /// Makes the next move evaluate h again, also at sites that stay: their h may be older than their place.
-  void forget_sizes() { sizes_.forget(); }
+  void forget_sizes();
   /// @brief Moves the owned sites to BinnedPoints::next, without sorting. The ghosts follow on their way:
   /// nothing about them may be asked until finish_advance. Collective. @pre no periods
   /// @param drift of any site of any rank, with this move
@@ -96,6 +104,9 @@ public:
   void release_work_space();
 
 private:
+  enum class State { empty, sorted, complete, advancing, released };
+
+  bool has_sites() const { return state_ == State::sorted || state_ == State::complete; }
   void check_counts(std::span<const std::int64_t> weights) const;
   int halo_margin() const;
   void count_sites() const;
@@ -119,9 +130,9 @@ private:
   delaunay::StarTable stars_;
   mesh::LocalSizes sizes_;
   std::vector<delaunay::StarWish> wanted_;
-  bool ghosts_need_sizes_ = false;
-  bool ghosts_are_here_ = false; // since sites were sorted: rings name them by their local indices
-  std::vector<double> carried_;  // h of owned sites from before a move, 0 where they moved
+  State state_ = State::empty;
+  bool ghosts_need_sizes_ = false; // once they have come; while advancing
+  std::vector<double> carried_;    // h of owned sites from before a move, 0 where they moved
 };
 
 /// Points, stars and sizes, as an update rule sees them. @param size the field of the last compute_stars

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/state_fields.hpp"
-#include "fitting/layout.hpp"
+#include "fitting/fit.hpp"
 #include "placing/hilbert_start.hpp"
 #include "placing/lattice_start.hpp"
 #include "start/start_options.hpp"
@@ -11,22 +11,9 @@
 #include <memory>
 #include <span>
 #include <string>
-
-namespace trime::fitting {
-struct LatticeFit;
-}
+#include <variant>
 
 namespace trime::start {
-
-/// A uniform size that the boundary lowers here and there.
-class LevelSize final : public sizing::SizeField {
-public:
-  explicit LevelSize(const sizing::SizeField& size) : size_(size) {}
-  double size(geometry::Vec2 p) const override { return size_.size(p); }
-
-private:
-  const sizing::SizeField& size_;
-};
 
 /// @brief The stages of a run. Lattice: one stage of a hexagonal lattice whose spacing fits the count. Hilbert: one
 /// stage of quantiles along the Hilbert curve. Coarse to fine: 1/4^k of the points, relaxed, then all edges are
@@ -55,7 +42,7 @@ public:
   bool inserts() const { return scheme_ == Scheme::insertion; }
 
   /// Where the boundary needs smaller triangles than the size that is asked for. @pre first() was called
-  std::span<const sizing::SizeLimit> limits() const { return fitted_.limits; }
+  std::span<const sizing::SizeLimit> limits() const { return fit_.limits(); }
   /// Returns in one line which scheme was chosen and why.
   const std::string& reason() const { return reason_; }
   /// Why the scheme made fewer points than asked for; empty if it did not.
@@ -64,15 +51,19 @@ public:
 private:
   enum class Scheme { lattice, hilbert, coarse_to_fine, insertion };
 
+  /// The first stage, or what is to be said if the points are too few for it.
+  using First = std::variant<sites::Stage, fitting::TooFewPoints>;
+
   void choose();
+  void choose_divisions();
   GlobalId reserve() const;
   double expected_points() const;
-  sites::Stage first_of_scheme();
-  sites::Stage first_of_lattice();
+  First first_of_scheme();
+  First first_of_lattice();
   void share_runs(const placing::LatticeStart& start, fitting::LatticeFit& fit) const;
-  sites::Stage first_of_insertion();
-  sites::Stage first_of_divisions();
-  sites::Stage lay_coarsened(double coarsening, double expected);
+  First first_of_insertion();
+  First first_of_divisions();
+  std::string reason_of_divisions() const;
   sites::Stage lay_division(sites::Stage& last, double expected);
   sites::Stage lay_insertion();
   std::unique_ptr<const placing::HilbertStart> along_curve(const sites::Stage& stage, double expected,
@@ -82,17 +73,14 @@ private:
   sites::Stage divide(const sites::Stage& previous);
   sites::Stage insert(const sites::Stage& previous);
 
-  const LevelSize level_;
-  fitting::LayoutContext given_context_, level_context_; // as given, and with that size
-  const fitting::LayoutContext* context_;                // one of them
-  const fitting::FitOptions& fit_;
+  const fitting::LayoutContext& given_;
+  fitting::Fit fit_;
   const StartOptions options_;
   Scheme scheme_ = Scheme::lattice;
   int stage_ = 0, last_stage_ = 0;
-  fitting::FittedSize fitted_; // what the size of all stages follows from
-  sites::Stage laid_last_;     // the last stage of divisions, until it begins
-  double points_now_ = 0;      // that the current stage aims at (insertion)
-  double expected_ = 0;        // that the current stage was laid for (division)
+  sites::Stage laid_last_; // the last stage of divisions, until it begins
+  double points_now_ = 0;  // that the current stage aims at (insertion)
+  double expected_ = 0;    // that the current stage was laid for (division)
   std::string reason_, shortage_;
 };
 

@@ -15,6 +15,10 @@
 namespace trime::start {
 namespace {
 
+// [h] Sites that are too many are taken out where they lie nearest to the boundary; farther than this a hash
+// decides, so that none need be searched.
+constexpr double farthest_from_boundary = 4;
+
 using decomposition::selection_key;
 using decomposition::selection_threshold;
 using geometry::Vec2;
@@ -178,9 +182,7 @@ std::int64_t trim(const comm::Communicator& comm, const Stage& next, std::int64_
       const std::size_t at = static_cast<std::size_t>(k);
       const Vec2 p = sites[at].position;
       const double h = sizing::checked_size(*next.size, p);
-      keys[at] = selection_key(next.guard->distance(p, StartRules::farthest_from_boundary * h) /
-                                   (StartRules::farthest_from_boundary * h),
-                               p);
+      keys[at] = selection_key(next.guard->distance(p, farthest_from_boundary * h) / (farthest_from_boundary * h), p);
     });
   });
   const std::uint64_t threshold = selection_threshold(comm, keys, excess);

@@ -2,11 +2,11 @@
 // A patch by hand: sites around a place, and what the optimizer makes of them.
 #pragma once
 
-#include "boundary/boundary_sites.hpp"
 #include "cleanup/patch_optimizer.hpp"
 #include "polygon/boundary_guard.hpp"
 #include "support/boundary_edits.hpp"
 #include "support/boundary_shapes.hpp"
+#include "support/laid_sites.hpp"
 #include "trime/mesh/quality.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,6 @@
 
 namespace trime::cleanup::testing_patch {
 
-using boundary::make_boundary_sites;
 using geometry::Boundary;
 using geometry::Vec2;
 using polygon::BoundaryCurve;
@@ -26,6 +25,7 @@ using polygon::BoundarySite;
 using polygon::BoundarySites;
 using polygon::EditKind;
 using sizing::UniformSize;
+using testing::make_boundary_sites;
 using trime::testing::edited;
 using trime::testing::loop_of;
 using trime::testing::unit_lattice;

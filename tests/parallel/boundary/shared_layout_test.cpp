@@ -3,6 +3,7 @@
 #include "boundary/boundary_refiner.hpp"
 
 #include "support/boundary_shapes.hpp"
+#include "support/laid_sites.hpp"
 #include "trime/core/error.hpp"
 
 #include <gtest/gtest.h>
@@ -65,10 +66,10 @@ TEST(SharedLayout, DoesNotDependOnTheRanks) {
   const geometry::Boundary boundary = many_kinds();
   for (const double h : {0.1, 0.02, 0.004})
     for (const double tolerance : {0.0, 0.25}) {
-      const FeatureRule rule{tolerance, 3, nullptr};
+      const FeatureRule rule{tolerance, 3};
       const Graded size(h);
       expect_same(lay_together(world, boundary, size, rule),
-                  make_boundary_sites(boundary, size, testing::unit_lattice(), 30, {}, rule));
+                  testing::make_boundary_sites(boundary, size, testing::unit_lattice(), 30, {}, rule));
     }
 }
 
@@ -77,7 +78,7 @@ TEST(SharedLayout, OneCurveIsSharedToo) {
   const geometry::Boundary circle = testing::boundary_of({testing::circle_loop({0.5, 0.5}, 0.4)});
   for (const double h : {2.0, 0.3, 0.001})
     expect_same(lay_together(world, circle, sizing::UniformSize(h), {}),
-                make_boundary_sites(circle, sizing::UniformSize(h), testing::unit_lattice(), 30));
+                testing::make_boundary_sites(circle, sizing::UniformSize(h), testing::unit_lattice(), 30));
 }
 
 TEST(SharedLayout, ErrorsOfOneRankAreThrownByAll) {

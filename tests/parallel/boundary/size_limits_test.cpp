@@ -3,6 +3,7 @@
 #include "boundary/size_limits.hpp"
 
 #include "support/boundary_shapes.hpp"
+#include "support/laid_sites.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +24,7 @@ TEST(SizeLimits, DoNotDependOnTheRanks) {
   const geometry::Boundary boundary = testing::boundary_of({testing::polygon_loop(comb)});
   for (const double h : {0.1, 0.03}) {
     const sizing::UniformSize size(h);
-    const polygon::BoundarySites sites = make_boundary_sites(boundary, size, testing::unit_lattice(), 30);
+    const polygon::BoundarySites sites = testing::make_boundary_sites(boundary, size, testing::unit_lattice(), 30);
     const auto alone = size_limits(sites, size, size, 0.2), together = size_limits(world, sites, size, size, 0.2);
     ASSERT_FALSE(alone.empty());
     ASSERT_EQ(together.size(), alone.size());

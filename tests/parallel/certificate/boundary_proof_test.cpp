@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The proof of the boundary finds what is wrong: each falsified input fails just the checks that look at it.
-#include "boundary/boundary_sites.hpp"
 #include "certificate/boundary_proof.hpp"
+#include "support/laid_sites.hpp"
 
 #include "trime/shape/region_shape.hpp"
 
@@ -15,13 +15,13 @@
 namespace trime::certificate {
 namespace {
 
-using boundary::make_boundary_sites;
 using geometry::Frame;
 using geometry::Vec2;
 using polygon::BoundarySite;
 using polygon::BoundarySites;
 using shape::Part;
 using shape::RegionShape;
+using testing::make_boundary_sites;
 
 /// A disc with a hole and its boundary edges, point k being site k; shared out over the ranks.
 class BoundaryProof : public ::testing::Test {

@@ -3,10 +3,10 @@
 // in the layout of the boundary: each falsified input fails just the checks that look at it.
 #include "certificate/certificate.hpp"
 
-#include "boundary/boundary_sites.hpp"
 #include "extraction/extraction.hpp"
 #include "sites/stage.hpp"
 #include "support/distributed.hpp"
+#include "support/laid_sites.hpp"
 #include "trime/shape/region_shape.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ protected:
         square({shape::Part::rectangle("square", {{0.2, 0.2}, {0.8, 0.8}}, frame)}, "square", frame) {
     stage.asked_size = std::make_unique<sizing::ScaledSize>(uniform, 1);
     stage.size = std::make_unique<sizing::ScaledSize>(uniform, 1);
-    stage.polygon = boundary::make_boundary_sites(square.boundary(), uniform, unit_lattice(), 30);
+    stage.polygon = testing::make_boundary_sites(square.boundary(), uniform, unit_lattice(), 30);
     stage.guard = std::make_unique<polygon::BoundaryGuard>(stage.polygon, unit_lattice());
     stage.state =
         std::make_unique<sites::SiteState>(comm, frame.container(), mesh::GridOptions{{}, {}, h, frame.periods()});

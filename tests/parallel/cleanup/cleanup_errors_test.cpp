@@ -2,9 +2,9 @@
 // An error that one rank meets in a round of the clean-up reaches all ranks, and none waits for ever.
 #include "cleanup/cleanup.hpp"
 
-#include "boundary/boundary_sites.hpp"
 #include "support/boundary_shapes.hpp"
 #include "support/distributed.hpp"
+#include "support/laid_sites.hpp"
 #include "support/periodic_shapes.hpp"
 #include "trime/core/error.hpp"
 
@@ -43,7 +43,7 @@ Stage torus_stage(const comm::Communicator& comm, const shape::RegionShape& toru
   Stage stage;
   stage.asked_size = std::make_unique<sizing::ScaledSize>(size, 1);
   stage.size = std::make_unique<sizing::ScaledSize>(size, 1);
-  stage.polygon = boundary::make_boundary_sites(torus.boundary(), sizing::UniformSize(h), unit_lattice(), 30);
+  stage.polygon = testing::make_boundary_sites(torus.boundary(), sizing::UniformSize(h), unit_lattice(), 30);
   stage.guard = std::make_unique<polygon::BoundaryGuard>(stage.polygon, unit_lattice());
   stage.state = std::make_unique<sites::SiteState>(comm, geometry::Box{{0, 0}, {1, 1}},
                                                    mesh::GridOptions{{}, {}, h, torus.boundary().periods});

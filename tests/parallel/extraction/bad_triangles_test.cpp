@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The list of the worst triangles: the same however the triangles are shared out, and which a sharp corner excuses.
-#include "boundary/boundary_sites.hpp"
 #include "extraction/bad_triangles.hpp"
 #include "extraction/extraction.hpp"
+#include "support/laid_sites.hpp"
 #include "trime/shape/region_shape.hpp"
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ TEST(SharpCorners, ExcuseTrianglesWithinThreeOfTheirEdges) {
   const shape::RegionShape wedge(
       {shape::Part::triangle("wedge", {Vec2{0.125, 0.25}, {0.875, 0.25}, {0.875, 0.5}}, frame)}, "wedge", frame);
   const sizing::UniformSize size(0.05);
-  const auto sites = boundary::make_boundary_sites(wedge.boundary(), size, frame.lattice(), 30);
+  const auto sites = testing::make_boundary_sites(wedge.boundary(), size, frame.lattice(), 30);
   const SharpCorners corners(sites, wedge.boundary().periods);
   const auto at_tip = corners.near({0.125, 0.25}, {0.2, 0.25}, {0.2, 0.26});
   EXPECT_EQ(at_tip.place, (Vec2{0.125, 0.25}));

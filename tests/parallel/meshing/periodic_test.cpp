@@ -21,7 +21,8 @@ namespace {
 
 using boundary::FixedPoints;
 using fitting::FitOptions;
-using fitting::lay_boundary;
+using fitting::FittedSize;
+using fitting::lay_stage;
 using fitting::LayoutContext;
 using fitting::place_sites;
 using geometry::Frame;
@@ -213,7 +214,8 @@ TEST(PeriodicMesher, APerturbedHexagonalTorusReturns) {
   const LayoutContext context{world, shape.domain(), size, fit, log, timers, none};
   // Bars all the way, cells all the way, and cells after bars as the hybrid method has it.
   for (const auto& [by_bars, sweeps] : {std::pair{360, 360}, {0, 120}, {40, 160}}) {
-    Stage layout = lay_boundary(context, 1.0 / columns, columns * rows).stage;
+    FittedSize fitted{1.0 / columns};
+    Stage layout = lay_stage(context, fitted, 1, columns * rows);
     place_sites(context, layout, perturbed_lattice(world, frame, columns, rows, 0.15));
     const delaunay::StarBuilder builder(frame.lattice(), 1);
     DistMeshRule bars;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The quantile start: the exact number of sites, spread by h, the same on any ranks.
-#include "boundary/boundary_sites.hpp"
 #include "decomposition/partition.hpp"
 #include "placing/hilbert_start.hpp"
 #include "support/distributed.hpp"
+#include "support/laid_sites.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,12 +12,12 @@
 namespace trime::placing {
 namespace {
 
-using boundary::make_boundary_sites;
 using geometry::Vec2;
 using mesh::Site;
 using mesh::SiteList;
 using polygon::BoundaryGuard;
 using polygon::BoundarySites;
+using testing::make_boundary_sites;
 using testing::unit_lattice;
 
 class GradedSize final : public sizing::SizeField {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Who makes which sites: shared out by what a lattice holds, none of them has to move.
-#include "boundary/boundary_sites.hpp"
 #include "placing/lattice_start.hpp"
 #include "placing/work_share.hpp"
 #include "support/distributed.hpp"
+#include "support/laid_sites.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ constexpr double spacing = 0.004;
 /// A square with a round hole, without inner sites.
 struct Layout {
   Layout(const comm::Communicator& comm, const geometry::Boundary& boundary, const sizing::SizeField& size) {
-    stage.polygon = boundary::make_boundary_sites(boundary, size, unit_lattice(), 30);
+    stage.polygon = testing::make_boundary_sites(boundary, size, unit_lattice(), 30);
     stage.guard = std::make_unique<polygon::BoundaryGuard>(stage.polygon, unit_lattice());
     stage.state =
         std::make_unique<sites::SiteState>(comm, geometry::Box{{0, 0}, {1, 1}}, mesh::GridOptions{{}, {}, spacing, {}});

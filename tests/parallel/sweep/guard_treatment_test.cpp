@@ -2,9 +2,9 @@
 // Sites in the discs of the boundary are pushed out or go, the same on any ranks.
 #include "sweep/guard_treatment.hpp"
 
-#include "boundary/boundary_sites.hpp"
 #include "support/boundary_shapes.hpp"
 #include "support/distributed.hpp"
+#include "support/laid_sites.hpp"
 #include "support/point_sets.hpp"
 
 #include <gtest/gtest.h>
@@ -14,13 +14,13 @@
 namespace trime::sweep {
 namespace {
 
-using boundary::make_boundary_sites;
 using geometry::Vec2;
 using mesh::Site;
 using mesh::SiteList;
 using polygon::BoundaryGuard;
 using polygon::BoundarySites;
 using sites::SiteState;
+using testing::make_boundary_sites;
 using testing::unit_lattice;
 
 struct Settled {

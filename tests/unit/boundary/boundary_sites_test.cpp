@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boundary sites on easy and ugly shapes: invariants by brute force.
-#include "boundary/boundary_sites.hpp"
+#include "support/laid_sites.hpp"
 
 #include "core/random.hpp"
 #include "geometry/diametral.hpp"
@@ -83,11 +83,11 @@ void expect_gabriel_and_simple(const BoundarySites& result) {
 }
 
 BoundarySites expect_sound(const Boundary& boundary, const sizing::SizeField& size, double corner_angle = 30) {
-  const BoundarySites result = make_boundary_sites(boundary, size, unit_lattice(), corner_angle);
+  const BoundarySites result = testing::make_boundary_sites(boundary, size, unit_lattice(), corner_angle);
   expect_linked_loops(boundary, result);
   expect_corners_kept(boundary, result, corner_angle);
   expect_gabriel_and_simple(result);
-  const BoundarySites again = make_boundary_sites(boundary, size, unit_lattice(), corner_angle);
+  const BoundarySites again = testing::make_boundary_sites(boundary, size, unit_lattice(), corner_angle);
   EXPECT_EQ(again.sites.size(), result.sites.size());
   for (std::size_t k = 0; k < result.sites.size(); ++k)
     EXPECT_EQ(again.sites[k].position, result.sites[k].position);
@@ -290,7 +290,7 @@ TEST(BoundarySites, ATinyTipOfWhichACornerIsLeftOutIsNoTwoSites) {
   const Boundary tip = boundary_of({polygon_loop({{0.9, 0.45}, {0.857227, 0.449389}, {0.857227, 0.44694}})});
   for (double slope = 0.5; slope < 64; slope *= 1.25) {
     SCOPED_TRACE(slope);
-    const BoundarySites result = make_boundary_sites(tip, ValleySize(slope), unit_lattice(), 30, {}, {0.1, 0});
+    const BoundarySites result = testing::make_boundary_sites(tip, ValleySize(slope), unit_lattice(), 30, {}, {0.1, 0});
     expect_linked_loops(tip, result);
   }
 }
@@ -332,8 +332,8 @@ TEST(BoundarySites, HalvingMayRunThroughTheWholeBoundary) { // from tooth to too
 TEST(BoundarySites, HalvingEndsWhereThereAreMoreSitesThanAffordable) {
   const Graded size;
   const Boundary boundary = boundary_of({polygon_loop(comb(60, 0.006))});
-  const std::size_t all = make_boundary_sites(boundary, size, unit_lattice(), 30).sites.size();
-  const BoundarySites result = make_boundary_sites(boundary, size, unit_lattice(), 30, {}, {}, all / 2);
+  const std::size_t all = testing::make_boundary_sites(boundary, size, unit_lattice(), 30).sites.size();
+  const BoundarySites result = testing::make_boundary_sites(boundary, size, unit_lattice(), 30, {}, {}, all / 2);
   EXPECT_TRUE(result.overfull);
   EXPECT_EQ(result.sites.size(), all / 2);
 }
@@ -342,7 +342,7 @@ TEST(BoundarySites, PartsCloserThanTheLatticeAreRefusedWithThePlace) {
   Boundary boundary = square();
   boundary.loops.push_back(polygon_loop({{0.312, 0.1 + 1e-13}, {0.4, 0.3}, {0.5, 0.2}}));
   try {
-    make_boundary_sites(boundary, UniformSize(0.05), unit_lattice(), 30);
+    testing::make_boundary_sites(boundary, UniformSize(0.05), unit_lattice(), 30);
     FAIL() << "expected a GeometryError";
   } catch (const GeometryError& error) {
     const std::string message = error.what();
@@ -354,14 +354,14 @@ TEST(BoundarySites, PartsCloserThanTheLatticeAreRefusedWithThePlace) {
 TEST(BoundarySites, TouchingLoopsAreRefused) {
   Boundary boundary = square();
   boundary.loops.push_back(polygon_loop({{0.1, 0.1}, {0.4, 0.3}, {0.5, 0.2}}));
-  EXPECT_THROW(make_boundary_sites(boundary, UniformSize(0.05), unit_lattice(), 30), GeometryError);
+  EXPECT_THROW(testing::make_boundary_sites(boundary, UniformSize(0.05), unit_lattice(), 30), GeometryError);
 }
 
 TEST(BoundarySites, AbsurdSizesAreRefused) {
-  EXPECT_THROW(make_boundary_sites(square(), UniformSize(0), unit_lattice(), 30), GeometryError);
-  EXPECT_THROW(make_boundary_sites(square(), UniformSize(-1), unit_lattice(), 30), GeometryError);
-  EXPECT_THROW(make_boundary_sites(square(), UniformSize(1e-13), unit_lattice(), 30), GeometryError);
-  EXPECT_THROW(make_boundary_sites(square(), UniformSize(std::nan("")), unit_lattice(), 30), GeometryError);
+  EXPECT_THROW(testing::make_boundary_sites(square(), UniformSize(0), unit_lattice(), 30), GeometryError);
+  EXPECT_THROW(testing::make_boundary_sites(square(), UniformSize(-1), unit_lattice(), 30), GeometryError);
+  EXPECT_THROW(testing::make_boundary_sites(square(), UniformSize(1e-13), unit_lattice(), 30), GeometryError);
+  EXPECT_THROW(testing::make_boundary_sites(square(), UniformSize(std::nan("")), unit_lattice(), 30), GeometryError);
 }
 
 } // namespace

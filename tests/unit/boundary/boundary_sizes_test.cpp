@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sizes along the boundary from samples of the relative size, and limits that others imply.
-#include "boundary/boundary_sites.hpp"
 #include "boundary/boundary_sizes.hpp"
 #include "boundary/size_limits.hpp"
 #include "support/boundary_shapes.hpp"
+#include "support/laid_sites.hpp"
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ TEST(SizeLimits, LeaveOutWhatOthersImply) {
   const geometry::Boundary boundary =
       testing::boundary_of({testing::polygon_loop({{0.1, 0.1}, {0.5, 0.1}, {0.5, 0.11}, {0.3, 0.2}, {0.1, 0.4}})});
   const sizing::UniformSize size(0.1);
-  const BoundarySites sites = make_boundary_sites(boundary, size, testing::unit_lattice(), 30);
+  const BoundarySites sites = testing::make_boundary_sites(boundary, size, testing::unit_lattice(), 30);
   const auto all = size_limits(sites, size, size, INFINITY), few = size_limits(sites, size, size, 0.2);
   ASSERT_FALSE(few.empty());
   EXPECT_LT(few.size(), all.size());
@@ -71,7 +71,8 @@ TEST(SizeLimits, EndWhereTheSizeMayNotBecomeLower) {
   std::size_t more = 1;
   for (int round = 0; round < 4 && more > 0; ++round) {
     const sizing::LoweredSize size(asked, limits, 0.2, boundary.periods);
-    const auto found = size_limits(make_boundary_sites(boundary, size, testing::unit_lattice(), 30), size, asked, 0.2);
+    const auto found =
+        size_limits(testing::make_boundary_sites(boundary, size, testing::unit_lattice(), 30), size, asked, 0.2);
     for (const sizing::SizeLimit& limit : found) {
       EXPECT_GE(limit.size, 0.05 * 0.1);
       EXPECT_LT(limit.size, 0.95 * size.size(limit.place));

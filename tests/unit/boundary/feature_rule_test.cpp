@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "boundary/feature_rule.hpp"
 
-#include "boundary/boundary_sites.hpp"
 #include "boundary/site_path.hpp"
 #include "core/angle.hpp"
 #include "core/random.hpp"
 #include "geometry/diametral.hpp"
 #include "sizing/lowered_size.hpp"
 #include "support/boundary_shapes.hpp"
+#include "support/laid_sites.hpp"
 #include "trime/shape/region_shape.hpp"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ std::vector<Vec2> ragged_circle(int n, double radius, double depth, std::uint64_
 }
 
 BoundarySites sites_of(const Boundary& boundary, double h, double share = tolerance) {
-  return make_boundary_sites(boundary, UniformSize(h), unit_lattice(), 30, {}, {share, 0, nullptr});
+  return testing::make_boundary_sites(boundary, UniformSize(h), unit_lattice(), 30, {}, {share, 0});
 }
 
 double distance_to_polygon(const BoundarySites& sites, Vec2 p) {
@@ -175,7 +175,7 @@ TEST(FeatureRule, SmallIslandsAndLakesAreDropped) {
   EXPECT_NEAR(two.change, 0, 1e-12);
   EXPECT_EQ(drop_small_loops(boundary, UniformSize(0.042), 0).dropped, none.dropped); // keep_features
   const BoundarySites sites =
-      make_boundary_sites(boundary, UniformSize(0.042), unit_lattice(), 30, {}, {tolerance, 3, nullptr});
+      testing::make_boundary_sites(boundary, UniformSize(0.042), unit_lattice(), 30, {}, {tolerance, 3});
   EXPECT_EQ(sites.loop_start.size(), 3u);
 }
 

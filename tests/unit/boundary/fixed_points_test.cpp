@@ -2,8 +2,8 @@
 // Fixed points before any mesh: where they lie, what becomes of the boundary, what is refused, what is taken out.
 #include "boundary/fixed_points.hpp"
 
-#include "boundary/boundary_sites.hpp"
 #include "boundary/rules.hpp"
+#include "support/laid_sites.hpp"
 #include "trime/core/error.hpp"
 #include "trime/shape/region_shape.hpp"
 
@@ -51,8 +51,8 @@ std::string error_of(const Work& work) {
 }
 
 BoundarySites sites_for(const FixedPoints& fixed, double h) {
-  return make_boundary_sites(fixed.cornered_boundary(), sizing::UniformSize(h), unit_frame.lattice(), 30,
-                             fixed.inside());
+  return testing::make_boundary_sites(fixed.cornered_boundary(), sizing::UniformSize(h), unit_frame.lattice(), 30,
+                                      fixed.inside());
 }
 
 std::vector<Vec2> corners_of(const BoundarySites& sites) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sites where parts of the shape meet: corners, however little the boundary turns there.
-#include "boundary/boundary_sites.hpp"
+#include "support/laid_sites.hpp"
 
 #include "support/boundary_shapes.hpp"
 
@@ -35,7 +35,7 @@ Boundary square_of_two_parts(double degrees) {
 TEST(MeetingParts, AreCornersHoweverLittleTheyTurn) {
   for (const double degrees : {0.0, 3.0}) {
     const Boundary boundary = square_of_two_parts(degrees);
-    const BoundarySites result = make_boundary_sites(boundary, UniformSize(0.093), unit_lattice(), 30);
+    const BoundarySites result = testing::make_boundary_sites(boundary, UniformSize(0.093), unit_lattice(), 30);
     for (const std::size_t meeting : {1, 3})
       EXPECT_TRUE(std::ranges::any_of(result.sites,
                                       [&](const BoundarySite& site) {
@@ -51,7 +51,8 @@ TEST(MeetingParts, BelowTheResolutionMayBeLeftOutAndAreCounted) {
   geometry::Loop loop = polygon_loop({{0.1, 0.1}, {0.5, 0.1}, {0.5002, 0.1}, {0.9, 0.1}, {0.9, 0.9}, {0.1, 0.9}});
   loop.pieces[1].part = 1;
   const Boundary boundary = boundary_of({loop});
-  const BoundarySites result = make_boundary_sites(boundary, UniformSize(0.093), unit_lattice(), 30, {}, {0.1, 3});
+  const BoundarySites result =
+      testing::make_boundary_sites(boundary, UniformSize(0.093), unit_lattice(), 30, {}, {0.1, 3});
   EXPECT_EQ(result.corners, 4);
   EXPECT_EQ(result.left_out, 2);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boundary sites and guard in periodic containers, against the definitions with all images.
-#include "boundary/boundary_sites.hpp"
 #include "core/random.hpp"
 #include "geometry/diametral.hpp"
 #include "polygon/boundary_guard.hpp"
+#include "support/laid_sites.hpp"
 #include "support/periodic_shapes.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using shape::RegionShape;
 using testing::for_each_image;
 
 BoundarySites sites_of(const RegionShape& shape, double h) {
-  return make_boundary_sites(shape.boundary(), sizing::UniformSize(h), shape.frame().lattice(), 30);
+  return testing::make_boundary_sites(shape.boundary(), sizing::UniformSize(h), shape.frame().lattice(), 30);
 }
 
 std::vector<Segment> chords_of(const BoundarySites& sites) {

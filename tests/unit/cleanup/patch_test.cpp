@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the optimizer makes of patches whose remedy is known.
-#include "boundary/boundary_sites.hpp"
+#include "support/laid_sites.hpp"
 #include "support/patch_stage.hpp"
 #include "support/periodic_shapes.hpp"
 #include "support/point_sets.hpp"
@@ -14,13 +14,13 @@
 namespace trime::cleanup {
 namespace {
 
-using boundary::make_boundary_sites;
 using geometry::Boundary;
 using geometry::Vec2;
 using polygon::BoundaryCurve;
 using polygon::BoundarySites;
 using sizing::UniformSize;
 using testing::boundary_of;
+using testing::make_boundary_sites;
 using testing::polygon_loop;
 using testing::unit_lattice;
 using namespace testing_patch;

@@ -18,9 +18,9 @@ using testing::unit_lattice;
 
 const geometry::Box unit_box{{0, 0}, {1, 1}};
 
-std::unique_ptr<const Generalised> at_size(const Boundary& boundary, double h, Narrow narrow = Narrow::keep,
+std::unique_ptr<const Generalised> at_size(const Boundary& boundary, double h, bool closes_narrow = false,
                                            const std::vector<Vec2>& inside = {}) {
-  return generalise(boundary, sizing::UniformSize(h), unit_lattice(), {narrow}, inside);
+  return generalise(boundary, sizing::UniformSize(h), unit_lattice(), {closes_narrow}, inside);
 }
 
 Loop box(Vec2 low, Vec2 high, bool hole = false, int tag = 1) {
@@ -40,10 +40,10 @@ Loop gear() {
 
 TEST(Generalise, LeavesShapesWithoutNarrowPartsAlone) {
   for (const double h : {0.1, 0.02, 0.001})
-    for (const Narrow narrow : {Narrow::keep, Narrow::close}) {
-      EXPECT_EQ(at_size(boundary_of({box({0.1, 0.1}, {0.9, 0.9})}), h, narrow), nullptr);
-      EXPECT_EQ(at_size(boundary_of({circle_loop({0.5, 0.5}, 0.4)}), h, narrow), nullptr);
-      EXPECT_EQ(at_size(boundary_of({gear()}), h, narrow), nullptr);
+    for (const bool closes_narrow : {false, true}) {
+      EXPECT_EQ(at_size(boundary_of({box({0.1, 0.1}, {0.9, 0.9})}), h, closes_narrow), nullptr);
+      EXPECT_EQ(at_size(boundary_of({circle_loop({0.5, 0.5}, 0.4)}), h, closes_narrow), nullptr);
+      EXPECT_EQ(at_size(boundary_of({gear()}), h, closes_narrow), nullptr);
     }
 }
 
@@ -84,7 +84,7 @@ TEST(Generalise, WidensACrackOrClosesIt) {
                                {0.5, 0.5001}, {0.9, 0.5001}, {0.9, 0.9}, {0.1, 0.9}};
   const Boundary given = boundary_of({polygon_loop(ring)});
   const double h = 0.02;
-  const auto widened = at_size(given, h, Narrow::keep);
+  const auto widened = at_size(given, h, false);
   ASSERT_TRUE(widened);
   EXPECT_GE(widened->counts.widened, 1);
   EXPECT_EQ(widened->counts.closed, 0);
@@ -93,7 +93,7 @@ TEST(Generalise, WidensACrackOrClosesIt) {
   const geometry::SegmentGrid curves(segments_of(widened->boundary));
   EXPECT_NEAR(2 * std::sqrt(curves.nearest({0.7, 0.50005}).squared_distance), GeneraliseRules::narrow_outside * h,
               0.01 * h);
-  const auto closed = at_size(given, h, Narrow::close);
+  const auto closed = at_size(given, h, true);
   ASSERT_TRUE(closed);
   EXPECT_GE(closed->counts.closed, 1);
   EXPECT_EQ(closed->counts.widened, 0);
@@ -120,12 +120,12 @@ TEST(Generalise, DoesNotCutWhatHoldsAPointThatMustStayInside) {
                                {0.9, 0.31}, {0.5, 0.31}, {0.5, 0.9}, {0.1, 0.9}};
   const Boundary given = boundary_of({polygon_loop(ring)});
   ASSERT_TRUE(at_size(given, 0.05));
-  const auto held = at_size(given, 0.05, Narrow::keep, {unit_lattice().snap({0.8, 0.305})});
+  const auto held = at_size(given, 0.05, false, {unit_lattice().snap({0.8, 0.305})});
   if (held) { // its end may go
     EXPECT_TRUE(geometry::SegmentGrid(segments_of(held->boundary)).inside({0.8, 0.305}));
   }
   const Vec2 outside{0.7, 0.7}, twice{0.25, 0.25}, on_curve{0.25, 0.1};
-  const auto made = at_size(given, 0.05, Narrow::keep, {outside, twice, twice, unit_lattice().snap(on_curve)});
+  const auto made = at_size(given, 0.05, false, {outside, twice, twice, unit_lattice().snap(on_curve)});
   ASSERT_TRUE(made);
   EXPECT_TRUE(are_equal(made->boundary, at_size(given, 0.05)->boundary));
 }
@@ -139,7 +139,7 @@ TEST(Generalise, KeepsABluntTipThatHoldsAPoint) {
   const Boundary given = boundary_of({polygon_loop(ring)});
   ASSERT_TRUE(at_size(given, 0.006));
   EXPECT_LT(at_size(given, 0.006)->boundary.bounding_box().max.x, p.x);
-  if (const auto made = at_size(given, 0.006, Narrow::keep, {p})) {
+  if (const auto made = at_size(given, 0.006, false, {p})) {
     EXPECT_TRUE(geometry::SegmentGrid(segments_of(made->boundary)).inside(p));
   }
 }
@@ -205,7 +205,7 @@ struct Case {
 Case make_case(const ShapeClass& shape, std::uint64_t seed) {
   Draws draws(seed);
   Case it{shape.make(draws), draws.log_between(5e-3, 0.2), {}, {}, nullptr};
-  it.choice.narrow = draws.unit() < 0.3 ? Narrow::close : Narrow::keep;
+  it.choice.closes_narrow = draws.unit() < 0.3;
   it.choice.cuts_thin_components = draws.unit() < 0.3;
   for (Loop& loop : it.given.loops)
     for (geometry::Piece& piece : loop.pieces)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The lattice start: regular, clear of the boundary, and the same set however the tiles are split.
-#include "boundary/boundary_sites.hpp"
 #include "placing/lattice_start.hpp"
+#include "support/laid_sites.hpp"
 #include "support/periodic_shapes.hpp"
 #include "support/point_sets.hpp"
 
@@ -13,12 +13,12 @@
 namespace trime::placing {
 namespace {
 
-using boundary::make_boundary_sites;
 using geometry::Vec2;
 using mesh::Site;
 using mesh::SiteList;
 using polygon::BoundaryGuard;
 using polygon::BoundarySites;
+using testing::make_boundary_sites;
 using testing::unit_lattice;
 
 /// A shape with all that a start needs.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boundary sites that move, come and go: in rounds, and numbered along the loops again.
-#include "boundary/boundary_sites.hpp"
 #include "polygon/boundary_chain.hpp"
+#include "support/laid_sites.hpp"
 
 #include "polygon/chord_curve.hpp"
 #include "support/boundary_edits.hpp"
@@ -17,7 +17,6 @@
 namespace trime::polygon {
 namespace {
 
-using boundary::make_boundary_sites;
 using geometry::Boundary;
 using geometry::Vec2;
 using sizing::UniformSize;
@@ -25,6 +24,7 @@ using testing::boundary_of;
 using testing::circle_loop;
 using testing::edited;
 using testing::loop_of;
+using testing::make_boundary_sites;
 using testing::polygon_loop;
 using testing::unit_lattice;
 using Kind = EditKind;

@@ -2,9 +2,9 @@
 // Places on the boundary by arc length.
 #include "polygon/boundary_curve.hpp"
 
-#include "boundary/boundary_sites.hpp"
 #include "polygon/chord_curve.hpp"
 #include "support/boundary_shapes.hpp"
+#include "support/laid_sites.hpp"
 #include "support/periodic_shapes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // BoundaryGuard against the definitions, chord by chord.
-#include "boundary/boundary_sites.hpp"
 #include "polygon/boundary_guard.hpp"
+#include "support/laid_sites.hpp"
 
 #include "core/random.hpp"
 #include "geometry/diametral.hpp"
@@ -16,12 +16,12 @@
 namespace trime::polygon {
 namespace {
 
-using boundary::make_boundary_sites;
 using geometry::Segment;
 using geometry::Vec2;
 using sizing::UniformSize;
 using testing::boundary_of;
 using testing::circle_loop;
+using testing::make_boundary_sites;
 using testing::polygon_loop;
 using testing::unit_lattice;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Chords against the curve that they stand for: closed forms, and dense samples where there are none.
-#include "boundary/boundary_sites.hpp"
 #include "polygon/chord_curve.hpp"
+#include "support/laid_sites.hpp"
 
 #include "support/boundary_shapes.hpp"
 #include "support/periodic_shapes.hpp"
@@ -15,7 +15,6 @@
 namespace trime::polygon {
 namespace {
 
-using boundary::make_boundary_sites;
 using geometry::Boundary;
 using geometry::Loop;
 using geometry::Piece;
@@ -23,6 +22,7 @@ using geometry::Vec2;
 using sizing::UniformSize;
 using testing::boundary_of;
 using testing::circle_loop;
+using testing::make_boundary_sites;
 using testing::polygon_loop;
 using testing::unit_lattice;
 

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fitting/fit.hpp"
+
+#include "fitting/density_fit.hpp"
+
+#include <utility>
+
+namespace trime::fitting {
+
+std::variant<StageFit, TooFewPoints> Fit::find_density(double points, double coarsening) {
+  std::variant<SizeTrial, TooFewPoints> found = fit_density(context_, points, coarsening);
+  if (TooFewPoints* few = std::get_if<TooFewPoints>(&found))
+    return std::move(*few);
+  SizeTrial& trial = std::get<SizeTrial>(found);
+  fitted_ = std::move(trial.fitted);
+  return std::move(trial.fit);
+}
+
+void Fit::cut_thin_components() {
+  context_.cuts_thin_components = true;
+  context_.lowers_uniform = false;
+}
+
+sites::Stage Fit::try_factor(double factor, double expected) {
+  fitted_ = {};
+  fitted_.factor = factor;
+  return try_boundary(context_, fitted_, expected);
+}
+
+} // namespace trime::fitting

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the search for the size and the layout of a stage work from.
+#pragma once
+
+#include "boundary/fixed_points.hpp"
+#include "fitting/fit_options.hpp"
+#include "trime/comm/communicator.hpp"
+#include "trime/core/log.hpp"
+#include "trime/core/timer.hpp"
+#include "trime/geometry/domain.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <cmath>
+
+namespace trime::fitting {
+
+/// A uniform size that the boundary may lower here and there.
+class GradedSize final : public sizing::SizeField {
+public:
+  explicit GradedSize(const sizing::SizeField& size) : size_(size) {}
+  double size(geometry::Vec2 p) const override { return size_.size(p); }
+
+private:
+  const sizing::SizeField& size_;
+};
+
+/// What the set-up works from. Keeps references; see Mesher.
+struct LayoutContext {
+  const comm::Communicator& comm;
+  const geometry::Domain& domain;
+  const sizing::SizeField& relative_size;
+  const FitOptions& options;
+  Log& log;
+  TimerTable& timers;
+  const boundary::FixedPoints& fixed; ///< with the boundary on which sites are laid
+  bool cuts_thin_components = false;  ///< as generalise::Choice has it: no other boundary has so few points
+  bool lowers_uniform = false;        ///< the boundary may lower a uniform size: it is treated as a graded one
+  GradedSize graded{relative_size};   ///< what stands for it then
+  const geometry::Boundary& given_boundary = domain.boundary(); ///< without the corners that fixed points make
+  const geometry::Lattice& lattice = domain.frame().lattice();
+
+  /// Returns the size that is asked for with this factor, within the least and the largest size. @pre this context
+  /// outlives it
+  sizing::ScaledSize asked_size(double factor) const {
+    const sizing::SizeField& relative = lowers_uniform ? static_cast<const sizing::SizeField&>(graded) : relative_size;
+    return {relative, factor, options.min_size.value_or(0), options.max_size.value_or(INFINITY)};
+  }
+};
+
+} // namespace trime::fitting

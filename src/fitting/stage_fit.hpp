@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A stage at the size that a search has found.
+#pragma once
+
+#include "sites/stage.hpp"
+
+#include <string>
+
+namespace trime::fitting {
+
+/// A stage without inner sites, and how many there should be.
+struct StageFit {
+  sites::Stage stage;
+  double inner = 0;
+  std::string shortage; ///< why there will be fewer points than asked for; empty if not
+};
+
+} // namespace trime::fitting

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The sites of a boundary laid out by one process alone.
+#pragma once
+
+#include "boundary/boundary_refiner.hpp"
+#include "sizing/lowered_size.hpp"
+
+#include <limits>
+#include <span>
+
+namespace trime::testing {
+
+/// The same sites as of boundary::make_boundary_sites, by one refiner without communication. By default every corner
+/// and loop is kept. @throws GeometryError as that
+inline polygon::BoundarySites make_boundary_sites(const geometry::Boundary& boundary, const sizing::SizeField& size,
+                                                  const geometry::Lattice& lattice, double corner_angle,
+                                                  std::span<const geometry::Vec2> inside = {},
+                                                  const boundary::FeatureRule& rule = {},
+                                                  std::size_t affordable = std::numeric_limits<std::size_t>::max()) {
+  boundary::BoundaryRefiner refiner(boundary, {size, size}, lattice, corner_angle, inside, rule, affordable);
+  refiner.run(refiner.begin(refiner.lay_out({}), {}));
+  return refiner.result();
+}
+
+} // namespace trime::testing
