@@ -2,7 +2,7 @@
 #include "delaunay/star_builder.hpp"
 
 #include "core/thread_loop.hpp"
-#include "delaunay/double2.hpp"
+#include "delaunay/circumcenter.hpp"
 #include "delaunay/rules.hpp"
 #include "delaunay/star_kernel.hpp"
 #include "delaunay/tile_wrapper.hpp"

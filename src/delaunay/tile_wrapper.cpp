@@ -2,7 +2,6 @@
 #include "delaunay/tile_wrapper.hpp"
 
 #include "delaunay/circumcenter.hpp"
-#include "delaunay/double2.hpp"
 #include "delaunay/rules.hpp"
 #include "delaunay/star_builder.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The list of the worst triangles: the same however the triangles are shared out, and which a sharp corner excuses.
 #include "boundary/boundary_sites.hpp"
-#include "extraction/bad_triangles.hpp"
+#include "extraction/mesh_quality.hpp"
 #include "extraction/extraction.hpp"
 #include "trime/shape/region_shape.hpp"
 
