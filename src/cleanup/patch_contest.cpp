@@ -10,6 +10,12 @@ namespace {
 
 using Rules = CleanupRules;
 
+// [sweeps] Of a trial with smaller triangles. Half of them decide whether it is given up.
+constexpr int refine_sweeps = 20;
+// [sweeps] Near the middle, of moves alone, which operations that come first have to beat.
+constexpr int first_sweeps = 2;
+constexpr std::size_t few_runners = 3; // [operations] That go beyond the first sweep in other trials
+
 /// Returns the squared difference of the degree of an inner vertex from 6.
 int strain(const Patch& patch, LocalIndex v) {
   if (v >= patch.mesh.vertices() || patch.on_boundary(v) || patch.is_gone(v))
@@ -160,7 +166,7 @@ bool PatchContest::hold(Patch& now, const Corners& worst, const PatchBudget& bud
 bool PatchContest::set_bar_by_moves(const Patch& now, Bar& bar) {
   Patch& moved = runners_.front().patch;
   moved = now;
-  for (int sweep = 0; sweep < Rules::first_sweeps; ++sweep)
+  for (int sweep = 0; sweep < first_sweeps; ++sweep)
     relax_near(now, moved, score_.nearest());
   for (int sweep = 0; sweep < Rules::trial_sweeps; ++sweep)
     relax_near(now, moved, score_.near());
@@ -281,7 +287,7 @@ std::span<PatchContest::Runner> PatchContest::best_of(std::vector<Runner>& all, 
 }
 
 void PatchContest::try_operations(const Patch& now, const BadPlace& place, const PatchBudget& budget, Bar& bar) {
-  const std::span<Runner> runners = best_of(runners_, Rules::few_runners),
+  const std::span<Runner> runners = best_of(runners_, few_runners),
                           finalists = best_of(finalists_, Rules::few_finalists);
   const double no_others_below = (is_thorough_ ? Rules::excellent_if_thorough : Rules::excellent) * bar.first;
   const double patience = !is_thorough_ ? 1 : budget.is_again ? Rules::patience_again : Rules::patience;
@@ -307,9 +313,9 @@ void PatchContest::try_refining(const Patch& now, const BadPlace& place, const P
   trial_ = now;
   if (!refiner_.refine(now, trial_, place) || !is_within(std::max(budget.may_insert, budget.may_refine), budget))
     return;
-  for (int sweep = 0; sweep < Rules::refine_sweeps; ++sweep) {
+  for (int sweep = 0; sweep < refine_sweeps; ++sweep) {
     relax_near(now, trial_, score_.near());
-    if (trial_.broken || (sweep == Rules::refine_sweeps / 2 && !(score_.score(trial_).max < bar.largest)))
+    if (trial_.broken || (sweep == refine_sweeps / 2 && !(score_.score(trial_).max < bar.largest)))
       return;
   }
   const double largest = score_.score(trial_).max;

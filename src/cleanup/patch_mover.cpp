@@ -15,6 +15,12 @@ using geometry::Vec2;
 using polygon::BoundaryCurve;
 using Rules = CleanupRules;
 
+// Least determinant of the second derivatives over their squares for a Newton step. Only rounding is kept out.
+constexpr double least_convexity = 1e-6;
+constexpr double flat_energy = 1e20; // Energy of a star from which rounding may change the signs of its areas
+// Longest step along the boundary over the way to the next site there. Order must be kept.
+constexpr double slide_share = 0.4;
+
 /// The step along a tangent that Newton's method asks for, or the longest one downwards.
 double step_along(const EnergyModel& model, Vec2 along, double limit) {
   const double slope = geometry::dot(model.gradient, along);
@@ -88,7 +94,7 @@ EnergyModel star_energy_model(Vec2 p, std::span<const Vec2> ring, bool closed) {
 Vec2 newton_step(const EnergyModel& model, double limit) {
   const double determinant = model.xx * model.yy - model.xy * model.xy;
   Vec2 step;
-  if (determinant > CleanupRules::least_convexity * (model.xx * model.xx + model.yy * model.yy) && model.xx > 0)
+  if (determinant > least_convexity * (model.xx * model.xx + model.yy * model.yy) && model.xx > 0)
     step = (-1 / determinant) * Vec2{model.yy * model.gradient.x - model.xy * model.gradient.y,
                                      model.xx * model.gradient.y - model.xy * model.gradient.x};
   else
@@ -136,7 +142,7 @@ bool PatchMover::relax_inside(Patch& patch, LocalIndex v) {
   const EnergyModel model = star_energy_model(from, around_, true);
   if (model.value < Rules::rest_energy)
     return false;
-  const bool is_flat = !(model.value < Rules::flat_energy);
+  const bool is_flat = !(model.value < flat_energy);
   Vec2 step = newton_step(model, Rules::longest_move * h);
   for (int halving = 0; halving <= Rules::halvings; ++halving, step = 0.5 * step) {
     if (geometry::squared_length(step) < Rules::shortest_move * Rules::shortest_move * h * h)
@@ -197,8 +203,8 @@ void PatchMover::slide(Patch& patch, LocalIndex v) {
     return;
   const BoundaryCurve& curve = start_.curve();
   const double limit =
-      std::fmin(Rules::longest_slide * h, Rules::slide_share * std::fmin(geometry::length(around_.front() - from),
-                                                                         geometry::length(around_.back() - from)));
+      std::fmin(Rules::longest_slide * h, slide_share * std::fmin(geometry::length(around_.front() - from),
+                                                                  geometry::length(around_.back() - from)));
   double step = step_along(model, curve.place(own.loop, own.arc).tangent, limit);
   const double length = curve.length(own.loop);
   const int halvings = is_thorough_ ? Rules::halvings : Rules::slide_halvings;

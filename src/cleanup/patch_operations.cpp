@@ -12,6 +12,10 @@ namespace {
 
 using geometry::Vec2;
 
+// Share of a chord: within it of the middle a left-out corner is where the chord is divided.
+constexpr double most_off_middle = 0.3;
+constexpr LocalIndex least_in_loop = 8; // [sites] A loop with fewer loses none, so that it stays a loop
+
 constexpr LocalIndex regular_degree = 6; // of a vertex among equilateral triangles
 
 bool is_free(const Patch& patch, LocalIndex v) {
@@ -66,7 +70,7 @@ bool PatchEditor::insert(Patch& trial, Vec2 place, double size) const {
 bool PatchEditor::remove(Patch& trial, LocalIndex v) const {
   const BoundaryVertex& own = trial.boundary[at(v)];
   if (trial.on_boundary(v)) {
-    if (own.previous < 0 || own.next < 0 || start_.sites_of_loop(own.loop) < CleanupRules::least_in_loop)
+    if (own.previous < 0 || own.next < 0 || start_.sites_of_loop(own.loop) < least_in_loop)
       return false;
     trial.boundary[at(own.previous)].next = own.next;
     trial.boundary[at(own.previous)].changed = true;
@@ -90,7 +94,7 @@ bool PatchEditor::divide(Patch& trial, LocalIndex before) const {
     end += curve.length(own.loop);
   BoundaryVertex made{own.site, before, after, own.loop, 0.5 * (own.arc + end), own.tolerance, true};
   const BoundaryCurve::Strayed strayed = curve.strayed(own.loop, own.arc, end, trial.chord(before));
-  if (strayed.bent && std::fabs(strayed.farthest - made.arc) < CleanupRules::most_off_middle * (end - own.arc))
+  if (strayed.bent && std::fabs(strayed.farthest - made.arc) < most_off_middle * (end - own.arc))
     made.arc = strayed.farthest; // a corner that was left out
   const Vec2 p =
       start_.periods().nearest_image(start_.lattice().snap(curve.place(own.loop, made.arc).point), start_.center());

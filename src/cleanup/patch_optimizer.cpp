@@ -11,6 +11,10 @@ namespace {
 using geometry::Vec2;
 using Rules = CleanupRules;
 
+constexpr int most_tried = 200; // [triangles] Tried in one patch, at most
+// [h] A very bad triangle counts as tried if it lies so near to the middle of its patch.
+constexpr double middle_reach = 1.5;
+
 constexpr std::uint8_t of_bad_triangle = 2, beside_one = 1; // marks of vertices
 
 using polygon::EditKind;
@@ -142,7 +146,7 @@ PatchResult PatchOptimizer::give_up(std::span<const PatchSite> sites) const {
 /// an operation: there operations come first. Each has to be better than such moves.
 void PatchOptimizer::operate_first(const PatchBudget& budget) {
   worst_.begin(options_.first_alpha);
-  for (int k = 0; k < Rules::most_tried; ++k) {
+  for (int k = 0; k < most_tried; ++k) {
     const std::optional<Corners> worst = worst_.next(now_);
     if (!worst)
       return;
@@ -154,7 +158,7 @@ void PatchOptimizer::operate_first(const PatchBudget& budget) {
 /// From the worst triangle on, each once, and as long as something helps.
 void PatchOptimizer::operate(const PatchBudget& budget) {
   worst_.begin(budget.is_again ? budget.again_alpha : options_.operate_alpha);
-  for (int k = 0; k < Rules::most_tried; ++k) {
+  for (int k = 0; k < most_tried; ++k) {
     const std::optional<Corners> worst = worst_.next(now_);
     if (!worst)
       return;
@@ -181,7 +185,7 @@ bool PatchOptimizer::try_at(const Corners& worst, const PatchBudget& budget, Pat
 /// they lie in the middle of this patch.
 bool PatchOptimizer::is_settled(const Corners& corners) const {
   return now_.alpha(corners) <= Rules::very_bad_alpha ||
-         start_.distance(now_.middle_of(corners)) < Rules::middle_reach * start_.size();
+         start_.distance(now_.middle_of(corners)) < middle_reach * start_.size();
 }
 
 /// The sites of the bad triangles in the middle that stay, except those that may be tried in another patch.

@@ -3,7 +3,6 @@
 
 #include "shape/contour_polygon.hpp"
 #include "shape/make_boundary.hpp"
-#include "shape/rules.hpp"
 #include "shape/vertex_table.hpp"
 #include "tracing/curve_refiner.hpp"
 #include "tracing/zero_chains.hpp"
@@ -27,6 +26,15 @@ using geometry::length;
 using geometry::Segment;
 using geometry::SegmentGrid;
 using geometry::Vec2;
+
+// Fine cells have this share of the longer side of the container, unless the config says else.
+constexpr double default_resolution = 1.0 / 512;
+// [cells] Vertices so near to each other are one: rounding, or a node of the grid on the curve, made two.
+constexpr double nearly_equal = 1e-3;
+constexpr std::size_t fewest_vertices = 3;   // A closed chain of fewer vertices is no loop
+constexpr std::size_t most_chains = 1 << 14; // [chains] Largest number for a formula: it bounds time and memory
+// A piece of a contour at a periodic border finds its partner across within this share of the longer side.
+constexpr double partner_reach = 1e-5;
 
 /// @brief The part within the container, its vertices on opposite periodic sides at exactly the same places.
 ///
@@ -112,7 +120,7 @@ contours::Contour clip_to_periods(const Part& traced, const Frame& frame) {
       rings.back().push_back(piece.start);
   }
   const Box& box = frame.inner();
-  const double reach = ShapeRules::partner_reach * std::fmax(box.width(), box.height());
+  const double reach = partner_reach * std::fmax(box.width(), box.height());
   std::vector<Axis> axes;
   if (frame.periods().x > 0)
     axes.push_back({&Vec2::x, &Vec2::y, box.min.x, box.max.x, 'x'});
@@ -179,16 +187,16 @@ private:
 std::vector<std::vector<Vec2>> without_specks(const tracing::ZeroChains& coarse, const std::string& name) {
   std::vector<std::vector<Vec2>> chains;
   for (const std::vector<Vec2>& chain : coarse.chains) {
-    std::vector<Vec2> clean = without_repeats(chain, ShapeRules::nearly_equal * coarse.cell);
-    if (clean.size() >= ShapeRules::fewest_vertices)
+    std::vector<Vec2> clean = without_repeats(chain, nearly_equal * coarse.cell);
+    if (clean.size() >= fewest_vertices)
       chains.push_back(std::move(clean));
   }
-  if (chains.size() > ShapeRules::most_chains)
+  if (chains.size() > most_chains)
     throw GeometryError(fmt::format("part '{}': the function oscillates below the resolution of {:.3g} near ({:.9g}, "
                                     "{:.9g}), or has too many pieces: found {} closed curves, expected at most {}; "
                                     "leave out the smallest ones",
-                                    name, 2 * coarse.cell, chains[ShapeRules::most_chains][0].x,
-                                    chains[ShapeRules::most_chains][0].y, chains.size(), ShapeRules::most_chains));
+                                    name, 2 * coarse.cell, chains[most_chains][0].x, chains[most_chains][0].y,
+                                    chains.size(), most_chains));
   std::stable_sort(chains.begin(), chains.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
   return chains;
 }
@@ -197,7 +205,7 @@ double resolution_of(const std::string& name, double given, double side) {
   if (!std::isfinite(given) || given < 0)
     throw GeometryError(
         fmt::format("part '{}': expected a resolution > 0, or 0 for the default, found {}", name, given));
-  return given > 0 ? given : ShapeRules::default_resolution * side;
+  return given > 0 ? given : default_resolution * side;
 }
 
 /// Closed rings, interior on the left; the same bits for any number of threads.
