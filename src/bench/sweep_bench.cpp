@@ -102,11 +102,9 @@ void measure(benchmark::State& state, const SweepKernels& kernels) {
     SimdLevel level;
     const SweepKernels* kernels;
   };
-  std::vector<Level> levels{{"portable", SimdLevel::portable, &sweep::portable_kernels}};
-#if defined(__x86_64__)
-  levels.push_back({"avx2", SimdLevel::avx2, &sweep::avx2_kernels});
-  levels.push_back({"avx512", SimdLevel::avx512, &sweep::avx512_kernels});
-#endif
+  const std::vector<Level> levels{{"portable", SimdLevel::portable, &sweep::kernels_portable},
+                                  {"avx2", SimdLevel::avx2, &sweep::kernels_avx2},
+                                  {"avx512", SimdLevel::avx512, &sweep::kernels_avx512}};
   for (const Level& level : levels) {
     if (level.level > simd_level())
       continue;

@@ -12,6 +12,9 @@ namespace {
 using decomposition::selection_threshold;
 using polygon::EditKind;
 
+// Share of the sites: with less room than this, or with fewer sites than wanted by this share, the handicaps apply.
+constexpr double scarcity = 0.001;
+
 using Rules = CleanupRules;
 
 int gain_of(const std::vector<SiteEdit>& edits) {
@@ -52,8 +55,8 @@ GlobalId CleanupLimits::room(int stage) const {
 PatchBudget CleanupLimits::budget(int stage, double again_alpha) const {
   const auto share = [&](GlobalId of) { return std::clamp<GlobalId>(of, 0, Rules::patch_budget); };
   const double most = static_cast<double>(most_points_), wanted = static_cast<double>(wanted_sites_);
-  const bool crowded = static_cast<double>(room(stage)) < Rules::scarcity * most;
-  const bool scarce = static_cast<double>(sites_) < (1 - Rules::scarcity) * wanted;
+  const bool crowded = static_cast<double>(room(stage)) < scarcity * most;
+  const bool scarce = static_cast<double>(sites_) < (1 - scarcity) * wanted;
   PatchBudget budget;
   budget.may_insert = share(room(stage));
   budget.may_refine = std::min(GlobalId{Rules::most_refined}, most_points_ - sites_);

@@ -15,6 +15,9 @@ using polygon::BoundaryGuard;
 using polygon::EditKind;
 using sites::Disc;
 
+// Share of a period that the distance between two patches may have: each must see one image of the other.
+constexpr double largest_share_of_period = 0.45;
+
 using Rules = CleanupRules;
 
 /// [h] Two patches keep so far apart that none reads what the other one changes.
@@ -79,7 +82,7 @@ std::vector<Contender> CleanupRounds::list_contenders() {
   const double shorter_period =
       std::min(periods_.x > 0 ? periods_.x : INFINITY, periods_.y > 0 ? periods_.y : INFINITY);
   return candidates_.contenders(
-      {stage_, stage_ == 1 ? 0 : again_alpha_, separation, Rules::largest_share_of_period * shorter_period, round_});
+      {stage_, stage_ == 1 ? 0 : again_alpha_, separation, largest_share_of_period * shorter_period, round_});
 }
 
 /// The owners of all tiles to which contenders reach, and others that may contend later.

@@ -3,12 +3,31 @@
 #pragma once
 
 #include "cleanup/patch_chords.hpp"
-#include "cleanup/star_energy.hpp"
+#include "trime/geometry/vec2.hpp"
 
+#include <cmath>
 #include <span>
 #include <vector>
 
 namespace trime::cleanup {
+
+/// @brief Sum of e^2 + w e^4, e = eta - 1, w = CleanupRules::quartic_weight, over the triangles (p, ring[k],
+/// ring[k+1]), eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area) of the edges a, b, c: 1 for an equilateral triangle (Bank and
+/// Smith 1997), smooth, without a scale. The square counts for the mean, the fourth power makes the worst triangle
+/// rule. Infinity if a triangle is turned over or flat, or once the sum comes up to `limit`.
+/// @param closed the ring is closed; else it is the open fan of a vertex on the boundary
+double star_energy(geometry::Vec2 p, std::span<const geometry::Vec2> ring, bool closed, double limit = INFINITY);
+
+/// Returns the energy with its derivatives by p. @pre no triangle is turned over or flat
+struct EnergyModel {
+  double value = 0;
+  geometry::Vec2 gradient;
+  double xx = 0, xy = 0, yy = 0;
+};
+EnergyModel star_energy_model(geometry::Vec2 p, std::span<const geometry::Vec2> ring, bool closed);
+
+/// Newton's step where the model is convex, else down the gradient; not longer than `limit`.
+geometry::Vec2 newton_step(const EnergyModel& model, double limit);
 
 /// @brief Moves lower the StarEnergy of one site after the other by Newton steps. No site enters the diametral disc of
 /// a chord or comes near the rim of the patch.

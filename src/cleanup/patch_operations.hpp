@@ -2,12 +2,65 @@
 // Insertions and deletions that may help a bad triangle.
 #pragma once
 
-#include "cleanup/patch_editor.hpp"
+#include "cleanup/patch_chords.hpp"
 
+#include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace trime::cleanup {
+
+/// A change that may help a bad triangle.
+struct PatchOperation {
+  std::array<LocalIndex, 2> removed{-1, -1};   ///< vertices
+  std::array<LocalIndex, 2> divided{-1, -1};   ///< chords of the boundary, by the vertex where they begin
+  std::optional<geometry::Vec2> inserted = {}; ///< inside
+  bool inserts() const { return divided[0] >= 0 || inserted; }
+  friend bool operator==(const PatchOperation&, const PatchOperation&) = default;
+};
+
+/// @brief Carries out operations on a trial. After a function returns false, the trial can no longer be used.
+class PatchEditor {
+public:
+  /// References must outlive the object.
+  PatchEditor(const PatchStart& start, const PatchChords& chords) : start_(start), chords_(chords) {}
+
+  /// @param size h at the place, for new sites inside
+  bool apply(Patch& trial, const PatchOperation& operation, double size) const;
+  bool remove(Patch& trial, LocalIndex v) const;
+  /// Inserts a site inside. In the disc of a chord it is pushed out of it, such as in the corner of a square. The trial
+  /// stays as it is if there is no room.
+  bool insert(Patch& trial, geometry::Vec2 place, double size) const;
+  /// Divides the chord that begins at a vertex: in its middle, or at a corner that was left out.
+  bool divide(Patch& trial, LocalIndex before) const;
+
+private:
+  const PatchStart& start_;
+  const PatchChords& chords_;
+};
+
+/// @brief Divides all edges of the triangles that have a vertex of the bad one.
+class PatchRefiner {
+public:
+  /// References must outlive the object.
+  PatchRefiner(const PatchChords& chords, const PatchEditor& editor) : chords_(chords), editor_(editor) {}
+
+  /// @param now the patch as it is @param trial a copy of it, which is changed
+  /// @return false if it cannot be done; then the trial can no longer be used
+  bool refine(const Patch& now, Patch& trial, const BadPlace& place);
+
+private:
+  bool divide_around(const Patch& now, Patch& trial, const Corners& worst);
+  bool divide_where_strayed(Patch& trial, LocalIndex most) const;
+  bool divide_where_encroached(Patch& trial, LocalIndex most) const;
+  bool is_behind(const Patch& trial, LocalIndex v);
+
+  const PatchChords& chords_;
+  const PatchEditor& editor_;
+  std::vector<geometry::Vec2> middles_; // of edges inside
+  std::vector<LocalIndex> ring_;        // work space
+};
 
 /// @brief Lists what may help the worst triangle, the most promising first.
 class PatchOperations {

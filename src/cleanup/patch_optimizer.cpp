@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cleanup/patch_optimizer.hpp"
 
+#include "core/random.hpp"
+
 #include <algorithm>
 
 namespace trime::cleanup {
@@ -9,9 +11,112 @@ namespace {
 using geometry::Vec2;
 using Rules = CleanupRules;
 
+constexpr int most_tried = 200; // [triangles] Tried in one patch, at most
+// [h] A very bad triangle counts as tried if it lies so near to the middle of its patch.
+constexpr double middle_reach = 1.5;
+
 constexpr std::uint8_t of_bad_triangle = 2, beside_one = 1; // marks of vertices
 
+using polygon::EditKind;
+
 } // namespace
+
+/// The boundary site of a vertex; of a new one on the boundary, that of the last old one before it.
+BoundaryName PatchReport::site_before(const Patch& now, LocalIndex v) const {
+  while (is_new(v) && !now.is_gone(v) && now.on_boundary(v))
+    v = now.boundary[at(v)].previous;
+  return now.boundary[at(v)].site;
+}
+
+/// This bit distinguishes new sites on the boundary from old ones, whose names are indices.
+BoundaryName PatchReport::name(const Patch& now, LocalIndex v, std::uint64_t patch) const {
+  constexpr BoundaryName new_site = BoundaryName{1} << 62;
+  if (!is_new(v) || !now.on_boundary(v))
+    return now.boundary[at(v)].site;
+  return new_site | static_cast<BoundaryName>(mix_bits(patch + static_cast<std::uint64_t>(v)) >> 2);
+}
+
+std::vector<SiteEdit> PatchReport::edits(const Patch& now, std::uint64_t patch) const {
+  std::vector<SiteEdit> edits;
+  for (LocalIndex v = PatchMesh::frame; v < now.mesh.vertices(); ++v) {
+    const bool is_gone = now.is_gone(v);
+    const Vec2 to = now.mesh.position(v), from = is_new(v) ? to : start_.patch().mesh.position(v);
+    const BoundaryVertex& its = now.boundary[at(v)];
+    if (is_new(v) && !is_gone)
+      edits.push_back({to, to, EditKind::insert, its.loop, site_before(now, v), name(now, v, patch), its.arc, patch});
+    else if (!is_new(v) && is_gone)
+      edits.push_back({from, from, EditKind::remove, its.loop, its.site, mesh::free_site, its.arc, patch});
+    else if (to != from)
+      edits.push_back({from, to, EditKind::move, its.loop, its.site, mesh::free_site, its.arc, patch});
+  }
+  return edits;
+}
+
+std::vector<BoundaryLink> PatchReport::links(const Patch& now, std::uint64_t patch) const {
+  std::vector<BoundaryLink> links;
+  for (const LocalIndex v : now.rim) {
+    const LocalIndex next = now.boundary[at(v)].next;
+    if (!now.is_gone(v) && next >= 0 && (start_.has_changed(now, v) || next != start_.patch().boundary[at(v)].next))
+      links.push_back({now.mesh.position(v), name(now, v, patch), name(now, next, patch)});
+  }
+  return links;
+}
+
+void PatchReport::find_worst(const Patch& patch, double bad_alpha, std::vector<double>& worst) {
+  for (const PatchMesh::Triangle& triangle : patch.mesh.triangles())
+    if (patch.is_bad(triangle, bad_alpha))
+      for (const LocalIndex v : triangle.vertex)
+        worst[at(v)] = std::max(worst[at(v)], patch.alpha(triangle.vertex));
+}
+
+bool PatchReport::is_news(const Patch& now, LocalIndex v) const {
+  return start_.has_changed(now, v) || worst_after_[at(v)] != worst_before_[at(v)] || rests_.has_changed(v);
+}
+
+std::vector<SiteVerdict> PatchReport::verdicts(const Patch& now, double bad_alpha) {
+  worst_before_.assign(at(now.mesh.vertices()), 0);
+  worst_after_.assign(at(now.mesh.vertices()), 0);
+  find_worst(start_.patch(), bad_alpha, worst_before_);
+  find_worst(now, bad_alpha, worst_after_);
+  std::vector<SiteVerdict> verdicts;
+  for (LocalIndex v = PatchMesh::frame; v < now.mesh.vertices(); ++v)
+    if (now.role[at(v)] >= VertexRole::scored && (worst_before_[at(v)] > 0 || worst_after_[at(v)] > 0) &&
+        is_news(now, v))
+      verdicts.push_back({now.mesh.position(v), now.size[at(v)], worst_after_[at(v)], rests_.rests(v)});
+  return verdicts;
+}
+
+Corners PatchWorst::largest_first(Corners corners) {
+  std::rotate(corners.begin(), std::max_element(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+bool PatchWorst::is_tried(const Corners& corners) const {
+  return !tried_.empty() && std::find(tried_.begin(), tried_.end(), largest_first(corners)) != tried_.end();
+}
+
+std::optional<Corners> PatchWorst::next(const Patch& now) {
+  if (!is_listed_)
+    list(now);
+  const BadTriangle* worst = nullptr;
+  for (const BadTriangle& bad : bad_)
+    if ((!worst || bad.alpha > worst->alpha) && !rests_.all_rest(bad.corners) && !is_tried(bad.corners))
+      worst = &bad;
+  return worst ? std::optional(worst->corners) : std::nullopt;
+}
+
+void PatchWorst::list(const Patch& now) {
+  bad_.clear();
+  is_listed_ = true;
+  for (const PatchMesh::Triangle& triangle : now.mesh.triangles()) {
+    const Corners& vertex = triangle.vertex;
+    if (vertex[0] < 0 || !start_.is_in_core(now.middle_of(vertex)) || now.is_surely_below(above_, vertex) ||
+        !now.counts(triangle))
+      continue;
+    if (const double alpha = now.alpha(vertex); alpha > above_)
+      bad_.push_back({largest_first(vertex), alpha});
+  }
+}
 
 PatchResult PatchOptimizer::improve(Vec2 center, double size, std::span<const PatchSite> sites,
                                     const PatchBudget& budget, std::uint64_t patch) {
@@ -41,7 +146,7 @@ PatchResult PatchOptimizer::give_up(std::span<const PatchSite> sites) const {
 /// an operation: there operations come first. Each has to be better than such moves.
 void PatchOptimizer::operate_first(const PatchBudget& budget) {
   worst_.begin(options_.first_alpha);
-  for (int k = 0; k < Rules::most_tried; ++k) {
+  for (int k = 0; k < most_tried; ++k) {
     const std::optional<Corners> worst = worst_.next(now_);
     if (!worst)
       return;
@@ -53,7 +158,7 @@ void PatchOptimizer::operate_first(const PatchBudget& budget) {
 /// From the worst triangle on, each once, and as long as something helps.
 void PatchOptimizer::operate(const PatchBudget& budget) {
   worst_.begin(budget.is_again ? budget.again_alpha : options_.operate_alpha);
-  for (int k = 0; k < Rules::most_tried; ++k) {
+  for (int k = 0; k < most_tried; ++k) {
     const std::optional<Corners> worst = worst_.next(now_);
     if (!worst)
       return;
@@ -80,7 +185,7 @@ bool PatchOptimizer::try_at(const Corners& worst, const PatchBudget& budget, Pat
 /// they lie in the middle of this patch.
 bool PatchOptimizer::is_settled(const Corners& corners) const {
   return now_.alpha(corners) <= Rules::very_bad_alpha ||
-         start_.distance(now_.middle_of(corners)) < Rules::middle_reach * start_.size();
+         start_.distance(now_.middle_of(corners)) < middle_reach * start_.size();
 }
 
 /// The sites of the bad triangles in the middle that stay, except those that may be tried in another patch.

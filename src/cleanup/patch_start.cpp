@@ -6,6 +6,10 @@ namespace {
 
 using geometry::Vec2;
 
+// [lattice steps] Largest half side of the frame. The predicates are exact up to it, and it is more than the
+// container at any place of it.
+constexpr double widest_frame = 0x1.8p44;
+
 } // namespace
 
 bool PatchStart::build(Vec2 center, double size, std::span<const PatchSite> sites) {
@@ -14,8 +18,7 @@ bool PatchStart::build(Vec2 center, double size, std::span<const PatchSite> site
   if (sites.size() > CleanupRules::most_in_patch)
     return false;
   const double reach = CleanupRules::reach * size;
-  patch_.start(center,
-               std::min(lattice_.snap(CleanupRules::frame_share * reach), CleanupRules::widest_frame * lattice_.step()),
+  patch_.start(center, std::min(lattice_.snap(CleanupRules::frame_share * reach), widest_frame * lattice_.step()),
                size);
   next_.clear();
   for (const PatchSite& site : sites) {

@@ -55,19 +55,17 @@ struct CleanupRules {
   static constexpr double scored_depth = 1.5;
   /// [h] Triangles so far within the free sites count as the middle of the patch; others are left to other patches.
   static constexpr double core_depth = 1.8;
-  /// [h] How far a free site may move outwards past free_depth.
+  /// [h] How far a free site may move outwards past free_depth. A bound; no case measured reaches it.
   static constexpr double most_outwards = 0.5;
   /// [1] Half the side of the frame over the reach: no corner of it may lie in a disc of triangles that count.
   static constexpr double frame_share = 3;
-  /// [lattice steps] Largest half side of the frame. The predicates are exact up to it, and it is more than the
-  /// container at any place of it.
-  static constexpr double widest_frame = 0x1.8p44;
   /// [sites] With more around a place nothing is tried. A hexagonal lattice has 360; spikes far below h crowd many
   /// more. Measured: a star of 1000 spikes took 176 s without this limit and other savings, 0.7 s with them.
+  /// A bound; no case measured reaches it.
   static constexpr std::size_t most_in_patch = 600;
   /// [1] Factor on the radius if a disc holds more than most_in_patch.
   static constexpr double narrowing_factor = 0.75;
-  /// [narrowings] At most: to 0.24 of the radius.
+  /// [narrowings] At most: to 0.24 of the radius. A bound; no case measured reaches it.
   static constexpr int most_narrowings = 5;
   /// [1] Share of the reach: sites within it rest where a patch finds nothing that may move.
   static constexpr double given_up_share = 0.5;
@@ -77,14 +75,10 @@ struct CleanupRules {
   /// [triangles] Searched, at most, to learn on which side of the boundary one without inner vertices lies. Not
   /// measured.
   static constexpr std::size_t most_searched = 64;
-  /// [1] Share of a period that the distance between two patches may have: each must see one image of the other.
-  static constexpr double largest_share_of_period = 0.45;
 
   // --- moves --------------------------------------------------------------------------------------------------------
   /// [1] Weight of the fourth power in the energy of a star, so that the worst triangle rules.
   static constexpr double quartic_weight = 10;
-  /// [1] Least determinant of the second derivatives over their squares for a Newton step. Only rounding is kept out.
-  static constexpr double least_convexity = 1e-6;
   /// [h] Longest Newton step: the energy is far from a parabola beyond it.
   static constexpr double longest_move = 0.25;
   /// [h] Shorter steps are no moves. Measured: 0.006 saved instructions, but left single triangles of the square with
@@ -92,16 +86,12 @@ struct CleanupRules {
   static constexpr double shortest_move = 3e-3;
   /// [1] Energy of a star below which its site stays: six triangles with eta below 1.006.
   static constexpr double rest_energy = 2e-4;
-  /// [1] Energy of a star from which rounding may change the signs of its areas.
-  static constexpr double flat_energy = 1e20;
   /// [halvings] Of a step that does not lower the energy.
   static constexpr int halvings = 3;
   /// [halvings] The same for sites on the boundary in trials that are not thorough.
   static constexpr int slide_halvings = 1;
   /// [h] Longest step along the boundary.
   static constexpr double longest_slide = 0.2;
-  /// [1] Longest step along the boundary over the way to the next site there. Order must be kept.
-  static constexpr double slide_share = 0.4;
   /// [sweeps] Over the sites of bad triangles and their neighbours, at most.
   static constexpr int moving_sweeps = 8;
   /// [1] Share by which a sum has to fall to count as better, in a sweep or by an operation: less is not worth the
@@ -123,23 +113,13 @@ struct CleanupRules {
   static constexpr double bent_at_last = 1.25;
 
   // --- operations ---------------------------------------------------------------------------------------------------
-  /// [1] Share of a chord: within it of the middle a left-out corner is where the chord is divided.
-  static constexpr double most_off_middle = 0.3;
-  /// [sites] A loop with fewer loses none, so that it stays a loop.
-  static constexpr LocalIndex least_in_loop = 8;
   /// [neighbours] A site with this many or more is crowded: new sites are tried on its edges. Six are regular.
   static constexpr std::size_t many_neighbours = 7;
-  /// [sites] That one patch may add in order to have smaller triangles.
+  /// [sites] That one patch may add in order to have smaller triangles. A bound; no case measured reaches it.
   static constexpr LocalIndex most_refined = 40;
-  /// [sweeps] Of a trial with smaller triangles. Half of them decide whether it is given up.
-  static constexpr int refine_sweeps = 20;
   /// [1] Share of the excess by which the largest alpha has to fall for smaller triangles. Measured: where little was
   /// enough the next try improved the rest; North America with 22000 points, largest alpha 1.511 to 1.376.
   static constexpr double refine_gain = 0.01;
-  /// [triangles] Tried in one patch, at most.
-  static constexpr int most_tried = 200;
-  /// [h] A very bad triangle counts as tried if it lies so near to the middle of its patch.
-  static constexpr double middle_reach = 1.5;
   /// [1] Growth of the sum of (degree - 6)^2 up to which an operation is tried further. Measured: one winner in twenty
   /// adds more, and every third operation.
   static constexpr int most_strain = 2;
@@ -152,16 +132,12 @@ struct CleanupRules {
   static constexpr double near_reach = 2.8;
   /// [h] Triangles of sites within it make up the sum of a trial: near_reach and one triangle more.
   static constexpr double score_reach = 4;
-  /// [sweeps] Near the middle, of moves alone, which operations that come first have to beat.
-  static constexpr int first_sweeps = 2;
   /// [sweeps] The last ones of a trial, at most; twice as many in thorough trials.
   static constexpr int trial_sweeps = 3;
   /// [operations] That go beyond the first sweep in thorough trials.
   static constexpr std::size_t runners = 6;
   /// [operations] That go beyond the second sweep in thorough trials.
   static constexpr std::size_t finalists = 4;
-  /// [operations] That go beyond the first sweep in other trials.
-  static constexpr std::size_t few_runners = 3;
   /// [operations] That go beyond the second in other trials. Measured: the square with 3000 points needs the second.
   static constexpr std::size_t few_finalists = 2;
   /// [1] Sum over the bar above which a trial is given up after its first sweep.
@@ -187,7 +163,7 @@ struct CleanupRules {
   // --- rounds, and the number of sites ------------------------------------------------------------------------------
   /// [stages] The first tries every bad place, the others try again what is bad for this mesh.
   static constexpr int stages = 3;
-  /// [rounds] Of a stage, at most: a bound, rarely reached.
+  /// [rounds] Of a stage, at most: a bound; no case measured reaches it.
   static constexpr int most_rounds = 250;
   /// [passes] That choose the patches of a round. Measured: fewer than 5 of 600 places are left out that had room.
   static constexpr int passes = 6;
@@ -210,9 +186,6 @@ struct CleanupRules {
   /// more. It does not depend on how many patches share what is left, so that a round need not count them before.
   /// Measured: with 20000 points all shipped configs give the meshes that equal shares of the rest gave.
   static constexpr GlobalId patch_budget = 10;
-  /// [1] Share of the sites: with less room than this, or with fewer sites than wanted by this share, the handicaps
-  /// apply.
-  static constexpr double scarcity = 0.001;
   /// [1] Factor on the sum of a trial with fewer sites where sites have become scarce.
   static constexpr double handicap_if_scarce = 1.5;
   /// [1] The same where there is no room for more sites. Measured: North America with 2e4 points, largest alpha 1.633

@@ -18,6 +18,17 @@ using geometry::Vec2;
 
 namespace {
 
+// [cones] Number of cones in a block of cells, about. Cells are split from blocks.
+constexpr double cones_per_block = 4;
+constexpr double most_blocks_along = 128; // [blocks] Largest number along a side: it bounds the memory
+// [cones] A cell with so few is not split. Cells and this together: a look-up took 60 ns instead of 330.
+constexpr std::size_t enough = 12;
+// [size] A cell is not split if its side is less than this number times the envelope: there are few look-ups in one
+// cell.
+constexpr double smallest_cell = 2;
+// Cells reach so far around the apexes, as a share of the longer side of their box: beyond, the tree is asked.
+constexpr double margin = 0.1;
+
 constexpr double rounding = 1e-12; // of the extent and of values
 
 /// The last one stands twice if their number is odd.
@@ -92,15 +103,14 @@ private:
   }
   /// A cone that is higher than this in the middle of a cell is never the lowest in it, if that is `lowest` there.
   double limit(double lowest, const CellPlace& place) const {
-    const double reach =
-        half_sqrt_2 * grid_.side_at(place.level) + rounding * grid_.side * ConeRules::most_blocks_along;
+    const double reach = half_sqrt_2 * grid_.side_at(place.level) + rounding * grid_.side * most_blocks_along;
     return (lowest + 2 * slope_ * reach) * (1 + rounding);
   }
 
   CellNode build(const CellPlace& place) {
     const List& list = lists_[static_cast<std::size_t>(place.level)];
-    if (list.count <= ConeRules::enough || place.level == most_levels ||
-        grid_.side_at(place.level) <= ConeRules::smallest_cell * list.lowest || is_hopeless(place.level))
+    if (list.count <= enough || place.level == most_levels ||
+        grid_.side_at(place.level) <= smallest_cell * list.lowest || is_hopeless(place.level))
       return leaf(list);
     const std::size_t node = part_.quarters.size();
     part_.quarters.emplace_back();
@@ -171,13 +181,13 @@ ConeCells::ConeCells(const ConeTree& tree, double slope) : tree_(tree), slope_(s
   const double longer = std::max(box.width(), box.height());
   if (!(longer > 1e-300))
     return; // the tree is as fast
-  const Vec2 around{ConeRules::margin * longer, ConeRules::margin * longer};
+  const Vec2 around{margin * longer, margin * longer};
   box = {box.min - around, box.max + around};
-  const double blocks = std::clamp(static_cast<double>(count) / ConeRules::cones_per_block, 1.0,
-                                   ConeRules::most_blocks_along * ConeRules::most_blocks_along);
+  const double blocks =
+      std::clamp(static_cast<double>(count) / cones_per_block, 1.0, most_blocks_along * most_blocks_along);
   grid_.origin = box.min;
-  grid_.side = std::max(std::sqrt(box.width() * box.height() / blocks),
-                        std::max(box.width(), box.height()) / ConeRules::most_blocks_along);
+  grid_.side =
+      std::max(std::sqrt(box.width() * box.height() / blocks), std::max(box.width(), box.height()) / most_blocks_along);
   inverse_side_ = 1 / grid_.side;
   columns_ = static_cast<int>(std::ceil(box.width() * inverse_side_));
   rows_ = static_cast<int>(std::ceil(box.height() * inverse_side_));

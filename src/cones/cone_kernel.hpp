@@ -70,10 +70,12 @@ struct ConeKernel {
   int (*choose)(const ConeList& list, int most, ConeChoice& choice);
 };
 
-ConeKernel cone_kernel(SimdLevel level);
-
 ConeKernel cone_kernel_portable();
 ConeKernel cone_kernel_avx2();
 ConeKernel cone_kernel_avx512();
+
+inline ConeKernel cone_kernel(SimdLevel level) {
+  return of_level(level, cone_kernel_portable, cone_kernel_avx2, cone_kernel_avx512)();
+}
 
 } // namespace trime::cones

@@ -55,10 +55,12 @@ struct SearchKernel {
                  LowestCone& best);
 };
 
-SearchKernel search_kernel(SimdLevel level);
-
 SearchKernel search_kernel_portable();
 SearchKernel search_kernel_avx2();
 SearchKernel search_kernel_avx512();
+
+inline SearchKernel search_kernel(SimdLevel level) {
+  return of_level(level, search_kernel_portable, search_kernel_avx2, search_kernel_avx512)();
+}
 
 } // namespace trime::cones

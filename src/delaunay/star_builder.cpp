@@ -2,8 +2,7 @@
 #include "delaunay/star_builder.hpp"
 
 #include "core/thread_loop.hpp"
-#include "delaunay/double2.hpp"
-#include "delaunay/rules.hpp"
+#include "delaunay/circumcenter.hpp"
 #include "delaunay/star_kernel.hpp"
 #include "delaunay/tile_wrapper.hpp"
 #include "geometry/predicates.hpp"
@@ -15,6 +14,16 @@ namespace trime::delaunay {
 namespace {
 
 using geometry::Vec2;
+
+constexpr double first_window = 0.6; // [cap] A star from scratch first takes all sites in a window of this half-width
+// [cap] Sites nearer than this are inserted before the others of that window: about the first ring.
+constexpr double nearer_sites = 0.5;
+// A window grows at most so much at a time, since each can shrink the radius that must be searched.
+constexpr double window_growth = 1.6;
+// [cap^2] A squared circumradius below this counts without its canonical value.
+constexpr double surely_below_cap = 0.99;
+// [periods] The largest cap, so that edges are shorter than half a period: a quarter, less a little.
+constexpr double cap_in_period = 0.2499;
 
 /// Searches are widened by this factor and two lattice steps, so that rounding in radii and window borders cannot lose
 /// a site.
@@ -79,7 +88,7 @@ private:
   /// A star that kept its ring needs no new entry if all its triangles count and its first neighbour still is the
   /// smallest.
   bool is_stored_right() {
-    return kernel_.squared_radius() < StarRules::surely_below_cap * cap_ * cap_ && kernel_.smallest() == 0;
+    return kernel_.squared_radius() < surely_below_cap * cap_ * cap_ && kernel_.smallest() == 0;
   }
 
   /// From the virtual square: the last ring first, then the sites nearby (about the first ring of neighbours, in any
@@ -89,15 +98,13 @@ private:
     for (const LocalIndex neighbour : ring_)
       if (neighbour != gap)
         kernel_.insert(neighbour, offset(neighbour));
-    const double window = StarRules::first_window * cap_;
+    const double window = first_window * cap_;
     near_.clear();
     far_.clear();
     const std::size_t missing_before = missing_.size();
     points_.for_each_near(
         center_, window,
-        [&](LocalIndex begin, LocalIndex end) {
-          collect(begin, end, StarRules::nearer_sites * StarRules::nearer_sites * cap_ * cap_);
-        },
+        [&](LocalIndex begin, LocalIndex end) { collect(begin, end, nearer_sites * nearer_sites * cap_ * cap_); },
         [&](mesh::BinRef bin) { missing_.push_back(bin); });
     for (const Candidate& c : near_)
       try_insert(c);
@@ -132,13 +139,13 @@ private:
   /// Radius that must be searched: no site farther than 2 R_max, or than 2 cap, can change what counts.
   double needed() { return std::min(2 * std::sqrt(kernel_.squared_radius()), 2 * cap_) * inflation + slack_; }
 
-  /// @brief Inserts what lies within the security radius, in windows that grow by StarRules::window_growth at most
+  /// @brief Inserts what lies within the security radius, in windows that grow by window_growth at most
   /// (each window can shrink the radius); sites nearer than sqrt(done) have been inserted before.
   /// @return false if a bin within the radius is unknown
   bool finish(double searched, double done) {
     bool complete = true;
     while (searched < needed()) {
-      const double reach = searched == 0 ? needed() : std::min(needed(), StarRules::window_growth * searched);
+      const double reach = searched == 0 ? needed() : std::min(needed(), window_growth * searched);
       const std::size_t missing_before = missing_.size();
       if (searched == 0)
         check_members(reach);
@@ -189,7 +196,7 @@ private:
     if (kernel_.id(k) < 0 || kernel_.id(next) < 0)
       return false;
     const double r2 = kernel_.squared_radius(k);
-    if (r2 < StarRules::surely_below_cap * cap_ * cap_)
+    if (r2 < surely_below_cap * cap_ * cap_)
       return true; // r2 is an upper bound
     return canonical_squared_radius(center_, points_.position(kernel_.id(k)), points_.position(kernel_.id(next)),
                                     periods_) < cap_ * cap_;
@@ -329,8 +336,7 @@ bool StarBuilder::counts(Vec2 a, Vec2 b, Vec2 c, double cap, const geometry::Per
 
 double StarBuilder::largest_cap(const geometry::Periods& periods) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  return StarRules::cap_in_period *
-         std::min(periods.x > 0 ? periods.x : infinity, periods.y > 0 ? periods.y : infinity);
+  return cap_in_period * std::min(periods.x > 0 ? periods.x : infinity, periods.y > 0 ? periods.y : infinity);
 }
 
 StarPass StarBuilder::update(const mesh::BinnedPoints& points, StarTable& stars, const mesh::LocalSizes& sizes,

@@ -3,7 +3,6 @@
 
 #include "delaunay/circumcenter.hpp"
 #include "delaunay/convexity_rules.hpp"
-#include "delaunay/double2.hpp"
 
 #include <algorithm>
 #include <limits>

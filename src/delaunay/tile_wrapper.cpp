@@ -2,7 +2,6 @@
 #include "delaunay/tile_wrapper.hpp"
 
 #include "delaunay/circumcenter.hpp"
-#include "delaunay/double2.hpp"
 #include "delaunay/rules.hpp"
 #include "delaunay/star_builder.hpp"
 
@@ -16,6 +15,17 @@ namespace trime::delaunay {
 namespace {
 
 using geometry::Vec2;
+
+constexpr double many_larger = 0.2;    // Share of stars that needed a longer reach above which that one is tried first
+constexpr double few_larger = 1e-4;    // Share of such stars below which a shorter reach is tried first again
+constexpr double stars_to_learn = 500; // [stars] Number that is counted before the reach is chosen again
+// Cost of a star that is searched alone from scratch; in a relaxed mesh, with its last ring, one costs 1.
+constexpr double cost_of_search = 5;
+constexpr double cost_of_group = 3;   // Cost of a group, in units of a star alone in a relaxed mesh: so much for any
+constexpr double cost_of_lane = 0.77; // And so much more for each lane of the processor
+constexpr std::size_t fewest_in_group = 3; // [sites] Smallest number in a group
+// [groups] Where ties are everywhere, largest number of groups that are skipped before one is tried again.
+constexpr int longest_pause = 64;
 
 /// Distance beyond the box of the sites up to which candidates are searched, in spacings.
 constexpr std::array<double, 3> reaches{WrapRules::reach_relaxed, WrapRules::reach_random, WrapRules::reach_longest};
@@ -43,11 +53,11 @@ inline Double2 write_candidate(Vec2 at, Double2 center, Double2 scale, WrapGroup
 void ReachChoice::learn(std::size_t stars, std::size_t larger) {
   stars_ += static_cast<double>(stars);
   larger_ += static_cast<double>(larger);
-  if (stars_ < WrapRules::stars_to_learn)
+  if (stars_ < stars_to_learn)
     return;
-  if (larger_ > WrapRules::many_larger * stars_ && level_ + 1 < reaches.size())
+  if (larger_ > many_larger * stars_ && level_ + 1 < reaches.size())
     ++level_;
-  else if (larger_ < WrapRules::few_larger * stars_ && level_ > 0)
+  else if (larger_ < few_larger * stars_ && level_ > 0)
     --level_;
   stars_ = larger_ = 0;
 }
@@ -60,7 +70,7 @@ bool TiePause::skips_group() {
 }
 
 void TiePause::learn(std::size_t stars, std::size_t undecided) {
-  last_ = 2 * undecided <= stars ? 0 : std::min(WrapRules::longest_pause, 2 * last_ + 1);
+  last_ = 2 * undecided <= stars ? 0 : std::min(longest_pause, 2 * last_ + 1);
   left_ = last_;
 }
 
@@ -77,7 +87,7 @@ std::int64_t TileWrapper::compute(LocalIndex tile, std::span<double> caps) {
   wanted_ = {caps, begin};
   changed_ = 0;
   if (std::count_if(caps.begin(), caps.end(), [](double cap) { return cap > 0; }) <
-      static_cast<std::ptrdiff_t>(WrapRules::fewest_in_group))
+      static_cast<std::ptrdiff_t>(fewest_in_group))
     return 0;
   spacing_ = std::sqrt(box.width() * box.height() / (end - begin));
   scale_ = std::ldexp(1.0, -std::ilogb(spacing_));
@@ -109,10 +119,9 @@ bool TileWrapper::pays(const Group& group) const {
   double alone = 0;
   for (std::size_t k = group.begin; k < group.end; ++k) {
     const std::size_t degree = stars_.degree(order_[k]);
-    alone += degree >= 5 && degree <= 7 ? 1 : WrapRules::cost_of_search;
+    alone += degree >= 5 && degree <= 7 ? 1 : cost_of_search;
   }
-  return group.end - group.begin >= WrapRules::fewest_in_group &&
-         alone > WrapRules::cost_of_group + WrapRules::cost_of_lane * kernel_.lanes;
+  return group.end - group.begin >= fewest_in_group && alone > cost_of_group + cost_of_lane * kernel_.lanes;
 }
 
 /// Snakes through strips of bins, so that a run of sites fills a compact box.

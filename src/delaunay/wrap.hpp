@@ -53,6 +53,8 @@ struct WrapKernel {
   WrapFunction wrap;
   int lanes;
 };
-WrapKernel wrap_kernel(SimdLevel level);
+inline WrapKernel wrap_kernel(SimdLevel level) {
+  return of_level<WrapKernel>(level, {wrap_portable, 4}, {wrap_avx2, 8}, {wrap_avx512, 16});
+}
 
 } // namespace trime::delaunay

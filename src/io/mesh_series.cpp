@@ -2,22 +2,42 @@
 #include "trime/io/mesh_series.hpp"
 
 #include "comm/agree.hpp"
-#include "io/file_series.hpp"
 #include "io/output_files.hpp"
 #include "io/temporary_file.hpp"
 #include "io/xdmf.hpp"
 #include "trime/core/error.hpp"
 #include "trime/io/stored_mesh.hpp"
 
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <set>
+#include <span>
+#include <string>
 
 namespace trime::io {
 namespace {
+
+/// A file and the time at which it is shown.
+struct NamedTime {
+  std::string file; ///< relative to the directory of the series
+  int time = 0;
+};
+
+/// Text of NAME.vtkhdf.series. Bytes of a name that are no UTF-8 are replaced, since JSON cannot hold them.
+std::string file_series_text(std::span<const NamedTime> files);
+
+std::string file_series_text(std::span<const NamedTime> files) {
+  using Json = nlohmann::ordered_json;
+  Json list = Json::array();
+  for (const NamedTime& member : files)
+    list.push_back(Json{{"name", member.file}, {"time", member.time}});
+  const Json series{{"file-series-version", "1.0"}, {"files", list}};
+  return series.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 const std::string final_label = "final"; // of the last mesh of a run, in the names of files
 

@@ -29,17 +29,13 @@ struct MeshRules {
   static constexpr int finest_typical_level = 20;
   /// [levels] Nor is any tile: its bins need some levels more. Not measured.
   static constexpr int finest_tile_level = 26;
-  /// [points] Mean number of sites in the bin of a site at most: the bins of a tile, halved as often as needed, then
-  /// hold 1.7 to 7 sites, mostly 3.3.
-  static constexpr double most_in_bin = 7;
-  /// [bins] Largest number of bins of a tile for each site, unless a bin is too full.
-  static constexpr int bins_per_site = 4;
   /// [points] A bin with more is too full, and those of its tile are halved again. Not measured.
   static constexpr int fullest_bin = 16;
   /// [bins] Largest number of bins of a tile for each site, however its sites are clustered: it bounds the memory. Not
   /// measured.
   static constexpr int most_bins_per_site = 64;
   /// [1] A tile has 2^k x 2^k bins with k at most this: 2^24 bins, whose numbers and counts fit into 32 bits.
+  /// A bound; no case measured reaches it.
   static constexpr int finest_bin_bits = 12;
 };
 

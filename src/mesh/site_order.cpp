@@ -14,6 +14,11 @@ namespace {
 
 using geometry::Vec2;
 
+// [points] Mean number of sites in the bin of a site at most: the bins of a tile, halved as often as needed, then
+// hold 1.7 to 7 sites, mostly 3.3.
+constexpr double most_in_bin = 7;
+constexpr int bins_per_site = 4; // [bins] Largest number of bins of a tile for each site, unless a bin is too full
+
 template <class Sites>
 bool precedes(const Sites& sites, LocalIndex i, LocalIndex j) {
   const Vec2 a = sites.position(i), b = sites.position(j);
@@ -99,7 +104,7 @@ int SiteOrder::suitable_bin_bits(const TileGrid& grid, std::span<const Site> sit
   const std::int64_t n = tile_start_[t + 1] - tile_start_[t];
   int bits = 0;
   const LocalIndex tile = first_tile_ + static_cast<LocalIndex>(t);
-  while (bits < grid.most_bin_bits(tile) && std::int64_t{4} << (2 * bits) <= MeshRules::bins_per_site * n)
+  while (bits < grid.most_bin_bits(tile) && std::int64_t{4} << (2 * bits) <= bins_per_site * n)
     ++bits;
   std::vector<std::int64_t> count = count_in_bins(grid, sites, t, bits);
   while (bits < grid.most_bin_bits(tile) && std::int64_t{4} << (2 * bits) <= MeshRules::most_bins_per_site * n &&
@@ -110,7 +115,7 @@ int SiteOrder::suitable_bin_bits(const TileGrid& grid, std::span<const Site> sit
     std::int64_t pairs = 0;
     for (const std::int64_t c : count)
       pairs += c * c;
-    if (static_cast<double>(pairs) > MeshRules::most_in_bin * static_cast<double>(n) ||
+    if (static_cast<double>(pairs) > most_in_bin * static_cast<double>(n) ||
         *std::max_element(count.begin(), count.end()) > MeshRules::fullest_bin)
       break;
     suitable = bits;

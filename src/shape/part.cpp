@@ -3,7 +3,6 @@
 
 #include "geometry/predicates.hpp"
 #include "shape/contour_polygon.hpp"
-#include "shape/rules.hpp"
 #include "trime/core/error.hpp"
 
 #include <cmath>
@@ -21,6 +20,8 @@ using geometry::orient2d;
 using geometry::Piece;
 using geometry::Segment;
 using geometry::Vec2;
+
+constexpr int smallest_radius = 64; // [steps] Smallest radius of a circle, in lattice steps
 
 void check_reach(const std::string& name, Vec2 p, const Frame& frame) {
   if (!std::isfinite(p.x) || !std::isfinite(p.y))
@@ -59,10 +60,10 @@ Part Part::rectangle(const std::string& name, const Box& box, const Frame& frame
 }
 
 Part Part::circle(const std::string& name, Vec2 center, double radius, const Frame& frame) {
-  if (!(radius > ShapeRules::smallest_radius * frame.step()) || !std::isfinite(radius))
+  if (!(radius > smallest_radius * frame.step()) || !std::isfinite(radius))
     throw GeometryError(fmt::format("part '{}': expected a positive radius, at least {:.3g} in this container, found "
                                     "{}",
-                                    name, ShapeRules::smallest_radius * frame.step(), radius));
+                                    name, smallest_radius * frame.step(), radius));
   check_reach(name, center - Vec2{radius, radius}, frame);
   check_reach(name, center + Vec2{radius, radius}, frame);
   Circle circle{frame.lattice().snap(center), frame.lattice().snap(radius)};

@@ -27,16 +27,6 @@ struct ShapeRules {
   static constexpr std::array<double, 7> tried_directions{0, 0.5, -0.5, 0.75, -0.75, 0.9, -0.9};
   /// [1] A vertex in a sharper tip is moved no farther than one with a half angle of this sine. Not measured.
   static constexpr double least_sine = 1.0 / 64;
-  /// [1] Fine cells have this share of the longer side of the container, unless the config says else.
-  static constexpr double default_resolution = 1.0 / 512;
-  /// [cells] Vertices so near to each other are one: rounding, or a node of the grid on the curve, made two.
-  static constexpr double nearly_equal = 1e-3;
-  /// [1] A closed chain of fewer vertices is no loop.
-  static constexpr std::size_t fewest_vertices = 3;
-  /// [chains] Largest number for a formula: it bounds time and memory.
-  static constexpr std::size_t most_chains = 1 << 14;
-  /// [1] A piece of a contour at a periodic border finds its partner across within this share of the longer side.
-  static constexpr double partner_reach = 1e-5;
   /// [segments] Size of the chunks in which meetings of segments are searched: the result does not depend on the
   /// threads. Not measured.
   static constexpr LocalIndex meeting_chunk = 2048;
@@ -45,8 +35,6 @@ struct ShapeRules {
   /// [pairs] With more for each segment in the bins of the grid a tree is built: that costs about as much. Measured:
   /// with bins a ring of 10^6 segments is looked through in a quarter of the time.
   static constexpr std::int64_t enough_pairs = 32;
-  /// [steps] Smallest radius of a circle, in lattice steps.
-  static constexpr int smallest_radius = 64;
 };
 
 } // namespace trime::shape

@@ -16,6 +16,12 @@ namespace {
 using geometry::Vec2;
 using sites::SiteState;
 
+// [rounds] Where no rule moves sites, an offender is pushed or chosen for deletion within this number of rounds: a
+// bound, since patient_settling_rounds ends it.
+constexpr int settling_rounds = 12;
+// [rounds] From this round of settling on, every offender is deleted, so that settling ends.
+constexpr int patient_settling_rounds = 8;
+
 /// The step of a rule, not longer than `limit`: the lead gives way first.
 Step capped(Step step, double limit) {
   const auto cap = [limit](Vec2 v) {
@@ -75,8 +81,8 @@ namespace {
 /// case. The discs stay, so that the site can be treated without the others. @return nothing if it may stay where it is
 std::optional<Treated> settled(const MoveContext& context, const mesh::TileGrid& grid, mesh::Site site, double h) {
   std::optional<Treated> last;
-  for (int round = 0; round < SweepRules::settling_rounds; ++round) {
-    const bool delete_all = round >= SweepRules::patient_settling_rounds;
+  for (int round = 0; round < settling_rounds; ++round) {
+    const bool delete_all = round >= patient_settling_rounds;
     Treated treated = treat_step(context, grid, site, h, {}, delete_all ? 0 : SweepRules::pushes_allowed);
     if (!treated.deleted && !treated.pushed)
       return last;

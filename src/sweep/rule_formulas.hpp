@@ -8,10 +8,21 @@
 
 #include "core/angle.hpp"
 #include "core/lanes.hpp"
-#include "sweep/rule_parameters.hpp"
+#include "sites/star_view.hpp"
 #include "sweep/rules.hpp"
 
 namespace trime::sweep {
+
+/// The kind of rule: repulsive bars, centroids of Voronoi cells, or the energy of triangles.
+enum class Mover { bars, cells, triangles };
+
+struct RuleParameters {
+  Mover mover = Mover::bars;
+  double length_scale = 1;                     ///< bars: rest length over h
+  double area_scale = 1;                       ///< triangles: wanted area over sqrt(3)/4 h^2
+  int exponent = SweepRules::density_exponent; ///< cells: of 1/h in the weight
+  double momentum = 0;                         ///< share of the last advance that the lead takes up
+};
 
 /// A neighbour as seen from the site.
 template <class V>
@@ -167,5 +178,11 @@ private:
   V uniform_wanted_;
   V gradient_x_{}, gradient_y_{}, xx_{}, xy_{}, yy_{};
 };
+
+/// A neighbour as seen from a site at p.
+inline Spoke<double> spoke_to(const sites::StarView& view, geometry::Vec2 p, LocalIndex neighbour) {
+  const geometry::Vec2 u = view.points.position(neighbour) - p;
+  return {u.x, u.y, u.x * u.x + u.y * u.y, view.size(neighbour)};
+}
 
 } // namespace trime::sweep

@@ -43,14 +43,10 @@ struct SweepRules {
 
   /// [1] A site may be pushed out of discs of the boundary so often; then it is deleted. With it and starts outside of
   /// the strip, pushes on a poker of 1e4 points ended within five sweeps, and nothing was deleted.
+  /// A bound; no case measured reaches it.
   static constexpr int pushes_allowed = 3;
   /// [1] Share of those to be deleted that go in one round: the room that one leaves may be enough for the others.
   static constexpr double deleted_share = 1.0 / 3;
-  /// [rounds] Where no rule moves sites, an offender is pushed or chosen for deletion within this number of rounds: a
-  /// bound, since patient_settling_rounds ends it.
-  static constexpr int settling_rounds = 12;
-  /// [rounds] From this round of settling on, every offender is deleted, so that settling ends.
-  static constexpr int patient_settling_rounds = 8;
 
   /// [sweeps] h is evaluated again after this number: the size field may be expensive, and sites have moved little by
   /// then. With other changes of the same time, 6 in place of 4 left mean alpha as it was.
@@ -73,13 +69,14 @@ struct SweepRules {
   static constexpr double cap_margin = 0.98;
 
   /// [1] Bound on what one site adds to the power of the moves, which keeps sums within the reach of FixedSum.
+  /// A bound; no case measured reaches it.
   static constexpr double largest_power = 0x1p10;
   /// [1] Bound on a squared length over h_ref^2 in a sum, which keeps sums within the reach of FixedSum.
+  /// A bound; no case measured reaches it.
   static constexpr double largest_term = 0x1p17;
   /// [1] Bound on alpha - 1 in a sum, which keeps sums within the reach of FixedSum.
+  /// A bound; no case measured reaches it.
   static constexpr double largest_excess_term = 1000;
-  /// [bytes a site] The measures of a tile are kept for sweeps in which it sleeps, unless all tiles together take more.
-  static constexpr std::size_t bytes_for_measures = 4;
 };
 
 /// The numbers that say when a stage ends.
@@ -97,20 +94,11 @@ struct StopRules {
   /// [1] Bars give way to cells when a window brings less than this share of the median of alpha - 1: accelerated cells
   /// do the rest sooner than bars. Measured with other changes only, see `seen`.
   static constexpr double median_gain = 0.3;
-  /// [1] A median of alpha - 1 below this leaves bars nothing to gain.
-  static constexpr double good_median = 0.001;
 
   /// [1] Least gain of bars or cells in a window, in the last stage.
   static constexpr double last_tolerance = 0.04;
-  /// [1] The same before points are inserted: their coming disturbs the order anyway.
-  static constexpr double insertion_tolerance = 0.12;
-  /// [1] The same for bars on a coarse mesh: it costs little and decides over the order of the finer ones.
-  static constexpr double coarse_bar_tolerance = 0.024;
   /// [1] The same for cells on a coarse mesh, with twice the patience of an earlier value, for the same reason.
   static constexpr double coarse_cell_tolerance = 0.015;
-  /// [1] Method `distmesh` multiplies the tolerance by this: bars settle more slowly than accelerated cells. With 158
-  /// sweeps in place of 83 a domain of 1e4 points had a median alpha of 1.0163 in place of 1.0197.
-  static constexpr double bar_patience = 0.4;
   /// [1] Least gain of triangles in a window, in the last stage: they gain nearly all in a few sweeps.
   static constexpr double triangle_tolerance = 0.084;
   /// [1] The same on a coarse mesh.

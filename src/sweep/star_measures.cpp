@@ -2,7 +2,6 @@
 #include "sweep/star_measures.hpp"
 
 #include "core/thread_loop.hpp"
-#include "sweep/rules.hpp"
 
 #include <algorithm>
 
@@ -10,6 +9,10 @@ namespace trime::sweep {
 namespace {
 
 using sites::StarView;
+
+// [bytes a site] The measures of a tile are kept for sweeps in which it sleeps, unless all tiles together take
+// more.
+constexpr std::size_t bytes_for_measures = 4;
 
 /// The sums of a thread, and its buffer for the excesses of the kernel.
 struct ThreadSums {
@@ -51,8 +54,7 @@ SweepSums StarMeasures::measure(const SweepTask& task, const StarView& view, dou
   all.least_class = SiteClass::bordered;
   const LocalIndex first_tile = view.points.first_tile();
   const std::size_t tiles = static_cast<std::size_t>(view.points.last_tile() - first_tile);
-  const bool keeps =
-      tiles * sizeof(SweepSums) < SweepRules::bytes_for_measures * static_cast<std::size_t>(view.points.owned());
+  const bool keeps = tiles * sizeof(SweepSums) < bytes_for_measures * static_cast<std::size_t>(view.points.owned());
   if (keeps && of_tile_.size() != tiles) {
     of_tile_.resize(tiles);
     is_measured_.assign(tiles, 0);

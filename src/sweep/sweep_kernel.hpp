@@ -3,6 +3,7 @@
 // side by side, the same bits for any number of them.
 #pragma once
 
+#include "core/simd_level.hpp"
 #include "polygon/guard_cells.hpp"
 #include "sweep/rule_formulas.hpp"
 #include "trime/core/types.hpp"
@@ -152,8 +153,10 @@ struct SweepKernels {
   CertifyKernel certify;
   QualityKernel measure;
 };
-extern const SweepKernels portable_kernels, avx2_kernels, avx512_kernels;
+extern const SweepKernels kernels_portable, kernels_avx2, kernels_avx512;
 /// Returns the kernels for this machine, see simd_level().
-const SweepKernels& sweep_kernels();
+inline const SweepKernels& sweep_kernels() {
+  return *of_level(simd_level(), &kernels_portable, &kernels_avx2, &kernels_avx512);
+}
 
 } // namespace trime::sweep

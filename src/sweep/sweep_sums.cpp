@@ -3,7 +3,7 @@
 
 #include "core/thread_loop.hpp"
 #include "sweep/rules.hpp"
-#include "sweep/spokes.hpp"
+#include "sweep/rule_formulas.hpp"
 
 #include <algorithm>
 

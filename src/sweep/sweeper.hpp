@@ -3,7 +3,6 @@
 #pragma once
 
 #include "sweep/move_outcomes.hpp"
-#include "sweep/site_activity.hpp"
 #include "sweep/sort_schedule.hpp"
 #include "sweep/star_certifier.hpp"
 #include "sweep/star_measures.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sweep/update_rule.hpp"
 
-#include "sweep/spokes.hpp"
+#include "sweep/rule_formulas.hpp"
 
 #include <algorithm>
 #include <cmath>

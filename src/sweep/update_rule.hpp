@@ -4,7 +4,7 @@
 
 #include "core/state_fields.hpp"
 #include "sites/star_view.hpp"
-#include "sweep/rule_parameters.hpp"
+#include "sweep/rule_formulas.hpp"
 #include "sweep/sweep_sums.hpp"
 #include "trime/geometry/vec2.hpp"
 

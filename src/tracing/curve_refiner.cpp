@@ -17,20 +17,34 @@ using geometry::length;
 using geometry::squared_length;
 using geometry::Vec2;
 
+// [rad] Corners are looked for where two chords turn by more than this, about 4 degrees.
+constexpr double smallest_turn = 0.07;
+constexpr int deepest_chord = 48;           // [halvings] A chord is halved so often at most
+constexpr std::size_t most_in_chord = 4096; // [vertices] Largest number in one chord, before thinning
+// [vertices] Largest number for a formula, before thinning: it bounds the memory.
+constexpr std::size_t most_vertices = std::size_t{1} << 23;
+// [chords] Distance from the middle of a chord up to which the curve is searched: it may be far in a sharp tip.
+constexpr double farthest_beside = 16;
+constexpr double farthest_corner = 64;   // [chords] A corner is looked for so far from its chord at most
+constexpr double nearer = 0.125;         // Each look at the arms of a supposed corner is so much nearer than the last
+constexpr double nearly_parallel = 1e-3; // Lines whose directions differ by a smaller sine do not meet
+// Vertices of a traced curve so near to each other are one, as a share of the longer side.
+constexpr double same_place = 1e-9;
+
 Vec2 unit(Vec2 v) {
   return (1 / length(v)) * v;
 }
 
-/// Does the direction turn by more than TracingRules::smallest_turn from u to v?
+/// Does the direction turn by more than smallest_turn from u to v?
 bool turns(Vec2 u, Vec2 v) {
   const double lengths = std::sqrt(squared_length(u) * squared_length(v));
-  return dot(u, v) < (1 - 0.5 * TracingRules::smallest_turn * TracingRules::smallest_turn) * lengths;
+  return dot(u, v) < (1 - 0.5 * smallest_turn * smallest_turn) * lengths;
 }
 
 /// The point with p + s u = q + t v; nothing if the directions nearly agree.
 std::optional<Vec2> meeting(Vec2 p, Vec2 u, Vec2 q, Vec2 v) {
   const double determinant = cross(u, v);
-  if (std::fabs(determinant) < TracingRules::nearly_parallel * std::sqrt(squared_length(u) * squared_length(v)))
+  if (std::fabs(determinant) < nearly_parallel * std::sqrt(squared_length(u) * squared_length(v)))
     return std::nullopt;
   return p + (cross(q - p, v) / determinant) * u;
 }
@@ -56,9 +70,8 @@ std::vector<Vec2> CurveRefiner::halve_chords(const std::vector<Vec2>& chain) {
     });
     for (std::size_t k = 0; k < parts.size(); ++k) {
       vertices_ += parts[k].size();
-      if (!followed[k] || vertices_ > TracingRules::most_vertices)
-        fail_for_oscillation(chain[first + k],
-                             !followed[k] ? TracingRules::most_in_chord : TracingRules::most_vertices);
+      if (!followed[k] || vertices_ > most_vertices)
+        fail_for_oscillation(chain[first + k], !followed[k] ? most_in_chord : most_vertices);
       all.insert(all.end(), parts[k].begin(), parts[k].end());
     }
   }
@@ -68,9 +81,9 @@ std::vector<Vec2> CurveRefiner::halve_chords(const std::vector<Vec2>& chain) {
 /// Appends the vertices strictly between a and b. False if they would be too many; stops where they come no
 /// nearer, as in the tip of a wedge, whose curve may lie many chords away.
 bool CurveRefiner::halve(Vec2 a, Vec2 b, int depth, std::vector<Vec2>& to) const {
-  if (depth == TracingRules::deepest_chord || length(b - a) < tolerances_.shortest || is_near(a, b))
+  if (depth == deepest_chord || length(b - a) < tolerances_.shortest || is_near(a, b))
     return true;
-  if (to.size() >= TracingRules::most_in_chord)
+  if (to.size() >= most_in_chord)
     return false;
   const std::optional<Vec2> middle = curve_beside(a, b);
   if (!middle)
@@ -106,8 +119,7 @@ std::optional<Vec2> CurveRefiner::curve_beside(Vec2 a, Vec2 b) const {
   const double value = function_(p), whole = length(b - a);
   const Vec2 direction = (value < 0 ? -1 : 1) * left_normal((1 / whole) * (b - a));
   double from = 0, from_value = value;
-  for (double to = 0.125 * tolerances_.chord; to < TracingRules::farthest_beside * whole;
-       to = std::fmin(2 * to, to + 0.25 * whole)) {
+  for (double to = 0.125 * tolerances_.chord; to < farthest_beside * whole; to = std::fmin(2 * to, to + 0.25 * whole)) {
     const double to_value = function_(p + to * direction);
     if ((to_value < 0) != (value < 0))
       return function_.crossing(p + from * direction, from_value, p + to * direction, to_value, tolerances_.zero);
@@ -133,7 +145,7 @@ std::vector<CurveVertex> CurveRefiner::insert_corners(const std::vector<Vec2>& p
       found[k].after = corner_in_chord(before, a, b, after);
   });
   std::vector<CurveVertex> result;
-  const double same = TracingRules::same_place * tolerances_.side;
+  const double same = same_place * tolerances_.side;
   const auto add = [&](Vec2 p, bool corner) {
     if (!result.empty() && length(p - result.back().place) < same) {
       if (corner && !result.back().keep)
@@ -161,10 +173,10 @@ std::optional<Vec2> CurveRefiner::corner_in_chord(Vec2 before, Vec2 a, Vec2 b, V
   if (!guess)
     return std::nullopt;
   const double reach = std::fmax(length(*guess - a), length(*guess - b)), whole = length(b - a);
-  if (reach > TracingRules::farthest_corner * whole)
+  if (reach > farthest_corner * whole)
     return std::nullopt;
   const std::optional<Vec2> corner = corner_at(*guess, unit(before - a), unit(after - b), reach);
-  const double same = TracingRules::same_place * tolerances_.side;
+  const double same = same_place * tolerances_.side;
   const bool between =
       corner && dot(*corner - a, unit(a - before)) > -same && dot(b - *corner, unit(after - b)) > -same;
   return between ? corner : std::nullopt;
@@ -174,8 +186,7 @@ std::optional<Vec2> CurveRefiner::corner_in_chord(Vec2 before, Vec2 a, Vec2 b, V
 /// through the arms keep meeting at an angle; where the curve is smooth they run past it.
 /// @param back,ahead unit directions from the corner along the arm before it and the one after it
 std::optional<Vec2> CurveRefiner::corner_at(Vec2 guess, Vec2 back, Vec2 ahead, double distance) const {
-  for (double d = std::fmax(distance, tolerances_.corner);;
-       d = std::fmax(TracingRules::nearer * d, tolerances_.corner)) {
+  for (double d = std::fmax(distance, tolerances_.corner);; d = std::fmax(nearer * d, tolerances_.corner)) {
     const auto back_near = on_arm(guess + d * back, -1 * back, d),
                back_far = on_arm(guess + 2 * d * back, -1 * back, d);
     const auto ahead_near = on_arm(guess + d * ahead, ahead, d), ahead_far = on_arm(guess + 2 * d * ahead, ahead, d);

@@ -16,6 +16,10 @@ using geometry::Box;
 using geometry::length;
 using geometry::Vec2;
 
+// [cells] Fine cells that the zero set may meet, at most: it bounds the memory.
+constexpr std::size_t most_near_zero = std::size_t{1} << 25;
+constexpr double slope_margin = 1.25; // Slopes of a formula are taken so much larger than they were sampled
+
 constexpr int refinement = 1 << TracingRules::grid_levels;
 
 using Key = std::int64_t;
@@ -193,7 +197,7 @@ std::vector<Index> Marcher::candidates(const std::vector<Index>& cells, int leve
   for (const Index cell : cells) {
     const std::array<double, 4> v = corner_values(cell, level);
     const double slope =
-        TracingRules::slope_margin *
+        slope_margin *
         slopes_[static_cast<std::size_t>(cell.j >> level) * coarse_x_ + static_cast<std::size_t>(cell.i >> level)];
     double least = std::fabs(v[0]), most = least;
     bool some_inside = false, some_outside = false;
@@ -209,7 +213,7 @@ std::vector<Index> Marcher::candidates(const std::vector<Index>& cells, int leve
 }
 
 void Marcher::check_number(const std::vector<Index>& cells, int level) const {
-  const std::size_t most = TracingRules::most_near_zero >> (2 * (TracingRules::grid_levels - level));
+  const std::size_t most = most_near_zero >> (2 * (TracingRules::grid_levels - level));
   if (cells.size() <= most)
     return;
   const Vec2 p = place(corners(cells[most], level)[0]);
@@ -217,8 +221,7 @@ void Marcher::check_number(const std::vector<Index>& cells, int level) const {
                                   "{:.9g}): {} cells of that size may hold zeros, expected at most {}; leave out the "
                                   "details that are smaller, or use a coarser resolution",
                                   function_.name(), 2 * std::fmax(width_, height_), p.x, p.y,
-                                  cells.size() << (2 * (TracingRules::grid_levels - level)),
-                                  TracingRules::most_near_zero));
+                                  cells.size() << (2 * (TracingRules::grid_levels - level)), most_near_zero));
 }
 
 std::vector<Index> Marcher::children(const std::vector<Index>& cells) {

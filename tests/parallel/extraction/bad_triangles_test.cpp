@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The list of the worst triangles: the same however the triangles are shared out, and which a sharp corner excuses.
-#include "extraction/bad_triangles.hpp"
 #include "extraction/extraction.hpp"
+#include "extraction/mesh_quality.hpp"
 #include "support/laid_sites.hpp"
 #include "trime/shape/region_shape.hpp"
 

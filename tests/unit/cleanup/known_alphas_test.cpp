@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Aspect ratios that are remembered from sweep to sweep: the same bits as those computed anew, whatever moved.
-#include "cleanup/known_alphas.hpp"
+#include "cleanup/patch_optimizer.hpp"
 
 #include "support/periodic_shapes.hpp"
 #include "support/point_sets.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The energy that the moves of the clean-up lower, against differences and closed forms.
-#include "cleanup/star_energy.hpp"
+#include "cleanup/patch_mover.hpp"
 
 #include "support/point_sets.hpp"
 

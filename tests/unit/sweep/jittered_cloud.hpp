@@ -29,12 +29,12 @@ public:
 
 /// Every number of lanes on every machine, and the builds for this machine.
 inline std::vector<const SweepKernels*> kernels() {
-  std::vector<const SweepKernels*> list{&portable_kernels, &portable_kernels_of_4_lanes, &portable_kernels_of_8_lanes};
+  std::vector<const SweepKernels*> list{&kernels_portable, &portable_kernels_of_4_lanes, &portable_kernels_of_8_lanes};
 #if defined(__x86_64__)
   if (simd_level() >= SimdLevel::avx2)
-    list.push_back(&avx2_kernels);
+    list.push_back(&kernels_avx2);
   if (simd_level() >= SimdLevel::avx512)
-    list.push_back(&avx512_kernels);
+    list.push_back(&kernels_avx512);
 #endif
   return list;
 }

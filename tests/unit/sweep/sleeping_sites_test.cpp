@@ -62,7 +62,7 @@ TEST(SleepingSites, KeepsThoseAwakeThatMomentumMayMove) {
   task.positions = places.data();
   Pass pass(cloud.points.owned());
   places[at(middle)] = place + Vec2{0.01 * spacing, 0};
-  pass.run(portable_kernels, task, cloud.points.owned());
+  pass.run(kernels_portable, task, cloud.points.owned());
   const double way_back = geometry::length(task.next_positions[middle] - places[at(middle)]) / (0.01 * spacing);
   EXPECT_GT(way_back, 0.1);
   for (const double share : {0.4, 0.6, 0.9, 1.1}) { // of `rest`, as the move of the site

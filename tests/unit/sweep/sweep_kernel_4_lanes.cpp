@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // 4 sites side by side on any processor.
 #define TRIME_LANES 4
-#include "sweep/quality_kernel_lanes.hpp"
+#include "sweep/sweep_kernel_lanes.hpp"
 #include "unit/sweep/portable_sweep_kernels.hpp"
 
 namespace trime::sweep {
