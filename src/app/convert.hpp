@@ -21,8 +21,8 @@ void check_exports(const RunOptions& options, const comm::Communicator& comm);
 
 /// Writes the mesh in all formats of the options, next to the mesh file. @return the paths @note Collective.
 std::vector<std::string> write_exports(const RunOptions& options, const mesh::DistributedMesh& mesh,
-                                        const formats::Names& names, io::RunFiles* files,
-                                        const comm::Communicator& comm);
+                                       const formats::Names& names, io::RunFiles* files,
+                                       const comm::Communicator& comm);
 
 /// The file of `trime_mpi convert IN OUT` in the format of the ending of OUT. @throws ConfigError, FileError on all
 /// ranks @note Collective.

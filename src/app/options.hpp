@@ -65,11 +65,11 @@ struct RunOptions {
   meshing::MeshOptions mesh;           ///< without the fixed points, which are read when the shape is
   FixedPointsFile fixed_points;
   SizingOptions sizing;
-  int setup_threads = 0;                 ///< per rank, while shape and size field are made; 0: chosen from the machine
-  int mesh_threads = 0;                  ///< per rank, from then on; 0: chosen from the machine
-  io::SeriesOptions output;              ///< without the period, which the boundary of the shape knows
+  int setup_threads = 0;                ///< per rank, while shape and size field are made; 0: chosen from the machine
+  int mesh_threads = 0;                 ///< per rank, from then on; 0: chosen from the machine
+  io::SeriesOptions output;             ///< without the period, which the boundary of the shape knows
   std::vector<formats::Format> exports; ///< formats of other programs in which the final mesh is written, too
-  bool write = true;                     ///< false: nothing is written
+  bool write = true;                    ///< false: nothing is written
   CheckpointOptions checkpoint;
   LogLevel log_level = LogLevel::summary;
   int log_interval = 0;

@@ -193,9 +193,10 @@ ShapeInput read_input(const Job& job) {
   }();
   const geometry::Box& box = input.domain().frame().container();
   if (options.container_is_automatic && box.max != geometry::unit_square.max)
-    job.log.info("container: x from {:.9g} to {:.9g}, y from {:.9g} to {:.9g}, chosen around the shape because [domain] "
-                 "sets no sides",
-                 box.min.x, box.max.x, box.min.y, box.max.y);
+    job.log.info(
+        "container: x from {:.9g} to {:.9g}, y from {:.9g} to {:.9g}, chosen around the shape because [domain] "
+        "sets no sides",
+        box.min.x, box.max.x, box.min.y, box.max.y);
   job.log.set_rewriter([&places = job.places](const std::string& message) { return places.explain(message); });
   input.set_fixed_points(read_fixed_points(options, input, job.comm));
   return input;

@@ -140,7 +140,8 @@ std::vector<geometry::FixedPoint> fixed_points_of(const MeshOptions& options) {
 
 } // namespace
 
-geometry::Domain build_domain(const Shape& shape, const MeshOptions& options, const comm::Communicator& comm, Log& log) {
+geometry::Domain build_domain(const Shape& shape, const MeshOptions& options, const comm::Communicator& comm,
+                              Log& log) {
   std::vector<UsedPart> used;
   comm::run_agreed(comm, [&] { collect(shape, used); });
   read_contours(used, comm);

@@ -23,7 +23,8 @@ bool is_name_character(char c) {
 std::string unknown_part_message(const std::string& name, std::span<const std::string> part_names) {
   std::vector<std::string> known(part_names.begin(), part_names.end());
   known.emplace_back(domain_name);
-  return fmt::format("unknown part '{}' in the geometry; known parts: {}{}", name, fmt::join(known, ", "), suggestion(name, known));
+  return fmt::format("unknown part '{}' in the geometry; known parts: {}{}", name, fmt::join(known, ", "),
+                     suggestion(name, known));
 }
 
 } // namespace

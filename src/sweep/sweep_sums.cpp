@@ -2,8 +2,8 @@
 #include "sweep/sweep_sums.hpp"
 
 #include "core/thread_loop.hpp"
-#include "sweep/rules.hpp"
 #include "sweep/rule_formulas.hpp"
+#include "sweep/rules.hpp"
 
 #include <algorithm>
 

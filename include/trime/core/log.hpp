@@ -52,9 +52,9 @@ public:
 
   /// Sets the first word of the live line. Does nothing unless the output is a terminal.
   void phase(const std::string& name);
-  /// @brief Updates the live line, at most ten times a second, and prints rows. With an interval, there is a row for the
-  /// first step at or after each multiple of it. Without one, there are rows for the steps 1, 2, 5, 10, 20, 50, ... if
-  /// the level is at most `info` and the output is not a terminal.
+  /// @brief Updates the live line, at most ten times a second, and prints rows. With an interval, there is a row for
+  /// the first step at or after each multiple of it. Without one, there are rows for the steps 1, 2, 5, 10, 20, 50, ...
+  /// if the level is at most `info` and the output is not a terminal.
   void progress(const ProgressStep& step);
   void set_progress_interval(int interval) { interval_ = interval; }
   /// From now on the log prints each message, except progress, as `rewrite` returns it.

@@ -52,8 +52,8 @@ private:
   geometry::PieceTree tree_;
 };
 
-/// @brief Makes only the domain, for callers that need nothing else of the shape: frees the parts and everything that was
-/// built to find the boundary. The domain has the same bits as that of a RegionShape.
+/// @brief Makes only the domain, for callers that need nothing else of the shape: frees the parts and everything that
+/// was built to find the boundary. The domain has the same bits as that of a RegionShape.
 /// @throws ConfigError, GeometryError as RegionShape
 geometry::Domain domain_of(std::vector<Part> parts, std::string_view region, const geometry::Frame& frame);
 

@@ -77,7 +77,8 @@ TEST(SameInput, ABitOfTheShapeIsFound) {
   double& radius = boundary.loops[0].pieces[0].radius;
   if (is_last())
     radius = std::nextafter(radius, 1);
-  EXPECT_EQ(error_of({frame, boundary}, sizing::UniformSize(0.1)).find("different bits of the shape") != std::string::npos,
+  EXPECT_EQ(error_of({frame, boundary}, sizing::UniformSize(0.1)).find("different bits of the shape") !=
+                std::string::npos,
             world().size() > 1);
 }
 

@@ -34,8 +34,10 @@ TEST(RunLimit, TellsOfImbalanceAndTheDensestTile) {
   Measurements m = good_run();
   m.counters[Counter::sites_swept].max = 1800000;
   m.counters[Counter::densest_tile].max = 4000;
-  EXPECT_EQ(run_limit(m), "imbalance 1.80: one rank sweeps this many times as many points as the mean; the densest tile holds 40 % of a "
-                          "rank's points");
+  EXPECT_EQ(
+      run_limit(m),
+      "imbalance 1.80: one rank sweeps this many times as many points as the mean; the densest tile holds 40 % of a "
+      "rank's points");
 }
 
 TEST(RunLimit, TellsOfPhasesThatTheRanksDoNotShare) {
@@ -64,8 +66,9 @@ TEST(RunLimit, TellsOfLatencyAndOfFetchRounds) {
   m.phases.clear();
   EXPECT_EQ(run_limit(m), "latency: each sweep needs 2.0 collectives and 2.0 messages for only a few sites");
   m.counters[Counter::fetch_rounds] = {600, 150, 150};
-  EXPECT_EQ(run_limit(m), "latency: each sweep needs 2.0 collectives and 2.0 messages for only a few sites; the halo is fetched "
-                          "1.5 times a sweep");
+  EXPECT_EQ(run_limit(m),
+            "latency: each sweep needs 2.0 collectives and 2.0 messages for only a few sites; the halo is fetched "
+            "1.5 times a sweep");
 }
 
 TEST(RunLimit, TellsOfTablesThatEveryRankHolds) {
