@@ -43,8 +43,8 @@ ARROWS = {
     "record": ["comm", "geometry", "mesh", "shape", "polygon", "boundary", "sweep", "meshing", "io"],
     "formats": ["comm", "geometry", "mesh", "projection", "io"],
     "handover": ["comm", "geometry", "mesh"],
-    "facade": ["comm", "geometry", "contours", "tracing", "shape", "sizing", "boundary", "sweep", "mesh", "meshing", "io",
-               "record", "formats", "handover"],
+    "facade": ["comm", "geometry", "contours", "tracing", "shape", "sizing", "boundary", "sweep", "mesh", "meshing",
+               "io", "record", "formats", "handover"],
     "app": ["comm", "geometry", "contours", "tracing", "shape", "projection", "sizing", "polygon", "boundary",
             "sites", "fitting", "meshing", "io", "checkpoint", "record", "formats"],
 }

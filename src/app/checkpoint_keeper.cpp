@@ -86,7 +86,7 @@ std::optional<meshing::SavedRun> CheckpointKeeper::find(const std::string& resta
       context_.log.warning("{}; this checkpoint is ignored", error.what());
     }
   }
-  context_.log.info("restart: there is no checkpoint of {}; the run starts from the beginning",
+  context_.log.summary("restart: there is no checkpoint of {}; the run starts from the beginning",
                     context_.output.path(""));
   return std::nullopt;
 }
@@ -102,7 +102,7 @@ meshing::SavedRun CheckpointKeeper::checked(checkpoint::Found found, const std::
         "{} was written by {}, and this is {}: expected the same program, since another one may make a different mesh",
         file, found.title.origin.program, origin_.program));
   number_ = found.title.number;
-  context_.log.info("restart: from {}", file);
+  context_.log.summary("restart: from {}", file);
   return std::move(found.run);
 }
 

@@ -18,7 +18,7 @@ namespace trime::app {
 /// The arguments of the keeper. @pre all outlive it
 struct KeeperContext {
   const comm::Communicator& comm;
-  const io::MeshFileOptions& output; ///< directory, name, and the object that notes temporary files
+  io::MeshFileOptions output; ///< directory, name, and the object that notes temporary files
   SignalRequests& signals;
   TimerTable& timers;
   Log& log;
@@ -31,7 +31,7 @@ struct KeeperContext {
 /// The phase says what may be called; calls that change it check it:
 /// - sweeping: at first. find, then wish after each sweep, and write if the ranks agree on a wish.
 /// - ending: after wish_before_cleanup. write at most once: then a signal or the time limit ends the run at once.
-/// - done: after go_to_the_end. Signals are not heard any more. Only remove_all.
+/// - done: after go_to_the_end. Signals have no effect from here on. Only remove_all.
 /// A stop that could not be carried out, since its checkpoint was not written, is not wished again by rank 0.
 class CheckpointKeeper final : public meshing::Checkpoints {
 public:

@@ -98,7 +98,7 @@ void tell_of_degrees(const RunOptions& options, const Contour& map, double exten
                 "'projection = auto' in [shape] to mesh them in metres",
                 edge >= least ? "edge_length" : "min_size", std::fmax(edge, least), extent, map.source);
   else
-    log.info("{} does not say in which reference system its coordinates are: if they are longitude and latitude, "
+    log.summary("{} does not say in which reference system its coordinates are: if they are longitude and latitude, "
              "'projection = auto' in [shape] meshes them in metres",
              map.source);
 }

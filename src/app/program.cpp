@@ -135,7 +135,7 @@ void check_fixed_points(const shape::RegionShape& shape, Log& log) {
   }
 }
 
-/// What a command line and its config ask for.
+/// Holds what a command line and its config ask for.
 struct Job {
   const comm::Communicator& comm;
   const CommandLine& line;

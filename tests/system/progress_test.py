@@ -148,7 +148,7 @@ class Progress(unittest.TestCase):
             (work / "two.ini").write_text("[shape]\nregion = two\n[shape.two]\ntype = contour\nfile = two.xy\n"
                                           "[meshing]\npoints = 300\n", encoding="utf-8")
             for more in ([], ["--validate"], ["--dry-run"]):
-                done = run(work / "two.ini", f"output.directory={work}/out", "--quiet", *more)
+                done = run(work / "two.ini", f"output.directory={work}/out", "output.overwrite=true", "--quiet", *more)
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
                 lines = done.stdout.splitlines()
                 self.assertTrue(all(line.startswith("warning: ") for line in lines), done.stdout)
@@ -188,7 +188,7 @@ class Report(unittest.TestCase):
                 self.assertIn(name, report["attributes"])
             for name in ("history", "quality", "checks", "timers", "counters", "tags"):
                 self.assertIn(name, report["groups"])
-            page = (ROOT / "src" / "README.md").read_text(encoding="utf-8")
+            page = (ROOT / "src" / "files.md").read_text(encoding="utf-8")
             for name in report:
                 self.assertIn(f"| `{name}`", page)
 

@@ -28,8 +28,8 @@ struct AutomaticSizeOptions {
   double period_x = 0, period_y = 0; ///< the container's side if it is periodic in that direction, else 0
 };
 
-/// @brief The feature floor for a mesh of so many points, or of this edge length: half the mean edge length. A mesh
-/// cannot show smaller features.
+/// @brief The feature floor for a mesh with this number of points or this edge length: half the mean edge length. A
+/// mesh cannot show smaller features.
 /// @return half the edge length if it is given, else 0.5 sqrt(2/sqrt(3) area/points): the edges of equilateral
 /// triangles, two for each point
 double feature_floor(std::optional<GlobalId> points, std::optional<double> edge_length, double area);

@@ -68,7 +68,8 @@ TEST(ScaledSize, WhatIsNoSizeComesThrough) {
     EXPECT_EQ(ScaledSize(field, 3, 0.1, 1).size({}), bad);
     EXPECT_THROW(checked_size(ScaledSize(field, 3, 0.1, 1), {}), GeometryError);
   }
-  EXPECT_TRUE(std::isnan(ScaledSize(UniformSize(std::nan("")), 3, 0.1, 1).size({})));
+  const UniformSize none(std::nan(""));
+  EXPECT_TRUE(std::isnan(ScaledSize(none, 3, 0.1, 1).size({})));
 }
 
 } // namespace
