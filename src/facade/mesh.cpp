@@ -197,7 +197,7 @@ void Mesh::write(const std::string& path, const WriteOptions& options) const {
     target.is_final = true;
     target.part_markers = origin.part_markers;
     if (!options.overwrite)
-      refuse_to_replace({target.path(".h5"), target.path(".xdmf"), target.path(".vtkhdf")}, comm);
+      refuse_to_replace({target.path(".h5"), target.path(".xdmf"), target.path(".xmf"), target.path(".vtkhdf")}, comm);
     for (const std::string& warning : io::check_output(target, comm))
       fmt::print(stderr, "warning: {}\n", warning);
     io::write_mesh(target, result().mesh, implementation_->metadata, comm);

@@ -47,7 +47,7 @@ step(${CMAKE_COMMAND} -S "${TEN_LINES}" -B "${WORK}/ten_lines" -G "${GENERATOR}"
 step(${CMAKE_COMMAND} --build "${WORK}/ten_lines")
 step("${program}" "${TEN_LINES}/plate.ini")
 foreach(ranks 1 3)
-  file(REMOVE "${WORK}/bare/plate.h5" "${WORK}/bare/plate.xdmf" "${WORK}/bare/plate.vtkhdf")
+  file(REMOVE "${WORK}/bare/plate.h5" "${WORK}/bare/plate.xdmf" "${WORK}/bare/plate.xmf" "${WORK}/bare/plate.vtkhdf")
   if(ranks EQUAL 1)
     step("${WORK}/ten_lines/ten_lines") # without mpirun
   else()
@@ -72,7 +72,8 @@ if(CHECK)
 endif()
 foreach(ranks 1 3)
   foreach(name whole half)
-    file(REMOVE "${WORK}/bare/${name}.h5" "${WORK}/bare/${name}.xdmf" "${WORK}/bare/${name}.vtkhdf")
+    file(REMOVE "${WORK}/bare/${name}.h5" "${WORK}/bare/${name}.xdmf" "${WORK}/bare/${name}.xmf"
+         "${WORK}/bare/${name}.vtkhdf")
   endforeach()
   step("${MPIEXEC}" -n ${ranks} "${WORK}/ten_lines/running_mpi")
   if(NOT output MATCHES "MPI_COMM_NULL" OR NOT output MATCHES "MPI was finalised before the last use")

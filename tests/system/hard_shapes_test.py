@@ -153,7 +153,7 @@ class HardShapes(unittest.TestCase):
         self.error(two("union", block("a", 0.1, 0.1, 0.5, 0.5), block("b", 0.5, 0.5, 0.9, 0.9)), "meshing.points=1000",
                    code=3, says=["touches itself at (0.5, 0.5)"])
         self.error([rectangle(0.1, 0.1, 0.5, 0.5), rectangle(0.5, 0.2, 0.9, 0.4)], "meshing.points=1000", code=3,
-                   says=["c.xy:2: the edge that starts here touches", "(0.5, 0.2)", "take the common edge out"])
+                   says=["c.xy:2: the edge that starts here touches", "(0.5, 0.2)", "dissolve their common borders"])
 
     def test_rings_that_touch_in_a_vertex(self):
         self.mesh([rectangle(0.1, 0.1, 0.5, 0.5), rectangle(0.5, 0.5, 0.9, 0.9)], "meshing.points=1000", euler=2)

@@ -73,7 +73,7 @@ TEST(Agree, WhatIsNoStandardExceptionEndsAllRanksToo) {
     });
     ADD_FAILURE() << "no error was thrown";
   } catch (const InternalError& error) {
-    EXPECT_NE(std::string(error.what()).find("no std::exception"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("not a std::exception"), std::string::npos) << error.what();
   }
   comm.barrier();
 }

@@ -99,7 +99,7 @@ TEST(BadShape, TheErrorKeepsItsClass) {
                                     []() -> double {
                                       throw 42; // NOLINT(hicpp-exception-baseclass)
                                     })
-                .find("no std::exception"),
+                .find("not a std::exception"),
             std::string::npos);
   try {
     run(world, FailingDisc(world.rank() == last ? 500 : never, []() -> double { throw std::bad_alloc(); }));

@@ -74,7 +74,7 @@ TEST(BadSize, IsNamedWithItsPlaceWhereverTheMesherMeetsIt) {
 TEST(BadSize, SoSmallThatNoNumberOfPointsWouldDo) {
   const comm::Communicator world = comm::Communicator::world();
   const SpottedSize size(1e-14, 0.01); // between the places that the first guess is made from
-  EXPECT_NE(error_of<GeometryError>(world, size, with_points(500)).find("so small a size"), std::string::npos);
+  EXPECT_NE(error_of<GeometryError>(world, size, with_points(500)).find("such a small size"), std::string::npos);
 }
 
 TEST(BadSize, UniformOnes) {

@@ -196,7 +196,7 @@ TEST(Config, ASectionMayBeMeantByItsBeginning) {
 
 TEST(Config, TellsAllMistakesAtOnceInTheOrderOfTheFile) {
   EXPECT_EQ(errors_of("[domain]\nx_min = 1\nx_max = 1\n[sizing]\ngradaton = 0.2\n[meshin]\nseed = 1\n[shape]\n"
-                      "geometry = hole\n[shape.hole]\ntype = circle\ncenter = 0.5\nradus = 1\n[meshing]\nmethod = cdv\n"
+                      "geometry = hole\n[shape.hole]\ntype = circle\ncenter = 0.5\nradus = 1\n[meshing]\nmethod = ctv\n"
                       "points = 0\n",
                       {"log.levle=info"}),
             "dir/c.ini:3: [domain] needs x_min < x_max, found 1 and 1\n"
@@ -204,7 +204,7 @@ TEST(Config, TellsAllMistakesAtOnceInTheOrderOfTheFile) {
             "dir/c.ini:6: unknown section [meshin]; did you mean 'meshing'?\n"
             "dir/c.ini:12: 'center = 0.5' in [shape.hole]: expected two numbers X Y separated by a blank\n"
             "dir/c.ini:13: unknown key 'radus' in [shape.hole]; did you mean 'radius'?\n"
-            "dir/c.ini:15: 'method = cdv' in [meshing]: expected one of distmesh, cvt, hybrid; did you mean 'cvt'?\n"
+            "dir/c.ini:15: 'method = ctv' in [meshing]: expected one of distmesh, cvt, hybrid; did you mean 'cvt'?\n"
             "dir/c.ini:16: 'points = 0' in [meshing]: expected an integer from 3 to 100000000000\n"
             "command line: unknown key 'levle' in [log]; did you mean 'level'?");
 }

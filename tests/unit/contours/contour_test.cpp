@@ -95,7 +95,7 @@ TEST(Contour, CrossingsAreLocated) {
 TEST(Contour, OverlapsAreLocated) {
   // An edge on an edge, another edge on an edge, two rings that cross at their vertices.
   expect_error("0 0\n0.5 0\n0.5 0.5\n0 0.5\n\n0.5 0.1\n0.9 0.1\n0.9 0.2\n0.5 0.2\n",
-               {"map.xy:2", "line 6", "two rings touch or overlap", "common edge"});
+               {"map.xy:2", "line 6", "two rings touch or overlap", "overlap along an edge"});
   expect_error("0 0\n0.5 0\n0.5 0.5\n\n0.5 0\n0.5 0.5\n0.9 0.5\n", {"two rings touch"});
   expect_error("0.2 0.2\n0.5 0.2\n0.8 0.2\n0.8 0.5\n0.2 0.5\n\n0.5 0\n0.6 0.1\n0.5 0.2\n0.6 0.4\n0.4 0.1\n",
                {"map.xy:1", "cross at a vertex", "(0.5, 0.2)"});

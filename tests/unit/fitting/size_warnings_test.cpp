@@ -67,7 +67,7 @@ TEST(SizeWarnings, ChordsThatAreNotFarShorterAreNotTold) {
 TEST(SizeWarnings, WithALeastSizeAFewShortChordsAreNotTold) {
   EXPECT_EQ(warned(stage_with({0.001, 0.001}), true), ""); // 2 of 258
   const std::string text = warned(stage_with({0.001, 0.001, 0.001}), true);
-  EXPECT_NE(text.find("3 of 259 chords"), std::string::npos) << text;
+  EXPECT_NE(text.find("3 of 259 boundary edges"), std::string::npos) << text;
   EXPECT_NE(text.find("a smaller min_size would help"), std::string::npos) << text;
 }
 
