@@ -3,10 +3,9 @@
 add_library(trime_options INTERFACE)
 target_compile_options(trime_options INTERFACE
   -ffp-contract=off -fno-math-errno
-  -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual)
-if(NOT TRIME_UNITY) # in a group of sources a header may shadow names of the sources before it
-  target_compile_options(trime_options INTERFACE -Wshadow)
-endif()
+  -Wall -Wextra -Wpedantic
+  $<$<NOT:$<BOOL:${TRIME_UNITY}>>:-Wshadow> # in a group of sources a header may shadow names of the sources before it
+  -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual)
 if(TRIME_WARNINGS_AS_ERRORS)
   target_compile_options(trime_options INTERFACE -Werror)
 endif()
