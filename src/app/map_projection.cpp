@@ -99,8 +99,8 @@ void tell_of_degrees(const RunOptions& options, const Contour& map, double exten
                 edge >= least ? "edge_length" : "min_size", std::fmax(edge, least), extent, map.source);
   else
     log.summary("{} does not say in which reference system its coordinates are: if they are longitude and latitude, "
-             "'projection = auto' in [shape] meshes them in metres",
-             map.source);
+                "'projection = auto' in [shape] meshes them in metres",
+                map.source);
 }
 
 /// Where a projection stretches lengths most, among vertices far from each other in the file.
