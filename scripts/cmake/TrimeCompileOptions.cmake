@@ -5,7 +5,9 @@ target_compile_options(trime_options INTERFACE
   -ffp-contract=off -fno-math-errno
   -Wall -Wextra -Wpedantic
   $<$<NOT:$<BOOL:${TRIME_UNITY}>>:-Wshadow> # in a group of sources a header may shadow names of the sources before it
-  -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual)
+  -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
+  # g++ takes a source of a group for a header, whose types must not have members without linkage.
+  $<$<AND:$<BOOL:${TRIME_UNITY}>,$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>)
 if(TRIME_WARNINGS_AS_ERRORS)
   target_compile_options(trime_options INTERFACE -Werror)
 endif()
