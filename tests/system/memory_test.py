@@ -27,7 +27,8 @@ def output_of(config, *more):
 
 def measure(config, points):
     """Points made, and the bytes over all ranks by the report."""
-    report = output_of(config, f"meshing.points={points}", f"output.directory={config.parent}", "output.overwrite=true")
+    report = output_of(config, f"meshing.points={points}", f"output.directory={config.parent}", "output.overwrite=true",
+                       "--verbose")
     made = int(re.search(r"^(\d+) points", report, re.MULTILINE)[1])
     return made, made * float(re.search(r"([\d.]+) bytes per point over all ranks", report)[1])
 
