@@ -87,7 +87,7 @@ std::optional<meshing::SavedRun> CheckpointKeeper::find(const std::string& resta
     }
   }
   context_.log.summary("restart: there is no checkpoint of {}; the run starts from the beginning",
-                    context_.output.path(""));
+                       context_.output.path(""));
   return std::nullopt;
 }
 

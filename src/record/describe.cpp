@@ -201,7 +201,10 @@ SizeRange size_range(const mesh::DistributedMesh& mesh, const comm::Communicator
 
 Origin origin_of(const shape::RegionShape& shape) {
   const geometry::Boundary& boundary = shape.boundary();
-  return {boundary.part_names, shape.domain().part_markers(), shape.region().text(), {boundary.periods.x, boundary.periods.y}};
+  return {boundary.part_names,
+          shape.domain().part_markers(),
+          shape.region().text(),
+          {boundary.periods.x, boundary.periods.y}};
 }
 
 io::Metadata describe(const meshing::MeshResult& result, const Origin& origin, const std::string& sizing,

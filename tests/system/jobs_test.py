@@ -93,8 +93,8 @@ class Jobs(unittest.TestCase):
         done = run(ROOT / "configs" / "square.ini", points, f"output.directory={self.work / 'long'}", ranks=2)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         environment = dict(os.environ, SLURM_CONF=str(self.slurm / "slurm.conf"), TRIME_PROGRAM=PROGRAM)
-        done = subprocess.run(["sbatch", "--parsable", "jobs/restartable.sbatch", points, "log.level=info"], cwd=self.work,
-                              env=environment, text=True, capture_output=True, check=False, timeout=60)
+        done = subprocess.run(["sbatch", "--parsable", "jobs/restartable.sbatch", points, "log.level=info"],
+                              cwd=self.work, env=environment, text=True, capture_output=True, check=False, timeout=60)
         job = done.stdout.split(";")[0].strip()
         self.assertTrue(job.isdigit(), done.stdout + done.stderr)
         log, end = self.work / f"trime_mpi-{job}.log", time.monotonic() + 120
