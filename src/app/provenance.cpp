@@ -37,7 +37,7 @@ Attributes run_attributes(const Provenance& p) {
           {"nodes", std::int64_t{p.placement.nodes}}};
 }
 
-/// What the run took, and the sizes that it met.
+/// Describes the time and memory of the run, and its sizes.
 Attributes measured_attributes(const meshing::MeshResult& result, const SizeSummary& size,
                                const Measurements& measured) {
   const auto points = static_cast<double>(std::max<GlobalId>(result.mesh.point_slab.total, 1));
@@ -81,7 +81,7 @@ Attributes joined(std::initializer_list<Attributes> lists) {
   return all;
 }
 
-/// What is known before the run.
+/// Describes what is known before the run.
 Attributes given_attributes(const Provenance& p) {
   return joined({record::format_attributes(), run_attributes(p), record::place_attributes(p.origin),
                  normalization_attributes(p.normalized)});

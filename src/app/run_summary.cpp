@@ -60,7 +60,7 @@ std::string quality_text(const mesh::QualitySummary& q) {
              : text + fmt::format("; {} with alpha above 2", counted(q.bad_triangles, "triangle", "triangles"));
 }
 
-/// What the run did to features of the boundary, in numbers.
+/// Counts the features of the boundary that the run changed.
 std::string boundary_text(const boundary::FeatureReport& report) {
   struct Change {
     GlobalId count;

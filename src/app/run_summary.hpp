@@ -12,7 +12,7 @@
 
 namespace trime::app {
 
-/// What a run has made, and how. Holds references. @pre all outlive this object
+/// Holds references to the results of a run, for its summary. @pre all outlive this object
 struct RunFacts {
   const Provenance& provenance;
   const meshing::MeshResult& result;

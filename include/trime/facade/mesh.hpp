@@ -29,7 +29,7 @@ struct MeshResult;
 
 using sweep::Method;
 
-/// What make_mesh is asked for. The defaults are those of the program `trime_mpi`.
+/// Holds the requests of a caller of make_mesh. The defaults are those of the program `trime_mpi`.
 struct MeshOptions {
   std::optional<GlobalId> points{};    ///< exactly one of points and edge_length is set
   std::optional<double> edge_length{}; ///< target edge length; a size that varies is scaled so that its mean is this

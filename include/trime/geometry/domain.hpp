@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is meshed: a boundary together with the container in which it was made, the names of its parts, and the points
-// that the mesh keeps.
+// The mesher takes a Domain: a boundary together with the container in which it was made, the names of its parts, and
+// the points that the mesh keeps.
 #pragma once
 
 #include "trime/geometry/boundary.hpp"

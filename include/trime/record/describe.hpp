@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a mesh file says of its mesh: names and markers of the boundary, periods, loops, quality, checks and history.
+// This header describes a mesh for its file: names and markers of the boundary, periods, loops, quality, checks and
+// history.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -18,7 +19,7 @@ class RegionShape;
 
 namespace trime::record {
 
-/// What the shape gives to the mesh that is made of it.
+/// Holds the names and markers that a mesh takes from its shape.
 struct Origin {
   std::vector<std::string> part_names{};    ///< by DistributedMesh::facet_parts
   std::vector<std::int32_t> part_markers{}; ///< for each of these; 0: none
