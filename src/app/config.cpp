@@ -9,7 +9,7 @@
 #include "io/output_files.hpp"
 #include "trime/core/error.hpp"
 #include "trime/core/formula.hpp"
-#include "trime/shape/region.hpp"
+#include "trime/shape/region_shape.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "core/file_kind.hpp"
 #include "core/quoted.hpp"
 #include "io/temporary_file.hpp"
-#include "trime/io/stored_mesh.hpp"
+#include "trime/io/mesh_file.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -5,8 +5,8 @@
 #include "app/command_line.hpp"
 #include "app/options.hpp"
 #include "trime/core/log.hpp"
+#include "trime/io/mesh_file.hpp"
 #include "trime/io/metadata.hpp"
-#include "trime/io/run_files.hpp"
 
 #include <string>
 #include <vector>

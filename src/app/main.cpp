@@ -9,7 +9,6 @@
 #include "core/quoted.hpp"
 #include "trime/core/log.hpp"
 #include "trime/io/mesh_file.hpp"
-#include "trime/io/run_files.hpp"
 
 #include <unistd.h>
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "trime/comm/communicator.hpp"
-#include "trime/core/counters.hpp"
 #include "trime/core/timer.hpp"
 
 #include <array>

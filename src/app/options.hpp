@@ -4,7 +4,7 @@
 
 #include "trime/core/log.hpp"
 #include "trime/formats/exchange.hpp"
-#include "trime/geometry/frame.hpp"
+#include "trime/geometry/lattice.hpp"
 #include "trime/geometry/vec2.hpp"
 #include "trime/io/mesh_series.hpp"
 #include "trime/meshing/options.hpp"

@@ -4,7 +4,6 @@
 #include "app/config.hpp"
 #include "app/run_limit.hpp"
 #include "record/groups.hpp"
-#include "trime/io/describe.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -142,9 +141,10 @@ io::Metadata describe_run(const Provenance& p, const meshing::MeshResult& result
   return {joined({given_attributes(p), record::mesh_attributes(result.mesh, final_retriangulation(result)),
                   record::result_attributes(result), measured_attributes(result, size, measured)}),
           texts(p),
-          {record::history_group(result.history), io::quality_group(result.quality), io::checks_group(result.checks),
-           io::bad_triangles_group(result.quality), timers_group(measured.phases), counters_group(measured),
-           record::tags_group(p.origin, result.loops), record::sharp_corners_group(result.features.sharp_corners),
+          {record::history_group(result.history), record::quality_group(result.quality),
+           record::checks_group(result.checks), record::bad_triangles_group(result.quality),
+           timers_group(measured.phases), counters_group(measured), record::tags_group(p.origin, result.loops),
+           record::sharp_corners_group(result.features.sharp_corners),
            record::rings_group(p.origin, result.features.loops), normalization_group(p.normalized)}};
 }
 
@@ -154,7 +154,7 @@ io::Metadata describe_step(const Provenance& p, const meshing::Snapshot& snapsho
                         {"complete", std::int64_t{0}}};
   return {joined({given_attributes(p), record::mesh_attributes(snapshot.mesh, snapshot.retriangulation), step}),
           texts(p),
-          {io::quality_group(snapshot.quality), record::tags_group(p.origin, snapshot.loops),
+          {record::quality_group(snapshot.quality), record::tags_group(p.origin, snapshot.loops),
            normalization_group(p.normalized)}};
 }
 

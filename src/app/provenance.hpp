@@ -9,7 +9,6 @@
 #include "app/run_report.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/io/mesh_file.hpp"
-#include "trime/meshing/make_mesh.hpp"
 #include "trime/meshing/mesher.hpp"
 #include "trime/record/describe.hpp"
 

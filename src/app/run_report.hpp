@@ -7,7 +7,7 @@
 #include "trime/comm/communicator.hpp"
 #include "trime/core/error.hpp"
 #include "trime/io/mesh_file.hpp"
-#include "trime/meshing/make_mesh.hpp"
+#include "trime/meshing/mesher.hpp"
 
 #include <string>
 #include <vector>

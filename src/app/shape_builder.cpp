@@ -3,9 +3,9 @@
 
 #include "comm/agree.hpp"
 #include "core/read_file.hpp"
-#include "trime/shape/region.hpp"
+#include "trime/shape/region_shape.hpp"
 #include "trime/shape/traced_part.hpp"
-#include "trime/tracing/expression_shape.hpp"
+#include "trime/tracing/shape.hpp"
 
 #include <algorithm>
 #include <cmath>

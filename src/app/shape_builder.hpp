@@ -7,7 +7,7 @@
 #include "app/user_places.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/contours/contour.hpp"
-#include "trime/geometry/domain.hpp"
+#include "trime/geometry/boundary.hpp"
 #include "trime/shape/region_shape.hpp"
 
 #include <optional>

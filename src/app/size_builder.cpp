@@ -4,7 +4,7 @@
 #include "trime/core/error.hpp"
 #include "trime/core/formula.hpp"
 #include "trime/sizing/automatic_size.hpp"
-#include "trime/sizing/expression_size.hpp"
+#include "trime/sizing/size_field.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "app/options.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/core/formula.hpp"
-#include "trime/geometry/domain.hpp"
+#include "trime/geometry/boundary.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <memory>

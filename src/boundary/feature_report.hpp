@@ -5,7 +5,7 @@
 #include "polygon/polygon.hpp"
 #include "polygon/simplification.hpp"
 #include "sizing/lowered_size.hpp"
-#include "trime/boundary/feature_summary.hpp"
+#include "trime/boundary/features.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/sizing/size_field.hpp"

@@ -9,7 +9,6 @@
 #include "polygon/boundary_guard.hpp"
 #include "trime/core/log.hpp"
 #include "trime/geometry/boundary.hpp"
-#include "trime/geometry/domain.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/sizing/size_field.hpp"
 

@@ -2,7 +2,7 @@
 // Which loops of the given boundary the meshed one follows, and how far it strays from them.
 #pragma once
 
-#include "trime/boundary/loop_fate.hpp"
+#include "trime/boundary/features.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/sizing/size_field.hpp"

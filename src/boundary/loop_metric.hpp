@@ -6,7 +6,7 @@
 
 #include "trime/core/types.hpp"
 #include "trime/geometry/boundary.hpp"
-#include "trime/geometry/periods.hpp"
+#include "trime/geometry/lattice.hpp"
 
 #include <optional>
 #include <vector>

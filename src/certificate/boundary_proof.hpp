@@ -8,7 +8,7 @@
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
-#include "trime/mesh/validity.hpp"
+#include "trime/mesh/quality.hpp"
 #include "trime/sizing/size_field.hpp"
 
 namespace trime::certificate {

@@ -6,7 +6,7 @@
 #include "sites/fan.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
-#include "trime/mesh/validity.hpp"
+#include "trime/mesh/quality.hpp"
 
 namespace trime::certificate {
 

@@ -4,7 +4,7 @@
 
 #include "meshing/checkpoints.hpp"
 #include "trime/comm/communicator.hpp"
-#include "trime/io/run_files.hpp"
+#include "trime/io/mesh_file.hpp"
 
 #include <cstdint>
 #include <span>

@@ -5,7 +5,7 @@
 #include "core/gather.hpp"
 #include "core/thread_loop.hpp"
 #include "geometry/box_tree.hpp"
-#include "trime/geometry/periods.hpp"
+#include "trime/geometry/lattice.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <algorithm>

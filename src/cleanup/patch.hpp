@@ -5,7 +5,7 @@
 #include "cleanup/patch_data.hpp"
 #include "cleanup/patch_mesh.hpp"
 #include "cleanup/rules.hpp"
-#include "trime/geometry/segment.hpp"
+#include "trime/geometry/vec2.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,6 @@
 
 #include "trime/core/types.hpp"
 #include "trime/geometry/lattice.hpp"
-#include "trime/geometry/periods.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <array>

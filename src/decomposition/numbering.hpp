@@ -5,7 +5,7 @@
 #include "decomposition/halo.hpp"
 #include "mesh/binned_points.hpp"
 #include "trime/comm/communicator.hpp"
-#include "trime/core/unset_vector.hpp"
+#include "trime/core/types.hpp"
 
 #include <vector>
 

@@ -4,7 +4,6 @@
 
 #include "mesh/index_shift.hpp"
 #include "trime/core/types.hpp"
-#include "trime/core/unset_vector.hpp"
 
 #include <array>
 #include <cstdint>

@@ -6,7 +6,6 @@
 #include "sites/fan.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
 #include "trime/mesh/quality.hpp"
-#include "trime/mesh/validity.hpp"
 
 namespace trime::extraction {
 

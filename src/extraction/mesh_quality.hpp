@@ -5,7 +5,7 @@
 
 #include "polygon/polygon.hpp"
 #include "trime/comm/communicator.hpp"
-#include "trime/geometry/periods.hpp"
+#include "trime/geometry/lattice.hpp"
 #include "trime/mesh/quality.hpp"
 #include "trime/sizing/size_field.hpp"
 

@@ -5,7 +5,7 @@
 #include "trime/comm/communicator.hpp"
 #include "trime/core/log.hpp"
 #include "trime/facade/mesh.hpp"
-#include "trime/geometry/domain.hpp"
+#include "trime/geometry/boundary.hpp"
 
 namespace trime {
 

@@ -4,7 +4,7 @@
 
 #include "trime/comm/communicator.hpp"
 #include "trime/facade/size.hpp"
-#include "trime/geometry/domain.hpp"
+#include "trime/geometry/boundary.hpp"
 #include "trime/meshing/options.hpp"
 #include "trime/sizing/size_field.hpp"
 

@@ -2,7 +2,7 @@
 #include "trime/facade/shape.hpp"
 
 #include "facade/shape_node.hpp"
-#include "trime/shape/region.hpp"
+#include "trime/shape/region_shape.hpp"
 
 namespace trime {
 namespace {

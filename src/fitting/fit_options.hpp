@@ -3,7 +3,7 @@
 // may be left out.
 #pragma once
 
-#include "trime/boundary/feature_options.hpp"
+#include "trime/boundary/features.hpp"
 #include "trime/core/types.hpp"
 
 #include <optional>

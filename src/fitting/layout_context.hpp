@@ -7,7 +7,7 @@
 #include "trime/comm/communicator.hpp"
 #include "trime/core/log.hpp"
 #include "trime/core/timer.hpp"
-#include "trime/geometry/domain.hpp"
+#include "trime/geometry/boundary.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <cmath>

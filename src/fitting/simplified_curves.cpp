@@ -8,7 +8,7 @@
 #include "generalise/generalised_bytes.hpp"
 #include "sizing/curve_distance.hpp"
 #include "sizing/lowered_size.hpp"
-#include "trime/geometry/frame.hpp"
+#include "trime/geometry/lattice.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "generalise/narrow_parts.hpp"
 
 #include "generalise/rules.hpp"
-#include "trime/geometry/segment.hpp"
+#include "trime/geometry/vec2.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "geometry/predicates.hpp"
-#include "trime/geometry/segment.hpp"
 #include "trime/geometry/vec2.hpp"
 
 namespace trime::geometry {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/geometry/piece_tree.hpp"
 
-#include "trime/geometry/segment.hpp"
+#include "trime/geometry/vec2.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,6 @@
 #include <limits>
 
 namespace trime::geometry {
-
 namespace {
 
 /// In a periodic container no piece leads out of one image of it: the image that holds the middle becomes canonical.

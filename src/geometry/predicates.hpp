@@ -3,7 +3,6 @@
 #pragma once
 
 #include "trime/geometry/lattice.hpp"
-#include "trime/geometry/periods.hpp"
 #include "trime/geometry/vec2.hpp"
 
 namespace trime::geometry {

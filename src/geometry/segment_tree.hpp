@@ -3,7 +3,6 @@
 #pragma once
 
 #include "trime/core/types.hpp"
-#include "trime/geometry/segment.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <cstddef>

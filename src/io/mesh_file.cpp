@@ -6,7 +6,6 @@
 #include "io/slab_file.hpp"
 #include "io/temporary_file.hpp"
 #include "io/xdmf.hpp"
-#include "trime/io/run_files.hpp"
 
 #include <sys/stat.h>
 #include <unistd.h>

@@ -6,7 +6,7 @@
 #include "io/temporary_file.hpp"
 #include "io/xdmf.hpp"
 #include "trime/core/error.hpp"
-#include "trime/io/stored_mesh.hpp"
+#include "trime/io/mesh_file.hpp"
 
 #include <nlohmann/json.hpp>
 #include <unistd.h>

@@ -4,7 +4,6 @@
 #include "comm/agree.hpp"
 #include "io/state_file.hpp"
 #include "trime/io/mesh_file.hpp"
-#include "trime/io/stored_mesh.hpp"
 
 namespace trime::io {
 

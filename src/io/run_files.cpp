@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/io/run_files.hpp"
+#include "trime/io/mesh_file.hpp"
 
 #include <unistd.h>
 

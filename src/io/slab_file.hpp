@@ -8,7 +8,7 @@
 #include "io/slice_buffer.hpp"
 #include "io/write_back.hpp"
 #include "trime/comm/communicator.hpp"
-#include "trime/core/unset_vector.hpp"
+#include "trime/core/types.hpp"
 #include "trime/io/metadata.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
 

@@ -2,7 +2,7 @@
 // Memory for what is copied to and from files.
 #pragma once
 
-#include "trime/core/unset_vector.hpp"
+#include "trime/core/types.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/io/stored_mesh.hpp"
+#include "trime/io/mesh_file.hpp"
 
 #include "comm/agree.hpp"
 #include "io/hdf5_input.hpp"

@@ -4,7 +4,7 @@
 #include "core/file_kind.hpp"
 #include "core/quoted.hpp"
 #include "trime/core/error.hpp"
-#include "trime/io/run_files.hpp"
+#include "trime/io/mesh_file.hpp"
 
 #include <fcntl.h>
 #include <sys/random.h>

@@ -6,7 +6,7 @@
 #include "core/thread_loop.hpp"
 #include "mesh/site_sources.hpp"
 #include "trime/core/error.hpp"
-#include "trime/core/unset_vector.hpp"
+#include "trime/core/types.hpp"
 
 #include <algorithm>
 #include <numeric>

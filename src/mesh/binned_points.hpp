@@ -12,7 +12,6 @@
 #include "mesh/tile_grid.hpp"
 #include "mesh/tile_marks.hpp"
 #include "trime/core/types.hpp"
-#include "trime/core/unset_vector.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/known_bins.hpp"
 
-#include "trime/core/unset_vector.hpp"
+#include "trime/core/types.hpp"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // Where sites go at their next move, while they still stand where they are.
 #pragma once
 
-#include "trime/core/unset_vector.hpp"
+#include "trime/core/types.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <cstddef>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "trime/core/types.hpp"
-#include "trime/core/unset_vector.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <compare>

@@ -4,7 +4,7 @@
 #include "mesh/rules.hpp"
 #include "mesh/site_sources.hpp"
 #include "trime/core/error.hpp"
-#include "trime/core/unset_vector.hpp"
+#include "trime/core/types.hpp"
 
 #include <algorithm>
 #include <array>

@@ -8,7 +8,6 @@
 #include "mesh/site.hpp"
 #include "mesh/tile_grid.hpp"
 #include "trime/core/types.hpp"
-#include "trime/core/unset_vector.hpp"
 
 #include <cstdint>
 #include <iterator>

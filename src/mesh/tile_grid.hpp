@@ -7,7 +7,7 @@
 #include "mesh/rules.hpp"
 #include "mesh/tile_tree.hpp"
 #include "trime/core/types.hpp"
-#include "trime/geometry/periods.hpp"
+#include "trime/geometry/lattice.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "meshing/run_context.hpp"
-#include "trime/meshing/outlook.hpp"
+#include "trime/meshing/mesher.hpp"
 
 namespace trime::meshing {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "trime/comm/communicator.hpp"
-#include "trime/geometry/domain.hpp"
+#include "trime/geometry/boundary.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/angle.hpp"
-#include "trime/geometry/periods.hpp"
+#include "trime/geometry/lattice.hpp"
 
 #include <cstdint>
 

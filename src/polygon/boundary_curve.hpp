@@ -5,7 +5,7 @@
 #include "polygon/polygon.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
-#include "trime/geometry/segment.hpp"
+#include "trime/geometry/vec2.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -7,7 +7,6 @@
 #include "polygon/guard_cells.hpp"
 #include "polygon/polygon.hpp"
 #include "trime/geometry/lattice.hpp"
-#include "trime/geometry/periods.hpp"
 #include "trime/geometry/segment_grid.hpp"
 
 #include <algorithm>

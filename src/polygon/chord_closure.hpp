@@ -2,7 +2,7 @@
 // Makes closed polygons of the segments that meet a window, without touching the window.
 #pragma once
 
-#include "trime/geometry/segment.hpp"
+#include "trime/geometry/vec2.hpp"
 
 #include <vector>
 

@@ -4,7 +4,7 @@
 #include "core/angle.hpp"
 #include "core/thread_loop.hpp"
 #include "trime/core/error.hpp"
-#include "trime/geometry/segment.hpp"
+#include "trime/geometry/vec2.hpp"
 
 #include <algorithm>
 #include <cmath>

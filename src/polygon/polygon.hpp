@@ -4,8 +4,7 @@
 #pragma once
 
 #include "trime/core/types.hpp"
-#include "trime/geometry/periods.hpp"
-#include "trime/geometry/segment.hpp"
+#include "trime/geometry/lattice.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <cstdint>

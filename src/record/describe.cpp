@@ -2,9 +2,8 @@
 #include "record/groups.hpp"
 
 #include "core/thread_loop.hpp"
-#include "trime/io/describe.hpp"
 #include "trime/io/mesh_file.hpp"
-#include "trime/meshing/make_mesh.hpp"
+#include "trime/meshing/mesher.hpp"
 #include "trime/shape/region_shape.hpp"
 
 #include <fmt/format.h>
@@ -45,6 +44,14 @@ Attributes joined(std::initializer_list<Attributes> lists) {
   for (const Attributes& list : lists)
     all.insert(all.end(), list.begin(), list.end());
   return all;
+}
+
+void add_summary(Attributes& to, const std::string& name, const mesh::RatioSummary& s) {
+  to.push_back({name + "_median", s.median});
+  to.push_back({name + "_mean", s.mean});
+  to.push_back({name + "_max", s.max});
+  to.push_back({name + "_half_mean", s.half_mean});
+  to.push_back({name + "_std", s.std});
 }
 
 } // namespace
@@ -119,6 +126,43 @@ io::MetadataGroup history_group(const std::vector<sweep::SweepRecord>& history) 
        column<std::int64_t>("pushed", history, &Record::pushed),
        column<std::int64_t>("deleted", history, &Record::deleted),
        column<double>("seconds", history, &Record::seconds)}};
+}
+
+io::MetadataGroup quality_group(const mesh::QualitySummary& quality) {
+  io::MetadataGroup group{"quality", {}, {}};
+  add_summary(group.attributes, "alpha", quality.alpha);
+  add_summary(group.attributes, "beta", quality.beta);
+  group.attributes.push_back({"min_angle_degrees", quality.min_angle_degrees});
+  group.attributes.push_back({"size_mean", quality.size_mean});
+  group.attributes.push_back({"size_std", quality.size_std});
+  group.attributes.push_back({"bad_triangles", quality.bad_triangles});
+  const auto& edges = mesh::RatioStatistics::histogram_edges;
+  const auto& counts = quality.alpha_histogram;
+  group.columns.push_back({"alpha_histogram_from", std::vector<double>(edges.begin(), edges.end())});
+  group.columns.push_back({"alpha_histogram", std::vector<std::int64_t>(counts.begin(), counts.end())});
+  return group;
+}
+
+io::MetadataGroup bad_triangles_group(const mesh::QualitySummary& quality) {
+  using mesh::BadTriangle;
+  const std::vector<BadTriangle>& worst = quality.worst_triangles;
+  return {"worst_triangles",
+          {},
+          {column<double>("alpha", worst, &BadTriangle::alpha),
+           column<double>("x", worst, [](const BadTriangle& one) { return one.place.x; }),
+           column<double>("y", worst, [](const BadTriangle& one) { return one.place.y; }),
+           column<double>("corner_degrees", worst, &BadTriangle::corner_degrees),
+           column<double>("corner_x", worst, [](const BadTriangle& one) { return one.corner.x; }),
+           column<double>("corner_y", worst, [](const BadTriangle& one) { return one.corner.y; })}};
+}
+
+io::MetadataGroup checks_group(const mesh::Checks& checks) {
+  using mesh::Check;
+  return {"checks",
+          {},
+          {column<std::string>("name", checks, &Check::name), column<double>("expected", checks, &Check::expected),
+           column<double>("found", checks, &Check::found), column<std::int32_t>("passed", checks, &Check::passed),
+           column<std::string>("meaning", checks, &Check::meaning)}};
 }
 
 io::MetadataGroup sharp_corners_group(const std::vector<boundary::SharpCorner>& corners) {
@@ -220,8 +264,8 @@ io::Metadata describe(const meshing::MeshResult& result, const Origin& origin, c
   return {joined({format_attributes(), made, place_attributes(origin),
                   mesh_attributes(result.mesh, result.triangulations + 1), result_attributes(result)}),
           {},
-          {history_group(result.history), io::quality_group(result.quality), io::checks_group(result.checks),
-           io::bad_triangles_group(result.quality), tags_group(origin, result.loops),
+          {history_group(result.history), quality_group(result.quality), checks_group(result.checks),
+           bad_triangles_group(result.quality), tags_group(origin, result.loops),
            sharp_corners_group(result.features.sharp_corners), rings_group(origin, result.features.loops)}};
 }
 

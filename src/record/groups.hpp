@@ -2,9 +2,10 @@
 // The pieces of the metadata of a mesh, from which describe() and the program put theirs together.
 #pragma once
 
-#include "trime/boundary/feature_summary.hpp"
+#include "trime/boundary/features.hpp"
 #include "trime/io/metadata.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
+#include "trime/mesh/quality.hpp"
 #include "trime/meshing/options.hpp"
 #include "trime/polygon/loop_summary.hpp"
 #include "trime/record/describe.hpp"
@@ -38,6 +39,10 @@ Attributes mesh_attributes(const mesh::DistributedMesh& mesh, int retriangulatio
 Attributes result_attributes(const meshing::MeshResult& result);
 
 io::MetadataGroup history_group(const std::vector<sweep::SweepRecord>& history);
+io::MetadataGroup quality_group(const mesh::QualitySummary& quality);
+io::MetadataGroup checks_group(const mesh::Checks& checks);
+/// Returns the table of QualitySummary::worst_triangles.
+io::MetadataGroup bad_triangles_group(const mesh::QualitySummary& quality);
 /// Returns the tables that explain the numbers in /Mesh/facets: `values` are edge_id, `parts` are part_id.
 io::MetadataGroup tags_group(const Origin& origin, const std::vector<polygon::LoopSummary>& loops);
 /// Corners where small angles cannot be avoided.

@@ -4,7 +4,7 @@
 
 #include "geometry/segment_tree.hpp"
 #include "shape/vertex_table.hpp"
-#include "trime/geometry/frame.hpp"
+#include "trime/geometry/lattice.hpp"
 #include "trime/shape/part.hpp"
 
 #include <array>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "trime/contours/contour.hpp"
-#include "trime/geometry/frame.hpp"
-#include "trime/shape/part_forms.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/shape/part.hpp"
 
 #include <string>
 #include <vector>

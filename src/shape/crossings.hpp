@@ -4,7 +4,7 @@
 
 #include "trime/geometry/segment_grid.hpp"
 #include "trime/geometry/vec2.hpp"
-#include "trime/shape/part_forms.hpp"
+#include "trime/shape/part.hpp"
 
 #include <array>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "trime/core/types.hpp"
-#include "trime/geometry/frame.hpp"
+#include "trime/geometry/lattice.hpp"
 #include "trime/geometry/segment_grid.hpp"
 
 #include <array>

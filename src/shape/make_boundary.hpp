@@ -2,10 +2,10 @@
 // From the parts and the region to the boundary of the shape.
 #pragma once
 
-#include "trime/geometry/domain.hpp"
-#include "trime/geometry/frame.hpp"
+#include "trime/geometry/boundary.hpp"
+#include "trime/geometry/lattice.hpp"
 #include "trime/shape/part.hpp"
-#include "trime/shape/region.hpp"
+#include "trime/shape/region_shape.hpp"
 
 #include <span>
 #include <vector>

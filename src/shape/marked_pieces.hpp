@@ -3,7 +3,7 @@
 #pragma once
 
 #include "trime/geometry/boundary.hpp"
-#include "trime/geometry/frame.hpp"
+#include "trime/geometry/lattice.hpp"
 #include "trime/shape/part.hpp"
 
 #include <cstdint>

@@ -2,10 +2,9 @@
 #include "shape/part_images.hpp"
 
 #include "trime/core/error.hpp"
-#include "trime/shape/region.hpp"
+#include "trime/shape/region_shape.hpp"
 
 namespace trime::shape {
-
 namespace {
 
 using geometry::Box;

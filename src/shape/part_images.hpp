@@ -2,7 +2,7 @@
 // Parts of a periodic container: which images of a part reach into the container.
 #pragma once
 
-#include "trime/geometry/frame.hpp"
+#include "trime/geometry/lattice.hpp"
 #include "trime/shape/part.hpp"
 
 #include <vector>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "shape/vertex_table.hpp"
-#include "trime/geometry/frame.hpp"
+#include "trime/geometry/lattice.hpp"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 // Is a point in the region, if it lies in few of very many parts?
 #pragma once
 
-#include "trime/shape/region.hpp"
+#include "trime/shape/region_shape.hpp"
 
 #include <vector>
 

@@ -8,10 +8,10 @@
 #include "tracing/zero_chains.hpp"
 #include "trime/contours/contour.hpp"
 #include "trime/core/error.hpp"
-#include "trime/geometry/frame.hpp"
+#include "trime/geometry/lattice.hpp"
 #include "trime/geometry/segment_grid.hpp"
 #include "trime/shape/part.hpp"
-#include "trime/shape/region.hpp"
+#include "trime/shape/region_shape.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 
 #include "decomposition/numbering.hpp"
 #include "sites/stage_view.hpp"
-#include "trime/core/unset_vector.hpp"
+#include "trime/core/types.hpp"
 
 #include <cstdint>
 #include <span>

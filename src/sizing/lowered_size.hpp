@@ -2,7 +2,7 @@
 // A size field that is lowered around some places, as far as a gradation allows.
 #pragma once
 
-#include "trime/geometry/periods.hpp"
+#include "trime/geometry/lattice.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <memory>

@@ -2,7 +2,6 @@
 // Options of the sweeps.
 #pragma once
 
-#include "trime/sweep/star_tests.hpp"
 #include "trime/sweep/sweep_history.hpp"
 
 #include <optional>

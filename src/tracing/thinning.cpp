@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tracing/curve_refiner.hpp"
 #include "tracing/rules.hpp"
-#include "trime/geometry/segment.hpp"
+#include "trime/geometry/vec2.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace trime::tracing {
-
 namespace {
 
 using geometry::dot;

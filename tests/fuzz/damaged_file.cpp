@@ -7,7 +7,7 @@
 #include "core/read_file.hpp"
 #include "io/hdf5_handle.hpp"
 #include "meshing/checkpoints.hpp"
-#include "trime/io/run_files.hpp"
+#include "trime/io/mesh_file.hpp"
 
 #include <fuzzer/FuzzedDataProvider.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Region expressions over four parts, of which each point lies in some.
 #include "fuzz.hpp"
-#include "trime/shape/region.hpp"
+#include "trime/shape/region_shape.hpp"
 
 #include <array>
 #include <string>

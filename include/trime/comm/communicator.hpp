@@ -3,7 +3,7 @@
 // need no mpi.h. Every MPI error prints its text and ends the job, because nothing can recover from a broken network.
 #pragma once
 
-#include "trime/core/counters.hpp"
+#include "trime/core/timer.hpp"
 
 #include <cstddef>
 #include <cstdint>

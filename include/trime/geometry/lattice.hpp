@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The power-of-two lattice of the container on which every site lies. Differences of sites are then exact doubles:
-// integers below 2^45 in lattice steps. So an exact in-circle test has a bounded size.
+// The power-of-two lattice of the container on which every site lies, the periods of the container, and the Frame that
+// holds both. Parts of a shape are made in a Frame. Differences of sites are exact doubles: integers below 2^45 in
+// lattice steps. So an exact in-circle test has a bounded size.
 #pragma once
 
 #include "trime/core/sum.hpp"
@@ -39,6 +40,86 @@ public:
 
 private:
   double step_, inverse_step_;
+};
+
+/// @brief The images of a point are the point shifted by multiples of (x, 0) and (0, y); 0 means "not periodic". The
+/// canonical image of a point lies in [min.x, min.x + x) x [min.y, min.y + y) along the periodic axes. `min` and the
+/// periods are lattice multiples, so every shift of a lattice point is exact.
+struct Periods {
+  double x = 0, y = 0;
+  Vec2 min;
+
+  /// Returns the periods of a container: its sides rounded to the lattice, from its first lattice point on.
+  static Periods of(const Box& container, const Lattice& lattice, bool periodic_x, bool periodic_y) {
+    const double inverse = lattice.inverse_step();
+    return {periodic_x ? lattice.snap(container.width()) : 0, periodic_y ? lattice.snap(container.height()) : 0,
+            lattice.step() * Vec2{std::ceil(container.min.x * inverse), std::ceil(container.min.y * inverse)}};
+  }
+
+  bool any() const { return x > 0 || y > 0; }
+
+  /// Returns the canonical image of p.
+  Vec2 wrap(Vec2 p) const { return {wrap(p.x, min.x, x), wrap(p.y, min.y, y)}; }
+  /// Returns the image of p nearest to `center`: the difference lies in [-period/2, period/2) along each periodic axis.
+  Vec2 nearest_image(Vec2 p, Vec2 center) const {
+    return {wrap(p.x, center.x - 0.5 * x, x), wrap(p.y, center.y - 0.5 * y, y)};
+  }
+  /// Are a and b images of the same point?
+  bool same_point(Vec2 a, Vec2 b) const { return wrap(a) == wrap(b); }
+  /// Compares the canonical images lexicographically. This order breaks all ties, and is the same for all images of a
+  /// point.
+  bool less(Vec2 a, Vec2 b) const { return lexicographically_less(wrap(a), wrap(b)); }
+
+private:
+  static double wrap(double v, double low, double period) {
+    if (period == 0 || (v >= low && v < low + period))
+      return v;
+    const double shifted = v - period * std::floor((v - low) / period);
+    return shifted < low ? shifted + period : shifted >= low + period ? shifted - period : shifted;
+  }
+};
+
+/// The container of a shape that fits into it, where the user gives none.
+inline constexpr Box unit_square{{0, 0}, {1, 1}};
+
+/// @brief The container of a shape where the user gives none: the unit square if it contains `box` or `box` has no
+/// area, else `box` with a margin of 5 % of its longer side all around.
+/// @param box around the shape: Region::box of the boxes of its parts. A part without a box counts as the
+/// unit square: the `domain`, a function, a contour that is normalised.
+Box container_around(const Box& box);
+
+/// The container with its lattice and periods. Immutable; cheap to copy.
+class Frame {
+public:
+  /// @throws GeometryError if the width or the height of `container` is not positive and finite
+  explicit Frame(const Box& container, bool periodic_x = false, bool periodic_y = false);
+
+  const Box& container() const { return container_; }
+  const Lattice& lattice() const { return lattice_; }
+  double step() const { return lattice_.step(); }
+  /// The periods; none by default.
+  const Periods& periods() const { return periods_; }
+
+  /// The largest lattice rectangle inside the container; exactly one period long on periodic axes. It is the shape
+  /// `domain`.
+  const Box& inner() const { return inner_; }
+  /// The container and twice its size around it. The exact predicates are valid here, so parts may lie here.
+  const Box& reach() const { return reach_; }
+
+  /// Returns the nearest lattice point. If rounding moves it out of the container, returns a point on the edge of
+  /// inner().
+  Vec2 snap(Vec2 p) const { return {snap(p.x, inner_.min.x, inner_.max.x), snap(p.y, inner_.min.y, inner_.max.y)}; }
+
+private:
+  double snap(double v, double low, double high) const {
+    const double near = lattice_.snap(v);
+    return near < low && near >= low - step() ? low : near > high && near <= high + step() ? high : near;
+  }
+
+  Box container_;
+  Lattice lattice_;
+  Periods periods_;
+  Box inner_, reach_;
 };
 
 } // namespace trime::geometry

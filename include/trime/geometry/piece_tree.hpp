@@ -4,7 +4,7 @@
 
 #include "trime/core/types.hpp"
 #include "trime/geometry/boundary.hpp"
-#include "trime/geometry/periods.hpp"
+#include "trime/geometry/lattice.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <cstddef>

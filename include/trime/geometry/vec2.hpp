@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points and vectors of the plane, and the axis-parallel box.
+// Points and vectors of the plane, the axis-parallel box, and the segment with the one formula for the distance to it.
 #pragma once
 
 #include <algorithm>
@@ -68,6 +68,23 @@ inline Box united(const Box& a, const Box& b) {
 inline Box intersected(const Box& a, const Box& b) {
   return {{std::max(a.min.x, b.min.x), std::max(a.min.y, b.min.y)},
           {std::min(a.max.x, b.max.x), std::min(a.max.y, b.max.y)}};
+}
+
+/// A straight segment from a to b.
+struct Segment {
+  Vec2 a, b;
+};
+
+/// Returns the squared distance from p to the segment; a == b is allowed.
+inline double squared_distance(Vec2 p, const Segment& segment) {
+  const Vec2 d = segment.b - segment.a, q = p - segment.a;
+  const double along = dot(q, d), whole = squared_length(d);
+  if (along <= 0)
+    return squared_length(q);
+  if (along >= whole)
+    return squared_length(p - segment.b);
+  const double across = cross(d, q);
+  return across * across / whole;
 }
 
 } // namespace trime::geometry

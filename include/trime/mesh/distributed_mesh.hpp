@@ -4,7 +4,6 @@
 #pragma once
 
 #include "trime/core/types.hpp"
-#include "trime/core/unset_vector.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Quality of triangles and of whole meshes. Statistics consist of integers (fixed-point sums, histograms), so that
-// merging them in any order gives the same bits.
+// merging them in any order gives the same bits. The certificate of a mesh is a list of named checks.
 #pragma once
 
 #include "trime/core/sum.hpp"
@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace trime::mesh {
@@ -131,5 +132,23 @@ struct QualitySummary {
   std::vector<BadTriangle> worst_triangles; ///< at most 10 of them, the worst first
   BadTriangle worst_away; ///< the worst of them without a sharp corner near it; alpha 0: no such triangle
 };
+
+/// One check.
+struct Check {
+  std::string name; ///< lower case with underscores, also the name in the file
+  double expected = 0;
+  double found = 0;
+  bool passed = false;
+  std::string meaning; ///< one line for the report
+};
+
+using Checks = std::vector<Check>;
+
+inline bool all_passed(const Checks& checks) {
+  for (const Check& check : checks)
+    if (!check.passed)
+      return false;
+  return true;
+}
 
 } // namespace trime::mesh

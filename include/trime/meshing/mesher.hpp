@@ -1,19 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mesher: makes a certified mesh from the boundary of a shape and a size field, on all ranks.
+// The mesher: makes a certified mesh from a domain or shape and a size field, on all ranks, or estimates what it would
+// do to the boundary.
 #pragma once
 
+#include "trime/boundary/features.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/core/log.hpp"
 #include "trime/core/timer.hpp"
-#include "trime/geometry/domain.hpp"
+#include "trime/geometry/boundary.hpp"
 #include "trime/meshing/options.hpp"
-#include "trime/meshing/outlook.hpp"
+#include "trime/shape/region_shape.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <functional>
 #include <memory>
 
 namespace trime::meshing {
+
+/// An estimate of MeshResult::features, and the resolution at which nothing would be simplified.
+struct Outlook {
+  boundary::FeatureReport features;
+  bool keeps_all = false; ///< nothing is simplified or dropped
+  /// Number of points that keep everything, about; a lower bound if not `is_enough`.
+  double keeping_points = 0;
+  double keeping_edge_length = 0; ///< mean edge length of that many points
+  bool is_enough = false;
+};
 
 /// The mesh in the middle of a run; valid during the call of the observer.
 struct Snapshot {
@@ -68,5 +80,25 @@ private:
   class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
+
+/// @brief Makes a mesh of a domain. `domain` and `size` must give the same bits on every rank.
+/// @throws ConfigError, GeometryError on all ranks together, see Mesher::run
+/// @note Collective.
+MeshResult make_mesh(const comm::Communicator& comm, const geometry::Domain& domain, const sizing::SizeField& size,
+                     const MeshOptions& options, Log& log);
+
+/// Makes a mesh of the domain of a shape. Collective.
+MeshResult make_mesh(const comm::Communicator& comm, const shape::RegionShape& shape, const sizing::SizeField& size,
+                     const MeshOptions& options, Log& log);
+
+/// @brief Makes the domain where a function is negative, by tracing it in the container of `frame`.
+/// @throws GeometryError on all ranks together, see shape::traced_part; if the shape throws on any rank, an Error with
+/// its message on all ranks
+/// @note Collective.
+geometry::Domain traced_domain(const comm::Communicator& comm, const tracing::Shape& shape,
+                               const geometry::Frame& frame);
+
+/// True if the stop rule was met and every check passed.
+bool is_complete(const MeshResult& result);
 
 } // namespace trime::meshing

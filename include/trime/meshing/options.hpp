@@ -2,16 +2,13 @@
 // Options of the mesher, and its result. Plain data.
 #pragma once
 
-#include "trime/boundary/feature_options.hpp"
-#include "trime/boundary/feature_summary.hpp"
+#include "trime/boundary/features.hpp"
 #include "trime/cleanup/cleanup_counts.hpp"
 #include "trime/core/types.hpp"
 #include "trime/mesh/distributed_mesh.hpp"
 #include "trime/mesh/quality.hpp"
-#include "trime/mesh/validity.hpp"
 #include "trime/polygon/loop_summary.hpp"
 #include "trime/start/start_choice.hpp"
-#include "trime/sweep/star_tests.hpp"
 #include "trime/sweep/sweep_history.hpp"
 
 #include <cstdint>

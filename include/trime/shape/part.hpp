@@ -5,9 +5,9 @@
 
 #include "trime/contours/contour.hpp"
 #include "trime/geometry/boundary.hpp"
-#include "trime/geometry/frame.hpp"
+#include "trime/geometry/lattice.hpp"
+#include "trime/geometry/segment_grid.hpp"
 #include "trime/geometry/vec2.hpp"
-#include "trime/shape/part_forms.hpp"
 
 #include <array>
 #include <string>
@@ -15,6 +15,31 @@
 #include <vector>
 
 namespace trime::shape {
+
+/// A circle whose centre and radius are multiples of the lattice step.
+struct Circle {
+  geometry::Vec2 center;
+  double radius;
+};
+
+/// Simple closed rings that do not meet. The even-odd rule says what is inside.
+struct Polygon {
+  /// Segments first .. first + count - 1 of the grid; `reversed` if the interior lies on their right.
+  struct Ring {
+    LocalIndex first, count;
+    bool reversed;
+  };
+  geometry::SegmentGrid grid; ///< segments ring by ring, each starting where the one before it ends
+  std::vector<Ring> rings;
+  std::vector<int> markers{};              ///< of each segment; empty: all are 0, which means no marker
+  std::vector<std::string> marker_names{}; ///< Contour::marker_names
+};
+
+/// Returns the four vertices of a circle at angles 0, pi/2, pi, 3 pi/2; exact.
+std::array<geometry::Vec2, 4> quadrant_vertices(const Circle& circle);
+
+/// @brief Returns the counter-clockwise arc of `circle` from a to b, less than a full turn.
+geometry::Piece make_arc(const Circle& circle, geometry::Vec2 a, geometry::Vec2 b);
 
 /// One named part. Immutable.
 class Part {

@@ -2,7 +2,7 @@
 // From a function to the part where it is negative: marching squares in a band, refinement of the chords, corners.
 #pragma once
 
-#include "trime/geometry/frame.hpp"
+#include "trime/geometry/lattice.hpp"
 #include "trime/shape/part.hpp"
 #include "trime/tracing/shape.hpp"
 

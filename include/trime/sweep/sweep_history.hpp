@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The methods that move points, and the history of a run. Plain data.
+// The methods that move points, options for tests of the sweeps, and the history of a run. Plain data.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -32,6 +32,17 @@ struct SweepRecord {
   GlobalId rebuilt_stars = 0, pushed = 0, deleted = 0;
   double seconds =
       0; ///< time since the start; after a restart it continues from the last record. Differs from run to run
+};
+
+/// Options for tests of the sweeps. The mesh is the same with each of them, with the exception of `sleepless`.
+struct StarTests {
+  /// Compares every star after every sweep with one that is computed from scratch. @throws InternalError if one differs
+  bool verify = false;
+  /// Certifies every star of every sweep by the empty-circle test, and not by the stars around it.
+  bool by_emptiness = false;
+  /// Keeps all tiles and sites awake in every sweep. The mesh may differ where a scale of the rule changes so little
+  /// that it does not wake all sites.
+  bool sleepless = false;
 };
 
 } // namespace trime::sweep

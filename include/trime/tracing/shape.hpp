@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A shape that is given by a function which is negative inside. Derive from Shape to mesh your own shape.
+// A shape that is given by a function which is negative inside: a class derived from Shape, or a formula.
 #pragma once
 
+#include "trime/core/formula.hpp"
 #include "trime/geometry/vec2.hpp"
 
 namespace trime::tracing {
@@ -15,6 +16,18 @@ public:
   /// set matters. Near it the function should be Lipschitz with about the same constant everywhere; the signed distance
   /// is best.
   virtual double signed_distance(geometry::Vec2 p) const = 0;
+};
+
+/// The shape where a formula of x and y is negative.
+class ExpressionShape final : public Shape {
+public:
+  /// @pre `formula` outlives this object
+  explicit ExpressionShape(const Formula& formula) : formula_(formula) {}
+  explicit ExpressionShape(const Formula&&) = delete;
+  double signed_distance(geometry::Vec2 p) const override { return formula_.evaluate(p.x, p.y); }
+
+private:
+  const Formula& formula_;
 };
 
 } // namespace trime::tracing

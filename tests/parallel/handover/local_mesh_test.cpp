@@ -8,7 +8,6 @@
 #include "support/periodic_shapes.hpp"
 #include "support/plain_shapes.hpp"
 #include "trime/core/error.hpp"
-#include "trime/handover/halo_exchange.hpp"
 
 #include <gtest/gtest.h>
 

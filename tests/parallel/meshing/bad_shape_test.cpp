@@ -2,7 +2,7 @@
 // Shapes of a user's own that fail on one rank alone: an error on all ranks together, and no rank is left waiting.
 #include "trime/core/error.hpp"
 #include "trime/core/log.hpp"
-#include "trime/meshing/make_mesh.hpp"
+#include "trime/meshing/mesher.hpp"
 #include "trime/sizing/size_field.hpp"
 #include "trime/tracing/shape.hpp"
 

@@ -6,7 +6,7 @@
 #include "trime/core/formula.hpp"
 #include "trime/meshing/mesher.hpp"
 #include "trime/shape/region_shape.hpp"
-#include "trime/sizing/expression_size.hpp"
+#include "trime/sizing/size_field.hpp"
 
 #include <gtest/gtest.h>
 

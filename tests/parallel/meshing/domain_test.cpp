@@ -3,7 +3,7 @@
 // error on all ranks.
 #include "support/plain_shapes.hpp"
 #include "trime/core/error.hpp"
-#include "trime/meshing/make_mesh.hpp"
+#include "trime/meshing/mesher.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/core/counters.hpp"
+#include "trime/core/timer.hpp"
 
 #include <gtest/gtest.h>
 

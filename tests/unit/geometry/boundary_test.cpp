@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pieces and loops by themselves.
 #include "core/angle.hpp"
-#include "trime/geometry/segment.hpp"
+#include "trime/geometry/vec2.hpp"
 #include "unit/shape/boundary_checks.hpp"
 
 namespace trime::geometry {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A boundary and a container that do not belong together are refused, with a message that names the place.
-#include "trime/geometry/domain.hpp"
+#include "trime/geometry/boundary.hpp"
 
 #include "support/boundary_shapes.hpp"
 #include "support/periodic_shapes.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/geometry/frame.hpp"
+#include "trime/geometry/lattice.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Images are exact: wrapping any image gives back the canonical point, bit for bit.
 #include "core/random.hpp"
-#include "trime/geometry/frame.hpp"
+#include "trime/geometry/lattice.hpp"
 
 #include <gtest/gtest.h>
 

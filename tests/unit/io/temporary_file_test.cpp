@@ -3,7 +3,7 @@
 
 #include "io/output_files.hpp"
 #include "trime/core/error.hpp"
-#include "trime/io/run_files.hpp"
+#include "trime/io/mesh_file.hpp"
 
 #include "support/temporary_directory.hpp"
 

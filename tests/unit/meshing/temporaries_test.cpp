@@ -2,8 +2,8 @@
 // Objects that keep references do not accept temporaries, which would be gone when they are used.
 #include "sizing/lowered_size.hpp"
 #include "trime/meshing/mesher.hpp"
-#include "trime/sizing/expression_size.hpp"
-#include "trime/tracing/expression_shape.hpp"
+#include "trime/sizing/size_field.hpp"
+#include "trime/tracing/shape.hpp"
 
 #include <type_traits>
 

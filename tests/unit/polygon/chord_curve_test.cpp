@@ -5,7 +5,7 @@
 
 #include "support/boundary_shapes.hpp"
 #include "support/periodic_shapes.hpp"
-#include "trime/geometry/segment.hpp"
+#include "trime/geometry/vec2.hpp"
 
 #include <gtest/gtest.h>
 

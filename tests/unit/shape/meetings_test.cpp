@@ -3,7 +3,7 @@
 #include "core/random.hpp"
 #include "shape/lattice_rings.hpp"
 #include "shape/rules.hpp"
-#include "trime/geometry/frame.hpp"
+#include "trime/geometry/lattice.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The region expression: its values, and what a user reads when it is wrong.
-#include "trime/shape/region.hpp"
+#include "trime/shape/region_shape.hpp"
 
 #include "trime/core/error.hpp"
 #include "unit/shape/boundary_checks.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bounds of a scaled size, and sizes from formulas: what is refused, what is clamped.
 #include "trime/core/error.hpp"
-#include "trime/sizing/expression_size.hpp"
+#include "trime/sizing/size_field.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trime/geometry/frame.hpp"
+
+#include "trime/geometry/lattice.hpp"
 
 #include "trime/core/error.hpp"
 

@@ -1,15 +1,60 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of the result: how a run simplified features of the boundary that are smaller than the triangles.
+// Features of the boundary that are smaller than the triangles: which of them the mesh keeps (options), and what a run
+// did to them and to each loop of the given boundary (result). Plain data.
 #pragma once
 
-#include "trime/boundary/loop_fate.hpp"
 #include "trime/core/types.hpp"
 #include "trime/geometry/vec2.hpp"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace trime::boundary {
+
+/// How the mesher treats parts of the outside that are narrower than the triangles: slits, cracks, walls.
+enum class NarrowOutside {
+  keep,  ///< moves their sides apart where these are nearer than a third of the local size
+  close, ///< makes them a part of the shape
+};
+
+/// Which corners, islands, lakes and narrow parts of the shape the mesh keeps.
+struct FeatureOptions {
+  double corner_angle = 30;  ///< degrees: a vertex of the boundary that turns by more is a corner
+  bool keep_all = false;     ///< keeps every corner, island, lake and narrow part, however small
+  bool refine_narrow = true; ///< lowers a uniform size where the shape is narrower than the triangles
+  double tolerance = 0.1;    ///< in local sizes: how far chords may pass from corners that they leave out
+  double within = 0.5;       ///< in local sizes: how far simplified curves may lie from the given ones
+  NarrowOutside narrow =
+      NarrowOutside::keep; ///< narrow gaps next to components with a perimeter below 5 h are always closed
+};
+
+/// A loop of the shape and the loops of the mesh that follow it.
+struct LoopFate {
+  enum class State {
+    kept, ///< the curve is unchanged, bit for bit; chords may still leave corners out, see FeatureOptions::tolerance
+    simplified, ///< one loop of the mesh follows it and no other
+    split,      ///< several loops of the mesh follow it
+    merged,     ///< a loop of the mesh follows it and others, or a larger part of the shape covers what it enclosed
+    dropped,    ///< the loop and the part of the shape in it are gone
+    filled      ///< a hole that now belongs to the shape
+  };
+  State state = State::kept;
+  std::vector<std::int32_t>
+      tags;              ///< tags of the mesh loops that follow it, beginning with the one that follows most of it
+  geometry::Vec2 place;  ///< its first vertex
+  std::int32_t part = 0; ///< part of its first piece, as an index into Boundary::part_names
+  double area = 0;       ///< area that it encloses; 0 for a band
+  double length = 0;
+  double remaining_length = 0; ///< length of the mesh curves that follow it, at most `length`
+  double largest_deviation =
+      0; ///< distance of these curves from the given boundary, divided by the size that was asked for
+
+  bool is_lost() const { return state == State::merged || state == State::dropped || state == State::filled; }
+};
+
+/// Returns "kept", "simplified", ...
+const char* to_string(LoopFate::State state);
 
 /// A corner of the boundary polygon and its angle on the inside.
 struct SharpCorner {
