@@ -14,7 +14,7 @@ namespace trime::bench {
 
 inline const geometry::Box unit_square{{0, 0}, {1, 1}};
 
-/// Edge length of n equilateral triangles' vertices in the unit square.
+/// Returns the edge length of equilateral triangles with n vertices that fill the unit square.
 inline double spacing_of(std::int64_t n) {
   return std::sqrt(1 / (0.8660254037844386 * static_cast<double>(n)));
 }
@@ -23,7 +23,8 @@ inline double noise(std::uint64_t key, std::uint64_t slot) {
   return 2 * random_unit(7, RandomPurpose::test, key, slot) - 1;
 }
 
-/// Hexagonal lattice, every point moved by up to `jitter` spacings along each axis: like a relaxed mesh at 0.15.
+/// Returns a hexagonal lattice with every point moved by up to `jitter` spacings along each axis. With 0.15 it
+/// resembles a relaxed mesh.
 inline mesh::SiteList jittered_lattice(std::int64_t n, double jitter) {
   const geometry::Lattice lattice(unit_square);
   const double h = spacing_of(n);
@@ -38,7 +39,7 @@ inline mesh::SiteList jittered_lattice(std::int64_t n, double jitter) {
   return sites;
 }
 
-/// Uniform random points.
+/// Returns uniform random points.
 inline mesh::SiteList random_points(std::int64_t n) {
   const geometry::Lattice lattice(unit_square);
   mesh::SiteList sites;
@@ -49,29 +50,31 @@ inline mesh::SiteList random_points(std::int64_t n) {
   return sites;
 }
 
-/// Element size of the graded set: grows with the distance from a point inside; density ratio 900.
+/// Returns the element size of graded_points. It grows with the distance from a point inside; densities differ by a
+/// factor of 900.
 inline double graded_size(geometry::Vec2 p) {
   return 0.001 + 0.03 * geometry::length(p - geometry::Vec2{0.4, 0.45});
 }
 
-/// Random points with density h^-2 for h in proportion to graded_size: a stratified sample, so that the mean is exact.
+/// Returns random points with density h^-2, where h is in proportion to graded_size. The sample is stratified, so the
+/// number has the exact mean.
 inline mesh::SiteList graded_points(std::int64_t n) {
   const geometry::Lattice lattice(unit_square);
   mesh::SiteList sites;
   for (std::uint64_t key = 0; static_cast<std::int64_t>(sites.size()) < n; ++key) {
-    // Log-uniform radius from the centre fits the density h^-2 about: the rest is done by rejection.
+    // A log-uniform radius from the centre fits the density h^-2 roughly; rejection does the rest.
     const double reach = 0.8, core = 0.001 / 0.03;
     const double r = core * (std::exp(std::log(1 + reach / core) * (0.5 + 0.5 * noise(key, 2))) - 1);
     const SinCos turn = sin_cos(pi * noise(key, 3));
     const geometry::Vec2 p = geometry::Vec2{0.4, 0.45} + r * geometry::Vec2{turn.cos, turn.sin};
-    // Radial density of the proposal 1/(core + r), wanted r/(core + r)^2.
+    // The radial density of the proposal is 1/(core + r), the wanted one r/(core + r)^2.
     if (unit_square.contains(p) && 0.5 + 0.5 * noise(key, 4) < r / (core + r))
       sites.push_back({lattice.snap(p)});
   }
   return sites;
 }
 
-/// Factor of graded_size for which n points fill the square: n = integral of 1 / (0.866 h^2).
+/// Returns the factor of graded_size for which n points fill the square: n = integral of 1 / (0.866 h^2).
 inline double graded_factor(std::int64_t n) {
   double sum = 0;
   constexpr int cells = 1000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A hash of what a checkpoint holds, so that damage does not go unseen.
+// A hash of the content of a checkpoint, by which damage is found.
 #pragma once
 
 #include "core/random.hpp"
@@ -10,7 +10,7 @@
 
 namespace trime::checkpoint {
 
-/// Words in their order. Hashes of rows are added up, so that it does not matter which rank has which.
+/// Hashes words in their order. Hashes of rows are added up, so they do not depend on which rank has which row.
 class ContentHash {
 public:
   explicit ContentHash(std::uint64_t seed) : value_(mix_bits(seed)) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The history of a run as columns, one for each member of its records.
+// Stores the history of a run as columns, one for each member of its records.
 #pragma once
 
 #include "checkpoint/content_hash.hpp"
@@ -10,11 +10,11 @@
 
 namespace trime::checkpoint {
 
-/// The group `history`.
+/// Returns the group `history`.
 io::MetadataGroup columns_of(const std::vector<sweep::SweepRecord>& history);
-/// @throws FileError if columns are missing, or not of one length
+/// @throws FileError if columns are missing or have different lengths
 std::vector<sweep::SweepRecord> history_of(const io::Metadata& metadata);
-/// All members of all records.
+/// Adds all members of all records to a hash.
 void add(const std::vector<sweep::SweepRecord>& history, ContentHash& hash);
 
 } // namespace trime::checkpoint

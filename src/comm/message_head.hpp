@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Messages with a size that only the sender knows: the receiver makes room for the head alone.
+// Splits a message into a head of bounded size and the rest, because only the sender knows the size of the whole.
 #pragma once
 
 #include <algorithm>
@@ -11,12 +11,12 @@
 
 namespace trime::comm {
 
-/// [bytes] The first part of a message with the size of all of it before: small enough for MPI to send it at once.
+/// [bytes] Largest size of a head. MPI sends messages of this size at once, without waiting for the receiver.
 inline constexpr std::size_t head_bytes = 4096;
 using HeadSize = std::uint64_t;
 inline constexpr std::size_t most_in_head = head_bytes - sizeof(HeadSize);
 
-/// The head of a message; what does not fit into it is sent by itself.
+/// Returns the head of a message: its size, and as many of its bytes as fit.
 inline std::vector<std::byte> head_of(std::span<const std::byte> data) {
   const HeadSize size = data.size();
   std::vector<std::byte> head(sizeof size + std::min(data.size(), most_in_head));
@@ -25,7 +25,7 @@ inline std::vector<std::byte> head_of(std::span<const std::byte> data) {
   return head;
 }
 
-/// Leaves what is in a received head of the message itself; returns how many bytes are still to come.
+/// Removes the size from a received head, so that only bytes of the message are left. Returns how many bytes follow.
 inline std::size_t open_head(std::vector<std::byte>& head) {
   HeadSize size = 0;
   std::memcpy(&size, head.data(), sizeof size);
@@ -34,7 +34,7 @@ inline std::size_t open_head(std::vector<std::byte>& head) {
   return size - head.size();
 }
 
-/// The bytes that follow the head; may be empty.
+/// Returns the bytes that follow the head; there may be none.
 inline std::span<const std::byte> rest_of(std::span<const std::byte> data) {
   return data.subspan(std::min(data.size(), most_in_head));
 }

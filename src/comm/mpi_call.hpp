@@ -16,7 +16,7 @@ namespace trime::comm {
 /// The kind of exchange that a message belongs to.
 enum Tag : int { tag_known = 101, tag_head = 102, tag_bundle = 103, tag_scan = 104 };
 
-/// The only place that looks at MPI return codes.
+/// Ends the job if an MPI call failed. No other code looks at return codes of MPI.
 inline void check(int code) {
   if (code == MPI_SUCCESS)
     return;
@@ -27,16 +27,16 @@ inline void check(int code) {
   MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ExitCode::internal_error));
 }
 
-/// Largest piece of a message: MPI counts are int. Longer messages travel in several pieces, in order.
+/// [bytes] Largest piece of a message, because MPI counts in int. Longer messages travel in several pieces, in order.
 inline constexpr std::size_t piece_bytes = std::size_t{1} << 30;
 
-/// The handle for a collective call, which is counted.
+/// Returns the handle for a collective call, and counts the call.
 inline MPI_Comm collective(const Communicator::Native& native) {
   native.counters.add(Counter::collectives);
   return native.comm;
 }
 
-/// While it lives, the rank waits for others in a call of MPI.
+/// Lives during a call of MPI, and adds the duration to the time in which this rank waits for others.
 class Wait {
 public:
   explicit Wait(const Communicator::Native& native) : counters_(native.counters), start_(wall_seconds()) {}
@@ -50,13 +50,13 @@ private:
   double start_; // [s]
 };
 
-/// Data that a rank sends to itself is not traffic.
+/// Counts a message. Data that a rank sends to itself does not count.
 inline void count_message(const Communicator::Native& native, int to, std::size_t bytes) {
   if (to != native.rank)
     native.counters.add_message(to, static_cast<std::int64_t>(bytes));
 }
 
-/// A table with a value of each rank.
+/// Returns a table with one value for each rank, and notes its memory.
 template <class T>
 std::vector<T> table_of_ranks(const Communicator& comm) {
   std::vector<T> table(static_cast<std::size_t>(comm.size()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The MPI communicator itself, for io only (HDF5 needs it).
+// Gives the module io the MPI communicator itself, because HDF5 needs it.
 #pragma once
 
 #include "trime/comm/communicator.hpp"

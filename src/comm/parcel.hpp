@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several lists in one message.
+// Packs several lists into one message.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -11,12 +11,12 @@
 
 namespace trime::comm {
 
-/// @brief Lists of trivially copyable values, which are taken out in the order in which they were added. From an empty
-/// parcel come empty lists.
+/// @brief Holds lists of trivially copyable values, which are taken out in the order in which they were added. An empty
+/// parcel gives empty lists.
 class Parcel {
 public:
   Parcel() = default;
-  /// Values that have arrived.
+  /// Unpacks a message that has arrived.
   explicit Parcel(std::vector<std::byte> bytes) : bytes_(std::move(bytes)) {}
 
   template <class T>
@@ -25,7 +25,7 @@ public:
     append(std::as_bytes(std::span(&count, 1)));
     append(std::as_bytes(std::span<const T>(list)));
   }
-  /// @pre T as it was added
+  /// @pre T is the type that was added
   template <class T>
   std::vector<T> take() {
     if (next_ == bytes_.size())
@@ -33,7 +33,7 @@ public:
     const std::uint64_t count = from_bytes<std::uint64_t>(cut(sizeof(std::uint64_t))).front();
     return from_bytes<T>(cut(static_cast<std::size_t>(count) * sizeof(T)));
   }
-  /// Values that are sent.
+  /// Returns the message to be sent.
   std::vector<std::byte> release() { return std::move(bytes_); }
 
 private:
@@ -45,7 +45,7 @@ private:
   }
 
   std::vector<std::byte> bytes_;
-  std::size_t next_ = 0; // that is taken
+  std::size_t next_ = 0; // byte that is taken next
 };
 
 } // namespace trime::comm

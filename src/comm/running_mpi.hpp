@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What must be looked after where MPI was started by another part of the program.
+// Guards against faults of MPI libraries, also where another part of the program started MPI.
 #pragma once
 
 #include <mpi.h>
@@ -12,12 +12,12 @@ inline constexpr int needed_thread_level = MPI_THREAD_SINGLE;
 inline constexpr int needed_thread_level = MPI_THREAD_FUNNELED;
 #endif
 
-/// @brief Keeps Open MPI 4 from its collective file writer `vulcan`, which is known to write wrong data. Works until
-/// the first file is opened by MPI: that is when Open MPI chooses the writer. A choice of the user stays.
+/// @brief Keeps Open MPI 4 from its collective file writer `vulcan`, which is known to write wrong data. Must be called
+/// before MPI opens its first file, because Open MPI chooses the writer then. Keeps a writer that the user has chosen.
 void avoid_wrong_writer();
 
-/// @brief avoid_wrong_writer, and one warning on the standard error if MPI was started for one thread only while OpenMP
-/// has several. @pre MPI is running
+/// @brief Calls avoid_wrong_writer, and warns once on the standard error if MPI was started for one thread only while
+/// OpenMP has several. @pre MPI is running
 void join_running_mpi();
 
 /// @brief Warns once on the standard error if Open MPI 4 has chosen its file writer before avoid_wrong_writer was

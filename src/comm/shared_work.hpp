@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Work that ranks and threads share and whose results every rank needs.
+// Shares work among ranks and threads, and gives all results to every rank.
 #pragma once
 
 #include "comm/agree.hpp"
@@ -14,7 +14,7 @@
 
 namespace trime::comm {
 
-/// The values of all ranks one after the other, on every rank. Collective.
+/// Returns the values of all ranks, one rank after the other, on every rank. Collective.
 template <class T>
 std::vector<T> gather_everywhere(const Communicator& comm, std::vector<T> mine) {
   if (comm.size() == 1)
@@ -36,8 +36,8 @@ std::vector<T> gather_agreed(const Communicator& comm, const Work& work) {
   return from_bytes<T>(*all);
 }
 
-/// @brief gather_in_order, shared among the ranks: the lists that make(k, list) appends to, for k = 0 .. n-1, joined by
-/// rising k, on every rank. Each rank makes a contiguous share. Collective.
+/// @brief As gather_in_order, but shares the work among the ranks: each rank calls make(k, list) for a contiguous share
+/// of k = 0 .. n-1. Returns all lists, joined by rising k, on every rank. Collective.
 /// @param chunk how many successive k one thread takes
 /// @param make thread-safe, does not communicate; what it throws, all ranks throw
 template <class T, class Make>
@@ -49,8 +49,9 @@ std::vector<T> gather_shared(const Communicator& comm, std::ptrdiff_t n, std::pt
   });
 }
 
-/// @brief n results of type T on every rank: work(first, last, results) for runs of `run` results, so that what one of
-/// them leaves for the next does not depend on ranks and threads. Each rank computes a contiguous share. Collective.
+/// @brief Returns n results of type T on every rank. Calls work(first, last, results) for runs of `run` results, so
+/// `work` may carry values from one result of a run to the next: runs do not depend on ranks and threads. Each rank
+/// computes a contiguous share. Collective.
 /// @param work thread-safe, does not communicate; what it throws, all ranks throw
 template <class T, class Work>
 std::vector<T> compute_shared_runs(const Communicator& comm, std::size_t n, std::size_t run, const Work& work) {
@@ -66,7 +67,7 @@ std::vector<T> compute_shared_runs(const Communicator& comm, std::size_t n, std:
   });
 }
 
-/// @brief work(k) for k = 0 .. n-1, of type T, on every rank. Collective.
+/// @brief Returns work(k) of type T for k = 0 .. n-1 on every rank. Collective.
 /// @param work thread-safe, does not communicate; what it throws, all ranks throw
 template <class T, class Work>
 std::vector<T> compute_shared(const Communicator& comm, std::size_t n, const Work& work) {

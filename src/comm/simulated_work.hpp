@@ -9,7 +9,7 @@
 
 namespace trime::comm {
 
-/// While it lives, a rank is in MPI, and its work stands still. May be nested. Does nothing in real runs.
+/// Lives while a rank is in MPI, and stops the clock of its work. May be nested. Does nothing in real runs.
 class InMpi {
 public:
 #ifdef TRIME_SIMULATE
@@ -24,8 +24,8 @@ public:
 };
 
 /// Begins and ends the measurement of the work of this rank. The environment variable TRIME_SIMULATED_WORK names a
-/// directory, which keeps the least times of each rank from run to run; without it each run counts as it is. Do nothing
-/// in real runs.
+/// directory, which keeps the least times of each rank from run to run; without it, the times of this run are used.
+/// Both do nothing in real runs.
 void begin_simulated_work();
 void end_simulated_work();
 

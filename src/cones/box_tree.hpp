@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A hierarchy of boxes over a sequence of items whose neighbours lie close together, eight at a time.
+// A hierarchy of boxes over a sequence of items in which neighbours lie close together. A box contains eight items or
+// eight boxes.
 #pragma once
 
 #include "cones/search_kernel.hpp"
@@ -13,8 +14,8 @@
 
 namespace trime::cones {
 
-/// @brief Runs of eight items are leaves, eight leaves a node, and so on. Each box has a number, the least of its
-/// items. Immutable; searches are thread-safe.
+/// @brief Each run of eight items is a leaf, eight leaves form a node, and so on. Each box stores the least number of
+/// its items. Immutable; searches are thread-safe.
 class BoxTree {
 public:
   static constexpr std::size_t width = box_width;
@@ -28,11 +29,11 @@ public:
   BoxTree() = default;
   BoxTree(BoxTree&&) = default;
   BoxTree& operator=(BoxTree&&) = default;
-  /// @param item_of(k) for the items in their order, thread-safe. O(n), over threads.
+  /// @param item_of(k) returns item k; it is thread-safe. O(n), by all threads.
   template <class ItemOf>
   BoxTree(std::size_t items, const ItemOf& item_of);
 
-  /// The pointers in it stay valid when the tree is moved.
+  /// The levels; their pointers stay valid when the tree is moved.
   const BoxLevels& levels() const { return pointers_; }
   std::size_t memory_bytes() const {
     std::size_t nodes = 0;
@@ -62,7 +63,7 @@ private:
 
   std::size_t items_ = 0;
   std::vector<std::vector<BoxNode>> levels_; ///< from the nodes over leaves to the root
-  BoxLevels pointers_;                       ///< to them
+  BoxLevels pointers_;                       ///< pointers to levels_
 };
 
 inline void BoxTree::include(Item& all, const Item& item) {
@@ -94,7 +95,7 @@ void BoxTree::visit_unless(std::size_t level, std::size_t node, const Skip& skip
   for (std::size_t child = 0; child < width; ++child) {
     const Item item = child_of(levels_[level][node], child);
     if (!(item.box.min.x <= item.box.max.x))
-      return; // the last were before
+      return; // no items follow
     if (skip(item.box, item.number))
       continue;
     const std::size_t below = node * width + child;

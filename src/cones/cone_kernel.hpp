@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Operations of the cells of the size field on lists of cones. They are compiled once for each SIMD level, with the
-// same bits on all.
+// The operations on lists of cones with which the cells of the size field are built. They are compiled once for each
+// SIMD level, and all builds give the same bits.
 #pragma once
 
 #include "core/simd_level.hpp"
@@ -9,18 +9,20 @@
 
 namespace trime::cones {
 
-/// @brief The cones that may be the lowest somewhere in a cell, as arrays side by side: x, y, height, and the value at
-/// each of some points of the cell.
+/// @brief The cones that may be lowest somewhere in a cell, as separate arrays: x, y, height, and the value at each of
+/// some points of the cell.
 ///
-/// Plain arrays, since the kernels are compiled for different processors and must not share any inline function.
+/// The arrays are plain, because the kernels are compiled for different processors and must not share any inline
+/// function.
 struct ConeList {
-  /// The points: 3 x 3 row by row, then the centres of the quarters.
+  /// Numbers of the points: 3 x 3 points row by row, then the centres of the quarters.
   static constexpr int points = 13, center = 4, first_quarter = 9;
   static constexpr int arrays = points + 3;
-  static constexpr std::int64_t padding = 8; ///< behind the last cone up to a multiple of it are cones without effect
+  static constexpr std::int64_t padding =
+      8; ///< cones without effect follow the last one, up to a multiple of this number
 
   double* numbers = nullptr;
-  std::int64_t stride = 0; ///< from array to array
+  std::int64_t stride = 0; ///< distance from array to array
   std::int64_t count = 0;
   double low[points] = {};          ///< least value at a point
   std::int64_t lowest[points] = {}; ///< the first cone with that value
@@ -38,35 +40,35 @@ struct ConePoints {
   double x[8], y[8];
 };
 
-/// A short list of cones that is enough in a cell.
+/// A short list of cones that suffices in a cell.
 struct ConeChoice {
-  static constexpr int most = 14;                  ///< that can be chosen
+  static constexpr int most = 14;                  ///< largest number of chosen cones
   static constexpr std::int64_t most_listed = 512; ///< longer lists are not tried
 
-  double min_x, min_y, max_x, max_y; ///< of the cell
-  double slack;                      ///< how much too high the field may become
-  double bend;                       ///< a quarter of the slope and of the square of the cell's side
+  double min_x, min_y, max_x, max_y; ///< box of the cell
+  double slack;                      ///< largest error of the field, which becomes too high
+  double bend;                       ///< a quarter of the slope times the squared side of the cell
   std::int64_t chosen[most];
 };
 
 struct ConeKernel {
-  /// Sets the padding, and what belongs to the points.
+  /// Sets the padding, and the values at the points.
   void (*evaluate)(ConeList& list, double slope, const ConePoints& points);
 
-  /// @brief The list of a quarter of a cell, with values at its corners and its centre. Left out are cones that are
-  /// covered: another, one of those that are the lowest at one of these points, is lower everywhere in the quarter.
+  /// @brief Makes the list of a quarter of a cell, with values at its corners and its centre. It leaves out covered
+  /// cones. A cone is covered if a cone that is lowest at one of these points is lower everywhere in the quarter.
   ///
-  /// That shows at the corners alone: the points where |p - b| - |p - a| >= c are a convex set for c >= 0 (the inside
-  /// of one branch of a hyperbola). For c < 0 it is asked with 0, which is more.
-  /// @pre `to` has room for all
+  /// It suffices to compare at the corners, because the points where |p - b| - |p - a| >= c form a convex set for c >=
+  /// 0 (the inside of one branch of a hyperbola). For c < 0 the test uses 0, which is stricter.
+  /// @pre `to` has room for all cones
   void (*pass_on)(const ConeList& from, int quarter, ConeList& to);
 
-  /// @brief Chooses up to `most` cones that are together higher than all by `slack` at most, and not at the corners.
-  /// Returns how many, or 0 if they are not enough.
+  /// @brief Chooses up to `most` cones whose envelope is exact at the corners and elsewhere at most `slack` too high.
+  /// Returns their number, or 0 if that many do not suffice.
   ///
-  /// A cone at b may be left out in favour of one at a if, at the corners, that one is higher by at most the slack
-  /// minus bend / d, where d is the distance from b to the cell. Reason: |p - a| - |p - b| + |p - centre|^2 / (2 d) is
-  /// convex, so it is largest at the corners.
+  /// A cone at a may replace a cone at b if, at the corners, it is higher by at most slack - bend / d, where d is the
+  /// distance from b to the cell. Reason: |p - a| - |p - b| + |p - centre|^2 / (2 d) is convex, so it is largest at the
+  /// corners.
   int (*choose)(const ConeList& list, int most, ConeChoice& choice);
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The source of the three builds of cone_kernel.hpp. All is in an anonymous namespace and calls nothing outside, so
-// that no code for a newer processor can be linked into the rest of the program. One lane is one cone.
+// The kernels of cone_kernel.hpp, which are compiled three times. Everything is in an anonymous namespace and calls
+// nothing outside, so that no code for a newer processor can be linked into the rest of the program. One lane is one
+// cone.
 #pragma once
 
 #include "cones/cone_kernel.hpp"
@@ -37,7 +38,7 @@ public:
   }
 
   static void pass_on(const ConeList& from, int quarter, ConeList& to) {
-    const int first = (quarter & 1) + 3 * (quarter >> 1); // of its corners
+    const int first = (quarter & 1) + 3 * (quarter >> 1); // number of its first corner
     const int points[5] = {first, first + 1, first + 3, first + 4, ConeList::first_quarter + quarter};
     constexpr int new_points[5] = {0, 2, 6, 8, ConeList::center};
     Winner winners[5];
@@ -59,7 +60,7 @@ public:
       const V at[4] = {load(source[0] + k), load(source[1] + k), load(source[2] + k), load(source[3] + k)};
       const V height = load(source[7] + k);
       M covered = lane_numbers() + k >= from.count;
-      M spared{}; // two that are alike must not cover each other: a winner is covered by those before it alone
+      M spared{}; // two equal cones must not cover each other, so only an earlier winner may cover a winner
       for (int w = 0; w < winner_count; ++w) {
         const V higher = winners[w].height - height, margin = lanes::select(higher < V{}, higher, V{});
         spared |= lane_numbers() + k == winners[w].cone;
@@ -160,18 +161,17 @@ private:
     for (int c = 0; c < 4; ++c)
       winner.at[c] = list.at(points[c])[cone];
   }
-  /// Is it lower at the corners, and by more than -margin?
+  /// Returns whether the winner is lower at the corners by more than -margin.
   TRIME_INLINE static M is_below(const Winner& winner, const V (&at)[4], V margin) {
     return (winner.at[0] <= at[0] + margin) & (winner.at[1] <= at[1] + margin) & (winner.at[2] <= at[2] + margin) &
            (winner.at[3] <= at[3] + margin);
   }
 
-  /// Returns by how much other cones may be higher at the corners, so that they are too high by at most the slack
-  /// inside.
+  /// Returns by how much another cone may be higher at the corners, so that inside it is too high by at most the slack.
   TRIME_INLINE static V slack_of(const ConeChoice& choice, V x, V y) {
     const V zero{}, dx = larger(zero, larger(choice.min_x - x, x - choice.max_x));
     const V dy = larger(zero, larger(choice.min_y - y, y - choice.max_y)), squared = dx * dx + dy * dy;
-    return choice.slack - choice.bend / lanes::square_root(squared + 1e-300); // of a cone in the cell: none
+    return choice.slack - choice.bend / lanes::square_root(squared + 1e-300); // negative if the cone lies in the cell
   }
   TRIME_INLINE static V larger(V a, V b) { return lanes::select(a < b, b, a); }
 
@@ -181,7 +181,7 @@ private:
         return true;
     return false;
   }
-  /// Chooses a cone and marks what it covers.
+  /// Chooses a cone and marks the cones that it covers.
   TRIME_INLINE static void take(const ConeList& list, ConeChoice& choice, int& count, std::int64_t cone,
                                 const double* slack, double* open) {
     choice.chosen[count++] = cone;

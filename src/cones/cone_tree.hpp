@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lower envelope of cones of one slope, min over k of slope |x - apex_k| + height_k, by branch and bound: nearest
-// neighbours with additive weights, and plain nearest neighbours (slope 1, heights 0).
+// The lower envelope of cones of one slope, min over k of slope |x - apex_k| + height_k, by branch and bound. With
+// slope 1 and heights 0 it finds nearest neighbours; other heights are additive weights.
 #pragma once
 
 #include "cones/box_tree.hpp"
@@ -24,19 +24,19 @@ struct Cone {
 class ConeTree {
 public:
   ConeTree() = default;
-  /// O(n), about 60 bytes per cone.
+  /// Takes O(n) time and about 60 bytes per cone.
   ConeTree(const std::vector<Cone>& cones, double slope);
 
-  /// @brief The least of `bound` and the values of all cones at p. A good bound makes it faster. O(log n) for points
-  /// near a few cones.
-  /// @param slack share by which the answer may be too high, for points that are nearly as near to many cones
+  /// @brief Returns the least of `bound` and the values of all cones at p. A low bound makes it faster. O(log n) for
+  /// points near a few cones.
+  /// @param slack share by which the answer may be too high; it saves time where many cones are almost equally low
   double value(geometry::Vec2 p, double bound = std::numeric_limits<double>::infinity(), double slack = 0) const;
 
   /// Returns the index of the cone that is lowest at p, or -1 if no cone is below `bound` there.
   LocalIndex lowest(geometry::Vec2 p, double bound) const;
 
-  /// Calls visit(index) for the cones, in the order of the tree, without those below nodes with skip(box, least): box
-  /// of their apexes, least of their heights.
+  /// Calls visit(index) for the cones in the order of the tree. Leaves out the cones of nodes for which skip(box,
+  /// least) is true, where `box` contains their apexes and `least` is the least of their heights.
   template <class Skip, class Visit>
   void visit_unless(const Skip& skip, const Visit& visit) const {
     tree_.visit_unless(skip, [&](std::size_t k) { visit(static_cast<LocalIndex>(k)); });
@@ -45,7 +45,7 @@ public:
   /// Appends to `found` the indices of all cones whose value at p is at most `bound`, in the order of the tree.
   void collect(geometry::Vec2 p, double bound, std::vector<LocalIndex>& found) const;
 
-  /// In the order of the tree.
+  /// The cones in the order of the tree.
   std::span<const Cone> cones() const { return cones_; }
   std::size_t memory_bytes() const {
     return cones_.capacity() * sizeof(Cone) + leaves_.capacity() * sizeof(ConeLeaf) + tree_.memory_bytes();
@@ -55,8 +55,8 @@ private:
   LowestCone find(geometry::Vec2 p, double bound, double slack) const;
 
   std::vector<Cone> cones_;      // along a Hilbert curve
-  std::vector<ConeLeaf> leaves_; // the same, eight at a time
-  BoxTree tree_;                 // of apexes, with heights
+  std::vector<ConeLeaf> leaves_; // the same cones, eight at a time
+  BoxTree tree_;                 // boxes of apexes, with heights
   double slope_ = 1;
   SearchKernel kernel_ = search_kernel(simd_level());
 };

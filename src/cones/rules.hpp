@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tuned numbers of the cells that answer for the lower envelope of cones.
+// The tuned numbers of the module cones.
 #pragma once
 
 #include <cstddef>
 
 namespace trime::cones {
 
-/// The numbers of cones. Cells only make look-ups faster: none of these numbers changes an answer.
+/// Numbers for the cells of cones. Cells only make look-ups faster: these numbers change no result.
 struct ConeRules {
-  /// [cones] Largest number in the list of a leaf; for the smallest cells with more, the tree is searched. Not
+  /// [cones] Largest number in the list of a leaf. In the smallest cells with more cones, the tree is searched. Not
   /// measured.
   static constexpr std::size_t most_in_leaf = 24;
 };

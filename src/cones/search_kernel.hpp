@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Searches for the nearest segment and the lowest cone in a hierarchy of boxes. Built once for each SIMD level, with
-// the same bits on all. Plain arrays, since the kernels must not share any inline function.
+// Searches for the nearest segment and the lowest cone in a hierarchy of boxes. The kernels are compiled once for each
+// SIMD level, and all builds give the same bits. They use plain arrays, because they must not share any inline
+// function.
 #pragma once
 
 #include "core/simd_level.hpp"
@@ -11,7 +12,7 @@ namespace trime::cones {
 
 inline constexpr int box_width = 8; ///< boxes of a node, items of a leaf
 
-/// The boxes below a node, each with the least number of its items; those that are missing are infinitely far away.
+/// The boxes below a node, each with the least number of its items. Missing boxes are infinitely far away.
 struct alignas(64) BoxNode {
   double min_x[box_width], min_y[box_width], max_x[box_width], max_y[box_width], number[box_width];
 };
@@ -28,14 +29,14 @@ struct alignas(64) SegmentLeaf {
   double a_x[box_width], a_y[box_width], d_x[box_width], d_y[box_width], inverse_square[box_width];
 };
 
-/// The cones of a leaf; infinitely high in unused lanes.
+/// The cones of a leaf. They are infinitely high in unused lanes.
 struct alignas(64) ConeLeaf {
   double x[box_width], y[box_width], height[box_width];
 };
 
 struct NearestPoint {
   double x, y, squared_distance;
-  std::int64_t segment; ///< on which it lies; the leaf, times 8, and the place in it
+  std::int64_t segment; ///< the segment on which it lies: 8 times the leaf, plus the place in it
 };
 
 struct LowestCone {
@@ -45,12 +46,12 @@ struct LowestCone {
 
 struct SearchKernel {
   /// @brief Replaces `best` by a point of a segment that is nearer to (x, y), if there is one.
-  /// @param share of the squared distance of the best point within which boxes are looked at
+  /// @param boxes are searched within this share of the squared distance of the best point
   void (*nearest)(const BoxLevels& levels, const SegmentLeaf* leaves, double x, double y, double share,
                   NearestPoint& best);
 
   /// @brief Replaces `best` by the lowest cone at (x, y), if there is one below it.
-  /// @param share of the value of the best cone below which boxes are looked at
+  /// @param boxes are searched below this share of the value of the best cone
   void (*lowest)(const BoxLevels& levels, const ConeLeaf* leaves, double slope, double x, double y, double share,
                  LowestCone& best);
 };

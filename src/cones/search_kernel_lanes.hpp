@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The source of the three builds of search_kernel.hpp. All is in an anonymous namespace and calls nothing outside, so
-// that no code for a newer processor can be linked into the rest of the program. One lane is one box, segment or cone.
+// The kernels of search_kernel.hpp, which are compiled three times. Everything is in an anonymous namespace and calls
+// nothing outside, so that no code for a newer processor can be linked into the rest of the program. One lane is one
+// box, segment or cone.
 #pragma once
 
 #include "cones/search_kernel.hpp"
@@ -23,7 +24,8 @@ public:
   static void lowest(const BoxLevels& levels, const ConeLeaf* leaves, double slope, double x, double y, double share,
                      LowestCone& best) {
     const double inverse_slope = 1 / slope;
-    // Squared distance within which a cone of this height is lower than the best; negative if none is.
+    // Returns the squared distance within which a cone of this height is lower than the best; negative if it is nowhere
+    // lower.
     const auto limit = [&](auto least) {
       const auto reach = (best.value * share - least) * inverse_slope;
       return reach > 0 ? reach * reach : reach * 0 - 1;
@@ -44,7 +46,7 @@ private:
     return v;
   }
 
-  /// Depth first, the nearest box first. The limit may fall while leaves are visited.
+  /// Searches depth first, the nearest box first. The limit may fall while leaves are visited.
   template <class Limit, class Visit>
   TRIME_INLINE static void search(const BoxLevels& levels, double x, double y, const Limit& limit, const Visit& visit) {
     if (levels.count == 0)
@@ -105,7 +107,7 @@ private:
     }
   }
 
-  /// Roots are taken only for cones that are lower than the best before this leaf.
+  /// Computes square roots only for cones that are lower than the best one before this leaf.
   TRIME_INLINE static void visit(const ConeLeaf& leaf, std::int64_t index, double slope, double x, double y,
                                  LowestCone& best) {
     const double inverse_slope = 1 / slope, bound = best.value;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cells of a quadtree of the size field: how they are stored, and how those of some blocks are built.
+// Stores the cells of a quadtree of the size field, and builds the cells of blocks.
 #pragma once
 
 #include "cones/cone_kernel.hpp"
@@ -20,13 +20,13 @@ using CornerValues = std::array<double, 4>;
 /// The input of a quadtree of the size field.
 struct SizeSource {
   const ConeTree& cones;
-  double slope;      ///< of the cones
+  double slope;      ///< slope of the cones
   double cap;        ///< the field is the lower of the envelope and this
-  geometry::Box box; ///< where it is defined
+  geometry::Box box; ///< where the field is defined
   double least_side; ///< smaller cells are not split
 };
 
-/// A cell: column and row among the squares of its level, each half as wide as those of the level before.
+/// A cell by its level, column and row. Squares of a level are half as wide as those of the level before.
 struct CellPlace {
   int level;
   std::int64_t i, j;
@@ -34,15 +34,16 @@ struct CellPlace {
   CellPlace quarter(int k) const { return {level + 1, 2 * i + (k & 1), 2 * j + (k >> 1)}; }
 };
 
-/// Squares over a rectangle, divided by halves. A point has one set of bits as corner of cells of any level.
+/// A grid of squares over a rectangle that are halved from level to level. A corner has the same bits in cells of all
+/// levels.
 struct CellGrid {
   geometry::Vec2 origin;
-  double side; ///< of the squares of level 0, the blocks
+  double side; ///< side of the squares of level 0, the blocks
 
   double side_at(int level) const {
     return level < 0 ? side * static_cast<double>(1 << -level) : side / static_cast<double>(1 << level);
   }
-  /// Lower left corner.
+  /// Returns the lower left corner.
   geometry::Vec2 corner(const CellPlace& place) const {
     return origin + side_at(place.level) * geometry::Vec2{static_cast<double>(place.i), static_cast<double>(place.j)};
   }
@@ -53,16 +54,16 @@ struct CellGrid {
 
 /// A node of a tree is the index of its children, or the complement of a leaf.
 using CellNode = std::int32_t;
-/// Two levels at once, row by row; a leaf one level down stands in four places.
+/// The children two levels down, row by row. A leaf one level down occurs in four places.
 using CellChildren = std::array<CellNode, 16>;
 
-/// A cell that is not split: either bilinear between its corners, or the lower envelope of a few cones.
+/// A cell that is not split. It is either bilinear between its corners, or the lower envelope of a few cones.
 struct CellLeaf {
-  static constexpr int kinds = 16; ///< two of bilinear cells, the others of 1, 2, ... pairs of cones
+  static constexpr int kinds = 16; ///< two kinds of bilinear cells; the others have 1, 2, ... pairs of cones
   static constexpr std::size_t most_numbers = (std::size_t{1} << 31) / kinds;
   static constexpr int most_cones = 2 * (kinds - 2);
 
-  std::size_t first; ///< of its numbers: corner values, or pairs of cones
+  std::size_t first; ///< index of its first number: numbers are corner values or pairs of cones
   int kind;
 
   static CellLeaf of(CellNode node) {
@@ -73,12 +74,12 @@ struct CellLeaf {
   CellNode node() const { return ~static_cast<CellNode>(first * kinds + static_cast<std::size_t>(kind)); }
 
   bool is_bilinear() const { return kind < 2; }
-  /// For a bilinear leaf: the number of levels by which it is larger than a child of the node where it is found.
+  /// Returns by how many levels a bilinear leaf is larger than a child of the node where it is found.
   int levels_up() const { return kind; }
   std::size_t pairs() const { return static_cast<std::size_t>(kind) - 1; }
 };
 
-/// Two cones side by side.
+/// Two cones, which are evaluated together.
 struct ConePair {
   using Lanes = lanes::Types<2>::Doubles;
   static constexpr std::size_t numbers = 6; ///< two x, two y, two heights
@@ -88,14 +89,14 @@ struct ConePair {
     std::memcpy(&v, from, sizeof v);
     return v;
   }
-  /// With the bits of Cone::value.
+  /// Returns the values of both cones, with the bits of Cone::value.
   static Lanes values(const double* pair, Lanes x, Lanes y, double slope) {
     const Lanes dx = x - load(pair), dy = y - load(pair + 2);
     return slope * lanes::square_root(dx * dx + dy * dy) + load(pair + 4);
   }
 };
 
-/// The value at p of the lowest of some pairs of cones, or `cap` if that is lower.
+/// Returns the value at p of the lowest of some pairs of cones, or `cap` if that is lower.
 inline double lowest_cone(const double* pairs, std::size_t count, geometry::Vec2 p, double slope, double cap) {
   const ConePair::Lanes x{p.x, p.x}, y{p.y, p.y};
   ConePair::Lanes low{cap, cap};
@@ -104,10 +105,10 @@ inline double lowest_cone(const double* pairs, std::size_t count, geometry::Vec2
   return std::min(low[0], low[1]);
 }
 
-/// Where in the cell they are lowest.
+/// Returns the point of the cell where the pairs of cones are lowest.
 geometry::Vec2 lowest_point(const double* pairs, std::size_t count, const geometry::Box& cell, double slope);
 
-/// Some blocks with the cells below them, with indices of their own.
+/// Some blocks with the cells below them, with separate indices.
 struct CellPart {
   std::vector<CellNode> roots; ///< of the blocks, row by row
   std::vector<CellChildren> children;
@@ -115,21 +116,22 @@ struct CellPart {
   double least = std::numeric_limits<double>::infinity(), largest = 0; ///< bounds of the field
 };
 
-/// Builds groups of blocks, top down. Every cell passes on to its quarters only those cones that can be the lowest
-/// somewhere in them, so that lists are short and no tree of cones is asked again.
+/// Builds groups of blocks from the top down. Every cell passes to its quarters only the cones that can be lowest
+/// somewhere in them, so lists are short and the tree of cones is not searched again.
 class CellBuilder {
 public:
   struct Limits {
     double tolerance; ///< largest error of a cell, as a share of the value
-    int most_levels;  ///< below a block; even
-    int most_cones;   ///< in a cell
-    double highest;   ///< what cells of cones must not exceed
+    int most_levels;  ///< largest number of levels below a block; even
+    int most_cones;   ///< largest number of cones in a cell
+    double highest;   ///< largest value allowed in cells of cones
   };
   CellBuilder(const SizeSource& source, const CellGrid& grid, const Limits& limits)
       : source_(source), grid_(grid), limits_(limits), kernel_(cone_kernel(simd_level())),
         levels_(static_cast<std::size_t>(limits.most_levels) + top + 1) {}
 
-  /// The blocks of the cell, of level <= 0. Those in columns and rows from `columns` and `rows` on are left out.
+  /// Returns the blocks of a cell. Leaves out blocks whose column is at least `columns`, or whose row is at least
+  /// `rows`. @pre the level of the cell is at most 0
   CellPart build(const CellPlace& place, std::int64_t columns, std::int64_t rows);
 
 private:
@@ -137,11 +139,11 @@ private:
   /// The cell of a level that is being built.
   struct Level {
     ConeList cones;
-    std::vector<double> numbers; ///< of the cones
+    std::vector<double> numbers; ///< numbers of the cones
 
     void reserve(std::int64_t count);
   };
-  /// A node of a plain quadtree; two levels at once come later.
+  /// A node of a plain quadtree, before two levels are joined.
   using Quarters = std::array<CellNode, 4>;
 
   ConeList& cones_of(const CellPlace& place, std::int64_t room = 0);
@@ -165,7 +167,7 @@ private:
   std::vector<Quarters> quarters_;
   ConeChoice choice_;
   CellPart part_;
-  std::int64_t first_column_ = 0, first_row_ = 0, columns_ = 0, rows_ = 0; ///< of blocks
+  std::int64_t first_column_ = 0, first_row_ = 0, columns_ = 0, rows_ = 0; ///< range of blocks
 };
 
 } // namespace trime::cones

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lower envelope of cones over a rectangle as a quadtree for fast look-up: cells with a few cones, which are exact,
-// and bilinear cells where many cones make one smooth field.
+// The lower envelope of cones over a rectangle, as a quadtree for fast look-up. Cells with a few cones are exact; where
+// many cones form a smooth field, cells are bilinear.
 #pragma once
 
 #include "cones/size_cells.hpp"
@@ -14,24 +14,23 @@ namespace trime::cones {
 class SizeQuadtree {
 public:
   using Source = SizeSource;
-  /// Largest error of a bilinear cell at the middles of its edges and quarters and in its centre, as a share of the
-  /// value.
+  /// Largest relative error of a bilinear cell in its centre and at the middles of its edges and quarters.
   static constexpr double tolerance = 0.01;
   /// Number of blocks along the longer side of the box; each block is a separate quadtree.
   static constexpr int blocks_along = 64;
   static constexpr int most_levels = 20; ///< below a block
-  static constexpr int most_cones = 12;  ///< in a cell that is not split for them
+  static constexpr int most_cones = 12;  ///< a cell with more cones is split
 
   /// @brief Distributes groups of blocks over the ranks and threads; every rank gets the whole tree. Collective.
   SizeQuadtree(const comm::Communicator& comm, const Source& source);
 
-  /// Value at p, or at the nearest point of the box.
+  /// Returns the value at p, or at the nearest point of the box.
   double value(geometry::Vec2 p) const;
   double least() const { return least_; }
   double largest() const { return largest_; }
   std::size_t memory_bytes() const;
 
-  /// @brief Calls visit(cell, values) for every cell that is not split, and once more for the lowest point of each cell
+  /// @brief Calls visit(cell, values) for every cell that is not split. Also calls it for the lowest point of each cell
   /// of cones, as a cell without extent.
   template <class Visit>
   void for_each_leaf(const Visit& visit) const {
@@ -40,7 +39,7 @@ public:
   }
 
 private:
-  /// The blocks of a cell of this level are built together.
+  /// All blocks in a cell of this level are built together.
   static constexpr int group_level = -2;
   void assemble(const comm::Communicator& comm, std::vector<CellPart> mine);
   std::vector<CellPart> gather_parts(const comm::Communicator& comm, std::vector<CellPart> mine) const;
@@ -55,12 +54,12 @@ private:
 
   geometry::Box box_;
   CellGrid grid_;
-  double inverse_side_ = 1; ///< of a block
+  double inverse_side_ = 1; ///< inverse side of a block
   double slope_, cap_;
   std::size_t nx_ = 1, ny_ = 1, groups_x_ = 1, groups_y_ = 1;
-  std::vector<CellNode> roots_; ///< of the blocks, row by row
+  std::vector<CellNode> roots_; ///< roots of the blocks, row by row
   std::vector<CellChildren> children_;
-  std::vector<double> numbers_; ///< of the leaves
+  std::vector<double> numbers_; ///< numbers of the leaves
   double least_ = std::numeric_limits<double>::infinity(), largest_ = 0;
 };
 
@@ -69,7 +68,7 @@ void SizeQuadtree::visit_leaves(CellNode node, const CellPlace& place, const Vis
   if (node >= 0) {
     const CellChildren& children = children_[node];
     for (int k = 0; k < 4; ++k) {
-      const int first = 2 * (k & 1) + 8 * (k >> 1); // of the children in this quarter
+      const int first = 2 * (k & 1) + 8 * (k >> 1); // first child in this quarter
       const CellPlace quarter{place.level + 1, 2 * place.i + (k & 1), 2 * place.j + (k >> 1)};
       if (children[first] < 0 && children[first] == children[first + 1])
         visit_leaves(children[first], quarter, visit);

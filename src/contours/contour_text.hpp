@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the text of contours and point files: lines, numbers, and messages for users whose text is something else.
+// Reads the text of contours and point files: lines and numbers. Its messages help users whose file holds something
+// else.
 #pragma once
 
 #include "trime/geometry/vec2.hpp"
@@ -12,19 +13,20 @@
 
 namespace trime::contours {
 
-/// Without blanks at both ends; a carriage return counts as a blank.
+/// Returns the text without blanks at both ends; a carriage return counts as a blank.
 std::string_view trimmed(std::string_view text);
 
-/// @brief Refuses text that is not made of bytes for characters (UTF-16, binary data). @throws GeometryError
+/// @brief Refuses text in UTF-16 and binary data. @throws GeometryError
 void check_encoding(std::string_view text, const std::string& source);
 
-/// @brief Takes the first line off `text`; it ends at a line feed, at a carriage return, or at both.
+/// @brief Removes the first line from `text` and returns it. A line ends at a line feed, at a carriage return, or at
+/// both.
 ///
 /// Carriage returns right before a line feed belong to it; any other one ends a line by itself.
 std::string_view take_line(std::string_view& text);
 
-/// Calls visit(content without comment, number from 1, does the line part rings?) for every line. Blank lines and
-/// those that start with '>' (GMT) part rings; their content is empty.
+/// Calls visit(content, number, separates) for every line: its content without comment, its number from 1, and whether
+/// it separates rings. Blank lines and lines that start with '>' (GMT) do, and have no content.
 template <class Visit>
 void for_each_line(std::string_view text, const Visit& visit) {
   if (text.starts_with("\xEF\xBB\xBF")) // byte order mark of some editors
@@ -38,18 +40,18 @@ void for_each_line(std::string_view text, const Visit& visit) {
   }
 }
 
-/// Reads the lines of one text, one after the other.
+/// Reads the vertices of one text, line by line.
 class VertexReader {
 public:
   explicit VertexReader(const std::string& source) : source_(source) {}
 
-  /// @brief The vertex of a line with content; nothing for a line of column names, 'x y' or the like, before all
-  /// vertices.
+  /// @brief Returns the vertex of a line with content, or nothing if the line holds column names such as 'x y' before
+  /// all vertices.
   ///
   /// Exponents may be written with e or d (Fortran). A number too small for double precision is 0.
   /// @throws GeometryError `source:line: ...` with what to do about it
   std::optional<geometry::Vec2> read(std::string_view line, int number);
-  /// For the user: of a line of column names.
+  /// Warnings for the user about a line of column names.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
 private:
@@ -60,20 +62,19 @@ private:
   bool first_ = true; // no line with content so far
 };
 
-/// @brief The lines of a text of numbers, one after the other, as words. Comments begin with '#'; lines without words
-/// are left out.
+/// @brief Splits a text of numbers into lines and words. Comments begin with '#'; lines without words are skipped.
 class WordLines {
 public:
   /// @param separators separate words, in addition to blanks and tabs
   WordLines(std::string_view text, const std::string& source, std::string_view separators);
 
-  /// Goes to the next line with words. @return is there one?
+  /// Goes to the next line with words. Returns false if there is none.
   bool next();
-  int number() const { return number_; } ///< of the line, from 1
+  int number() const { return number_; } ///< number of the line, from 1
   const std::vector<std::string_view>& words() const { return words_; }
-  /// @brief Word k as a number. @throws GeometryError naming `what` was expected
+  /// @brief Returns word k as a number. @throws GeometryError that says that `what` was expected
   double number_at(std::size_t k, const char* what) const;
-  /// Reads an integer that fits into an int.
+  /// Returns word k as an integer that fits into an int.
   int integer_at(std::size_t k, const char* what) const;
   [[noreturn]] void refuse(const std::string& what) const;
 

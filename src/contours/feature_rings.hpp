@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rings out of the features of maps: polygons, lines that are closed or together close rings, and an attribute of the
-// features as markers and names.
+// Makes rings from the features of maps: from polygons, and from lines that are closed or together form rings. An
+// attribute of the features gives markers and names.
 #pragma once
 
 #include "contours/ring_builder.hpp"
@@ -14,27 +14,27 @@
 
 namespace trime::contours {
 
-/// Collects the rings of the features of a map. Knows neither JSON nor shapefiles.
+/// Collects the rings of the features of a map, regardless of the file format.
 class FeatureRings {
 public:
   enum class Kind { polygon, line };
 
-  /// @param contour with its source; gets rings, names and warnings, and outlives this object
-  /// @param attribute that names the boundary; empty: none
+  /// @param contour names its source; receives rings, names and warnings, and outlives this object
+  /// @param attribute the attribute that names the boundary; empty if there is none
   FeatureRings(Contour& contour, std::string attribute);
 
-  /// @brief A ring, or a line that may be open, of the present feature. @pre not empty
+  /// @brief Adds a ring, or a line that may be open, to the current feature. @pre it has a vertex
   void add(Kind kind, std::vector<FilePoint> vertices);
-  /// A geometry that bounds nothing, and the name of its type.
+  /// Records a geometry that bounds nothing, for a warning with its type.
   void skip(const std::string& type, int line);
-  /// An attribute that some feature has, whatever its value.
+  /// Records the name of an attribute that some feature has, whatever its value.
   void has_attribute(const std::string& name);
-  /// @brief Ends the present feature. @param value of its attribute; none: it has none
+  /// @brief Ends the current feature. @param value the value of the attribute, if the feature has it
   /// @throws GeometryError for coordinates that are too large, or a ring with fewer than three distinct vertices
   void end_feature(const std::optional<std::string>& value = {});
   /// @brief Joins open lines and gives the rings their markers.
-  /// @param expected what the file should have held, for the message if it holds no vertex
-  /// @throws GeometryError also for lines that stay open; ConfigError if no feature has the attribute
+  /// @param expected what the file should contain, for the message if it has no vertex
+  /// @throws GeometryError also if lines stay open; ConfigError if no feature has the attribute
   void finish(const char* expected);
 
 private:
@@ -54,9 +54,9 @@ private:
   std::string attribute_;
   std::vector<Chain> of_feature_;
   std::vector<Chain> open_lines_;
-  std::vector<int> open_markers_;      // of each open line
-  std::map<std::string, int> numbers_; // of the values of the attribute, from 1
-  std::vector<std::string> values_;    // by number - 1
+  std::vector<int> open_markers_;      // marker of each open line
+  std::map<std::string, int> numbers_; // numbers of the values of the attribute, from 1
+  std::vector<std::string> values_;    // values by number - 1
   std::set<std::string> attributes_;
   int skipped_ = 0, skipped_line_ = 0;
   std::string skipped_type_;

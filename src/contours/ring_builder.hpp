@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rings out of vertices in reading order, whatever the format they come from.
+// Makes rings from vertices in reading order, regardless of the file format.
 #pragma once
 
 #include "trime/contours/contour.hpp"
 
 namespace trime::contours {
 
-/// Knows about repeated vertices and rings that are too short, not about text.
+/// Makes the rings of a contour. Removes repeated vertices and refuses rings that are too short.
 class RingBuilder {
 public:
-  /// @param contour with its source; gets rings and warnings, and outlives this object
+  /// @param contour names its source; receives rings and warnings, and outlives this object
   explicit RingBuilder(Contour& contour) : contour_(contour) {}
 
   /// @param marker of the edge from this vertex to the next
@@ -17,7 +17,7 @@ public:
   void add(geometry::Vec2 p, int line, int marker = 0);
   /// @throws GeometryError for a ring with fewer than three distinct vertices
   void end_ring();
-  /// @param expected what the text should have held, for the message if it holds no vertex
+  /// @param expected what the text should contain, for the message if it has no vertex
   /// @throws GeometryError
   void finish(const char* expected);
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The numbers of the module contours: limits of coordinates, and where the normalisation puts them.
+// The tuned numbers of the module contours: limits of coordinates, and the size of normalised contours.
 #pragma once
 
 namespace trime::contours {
 
-/// The numbers of reading contours.
+/// Limits and sizes for contours.
 struct ContourRules {
-  /// [1] A contour that is normalised takes this share of the container's shorter side, so that a margin is left on all
-  /// sides.
+  /// [1] Size of a normalised contour over the shorter side of the container; it leaves a margin on all sides.
   static constexpr double normalized_share = 0.8;
-  /// [file units] Larger coordinates of a contour are refused, as those of a container are: squares stay finite.
-  /// Not measured.
+  /// [file units] Larger coordinates are refused in contours and containers, so that squares of coordinates stay
+  /// finite. Not measured.
   static constexpr double largest_coordinate = 1e30;
-  /// [file units] A contour that is normalised is so wide or high at least: its inverse stays finite. Not measured.
+  /// [file units] Smallest width or height of a contour that is normalised, so that its inverse stays finite. Not
+  /// measured.
   static constexpr double smallest_normalized = 1e-30;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rings out of numbered vertices and the segments between them, as files of meshing programs have them.
+// Makes rings from numbered vertices and the segments between them, which files of meshing programs contain.
 #pragma once
 
 #include "trime/geometry/vec2.hpp"
@@ -11,10 +11,10 @@ namespace trime::contours {
 
 struct FileVertex {
   geometry::Vec2 position;
-  int line;   ///< in the file
-  int number; ///< that the file gives it
+  int line;   ///< line in the file
+  int number; ///< number in the file
 };
-/// Between two vertices, by their places in the list.
+/// A segment between two vertices, by their indices in the list.
 struct FileSegment {
   int from, to;
   int marker;
@@ -28,9 +28,9 @@ struct RingVertex {
   int marker;
 };
 
-/// @brief Rings, each without a vertex that it visits twice; where rings meet in a vertex they stay apart. Vertices at
-/// one place are one. Segments without length, or given before, are left out with a warning. O(n log n)
-/// @throws GeometryError `source:line: ...` where a number of segments that is odd meets
+/// @brief Joins segments into rings. No ring visits a vertex twice; rings that meet in a vertex stay separate. Vertices
+/// at one place are one vertex. Segments without length and repeated segments are left out with a warning. O(n log n)
+/// @throws GeometryError `source:line: ...` where an odd number of segments meets
 std::vector<std::vector<RingVertex>> rings_of_segments(const std::vector<FileVertex>& vertices,
                                                        std::vector<FileSegment> segments, const std::string& source,
                                                        std::vector<std::string>& warnings);

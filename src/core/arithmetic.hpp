@@ -14,9 +14,9 @@ namespace trime {
 
 static_assert(FLT_EVAL_METHOD == 0, "doubles must be computed as doubles: on i386 compile with -mfpmath=sse -msse2");
 
-/// @brief Says what is wrong with the arithmetic of the calling thread; empty if nothing is. Flags of the compiler and
-/// libraries that were loaded may change it (icpx has fast maths by default, some libraries flush small numbers to
-/// zero).
+/// @brief Describes what is wrong with the arithmetic of the calling thread; empty if nothing is wrong. Compiler flags
+/// and loaded libraries may change the arithmetic: icpx has fast maths by default, and some libraries flush small
+/// numbers to zero.
 std::string arithmetic_fault();
 
 } // namespace trime

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers of twice the precision of double, as sums of two doubles: inside of the elementary functions, and for their
-// tables, which the compiler computes.
+// Numbers with twice the precision of double, stored as sums of two doubles. The elementary functions use them, and the
+// compiler computes the tables of these functions with them.
 #pragma once
 
 namespace trime {
@@ -10,26 +10,26 @@ struct DoubleDouble {
   double hi = 0, lo = 0;
 };
 
-/// @brief a + b exactly, where a is 0 or |a| >= |b|. (Dekker 1971)
+/// @brief Returns a + b exactly. (Dekker 1971) @pre a is 0, or |a| >= |b|
 constexpr DoubleDouble fast_two_sum(double a, double b) {
   const double sum = a + b;
   return {sum, b - (sum - a)};
 }
 
-/// @brief a + b exactly. (Knuth 1969)
+/// @brief Returns a + b exactly. (Knuth 1969)
 constexpr DoubleDouble two_sum(double a, double b) {
   const double sum = a + b, part = sum - a;
   return {sum, (a - (sum - part)) + (b - part)};
 }
 
-/// @brief a as the sum of two doubles of at most 26 bits, for |a| < 2^996. (Veltkamp 1968)
+/// @brief Splits a into the sum of two doubles of at most 26 bits. (Veltkamp 1968) @pre |a| < 2^996
 constexpr DoubleDouble halves(double a) {
   const double wide = a * 0x1.0000002p+27, high = wide - (wide - a);
   return {high, a - high};
 }
 
-/// @brief a b exactly, while no part of it overflows or underflows. (Dekker 1971) No fused operation: not every
-/// processor has one, and a function in its place is slow.
+/// @brief Returns a b exactly, if no part of it overflows or underflows. (Dekker 1971) It uses no fused multiply-add:
+/// not every processor has one, and a function that replaces it is slow.
 constexpr DoubleDouble two_product(double a, double b) {
   const double product = a * b;
   const DoubleDouble s = halves(a), t = halves(b);
@@ -60,7 +60,7 @@ constexpr DoubleDouble operator*(DoubleDouble a, double b) {
   return fast_two_sum(p.hi, p.lo + a.lo * b);
 }
 
-/// @brief One step of long division after the quotient in double: relative error about 2^-102.
+/// @brief Improves the quotient in double by one step of long division; the relative error is about 2^-102.
 constexpr DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
   const double q = a.hi / b.hi;
   const DoubleDouble p = two_product(q, b.hi);

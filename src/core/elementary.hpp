@@ -3,13 +3,13 @@
 // library's functions differ in the last bit between its versions and processors.
 #pragma once
 
-/// Only + - * /, sqrt, comparisons and the bits of a double go in, so compilers, levels of optimisation and processors
-/// make no difference. Errors are below 0.52 units in the last place of the result. Special values
-/// (infinities, NaN, zeros with their sign, the table of pow) are those of the C standard, annex F. No flag of the
-/// floating-point environment is promised, errno is not set, and rounding must be to nearest.
+/// The functions use only + - * /, sqrt, comparisons and the bits of a double, so their results do not depend on
+/// compiler, optimisation or processor. Errors are below 0.52 units in the last place of the result. Special values
+/// (infinities, NaN, zeros with their sign, the table of pow) are those of the C standard, annex F. The floating-point
+/// flags are unspecified, and errno is not set. @pre the rounding mode is to nearest
 namespace trime::elementary {
 
-/// @brief Any finite argument is reduced by as many bits of 2/pi as it needs.
+/// @brief Reduces any finite argument with as many bits of 2/pi as it needs.
 double sin(double x);
 double cos(double x);
 double tan(double x);
@@ -24,14 +24,14 @@ double sinh(double x);
 double cosh(double x);
 double tanh(double x);
 
-double log(double x); ///< the natural one
+double log(double x); ///< natural logarithm
 double log2(double x);
 double log10(double x);
 double asinh(double x);
 double acosh(double x);
 double atanh(double x);
 
-/// @brief x to the power y; squares, 1/x and square roots are rounded to nearest.
+/// @brief Returns x to the power y. Squares, 1/x and square roots are rounded to nearest.
 double pow(double x, double y);
 
 } // namespace trime::elementary

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts that the sources of the elementary functions share: exp and log with more bits than a double has.
+// Functions that the sources of the elementary functions share, such as exp and log with more bits than a double has.
 #pragma once
 
 #include "core/double_double.hpp"
@@ -14,24 +14,24 @@ namespace trime::elementary {
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// (value.hi + value.lo) 2^exponent
+/// The number (value.hi + value.lo) 2^exponent.
 struct Scaled {
   DoubleDouble value;
   int exponent = 0;
 };
 
-/// @brief 2^n for -1022 <= n <= 1023.
+/// @brief Returns 2^n. @pre -1022 <= n <= 1023
 constexpr double power_of_two(int n) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(n + 1023) << 52);
 }
 
-/// @brief The nearest integer, halves to even, for |x| < 2^51.
+/// @brief Returns the nearest integer, halves to even. @pre |x| < 2^51
 inline double nearest(double x) {
   constexpr double shift = 0x1.8p+52;
   return (x + shift) - shift;
 }
 
-/// @brief The sum coefficient[0] + q (coefficient[1] + q (...)).
+/// @brief Returns coefficient[0] + q (coefficient[1] + q (...)).
 template <std::size_t count>
 constexpr double polynomial(const std::array<double, count>& coefficient, double q) {
   double sum = coefficient[count - 1];
@@ -40,16 +40,16 @@ constexpr double polynomial(const std::array<double, count>& coefficient, double
   return sum;
 }
 
-/// @brief s as a double, rounded once also where that is no normal number. Requires 0.5 <= s.value < 4.
+/// @brief Returns s as a double. It is rounded only once, also if the result is denormal. @pre 0.5 <= s.value < 4
 double rounded(const Scaled& s);
 
-/// @brief exp(a) with a relative error of about 2^-60, for |a| < 1200; its value lies in [0.99, 2.01].
+/// @brief Returns exp(a) with a relative error of about 2^-60 and a `value` in [0.99, 2.01]. @pre |a| < 1200
 Scaled exp_parts(DoubleDouble a);
 
-/// @brief log(x) with a relative error of about 2^-67, for finite x > 0.
+/// @brief Returns log(x) with a relative error of about 2^-67. @pre x is finite, x > 0
 DoubleDouble log_parts(double x);
 
-/// @brief The root of a, normal and positive, with a relative error of about 2^-100.
+/// @brief Returns the square root of a with a relative error of about 2^-100. @pre a is normal and positive
 DoubleDouble root(DoubleDouble a);
 
 } // namespace trime::elementary

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A list that several threads make together; its order is that of a single thread.
+// Lets several threads make one list together, in the order in which a single thread would make it.
 #pragma once
 
 #include "core/thread_loop.hpp"

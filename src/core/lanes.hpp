@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several doubles side by side (vector extension of g++ and clang++). Every lane has the bits that scalar code would
-// have: nothing is contracted, sums run over one lane only. Loads are explicit: gather instructions are slow on common
-// processors. Everything is inlined by force, so that code for one processor never ends up in a program path of
-// another.
+// Computes with several doubles at once, by the vector extension of g++ and clang++. Every lane gets the bits of scalar
+// code: multiplications and additions are not fused, and a sum runs over one lane only. Loads are explicit, because
+// gather instructions are slow on common processors. Everything is inlined by force, so that no code for one processor
+// is used on another.
 #pragma once
 
 #include <cstdint>
 #include <cstring>
 
 #if defined(__AVX__)
-#include <immintrin.h> // takes a second to parse
+#include <immintrin.h> // takes a second of the build
 #elif defined(__SSE2__)
 #include <emmintrin.h>
 #endif
@@ -24,7 +24,7 @@ struct Types {
   using Mask [[gnu::vector_size(8 * n)]] = std::int64_t; // -1 where true
 };
 
-/// The result of a comparison of V.
+/// The type of a comparison of V.
 template <class V>
 struct MaskOf {
   using Type = decltype(V{} < V{});
@@ -32,7 +32,7 @@ struct MaskOf {
 template <class V>
 using Mask = typename MaskOf<V>::Type;
 
-// One lane: plain numbers, for the scalar paths that share formulas with the vectors.
+// These overloads take plain numbers, so that scalar code shares its formulas with the vectors.
 TRIME_INLINE double select(bool mask, double a, double b) {
   return mask ? a : b;
 }
@@ -66,7 +66,7 @@ TRIME_INLINE V square_root(V v) {
   return r;
 }
 
-/// The larger of each lane; b where they do not compare.
+/// Returns the larger value of each lane, or b where one of them is NaN.
 template <class V>
 TRIME_INLINE V larger(V a, V b) {
 #ifdef __SSE2__
@@ -84,7 +84,7 @@ TRIME_INLINE V larger(V a, V b) {
   return a > b ? a : b;
 }
 
-/// The smaller of each lane; b where they do not compare.
+/// Returns the smaller value of each lane, or b where one of them is NaN.
 template <class V>
 TRIME_INLINE V smaller(V a, V b) {
 #ifdef __SSE2__
@@ -94,7 +94,7 @@ TRIME_INLINE V smaller(V a, V b) {
   return a < b ? a : b;
 }
 
-/// One bit a lane.
+/// Returns one bit for each lane.
 template <class M>
 TRIME_INLINE unsigned bits(M mask) {
   constexpr int n = sizeof(M) / 8;
@@ -116,13 +116,13 @@ TRIME_INLINE unsigned bits(M mask) {
   return result;
 }
 
-/// The x and the y of n pairs.
+/// The first and the second numbers of n pairs.
 template <class V>
 struct Pairs {
   V x, y;
 };
 
-/// n pairs of doubles from n addresses.
+/// Loads n pairs of doubles from n addresses.
 template <class V>
 TRIME_INLINE Pairs<V> load_pairs(const double* const (&from)[sizeof(V) / 8]) {
   constexpr int n = sizeof(V) / 8;
@@ -149,13 +149,13 @@ TRIME_INLINE Pairs<V> load_pairs(const double* const (&from)[sizeof(V) / 8]) {
   }
 }
 
-/// Nearest integer of |v| <= 2^51, ties to even, as in round_to_integer.
+/// Returns the nearest integers, ties to even, as round_to_integer does. @pre |v| <= 2^51
 template <class V>
 TRIME_INLINE V nearest(V v) {
   return (v + 0x1.8p52) - 0x1.8p52;
 }
 
-/// Multiples of 2^-32 as integers, as FixedSum rounds its terms. @pre |v| < 2^18
+/// Rounds to integer multiples of 2^-32, as FixedSum rounds its terms. @pre |v| < 2^18
 template <class V>
 TRIME_INLINE Mask<V> fixed_point(V v) {
   constexpr std::int64_t origin = 0x4338000000000000; // bits of 1.5 * 2^52

@@ -10,15 +10,14 @@ namespace trime {
 /// threads), ascending. Returns {0} if the system does not know.
 std::vector<int> usable_processors();
 
-/// @brief Starts the threads of the loops to come (thread_loop.hpp). A thread that starts where another one of them
-/// runs goes to a processor where none does, looked for from the `from`-th usable one on. Nothing happens where there
-/// are too few processors, or where threads are bound from outside.
+/// @brief Starts the threads of all later loops (thread_loop.hpp). If two threads start on one processor, moves one of
+/// them to a free processor; the search begins at the `from`-th usable one. Does nothing if there are too few
+/// processors, or if OpenMP settings or the launcher bind the threads.
 ///
 /// Why: the system starts a thread where its process runs if the other processors are busy, as they are while MPI
-/// starts. It leaves it there for tens of milliseconds, in which two threads take turns. Threads that move stay free to
-/// go elsewhere afterwards.
-/// @pre threads >= 1, from >= 0. Cost: about 0.1 ms for each thread, 4 ms where threads have to
-/// go apart.
+/// starts. It leaves it there for tens of milliseconds, during which two threads share one processor. Threads that were
+/// moved are not bound: the system may move them again.
+/// @pre threads >= 1, from >= 0. Cost: about 0.1 ms for each thread, 4 ms where threads must move.
 void spread_threads(int threads, int from);
 
 } // namespace trime

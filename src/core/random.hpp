@@ -17,12 +17,12 @@ constexpr std::uint64_t mix_bits(std::uint64_t z) {
   return z ^ (z >> 31);
 }
 
-/// 64 random bits for (seed, purpose, key, slot).
+/// Returns 64 random bits for (seed, purpose, key, slot).
 constexpr std::uint64_t random_bits(std::uint64_t seed, RandomPurpose purpose, std::uint64_t key, std::uint64_t slot) {
   return mix_bits(mix_bits(mix_bits(mix_bits(seed) ^ static_cast<std::uint64_t>(purpose)) ^ key) ^ slot);
 }
 
-/// Uniform in [0, 1) with 53 bits.
+/// Returns a uniform random number in [0, 1) with 53 bits.
 constexpr double random_unit(std::uint64_t seed, RandomPurpose purpose, std::uint64_t key, std::uint64_t slot) {
   return static_cast<double>(random_bits(seed, purpose, key, slot) >> 11) * 0x1p-53;
 }

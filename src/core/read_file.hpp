@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bytes of a file that a user has named.
+// Reads a file that a user has named.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Named numbers in which the state of a run is kept. A class lists its members once, for keeping and for restoring.
+// Keeps the state of a run as named numbers for a checkpoint. A class lists its members once, for saving and for
+// restoring.
 #pragma once
 
 #include "trime/core/error.hpp"
@@ -16,18 +17,18 @@ namespace trime {
 /// Integers and floating-point numbers by name.
 using StateNumbers = std::map<std::string, std::variant<std::int64_t, double>>;
 
-/// @brief Shows members to the numbers of a state: keeps them, or sets them to what was kept.
+/// @brief Copies members into the numbers of a state, or back.
 class StateFields {
 public:
-  /// Keeps the members in `numbers`, which outlives this object.
+  /// Copies members into `numbers`, which must outlive this object.
   static StateFields keeping(StateNumbers& numbers) { return {&numbers, nullptr}; }
-  /// Sets the members to what `numbers` has, which outlives this object.
+  /// Sets members from `numbers`, which must outlive this object.
   static StateFields restoring(const StateNumbers& numbers) { return {nullptr, &numbers}; }
 
   bool restores() const { return from_ != nullptr; }
 
-  /// @brief One member: an integer, a bool, an enum, a double or a FixedSum.
-  /// @throws FileError when it restores, and there is no number of this name and type
+  /// @brief Saves or restores one member: an integer, a bool, an enum, a double or a FixedSum.
+  /// @throws FileError if it restores, and `numbers` has no number of this name and type
   template <class T>
   void field(const std::string& name, T& member) {
     if constexpr (std::is_same_v<T, FixedSum>) {

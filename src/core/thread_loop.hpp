@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The only way in which this program uses threads: a loop over items in which each item writes to its own place. The
-// body must not call MPI. It should not throw; if it does (no memory), one exception leaves the loop.
+// The only way in which this program uses threads: a loop over items, in which each item writes to its own elements.
+// The body must not call MPI. It should not throw; if it does (for lack of memory), the loop throws one of the
+// exceptions.
 #pragma once
 
 #include <omp.h>
@@ -16,7 +17,7 @@
 
 namespace trime {
 
-/// Threads that a loop will use.
+/// Returns how many threads a loop will use.
 inline int thread_count() {
   return omp_get_max_threads();
 }
@@ -26,12 +27,12 @@ inline void set_thread_count(int threads) {
   omp_set_num_threads(threads);
 }
 
-/// Distance in bytes between memory that different threads write to: two cache lines, since processors fetch them in
+/// [bytes] Distance between memory that different threads write to: two cache lines, because processors fetch them in
 /// pairs.
 inline constexpr std::size_t bytes_apart = 128;
 
-/// @brief One T for each thread that a loop will use, apart in memory: threads that write to the same cache line wait
-/// for each other.
+/// @brief Holds one T for each thread that a loop will use. They lie apart in memory, because threads that write to the
+/// same cache line wait for each other.
 /// @pre set_thread_count is not called while it lives, and no loop inside another one uses it
 template <class T>
 class PerThread {
@@ -54,7 +55,7 @@ class PerThread {
 public:
   PerThread(const PerThread&) = delete;
   PerThread& operator=(const PerThread&) = delete;
-  /// Each is made of the same arguments.
+  /// Makes each T from the same arguments.
   template <class... Arguments>
   requires(!(... ||
              std::same_as<std::remove_cvref_t<Arguments>, PerThread>)) explicit PerThread(Arguments&&... arguments) {
@@ -64,7 +65,7 @@ public:
       slots_.emplace_back(arguments...);
   }
   T& operator[](int thread) { return slots_[static_cast<std::size_t>(thread)].value; }
-  /// All of them, by thread.
+  /// Iterate over all T, by thread.
   auto begin() { return Iterator<Slot, T>{slots_.data()}; }
   auto end() { return Iterator<Slot, T>{slots_.data() + slots_.size()}; }
   auto begin() const { return Iterator<const Slot, const T>{slots_.data()}; }
@@ -74,9 +75,9 @@ private:
   std::vector<Slot> slots_;
 };
 
-/// The items [0, n) of a loop, a range for each thread. A thread that is done with its own range takes from those of
-/// others. While all threads are as quick, the same items come to the same thread in loop after loop. So they are in
-/// its caches, and in the memory of its socket.
+/// Shares the items [0, n) of a loop among threads: each has a range, and a thread that has finished its own takes
+/// items from those of others. While all threads are equally fast, each thread gets the same items in every loop. So
+/// these items are in its caches and in the memory of its socket.
 class ItemRanges {
 public:
   ItemRanges(std::ptrdiff_t n, int threads, std::ptrdiff_t chunk)
@@ -89,7 +90,7 @@ public:
     }
   }
 
-  /// Calls work(begin, end) for parts of the items until all of them are taken.
+  /// Calls work(begin, end) for parts of the items until all items are taken.
   template <class Work>
   void take(int thread, const Work& work) {
     const std::size_t first = static_cast<std::size_t>(thread), count = ranges_.size();
@@ -104,7 +105,7 @@ public:
   }
 
 private:
-  /// First chunk of a thread's range. The calling thread, which begins first, has the first range.
+  /// Returns the first chunk of a thread's range. The calling thread, which begins first, has the first range.
   static std::ptrdiff_t first_of(int thread, int threads, std::ptrdiff_t chunks) {
     return (chunks * thread + threads - 1) / threads;
   }
@@ -116,8 +117,8 @@ private:
   std::vector<Range> ranges_;
 };
 
-/// Calls body(item, thread) for item in [0, n), `chunk` items at a time, on any thread (see ItemRanges). Rethrows the
-/// exception of the lowest item that throws, after all others are done: the same one on any number of threads.
+/// Calls body(item, thread) for item in [0, n), `chunk` items at a time, on any thread (see ItemRanges). After all
+/// items are done, rethrows the exception of the lowest item that threw: the same one on any number of threads.
 template <class Body>
 void thread_loop(std::ptrdiff_t n, int chunk, const Body& body) {
   std::exception_ptr thrown;
@@ -144,8 +145,8 @@ void thread_loop(std::ptrdiff_t n, int chunk, const Body& body) {
     std::rethrow_exception(thrown);
 }
 
-/// @brief As above, while the calling thread does `work`, which may call MPI but must not throw; it joins the loop
-/// afterwards.
+/// @brief As thread_loop, but the calling thread first does `work`, which may call MPI but must not throw; then it
+/// joins the loop.
 template <class Work, class Body>
 void thread_loop_beside(const Work& work, std::ptrdiff_t n, const Body& body) {
   std::exception_ptr thrown;
@@ -169,7 +170,8 @@ void thread_loop_beside(const Work& work, std::ptrdiff_t n, const Body& body) {
     std::rethrow_exception(thrown);
 }
 
-/// Sum (mod 2^64) of term(item) over items [0, n): the same for any threads. The terms must not throw.
+/// Returns the sum (mod 2^64) of term(item) over the items [0, n). It does not depend on the number of threads. The
+/// terms must not throw.
 template <class Term>
 std::uint64_t thread_sum(std::size_t n, const Term& term) {
   constexpr std::size_t few = 4096;

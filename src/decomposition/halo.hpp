@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ghost sites: each rank subscribes to bins of foreign tiles, and in a periodic container to images of bins, its own
-// among them. Their owners send the sites of these bins at every refresh; the receivers move them to their images.
-// Subscriptions persist and grow on request. Knows nothing of triangles.
+// Ghost sites. Each rank subscribes to bins of foreign tiles and, in a periodic container, to images of bins (also of
+// its own). Their owners send the sites of these bins at every refresh; the receivers move them to their images.
+// Subscriptions persist and grow on request. This file knows nothing of triangles.
 //
 // Words, seen from this rank: it *imports* the bins that it subscribes to and *exports* those that others subscribe to.
 // An owned site in an exported bin is a *mirror*, its copy elsewhere a *ghost*.
@@ -15,17 +15,18 @@
 
 namespace trime::decomposition {
 
-/// A message to the owner of a ghost about it: both are named by their present places.
+/// A message about a ghost to its owner. It names the ghost, and the site that causes the message, by their present
+/// places.
 struct GhostNews {
   geometry::Vec2 ghost, cause;
 };
 
 class Halo {
 public:
-  /// @pre both outlive this object
+  /// @pre both arguments outlive this object
   Halo(const comm::Communicator& comm, const mesh::TileGrid& grid);
 
-  /// @brief Starts again for a partition: subscribes to all foreign bins and images within `margin` bins of an owned
+  /// @brief Drops all subscriptions, and subscribes to all foreign bins and images within `margin` bins of an owned
   /// tile. Collective.
   void reset(const Partition& partition, int margin);
 
@@ -33,20 +34,20 @@ public:
   /// only. Two messages per neighbour: site counts per bin, then the sites (24 bytes each).
   void refresh(mesh::BinnedPoints& points);
 
-  /// @brief Subscribes to more bins, fetches their sites with what moves and sizes have made of them, and adds them
-  /// behind the other ghosts. Data go between those who ask and those whom they ask. Collective.
+  /// @brief Subscribes to more bins, fetches their sites at their present places with their sizes, and adds them behind
+  /// the other ghosts. Collective. Only ranks that ask, and their owners, exchange data.
   /// @param missing bins of foreign tiles or of images that are not known; the same one may be in the list twice
-  /// @param sizes null, or h by local index, which grows with the ghosts
+  /// @param sizes null, or h by local index; gets the h of the new ghosts
   void extend(mesh::BinnedPoints& points, std::vector<mesh::BinRef> missing, std::vector<double>* sizes);
 
   /// @brief Fetches the positions of the ghosts again, after their owners moved them without sorting, and the drift of
-  /// their tiles (see BinnedPoints). Sends one message per neighbour, 16 bytes per ghost and 8 per tile. There are two
-  /// calls: between them ghosts must not be read. Collective among neighbours only. @pre no periods
+  /// their tiles (see BinnedPoints). Sends one message per neighbour, 16 bytes per ghost and 8 per tile. Ghosts must
+  /// not be read between begin_positions and finish_positions. Collective among neighbours only. @pre no periods
   void begin_positions(const mesh::BinnedPoints& points);
   void finish_positions(mesh::BinnedPoints& points);
 
-  /// @brief The values of all ghosts, in ghost order, from the values of the owned sites. @pre refresh was called and
-  /// no site has changed since. Collective among neighbours only.
+  /// @brief Sends the values of owned sites to all ranks that have ghosts of them. Returns the values of the ghosts, in
+  /// their order. @pre no site has changed since refresh was called. Collective among neighbours only.
   std::vector<GlobalId> exchange(const mesh::BinnedPoints& points, std::span<const GlobalId> owned_values) const;
   std::vector<double> exchange(const mesh::BinnedPoints& points, std::span<const double> owned_values) const;
 
@@ -62,11 +63,11 @@ private:
     int rank;
     std::vector<mesh::BinRef> bins; // ascending
   };
-  /// Where the sites of all bins of a peer lie, until sites are sorted or the halo grows.
+  /// The local indices of the sites of all bins of a peer. They are valid until sites are sorted or the halo grows.
   struct Route {
     int rank;
     std::vector<mesh::SiteRange> ranges;
-    std::vector<LocalIndex> tiles; // known tiles that these bins are of
+    std::vector<LocalIndex> tiles; // known tiles to which these bins belong
     std::size_t site_count;
   };
   static Route route_of(const mesh::BinnedPoints& points, const Peer& peer, bool exported);
@@ -82,8 +83,8 @@ private:
   const mesh::TileGrid* grid_;
   Partition partition_;
   std::vector<Peer> imports_, exports_;  // ascending by rank
-  std::vector<Route> inward_, outward_;  // of the imports and of the exports
-  std::vector<comm::Message> positions_; // on their way, one message per import
+  std::vector<Route> inward_, outward_;  // routes of the imports and of the exports
+  std::vector<comm::Message> positions_; // messages on their way, one per import
   comm::Communicator::Exchange exchange_;
 };
 

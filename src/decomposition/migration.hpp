@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sites that have left the tiles of their owner travel to the new owner.
+// Sends sites that have left the tiles of their owner to their new owner.
 #pragma once
 
 #include "decomposition/partition.hpp"
@@ -10,7 +10,8 @@
 
 namespace trime::decomposition {
 
-/// @brief Sites of each owned tile, summed over ranks: the weights of a partition. O(tiles) memory. Collective.
+/// @brief Counts the sites of each tile over all ranks. The counts are the weights of a partition. O(tiles) memory.
+/// Collective.
 std::vector<std::int64_t> tile_weights(const comm::Communicator& comm, const mesh::TileGrid& grid,
                                        std::span<const mesh::Site> sites);
 
@@ -19,7 +20,7 @@ std::vector<std::int64_t> tile_weights(const comm::Communicator& comm, const mes
 std::vector<std::int64_t> fit_tiles(const comm::Communicator& comm, mesh::TileGrid& grid,
                                     std::span<const mesh::Site> sites);
 
-/// @brief Gives every site to the owner of its tile. Sites that stay keep their order and position in the list's front;
+/// @brief Sends every site to the owner of its tile. Sites that stay keep their order at the front of the list;
 /// arrivals follow, ordered by sending rank. Collective.
 void migrate(const comm::Communicator& comm, const mesh::TileGrid& grid, const Partition& partition,
              mesh::SiteList& sites);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who owns which tiles: one contiguous range of tile numbers (Hilbert order) per rank.
+// The owners of the tiles: each rank owns one contiguous range of tile numbers, in the order of the Hilbert curve.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -10,18 +10,19 @@
 
 namespace trime::decomposition {
 
-/// Replicated: ranks + 1 integers. Ranks may own nothing.
+/// The ranges of all ranks, replicated: ranks + 1 integers. A rank may own nothing.
 class Partition {
 public:
-  /// @brief Ranges of about equal weight. Tile t goes to rank floor(ranks * m / total), m being the weight before the
-  /// middle of t: monotone, so the ranges are contiguous. If all weights are zero the tiles are shared out evenly.
+  /// @brief Makes ranges of about equal weight. Tile t goes to rank floor(ranks * m / total), where m is the weight
+  /// before the middle of t; m rises with t, so ranges are contiguous. If all weights are zero, all ranks get equally
+  /// many tiles.
   Partition(std::span<const std::int64_t> tile_weights, int ranks);
-  /// Tiles of equal weight.
+  /// Makes ranges of tiles of equal weight.
   Partition(LocalIndex tiles, int ranks);
 
   LocalIndex first_tile(int rank) const { return starts_[static_cast<std::size_t>(rank)]; }
   LocalIndex last_tile(int rank) const { return starts_[static_cast<std::size_t>(rank) + 1]; }
-  /// O(log ranks).
+  /// Returns the owner of a tile. O(log ranks).
   int owner(LocalIndex tile) const;
   std::size_t memory_bytes() const { return starts_.capacity() * sizeof(LocalIndex); }
   int ranks() const { return static_cast<int>(starts_.size()) - 1; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Circumcentres with proven error bounds.
+// Computes circumcentres with proven error bounds.
 #pragma once
 
 #include "trime/geometry/vec2.hpp"
@@ -28,7 +28,7 @@ inline bool any(Mask2 m) {
   return (m[0] | m[1]) != 0;
 }
 
-/// Number of positions in [begin, end) at squared distance at most r2 from center.
+/// Counts the positions in [begin, end) at squared distance at most r2 from center.
 inline std::ptrdiff_t count_within(const geometry::Vec2* begin, const geometry::Vec2* end, geometry::Vec2 center,
                                    double r2) {
   const Double2 c{center.x, center.y}, limit = both(r2);
@@ -48,16 +48,16 @@ inline std::ptrdiff_t count_within(const geometry::Vec2* begin, const geometry::
 
 constexpr double epsilon = 0x1p-53;
 
-/// Circumcentre of the origin, a and b.
+/// A circumcentre of the origin, a and b.
 struct Vertex {
   double x, y, error, r2;
   bool sound;
 };
 
-/// c = (|a|^2 b - |b|^2 a) turned, over 2 a x b. Rounding errors are 4 eps S in the two sums of products of the
-/// numerators and 2 eps D in the determinant, where S and D are the sums of magnitudes. So each coordinate of c is
-/// exact to (4 eps S / 2 + |c| (2 eps D)) / det plus a few eps |c|. Everything is rounded up generously. It is not
-/// sound if the determinant is as small as its error.
+/// Returns the circumcentre c = (|a|^2 b - |b|^2 a) turned by 90 degrees, over 2 a x b. Rounding errors are 4 eps S in
+/// the two sums of products of the numerators and 2 eps D in the determinant, where S and D are the sums of magnitudes.
+/// So each coordinate of c is exact to (4 eps S / 2 + |c| (2 eps D)) / det plus a few eps |c|. All bounds are rounded
+/// up generously. They do not hold if the determinant is as small as its error.
 inline Vertex circumcenter(double ax, double ay, double bx, double by) {
   const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by;
   const double axby = ax * by, aybx = ay * bx, determinant = axby - aybx;

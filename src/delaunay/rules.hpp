@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tuned numbers of the module delaunay. None of them can change a star that a mesh uses, only the time that it
+// The tuned numbers of the module delaunay. None of them can change a star of a mesh; they change only the time that it
 // takes.
 #pragma once
 
@@ -7,14 +7,14 @@
 
 namespace trime::delaunay {
 
-/// The numbers of TileWrapper: how far it looks for candidates, and where groups of sites pay.
+/// The numbers of TileWrapper, which say how far it looks for candidates.
 struct WrapRules {
-  /// [spacings] How far beyond the box of a group candidates are looked for first: enough in a relaxed mesh. Not
-  /// measured.
+  /// [spacings] First distance beyond the box of a group in which candidates are searched; it suffices in a relaxed
+  /// mesh. Not measured.
   static constexpr double reach_relaxed = 1.5;
-  /// [spacings] The next longer reach: enough for most sites of a random start. Not measured.
+  /// [spacings] Next distance; it suffices for most sites of a random start. Not measured.
   static constexpr double reach_random = 2.7;
-  /// [spacings] The longest reach; what needs more is left to the search of single stars. Not measured.
+  /// [spacings] Longest distance; stars that need more are searched one by one. Not measured.
   static constexpr double reach_longest = 4;
 };
 

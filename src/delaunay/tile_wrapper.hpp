@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stars of many sites of a tile at once: groups of sites that lie together share their candidates (wrap.hpp).
+// Computes the stars of many sites of a tile at once. Groups of nearby sites share their candidates (wrap.hpp).
 #pragma once
 
 #include "delaunay/star_table.hpp"
@@ -14,54 +14,54 @@
 
 namespace trime::delaunay {
 
-/// Chooses the first of three reaches: the one that most stars need, from what the last ones needed.
+/// Chooses with which of three reaches a search begins: the one that most of the last stars needed.
 class ReachChoice {
 public:
-  /// 0, 1 or 2, longer ones last.
+  /// The number of the reach: 0, 1 or 2, in rising order.
   std::size_t level() const { return level_; }
-  /// @param stars that were computed @param larger those of them that needed a longer reach
+  /// @param stars number of computed stars @param larger number of these that needed a longer reach
   void learn(std::size_t stars, std::size_t larger);
 
 private:
   std::size_t level_ = 0;
-  double stars_ = 0, larger_ = 0; // since the last change
+  double stars_ = 0, larger_ = 0; // counts since the last change
 };
 
-/// Where ties are everywhere, as in a lattice, groups are left alone for a while: longer each time.
+/// Skips groups for a while where almost all stars have ties, as in a lattice. The pause becomes longer each time.
 class TiePause {
 public:
-  /// Is the next group left alone? It is counted.
+  /// Returns whether the next group is skipped, and counts it.
   bool skips_group();
-  /// @param stars that were computed @param undecided those of them that float32 did not decide
+  /// @param stars number of computed stars @param undecided number of these that float32 could not decide
   void learn(std::size_t stars, std::size_t undecided);
 
 private:
-  int left_ = 0; // groups that are still left alone
-  int last_ = 0; // how many were, last time
+  int left_ = 0; // groups that are still to be skipped
+  int last_ = 0; // length of the last pause
 };
 
-/// The caps of the stars of a tile that are to be computed; 0: not wanted, or done.
+/// The caps of the wanted stars of a tile; 0 for stars that are not wanted or are done.
 struct WantedStars {
-  std::span<double> caps; ///< of the sites of the tile
-  LocalIndex first = 0;   ///< site of the tile
+  std::span<double> caps; ///< caps by site of the tile
+  LocalIndex first = 0;   ///< first site of the tile
 
   double& cap(LocalIndex i) const { return caps[static_cast<std::size_t>(i - first)]; }
 };
 
-/// Work space of one thread.
+/// Computes stars on one thread, and holds its work space.
 class TileWrapper {
 public:
   TileWrapper(const mesh::BinnedPoints& points, StarTable& stars, const geometry::Lattice& lattice, SimdLevel level);
 
-  /// @brief Computes and stores the stars of sites of a tile, as far as they can be proven; makes them certain.
-  /// @param caps for each site of the tile the cap of its star, 0: not wanted; becomes 0 where the star is done
-  /// @return number of stars that are not what they were
+  /// @brief Computes the stars of sites of a tile. Stores those that it can prove, and makes them certain.
+  /// @param caps the cap of the star of each site of the tile, 0 if it is not wanted; becomes 0 when the star is done
+  /// @return number of stars that have changed
   std::int64_t compute(LocalIndex tile, std::span<double> caps);
 
 private:
-  /// Sites that lie together, and the box that holds them.
+  /// Nearby sites, and the box that holds them.
   struct Group {
-    std::size_t begin, end; // in order_
+    std::size_t begin, end; // range of order_
     geometry::Box box;
   };
 
@@ -87,7 +87,7 @@ private:
 
   // Data of the current tile.
   WantedStars wanted_;
-  double spacing_ = 0; // the root of the area of a site
+  double spacing_ = 0; // square root of the area per site
   std::vector<LocalIndex> order_, again_;
   std::int64_t changed_ = 0;
 
@@ -98,12 +98,12 @@ private:
   std::vector<mesh::BinRef> missing_;
   struct {
     std::vector<LocalIndex> before, now;
-  } rings_; // of a star with more neighbours than StarTable has slots
+  } rings_; // rings with more neighbours than StarTable has slots
   struct {
     std::array<double, WrapGroup::most_candidates + 2> x, y;
-  } near_; // candidates that may lie in a disc of a star, from its site
+  } near_; // candidates that may lie in a disc of a star, relative to its site
 
-  // Learnt on the way; none of it can change a star.
+  // Choices that are learnt during the work. They cannot change a star.
   ReachChoice reach_;
   TiePause ties_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The source of the three builds of wrap.hpp. All is in an anonymous namespace and calls nothing outside, so that no
-// code for a newer processor can be linked into the rest of the program.
+// The kernel of wrap.hpp, which is compiled three times. Everything is in an anonymous namespace and calls nothing
+// outside, so that no code for a newer processor can be linked into the rest of the program.
 //
 // Seen from a site p, every candidate q (an offset) is inverted: u = q / |q|^2. The disc of p, a, b holds q exactly if
 // u(q) lies to the right of the line from u(a) to u(b). So the star of p is the convex hull of the inverted candidates
@@ -12,10 +12,9 @@
 //  * the wrap follows from vertex to vertex by adding edges, 3.1 eps U more for the vertex that it stands on. Edges are
 //    known to 16 eps U, and cross products of an edge with what leads from its first vertex to a candidate, as
 //    they are evaluated here, to E = 80 eps U^2.
-//  * how the next vertex is searched does not matter: afterwards each edge is tested against all candidates. If only
-//    two, its ends, are not more than E to its left, and the origin (the site itself) is, then it is an edge of the
-//    hull around the origin. Edges of the hull that follow each other until the first vertex comes again are the whole
-//    hull.
+// * how the next vertex is searched does not matter, because afterwards each edge is tested against all candidates. If
+// all candidates except its two ends, and the origin (the site itself), are more than E to its left, it is an edge of
+// the hull around the origin. Consecutive edges of the hull that return to the first vertex are the whole hull.
 #pragma once
 
 #include "delaunay/wrap.hpp"
@@ -23,7 +22,7 @@
 namespace trime::delaunay {
 namespace {
 
-/// `lanes` sites side by side; `chains` independent searches of the best candidate hide the latency of one.
+/// Wraps `lanes` sites at once; `chains` independent searches of the best candidate hide the latency of one.
 template <int lanes, int chains>
 class Wrap {
   using Floats [[gnu::vector_size(lanes * 4)]] = float;
@@ -31,7 +30,7 @@ class Wrap {
 
 public:
   explicit Wrap(WrapGroup& group) : group_(group), n_(group.candidates) {
-    for (int k = 0; k < chains; ++k) // rows that no comparison sees
+    for (int k = 0; k < chains; ++k) // rows that no comparison selects
       group.candidate[n_ + k].x = __builtin_nanf("");
     n_ += (chains - n_ % chains) % chains;
     static_assert(chains <= WrapGroup::padding);
@@ -46,7 +45,8 @@ public:
       const Step step = advance();
       proven &= (step.right == -2) | ~tested_;
       tested_ = open;
-      // Distances of the edge's disc from the site: circumcentre plus and minus radius along the axes, rounded outward.
+      // The extent of the edge's disc from the site: circumcentre plus and minus radius along the axes, rounded
+      // outward.
       const Floats turned = ax_ * step.wy - ay_ * step.wx;
       const Floats half = 0.5f / (turned - error_), slack = edge_error_;
       const Floats length = square_root(step.wx * step.wx + step.wy * step.wy) * 1.000001f + slack;
@@ -77,7 +77,7 @@ private:
   struct Step {
     Floats wx, wy; // the edge to the best candidate
     Ints best;     // negative: none
-    Ints right;    // minus the number of candidates that are not to the left of the edge before
+    Ints right;    // minus the number of candidates that are not to the left of the last edge
   };
 
   template <class V>
@@ -111,7 +111,7 @@ private:
     return found != 0;
   }
 
-  /// Inverts all candidates and finds the extreme one in a direction that no lattice likes.
+  /// Inverts all candidates and finds the extreme one in a direction that is not special for lattices.
   void invert() {
     constexpr float large = 1e30f, slope = 0.2915f;
     const Floats site_x = load(group_.site_x), site_y = load(group_.site_y);
@@ -123,7 +123,7 @@ private:
       const WrapGroup::Candidate& q = group_.candidate[c];
       const Floats dx = (q.x - site_x) + (q.rest_x - rest_x), dy = (q.y - site_y) + (q.rest_y - rest_y);
       const Floats d2 = dx * dx + dy * dy;
-      const Floats inverse = 1.f / d2; // the site itself becomes NaN, which no comparison sees
+      const Floats inverse = 1.f / d2; // the site itself becomes NaN, which no comparison selects
       const Floats ux = dx * inverse, uy = dy * inverse;
       store(group_.u[c], ux);
       store(group_.u[c] + lanes, uy);
@@ -147,16 +147,16 @@ private:
     nearest_ = next;
   }
 
-  /// The bounds of the head of this file; returns the lanes that can be decided.
+  /// Sets the bounds derived at the top of this file. Returns the lanes that can be decided.
   Ints set_bounds() {
     constexpr float epsilon = 0x1p-24f;
     const Floats size = 1.001f / square_root(nearest_);
-    edge_error_ = 34 * epsilon * size; // of a component and the length together
+    edge_error_ = 34 * epsilon * size; // for a component and the length together
     error_ = 80 * epsilon * size * size;
     return size < 1e4f;
   }
 
-  /// The next edge of the hull, from the vertex at (ax_, ay_) on, and the test of the edge before.
+  /// Returns the next edge of the hull from the vertex at (ax_, ay_), and the test of the last edge.
   Step advance() const {
     Floats wx[chains], wy[chains];
     Ints best[chains], right[chains];
@@ -192,7 +192,7 @@ private:
     return step;
   }
 
-  /// The test of the last edge.
+  /// Returns the test of the last edge.
   Ints count_right() const {
     Ints right[2]{};
     for (int c = 0; c < n_; ++c)
@@ -215,9 +215,9 @@ private:
   WrapGroup& group_;
   int n_;                          // candidates, padded to a multiple of `chains`
   Floats ax_, ay_;                 // the vertex
-  Floats edge_x_, edge_y_, limit_; // the edge before, and its cross product with what does not lie on its left
+  Floats edge_x_, edge_y_, limit_; // the last edge, and the bound on cross products to its left
   Floats nearest_, error_, edge_error_;
-  Ints start_, tested_{}; // lanes where there is an edge before
+  Ints start_, tested_{}; // lanes that have a last edge
 };
 
 } // namespace

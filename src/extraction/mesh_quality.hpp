@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Quality of the finished mesh: every triangle and every edge once, over all ranks. Triangles and edges are taken in
-// blocks, so that the compiler works on several at a time.
+// Measures the quality of the finished mesh. Every triangle and every edge counts once over all ranks. They are
+// processed in blocks, so that the compiler can vectorise the loops.
 #pragma once
 
 #include "polygon/polygon.hpp"
@@ -21,13 +21,13 @@ class SharpCorners {
 public:
   SharpCorners(const polygon::BoundarySites& boundary, const geometry::Periods& periods);
 
-  /// A corner and its angle; none: 0 degrees.
+  /// A corner and its angle in degrees; 0 if there is no corner.
   struct Corner {
     geometry::Vec2 place;
     double degrees = 0;
   };
-  /// @brief The nearest corner within 3 longest edges of a triangle, by its vertices; the first in lexicographic order
-  /// of equally near ones. O(corners in a strip of this width).
+  /// @brief Returns the corner nearest to the vertices of a triangle, within 3 of its longest edges. Of equally near
+  /// ones it returns the first in lexicographic order. O(corners in a strip of this width).
   Corner near(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r) const;
 
 private:
@@ -35,33 +35,34 @@ private:
   std::vector<Corner> corners_; // in lexicographic order
 };
 
-/// Mergeable in any order: the list is that of the worst, by alpha and then by place.
+/// Counts bad triangles and lists the worst, by alpha and then by place. Objects may be merged in any order.
 class BadTriangles {
 public:
   /// @pre alpha is above ExtractionRules::listed_alpha
   void add(const mesh::BadTriangle& triangle);
   void merge(const BadTriangles& other);
-  /// The triangles of this rank so far.
+  /// Number of triangles of this rank so far.
   std::int64_t count() const { return count_; }
-  /// @brief Returns the list over all ranks, the same on every rank; each rank sends only its list. @param count over
-  /// all ranks, which send nothing if it is 0. Collective.
+  /// @brief Merges the lists of all ranks into the same list on every rank. Collective. @param count number over all
+  /// ranks; if it is 0, nothing is sent
   void gather(const comm::Communicator& comm, std::int64_t count);
-  /// Writes count, list, and the worst away from corners into the summary.
+  /// Writes the count, the list, and the worst triangle away from sharp corners into the summary.
   void tell(mesh::QualitySummary& quality) const;
 
 private:
   std::int64_t count_ = 0;
   std::vector<mesh::BadTriangle> worst_; ///< sorted, at most ExtractionRules::most_listed
-  mesh::BadTriangle away_;               ///< the worst that no corner excuses
+  mesh::BadTriangle away_;               ///< the worst triangle that is not near a sharp corner
 };
 
-/// Mergeable: sums are integers inside, the worst triangle is the lexicographically first of equals.
+/// Sums over triangles and edges. They can be merged in any order: sums are integers inside, and of equally bad
+/// triangles the lexicographically first is kept.
 struct QualitySums {
   mesh::RatioStatistics alpha, beta;
-  double least_sine = std::numeric_limits<double>::infinity(); ///< of the smallest angle of a triangle
+  double least_sine = std::numeric_limits<double>::infinity(); ///< sine of the smallest angle of a triangle
   double worst_alpha = 0;
   geometry::Vec2 worst_place;
-  FixedSum ratio, squared_ratio; ///< L / h over edges
+  FixedSum ratio, squared_ratio; ///< sums of L / h over edges
   std::int64_t edges = 0;
   BadTriangles bad;
 
@@ -69,18 +70,18 @@ struct QualitySums {
   void add(const QualitySums& other);
 };
 
-/// @brief The summary over all ranks, in three reductions; two gathers more if there are bad triangles. Afterwards
-/// sums.bad is that of all ranks. Collective.
+/// @brief Returns the summary over all ranks by three reductions, and two more gathers if there are bad triangles.
+/// Afterwards sums.bad holds the bad triangles of all ranks. Collective.
 mesh::QualitySummary summarize(const comm::Communicator& comm, QualitySums& sums);
 
-/// The measurements of one thread.
+/// Measures triangles and edges on one thread.
 class QualityMeter {
 public:
-  /// @pre all outlive this object
+  /// @pre all arguments outlive this object
   QualityMeter(const sizing::SizeField& size, const geometry::Periods& periods, const SharpCorners& corners)
       : size_(size), periods_(periods), corners_(corners) {}
 
-  /// From here on the ratios of the triangles go to these places, one after the other.
+  /// Makes the ratios of the following triangles go to these arrays, one after the other.
   void write_to(std::span<float> alpha, std::span<float> beta) {
     alpha_ = alpha;
     beta_ = beta;
@@ -88,7 +89,7 @@ public:
   void add_triangle(geometry::Vec2 p, geometry::Vec2 q, geometry::Vec2 r);
   /// @throws GeometryError if h in the middle of an edge is not positive and finite
   void add_edge(geometry::Vec2 p, geometry::Vec2 q);
-  /// Measures what still waits.
+  /// Measures the triangles and edges that still wait.
   void finish();
   QualitySums& sums() { return sums_; }
 
@@ -111,7 +112,7 @@ private:
   const geometry::Periods& periods_;
   const SharpCorners& corners_;
   QualitySums sums_;
-  std::size_t triangles_ = 0, edges_ = 0; // that wait
+  std::size_t triangles_ = 0, edges_ = 0; // number that wait for a full block
   Places p_, q_, r_, from_, to_;
   std::span<float> alpha_, beta_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the shape of a program to its boundary on every rank.
+// Makes the domain from a shape of trime.hpp, on every rank.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
@@ -9,7 +9,7 @@
 
 namespace trime {
 
-/// @brief Reads contours on rank 0, chooses the container as the program does, and makes the boundary with its fixed
+/// @brief Reads contours on rank 0, chooses the container as trime_mpi does, and makes the boundary with its fixed
 /// points.
 /// @throws ConfigError, GeometryError, FileError on all ranks together @note Collective.
 geometry::Domain build_domain(const Shape& shape, const MeshOptions& options, const comm::Communicator& comm, Log& log);

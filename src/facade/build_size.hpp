@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the size of a program to the size field of the lower level.
+// Makes the size field of the lower level from a size of trime.hpp.
 #pragma once
 
 #include "trime/comm/communicator.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Calls of functions that a user gave.
+// Calls functions that a user gave.
 #pragma once
 
 #include "trime/core/error.hpp"
@@ -11,8 +11,8 @@
 
 namespace trime {
 
-/// @brief The value of the user's function at p. @param what names it, for messages
-/// @throws GeometryError that names the place if it throws anything but an Error, on this rank alone
+/// @brief Returns the value of the user's function at p. @param what names the function in messages
+/// @throws GeometryError on this rank alone, with the place, if the function throws anything other than an Error
 inline double called(const std::function<double(geometry::Vec2)>& function, geometry::Vec2 p, const std::string& what) {
   try {
     return function(p);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The names of the boundary.
+// Looks up names of the boundary.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace trime {
 
-/// The number of a name. @throws ConfigError with the known names if it is none of them, on this rank alone
+/// Returns the number of a name. @throws ConfigError on this rank alone, with the known names, if the name is not known
 std::int32_t number_of(const std::string& name, const std::vector<std::string>& names);
 
 } // namespace trime

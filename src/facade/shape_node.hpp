@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a Shape is made of: an expression of parts as the user gave them.
+// The content of a Shape: an expression of parts as the user gave them.
 #pragma once
 
 #include "trime/facade/shape.hpp"
@@ -35,7 +35,7 @@ struct DomainForm {};
 struct Shape::Node {
   enum class Operation { part, unite, subtract, intersect };
   Operation operation = Operation::part;
-  std::string name{}; ///< of a part
+  std::string name{}; ///< name of a part
   std::variant<DomainForm, RectangleForm, CircleForm, RingsForm, FileForm, FunctionForm> form{};
   std::vector<Shape> operands{};
 };

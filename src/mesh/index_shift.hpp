@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Changes of local indices when a few sites go and a few come: the others keep their order, and move up or down in
-// runs.
+// Changes local indices after a few sites were removed and a few inserted. The others keep their order and move up or
+// down in runs.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -11,31 +11,32 @@
 
 namespace trime::mesh {
 
-/// The old and the new indices of a list in which some entries go and others come between those that stay.
+/// The old and the new indices of a list from which some entries are removed and into which others are inserted.
 class IndexShift {
 public:
   /// @param before length of the list
-  /// @param gone indices of those that go, ascending, each once
-  /// @param places of each that comes, the index of the entry before which it comes, or `before`; ascending
+  /// @param gone indices of the removed entries, ascending, each once
+  /// @param places for each inserted entry, the old index of the entry before which it is inserted, or `before`;
+  /// ascending
   IndexShift(LocalIndex before, std::span<const LocalIndex> gone, std::span<const LocalIndex> places);
 
   LocalIndex before() const { return before_; }
   LocalIndex after() const { return after_; }
-  /// Old indices of those that go.
+  /// Returns the old indices of the removed entries.
   std::span<const LocalIndex> gone() const { return gone_; }
-  /// New indices of those that come, in the order in which they were named.
+  /// Returns the new indices of the inserted entries, in the order of `places`.
   std::span<const LocalIndex> come() const { return come_; }
 
-  /// By old index the new one, -1 where the entry goes. O(list).
+  /// Returns the new index of each old one, -1 for removed entries. O(list).
   std::vector<LocalIndex> new_indices() const;
 
-  /// @brief Moves the entries of a vector in place. Those that come are not set. O(entries behind the first change), at
-  /// the speed of memory. @pre it has `before` entries
+  /// @brief Moves the entries of a vector in place. Inserted entries are not set. O(entries behind the first change).
+  /// @pre the vector has `before` entries
   template <class Vector>
   void move(Vector& values) const;
 
 private:
-  /// Entries that stay, one after the other.
+  /// Consecutive entries that stay in the list.
   struct Run {
     LocalIndex from, to, count;
   };
@@ -48,7 +49,7 @@ template <class Vector>
 void IndexShift::move(Vector& values) const {
   values.resize(at(std::max(before_, after_)));
   const auto begin = values.begin();
-  // A run ends where the next one begins or before, so none that moves down covers one that is still to move.
+  // A run ends before the next one begins, so a run that moves down does not overwrite one that has not moved yet.
   for (const auto& [from, to, count] : runs_)
     if (to < from)
       std::copy(begin + from, begin + from + count, begin + to);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Says which sites lie in which bin, for the bins that a rank knows: all bins of its tiles, and some bins of other
-// ranks' tiles.
+// Stores which sites lie in which bin. A rank knows all bins of its own tiles, and some bins of other ranks' tiles.
 #pragma once
 
 #include "mesh/site.hpp"
@@ -16,13 +15,13 @@
 
 namespace trime::mesh {
 
-/// Local indices begin .. end - 1.
+/// The local indices begin .. end - 1.
 struct SiteRange {
   LocalIndex begin, end;
 };
 
-/// @brief For each known bin the range of local indices of its sites. It holds no sites. A tile with a known bin has a
-/// number: the owned tiles come first, in their order, then the others in the order in which they became known. O(known
+/// @brief Stores the range of local indices of each known bin, but not the sites. Each tile with a known bin has a
+/// number: first come the owned tiles in their order, then the others in the order in which they became known. O(known
 /// bins) memory.
 class KnownBins {
 public:
@@ -31,16 +30,16 @@ public:
 
   const TileGrid& grid() const { return *grid_; }
 
-  /// All bins of tiles [first_tile, last_tile) are known from now on, and no others; their ranges are to be set.
+  /// Makes the bins of tiles [first_tile, last_tile) known, and no others. The caller sets their ranges.
   void own(LocalIndex first_tile, LocalIndex last_tile);
-  /// Only the bins of the owned tiles stay known.
+  /// Forgets all bins except those of the owned tiles.
   void forget_foreign();
-  /// The bin of a foreign tile, or of an image of any, is known from now on and holds these sites.
+  /// Makes the bin of a foreign tile, or of an image of any tile, known. It holds these sites.
   void add_foreign(BinRef bin, SiteRange sites);
-  /// Frees the ranges; they may not be asked for until own().
+  /// Frees the ranges; they must not be used until own() is called.
   void release_ranges();
 
-  /// The bins of one owned tile, row by row: where each begins and ends.
+  /// The begin and the end of each bin of one owned tile, row by row.
   struct TileBins {
     std::span<LocalIndex> begin, end;
     int bits; ///< 2^bits x 2^bits bins
@@ -48,7 +47,7 @@ public:
   /// @param k the tile, counted from the first owned one
   TileBins owned_tile(LocalIndex k);
 
-  /// The sites of a bin; none if it is unknown.
+  /// Returns the sites of a bin; empty if the bin is unknown.
   SiteRange range(BinRef bin) const {
     const LocalIndex block = block_of(bin.tile, bin.image);
     if (block < 0)
@@ -56,22 +55,22 @@ public:
     const std::size_t at = blocks_[static_cast<std::size_t>(block)].first_bin + static_cast<std::size_t>(bin.bin);
     return {begin_[at], end_[at]};
   }
-  /// Calls visit(BinRef, SiteRange) for the known bins of foreign tiles and images, ascending.
+  /// Calls visit(BinRef, SiteRange) for the known bins of foreign tiles and images, in ascending order.
   template <class Visit>
   void for_each_foreign(const Visit& visit) const;
   /// Returns the number of a tile that has a known bin, or -1.
   LocalIndex known_tile(LocalIndex tile) const { return block_of(tile, 0); }
   LocalIndex owned_tiles() const { return owned_blocks_; }
-  /// All numbers are below it.
+  /// All numbers of known tiles are below this.
   LocalIndex known_tiles() const { return static_cast<LocalIndex>(blocks_.size()); }
 
-  /// See BinnedPoints::for_each_near; sites are where they were when the bins were filled.
+  /// As BinnedPoints::for_each_near, for sites that have not moved since the bins were filled.
   template <class Visit, class Missing>
   void for_each_near(geometry::Vec2 center, double reach, const Visit& visit, const Missing& missing) const;
 
 private:
-  struct Block {           // bins of one tile that is owned or partly known
-    std::size_t first_bin; // into begin_, end_ and known_
+  struct Block {           // the bins of one tile that is owned or partly known
+    std::size_t first_bin; // index into begin_, end_ and known_
     int bits;              // 2^bits x 2^bits bins
     bool complete;         // every bin known
   };
@@ -79,14 +78,14 @@ private:
   void visit_complete(const Block& block, const Tile& tile, const FixedRect& part, const Visit& visit) const;
   template <class Visit, class Missing>
   void visit_row(BinRef first_bin, int bx0, int bx1, const Visit& visit, const Missing& missing) const;
-  /// A tile that is not owned, or an image of any.
+  /// A tile that is not owned, or an image of any tile.
   struct Foreign {
     LocalIndex tile;
     std::int32_t image;
     LocalIndex block;
     auto key() const { return std::pair(tile, image); }
   };
-  /// Index into blocks_, -1 if unknown. O(1) for owned tiles, else O(log(known tiles)).
+  /// Returns the index into blocks_, -1 if the tile is unknown. O(1) for owned tiles, otherwise O(log(known tiles)).
   LocalIndex block_of(LocalIndex tile, std::int32_t image) const {
     if (image == 0 && tile >= first_tile_ && tile - first_tile_ < owned_blocks_)
       return tile - first_tile_;
@@ -101,7 +100,7 @@ private:
   const TileGrid* grid_;
   LocalIndex first_tile_ = 0;
   std::vector<Foreign> foreign_; // ascending
-  std::vector<Block> blocks_;    // of the owned tiles first
+  std::vector<Block> blocks_;    // the owned tiles come first
   std::vector<LocalIndex> begin_, end_;
   std::vector<std::uint8_t> known_;
   LocalIndex owned_blocks_ = 0;
@@ -150,7 +149,7 @@ void KnownBins::visit_complete(const Block& block, const Tile& tile, const Fixed
     visit(begin[row], end[row]); // the bins of a row are contiguous in memory
 }
 
-/// Bins first_bin.bin + bx0 .. first_bin.bin + bx1 of one row of a tile that is not wholly known.
+/// Visits the bins first_bin.bin + bx0 .. first_bin.bin + bx1 of one row of a tile that is partly known.
 template <class Visit, class Missing>
 void KnownBins::visit_row(BinRef first_bin, int bx0, int bx1, const Visit& visit, const Missing& missing) const {
   const LocalIndex block = block_of(first_bin.tile, first_bin.image);

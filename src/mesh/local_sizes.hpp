@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The element size h at the sites that a rank knows, by local index: read instead of evaluating the size field.
+// Caches the element size h at the sites that a rank knows, so that the size field need not be evaluated again.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -8,23 +8,23 @@
 
 namespace trime::mesh {
 
-/// One number if h is the same everywhere, else one for each site; or nothing yet.
+/// Holds one number if h is the same everywhere, otherwise one for each site, or none before they are computed.
 class LocalSizes {
 public:
   LocalSizes() = default;
   explicit LocalSizes(double uniform) : uniform_(uniform) {}
   explicit LocalSizes(std::vector<double> values) : values_(std::move(values)) {}
 
-  /// False where no size has been computed since the sites changed.
+  /// Returns false if the size of site i has not been computed since the sites changed.
   bool known(LocalIndex i) const { return uniform_ > 0 || static_cast<std::size_t>(i) < values_.size(); }
   bool is_uniform() const { return uniform_ > 0; }
-  /// h at site i, domain units. @pre known(i)
+  /// Returns h at site i in domain units. @pre known(i)
   double operator[](LocalIndex i) const { return uniform_ > 0 ? uniform_ : values_[static_cast<std::size_t>(i)]; }
 
   const std::vector<double>& values() const { return values_; }
-  /// The values by local index, to be filled; not used while the size is uniform.
+  /// Returns the values by local index, which the caller fills. They are not used while the size is uniform.
   std::vector<double>& values() { return values_; }
-  /// The sites have changed.
+  /// Forgets all sizes after the sites have changed.
   void forget() {
     uniform_ = 0;
     values_.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where sites go at their next move, while they still stand where they are.
+// Holds the places to which sites will move, while they are still at their present places.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -10,13 +10,13 @@
 
 namespace trime::mesh {
 
-/// @brief The places, and the leads where sites have leads, that sites take at the next BinnedPoints::advance. By local
-/// index; to be filled by the caller after BinnedPoints::prepare_advance.
+/// @brief Places, and leads if sites have leads, that sites take at the next BinnedPoints::advance. They are indexed by
+/// local index, and the caller sets them after BinnedPoints::prepare_advance.
 class NextPlaces {
 public:
   std::span<geometry::Vec2> positions() { return positions_; }
   std::span<const geometry::Vec2> positions() const { return positions_; }
-  /// Empty where sites have no leads.
+  /// The leads; empty if sites have no leads.
   std::span<geometry::Vec2> leads() { return leads_; }
   std::span<const geometry::Vec2> leads() const { return leads_; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A site, as it travels between ranks, and the name of a bin.
+// A site as it is sent between ranks, and the name of a bin.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -10,26 +10,26 @@
 
 namespace trime::mesh {
 
-/// Values of Site::boundary for sites inside: those that move, and those that stay where a user wants them.
+/// Values of Site::boundary for inner sites that move, and for fixed points of the user.
 inline constexpr std::int32_t free_site = -1, fixed_site = -2;
 
-/// A site with all that travels with it when it changes its owner.
+/// A site with all data that travel with it to another rank.
 struct Site {
   geometry::Vec2 position;
-  std::int32_t boundary = free_site; ///< index of the boundary site that it is; inside free_site or fixed_site
-  std::int32_t pushes = 0;           ///< times that it was pushed out of a boundary disc
+  std::int32_t boundary = free_site; ///< index among the boundary sites; free_site or fixed_site for inner sites
+  std::int32_t pushes = 0;           ///< how often it was pushed out of the disc of a boundary edge
   geometry::Vec2 lead{};             ///< the step by which an accelerated update runs ahead of its last iterate
 };
 
-/// Sites in no order yet. Elements made without a value (resize, a list of a given size) are not set, not even to the
-/// defaults of Site: threads fill them in large numbers.
+/// Sites that are not sorted yet. Elements made without a value, as by resize, are not set, not even to the defaults of
+/// Site, because threads fill them in large numbers.
 using SiteList = UnsetVector<Site>;
 
-/// A site of another rank, as it is sent: 24 bytes.
+/// A site as its owner sends it to ranks that hold a copy: 24 bytes.
 struct Ghost {
   geometry::Vec2 position;
   std::int32_t boundary = -1;
-  std::int32_t unused = 0; ///< no byte of a message is left to chance
+  std::int32_t unused = 0; ///< makes every byte of a message defined
 };
 
 /// A bin of a tile, or of an image of a tile (see TileGrid).

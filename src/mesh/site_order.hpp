@@ -16,12 +16,12 @@
 
 namespace trime::mesh {
 
-/// The order in a bin: by place. Of sites at one place the first is kept: the boundary site or the fixed one, else the
-/// one pushed most often.
+/// Orders the sites of a bin by place. Of sites at one place the first is kept: the boundary site or the fixed point,
+/// otherwise the one that was pushed most often.
 bool precedes(const Site& a, const Site& b);
 
 /// @brief Finds the new order of sites in two steps, group() and sort(). Then for_each() shows where each site comes
-/// from, until forget(); after that only the number of sites of each tile remains.
+/// from, until forget() is called; after that only the number of sites of each tile is known.
 ///
 /// `Sites` is one of the classes of mesh/site_sources.hpp.
 class SiteOrder {
@@ -33,7 +33,7 @@ public:
   template <class Sites>
   void group(const TileGrid& grid, const Sites& sites, LocalIndex first_tile, LocalIndex last_tile);
   bool is_grouped() const { return !tile_start_.empty(); }
-  /// Number of sites that are grouped.
+  /// Returns the number of sites that are grouped.
   LocalIndex grouped() const { return static_cast<LocalIndex>(order_.size()); }
   /// See BinnedPoints::suitable_bin_bits. @pre these sites are grouped
   std::vector<std::uint8_t> suitable_bin_bits(const TileGrid& grid, std::span<const Site> sites) const;
@@ -42,11 +42,11 @@ public:
   template <class Sites>
   LocalIndex sort(const Sites& sites, KnownBins& bins);
 
-  /// @brief The ranges of tiles and bins after some sites have gone and others have come, without sorting.
-  /// @param come the bin of each site that comes, in the order of the shift
+  /// @brief Updates the ranges of tiles and bins after sites were removed and inserted, without sorting.
+  /// @param come the bin of each inserted site, in the order of the shift
   void edit(const IndexShift& shift, std::span<const BinRef> come, KnownBins& bins);
 
-  /// Number of sites that were sorted, without those dropped.
+  /// Returns the number of sorted sites, without the dropped ones.
   LocalIndex size() const { return kept_.back(); }
   SiteRange of_tile(LocalIndex tile) const {
     const auto t = static_cast<std::size_t>(tile - first_tile_);
@@ -55,7 +55,7 @@ public:
   /// Calls move(k, from) for the k-th site in the new order, which is the site `from` in the old one. Uses all threads.
   template <class Move>
   void for_each(const Move& move) const;
-  /// For each of the sites before sorting its index in the new order, -1 if dropped.
+  /// Returns the index in the new order of each site before sorting, -1 if it was dropped.
   void list_new_indices(LocalIndex before, std::vector<LocalIndex>& new_index) const;
   /// Frees the list of old indices. @post of for_each and list_new_indices nothing may be asked
   void forget();
@@ -76,7 +76,7 @@ private:
 
   LocalIndex first_tile_ = 0, last_tile_ = 0;
   std::vector<LocalIndex> kept_; // first site of each tile in the new order, and the end
-  // While sites are sorted: where the sites of each tile begin in order_, which holds their old indices.
+  // While sites are sorted, order_ holds their old indices, and tile_start_ where each tile begins in it.
   std::vector<LocalIndex> tile_start_;
   UnsetVector<LocalIndex> order_;
 };

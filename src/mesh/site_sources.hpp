@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sources that sites are sorted from: a list, or the sites of a rank at their next places. A site is sorted into the
-// tile and bin of its home, which is its place, except in a state that is restored.
+// The sites that SiteOrder sorts: a list, or the sites of a rank at their next places. A site is sorted into the tile
+// and bin of its home. Its home is its place, except when a checkpoint is restored.
 #pragma once
 
 #include "mesh/binned_points.hpp"
@@ -9,10 +9,10 @@
 
 namespace trime::mesh {
 
-/// Sites of a list.
+/// The sites of a list.
 class ListedSites {
 public:
-  static constexpr bool drops_equal = true; ///< of sites at one place one is kept
+  static constexpr bool drops_equal = true; ///< only one of several sites at one place is kept
   explicit ListedSites(std::span<const Site> sites) : sites_(sites) {}
   LocalIndex size() const { return static_cast<LocalIndex>(sites_.size()); }
   bool stays(LocalIndex) const { return true; }
@@ -26,12 +26,12 @@ private:
   std::span<const Site> sites_;
 };
 
-/// Sites of a list that have moved since they were sorted into tiles: they are sorted into these again. Two that have
-/// met since then stay until a run without a break would drop one of them, when it sorts.
+/// Sites of a list that have moved since they were sorted into tiles, and that return to these tiles. Two sites that
+/// have met since then are both kept, as in an uninterrupted run, which drops one of them only when it sorts next.
 class HomedSites : public ListedSites {
 public:
   static constexpr bool drops_equal = false;
-  /// @param homes a place for each in the tile that it belongs to
+  /// @param homes for each site, a place in the tile to which it belongs
   HomedSites(std::span<const Site> sites, std::span<const geometry::Vec2> homes) : ListedSites(sites), homes_(homes) {}
   geometry::Vec2 home(LocalIndex i) const { return homes_[at(i)]; }
 
@@ -43,7 +43,7 @@ private:
 class MovedSites {
 public:
   static constexpr bool drops_equal = true;
-  /// @param gone by local index; empty: none
+  /// @param gone 1 for each owned site that is gone, by local index; empty if none is
   MovedSites(const BinnedPoints& points, std::span<const std::uint8_t> gone, std::span<const Site> more)
       : points_(points), next_positions_(points.next().positions()), next_leads_(points.next().leads()), gone_(gone),
         more_(more), owned_(points.owned()), has_leads_(points.has_leads()) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The container and its tiles: where a point lies, in which tile and bin, and when the Hilbert curve comes there.
-// Geometry only: it holds no points and knows nothing of ranks.
+// The container and its tiles. It finds the tile, the bin and the position along the Hilbert curve of a point. It holds
+// no points and knows nothing of ranks.
 #pragma once
 
 #include "mesh/fixed_axis.hpp"
@@ -17,104 +17,105 @@
 
 namespace trime::mesh {
 
-/// The step along one axis, in periods, to an image with the number 0, 1 or 2 along it: 0, 1 or -1.
+/// Returns the shift in periods along one axis, 0, 1 or -1, of an image with the number 0, 1 or 2 along this axis.
 constexpr int image_step(int number) {
   return number == 2 ? -1 : number;
 }
 
 /// The parameters of a grid.
 struct GridOptions {
-  std::optional<int> cells_x, cells_y; ///< container grid; empty: about 3.3 points a cell
+  std::optional<int> cells_x, cells_y; ///< cells of the container grid; if empty, about 3.3 points per cell
   double point_spacing = 0.01;         ///< typical edge length
-  geometry::Periods periods{};         ///< of the container, which is one period long along periodic axes
+  geometry::Periods periods{};         ///< periods of the container, which is one period long along periodic axes
 };
 
-/// @brief A square with the container in its middle is divided into quarters, these again, and so on; tiles are squares
-/// of that quadtree. They cover the container and are numbered 0..tile_count()-1 along the Hilbert curve; bins of one
-/// tile row by row. Every point of the container has a 32-bit fixed-point position per axis. Tile, bin and Hilbert key
-/// are its leading bits, so the numbering of tiles is a prefix of the order of points.
+/// @brief A square with the container in its middle is the root of a quadtree, and tiles are squares of that quadtree.
+/// They cover the container and are numbered 0..tile_count()-1 along the Hilbert curve; the bins of one tile are
+/// numbered row by row. Every point of the container has a 32-bit fixed-point position per axis. Tile, bin and Hilbert
+/// key are its leading bits, so the numbering of tiles is a prefix of the order of points.
 ///
-/// At first all tiles are equally large, for the typical density. Where more is known, set_tiles gives tiles of about
-/// equal weight. O(tiles) memory, replicated on every rank.
+/// At first all tiles are equally large and suit the typical density. Once the density is known, set_tiles replaces
+/// them by tiles of about equal weight. O(tiles) memory, replicated on every rank.
 ///
-/// Along a periodic axis each tile has images outside of the container, one period away on either side. An image is one
-/// of 9 shifts by (-1, 0, 1) periods along each axis.
+/// Along a periodic axis each tile has images outside the container, one period away on either side. There are 9
+/// images, with shifts of -1, 0 or 1 periods along each axis.
 ///
-/// Each tile has 2^b x 2^b bins, with a different b in each tile, so that bins hold a few sites also where the density
-/// varies by orders of magnitude.
+/// Each tile has 2^b x 2^b bins. b differs between tiles, so bins hold a few sites even if the density varies by orders
+/// of magnitude.
 class TileGrid {
 public:
   TileGrid(const geometry::Box& container, const GridOptions& options);
 
   const geometry::Box& container() const { return container_; }
   std::size_t memory_bytes() const { return tree_.memory_bytes(); }
-  /// Cells of the container grid along each axis.
+  /// Returns the number of cells of the container grid along each axis.
   GridPosition cells() const { return {static_cast<std::uint32_t>(cells_x_), static_cast<std::uint32_t>(cells_y_)}; }
-  /// Number of points that are expected, about, at the typical density all over the container.
+  /// Returns about how many points the container holds at the typical density.
   double expected_points() const { return expected_points_; }
 
   LocalIndex tile_count() const { return tree_.size(); }
   const Tile& tile(LocalIndex tile) const { return tree_[tile]; }
   const std::vector<Tile>& tiles() const { return tree_.tiles(); }
-  /// Box of a tile; it may reach beyond the container.
+  /// Returns the box of a tile, which may reach beyond the container.
   geometry::Box tile_box(LocalIndex tile) const { return box_of(rect_of(tree_[tile])); }
-  /// Where positions lie.
+  /// Returns the box of fixed-point positions in domain units.
   geometry::Box box_of(const FixedRect& rect) const {
     return {{x_axis_.coordinate(rect.x0), y_axis_.coordinate(rect.y0)},
             {x_axis_.coordinate(rect.x1 + 1), y_axis_.coordinate(rect.y1 + 1)}};
   }
   geometry::Box box_of(const CurveSquare& square) const { return box_of(rect_of(mesh::tile_of(square, 0))); }
-  /// A place in a tile, in that of its bins which is nearest to p.
+  /// Returns a place in the bin of the tile that is nearest to p.
   geometry::Vec2 nearest_in(LocalIndex tile, geometry::Vec2 p) const;
-  /// The shorter side of a tile, domain units.
+  /// Returns the shorter side of a tile in domain units.
   double side_of(LocalIndex tile) const;
   /// @brief Replaces the tiles. Data indexed by tiles or bins (points, subscriptions) must be built again.
   /// @param tiles cover the container, without overlap, in the order of the curve; the same on all ranks
   void set_tiles(std::vector<Tile> tiles);
   /// Returns the quarters of a square that meet the container, in the order of the curve.
   std::vector<CurveSquare> quarters(const CurveSquare& square) const;
-  /// The level of tiles that suit the typical density.
+  /// Level of tiles that suit the typical density.
   int typical_level() const { return typical_level_; }
-  /// The level of the smallest squares that may lie half in the container.
+  /// Level of the smallest squares that may lie partly outside the container.
   int unit_level() const { return unit_level_; }
 
-  /// The b of a tile of the typical density: 2^b x 2^b bins with about 3.3 sites each.
+  /// A tile of the typical density has 2^b x 2^b bins with about 3.3 sites each; this is b.
   int typical_bin_bits() const { return typical_bin_bits_; }
-  /// The b of a tile, its bins along one side, and all of them.
+  /// Bins of a tile: b, their number along one side (2^b), and their number.
   int bin_bits(LocalIndex tile) const { return tree_[tile].bits; }
   int bins_per_side(LocalIndex tile) const { return 1 << bin_bits(tile); }
   int bins_per_tile(LocalIndex tile) const { return 1 << (2 * bin_bits(tile)); }
-  /// Largest b possible in a tile.
+  /// Returns the largest possible b of a tile.
   int most_bin_bits(LocalIndex tile) const { return std::min<int>(MeshRules::finest_bin_bits, tree_[tile].shift); }
   /// @brief Sets the b of every tile. Data indexed by bins (points, subscriptions) must be built again.
   /// @pre the same on all ranks; each at most most_bin_bits()
   void set_bin_bits(const std::vector<std::uint8_t>& bits);
 
-  /// From coordinates to fixed-point positions.
+  /// Convert coordinates to fixed-point positions.
   const FixedAxis& x_axis() const { return x_axis_; }
   const FixedAxis& y_axis() const { return y_axis_; }
-  /// The positions of the container.
+  /// Returns the positions of the container.
   FixedRect limits() const { return {x_axis_.first(), y_axis_.first(), x_axis_.last(), y_axis_.last()}; }
-  /// The square of half-width `reach` around a point; without what lies beyond borders that are not periodic.
+  /// Returns the square of half-width `reach` around a point, cut at borders that are not periodic.
   FixedRect rect_around(geometry::Vec2 center, double reach) const {
     return {x_axis_.unrolled(center.x - reach), y_axis_.unrolled(center.y - reach), x_axis_.unrolled(center.x + reach),
             y_axis_.unrolled(center.y + reach)};
   }
 
   const geometry::Periods& periods() const { return periods_; }
-  /// By how much an image is moved; exact for lattice points.
+  /// Returns by how much an image is shifted; exact for lattice points.
   geometry::Vec2 shift(int image) const {
     return {image_step(image % 3) * periods_.x, image_step(image / 3) * periods_.y};
   }
-  /// Does the same in fixed-point positions.
+  /// Return the shift of an image in fixed-point positions.
   std::int64_t fixed_shift_x(int image) const { return image_step(image % 3) * x_axis_.length(); }
   std::int64_t fixed_shift_y(int image) const { return image_step(image / 3) * y_axis_.length(); }
-  /// @brief Calls visit(tile, image, part) for each tile, or image of one, that meets a rectangle, at most one period
-  /// out of the container; `part` is what the rectangle has in the container that the image repeats, before its shift.
+  /// @brief Calls visit(tile, image, part) for each tile, or image of a tile, that meets the rectangle. `part` is the
+  /// intersection of the rectangle with the image of the container, shifted back into the container. @pre the rectangle
+  /// reaches at most one period beyond the container
   template <class Visit>
   void for_each_in(const FixedRect& rect, const Visit& visit) const;
 
-  /// Tile and bin of a point.
+  /// The tile and the bin of a point.
   struct TileBin {
     LocalIndex tile;
     int bin;
@@ -125,15 +126,16 @@ public:
     return {tile, bin_at(x, y, tree_[tile].bits, tree_[tile].shift)};
   }
   LocalIndex tile_at(geometry::Vec2 p) const { return tree_.find(x_axis_.fixed(p.x), y_axis_.fixed(p.y)); }
-  /// The tile at a fixed-point position of the container.
+  /// Returns the tile at a fixed-point position of the container.
   LocalIndex tile_at(std::int64_t x, std::int64_t y) const {
     return tree_.find(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
   }
-  /// The bin of a point in its tile, for a tile of 2^bits x 2^bits bins.
+  /// Returns the bin of a point in its tile, which has 2^bits x 2^bits bins.
   int bin_at(geometry::Vec2 p, LocalIndex tile, int bits) const {
     return bin_at(x_axis_.fixed(p.x), y_axis_.fixed(p.y), bits, tree_[tile].shift);
   }
-  /// Hilbert key of a point to 32 bits per axis: the canonical order of the mesh, ties lexicographic.
+  /// Returns the Hilbert key of a point with 32 bits per axis. The mesh orders points by this key, and equal keys by
+  /// coordinates.
   std::uint64_t point_key(geometry::Vec2 p) const { return hilbert_key(x_axis_.fixed(p.x), y_axis_.fixed(p.y), 32); }
 
 private:

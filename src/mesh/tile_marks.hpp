@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mark of each tile that a rank knows.
+// One mark for each tile that a rank knows.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -9,14 +9,15 @@
 
 namespace trime::mesh {
 
-/// @brief For each known tile, by its number in KnownBins, a mark that its owner sets. Other ranks that know the tile
-/// get it with the places of its sites; until then they take it as set. What it means is the affair of who sets it.
+/// @brief A mark of each known tile, by its number in KnownBins, that its owner sets. Other ranks that know the tile
+/// receive the mark with the places of its sites; until then they treat it as set. The code that sets a mark decides
+/// what it means.
 class TileMarks {
 public:
   bool of(LocalIndex tile) const { return marks_[static_cast<std::size_t>(tile)] != 0; }
   void set(LocalIndex tile, bool mark) { marks_[static_cast<std::size_t>(tile)] = mark; }
 
-  /// After sites were sorted: all marks are set. @param tiles the owned ones
+  /// Sets all marks after sites were sorted. @param tiles number of owned tiles
   void forget(LocalIndex tiles) { marks_.assign(static_cast<std::size_t>(tiles), 1); }
   /// Sets how many tiles are known, and marks the new ones.
   void make_room(LocalIndex tiles) { marks_.resize(static_cast<std::size_t>(tiles), 1); }

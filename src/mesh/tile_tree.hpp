@@ -11,7 +11,7 @@
 
 namespace trime::mesh {
 
-/// A square of the quadtree, in fixed-point positions of the curve's square (2^32 a side), with its bins.
+/// A square of the quadtree with its bins, in fixed-point positions of the square of the curve (2^32 a side).
 struct Tile {
   std::uint32_t x, y; ///< its first positions, multiples of its side
   std::uint8_t shift; ///< its side is 2^shift, at most 2^31
@@ -22,7 +22,7 @@ struct Tile {
   /// The side of a bin is 2^bin_shift().
   int bin_shift() const { return shift - bits; }
   int bins() const { return 1 << (2 * bits); }
-  /// First column of bins that may meet positions from x0 on, and last column up to x1; rows for y0 and y1.
+  /// First and last column of bins that meet positions x0 .. x1; first and last row for y0 .. y1.
   int first_column(std::int64_t x0) const { return static_cast<int>(std::max<std::int64_t>(0, x0 - x) >> bin_shift()); }
   int last_column(std::int64_t x1) const { return static_cast<int>(std::min(side() - 1, x1 - x) >> bin_shift()); }
   int first_row(std::int64_t y0) const { return static_cast<int>(std::max<std::int64_t>(0, y0 - y) >> bin_shift()); }
@@ -35,7 +35,7 @@ inline Tile tile_of(const CurveSquare& square, int bits) {
   return {square.x << shift, square.y << shift, static_cast<std::uint8_t>(shift), static_cast<std::uint8_t>(bits)};
 }
 
-/// Positions x0 .. x1, y0 .. y1, both ends included.
+/// The positions x0 .. x1, y0 .. y1, both ends included.
 struct FixedRect {
   std::int64_t x0, y0, x1, y1;
 
@@ -53,13 +53,13 @@ inline FixedRect rect_of(const Tile& tile) {
   return {tile.x, tile.y, tile.x + tile.side() - 1, tile.y + tile.side() - 1};
 }
 
-/// @brief Which tile is where: squares that cover a rectangle without overlap, in the order of the curve. A directory
-/// of equal cells leads to a tile, or to a tree where tiles are smaller than a cell. 12 bytes a tile and 4 to 16 of
-/// the directory.
+/// @brief Finds the tile at a position. Tiles are squares that cover a rectangle without overlap, in the order of the
+/// curve. A directory of equal cells leads to a tile, or to a tree where tiles are smaller than a cell. Each tile takes
+/// 12 bytes, and 4 to 16 bytes of the directory.
 class TileTree {
 public:
   TileTree() = default;
-  /// @param limits that the tiles cover; each meets it @param tiles in the order of the curve
+  /// @param limits the rectangle that the tiles cover; each tile meets it @param tiles in the order of the curve
   TileTree(const FixedRect& limits, std::vector<Tile> tiles);
 
   std::size_t memory_bytes() const {
@@ -70,7 +70,7 @@ public:
   const Tile& operator[](LocalIndex tile) const { return tiles_[static_cast<std::size_t>(tile)]; }
   void set_bits(LocalIndex tile, std::uint8_t bits) { tiles_[static_cast<std::size_t>(tile)].bits = bits; }
 
-  /// The tile at a position. @pre within the limits
+  /// Returns the tile at a position. @pre the position lies within the limits
   LocalIndex find(std::uint32_t x, std::uint32_t y) const {
     std::int32_t entry = directory_[cell(x >> cell_shift_, y >> cell_shift_)];
     for (int shift = cell_shift_ - 1; entry < 0; --shift)
@@ -98,7 +98,7 @@ private:
   int cell_shift_ = 31;
   std::uint32_t first_column_ = 0, first_row_ = 0;
   std::size_t columns_ = 0, rows_ = 0;
-  std::vector<std::int32_t> directory_; // by cell: a tile, or ~(index of four children)
+  std::vector<std::int32_t> directory_; // for each cell, a tile, or ~(index of four children)
   std::vector<std::int32_t> children_;  // as directory_; four for each square that is divided
 };
 
@@ -113,7 +113,7 @@ void TileTree::for_each_in(const FixedRect& rect, const Visit& visit) const {
                        rect, visit);
         continue;
       }
-      const Tile& tile = tiles_[static_cast<std::size_t>(entry)]; // in its first cell of the rectangle
+      const Tile& tile = tiles_[static_cast<std::size_t>(entry)]; // visited only from its first cell of the rectangle
       if (column == column_of(std::max<std::int64_t>(rect.x0, tile.x)) &&
           row == column_of(std::max<std::int64_t>(rect.y0, tile.y)))
         visit(entry);

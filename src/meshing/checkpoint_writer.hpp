@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hands the state of a run to those who keep its checkpoints.
+// Collects the state of a run, and passes it to the object that writes its checkpoints.
 #pragma once
 
 #include "meshing/checkpoints.hpp"
@@ -11,27 +11,29 @@ namespace trime::meshing {
 
 /// Where in a stage a checkpoint was taken.
 enum class RunPoint {
-  moved,   ///< after a move, before what is done at the new places
+  moved,   ///< after a move, before the stars at the new places are computed
   relaxed, ///< after the last sorting of the last stage
 };
 
 /// @throws FileError as StateFields
 RunPoint point_of(const SavedRun& saved);
 
-/// Adds what the run as a whole must keep to the state of its sweeps.
+/// Adds the state of the whole run to the state of its sweeps.
 class CheckpointWriter {
 public:
-  /// @param checkpoints null: none are written @param visit_run shows the numbers of the run. Keeps all.
+  /// @param checkpoints if null, no checkpoint is written @param visit_run visits the numbers of the run. Keeps
+  /// references to all arguments.
   CheckpointWriter(const RunContext& run, Checkpoints* checkpoints, std::function<void(StateFields&)> visit_run)
       : run_(run), checkpoints_(checkpoints), visit_run_(std::move(visit_run)) {}
 
-  /// Returns the wish of this rank: a CheckpointWish.
+  /// Returns the CheckpointWish of this rank as an integer.
   int wish() const { return checkpoints_ ? static_cast<int>(checkpoints_->wish()) : 0; }
   /// Returns the common wish of all ranks before the clean-up, see Checkpoints. Collective.
   int wish_before_cleanup(bool stands) const {
     return checkpoints_ ? static_cast<int>(checkpoints_->wish_before_cleanup(stands)) : 0;
   }
-  /// @brief Writes one. @param wish of all ranks @param activity of the owned tiles. Collective.
+  /// @brief Writes a checkpoint. Collective. @param wish the common wish of all ranks @param activity see SavedTiles,
+  /// of the owned tiles
   /// @throws as Checkpoints::write
   void write(RunPoint point, int wish, RunState state, const sites::SiteState& sites,
              std::span<const std::uint64_t> activity) const;

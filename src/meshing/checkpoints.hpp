@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The interface through which a run has its checkpoints kept.
+// The interface through which a run asks for checkpoints to be written.
 #pragma once
 
 #include "meshing/run_state.hpp"
@@ -11,31 +11,32 @@
 
 namespace trime::meshing {
 
-/// The wish at the end of a sweep. If ranks have different wishes, the last one in this list counts.
+/// What a rank wants at the end of a sweep. If ranks have different wishes, the last of them in this list counts.
 enum class CheckpointWish : int {
   none,
-  write, ///< and go on
+  write, ///< write, then continue
   stop,  ///< write, then stop
 };
 
-/// The run has stopped at a checkpoint, on all ranks together (exit 75).
+/// Thrown on all ranks together when the run has stopped at a checkpoint (exit code 75).
 class StoppedAtCheckpoint : public Error {
 public:
   explicit StoppedAtCheckpoint(const std::string& message) : Error(ExitCode::checkpointed, message) {}
 };
 
-/// @brief Writes checkpoints, and says when. None of it may change anything about the mesh.
+/// @brief Decides when checkpoints are written, and writes them. It must not change the mesh.
 class Checkpoints {
 public:
   virtual ~Checkpoints() = default;
-  /// Returns the wish of this rank. Called once per sweep; local.
+  /// Returns the wish of this rank. Each rank calls it once per sweep.
   virtual CheckpointWish wish() = 0;
-  /// Returns the common wish of all ranks before the clean-up; after that nobody asks for wishes. Collective.
-  /// @param stands the run goes on from a checkpoint of this very moment: then none is wanted, or it would never get on
-  /// @throws StoppedAtCheckpoint if there is one, and a signal has asked to stop
+  /// Returns the common wish of all ranks before the clean-up; it is the last question for a wish. Collective.
+  /// @param stands true if the run has just been restarted from a checkpoint of this moment; then none is written, or
+  /// the run would never get beyond it
+  /// @throws StoppedAtCheckpoint if there is a checkpoint, and a signal has asked to stop
   virtual CheckpointWish wish_before_cleanup(bool stands) = 0;
-  /// @brief Writes one. @param activity of the owned tiles. Collective.
-  /// @throws StoppedAtCheckpoint if the wish was to stop, and there is one now; else the run goes on
+  /// @brief Writes a checkpoint. Collective. @param activity see SavedTiles, of the owned tiles
+  /// @throws StoppedAtCheckpoint if the wish was to stop and the checkpoint was written; otherwise the run continues
   /// @throws FileError if there is no checkpoint, and a signal ends the run
   virtual void write(CheckpointWish wish, const RunState& state, const sites::SiteState& sites,
                      std::span<const std::uint64_t> activity) = 0;

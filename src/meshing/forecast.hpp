@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long a run will still take, for the eyes of a person: from the history that this rank has. Steers nothing.
+// Estimates how long a run will still take, from the history that this rank has. People read the estimate; it has no
+// effect on the run.
 #pragma once
 
 #include "meshing/relaxation.hpp"
@@ -9,9 +10,10 @@
 
 namespace trime::meshing {
 
-/// @brief Seconds to the end of the run, about: sweeps of this stage until its gains fall below the tolerance, if they
-/// fall as a power of the number of sweeps; usual numbers for all that follows. Within a factor of two or three.
-/// @return negative where nothing is known: before the second record of a stage
+/// @brief Returns about how many seconds the run will still take, to within a factor of two or three. It assumes that
+/// the gains of this stage fall as a power of the number of sweeps until they are below the tolerance, and uses typical
+/// numbers for all that follows.
+/// @return a negative number before the second record of a stage, when nothing is known
 double seconds_left(std::span<const sweep::SweepRecord> history, const StageNumber& stage,
                     const sweep::SweepOptions& options);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sweeps of a stage, one after the other, with what is measured and said about them.
+// Runs the sweeps of a stage, and measures and reports them.
 #pragma once
 
 #include "meshing/checkpoint_writer.hpp"
@@ -13,30 +13,30 @@
 
 namespace trime::meshing {
 
-/// Which stage is relaxed, as far as the stop rule and the records want to know.
+/// The facts about a stage that the stop rule and the records use.
 struct StageNumber {
-  int stage;    ///< from 0
-  bool inserts; ///< the stages to come insert points into the mesh of this one
+  int stage;    ///< counts from 0
+  bool inserts; ///< later stages insert points into the mesh of this one
   bool is_last;
   int last = 0; ///< number of the last stage, as far as is known
 };
 
-/// Sweeps until the stop rule ends a stage; keeps the history of the run.
+/// Sweeps until the stop rule ends a stage, and records the history of the run.
 class Relaxation {
 public:
-  /// Keeps the references.
+  /// Keeps references to all arguments.
   Relaxation(const RunContext& run, const StageStars& stars, Snapshots& snapshots, const CheckpointWriter& checkpoints)
       : run_(run), stars_(stars), snapshots_(snapshots), checkpoints_(checkpoints), control_(run.sweeps, history_) {}
 
-  /// Sweeps until the stop rule ends the stage, at the sweep cap at the latest; then sorts. Collective.
+  /// Sweeps until the stop rule or the largest number of sweeps ends the stage, then sorts the sites. Collective.
   void relax(sites::Stage& stage, const StageNumber& number);
-  /// @brief Takes up what was kept in a checkpoint. If that was in the middle of a stage, sweeps on to its end, as
-  /// relax does. Collective. @pre the sites of the stage are restored
+  /// @brief Continues from a checkpoint. If it was taken in the middle of a stage, sweeps on to the end of the stage,
+  /// as relax does. Collective. @pre the sites of the stage are restored
   void resume(sites::Stage& stage, const StageNumber& number, const SavedRun& saved);
-  /// Returns what a checkpoint at the end of a stage keeps. @pre the sweeps of the stage are over
+  /// Returns the state that a checkpoint at the end of a stage stores. @pre the sweeps of the stage are over
   RunState state();
 
-  /// Why the last stage ended.
+  /// The reason why the last stage ended.
   sweep::StopReason stop_reason() const { return stop_reason_; }
   /// Returns all records of the run. @pre all sweeps are over
   std::vector<sweep::SweepRecord> take_history() { return std::move(history_); }
@@ -60,10 +60,10 @@ private:
   const CheckpointWriter& checkpoints_;
   std::vector<sweep::SweepRecord> history_;
   sweep::SweepControl control_;
-  sweep::SweepSums sums_;             // of the last record, with the power of the last move
-  sweep::Sweeper::Counts counts_;     // of the moves since the last record
-  int sweeps_ = 0;                    // moves made
-  double seconds_before_ = 0;         // of a run that was stopped, less those until this one took it up
+  sweep::SweepSums sums_;         // sums of the last record, with the power of the last move
+  sweep::Sweeper::Counts counts_; // counts of the moves since the last record
+  int sweeps_ = 0;                // moves so far
+  double seconds_before_ = 0; // seconds of the run that was stopped, minus the seconds that this run took to restore it
   std::optional<sweep::Mover> begun_; // the rule that knows the sums for the next move
   sweep::StopReason stop_reason_ = sweep::StopReason::sweep_cap;
 };

@@ -14,7 +14,7 @@
 
 namespace trime::meshing {
 
-/// The input of a run, and the options of its parts. Keeps references.
+/// The input of a run, and the options of its parts. It keeps references.
 struct RunContext {
   RunContext(const comm::Communicator& communicator, const geometry::Domain& its_domain, const sizing::SizeField& size,
              const MeshOptions& mesh_options, Log& its_log, TimerTable& its_timers)
@@ -23,17 +23,17 @@ struct RunContext {
         lattice(domain.frame().lattice()), log(its_log), timers(its_timers) {}
 
   const comm::Communicator& comm;
-  const geometry::Domain& domain;           ///< as the caller owns it
-  const geometry::Boundary& given_boundary; ///< of the domain
+  const geometry::Domain& domain;           ///< owned by the caller
+  const geometry::Boundary& given_boundary; ///< boundary of the domain
   const sizing::SizeField& relative_size;
   const MeshOptions options;
   const fitting::FitOptions fit;
   const sweep::SweepOptions sweeps;
-  const geometry::Lattice& lattice; ///< of the container
+  const geometry::Lattice& lattice; ///< lattice of the container
   Log& log;
   TimerTable& timers;
 
-  /// Longer side of the container.
+  /// Returns the longer side of the container.
   double side() const {
     const geometry::Box& container = domain.frame().container();
     return std::max(container.width(), container.height());

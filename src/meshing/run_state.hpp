@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The state that a run needs to continue as if nothing had happened, except its sites. Whatever follows from the config
-// alone is computed again: sizes, boundary, layout. Plain data.
+// The state, except the sites, that a run needs to continue from a checkpoint as if nothing had happened. Sizes,
+// boundary and layout follow from the config and are computed again. Plain data.
 #pragma once
 
 #include "core/state_fields.hpp"
@@ -14,11 +14,12 @@ namespace trime::meshing {
 
 /// State that is the same on every rank.
 struct RunState {
-  StateNumbers numbers; ///< of the classes that take part, see their visit()
+  StateNumbers numbers; ///< numbers of the classes that have a function visit()
   std::vector<sweep::SweepRecord> history;
 };
 
-/// A run that was read back. All members are the same on every rank; `load` depends on its arguments.
+/// A run that was read from a checkpoint. All members are the same on every rank, and so are the sites that `load`
+/// gives for the same arguments.
 struct SavedRun {
   RunState state;
   sites::SavedTiles tiles;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stars of a stage before and after its sweeps; the sweeps keep them right themselves.
+// Computes the stars of a stage before and after its sweeps. During the sweeps, the module sweep updates them.
 #pragma once
 
 #include "delaunay/star_builder.hpp"
@@ -11,28 +11,28 @@
 
 namespace trime::meshing {
 
-/// @brief Builds, certifies and completes stars. Owns the cap: the circumradius up to which triangles are searched
-/// first. All calls are collective, except begin_stage.
+/// @brief Builds, certifies and completes stars. Owns the cap: the largest circumradius of the first search for
+/// triangles. All calls are collective, except begin_stage.
 class StageStars {
 public:
   explicit StageStars(const RunContext& run) : run_(run) {}
 
-  /// @param points of the stage, over all ranks
+  /// @param points points of the stage, over all ranks
   void begin_stage(GlobalId points);
   const delaunay::StarBuilder& builder() const { return *builder_; }
 
   delaunay::StarPass compute(sites::Stage& stage, sites::Wanted wanted) const;
-  /// Certifies the stars of the inner sites. Most of them are as they were before the last moves.
-  /// @param reach up to which sites the stars around one may certify it: the clean-up may have moved boundary sites
+  /// Certifies the stars of the inner sites. Most of them have not changed in the last moves.
+  /// @param reach limits the sites whose stars may certify a star, because the clean-up may have moved boundary sites
   /// into discs of chords
   void certify(sites::Stage& stage, sweep::LemmaReach reach) const;
-  /// @brief Stars of all sites; where few are not certain, by emptiness, else most of them by the lemma. Where a fan is
-  /// not complete the cap may have been too low (a void): it is doubled for these sites, a few times. The certificate
-  /// finds fans that are not complete even then. @param reach as for certify
-  /// @throws GeometryError on all ranks if triangles of a periodic container reach around it
+  /// @brief Computes the stars of all sites. If few are uncertain, it uses the empty-circumcircle test, otherwise the
+  /// lemma for most of them. If a fan is incomplete, the cap may have been too low (next to a void), so it is doubled
+  /// for these sites a few times. The certificate finds fans that are still incomplete. @param reach as in certify
+  /// @throws GeometryError on all ranks if triangles reach around a periodic container
   void complete(sites::Stage& stage, sweep::LemmaReach reach);
 
-  /// Up to where stars may be certified by those around them: as far as `reach`, or nowhere if the options say so.
+  /// Returns `reach`, or LemmaReach::nowhere if the options forbid that stars certify each other.
   sweep::LemmaReach allowed(sweep::LemmaReach reach) const;
 
 private:
@@ -42,8 +42,8 @@ private:
   void check_periods(const sites::Stage& stage) const;
 
   const RunContext& run_;
-  GlobalId points_ = 0;   // at the beginning of the stage
-  double cap_factor_ = 0; // of h
+  GlobalId points_ = 0;   // number at the beginning of the stage
+  double cap_factor_ = 0; // cap over h
   std::unique_ptr<delaunay::StarBuilder> builder_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps interior sites off the boundary: finds out whether a site has left the polygon of chords or entered the
-// diametral disc of a chord, and where to push it. Does not move, delete or count anything itself.
+// Keeps interior sites away from the boundary: finds out whether a site has left the polygon of chords or entered the
+// diametral disc of a chord, and where to push it. It does not move, delete or count sites itself.
 #pragma once
 
 #include "polygon/disc_cells.hpp"
@@ -19,43 +19,45 @@ namespace trime::polygon {
 /// @brief Queries about the polygon of chords between neighbouring boundary sites. Chord i goes from site i to its
 /// next.
 ///
-/// A flat grid has about 64 cells per chord (at most 2^22). A cell clear of all discs stores whether it lies inside or
-/// outside, and how many cells it is away from them; the other cells list the discs that reach into them. So far from
+/// A flat grid has about 64 cells per chord (at most 2^22). A cell that no disc touches stores whether it lies inside
+/// or outside, and its distance from the discs in cells. The other cells list the discs that reach into them. Far from
 /// the boundary every query reads one byte. Points must lie on the lattice of the sites. Immutable and thread-safe; O(B
 /// log B) to build, by all threads.
 ///
-/// In a periodic container any image of a point may be asked for, and all images of the chords count. There the chords
-/// and images that meet one image of the container are closed outside of it, so that the even-odd rule holds within up
-/// to a global change of sides, which the inner side of one chord decides. Without sites, all is inside.
+/// In a periodic container queries accept any image of a point, and all images of the chords count. There, the chords
+/// and images that meet the container are closed to polygons outside it. Then the even-odd rule gives the inside, or
+/// the outside, of all points; the inner side of one chord shows which. Without sites, everything is inside.
 class BoundaryGuard {
 public:
   BoundaryGuard(const BoundarySites& sites, const geometry::Lattice& lattice);
 
-  /// Inside the polygon of chords; exact, with the perturbation of SegmentGrid on the boundary itself.
+  /// Returns whether p lies inside the polygon of chords. Exact; on the boundary itself, the perturbation of
+  /// SegmentGrid decides.
   bool inside(geometry::Vec2 p) const;
-  /// Distance to the nearest chord, or `reach` if that is farther.
+  /// Returns the distance to the nearest chord, at most `reach`.
   double distance(geometry::Vec2 p, double reach) const;
-  /// A lower bound of the distance, `reach` if it is not below that; for p in the container, by one look-up.
+  /// Returns a lower bound of the distance, at most `reach`, by one look-up. @pre p lies in the container
   double distance_below(geometry::Vec2 p, double reach) const { return std::min(reach, clear_way(p)); }
-  /// @brief Where an interior site at p with local size h must go; nothing if p is inside and in no closed diametral
-  /// disc.
+  /// @brief Returns the place to which an interior site at p must move, or nothing if p is inside and in no closed
+  /// diametral disc.
   ///
   /// The chord is the one in whose disc p lies deepest (relative to its radius), or the nearest one if p is outside.
-  /// The new place is PolygonRules::push_way of the chord length from the chord's middle: towards p if that makes at
-  /// least 30 degrees with the chord on its inner side and leads to a good place, else along the inner normal. It may
-  /// be bad itself near sharp notches. h only says where the search for the nearest chord begins. A pure function of p
-  /// and the sites; of a periodic container it is the image next to p, canonical or not.
+  /// The new place is PolygonRules::push_way chord lengths from the middle of the chord. It lies towards p if this
+  /// direction makes at least 30 degrees with the chord on its inner side and leads to a good place, otherwise along
+  /// the inner normal. Near sharp notches it may be a bad place itself. The search for the nearest chord begins with
+  /// the local size h. The result depends only on p and the sites; in a periodic container it is the image next to p.
   std::optional<geometry::Vec2> correct(geometry::Vec2 p, double h, const geometry::Lattice& lattice) const;
-  /// Does `correct` have something to say about p?
+  /// Returns whether `correct` returns a place for p.
   bool pushes(geometry::Vec2 p) const;
-  /// True where it surely has not: one look-up. Most places are clear.
+  /// Returns true if `correct` certainly returns nothing for p, as for most places. One look-up.
   bool is_clear(geometry::Vec2 p) const { return state_at(periods_.wrap(p)) > 0; }
-  /// p lies outside, strictly inside some diametral disc, or nearer to a chord than PolygonRules::near_chord.
+  /// Returns whether p lies outside, strictly inside a diametral disc, or nearer to a chord than
+  /// PolygonRules::near_chord.
   bool encroaches(geometry::Vec2 p) const;
 
   GuardCells cells() const;
 
-  /// Chord i of each site, in a periodic container that image whose middle is canonical.
+  /// The chords by site; in a periodic container, those images whose middles are canonical.
   const geometry::SegmentGrid& chords() const { return chords_; }
   std::size_t memory_bytes() const;
 
@@ -83,19 +85,20 @@ private:
   std::vector<std::uint8_t> clearance_of(int low, int high) const;
   void classify_row(int j, const std::uint8_t* clearance, const geometry::Lattice& lattice);
   int state_at(geometry::Vec2 p) const;
-  /// A distance that no chord is nearer to p.
+  /// Returns a distance within which there is no chord.
   double clear_way(geometry::Vec2 p) const;
-  /// The number for disc() of the closed diametral disc in which p lies deepest, lowest on ties; -1 if in none.
+  /// Returns the number (see disc()) of the closed diametral disc in which p lies deepest, the lowest of equals; -1 if
+  /// p lies in none.
   LocalIndex deepest_disc(geometry::Vec2 p) const;
 
   geometry::Periods periods_;
-  geometry::SegmentGrid chords_;          // each where its middle is canonical
-  std::vector<geometry::Segment> images_; // of chords, whose discs reach into the container
-  geometry::SegmentGrid closed_;          // chords and images, closed outside; periodic containers only
-  bool inverted_ = false;                 // the inside is where closed_ has its outside
+  geometry::SegmentGrid chords_;          // each at the image whose middle is canonical
+  std::vector<geometry::Segment> images_; // images of chords whose discs reach into the container
+  geometry::SegmentGrid closed_; // chords and images, closed outside the container; for periodic containers only
+  bool inverted_ = false;        // true if the inside of the shape is the outside of closed_
   DiscCells cells_;
-  std::vector<std::int8_t>
-      state_; // inside > 0, outside < 0; its amount is the number of cells to the next one near a disc
+  std::vector<std::int8_t> state_; // by cell: positive inside, negative outside; the absolute value is the number of
+                                   // cells to the next near_disc cell
 };
 
 } // namespace trime::polygon

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes closed polygons of the segments that meet a window, without touching the window.
+// Closes the segments that meet a window to polygons, by segments that lie outside the window.
 #pragma once
 
 #include "trime/geometry/vec2.hpp"
@@ -8,10 +8,10 @@
 
 namespace trime::polygon {
 
-/// @brief The segments and some more outside of `window`, so that every end is shared by an even number of them. Which
-/// points of the window lie inside by the even-odd rule is then decided up to exchanging inside and outside.
-/// @param segments such that an end that only an odd number of them share lies outside of `window`
-/// @param margin how far outside of everything the added ones lead around; it and all ends are lattice multiples
+/// @brief Returns the segments and additional ones outside `window`, so that every end belongs to an even number of
+/// segments. Then the even-odd rule separates inside and outside in the window, but does not say which is which.
+/// @param segments an end that belongs to an odd number of them lies outside `window`
+/// @param margin distance of the added segments from all others; a multiple of the lattice step, as all ends are
 std::vector<geometry::Segment> close_outside(std::vector<geometry::Segment> segments, const geometry::Box& window,
                                              double margin);
 

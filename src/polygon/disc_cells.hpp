@@ -14,21 +14,21 @@
 
 namespace trime::polygon {
 
-/// Radius around the middle of a chord that covers its disc and everything nearer to it than PolygonRules::near_chord.
+/// Returns a radius around the middle of a chord that covers its disc and everything nearer to the chord than
+/// PolygonRules::near_chord.
 double reach_of(const geometry::Segment& chord);
 
-/// Rows of cells for one thread: as many as a word has bits, so that no word has bits of two threads.
+/// Number of rows of cells for one thread: as many as a word has bits, so that no word has bits of two threads.
 constexpr int strip_rows = 64;
 
 /// Immutable once the discs are listed; thread-safe.
 class DiscCells {
 public:
   DiscCells() = default;
-  /// Cells of this side over a box, and a margin around it.
+  /// Makes cells of this side that cover a box and a margin around it.
   DiscCells(const geometry::Box& box, double side);
 
-  /// @brief Lists the discs of `chords` and `more`, which are numbered on, by counting, summing and filling. O(cells +
-  /// entries), by all threads.
+  /// @brief Lists the discs of `chords`, then of `more`, under consecutive numbers. O(cells + entries), by all threads.
   void list_discs(std::span<const geometry::Segment> chords, std::span<const geometry::Segment> more);
 
   double side() const { return side_; }
@@ -41,14 +41,14 @@ public:
     return corner_ + geometry::Vec2{(column + 0.5) * side_, (row + 0.5) * side_};
   }
 
-  /// Index of the cell of p, row by row; -1 outside of the grid, where nothing is near.
+  /// Returns the index of the cell of p, row by row; -1 outside the grid, where there is no disc.
   std::int64_t cell_at(geometry::Vec2 p) const {
     const double x = (p.x - corner_.x) * inverse_side_, y = (p.y - corner_.y) * inverse_side_;
     if (!(x >= 0 && y >= 0 && x < columns_ && y < rows_))
       return -1;
     return static_cast<std::int64_t>(y) * columns_ + static_cast<std::int64_t>(x);
   }
-  /// The discs that reach into a cell, ascending; none into cell -1.
+  /// Returns the discs that reach into a cell, in ascending order; none for cell -1.
   std::span<const LocalIndex> discs_at(std::int64_t cell) const {
     if (cell < 0 || !has_disc(static_cast<std::size_t>(cell)))
       return {};
@@ -56,7 +56,7 @@ public:
     return std::span(discs_).subspan(static_cast<std::size_t>(starts_[k]), starts_[k + 1] - starts_[k]);
   }
   bool has_disc(std::size_t cell) const { return (bits_[cell / word] >> (cell % word) & 1) != 0; }
-  /// Returns for each cell of a row 0 if a disc reaches into it, else `none`.
+  /// Sets the mark of each cell of a row to 0 if a disc reaches into it, otherwise to `none`.
   void mark_discs(int row, std::uint8_t none, std::span<std::uint8_t> marks) const;
 
   std::size_t memory_bytes() const {
@@ -65,7 +65,7 @@ public:
   }
 
 private:
-  /// A disc with what is near its chord.
+  /// A disc that covers the diametral disc of a chord and what is near the chord.
   struct Reach {
     geometry::Vec2 middle;
     double radius;
@@ -74,7 +74,7 @@ private:
   template <class Visit>
   void for_each_cell_of(const Reach& disc, int first_row, int last_row, const Visit& visit) const;
 
-  /// Number of cells with a disc before this one.
+  /// Returns the number of cells with a disc before this one.
   std::size_t rank(std::size_t cell) const {
     const std::uint64_t below = bits_[cell / word] & ((std::uint64_t{1} << (cell % word)) - 1);
     return static_cast<std::size_t>(ranks_[cell / word]) + static_cast<std::size_t>(std::popcount(below));
@@ -84,12 +84,12 @@ private:
   static constexpr std::size_t word = 64; // cells
 
   geometry::Vec2 corner_;
-  double side_ = 1, inverse_side_ = 1; // of a cell
+  double side_ = 1, inverse_side_ = 1; // side of a cell
   int columns_ = 0, rows_ = 0;
   // Most cells have no disc, and take one bit.
   std::vector<std::uint64_t> bits_;        // by cell, whether it has discs
   std::vector<LocalIndex> ranks_;          // by word of these bits, the number of bits that are set before it
-  std::vector<LocalIndex> starts_, discs_; // by cell with discs, the first of them; and these
+  std::vector<LocalIndex> starts_, discs_; // by cell with discs, where its discs begin in discs_
 };
 
 } // namespace trime::polygon

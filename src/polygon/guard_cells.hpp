@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cells of the guard as plain numbers, for loops that look for the clear ones themselves.
+// The cells of the guard as plain arrays, for vectorised loops that look for clear cells themselves.
 #pragma once
 
 #include "trime/geometry/vec2.hpp"
@@ -8,9 +8,10 @@
 
 namespace trime::polygon {
 
-/// Rows of `columns` cells from `corner` on. Points into the guard.
+/// Rows of `columns` cells, beginning at `corner`. The pointer points into the guard.
 struct GuardCells {
-  const std::int8_t* states = nullptr; ///< a point in a cell above 0 needs no push; null without sites: nor does any
+  const std::int8_t* states =
+      nullptr; ///< a point in a cell with a positive state needs no push; null without sites, when no point needs one
   geometry::Vec2 corner;
   double inverse_side = 1;
   int columns = 0, rows = 0;

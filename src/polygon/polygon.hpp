@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sites on the boundary and the polygon of the chords between them. Everything that comes after the layout of the
-// boundary knows it by this polygon alone.
+// The sites on the boundary and the polygon of the chords between them. After the layout of the boundary, all code uses
+// this polygon only.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -16,21 +16,21 @@ namespace trime::polygon {
 struct DroppedLoops {
   std::vector<char> dropped; ///< per loop of the boundary
   int components = 0, holes = 0;
-  double area = 0;   ///< of the islands plus that of the lakes
-  double share = 0;  ///< that area over the shape's, as the shape was given
-  double change = 0; ///< of the shape's area: lakes minus islands
+  double area = 0;   ///< area of the dropped islands and lakes
+  double share = 0;  ///< that area over the area of the given shape
+  double change = 0; ///< change of the area of the shape: lakes minus islands
   bool any() const { return components + holes > 0; }
 };
 
 struct BoundarySite {
   geometry::Vec2 position;     ///< on the lattice; canonical in a periodic container
   LocalIndex previous, next;   ///< along its loop, interior on the left
-  std::int32_t tag;            ///< of its loop; also of the chord from here to `next`
-  bool corner;                 ///< given by the shape, kept bit for bit
-  geometry::Vec2 next_shift{}; ///< multiple of the periods: the chord ends at the position of `next` moved by it
-  LocalIndex piece = 0;        ///< of its loop, on which the site lies
+  std::int32_t tag;            ///< tag of its loop, and of the chord from here to `next`
+  bool corner;                 ///< true for corners of the shape, whose coordinates are kept exactly
+  geometry::Vec2 next_shift{}; ///< multiple of the periods: the chord ends at the position of `next` plus this shift
+  LocalIndex piece = 0;        ///< piece of its loop on which the site lies
   double along = 0;            ///< arc length from the start of that piece
-  std::int32_t part = 0;       ///< index into Boundary::part_names: of the curve in the middle of the chord to `next`
+  std::int32_t part = 0;       ///< index into Boundary::part_names of the curve in the middle of the chord to `next`
 };
 
 /// Invariants: sites of one loop are consecutive and in order. A loop has at least 3. No two positions are equal. The
@@ -40,18 +40,18 @@ struct BoundarySites {
   std::vector<BoundarySite> sites;
   geometry::Periods periods{}; ///< those of the boundary
   std::vector<LocalIndex>
-      loop_start; ///< loops + 1: sites of loop i of those that stay are loop_start[i] .. loop_start[i+1]-1
+      loop_start; ///< the sites of the i-th remaining loop are loop_start[i] .. loop_start[i+1]-1; length loops + 1
   LocalIndex corners = 0;
   LocalIndex sharp_corners = 0; ///< corners with an angle below 60 degrees on either side
   LocalIndex halvings = 0;      ///< chords divided after the layout
-  int rounds = 0;               ///< of halving
+  int rounds = 0;               ///< rounds of halving
   double shortest = 0;          ///< length of the shortest chord
-  bool overfull = false;        ///< ended at more sites than are affordable: the discs may not be empty
-  DroppedLoops dropped;         ///< by the rule for features below the resolution
-  LocalIndex left_out = 0;      ///< corners of the shape, on loops that stay, that are no sites
+  bool overfull = false;        ///< true if halving ended because there were too many sites: discs may not be empty
+  DroppedLoops dropped;         ///< loops dropped by the rule for features below the resolution
+  LocalIndex left_out = 0;      ///< number of corners of the shape on remaining loops that are not sites
   double deviation = 0;         ///< largest distance of such a corner from its chord, over the local size
 
-  /// From site i to its next, or to that image of it where the boundary leads.
+  /// Returns the chord from site i to its next, or to the image of it to which the boundary leads.
   geometry::Segment chord(LocalIndex i) const {
     const BoundarySite& site = sites[i];
     return {site.position, sites[site.next].position + site.next_shift};

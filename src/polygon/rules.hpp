@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The numbers by which the guard of the boundary is built and asked.
+// The tuned numbers of the module polygon.
 #pragma once
 
 #include <cstddef>
 
 namespace trime::polygon {
 
-/// The numbers of the polygon module.
+/// Numbers for the guard of the boundary, and for bent and sharp curves.
 struct PolygonRules {
-  /// [chord lengths] A site nearer to a chord than this encroaches, though it may lie outside of the disc: near the
-  /// ends of a chord its disc is thin.
+  /// [chord lengths] A site nearer to a chord than this encroaches, even outside the disc, which is thin near the ends
+  /// of the chord.
   static constexpr double near_chord = 0.05;
-  /// [chord lengths] So far from the middle of a chord a site in its disc is pushed, and a new one placed: the radius
-  /// is 0.5, and just outside of it the next move would bring the site back. With it, pushes on a poker of 1e4 points
-  /// ended within five sweeps.
+  /// [chord lengths] Distance from the middle of a chord to which a site in its disc is pushed, and at which a new site
+  /// is placed. The radius of the disc is 0.5; just outside it the next move would bring the site back. On a poker of
+  /// 1e4 points, pushes ended within five sweeps.
   static constexpr double push_way = 0.6;
-  /// [cells] The way to the nearest disc is counted up to here; strips of rows read as many rows around them. Not
+  /// [cells] Largest distance to the nearest disc that is stored. Each strip of rows reads as many rows around it. Not
   /// measured.
   static constexpr int farthest_cell = 15;
-  /// [1] Cosine of half a degree: a curve with a junction that turns by more is bent. Less is a round curve in pieces.
+  /// [1] Cosine of half a degree. A curve with a junction that turns by more is bent; smaller turns occur where a round
+  /// curve consists of pieces.
   static constexpr double cosine_of_bent = 0.99996;
-  /// [1] Cosine of 30 degrees: a curve with a junction that turns by more is sharp. The same angle as the default of
-  /// FeatureOptions::corner_angle.
+  /// [1] Cosine of 30 degrees, the default of FeatureOptions::corner_angle. A curve with a junction that turns by more
+  /// is sharp.
   static constexpr double cosine_of_sharp = 0.8660254037844386;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pieces of the metadata of a mesh, from which describe() and the program put theirs together.
+// Makes the groups of the metadata of a mesh, for describe() and for the program.
 #pragma once
 
 #include "trime/boundary/features.hpp"
@@ -20,7 +20,7 @@ namespace trime::record {
 
 using Attributes = std::vector<io::Attribute>;
 
-/// One value of each element as a column.
+/// Returns a column with one value for each element.
 template <class T, class Element, class Value>
 io::Column column(const std::string& name, const std::vector<Element>& elements, const Value& value) {
   std::vector<T> values;
@@ -29,13 +29,13 @@ io::Column column(const std::string& name, const std::vector<Element>& elements,
   return {name, std::move(values)};
 }
 
-/// Name and version of the format of the file.
+/// Returns name and version of the file format.
 Attributes format_attributes();
-/// Reference system and periods.
+/// Returns reference system and periods.
 Attributes place_attributes(const Origin& origin);
-/// Counts and hash. @param retriangulation counts from 1
+/// Returns counts and hash of the mesh. @param retriangulation counts from 1
 Attributes mesh_attributes(const mesh::DistributedMesh& mesh, int retriangulation);
-/// How the run went, and what became of the features of the shape.
+/// Returns how the run went, and how the features of the shape were meshed.
 Attributes result_attributes(const meshing::MeshResult& result);
 
 io::MetadataGroup history_group(const std::vector<sweep::SweepRecord>& history);
@@ -45,7 +45,7 @@ io::MetadataGroup checks_group(const mesh::Checks& checks);
 io::MetadataGroup bad_triangles_group(const mesh::QualitySummary& quality);
 /// Returns the tables that explain the numbers in /Mesh/facets: `values` are edge_id, `parts` are part_id.
 io::MetadataGroup tags_group(const Origin& origin, const std::vector<polygon::LoopSummary>& loops);
-/// Corners where small angles cannot be avoided.
+/// Returns the table of corners where small angles cannot be avoided.
 io::MetadataGroup sharp_corners_group(const std::vector<boundary::SharpCorner>& corners);
 /// Returns the table of the loops of the shape.
 io::MetadataGroup rings_group(const Origin& origin, const std::vector<boundary::LoopFate>& loops);

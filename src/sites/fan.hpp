@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The fan of a site: which triangles of its star lie inside the shape.
+// The fan of a site: the triangles of its star that lie inside the shape.
 #pragma once
 
 #include "decomposition/numbering.hpp"
@@ -11,9 +11,9 @@
 
 namespace trime::sites {
 
-/// @brief The inside fan of a site: the run of ring entries whose consecutive pairs are the triangles inside the shape.
-/// For an inner site the whole ring (`closed`); for a boundary site from its next to its previous boundary neighbour.
-/// `complete` is false if a triangle or a chord is missing.
+/// @brief The inside fan of a site: the part of its ring whose consecutive pairs give the triangles inside the shape.
+/// For an inner site this is the whole ring (`closed`); for a boundary site it runs from the next to the previous
+/// boundary neighbour. `complete` is false if a triangle or a chord is missing.
 struct Fan {
   std::span<const LocalIndex> ring;
   std::size_t first = 0, triangles = 0;
@@ -24,26 +24,26 @@ struct Fan {
     const std::size_t at = first + k;
     return ring[at < ring.size() ? at : at - ring.size()];
   }
-  /// Number of edges from the site: triangles, plus one for an open fan.
+  /// Number of edges from the site: one for each triangle, and one more for an open fan.
   std::size_t edges() const { return closed ? triangles : triangles + 1; }
 };
 Fan inside_fan(const StageView& view, LocalIndex i);
 
-/// Owned sites whose fan is not complete, on this rank.
+/// Counts the owned sites of this rank whose fan is incomplete.
 std::int64_t count_incomplete_fans(const StageView& view);
 
-/// @brief The inside fan of a site as flat lists: vertex and position of its neighbours. Triangle k has the neighbours
-/// k and k + 1; a closed fan ends with its first two neighbours again.
+/// @brief The inside fan of a site as flat lists of the vertices and positions of its neighbours. Triangle k has the
+/// neighbours k and k + 1; a closed fan repeats its first two neighbours at the end.
 class FlatFan {
 public:
   FlatFan(const StageView& view, const decomposition::Numbering& numbering) : view_(view), numbering_(numbering) {}
 
   void load(LocalIndex site);
-  /// Triangles whose other vertices have higher places than `own`, by the place of the first of these.
+  /// Returns the triangles whose other vertices both have higher places than `own`, ordered by the place of the first.
   std::span<const std::uint32_t> triangles_above(LocalIndex own);
 
   bool closed = false, complete = false;
-  std::size_t triangles = 0, edges = 0;    ///< edges: of complete fans, else 0
+  std::size_t triangles = 0, edges = 0;    ///< edges is 0 if the fan is incomplete
   UnsetVector<LocalIndex> vertices, place; ///< place: see Numbering
   UnsetVector<geometry::Vec2> positions;
 

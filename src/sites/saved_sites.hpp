@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sites of a checkpoint: what a state is restored from, on any number of ranks. Plain data.
+// The sites of a checkpoint, from which any number of ranks can restore a state. Plain data.
 #pragma once
 
 #include "mesh/drifts.hpp"
@@ -12,19 +12,19 @@
 
 namespace trime::sites {
 
-/// By tile, along the curve; the same on all ranks.
+/// The tiles of a checkpoint, in the order of the curve. The same on all ranks.
 struct SavedTiles {
   std::vector<mesh::Tile> tiles;
-  std::vector<std::int64_t> counts;    ///< sites that were sorted into each
-  std::vector<double> drifts;          ///< how far they may have come since, domain units
-  std::vector<std::uint64_t> activity; ///< what the sweeps know of each, see TileActivity
+  std::vector<std::int64_t> counts;    ///< number of sites that were sorted into each tile
+  std::vector<double> drifts;          ///< how far these sites may have moved since then, domain units
+  std::vector<std::uint64_t> activity; ///< activity of each tile in the sweeps, see TileActivity
   mesh::DriftBound largest;            ///< bound on the drifts
 };
 
-/// Sites of neighbouring tiles, tile by tile; they may have left the tiles that they were sorted into.
+/// Sites of consecutive tiles, tile by tile. They may have left the tiles into which they were sorted.
 struct SavedSites {
   mesh::SiteList sites;
-  std::vector<double> sizes; ///< h of each; empty: the size is uniform
+  std::vector<double> sizes; ///< h of each site; empty if the size is uniform
 };
 
 /// Fetches rows [first, first + count) of all sites. Local. @throws FileError

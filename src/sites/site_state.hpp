@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sites of a run and what holds them together over the ranks: grid, partition, halo, stars.
+// The sites of a run, and the data that ranks share about them: grid, partition, halo and stars.
 #pragma once
 
 #include "decomposition/halo.hpp"
@@ -19,75 +19,76 @@ namespace trime::sites {
 /// Which stars are to be computed.
 enum class Wanted { inner_sites, all_sites };
 
-/// A place and how far around it sites must be known.
+/// A disc in which a rank must know all sites.
 struct Disc {
   geometry::Vec2 center;
   double radius;
 };
 
-/// @brief Owned and ghost sites with their stars. The state says which calls are allowed; those that change it check
-/// it:
-/// - empty: at first. Only share_out, distribute and restore.
-/// - sorted: after distribute and move_sites. The owned sites are in order, the ghosts are not here, and no star is
-///   certain. Only refresh, compute_stars, forget_sizes, distribute, move_sites and edit_sites.
-/// - complete: after refresh, compute_stars, restore, edit_sites and finish_advance. All except share_out and
-///   finish_advance.
-/// - advancing: after begin_advance. The owned sites are at their next places, the ghosts on their way. Only
-///   finish_advance, and questions about sites that no ghost is near.
-/// - released: after release_work_space. Only questions, and h is not known any more.
+/// @brief Owned and ghost sites with their stars. The state decides which functions may be called; functions that
+/// change it assert it:
+/// - empty: at first. Only share_out, distribute and restore may be called.
+/// - sorted: after distribute and move_sites. The owned sites are sorted, the ghosts are missing, and no star is
+/// certain. Only refresh, compute_stars, forget_sizes, distribute, move_sites and edit_sites may be called.
+/// - complete: after refresh, compute_stars, restore, edit_sites and finish_advance. All functions except share_out and
+/// finish_advance may be called.
+/// - advancing: after begin_advance. The owned sites are at their next places, and the ghosts are still on their way.
+/// Only finish_advance and queries about sites far from all ghosts may be called.
+/// - released: after release_work_space. Only queries may be called, and h is not known.
 class SiteState {
 public:
-  /// @param box that holds all sites, now and later
+  /// @param box contains all sites throughout the run
   SiteState(const comm::Communicator& comm, const geometry::Box& box, const mesh::GridOptions& grid_options);
-  /// @brief The sites of another state at their present places, sorted, without stars; that state stays as it is.
-  /// Collective.
+  /// @brief Copies the sites of another state at their present places, sorted and without stars. Collective.
   explicit SiteState(const SiteState& other);
 
-  /// @brief Other tiles, and who is to fill them with sites: ranks get about equal weights. Before there are sites. The
+  /// @brief Replaces the tiles before there are sites, and distributes them so that ranks get about equal weights. The
   /// arguments are the same on all ranks.
   void share_out(std::vector<mesh::Tile> tiles, std::span<const std::int64_t> weights);
-  /// First sites, from any ranks: fits the tiles to them and partitions these by their counts. Collective.
+  /// Takes the first sites, from any ranks. Fits the tiles to them, and partitions the tiles by the numbers of their
+  /// sites. Collective.
   /// @throws ConfigError on all ranks if one would own more sites than a local index can count
   void distribute(mesh::SiteList sites);
-  /// @brief The sites of a checkpoint, with the tiles and bins that they had, shared out among these ranks. Their stars
-  /// are not known. Collective.
-  /// @throws FileError on all ranks as `load`, or if the sites do not fit the tiles; ConfigError as distribute
+  /// @brief Distributes the sites of a checkpoint over the ranks, in the tiles and bins that they had. Their stars are
+  /// not known. Collective.
+  /// @throws FileError on all ranks if `load` throws or the sites do not fit the tiles; ConfigError as in distribute
   void restore(const SavedTiles& saved, const SiteLoader& load, const sizing::SizeField& size);
-  /// @brief Moves the owned sites to BinnedPoints::next, except those that are gone (by local index; empty: no sites),
-  /// and adds new sites, whichever rank owns their places. Migrates, sorts, keeps the rings. Collective.
+  /// @brief Moves the owned sites to BinnedPoints::next, removes some, and adds `more`, whichever rank owns their
+  /// places. Sends sites to their new owners, sorts them, and keeps their rings. Collective. @param gone 1 for each
+  /// owned site to remove, by local index; empty if none is
   void move_sites(std::vector<std::uint8_t> gone = {}, mesh::SiteList more = {});
 
-  /// @brief Has the effect of move_sites where few of the owned sites go, and a few come to the tiles of this rank:
-  /// keeps order, h and rings in place. Without periods, stars that nothing near has changed stay certain. Fetches the
-  /// ghosts. Collective among neighbours. O(edits log edits), and a pass at the speed of memory over the owned sites.
-  /// @param builder of the stars that are certain
-  /// @param gone ascending, each once
-  /// @param sizes h at each that comes, that of the stage
-  /// @pre sites were sorted and have not moved since; their leads are released, and h of the owned ones is known
+  /// @brief Has the effect of move_sites if few of the owned sites are removed and few are added in the tiles of this
+  /// rank, but keeps order, h and rings in place. Without periods, stars without a change nearby stay certain. Fetches
+  /// the ghosts. Collective among neighbours. O(edits log edits), and one copy of the data of the owned sites.
+  /// @param builder the builder of the stars that are certain
+  /// @param gone local indices of the sites to remove, ascending, each once
+  /// @param sizes h of the stage at each new site
+  /// @pre sites have not moved since they were sorted, leads are released, and h at the owned sites is known
   void edit_sites(const delaunay::StarBuilder& builder, std::vector<LocalIndex> gone, mesh::SiteList come,
                   std::span<const double> sizes);
 
-  /// @brief Refreshes the halo and the sizes and computes the wanted stars, asking for more bins until every one is
-  /// certain. Collective.
+  /// @brief Refreshes the halo and the sizes, and computes the wanted stars; fetches more bins until every one of them
+  /// is certain. Collective.
   /// @param size the same field in all calls: h of sites that stay in place is not evaluated again
   /// @throws GeometryError on all ranks together if h at a site is not positive and finite
   delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size, Wanted wanted);
 
-  /// Does the same for some stars: `wanted` by local index of the owned sites.
+  /// As above, where `wanted` has one entry for each owned site.
   delaunay::StarPass compute_stars(const delaunay::StarBuilder& builder, const sizing::SizeField& size,
                                    std::span<const delaunay::StarWish> wanted);
   /// @brief Fetches the ghosts after a change of sites and evaluates h at sites that moved; part of compute_stars.
   /// Collective.
   void refresh(const sizing::SizeField& size);
-  /// Makes the next move evaluate h again, also at sites that stay: their h may be older than their place.
+  /// Makes the next move evaluate h at all sites, also at sites that stay, whose h may belong to an earlier place.
   void forget_sizes();
-  /// @brief Moves the owned sites to BinnedPoints::next, without sorting. The ghosts follow on their way:
-  /// nothing about them may be asked until finish_advance. Collective. @pre no periods
-  /// @param drift of any site of any rank, with this move
-  /// @param new_sizes evaluates h at the new places; else sites keep theirs
+  /// @brief Moves the owned sites to BinnedPoints::next without sorting, and sends their places to other ranks. The
+  /// ghosts must not be used until finish_advance. Collective. @pre no periods
+  /// @param drift bound on the drift of any site of any rank, with this move
+  /// @param new_sizes if true, evaluates h at the new places; otherwise sites keep their h
   void begin_advance(const sizing::SizeField& size, const mesh::DriftBound& drift, bool new_sizes);
   void finish_advance(const sizing::SizeField& size);
-  /// Adds bins to those that this rank knows; their ghosts come behind the others. Collective.
+  /// Fetches more bins; their ghosts come behind the others. Collective.
   void fetch(std::span<const mesh::BinRef> missing, const sizing::SizeField& size);
 
   const mesh::TileGrid& grid() const { return grid_; }
@@ -95,12 +96,12 @@ public:
   mesh::BinnedPoints& points() { return points_; }
   const delaunay::StarTable& stars() const { return stars_; }
   delaunay::StarTable& stars() { return stars_; }
-  /// h at every known site since the last compute_stars; unknown after a move.
+  /// Returns h at every known site, as of the last compute_stars; unknown after a move.
   const mesh::LocalSizes& sizes() const { return sizes_; }
   const decomposition::Halo& halo() const { return halo_; }
   const decomposition::Partition& partition() const { return partition_; }
   const comm::Communicator& comm() const { return comm_; }
-  /// Frees what only further moves would need: there must be none.
+  /// Frees the data that only further moves would need; no move may follow.
   void release_work_space();
 
 private:
@@ -131,11 +132,11 @@ private:
   mesh::LocalSizes sizes_;
   std::vector<delaunay::StarWish> wanted_;
   State state_ = State::empty;
-  bool ghosts_need_sizes_ = false; // once they have come; while advancing
-  std::vector<double> carried_;    // h of owned sites from before a move, 0 where they moved
+  bool ghosts_need_sizes_ = false; // true while advancing: h is evaluated once the ghosts have arrived
+  std::vector<double> carried_;    // h of owned sites before a move, 0 where they moved
 };
 
-/// Points, stars and sizes, as an update rule sees them. @param size the field of the last compute_stars
+/// Returns points, stars and sizes as an update rule uses them. @param size the field of the last compute_stars
 inline StarView view_of(const SiteState& state, const sizing::SizeField& size) {
   return {state.points(), state.stars(), size, &state.sizes()};
 }

@@ -16,26 +16,26 @@
 
 namespace trime::sites {
 
-/// @brief All that the sweeps of a stage start from. Only `state` differs from rank to rank.
+/// @brief All data from which the sweeps of a stage start. Only `state` differs between ranks.
 ///
-/// h has three ages, each made of the one before it. `asked_size` is the relative size of the user times the factor
-/// that yields the points, within the least and the largest size. `lowered_size` is that, lowered around places where
-/// the boundary needs smaller triangles. `size` is that times `coarsening`; this stage uses it.
+/// h is made in three steps. `asked_size` is the relative size of the user times the factor that yields the number of
+/// points, within the smallest and the largest size. `lowered_size` is `asked_size`, lowered around places where the
+/// boundary needs smaller triangles. `size` is `lowered_size` times `coarsening`; this stage uses it.
 struct Stage {
-  double coarsening = 1;                             ///< h of this stage over that of the last
-  double typical_size = 1;                           ///< edge length of as many equal triangles
-  std::unique_ptr<sizing::ScaledSize> asked_size;    ///< of the last stage
-  std::unique_ptr<sizing::LoweredSize> lowered_size; ///< of the last stage; null if nothing lowers the size
-  std::unique_ptr<sizing::SizeField> size;           ///< of this stage
-  std::shared_ptr<const geometry::Boundary> curves;  ///< on which these lie; null: those of the shape
-  polygon::Simplification simplified;                ///< how they came from those
+  double coarsening = 1;                             ///< h of this stage over h of the last stage
+  double typical_size = 1;                           ///< edge length of equal triangles, if there were as many
+  std::unique_ptr<sizing::ScaledSize> asked_size;    ///< size asked for in the last stage
+  std::unique_ptr<sizing::LoweredSize> lowered_size; ///< lowered size of the last stage; null if nothing lowers it
+  std::unique_ptr<sizing::SizeField> size;           ///< size of this stage
+  std::shared_ptr<const geometry::Boundary> curves;  ///< curves on which boundary sites lie; null: those of the shape
+  polygon::Simplification simplified;                ///< how the curves differ from those of the shape
   polygon::BoundarySites polygon;                    ///< the sites on the boundary; only the clean-up edits them
-  std::unique_ptr<polygon::BoundaryGuard> guard;     ///< guard of their chords; holds a copy of them
+  std::unique_ptr<polygon::BoundaryGuard> guard; ///< guard of the chords between boundary sites; holds a copy of them
   std::unique_ptr<SiteState> state;
 
   GlobalId fixed_inside = 0; ///< fixed points that are not on the boundary
 
-  /// Sites that have their place before all others: those on the boundary, and the fixed ones inside.
+  /// Number of sites that get their places before all others: those on the boundary, and the fixed points inside.
   GlobalId placed_first() const { return static_cast<GlobalId>(polygon.sites.size()) + fixed_inside; }
 
   /// @param fixed points that must be vertices, in lexicographic order

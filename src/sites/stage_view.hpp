@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A state of a stage, to be read only.
+// A read-only view of a stage.
 #pragma once
 
 #include "polygon/polygon.hpp"
@@ -11,8 +11,8 @@
 
 namespace trime::sites {
 
-/// @brief The sites of a stage, or of a copy of its state, with size and boundary. All is replicated except the state.
-/// Keeps references.
+/// @brief The sites of a stage, or of a copy of its state, with size and boundary. Everything except the state is
+/// replicated. Keeps references.
 struct StageView {
   const SiteState& state;
   const polygon::BoundarySites& polygon;

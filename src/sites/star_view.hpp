@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The certified stars of a rank with h at their sites, for all that moves sites or measures triangles.
+// The certified stars of a rank with h at their sites, for code that moves sites or measures triangles.
 #pragma once
 
 #include "delaunay/star_table.hpp"
@@ -12,18 +12,19 @@ namespace trime::sites {
 /// Certified stars around the inner sites, and h.
 class StarView {
 public:
-  /// @param sizes h at the sites, as far as it is known; null: to be evaluated
+  /// @param sizes h at the sites, as far as it is known; if null, h is evaluated
   StarView(const mesh::BinnedPoints& all_points, const delaunay::StarTable& all_stars, const sizing::SizeField& field,
            const mesh::LocalSizes* sizes = nullptr)
       : points(all_points), stars(all_stars), size_(field), sizes_(sizes), is_uniform_(field.is_uniform()),
         uniform_size_(is_uniform_ ? field.size({}) : 0) {}
 
   bool is_uniform() const { return is_uniform_; }
-  /// h at any point, or image of one.
+  /// Returns h at any point, or at an image of a point.
   double size(geometry::Vec2 p) const {
     return is_uniform_ ? uniform_size_ : size_.size(points.grid().periods().wrap(p));
   }
-  /// h at site i, owned or ghost: a look-up where it is known, the same bits as size(points.position(i)).
+  /// Returns h at site i, owned or ghost. It has the same bits as size(points.position(i)), but is looked up where it
+  /// is known.
   double size(LocalIndex i) const { return sizes_ && sizes_->known(i) ? (*sizes_)[i] : size(points.position(i)); }
 
   const mesh::BinnedPoints& points;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the points come into the mesh: all at once, from a coarse mesh that is divided, or in insertions.
+// Decides how points get into the mesh: all at once, by dividing the edges of a coarse mesh, or by insertions.
 #pragma once
 
 #include "core/state_fields.hpp"
@@ -16,42 +16,44 @@
 namespace trime::start {
 
 /// @brief The stages of a run. Lattice: one stage of a hexagonal lattice whose spacing fits the count. Hilbert: one
-/// stage of quantiles along the Hilbert curve. Coarse to fine: 1/4^k of the points, relaxed, then all edges are
-/// divided, k times (the quality of 100 sweeps for the price of 20). Insertion, as TriMe++ does it: a share of the
-/// points first, then stages of 60 % more in the triangles that are largest for their place, h rescaled each time.
+/// stage of quantiles along the Hilbert curve. Coarse to fine: 1/4^k of the points are relaxed, then all edges are
+/// divided, k times; this gives the quality of 100 sweeps for the price of 20. Insertion, as in TriMe++: the run begins
+/// with a share of the points, and each further stage adds 60 % in the triangles that are largest relative to h; h is
+/// rescaled each time.
 class PointScheme {
 public:
   PointScheme(const fitting::LayoutContext& context, const StartOptions& options);
 
-  /// First stage, sites distributed. Collective.
-  /// @throws ConfigError if the points are too few for the shape, or for max_size; GeometryError; on all ranks together
+  /// Returns the first stage with its sites distributed over the ranks. Collective.
+  /// @throws ConfigError if there are too few points for the shape or for max_size; GeometryError; both on all ranks
+  /// together
   sites::Stage first();
-  /// Next stage from the last one. @pre !is_last(), and the stars of all sites of `previous` are certain. Collective.
+  /// Returns the next stage. Collective. @pre !is_last(), and the stars of all sites of `previous` are certain.
   sites::Stage next(const sites::Stage& previous);
   /// @brief Returns the present stage of a run that continues from a checkpoint, laid out as it was, without its sites.
-  /// @param first what first() has returned @pre visit() has restored the numbers since. Collective.
+  /// Collective. @param first the stage that first() returned @pre visit() has restored the numbers since then
   sites::Stage lay_again_from(sites::Stage first);
   /// Visits the members that a checkpoint keeps.
   void visit(StateFields& fields);
-  /// No further stage comes.
+  /// Returns true if no further stage follows.
   bool is_last() const { return stage_ == last_stage_; }
   int stage() const { return stage_; }
-  /// Number of the last stage, as far as is known: insertions may take more.
+  /// Number of the last stage, as far as is known: insertions may need more stages.
   int last_stage() const { return last_stage_; }
-  /// The stages to come insert points into the mesh of this one.
+  /// Returns true if later stages insert points into the mesh of this one.
   bool inserts() const { return scheme_ == Scheme::insertion; }
 
-  /// Where the boundary needs smaller triangles than the size that is asked for. @pre first() was called
+  /// Returns where the boundary needs smaller triangles than the size asked for. @pre first() was called
   std::span<const sizing::SizeLimit> limits() const { return fit_.limits(); }
   /// Returns in one line which scheme was chosen and why.
   const std::string& reason() const { return reason_; }
-  /// Why the scheme made fewer points than asked for; empty if it did not.
+  /// Returns why the scheme made fewer points than asked for; empty if it did not.
   const std::string& shortage() const { return shortage_; }
 
 private:
   enum class Scheme { lattice, hilbert, coarse_to_fine, insertion };
 
-  /// The first stage, or what is to be said if the points are too few for it.
+  /// The first stage, or the error if there are too few points for it.
   using First = std::variant<sites::Stage, fitting::TooFewPoints>;
 
   void choose();
@@ -69,7 +71,7 @@ private:
   std::unique_ptr<const placing::HilbertStart> along_curve(const sites::Stage& stage, double expected,
                                                            double coarsening) const;
   void place_along_curve(sites::Stage& stage, double inner, const placing::HilbertStart& start) const;
-  /// The next stages after `previous`.
+  /// Return the next stage after `previous`.
   sites::Stage divide(const sites::Stage& previous);
   sites::Stage insert(const sites::Stage& previous);
 
@@ -78,9 +80,9 @@ private:
   const StartOptions options_;
   Scheme scheme_ = Scheme::lattice;
   int stage_ = 0, last_stage_ = 0;
-  sites::Stage laid_last_; // the last stage of divisions, until it begins
-  double points_now_ = 0;  // that the current stage aims at (insertion)
-  double expected_ = 0;    // that the current stage was laid for (division)
+  sites::Stage laid_last_; // last stage of the scheme coarse to fine, until it begins
+  double points_now_ = 0;  // points at which the current stage aims (insertion)
+  double expected_ = 0;    // points for which the current stage was laid out (coarse to fine)
   std::string reason_, shortage_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Inner sites for the next, finer stage from the relaxed sites of this one. Boundary sites are laid out again.
+// Makes the inner sites of the next, finer stage from the relaxed sites of this one. Boundary sites are laid out again.
 #pragma once
 
 #include "sites/fan.hpp"
@@ -10,24 +10,24 @@
 
 namespace trime::start {
 
-/// The owned inner sites, at rest.
+/// Returns the owned inner sites without leads.
 mesh::SiteList inner_sites(const sites::SiteState& state);
 
-/// @brief The owned inner sites and the middles of inner edges, each edge from one of its ends: four times as many
-/// sites, at half the spacing, in the order that the coarse sites have found. @pre all stars are certain
+/// @brief Returns the owned inner sites and the middles of inner edges, where each edge counts once. These are four
+/// times as many sites at half the spacing, and as regular as the coarse mesh. @pre all stars are certain
 mesh::SiteList split_edges(const sites::StageView& view);
 
-/// @brief Adds sites in the middles of triangles, where the circumradius is largest relative to h there: `count` over
-/// all ranks, or as many triangles as there are. Only places outside the strip along the new boundary count.
-/// Collective. @pre all stars are certain
+/// @brief Adds sites in the middles of the triangles whose circumradius is largest relative to h: `count` over all
+/// ranks, or as many as there are triangles. Places in the strip along the new boundary are left out. Collective. @pre
+/// all stars are certain
 void insert_in_triangles(const sites::StageView& view, const sites::Stage& next, std::int64_t count,
                          mesh::SiteList& sites);
 
-/// Removes sites outside of the shape or within 0.43 h of its boundary, as the next stage has it. Collective.
+/// Removes sites outside the shape or within 0.43 h of its boundary, with h and boundary of the next stage. Collective.
 void clear_strip(const sites::Stage& next, mesh::SiteList& sites);
 
 /// @brief Removes sites until at most `most` are left over all ranks: those nearest to the boundary relative to h,
-/// where the order is disturbed anyway. Collective. @return number removed
+/// where the mesh is disturbed in any case. Collective. @return number removed
 std::int64_t trim(const comm::Communicator& comm, const sites::Stage& next, std::int64_t most, mesh::SiteList& sites);
 
 } // namespace trime::start

@@ -10,7 +10,7 @@
 
 namespace trime::sweep {
 
-/// The data that decide where a site may go.
+/// The data that decide where a site may move.
 struct MoveContext {
   const polygon::BoundaryGuard& guard;
   const sizing::SizeField& size;
@@ -21,31 +21,33 @@ inline MoveContext move_context(const sites::Stage& stage, const geometry::Latti
   return {*stage.guard, *stage.size, lattice};
 }
 
-/// The treatment of a site: where it goes, and whether it was pushed or must be deleted.
+/// The result for one site: its next place, and whether it was pushed or must be deleted.
 struct Treated {
   geometry::Vec2 position, lead;
-  std::int32_t pushes = 0; ///< those before included
+  std::int32_t pushes = 0; ///< all pushes of the site so far
   bool pushed = false, deleted = false;
 };
 
-/// @brief The place that a step of a rule leads to. The step is cut to SweepRules::move_cap (the lead gives way first)
-/// and snapped to the lattice. A site that would come into a disc is pushed out of it. Once it has been pushed as often
-/// as is allowed, it is to be deleted, and goes where a push would take it until that happens.
+/// @brief Returns the place to which a step of a rule moves a site. The step is cut to SweepRules::move_cap (the lead
+/// is shortened first) and snapped to the lattice. A site that would enter a disc is pushed out of it. A site that has
+/// been pushed `pushes_allowed` times is marked for deletion; until it is deleted, it moves as a push would move it.
 Treated treat_step(const MoveContext& context, const mesh::TileGrid& grid, const mesh::Site& site, double h, Step step,
                    int pushes_allowed);
-/// Does the same for a site that would go to this place, on the lattice and in the container, with this lead.
+/// As treat_step, for a site that would move to this place with this lead. @pre `place` is on the lattice and in the
+/// container
 Treated treat_place(const MoveContext& context, const mesh::TileGrid& grid, const mesh::Site& site, double h,
                     geometry::Vec2 place, geometry::Vec2 lead, int pushes_allowed);
 
-/// @brief Is it the turn of the site at p to be deleted? SweepRules::deleted_share of all are chosen in each round, by
-/// a hash of the place. Where sites are crowded, the room that one leaves may be enough for the others.
+/// @brief Returns whether the site at p is deleted in this round. Each round chooses SweepRules::deleted_share of the
+/// sites marked for deletion, by a hash of the place. In a crowd, the room that one site leaves may be enough for the
+/// others.
 bool is_chosen(geometry::Vec2 p, int round);
 
-/// @brief Empties the discs of all chords where no rule moves sites. Sites in a disc are pushed; those that have been
-/// pushed SweepRules::pushes_allowed times are deleted when it is their turn, in the end all of them. Every site is
-/// treated by itself, since the chords stay. Collective.
-/// @param typical_size any typical h: where searches begin
-/// @return false if there was no offender on any rank: all discs were empty
+/// @brief Moves all sites out of the discs of chords, without a rule. Sites in a disc are pushed; those that have been
+/// pushed SweepRules::pushes_allowed times are deleted in rounds, until all are gone. Sites do not depend on each
+/// other, because the chords stay. Collective.
+/// @param typical_size any typical h, with which searches begin
+/// @return false if all discs were empty on all ranks before
 bool settle_sites(sites::SiteState& state, const MoveContext& context, double typical_size);
 
 } // namespace trime::sweep

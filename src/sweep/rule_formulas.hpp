@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The update rules as formulas over the ring of one site, or of several sites side by side. V is double or a vector of
-// doubles (core/lanes.hpp), so the scalar and the vector paths move every site by the same bits.
+// The update rules as formulas over the ring of one site, or of several sites at once. V is double or a vector of
+// doubles (core/lanes.hpp), so scalar code and vector code move every site to the same bits.
 //
-// A formula takes the triangles (site, a, b) of a star one after the other, in the order of the ring; where `active` is
-// false a lane's ring has ended already.
+// A formula takes the triangles (site, a, b) of a star one after the other, in the order of the ring. `active` is false
+// in lanes whose ring has already ended.
 #pragma once
 
 #include "core/angle.hpp"
@@ -20,16 +20,16 @@ struct RuleParameters {
   Mover mover = Mover::bars;
   double length_scale = 1;                     ///< bars: rest length over h
   double area_scale = 1;                       ///< triangles: wanted area over sqrt(3)/4 h^2
-  int exponent = SweepRules::density_exponent; ///< cells: of 1/h in the weight
-  double momentum = 0;                         ///< share of the last advance that the lead takes up
+  int exponent = SweepRules::density_exponent; ///< cells: exponent of 1/h in the weight
+  double momentum = 0;                         ///< share of the last move that becomes the lead
 };
 
-/// A neighbour as seen from the site.
+/// A neighbour of a site, relative to the site.
 template <class V>
 struct Spoke {
   V x, y;
   V squared; ///< its squared distance
-  V size;    ///< h there
+  V size;    ///< h at the neighbour
 };
 
 template <class V>
@@ -37,7 +37,7 @@ struct Move {
   V x, y;
 };
 
-/// alpha - 1 of the triangle (0, a, b): a b c (a + b + c) / (16 A^2) - 1.
+/// Returns alpha - 1 of the triangle (0, a, b), which is a b c (a + b + c) / (16 A^2) - 1.
 template <class V>
 TRIME_INLINE V excess_of_alpha(const Spoke<V>& a, const Spoke<V>& b, V twice_area) {
   const V x = b.x - a.x, y = b.y - a.y;
@@ -113,8 +113,8 @@ private:
     return result;
   }
 
-  /// Integral of a linear weight, and of the weight times the place, over the triangle (site, a, b): the weight is 1 at
-  /// the site.
+  /// Adds the integrals of a linear weight, and of the weight times the place, over the triangle (site, a, b). The
+  /// weight is 1 at the site.
   template <class M>
   TRIME_INLINE void add_triangle(const Corner& a, const Corner& b, M active) {
     const V twice_area = a.x * b.y - a.y * b.x;
@@ -140,7 +140,8 @@ public:
       : own_size_(own_size), wanted_scale_(0.25 * sqrt_3 * rule.area_scale),
         uniform_wanted_(wanted_scale_ * own_size * own_size) {}
 
-  /// Adds gradient and second derivatives of the energy of (site, a, b) with respect to the place of the site.
+  /// Adds gradient and second derivatives of the energy of the triangle (site, a, b) with respect to the place of the
+  /// site.
   template <class M>
   TRIME_INLINE void add(const Spoke<V>& a, const Spoke<V>& b, V twice_area, M active) {
     V wanted = uniform_wanted_;
@@ -150,7 +151,7 @@ public:
     }
     const V opposite_x = b.x - a.x, opposite_y = b.y - a.y;
     const V area_x = -0.5 * opposite_y, area_y = 0.5 * opposite_x;          // gradient of the area
-    const V squares_x = -2.0 * (a.x + b.x), squares_y = -2.0 * (a.y + b.y); // and of the sum of squared sides
+    const V squares_x = -2.0 * (a.x + b.x), squares_y = -2.0 * (a.y + b.y); // gradient of the sum of squared sides
     const V inverse = 2.0 / twice_area, unit = inverse * (1 / (4 * sqrt_3));
     const V squares = a.squared + b.squared + (opposite_x * opposite_x + opposite_y * opposite_y);
     const V shape = squares * unit, ratio = wanted * inverse;
@@ -164,7 +165,7 @@ public:
     xy_ = lanes::select(
         active, xy_ + (0.5 * mixed * (squares_x * area_y + squares_y * area_x) + curved * area_x * area_y), xy_);
   }
-  /// The step to the minimum of the quadratic model, damped; zero if there is no minimum.
+  /// Returns the damped step to the minimum of the quadratic model; zero if there is no minimum.
   TRIME_INLINE Move<V> move() const {
     const V determinant = xx_ * yy_ - xy_ * xy_, factor = -SweepRules::triangle_damping / determinant;
     const auto sound = determinant > 0;
@@ -179,7 +180,7 @@ private:
   V gradient_x_{}, gradient_y_{}, xx_{}, xy_{}, yy_{};
 };
 
-/// A neighbour as seen from a site at p.
+/// Returns a neighbour relative to a site at p.
 inline Spoke<double> spoke_to(const sites::StarView& view, geometry::Vec2 p, LocalIndex neighbour) {
   const geometry::Vec2 u = view.points.position(neighbour) - p;
   return {u.x, u.y, u.x * u.x + u.y * u.y, view.size(neighbour)};

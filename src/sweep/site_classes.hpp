@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// For which stars the Delaunay lemma may do: what the sweeps know of chords and ghosts.
+// Decides for which stars the Delaunay lemma suffices, from the chords and ghosts nearby.
 #pragma once
 
 #include "sites/site_state.hpp"
@@ -12,20 +12,20 @@
 
 namespace trime::sweep {
 
-/// For which stars the lemma may do; the others are certified by emptiness. `nowhere` is slow, for tests;
-/// `up_to_chords` needs that no boundary site is in the disc of a chord.
+/// The stars for which the Delaunay lemma may suffice; the others need the empty-circumcircle test. `nowhere` is slow
+/// and for tests; `up_to_chords` requires that no boundary site is in the disc of a chord.
 enum class LemmaReach { nowhere, inside, up_to_chords };
 
-/// @brief The class of each owned site, by its star and by where it lies; and the tiles in which the chords of the
-/// boundary may be trusted. See StarCertifier for the reasons.
+/// @brief The class of each owned site, which depends on its star and its place, and the tiles in which chords of the
+/// boundary are certainly edges of the triangulation. StarCertifier explains the reasons.
 class SiteClasses {
 public:
-  /// The state, the builder of its stars and all of the context outlive this object.
+  /// @pre all arguments and the references of the context outlive this object
   SiteClasses(const sites::SiteState& state, const delaunay::StarBuilder& builder, const MoveContext& context,
               LemmaReach reach)
       : state_(state), builder_(builder), context_(context), reach_(reach) {}
 
-  /// Classifies all sites; to be called after sites were sorted.
+  /// Classifies all sites. Must be called after sites were sorted.
   void reset();
   SiteClass operator[](LocalIndex i) const { return classes_[static_cast<std::size_t>(i)]; }
   const SiteClass* data() const { return classes_.data(); }
@@ -55,10 +55,10 @@ private:
   const LemmaReach reach_;
   std::vector<SiteClass> classes_; // by owned site
   TilesAround around_;
-  std::vector<std::uint8_t> encroached_; // by owned tile: some site of it may be in the disc of a chord
+  std::vector<std::uint8_t> encroached_; // by owned tile: 1 if some site of it may be in the disc of a chord
 };
 
-/// The owned tile of an owned site, among those of the container. O(log(tiles)).
+/// Returns the number in the container of the tile of an owned site. O(log(tiles)).
 LocalIndex tile_of_site(const mesh::BinnedPoints& points, LocalIndex i);
 
 } // namespace trime::sweep

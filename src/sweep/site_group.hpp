@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// TRIME_LANES sites side by side with their stars, and the test that certifies these. Included once by each file that
-// is compiled for one kind of processor; all of it is local to that file.
+// Processes TRIME_LANES sites at once with their stars, and tests these stars. Each source that is compiled for one
+// kind of processor includes this file once; everything in it is local to that source.
 #pragma once
 
 #include "core/lanes.hpp"
@@ -15,16 +15,16 @@ using V = lanes::Types<width>::Doubles;
 using M = lanes::Types<width>::Mask;
 constexpr int slots = 8;
 
-/// Sites i, i + 1, ..., one in each lane. Lanes whose site is not local repeat one that is.
+/// The sites i, i + 1, ..., one in each lane. Lanes whose site is not local repeat a local site.
 struct Group {
   LocalIndex site[width];
-  unsigned local = 0;    // a bit for each lane whose site is local
-  bool bordered = false; // some of these sites are
+  unsigned local = 0;    // one bit for each lane whose site is local
+  bool bordered = false; // some of these sites have the class `bordered`
   int largest_degree = 0;
   V degree{};
 };
 
-/// @param wanted a bit for each lane; others count as not local
+/// @param wanted one bit for each lane; the other lanes count as not local
 TRIME_INLINE Group group_at(const SweepTask& task, LocalIndex i, LocalIndex end, unsigned wanted = ~0U) {
   Group group;
   LocalIndex any = -1;
@@ -48,7 +48,7 @@ TRIME_INLINE Group group_at(const SweepTask& task, LocalIndex i, LocalIndex end,
   return group;
 }
 
-/// The positions (or h) of one neighbour of each site of a group.
+/// Loads the positions (or h) of one neighbour of each site of a group.
 TRIME_INLINE lanes::Pairs<V> load_neighbours(const SweepTask& task, const Group& group, int slot) {
   const double* from[width];
   for (int l = 0; l < width; ++l)
@@ -69,7 +69,7 @@ TRIME_INLINE V load_own_sizes(const SweepTask& task, const Group& group) {
   return h;
 }
 
-/// The positions of the sites of a group.
+/// Loads the positions of the sites of a group.
 TRIME_INLINE lanes::Pairs<V> load_sites(const geometry::Vec2* all, const Group& group) {
   const double* from[width];
   for (int l = 0; l < width; ++l)
@@ -77,14 +77,14 @@ TRIME_INLINE lanes::Pairs<V> load_sites(const geometry::Vec2* all, const Group& 
   return lanes::load_pairs<V>(from);
 }
 
-/// @brief Tests the stars of a group spoke by spoke: they must wind once and be locally convex, as for
-/// StarKernel::is_locally_convex. Every triangle must be smaller than the cap, too, and the first neighbour still the
+/// @brief Tests the stars of a group spoke by spoke. They must wind once and be locally convex, as in
+/// StarKernel::is_locally_convex. Each circumradius must be below the cap, and the first neighbour must still be the
 /// lexicographically smallest.
 class ConvexityTest {
 public:
   TRIME_INLINE explicit ConvexityTest(V cap) : four_squared_caps_(4.0 * SweepRules::cap_margin * cap * cap) {}
 
-  /// Spokes a, b, q in a row; `ab`, `bq` the cross products.
+  /// Adds the consecutive spokes a, b, q; `ab` and `bq` are their cross products.
   TRIME_INLINE void add(const Spoke<V>& a, const Spoke<V>& b, const Spoke<V>& q, V ab, V bq, const Spoke<V>& first,
                         M active) {
     const V qa = q.x * a.y - q.y * a.x;
@@ -99,7 +99,7 @@ public:
     bad_ |= active & (~(convex & turned & small) | smaller);
     turns_ -= active & (a.y < 0.0) & (b.y >= 0.0);
   }
-  /// The lanes whose stars pass, a bit for each.
+  /// Returns one bit for each lane whose star passes.
   TRIME_INLINE unsigned good() const { return ~lanes::bits(bad_ | (turns_ != 1)); }
 
 private:
@@ -107,7 +107,7 @@ private:
   M bad_{}, turns_{};
 };
 
-/// h at the sites of a group.
+/// Returns h at the sites of a group.
 template <bool graded>
 TRIME_INLINE V sizes_of(const SweepTask& task, const Group& group) {
   if constexpr (graded)
@@ -115,13 +115,13 @@ TRIME_INLINE V sizes_of(const SweepTask& task, const Group& group) {
   return V{} + task.uniform_size;
 }
 
-/// The caps of the stars of a group, see StarBuilder::cap.
+/// Returns the caps of the stars of a group, see StarBuilder::cap.
 TRIME_INLINE V caps_of(const SweepTask& task, V own_size) {
   const V uncapped = task.cap_factor * own_size, all_caps = V{} + task.largest_cap;
   return lanes::select(uncapped < all_caps, uncapped, all_caps);
 }
 
-/// The spokes of a group, slot by slot; those of a ring that ends before the last slot repeat it, two at least.
+/// Loads the spokes of a group, slot by slot. After its end a ring is repeated; at least two spokes are.
 template <bool graded>
 TRIME_INLINE void load_spokes(const SweepTask& task, const Group& group, const lanes::Pairs<V>& p, V own_size,
                               Spoke<V> (&spoke)[slots + 2]) {
@@ -135,7 +135,7 @@ TRIME_INLINE void load_spokes(const SweepTask& task, const Group& group, const l
     if constexpr (graded)
       spoke[k].size = load_sizes(task, group, k);
   }
-  if (n + 2 > slots) { // beyond the last slot the ring of 8 begins again, that of 7 is at its second
+  if (n + 2 > slots) { // a ring of 8 begins again after the last slot; a ring of 7 continues with its second neighbour
     const M eight = group.degree == 8.0;
     spoke[slots] = {lanes::select(eight, spoke[0].x, spoke[1].x), lanes::select(eight, spoke[0].y, spoke[1].y),
                     lanes::select(eight, spoke[0].squared, spoke[1].squared),
@@ -144,7 +144,7 @@ TRIME_INLINE void load_spokes(const SweepTask& task, const Group& group, const l
   }
 }
 
-/// Shows every triangle of the stars of a group to the test and to a formula.
+/// Passes every triangle of the stars of a group to the test and to a formula.
 template <class Formula>
 TRIME_INLINE void visit_triangles(const Group& group, const Spoke<V> (&spoke)[slots + 2], ConvexityTest& test,
                                   Formula& formula) {

@@ -14,22 +14,23 @@ namespace trime::sweep {
 class SortSchedule {
 public:
   /// @param distance, ratio bounds on the move of any site, and on its move over h
-  /// @param drift_in_tiles how far any site has come with it, over the narrowest tile around its own
+  /// @param drift_in_tiles how far any site has moved since the last sorting, with this move, over the narrowest tile
+  /// near its own
   void add_move(double distance, double ratio, double drift_in_tiles) {
     drift_.distance += distance * SweepRules::drift_rounding;
     drift_.in_sides = drift_in_tiles * SweepRules::drift_rounding;
     drift_in_sizes_ += ratio;
     ++moves_since_sort_;
   }
-  /// Have sites come too far for their bins?
+  /// Returns true if sites may have moved too far for their bins.
   bool is_sort_due() const {
     return drift_in_sizes_ > SweepRules::drift_in_sizes || drift_.in_sides > SweepRules::drift_in_tiles;
   }
-  /// Have sites that are to be deleted waited long enough?
+  /// Returns true if sites marked for deletion have waited long enough.
   bool may_sort_to_delete() const { return moves_since_sort_ >= SweepRules::sweeps_of_a_sort; }
-  /// How far any site may have come since the last sorting.
+  /// Returns how far any site may have moved since the last sorting.
   const mesh::DriftBound& drift() const { return drift_; }
-  /// The sites have been moved without sorting; is h to be evaluated at the new places?
+  /// Notes a move without sorting. Returns true if h must be evaluated at the new places.
   bool advance() {
     if (++age_of_sizes_ < SweepRules::sweeps_of_a_size)
       return false;
@@ -44,7 +45,7 @@ public:
     fields.field("age_of_sizes", age_of_sizes_);
     fields.field("moves_since_sort", moves_since_sort_);
   }
-  /// The sites have been sorted, and h evaluated.
+  /// Notes that sites have been sorted and h was evaluated.
   void reset() { *this = {}; }
 
 private:

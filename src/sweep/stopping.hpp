@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which rule moves the sites, and when a stage ends: from maxima and integer sums over all ranks only, never from
-// times.
+// Decides which rule moves the sites and when a stage ends. It uses maxima and integer sums over all ranks, but no
+// times, so all runs decide alike.
 #pragma once
 
 #include "sweep/rules.hpp"
@@ -15,21 +15,22 @@
 
 namespace trime::sweep {
 
-/// When a rule has done what it can.
+/// Says when a rule counts as stalled.
 struct Patience {
   double tolerance;                   ///< least share of alpha - 1 that a window must gain
-  int earliest = StopRules::earliest; ///< sweeps before it may stall
+  int earliest = StopRules::earliest; ///< the rule cannot count as stalled before this number of sweeps
   bool median = true;                 ///< the median of alpha must have stalled as well
-  double seen = StopRules::seen;      ///< of mean alpha: as good as stalled if a window gains less
+  double seen = StopRules::seen;      ///< also stalled if mean alpha gains less than this in a window
 };
 
-/// @brief Says when a stage ends. Converged: no site moved by more than SweepRules::still in the last sweep. Quality
-/// stalled: the mean of alpha - 1 fell by less than the tolerance, or by less than anybody sees, over the last window.
-/// Sweep cap: the moves since the start of the run.
+/// @brief Says when a stage ends, for one of three reasons. Converged: no site moved by more than SweepRules::still in
+/// the last sweep. Quality stalled: the mean of alpha - 1 fell by less than the tolerance, or by less than can be seen,
+/// over the last window. Sweep cap: the run has made max_sweeps moves.
 class StopRule {
 public:
   StopRule(int max_sweeps, const Patience& patience) : max_sweeps_(max_sweeps), patience_(patience) {}
-  /// @param records of the stage, or of the part of it that the present rule has moved; the same on every rank
+  /// @param records records of the stage, or of its part in which the present rule moved the sites; the same on every
+  /// rank
   std::optional<StopReason> decide(std::span<const SweepRecord> records) const;
 
 private:
@@ -37,14 +38,14 @@ private:
   Patience patience_;
 };
 
-/// True if bars have done what they can do quickly: the median of alpha - 1 fell by less than StopRules::median_gain of
-/// itself over the last window, or is good already.
+/// Returns true if bars gain little: the median of alpha - 1 fell by less than the share StopRules::median_gain over
+/// the last window, or is already good.
 bool median_stalled(std::span<const SweepRecord> records);
 
 /// The decision after a record: the end of the stage, a change of the rule, or neither.
 struct SweepDecision {
   std::optional<StopReason> stop; ///< why the stage ends
-  std::optional<Mover> next;      ///< what is to move the sites from now on
+  std::optional<Mover> next;      ///< the rule that moves the sites from now on
 };
 
 /// @brief Chooses the rule of each sweep. `distmesh` and `cvd` use one rule. `hybrid` starts with bars and changes to
@@ -54,14 +55,14 @@ struct SweepDecision {
 /// relaxed mesh.
 class SweepControl {
 public:
-  /// @param history of the run, which goes on growing; outlives this object
+  /// @param history history of the run, which keeps growing; outlives this object
   SweepControl(const SweepOptions& options, const std::vector<SweepRecord>& history);
 
-  /// @param inserts the stages to come insert points @param is_last no stage comes
+  /// @param inserts later stages insert points @param is_last no later stage follows
   void begin_stage(bool inserts, bool is_last);
   /// Returns the decision after the last record; changes nothing. @pre the stage has a record
   SweepDecision decide() const;
-  /// Sites are moved by another rule from now on, which counts its gains from the last record.
+  /// Changes the rule. The new rule counts its gains from the last record.
   void switch_to(Mover mover);
   UpdateRule& rule() { return *rule_; }
   /// Visits the members that a checkpoint keeps. @pre begin_stage()
@@ -78,7 +79,7 @@ private:
   const std::vector<SweepRecord>& history_;
   std::unique_ptr<UpdateRule> rule_;
   Mover mover_ = Mover::bars;
-  std::size_t first_record_ = 0; // that the present rule counts from
+  std::size_t first_record_ = 0; // record from which the present rule counts its gains
   bool may_switch_ = true, inserts_ = false, is_last_ = true;
 };
 

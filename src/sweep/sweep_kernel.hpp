@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One pass over the sites of a tile that certifies their stars at the present positions and moves them: several sites
-// side by side, the same bits for any number of them.
+// The kernels of a sweep: one pass over the sites of a tile certifies their stars at the present positions and moves
+// them. A kernel processes several sites at once; the bits do not depend on how many.
 #pragma once
 
 #include "core/simd_level.hpp"
@@ -16,14 +16,16 @@ namespace trime::sweep {
 
 /// How the pass treats a site.
 enum class SiteClass : std::uint8_t {
-  held,     ///< stays, and has no star: a boundary site
-  fixed,    ///< stays, but has a star, which is certified by emptiness: a point that the user has fixed
-  exact,    ///< moves; its star is certified by emptiness, since not all neighbours have stars that this rank keeps
-  bordered, ///< moves; next to chords of the boundary, as `local` while no site is in the disc of a chord nearby
+  held,     ///< a boundary site: it does not move and has no star
+  fixed,    ///< a fixed point of the user: it does not move; its star needs the empty-circumcircle test
+  exact,    ///< moves; its star needs the empty-circumcircle test, because this rank does not keep the stars of all its
+            ///< neighbours
+  bordered, ///< moves, next to chords of the boundary; treated as `local` while no site is in the disc of a chord
+            ///< nearby
   local     ///< moves; its star is certified by the stars around it
 };
 
-/// Bits that say what a pass has to do with a site. One without `awake` and `watched` is asleep.
+/// Bits that say what a pass must do with a site. A site without `awake` and `watched` is asleep.
 struct SiteFlags {
   static constexpr std::uint8_t awake = 1;   ///< the rule may move it
   static constexpr std::uint8_t watched = 2; ///< its star is certified even if nothing has moved: not local, or the
@@ -56,10 +58,10 @@ struct SweepTask {
   polygon::GuardCells guard;
 };
 
-/// Sums over the moves of some sites, in integers, so that they may be added in any order.
+/// Sums over the moves of some sites. They are integers, so they may be added in any order.
 struct SweepTally {
-  std::int64_t moving = 0; ///< moved by more than SweepRules::still
-  std::int64_t power = 0;  ///< of the moves, in units of FixedSum, see Momentum
+  std::int64_t moving = 0; ///< sites that moved by more than SweepRules::still
+  std::int64_t power = 0;  ///< power of the moves in units of FixedSum, see Momentum
   std::int64_t pushed = 0, deleted = 0;
   double squared_ratio = 0;    ///< largest squared move over h^2
   double squared_distance = 0; ///< largest squared move
@@ -79,7 +81,8 @@ template <class V>
 struct SiteTally {
   V squared_distance, squared_ratio, power;
 
-  /// @param x, y from the old place to the new one @param lead_x, lead_y old lead, and new
+  /// @param x, y move from the old place to the new one @param lead_x, lead_y old lead; next_lead_x, next_lead_y new
+  /// lead
   TRIME_INLINE SiteTally(V x, V y, V lead_x, V lead_y, V next_lead_x, V next_lead_y, V h) {
     const V inverse = 1.0 / (h * h), move_x = x - next_lead_x, move_y = y - next_lead_y;
     squared_distance = x * x + y * y;
@@ -91,7 +94,7 @@ struct SiteTally {
   }
 };
 
-/// Does a site that the rule would move so rest whatever its momentum? Then it need not be looked at again before it, a
+/// Returns whether a site with this move rests for any momentum. Then it need not be examined again until it, a
 /// neighbour, its star or the rule changes.
 template <class V>
 TRIME_INLINE auto surely_rests(V move_x, V move_y, V h) {
@@ -100,26 +103,27 @@ TRIME_INLINE auto surely_rests(V move_x, V move_y, V h) {
   return move_x * move_x + move_y * move_y < limit * limit;
 }
 
-/// Sites that the pass leaves to its caller, each list ascending with any number of lanes. The caller makes room for
-/// all of them.
+/// Sites that the pass leaves to its caller. Each list is ascending, for any number of lanes. The caller provides room
+/// for all sites.
 struct SweepLeftovers {
-  LocalIndex* suspects;  ///< whose stars must be certified by emptiness before they move
-  LocalIndex* irregular; ///< with good stars, but with a move above the cap, which is not made
-  LocalIndex* guarded;   ///< moved to a place near the boundary, where they may have to be pushed
+  LocalIndex* suspects;  ///< sites whose stars need the empty-circumcircle test before they move
+  LocalIndex* irregular; ///< sites with good stars whose move exceeds the cap and was not made
+  LocalIndex* guarded;   ///< sites that moved to a place near the boundary and may have to be pushed
   std::ptrdiff_t suspect_count = 0, irregular_count = 0, guarded_count = 0;
   std::ptrdiff_t awake_count = 0; ///< how many sites were awake
 };
 
 /// @brief Certifies the local sites of [begin, end) by the Delaunay lemma (a triangulation is Delaunay if every star
 /// winds once, counter-clockwise, and is locally convex: Delaunay 1934) and computes their next positions and leads.
-/// Sites that it does not move keep their place. Sites that surely rest fall asleep. Takes about 10 ns per site, and
-/// more for the rule; less than 1 ns for a site that sleeps among others.
+/// Sites that it does not move keep their place. Sites that surely rest fall asleep. Takes about 10 ns per site in
+/// addition to the rule, and less than 1 ns for a site that sleeps among others.
 /// @pre the rings of all local sites and their neighbours agree with each other
-/// @return tally of the sites that it moved
+/// @return the sums over the sites that it moved
 using SweepKernel = SweepTally (*)(const SweepTask& task, LocalIndex begin, LocalIndex end, SweepLeftovers& leftovers);
 
-/// @brief Certifies the same stars and moves nothing: receives the sites whose stars must be certified by emptiness,
-/// ascending, with room for all of them. Needs no rule, leads and next places. About 10 ns a site.
+/// @brief Certifies the same stars without moving sites. `suspects` receives the sites whose stars need the
+/// empty-circumcircle test, in ascending order, and must have room for all sites. Needs no rule, leads or next places.
+/// Takes about 10 ns per site.
 /// @return number of these sites
 using CertifyKernel = std::ptrdiff_t (*)(const SweepTask& task, LocalIndex begin, LocalIndex end, LocalIndex* suspects);
 
@@ -137,13 +141,14 @@ struct QualityTally {
   }
 };
 
-/// Most sites of one call of QualityKernel: keeps its sums within 64 bits, and the list of excesses in the cache.
+/// Largest number of sites in one call of QualityKernel. It keeps the sums within 64 bits, and the list of excesses in
+/// the cache.
 constexpr LocalIndex most_measured = 1024;
 
 /// @brief Measures the stars of the local sites of [begin, end), at most `most_measured`. A triangle counts at the
-/// lexicographically smallest of its corners. About 15 ns a site.
+/// lexicographically smallest of its corners. Takes about 15 ns per site.
 /// @param inverse_reference 1 / h_ref of SweepSums
-/// @param excesses receives alpha - 1 of each triangle; room for 8 a site
+/// @param excesses receives alpha - 1 of each triangle; has room for 8 per site
 using QualityKernel = QualityTally (*)(const SweepTask& task, LocalIndex begin, LocalIndex end,
                                        double inverse_reference, double* excesses);
 

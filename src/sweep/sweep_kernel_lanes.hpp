@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The passes of sweep_kernel.hpp that certify and move, for TRIME_LANES sites side by side. Included once by each file
-// that is compiled for one kind of processor; all of it is local to that file.
+// The kernels of sweep_kernel.hpp that certify and move, for TRIME_LANES sites at once. Each source that is compiled
+// for one kind of processor includes this file once; everything in it is local to that source.
 #pragma once
 
 #include "sweep/site_group.hpp"
@@ -10,7 +10,7 @@
 namespace trime::sweep {
 namespace {
 
-/// The requests in the flags of some successive sites, one bit per site.
+/// The requests in the flags of some consecutive sites, one bit per site.
 struct Waking {
   unsigned awake = 0;  // the rule may move it
   unsigned wanted = 0; // the rule may move it, or its star must be certified
@@ -25,7 +25,7 @@ TRIME_INLINE Waking waking_at(const SweepTask& task, LocalIndex i, LocalIndex en
   return waking;
 }
 
-/// Is there nothing to do for the sites of the group at i? False for the last ones of a range.
+/// Returns true if nothing need be done for the sites of the group at i. Returns false at the end of a range.
 TRIME_INLINE bool is_copied(const SweepTask& task, LocalIndex i, LocalIndex end) {
   std::uint64_t found = 0, copied = 0;
   static_assert(width <= sizeof found);
@@ -36,13 +36,13 @@ TRIME_INLINE bool is_copied(const SweepTask& task, LocalIndex i, LocalIndex end)
   return found == copied;
 }
 
-/// Where the sites of a group are to go.
+/// The next places of the sites of a group.
 struct GroupMove {
   V x, y;                     // next places
   lanes::Pairs<V> lead{};     // leads before the move
-  V next_lead_x, next_lead_y; // and after it
-  M is_short;                 // neither move nor move and lead exceed the cap
-  M rests;                    // surely, see surely_rests
+  V next_lead_x, next_lead_y; // leads after the move
+  M is_short;                 // neither the move nor the move with the lead exceeds the cap
+  M rests;                    // see surely_rests
 };
 
 TRIME_INLINE V clamped(V v, double low, double high) {
@@ -54,7 +54,8 @@ TRIME_INLINE V snapped(const SweepTask& task, V v) {
   return lanes::nearest(v * task.inverse_lattice_step) * task.lattice_step;
 }
 
-/// The move of a rule with its momentum, onto the lattice; short moves rest, and so do sites that are not awake.
+/// Adds momentum to the move of a rule and snaps the place to the lattice. Very short moves are not made, and sites
+/// that are not awake do not move.
 TRIME_INLINE GroupMove next_places(const SweepTask& task, const Group& group, const lanes::Pairs<V>& p, V own,
                                    const Move<V>& move, M awake) {
   GroupMove next;
@@ -94,7 +95,7 @@ TRIME_INLINE unsigned guarded_lanes(const SweepTask& task, unsigned moved, V x, 
   return guarded;
 }
 
-/// Stores the moves of the lanes `moved` and lists what is left to the caller.
+/// Stores the moves of the lanes `moved`, and lists the sites that are left to the caller.
 TRIME_INLINE M store_moves(const SweepTask& task, LocalIndex begin, unsigned certified, unsigned moved,
                            const GroupMove& next, SweepLeftovers& leftovers) {
   const unsigned guarded = guarded_lanes(task, moved, next.x, next.y);
@@ -114,7 +115,7 @@ TRIME_INLINE M store_moves(const SweepTask& task, LocalIndex begin, unsigned cer
   return counted;
 }
 
-/// Says of the local sites of a group what the next pass has to do with them.
+/// Stores for the local sites of a group what the next pass must do with them.
 TRIME_INLINE void store_flags(const SweepTask& task, LocalIndex begin, unsigned local, unsigned certified,
                               unsigned resting) {
   for (int l = 0; l < width; ++l) {
@@ -127,7 +128,7 @@ TRIME_INLINE void store_flags(const SweepTask& task, LocalIndex begin, unsigned 
   }
 }
 
-/// Sums over the moves of a range, lane by lane.
+/// Sums over the moves of a range, one for each lane.
 struct LaneTally {
   std::int64_t moving = 0;
   M power{};
@@ -149,7 +150,7 @@ struct LaneTally {
   }
 };
 
-/// A bit for each lane as a mask.
+/// Converts one bit for each lane to a mask.
 TRIME_INLINE M mask_of(unsigned lanes) {
   M mask;
   for (int l = 0; l < width; ++l)
@@ -157,7 +158,7 @@ TRIME_INLINE M mask_of(unsigned lanes) {
   return mask;
 }
 
-/// Moves the local sites of a group that are awake; returns those whose stars it cannot certify, a bit for each.
+/// Moves the local sites of a group that are awake. Returns one bit for each site whose star it cannot certify.
 template <template <class, bool> class Formula, bool graded>
 TRIME_INLINE unsigned sweep_group(const SweepTask& task, const Group& group, unsigned awake, LocalIndex begin,
                                   SweepLeftovers& leftovers, LaneTally& tally) {
@@ -178,8 +179,8 @@ TRIME_INLINE unsigned sweep_group(const SweepTask& task, const Group& group, uns
   return group.local & ~certified;
 }
 
-/// Leaves the sites of [begin, end) in place that are asleep or not local. Returns the sites with stars that must be
-/// certified, one bit per site.
+/// Keeps sites of [begin, end) that are asleep or not local in place. Returns one bit for each site whose star must be
+/// certified.
 TRIME_INLINE unsigned hold_others(const SweepTask& task, const Group& group, LocalIndex begin, LocalIndex end) {
   unsigned with_stars = 0;
   for (LocalIndex i = begin; i < begin + width && i < end; ++i) {
@@ -236,12 +237,12 @@ SweepTally sweep_lanes(const SweepTask& task, LocalIndex begin, LocalIndex end, 
                 : sweep_range<TriangleFormula, false>(task, begin, end, leftovers);
 }
 
-/// Stands for a rule where nothing moves.
+/// Replaces the formula of a rule if nothing moves.
 struct NoFormula {
   TRIME_INLINE void add(const Spoke<V>&, const Spoke<V>&, V, M) {}
 };
 
-/// The local sites of a group whose stars it cannot certify, a bit for each.
+/// Returns one bit for each local site of a group whose star it cannot certify.
 template <bool graded>
 TRIME_INLINE unsigned suspects_of(const SweepTask& task, const Group& group) {
   const lanes::Pairs<V> p = load_sites(task.positions, group);
@@ -294,7 +295,7 @@ TRIME_INLINE void measure_group(const SweepTask& task, const Group& group, doubl
     const V x = at.x - p.x, y = at.y - p.y;
     return Spoke<V>{x, y, x * x + y * y, own};
   };
-  const auto comes_after = [&](const Spoke<V>& a, int slot) { // boundary sites measure nothing
+  const auto comes_after = [&](const Spoke<V>& a, int slot) { // triangles do not count at boundary sites
     M after = (a.x > 0.0) | ((a.x == 0.0) & (a.y > 0.0));
     if (group.bordered)
       for (int l = 0; l < width; ++l)

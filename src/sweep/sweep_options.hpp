@@ -10,7 +10,7 @@ namespace trime::sweep {
 
 struct SweepOptions {
   Method method;
-  int max_sweeps;                       ///< moves of the whole run, all stages together
+  int max_sweeps;                       ///< largest number of moves of the whole run, over all stages
   std::optional<double> stop_tolerance; ///< least gain in six sweeps; empty: StopRules decide by rule and stage
   int density_exponent;                 ///< see CvdRule
   StarTests star_tests = {};

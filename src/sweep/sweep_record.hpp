@@ -10,7 +10,7 @@
 
 namespace trime::sweep {
 
-/// A line of the history, and the sums that steer the next move.
+/// A line of the history, and the sums that the next move uses.
 struct SweepSummary {
   SweepRecord record;
   SweepSums sums;
@@ -18,7 +18,7 @@ struct SweepSummary {
 
 /// @brief Measures the stars of the inner sites, with one packed reduction of quality and sums for the rule. Leaves
 /// `sweep`, `stage`, `by_bars` and `seconds` of the record to the caller. Collective.
-/// @param counts of the sweeps since the last record
+/// @param counts counts of the sweeps since the last record
 /// @param typical_size any typical h, see SweepSums
 /// @param held sites on all ranks that never move: boundary sites and fixed points
 SweepSummary summarize_sweep(const sites::SiteState& state, Sweeper& sweeper, const Sweeper::Counts& counts,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The measurements of a sweep: sums over the stars of the inner sites, for the history and for the rules.
+// The measurements of a sweep. They are sums over the stars of the inner sites, for the history and for the rules.
 #pragma once
 
 #include "sites/star_view.hpp"
@@ -13,7 +13,8 @@
 
 namespace trime::sweep {
 
-/// Eight bins an octave from 2^-20 to 16; what lies outside goes to the first or last bin.
+/// A histogram of alpha - 1 with eight bins per octave from 2^-20 to 16. Values outside go to the first or the last
+/// bin.
 class AlphaBins {
 public:
   static constexpr std::size_t size = 24 * 8;
@@ -26,9 +27,10 @@ public:
   const std::array<std::int64_t, size>& counts() const { return counts_; }
   std::array<std::int64_t, size>& counts() { return counts_; }
 
-  /// Median of alpha - 1; 0 without values.
+  /// Returns the median of alpha - 1; 0 if there are no values.
   double median() const { return quantile(0.5); }
-  /// Value below which a share of all values lies, linear inside its bin; 0 without values.
+  /// Returns the value below which a share of all values lies, by linear interpolation in its bin; 0 if there are no
+  /// values.
   double quantile(double share) const {
     std::int64_t all = 0;
     for (const std::int64_t count : counts_)
@@ -46,7 +48,8 @@ public:
 private:
   static constexpr int mantissa_bits = 3;
   static constexpr double lowest = 0x1p-20;
-  /// The leading bits of a positive double grow with it: exponent, then the first bits of the mantissa.
+  /// Returns the bin of a value. It follows from the leading bits of a positive double, which grow with it: the
+  /// exponent, then the mantissa.
   static std::size_t bin(double excess) {
     constexpr std::uint64_t origin = std::bit_cast<std::uint64_t>(lowest) >> (52 - mantissa_bits);
     const double v = std::clamp(excess, lowest, 15.9);
@@ -62,15 +65,15 @@ private:
   std::array<std::int64_t, size> counts_{};
 };
 
-/// Sums of one sweep over the inner sites of a rank, in integers: their order is irrelevant.
+/// Sums of one sweep over the inner sites of a rank. They are integers, so the order of the terms does not matter.
 struct SweepSums {
   FixedSum squared_length_ratio; ///< L^2 / h_ref^2 over the bars seen from inner sites
   FixedSum squared_size_ratio;   ///< h^2 / h_ref^2 over the same bars, h the mean of both ends
   FixedSum excess_alpha;         ///< alpha - 1, each triangle with an inner site once
-  AlphaBins alpha_bins;          ///< of the same triangles
+  AlphaBins alpha_bins;          ///< histogram of the same triangles
   std::int64_t triangles = 0;
   double max_alpha = 1;
-  FixedSum power; ///< of the last move: sum of -move . (move + lead before) / h^2, each term at most 2^10
+  FixedSum power; ///< power of the last move: sum of -move . (move + lead before) / h^2, each term at most 2^10
 
   void add(const SweepSums& other);
 };
@@ -78,7 +81,7 @@ struct SweepSums {
 /// Adds the star of the inner site i.
 void measure_star(const sites::StarView& view, LocalIndex i, double reference_size, SweepSums& sums);
 
-/// Sums over the inner owned sites. Threads over tiles. @param reference_size h_ref, any typical size
+/// Returns the sums over the inner owned sites. Threads work on tiles. @param reference_size h_ref, any typical size
 SweepSums measure(const sites::StarView& view, double reference_size);
 
 } // namespace trime::sweep

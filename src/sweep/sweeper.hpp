@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sweeps of a stage: stars certified and sites moved in one pass, in place.
+// Runs the sweeps of a stage, each of which certifies the stars and moves the sites.
 #pragma once
 
 #include "sweep/move_outcomes.hpp"
@@ -13,16 +13,17 @@
 
 namespace trime::sweep {
 
-/// The choice of tiles and sites that may sleep.
+/// Which tiles and sites may sleep.
 enum class Sleep { never, where_nothing_moves };
 
 /// @brief Moves the inner sites, sweep by sweep. `prepare` certifies every star at the present places and computes the
-/// next ones; `commit` goes there.
+/// next places; `commit` moves the sites there.
 ///
-/// A kernel passes over the sites of a tile, certifies their stars by the Delaunay lemma and moves them. What it leaves
-/// is certified by emptiness (StarCertifier) and moved one by one, with all that can happen to a site near the
-/// boundary. Tiles where nothing moves sleep (TileActivity), and in the other tiles sites do (SiteActivity). In a
-/// periodic container sites are sorted after every move, so that they are in it; else when it is due (SortSchedule).
+/// A kernel passes over the sites of a tile, certifies their stars by the Delaunay lemma and computes their moves. The
+/// sites that it leaves are certified by StarCertifier and moved one by one; near the boundary they may be pushed or
+/// deleted. Tiles where nothing moves sleep (TileActivity), and in the other tiles sites do (SiteActivity). In a
+/// periodic container sites are sorted after every move, which puts them back into the container; otherwise
+/// SortSchedule decides when.
 class Sweeper {
 public:
   Sweeper(const Sweeper&) = delete; // its parts refer to each other
@@ -34,35 +35,36 @@ public:
 
   /// The result of one sweep, over all ranks.
   struct Counts {
-    std::int64_t rebuilt = 0; ///< stars that were no longer right, and lost ones next to borders; depends on the ranks
+    std::int64_t rebuilt = 0; ///< stars that changed, and lost ones next to borders; depends on the ranks
     std::int64_t moving = 0, pushed = 0, deleted = 0;
-    double max_move = 0; ///< over h
+    double max_move = 0; ///< longest move over h
     FixedSum power;      ///< see SweepSums
 
-    /// Counts of both; the rest is that of the later sweep.
+    /// Adds the counts of a later sweep, and takes over its other members.
     void follow_by(Counts later);
   };
 
-  /// @brief Certifies the stars and finds where the sites go by `rule`. Collective.
-  /// @param wish of this rank; its largest value over all ranks is largest_wish() from then on
+  /// @brief Certifies the stars, and computes the next places by `rule`. Collective.
+  /// @param wish the wish of this rank; largest_wish() then returns the largest one over all ranks
   void prepare(const UpdateRule& rule, int wish = 0);
   int largest_wish() const { return largest_wish_; }
   bool is_prepared() const { return prepared_; }
-  /// Forgets the moves; the stars stay.
+  /// Forgets the next places, but keeps the stars.
   void discard();
-  /// Moves the sites to where `prepare` found that they go. Collective. @pre is_prepared()
+  /// Moves the sites to the places that `prepare` computed. Collective. @pre is_prepared()
   Counts commit();
-  /// @brief Sorts the sites if they were moved since: then bins are right again, rings stay, and all stars count as
-  /// uncertain. Without it the state has bins that are too old for others. Collective.
+  /// @brief Sorts the sites if they have moved since the last sorting. Afterwards bins are up to date, rings are kept,
+  /// and all stars count as uncertain. Must be called before other code uses the state, which needs up-to-date bins.
+  /// Collective.
   void sort();
 
-  /// Sums over the stars of the inner owned sites, of this rank.
+  /// Returns the sums over the stars of the inner owned sites of this rank.
   SweepSums measure(double reference_size);
   /// @brief Visits the state that a checkpoint keeps between commit() and the next prepare(), in addition to the sites:
   /// numbers, and data of each owned tile.
   void visit(StateFields& fields);
   std::vector<std::uint64_t> saved_activity() const;
-  /// Goes on from there. @param activity of all tiles of the container @pre nothing was prepared yet
+  /// Restores that state. @param activity of all tiles of the container @pre nothing was prepared yet
   void restore(StateFields& fields, std::span<const std::uint64_t> activity);
   /// See StarCertifier::verify. Collective.
   void verify() const { certifier_.verify(); }
@@ -95,13 +97,13 @@ private:
   MoveOutcomes outcomes_;
   StarMeasures measures_;
   SortSchedule schedule_;
-  std::vector<LocalIndex> irregular_; // stars are right, but the kernel has not made the move
+  std::vector<LocalIndex> irregular_; // sites with certified stars whose move the kernel has not made
   Counts counts_;
-  double largest_distance_ = 0; // of this sweep, over all ranks
-  double drift_in_tiles_ = 0;   // with it, over all ranks
-  std::int64_t moving_ = 0;     // of this sweep and rank
+  double largest_distance_ = 0; // longest move of this sweep, over all ranks
+  double drift_in_tiles_ = 0;   // drift in tiles after this move, over all ranks
+  std::int64_t moving_ = 0;     // moving sites of this rank in this sweep
   int moves_ = 0;
-  int wish_ = 0, largest_wish_ = 0; // of this rank, and over all ranks
+  int wish_ = 0, largest_wish_ = 0; // wish of this rank, and largest wish of all ranks
   bool sorted_ = true, prepared_ = false, under_way_ = false;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tiles next to the tiles of a rank, and which tiles of the rank have no tile of another rank next to them.
+// Finds the tiles next to each tile of a rank, and which tiles have no tile of another rank next to them.
 #pragma once
 
 #include "mesh/binned_points.hpp"
@@ -10,12 +10,12 @@
 
 namespace trime::sweep {
 
-/// Where an owned tile lies. Inner tiles have only tiles of this rank around them: they can be swept while the ghosts
-/// are on their way.
+/// Where an owned tile lies. Inner tiles have only tiles of this rank around them, so they can be swept while the
+/// ghosts are on their way.
 enum class TilePlace : std::uint8_t { inner, at_border };
 
-/// @brief Returns for each owned tile the tiles around it, including itself, by the numbers of KnownBins: first the
-/// owned ones, in their order. Across a periodic border nothing is next to a tile. Valid until sites are sorted.
+/// @brief Holds for each owned tile the tiles around it, including itself, by the numbers of KnownBins. Tiles across a
+/// periodic border do not count. Valid until sites are sorted.
 ///
 /// Two tiles that are not next to each other are at least as far apart as the narrowest() of either.
 class TilesAround {
@@ -30,11 +30,11 @@ public:
     return std::span(tiles_).subspan(first_[t], first_[t + 1] - first_[t]);
   }
   TilePlace place(std::size_t t) const { return places_[t]; }
-  /// The shortest side of these tiles, domain units.
+  /// Returns the shortest side of these tiles in domain units.
   double narrowest(std::size_t t) const { return narrowest_[t]; }
 
 private:
-  std::vector<std::size_t> first_; // into tiles_, by owned tile, and its end
+  std::vector<std::size_t> first_; // by owned tile, where its tiles begin in tiles_; then the end
   std::vector<LocalIndex> tiles_;
   std::vector<TilePlace> places_;
   std::vector<double> narrowest_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The update rules: where a sweep wants each inner site to go.
+// The update rules: they compute the step of each inner site in a sweep.
 #pragma once
 
 #include "core/state_fields.hpp"
@@ -10,21 +10,20 @@
 
 namespace trime::sweep {
 
-/// The result of a rule for a site: a move to its next iterate, and from there a lead in the direction of the last
-/// move.
+/// The result of a rule for a site: a move to its next iterate, and a lead beyond it in the direction of the last move.
 struct Step {
   geometry::Vec2 move, lead;
 };
 
-/// @brief Finds the next place of a site from its own ring alone: neighbours in canonical order, at their old places,
-/// so that all sites may move at once (Jacobi). The result is a pure function of these places, of h and of the sums
-/// over all ranks. Private to the sweeps: the vector kernels know every rule, so that no user can add one.
+/// @brief Computes the step of a site from its own ring alone: from its neighbours in canonical order at their old
+/// places, so all sites may move at once (Jacobi). The result is a pure function of these places, of h, and of sums
+/// over all ranks. Users cannot add rules, because the vector kernels contain every rule.
 class UpdateRule {
 public:
   virtual ~UpdateRule() = default;
-  /// Sums over all ranks, before the sites move.
+  /// Passes the sums over all ranks to the rule, before the sites move.
   virtual void begin_sweep(const SweepSums& sums) = 0;
-  /// Step of site i (not capped). Called concurrently.
+  /// Returns the step of site i, which is not capped. Called concurrently.
   virtual Step step(const sites::StarView& view, LocalIndex i) const = 0;
   /// Returns the parameters for the vector kernels, which move most sites and give the same bits.
   virtual RuleParameters parameters() const = 0;
@@ -32,9 +31,9 @@ public:
   virtual void visit(StateFields&) {}
 };
 
-/// @brief DistMesh (Persson and Strang 2004) as in TriMe++: bars repel where they are shorter than
-/// L0 = 1.2 h sqrt(sum L^2 / sum h^2), h the mean of both ends; explicit Euler with step 0.3. Bars between two boundary
-/// sites are not in the sums, since the boundary is held.
+/// @brief DistMesh (Persson and Strang 2004) as in TriMe++: bars repel where they are shorter than L0 = 1.2 h sqrt(sum
+/// L^2 / sum h^2), where h is the mean of both ends. They move by explicit Euler steps of 0.3. Bars between two
+/// boundary sites are not in the sums, because the boundary is held.
 class DistMeshRule final : public UpdateRule {
 public:
   void begin_sweep(const SweepSums& sums) override;
@@ -48,12 +47,12 @@ private:
 
 /// @brief Accelerates a descent (Nesterov 1983). From the iterate x' = y + move(y) the next move is taken at y' = x' +
 /// b (x' - x). Here b = min(SweepRules::largest_momentum, k/(k+3)), and k starts again from 0 when the last moves went
-/// uphill (sum of (y - x').(x' - x) / h^2 > 0; O'Donoghue and Candes 2015). It is early enough to see that one sweep
-/// later.
+/// uphill (sum of (y - x').(x' - x) / h^2 > 0; O'Donoghue and Candes 2015). The rule uses the sums of the last sweep; a
+/// restart one sweep later is early enough.
 class Momentum {
 public:
   void begin_sweep(const SweepSums& sums);
-  /// The step of site i whose plain move is `move`.
+  /// Returns the step of site i, where `move` is its move without momentum.
   Step step(const sites::StarView& view, LocalIndex i, geometry::Vec2 move) const;
   double factor() const { return factor_; }
   void visit(StateFields& fields) { fields.field("momentum_age", age_); }
@@ -72,17 +71,18 @@ private:
 /// 1999). So d grows like w^(-1/4), and w = h^-4 makes it proportional to h. The weight h^-2 of TriMe++ drifts towards
 /// d ~ sqrt(h).
 ///
-/// The weight is linear over each triangle (site, circumcentre, circumcentre), its value at a circumcentre from the
-/// mean of h at the three sites: no look into the field, nothing allocated, exact for the uniform weight.
+/// The weight is linear over each triangle (site, circumcentre, circumcentre); at a circumcentre it follows from the
+/// mean of h at the three sites. So the size field is not evaluated and no memory is allocated; a uniform weight is
+/// exact.
 class CvdRule final : public UpdateRule {
 public:
-  /// @param exponent of 1/h in the weight, 0..8
+  /// @param exponent exponent of 1/h in the weight, 0..8
   explicit CvdRule(int exponent = SweepRules::density_exponent) : exponent_(exponent) {}
   void begin_sweep(const SweepSums& sums) override;
   Step step(const sites::StarView& view, LocalIndex i) const override;
   RuleParameters parameters() const override;
   void visit(StateFields& fields) override { momentum_.visit(fields); }
-  /// Centroid of the cell of site i, relative to the site; zero if the star has a gap.
+  /// Returns the centroid of the cell of site i, relative to the site; zero if the star has a gap.
   geometry::Vec2 centroid(const sites::StarView& view, LocalIndex i) const;
 
 private:
@@ -90,21 +90,22 @@ private:
   Momentum momentum_;
 };
 
-/// @brief Moves every site towards the minimum of an energy of the triangles around it, their neighbours held.
+/// @brief Moves every site towards the minimum of an energy of the triangles around it, with its neighbours held.
 ///
 /// The energy of a triangle of area A is S / (4 sqrt(3) A) + k (A/W + W/A - 2). S is the sum of its squared sides, so
 /// the first term is 1 for an equilateral triangle of any size and grows with its shear (Bank and Smith 1997). W is the
-/// area that h asks for (the mean of h at its corners, scaled to the mean edge of the whole mesh). One Newton step per
-/// site with exact second derivatives, which are positive definite, times 0.7: all sites move at once.
+/// area that h asks for (the mean of h at its corners, scaled to the mean edge of the whole mesh). Each site makes 0.7
+/// of a Newton step with exact second derivatives, which are positive definite; the factor is needed because all sites
+/// move at once.
 ///
 /// Why it comes after the cells: where h varies, a mesh must hold dislocations, and between them it is strained. alpha
 /// sees shear alone. Voronoi cells resist a change of area 7 times as much as shear, so they leave the strain as shear.
 /// A dislocation in a material without resistance to a change of area has no shear (its displacement is b/(2 pi i) log
 /// z, which is analytic). With k = 1/4 the resistance to a change of area is half that to shear: alpha - 1 falls to
-/// less than half, and the standard deviation of L / (s h) grows by a sixth at most. The order of the mesh, that is
-/// where its dislocations lie, is better left to the cells.
+/// less than half, and the standard deviation of L / (s h) grows by a sixth at most. The places of the dislocations are
+/// better left to the cells.
 ///
-/// W is taken as constant in a step, so that a mesh with A = W everywhere stays as it is.
+/// W is constant during a step, so a mesh with A = W everywhere does not change.
 class TriangleRule final : public UpdateRule {
 public:
   void begin_sweep(const SweepSums& sums) override;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a coarse chain on a zero set to a polygon that follows it: chords halved until they are near enough, corners
-// found to full accuracy, and vertices that nothing needs taken out.
+// Refines a coarse chain on a zero set to a polygon that follows it. Chords are halved until they are near enough,
+// corners are found to full accuracy, and superfluous vertices are removed.
 #pragma once
 
 #include "tracing/level_function.hpp"
@@ -10,30 +10,31 @@
 
 namespace trime::tracing {
 
-/// Lengths behind the accuracy that traced_part promises.
+/// Tolerances that give the accuracy of traced_part, as lengths.
 struct TraceTolerances {
   explicit TraceTolerances(double container_side) : side(container_side) {}
   double side;                      ///< longer side of the container
-  double chord = 2.5e-7 * side;     ///< stray of a chord while it is refined; twice that when it is thinned
-  double straight = 1e-12 * side;   ///< stray that counts as none
-  double shortest = 0x1p-22 * side; ///< chords are not halved below
-  double corner = 0x1p-24 * side;   ///< where the arms of a corner are examined finally
-  double zero = 0x1p-50 * side;     ///< of a zero on a line
+  double chord = 2.5e-7 * side;     ///< largest deviation of a chord during refinement; twice that during thinning
+  double straight = 1e-12 * side;   ///< a deviation up to this counts as zero
+  double shortest = 0x1p-22 * side; ///< chords below this length are not halved
+  double corner = 0x1p-24 * side;   ///< distance from a corner where its arms are examined finally
+  double zero = 0x1p-50 * side;     ///< tolerance of a zero on a line
 };
 
 struct CurveVertex {
   geometry::Vec2 place;
-  bool keep = false; ///< a corner, or the end of a straight side
+  bool keep = false; ///< the vertex is a corner, or the end of a straight side
 };
 
 class CurveRefiner {
 public:
-  /// @param resolution of the chains, for messages
+  /// @param resolution resolution of the chains, for messages
   CurveRefiner(const LevelFunction& function, const TraceTolerances& tolerances, double resolution)
       : function_(function), tolerances_(tolerances), resolution_(resolution) {}
 
-  /// @brief Closed polygon along the curve. @param chain closed, interior on the left, at least three vertices
-  /// @throws GeometryError with the place where a chord, or all chains so far, would need too many vertices
+  /// @brief Returns a closed polygon along the curve. @param chain is closed, has the interior on its left and at least
+  /// three vertices
+  /// @throws GeometryError with a place if a chord, or all chains so far, would need too many vertices
   std::vector<geometry::Vec2> refine(const std::vector<geometry::Vec2>& chain);
 
 private:
@@ -56,8 +57,8 @@ private:
   std::size_t vertices_ = 0; // of all chains so far, before thinning
 };
 
-/// @brief Takes out vertices of a closed polygon: runs on one line become one segment each, and the rest chords that
-/// stray from the vertices by `chord` at most. Vertices to keep stay.
+/// @brief Removes vertices of a closed polygon. Runs on one line become one segment each, and the rest becomes chords
+/// whose distance from the removed vertices is at most `chord`. Vertices marked `keep` stay.
 std::vector<geometry::Vec2> thinned(std::vector<CurveVertex> polygon, double straight, double chord);
 
 } // namespace trime::tracing

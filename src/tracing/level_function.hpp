@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The function of a traced shape, continued a little beyond the container so that its zero set is closed, with the one
-// search for a zero on a segment.
+// The function of a traced shape. It is continued a little beyond the container so that its zero set is closed. Also
+// searches a zero on a segment.
 #pragma once
 
 #include "core/thread_loop.hpp"
@@ -13,10 +13,10 @@
 
 namespace trime::tracing {
 
-/// Thread-safe as the shape is. Inside is where the value is negative; zero counts as outside.
+/// The function of a traced shape, which is negative inside; zero counts as outside. It is as thread-safe as the shape.
 class LevelFunction {
 public:
-  /// The exception for a value that is not finite; loops turn it into one error, the same for any number of threads.
+  /// Thrown for a value that is not finite. Loops turn it into one error, the same for any number of threads.
   struct NotFinite {
     geometry::Vec2 place;
     double value;
@@ -29,7 +29,7 @@ public:
   /// inside (down to `lowest`) before the distance `width`.
   void build_wall(double slope, double lowest, double width);
 
-  /// Outside the container: the value at its nearest point plus the wall. @throws NotFinite
+  /// Returns the value at p; outside the container, the value at its nearest point plus the wall. @throws NotFinite
   double operator()(geometry::Vec2 p) const {
     const geometry::Vec2 nearest{std::fmin(std::fmax(p.x, container_.min.x), container_.max.x),
                                  std::fmin(std::fmax(p.y, container_.min.y), container_.max.y)};
@@ -40,7 +40,7 @@ public:
   }
   bool inside(geometry::Vec2 p) const { return (*this)(p) < 0; }
 
-  /// @brief The zero between a and b, to within `tolerance`. @pre one of value_a, value_b is negative, the other not
+  /// @brief Returns the zero between a and b to within `tolerance`. @pre exactly one of value_a, value_b is negative
   geometry::Vec2 crossing(geometry::Vec2 a, double value_a, geometry::Vec2 b, double value_b, double tolerance) const;
 
   /// Calls body(item) for item in [0, n) on all threads. @throws GeometryError for the lowest item that is not finite

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The first, coarse picture of a zero set: closed chains of its crossings with the lines of a grid.
+// Finds a zero set coarsely: as closed chains of its crossings with the lines of a grid.
 #pragma once
 
 #include "tracing/level_function.hpp"
@@ -10,20 +10,19 @@ namespace trime::tracing {
 
 struct ZeroChains {
   std::vector<std::vector<geometry::Vec2>>
-      chains;  ///< closed, interior on the left, vertices at most about 1.5 cells apart
+      chains;  ///< closed chains with the interior on their left and vertices at most about 1.5 cells apart
   double cell; ///< side of a cell
 };
 
-/// The grid is never finer than with this resolution. @param side the longer one of the container
+/// Returns the finest resolution of the grid. @param side the longer side of the container
 double finest_resolution(double side);
 
-/// @brief Marching squares on a grid with cells of half of `resolution` over the container and one ring of cells around
-/// it.
+/// @brief Runs marching squares on a grid that covers the container and one more cell on each side. The cells are half
+/// of `resolution` wide.
 ///
-/// Coarse cells, four times as large, are looked at everywhere; finer ones only where the zero set may be, judged by
-/// the values and the slopes near by, and along the curves from there. A curve that fits between the nodes of the fine
-/// grid is missed. Builds the wall of the function around the container.
-/// A resolution below finest_resolution() has no further effect.
+/// Coarse cells, four times as large, are examined everywhere; fine ones only where the values and slopes nearby allow
+/// a zero, and along the curves from there. A curve that fits between the nodes of the fine grid is missed. Also builds
+/// the wall of the function around the container. A resolution below finest_resolution() has no further effect.
 /// @throws GeometryError see traced_part
 ZeroChains march(LevelFunction& function, const geometry::Box& container, double resolution);
 
