@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moves the sites of a patch: freely inside, along their curve on the boundary.
+// Moves the sites of a patch: freely inside, along their curve on the boundary, where only some chords are allowed.
 #pragma once
 
-#include "cleanup/patch_chords.hpp"
+#include "cleanup/patch.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <cmath>
@@ -10,6 +10,45 @@
 #include <vector>
 
 namespace trime::cleanup {
+
+/// @brief The rule for chords: the closed diametral disc of each is empty, and none takes the place of a curve that
+/// leaves this disc, or that turns by more than 60 degrees and strays by more than the tolerance.
+class PatchChords {
+public:
+  /// The start must outlive the object.
+  explicit PatchChords(const PatchStart& start) : start_(start) {}
+
+  /// @param longest_bent in h: chords of curves may be that long, see CleanupRules::bent_at_first
+  void allow(double longest_bent) { longest_bent_ = longest_bent; }
+
+  /// May a chord between two vertices on the boundary replace the curve? @param size h there
+  bool stands_for_curve(const BoundaryVertex& from, const BoundaryVertex& to, const geometry::Segment& chord,
+                        double size) const {
+    double arc = to.arc - from.arc;
+    if (arc < 0)
+      arc += start_.curve().length(from.loop);
+    const double length = geometry::length(chord.b - chord.a);
+    return arc <= CleanupRules::straight_share * length || // as on a straight side
+           stands_for_bent_curve(from, to, chord, size, arc, length);
+  }
+  /// Does the same for the chord from vertex v to the next.
+  bool stands_for_curve(const Patch& patch, LocalIndex v) const {
+    const BoundaryVertex& own = patch.boundary[at(v)];
+    return stands_for_curve(own, patch.boundary[at(own.next)], patch.chord(v), patch.size[at(v)]);
+  }
+
+  /// @brief Is each changed chord an edge that may replace its curve, with an empty closed disc? Also checks that no
+  /// moved vertex has entered another disc, and that no inner vertex lies behind a chord.
+  bool hold(const Patch& patch) const;
+
+private:
+  bool stands_for_bent_curve(const BoundaryVertex& from, const BoundaryVertex& to, const geometry::Segment& chord,
+                             double size, double arc, double length) const;
+  bool holds(const Patch& patch, LocalIndex v, const PatchMesh::Apexes& apexes) const;
+
+  const PatchStart& start_;
+  double longest_bent_ = CleanupRules::bent_at_first;
+};
 
 /// @brief Sum of e^2 + w e^4, e = eta - 1, w = CleanupRules::quartic_weight, over the triangles (p, ring[k],
 /// ring[k+1]), eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area) of the edges a, b, c: 1 for an equilateral triangle (Bank and

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A grid of square cells that lists the discs of chords that reach into each of them.
+// What the guard of the boundary consists of: a grid of square cells that lists the discs of chords that reach into
+// each of them, the same cells as plain numbers for loops that look for the clear ones themselves, and closed polygons
+// made of the segments that meet a window.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -13,6 +15,15 @@
 #include <vector>
 
 namespace trime::polygon {
+
+/// Rows of `columns` cells, beginning at `corner`. The pointer points into the guard.
+struct GuardCells {
+  const std::int8_t* states =
+      nullptr; ///< a point in a cell with a positive state needs no push; null without sites, when no point needs one
+  geometry::Vec2 corner;
+  double inverse_side = 1;
+  int columns = 0, rows = 0;
+};
 
 /// Returns a radius around the middle of a chord that covers its disc and everything nearer to the chord than
 /// PolygonRules::near_chord.
@@ -91,5 +102,12 @@ private:
   std::vector<LocalIndex> ranks_;          // by word of these bits, the number of bits that are set before it
   std::vector<LocalIndex> starts_, discs_; // by cell with discs, where its discs begin in discs_
 };
+
+/// @brief Returns the segments and additional ones outside `window`, so that every end belongs to an even number of
+/// segments. Then the even-odd rule separates inside and outside in the window, but does not say which is which.
+/// @param segments an end that belongs to an odd number of them lies outside `window`
+/// @param margin distance of the added segments from all others; a multiple of the lattice step, as all ends are
+std::vector<geometry::Segment> close_outside(std::vector<geometry::Segment> segments, const geometry::Box& window,
+                                             double margin);
 
 } // namespace trime::polygon

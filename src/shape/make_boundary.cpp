@@ -8,11 +8,9 @@
 #include "geometry/box_tree.hpp"
 #include "shape/arrangement.hpp"
 #include "shape/boundary_area.hpp"
-#include "shape/inside_walk.hpp"
-#include "shape/marked_pieces.hpp"
 #include "shape/part_images.hpp"
-#include "shape/quotient.hpp"
 #include "shape/region_state.hpp"
+#include "shape/vertex_table.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
