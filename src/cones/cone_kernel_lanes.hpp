@@ -176,15 +176,7 @@ public:
     }
     std::int64_t count = 0;
     for (std::int64_t k = 0; k < from.count; k += n) {
-      const V at[4] = {load(source[0] + k), load(source[1] + k), load(source[2] + k), load(source[3] + k)};
-      const V height = load(source[7] + k);
-      M covered = lane_numbers() + k >= from.count;
-      M spared{}; // two equal cones must not cover each other, so only an earlier winner may cover a winner
-      for (int w = 0; w < winner_count; ++w) {
-        const V higher = winners[w].height - height, margin = lanes::select(higher < V{}, higher, V{});
-        spared |= lane_numbers() + k == winners[w].cone;
-        covered |= is_below(winners[w], at, margin) & ~spared;
-      }
+      const M covered = hidden_cones(source, from.count, k, winners, winner_count);
       for (unsigned kept = ~lanes::bits(covered) & ((1u << n) - 1); kept != 0; kept &= kept - 1) {
         const std::int64_t cone = k + __builtin_ctz(kept);
         for (int a = 0; a < 8; ++a)
@@ -284,6 +276,20 @@ private:
   TRIME_INLINE static M is_below(const Winner& winner, const V (&at)[4], V margin) {
     return (winner.at[0] <= at[0] + margin) & (winner.at[1] <= at[1] + margin) & (winner.at[2] <= at[2] + margin) &
            (winner.at[3] <= at[3] + margin);
+  }
+  /// Which of n cones from k on are hidden by winners, or beyond the end of the list.
+  TRIME_INLINE static M hidden_cones(const double* const* source, std::int64_t count, std::int64_t k,
+                                     const Winner* winners, int winner_count) {
+    const V at[4] = {load(source[0] + k), load(source[1] + k), load(source[2] + k), load(source[3] + k)};
+    const V height = load(source[7] + k);
+    M covered = lane_numbers() + k >= count;
+    M spared{}; // two equal cones must not cover each other, so only an earlier winner may cover a winner
+    for (int w = 0; w < winner_count; ++w) {
+      const V higher = winners[w].height - height, margin = lanes::select(higher < V{}, higher, V{});
+      spared |= lane_numbers() + k == winners[w].cone;
+      covered |= is_below(winners[w], at, margin) & ~spared;
+    }
+    return covered;
   }
 
   /// Returns by how much another cone may be higher at the corners, so that inside it is too high by at most the slack.

@@ -227,28 +227,42 @@ void LatticeStart::add_row(const RowLattice& rows, LatticeRun row, double spacin
   }
 }
 
+namespace {
+
+/// The box of a tile and a little more, and how far it reaches across the rows and along them.
+struct TileReach {
+  geometry::Box box;
+  double low = INFINITY, high = -INFINITY, begin = INFINITY, end = -INFINITY;
+
+  TileReach(const geometry::Box& tile, const RowLattice& rows, double margin)
+      : box{tile.min - Vec2{margin, margin}, tile.max + Vec2{margin, margin}} {
+    const Vec2 across = geometry::left_normal(rows.along);
+    for (const Vec2 corner : {box.min, Vec2{box.max.x, box.min.y}, box.max, Vec2{box.min.x, box.max.y}}) {
+      low = std::min(low, geometry::dot(corner - rows.origin, across));
+      high = std::max(high, geometry::dot(corner - rows.origin, across));
+      begin = std::min(begin, geometry::dot(corner - rows.origin, rows.along));
+      end = std::max(end, geometry::dot(corner - rows.origin, rows.along));
+    }
+  }
+};
+
+} // namespace
+
 /// The lattice sites of one tile, row by row. A site belongs to the tile of its snapped coordinates; rows and columns
 /// reach a little beyond the tile's box, so rounding cannot lose any.
 std::vector<LatticeRun> LatticeStart::runs_in(const mesh::TileGrid& grid, LocalIndex tile, const RowLattice& rows,
                                               double spacing) const {
   std::vector<LatticeRun> runs;
-  geometry::Box box = grid.tile_box(tile);
-  box = {box.min - Vec2{0.1 * spacing, 0.1 * spacing}, box.max + Vec2{0.1 * spacing, 0.1 * spacing}};
+  const TileReach reach(grid.tile_box(tile), rows, 0.1 * spacing);
   const Vec2 across = geometry::left_normal(rows.along);
-  double low = INFINITY, high = -INFINITY, begin = INFINITY, end = -INFINITY;
-  for (const Vec2 corner : {box.min, Vec2{box.max.x, box.min.y}, box.max, Vec2{box.min.x, box.max.y}}) {
-    low = std::min(low, geometry::dot(corner - rows.origin, across));
-    high = std::max(high, geometry::dot(corner - rows.origin, across));
-    begin = std::min(begin, geometry::dot(corner - rows.origin, rows.along));
-    end = std::max(end, geometry::dot(corner - rows.origin, rows.along));
-  }
   const bool clear = is_clear(grid, tile, spacing);
-  const auto first_row = static_cast<std::int64_t>(std::floor(low / rows.height));
-  for (std::int64_t j = first_row; j <= last_of(first_row, high / rows.height, rows.rows); ++j) {
+  const auto first_row = static_cast<std::int64_t>(std::floor(reach.low / rows.height));
+  for (std::int64_t j = first_row; j <= last_of(first_row, reach.high / rows.height, rows.rows); ++j) {
     const std::int64_t row = reduced(j, rows.rows);
     const Vec2 start = rows.origin + (static_cast<double>(row) * rows.height) * across;
     const double shift = rows.shift(row);
-    const auto [first, last] = periods_.any() ? std::pair{begin, end} : clip_line(start, rows.along, box);
+    const auto [first, last] =
+        periods_.any() ? std::pair{reach.begin, reach.end} : clip_line(start, rows.along, reach.box);
     if (!(first <= last))
       continue;
     auto column = static_cast<std::int64_t>(std::floor(first / rows.spacing - shift));

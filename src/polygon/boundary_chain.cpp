@@ -52,6 +52,39 @@ BoundaryCurve::CurvePlace BoundaryCurve::place(LocalIndex loop, double arc) cons
   return {static_cast<LocalIndex>(piece), along, on.point(along) + turns * curve.winding, on.tangent(along)};
 }
 
+namespace {
+
+/// How far places of the curve lie from a chord, one after the other.
+class StrayedFrom {
+public:
+  explicit StrayedFrom(const geometry::Segment& chord)
+      : chord_(chord), rounding_(1e-9 * geometry::squared_length(chord.b - chord.a)) {}
+
+  void look(Vec2 p, double arc) {
+    if (const double distance = geometry::squared_distance(p, chord_); distance > squared_) {
+      squared_ = distance;
+      result_.farthest = arc;
+    }
+    result_.leaves_disc |= geometry::dot(chord_.a - p, chord_.b - p) > rounding_;
+  }
+  void turn(double cosine) {
+    result_.bent |= cosine < PolygonRules::cosine_of_bent;
+    result_.sharp |= cosine < PolygonRules::cosine_of_sharp;
+  }
+  BoundaryCurve::Strayed result() {
+    result_.deviation = std::sqrt(squared_);
+    return result_;
+  }
+
+private:
+  const geometry::Segment& chord_;
+  const double rounding_;
+  double squared_ = 0;
+  BoundaryCurve::Strayed result_;
+};
+
+} // namespace
+
 BoundaryCurve::Strayed BoundaryCurve::strayed(LocalIndex loop, double from, double to,
                                               const geometry::Segment& chord) const {
   const std::vector<double>& starts = arcs_[at(loop)].starts;
@@ -59,18 +92,8 @@ BoundaryCurve::Strayed BoundaryCurve::strayed(LocalIndex loop, double from, doub
   if (to < from)
     to += starts.back();
   const CurvePlace first = place(loop, from);
-  const Vec2 shift = chord.a - first.point;
-  const double rounding = 1e-9 * geometry::squared_length(chord.b - chord.a);
-  Strayed result;
-  double squared = 0;
-  const auto look = [&](Vec2 p, double arc) {
-    if (const double distance = geometry::squared_distance(p, chord); distance > squared) {
-      squared = distance;
-      result.farthest = arc;
-    }
-    result.leaves_disc |= geometry::dot(chord.a - p, chord.b - p) > rounding;
-  };
-  Vec2 moved = shift;
+  StrayedFrom stray(chord);
+  Vec2 moved = chord.a - first.point;
   double turns = from >= starts.back() ? 1 : from < 0 ? -1 : 0;
   double passed = from - first.along; // arc at the start of the piece
   std::size_t k = static_cast<std::size_t>(first.piece);
@@ -78,16 +101,14 @@ BoundaryCurve::Strayed BoundaryCurve::strayed(LocalIndex loop, double from, doub
     const geometry::Piece& piece = curve.pieces[k];
     const double length = starts[k + 1] - starts[k];
     if (passed > from) {
-      look(piece.start + moved, starts[k] + turns * starts.back()); // bit for bit that of the junction
+      stray.look(piece.start + moved, starts[k] + turns * starts.back()); // bit for bit that of the junction
       const geometry::Piece& before = curve.pieces[k == 0 ? curve.pieces.size() - 1 : k - 1];
-      const double cosine = geometry::dot(before.tangent(before.length()), piece.tangent(0));
-      result.bent |= cosine < PolygonRules::cosine_of_bent;
-      result.sharp |= cosine < PolygonRules::cosine_of_sharp;
+      stray.turn(geometry::dot(before.tangent(before.length()), piece.tangent(0)));
     }
     for (int quarter = 1; piece.circular && quarter < 4; ++quarter) {
       const double low = std::fmax(from - passed, 0), high = std::fmin(to - passed, length);
       const double along = low + 0.25 * quarter * (high - low);
-      look(piece.point(along) + moved, passed + along);
+      stray.look(piece.point(along) + moved, passed + along);
     }
     passed += length;
     if (++k == curve.pieces.size()) {
@@ -96,8 +117,7 @@ BoundaryCurve::Strayed BoundaryCurve::strayed(LocalIndex loop, double from, doub
       moved = moved + curve.winding;
     }
   }
-  result.deviation = std::sqrt(squared);
-  return result;
+  return stray.result();
 }
 
 BoundaryChain::BoundaryChain(const BoundarySites& boundary, const BoundaryCurve& curve)

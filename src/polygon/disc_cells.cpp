@@ -55,48 +55,59 @@ void DiscCells::for_each_cell_of(const Reach& disc, int first_row, int last_row,
   }
 }
 
-/// Strips of rows are filled at the same time.
-void DiscCells::list_discs(std::span<const Segment> chords, std::span<const Segment> more) {
-  std::vector<Reach> reaches;
-  reaches.reserve(chords.size() + more.size());
-  const auto strips = static_cast<std::size_t>((rows_ - 1) / strip_rows + 1);
-  std::vector<std::vector<LocalIndex>> discs_of(strips);
+DiscCells::Strips DiscCells::strips_of(std::span<const Segment> chords, std::span<const Segment> more) const {
+  Strips strips;
+  strips.reaches.reserve(chords.size() + more.size());
+  strips.discs.resize(static_cast<std::size_t>((rows_ - 1) / strip_rows + 1));
   for (const std::span<const Segment> list : {chords, more})
     for (const Segment& chord : list) {
-      reaches.push_back({0.5 * (chord.a + chord.b), reach_of(chord)});
-      const auto [first, last] = rows_of(reaches.back());
+      strips.reaches.push_back({0.5 * (chord.a + chord.b), reach_of(chord)});
+      const auto [first, last] = rows_of(strips.reaches.back());
       for (int strip = first / strip_rows; strip <= last / strip_rows; ++strip)
-        discs_of[static_cast<std::size_t>(strip)].push_back(static_cast<LocalIndex>(reaches.size()) - 1);
+        strips.discs[static_cast<std::size_t>(strip)].push_back(static_cast<LocalIndex>(strips.reaches.size()) - 1);
     }
-  const auto for_each_strip = [&](const auto& body) {
-    thread_loop(static_cast<std::ptrdiff_t>(strips), 1, [&](std::ptrdiff_t k, int) {
-      const int first = static_cast<int>(k) * strip_rows, last = std::min(rows_, first + strip_rows);
-      body(static_cast<std::size_t>(k), first, last);
-    });
-  };
+  return strips;
+}
+
+/// Calls body(strip, first row, end of its rows) for all strips at the same time.
+template <class Body>
+void DiscCells::for_each_strip(const Body& body) const {
+  thread_loop((rows_ - 1) / strip_rows + 1, 1, [&](std::ptrdiff_t k, int) {
+    const int first = static_cast<int>(k) * strip_rows, last = std::min(rows_, first + strip_rows);
+    body(static_cast<std::size_t>(k), first, last);
+  });
+}
+
+void DiscCells::mark_cells(const Strips& strips) {
   static_assert(strip_rows % word == 0);
   bits_.assign((count() + word - 1) / word, 0);
   for_each_strip([&](std::size_t strip, int first, int last) {
-    for (const LocalIndex k : discs_of[strip])
-      for_each_cell_of(reaches[static_cast<std::size_t>(k)], first, last,
+    for (const LocalIndex k : strips.discs[strip])
+      for_each_cell_of(strips.reaches[static_cast<std::size_t>(k)], first, last,
                        [&](std::size_t cell) { bits_[cell / word] |= std::uint64_t{1} << (cell % word); });
   });
+}
+
+/// Cells with a disc above this row, where a word begins or the grid ends.
+std::size_t DiscCells::ranks_before(int row) const {
+  return static_cast<std::size_t>(
+      ranks_[std::min(bits_.size(), (static_cast<std::size_t>(row) * columns_ + word - 1) / word)]);
+}
+
+void DiscCells::list_discs(std::span<const Segment> chords, std::span<const Segment> more) {
+  const Strips strips = strips_of(chords, more);
+  mark_cells(strips);
   rank_cells();
-  // Cells with a disc above this row, where a word begins or the grid ends.
-  const auto ranks_before = [this](int row) {
-    return static_cast<std::size_t>(
-        ranks_[std::min(bits_.size(), (static_cast<std::size_t>(row) * columns_ + word - 1) / word)]);
-  };
   starts_.assign(static_cast<std::size_t>(ranks_.back()) + 1, 0);
-  std::vector<LocalIndex> entries_of(strips + 1, 0);
+  std::vector<LocalIndex> entries_of(strips.discs.size() + 1, 0);
   for_each_strip([&](std::size_t strip, int first, int last) {
-    for (const LocalIndex k : discs_of[strip])
-      for_each_cell_of(reaches[static_cast<std::size_t>(k)], first, last,
+    for (const LocalIndex k : strips.discs[strip])
+      for_each_cell_of(strips.reaches[static_cast<std::size_t>(k)], first, last,
                        [&](std::size_t cell) { ++starts_[rank(cell)]; });
     for (std::size_t k = ranks_before(first); k < ranks_before(last); ++k)
       entries_of[strip + 1] += starts_[k];
   });
-  for (std::size_t strip = 0; strip < strips; ++strip)
+  for (std::size_t strip = 0; strip < strips.discs.size(); ++strip)
     entries_of[strip + 1] += entries_of[strip];
   discs_.resize(static_cast<std::size_t>(entries_of.back()));
   starts_.back() = entries_of.back();
@@ -105,8 +116,8 @@ void DiscCells::list_discs(std::span<const Segment> chords, std::span<const Segm
     LocalIndex end = entries_of[strip];
     for (std::size_t k = ranks_before(first); k < ranks_before(last); ++k)
       starts_[k] = end += starts_[k];
-    for (auto k = discs_of[strip].rbegin(); k != discs_of[strip].rend(); ++k)
-      for_each_cell_of(reaches[static_cast<std::size_t>(*k)], first, last,
+    for (auto k = strips.discs[strip].rbegin(); k != strips.discs[strip].rend(); ++k)
+      for_each_cell_of(strips.reaches[static_cast<std::size_t>(*k)], first, last,
                        [&](std::size_t cell) { discs_[static_cast<std::size_t>(--starts_[rank(cell)])] = *k; });
   });
 }

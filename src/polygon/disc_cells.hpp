@@ -90,7 +90,17 @@ private:
     const std::uint64_t below = bits_[cell / word] & ((std::uint64_t{1} << (cell % word)) - 1);
     return static_cast<std::size_t>(ranks_[cell / word]) + static_cast<std::size_t>(std::popcount(below));
   }
+  /// The discs, and by strip of rows those that reach into it.
+  struct Strips {
+    std::vector<Reach> reaches;
+    std::vector<std::vector<LocalIndex>> discs;
+  };
+  Strips strips_of(std::span<const geometry::Segment> chords, std::span<const geometry::Segment> more) const;
+  template <class Body>
+  void for_each_strip(const Body& body) const;
+  void mark_cells(const Strips& strips);
   void rank_cells();
+  std::size_t ranks_before(int row) const;
 
   static constexpr std::size_t word = 64; // cells
 
