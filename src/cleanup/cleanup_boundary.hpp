@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The boundary during the clean-up. Each rank knows the places of its own sites, and all ranks receive the edits at the
-// end.
+// The boundary during the clean-up. Each rank knows the places of the sites that it owns, and all ranks receive the
+// edits at the end.
 #pragma once
 
 #include "cleanup/patch_data.hpp"

@@ -26,7 +26,7 @@ public:
     return arc <= CleanupRules::straight_share * length || // the curve is a straight side
            stands_for_bent_curve(from, to, chord, size, arc, length);
   }
-  /// As above, for the chord from vertex v to the next.
+  /// Returns the same for the chord from vertex v to the next.
   bool stands_for_curve(const Patch& patch, LocalIndex v) const {
     const BoundaryVertex& own = patch.boundary[at(v)];
     return stands_for_curve(own, patch.boundary[at(own.next)], patch.chord(v), patch.size[at(v)]);

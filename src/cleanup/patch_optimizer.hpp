@@ -44,7 +44,7 @@ public:
   /// References must outlive the object.
   PatchWorst(const PatchStart& start, const PatchRests& rests) : start_(start), rests_(rests) {}
 
-  /// @brief Begins a list of triangles above a limit, none of which has been tried.
+  /// @brief Begins a list of triangles above a limit that have not been tried.
   void begin(double above) {
     above_ = above;
     tried_.clear();

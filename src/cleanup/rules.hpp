@@ -160,7 +160,7 @@ struct CleanupRules {
   static constexpr double patience = 2;
   /// [1] As patience, where a place is tried again. A slightly bad triangle requires a small sum, and trials that
   /// succeed may begin far above it. Measured: with 2, single triangles of 1.11 were left at the boundary of square and
-  /// disc with 1e6 points; with 8 there were none above 1.10.
+  /// disc with 1e6 points; with 8 the worst had 1.10.
   static constexpr double patience_again = 8;
   /// [1] A trial that is not thorough ends if a last sweep leaves more than this share of the sum.
   static constexpr double least_fall = 0.97;

@@ -68,7 +68,7 @@ public:
   /// @param separators separate words, in addition to blanks and tabs
   WordLines(std::string_view text, const std::string& source, std::string_view separators);
 
-  /// Goes to the next line with words. Returns false if there is none.
+  /// Goes to the next line with words. Returns false if there is no such line.
   bool next();
   int number() const { return number_; } ///< number of the line, from 1
   const std::vector<std::string_view>& words() const { return words_; }
