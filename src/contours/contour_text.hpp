@@ -76,7 +76,7 @@ public:
   double number_at(std::size_t k, const char* what) const;
   /// Returns word k as an integer that fits into an int.
   int integer_at(std::size_t k, const char* what) const;
-  [[noreturn]] void refuse(const std::string& what) const;
+  [[noreturn]] void refuse(const std::string& what, const std::string& hint = "") const;
 
 private:
   std::string_view rest_;
