@@ -205,11 +205,12 @@ void read_resolution(const Settings& settings, const geometry::Box& container, m
   const double area = container.width() * container.height();
   const double expected = mesh.edge_length ? area / (row_height * *mesh.edge_length * *mesh.edge_length) : 0;
   if (expected > most_points)
-    problems.add(
-        settings.line("meshing", "edge_length"),
-        fmt::format("'edge_length = {}' in [meshing] asks for about {:.2g} points in a container of area {:.3g}; "
-                    "at most {:.0e} are possible",
-                    *mesh.edge_length, expected, area, most_points));
+    problems.add(settings.line("meshing", "edge_length"),
+                 fmt::format("'edge_length = {}' in [meshing] asks for {} points in a container of area {:.3g}; "
+                             "at most {:.0e} are possible; use a larger edge_length",
+                             *mesh.edge_length,
+                             expected < 1e18 ? fmt::format("about {:.2g}", expected) : "far too many", area,
+                             most_points));
 }
 
 /// The edge length is within the bounds of the size, which were read before.

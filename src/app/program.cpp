@@ -61,8 +61,8 @@ void check_share(double points, int ranks) {
   constexpr auto most = static_cast<double>(sites::SiteRules::most_owned);
   if (points / ranks > most)
     throw ConfigError(fmt::format(
-        "about {:.3g} points are too many for {} rank{}: a rank can own at most {:.3g}; start {:.0f} or more", points,
-        ranks, ranks == 1 ? "" : "s", most, std::ceil(points / most)));
+        "about {:.3g} points are too many for {} rank{}: a rank can own at most {:.3g}; start at least {:.0f} ranks",
+        points, ranks, ranks == 1 ? "" : "s", most, std::ceil(points / most)));
 }
 
 /// Bytes at the peak.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The places of bad triangles, and the choice of those that the clean-up tries next.
+// Lists the places of bad triangles, and chooses those that the clean-up tries next.
 #pragma once
 
 #include "cleanup/cleanup_choice.hpp"
@@ -15,49 +15,49 @@ namespace trime::cleanup {
 struct Candidate {
   geometry::Vec2 place; ///< canonical
   double size = 0;      ///< h
-  double alpha = 0;     ///< of the worst triangle
+  double alpha = 0;     ///< alpha of its worst triangle
 };
 
-/// A hash of a place, the same on any number of ranks.
+/// Returns a hash of a place, the same on any number of ranks.
 std::uint64_t hash_of(geometry::Vec2 place, int salt);
 
-/// @brief The candidates among the owned sites of a rank, by place. Where nothing helped in a stage (1, 2, ...) none is
-/// listed again in that stage.
+/// @brief The candidates among the owned sites of a rank, by place. If nothing helped at a place in a stage (1, 2,
+/// ...), it is not listed again in that stage.
 class CleanupCandidates {
 public:
   /// @pre the grid outlives the object
   explicit CleanupCandidates(const mesh::TileGrid& grid) : grid_(grid) {}
 
-  /// Replaces what is known of a place; keeps the stage in which nothing helped there.
+  /// Adds or replaces a candidate; keeps the stage in which nothing helped there.
   void set(const Candidate& candidate);
-  /// Notes that the site has gone, or no longer has a bad triangle.
+  /// Removes a place whose site is gone or no longer has a bad triangle.
   void drop(geometry::Vec2 place);
-  /// Nothing helps at a place, if it is one of the list, in this stage.
+  /// Notes that nothing helps at a place in this stage, if the place is listed.
   void settle(geometry::Vec2 place, int stage);
 
-  /// @brief Too many sites crowd around a place for a patch to hold them. If it is one of the list, it counts as just
-  /// bad enough to be listed, and nothing helps in this stage.
+  /// @brief Notes that a patch cannot hold all sites around a place. If the place is listed, it now counts as just bad
+  /// enough to be listed, and as settled in this stage.
   void give_up(geometry::Vec2 place, int stage);
 
-  /// The largest alpha, or 1.
+  /// Returns the largest alpha, or 1 if the list is empty.
   double worst() const;
 
-  /// The candidates that may contend.
+  /// Which candidates may contend in a round.
   struct ContenderRule {
-    int stage;              ///< places that are settled in it, or a later one, are left out
-    double above;           ///< alpha
-    double separation;      ///< in sizes
-    double most_separation; ///< larger ones than that find no room
-    int round;              ///< another order in each
+    int stage;              ///< places that were settled in this stage or a later one are left out
+    double above;           ///< candidates have an alpha above this
+    double separation;      ///< [h] see Contender
+    double most_separation; ///< largest separation in domain units; candidates that need more are left out
+    int round;              ///< each round has a different order
   };
-  /// @brief The worst candidate of each cell of a few h, and of equally bad ones the first place; sorted by place.
-  /// O(candidates).
+  /// @brief Returns the worst candidate of each cell of a few h, and the first place of equally bad ones; sorted by
+  /// place. O(candidates).
   std::vector<Contender> contenders(const ContenderRule& rule);
 
 private:
   struct Entry {
-    Candidate candidate; // alpha 0: no longer a candidate
-    int settled = 0;     // the last stage in which nothing helped
+    Candidate candidate; // alpha is 0 if it is no longer a candidate
+    int settled = 0;     // last stage in which nothing helped
     std::uint64_t cell = 0;
   };
   std::uint64_t cell_key(geometry::Vec2 p, double h) const;
@@ -65,7 +65,7 @@ private:
 
   const mesh::TileGrid& grid_;
   std::vector<Entry> entries_;
-  std::unordered_map<std::uint64_t, std::uint32_t> entry_at_; // by hash of the place
+  std::unordered_map<std::uint64_t, std::uint32_t> entry_at_; // index of the entry by hash of the place
 };
 
 } // namespace trime::cleanup

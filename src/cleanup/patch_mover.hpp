@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moves the sites of a patch: freely inside, along their curve on the boundary.
+// Moves the sites of a patch. Inner sites move freely, those on the boundary along their curve.
 #pragma once
 
 #include "cleanup/patch_chords.hpp"
@@ -11,14 +11,15 @@
 
 namespace trime::cleanup {
 
-/// @brief Sum of e^2 + w e^4, e = eta - 1, w = CleanupRules::quartic_weight, over the triangles (p, ring[k],
-/// ring[k+1]), eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area) of the edges a, b, c: 1 for an equilateral triangle (Bank and
-/// Smith 1997), smooth, without a scale. The square counts for the mean, the fourth power makes the worst triangle
-/// rule. Infinity if a triangle is turned over or flat, or once the sum comes up to `limit`.
-/// @param closed the ring is closed; else it is the open fan of a vertex on the boundary
+/// @brief Returns the sum of e^2 + w e^4 over the triangles (p, ring[k], ring[k+1]), where e = eta - 1 and w =
+/// CleanupRules::quartic_weight. eta = (a^2 + b^2 + c^2) / (4 sqrt(3) area) of the edges a, b, c is 1 for an
+/// equilateral triangle, smooth, and without a scale (Bank and Smith 1997). The square improves the mean, and the
+/// fourth power gives the worst triangle most weight. Returns infinity if a triangle is inverted or flat, or once the
+/// sum reaches `limit`.
+/// @param closed true if the ring is closed, false if it is the open fan of a vertex on the boundary
 double star_energy(geometry::Vec2 p, std::span<const geometry::Vec2> ring, bool closed, double limit = INFINITY);
 
-/// Returns the energy with its derivatives by p. @pre no triangle is turned over or flat
+/// The energy with its derivatives with respect to p. @pre no triangle is inverted or flat
 struct EnergyModel {
   double value = 0;
   geometry::Vec2 gradient;
@@ -26,20 +27,20 @@ struct EnergyModel {
 };
 EnergyModel star_energy_model(geometry::Vec2 p, std::span<const geometry::Vec2> ring, bool closed);
 
-/// Newton's step where the model is convex, else down the gradient; not longer than `limit`.
+/// Returns the Newton step if the model is convex, otherwise a step against the gradient; at most `limit` long.
 geometry::Vec2 newton_step(const EnergyModel& model, double limit);
 
-/// @brief Moves lower the StarEnergy of one site after the other by Newton steps. No site enters the diametral disc of
-/// a chord or comes near the rim of the patch.
+/// @brief Lowers the energy of one star after the other by Newton steps. No site enters the diametral disc of a chord
+/// or comes near the rim of the patch.
 class PatchMover {
 public:
-  /// References must outlive the object.
+  /// The arguments must outlive the object.
   PatchMover(const PatchStart& start, const PatchChords& chords) : start_(start), chords_(chords) {}
 
-  /// Thorough moves halve steps along the boundary more often.
+  /// Makes moves thorough: then steps along the boundary are halved more often.
   void set_thorough(bool is_thorough) { is_thorough_ = is_thorough; }
 
-  /// One sweep over those of the vertices that are free: first inside, with the edges as they are, then on the
+  /// Makes one sweep over the free vertices of a list: first over those inside, without flips, then over those on the
   /// boundary.
   void relax(Patch& patch, std::span<const LocalIndex> vertices);
 
@@ -56,7 +57,7 @@ private:
   const PatchChords& chords_;
   bool is_thorough_ = false;
   std::vector<LocalIndex> ring_, shifted_; // work space
-  std::vector<geometry::Vec2> around_;     // of the ring
+  std::vector<geometry::Vec2> around_;     // positions of the ring
 };
 
 } // namespace trime::cleanup

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A patch as it is before any change: which sites there are, and which of them may take part.
+// A patch before any change: its sites, and which of them may take part.
 #pragma once
 
 #include "cleanup/patch.hpp"
@@ -13,17 +13,17 @@
 
 namespace trime::cleanup {
 
-/// @brief The place of a patch and the sites around it before any change. Everything that is asked of a trial is asked
-/// against it. One object serves one patch after the other.
+/// @brief The place of a patch and the sites around it before any change. Trials are compared with it. One object is
+/// used for one patch after the other.
 class PatchStart {
 public:
-  /// References must outlive the object. @param boundary the sites of the beginning: loops and periods are asked for
+  /// The arguments must outlive the object. @param boundary sites at the beginning; only loops and periods are used
   PatchStart(const polygon::BoundarySites& boundary, const polygon::BoundaryCurve& curve,
              const geometry::Lattice& lattice)
       : boundary_(boundary), curve_(curve), lattice_(lattice), patch_(lattice, boundary.periods) {}
 
-  /// @brief Triangulates the sites. @return false if nothing can be done: there are too many sites, or all are near the
-  /// rim
+  /// @brief Triangulates the sites. @return false if nothing can be changed, because there are too many sites or all
+  /// are near the rim
   /// @param sites see PatchOptimizer::improve
   bool build(geometry::Vec2 center, double size, std::span<const PatchSite> sites);
 
@@ -32,7 +32,7 @@ public:
   LocalIndex missing_chords() const { return missing_chords_; }
   const geometry::Periods& periods() const { return boundary_.periods; }
   const polygon::BoundaryCurve& curve() const { return curve_; }
-  /// Sites of a loop at the beginning of the clean-up.
+  /// Returns the number of sites of a loop at the beginning of the clean-up.
   LocalIndex sites_of_loop(LocalIndex loop) const {
     return boundary_.loop_start[at(loop) + 1] - boundary_.loop_start[at(loop)];
   }
@@ -40,19 +40,19 @@ public:
   geometry::Vec2 center() const { return center_; }
   double size() const { return size_; }
 
-  /// Is a vertex new, or has it moved?
+  /// Returns whether a vertex is new or has moved.
   bool has_changed(const Patch& now, LocalIndex v) const {
     return v >= vertices() || now.mesh.position(v) != patch_.mesh.position(v);
   }
-  /// Does a place belong to the middle of the patch, far enough from the sites that are held?
+  /// Returns whether a place is far enough from the sites that are held.
   bool is_in_core(geometry::Vec2 p) const {
     return distance(p) < (CleanupRules::reach - CleanupRules::free_depth - CleanupRules::core_depth) * size_;
   }
-  /// Would a new site with size h be far enough from the rim?
+  /// Returns whether a new site with size h would be far enough from the rim.
   bool has_room(geometry::Vec2 p, double h) const {
     return distance(p) + CleanupRules::free_depth * std::fmax(h, size_) < CleanupRules::reach * size_;
   }
-  /// May a site move to a place, as far as the rim is concerned?
+  /// Returns whether a place is far enough from the rim for a site to move there.
   bool is_off_rim(geometry::Vec2 p) const {
     return !(distance(p) > (CleanupRules::reach - CleanupRules::free_depth + CleanupRules::most_outwards) * size_);
   }
@@ -68,16 +68,17 @@ private:
   const polygon::BoundaryCurve& curve_;
   geometry::Lattice lattice_;
   Patch patch_;
-  std::vector<BoundaryName> next_; // of each vertex of the rim
+  std::vector<BoundaryName> next_; // next site of each vertex on the boundary
   geometry::Vec2 center_;
   double size_ = 1;
   LocalIndex missing_chords_ = 0;
 };
 
-/// @brief A triangle whose three sites rest is left alone. A site that moves or is new does not rest.
+/// @brief The sites that rest. A triangle whose three sites rest is not tried. A site that moves or is new does not
+/// rest.
 class PatchRests {
 public:
-  /// @param sites of the patch, in the order of its vertices
+  /// @param sites sites of the patch, in the order of its vertices
   void start(std::span<const PatchSite> sites) {
     rests_.assign(PatchMesh::frame, 0);
     for (const PatchSite& site : sites)
@@ -97,7 +98,7 @@ public:
     for (const LocalIndex v : vertices)
       rests_[at(v)] = 0;
   }
-  /// Sites that have moved far no longer rest, and new sites do not rest.
+  /// Ends the rest of sites that have moved far, and of new sites.
   void wake_moved(const Patch& before, const Patch& now) {
     rests_.resize(at(now.mesh.vertices()), 0);
     for (LocalIndex v = PatchMesh::frame; v < before.mesh.vertices(); ++v) {

@@ -47,7 +47,7 @@ std::vector<FilePoint> parse_points(std::string_view text, const std::string& so
     points.push_back({*p, number});
   });
   if (points.empty())
-    throw GeometryError(fmt::format("{}: expected points, one 'x y' a line, found none", source));
+    throw GeometryError(fmt::format("{}: expected points, one 'x y' per line, found none", source));
   return points;
 }
 

@@ -68,7 +68,7 @@ public:
   /// @param separators separate words, in addition to blanks and tabs
   WordLines(std::string_view text, const std::string& source, std::string_view separators);
 
-  /// Goes to the next line with words. Returns false if there is none.
+  /// Goes to the next line with words. Returns false if there is no such line.
   bool next();
   int number() const { return number_; } ///< number of the line, from 1
   const std::vector<std::string_view>& words() const { return words_; }
@@ -76,7 +76,7 @@ public:
   double number_at(std::size_t k, const char* what) const;
   /// Returns word k as an integer that fits into an int.
   int integer_at(std::size_t k, const char* what) const;
-  [[noreturn]] void refuse(const std::string& what) const;
+  [[noreturn]] void refuse(const std::string& what, const std::string& hint = "") const;
 
 private:
   std::string_view rest_;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Says how much memory a run needs, and returns freed memory to the system, of which the C library keeps some for
-// later.
+// Says how much memory a run needs, and returns freed memory to the system, because the C library keeps some for later.
 #pragma once
 
 #include <string>

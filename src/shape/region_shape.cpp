@@ -2,6 +2,7 @@
 #include "trime/shape/region_shape.hpp"
 
 #include "core/nearest_name.hpp"
+#include "core/quoted.hpp"
 #include "shape/make_boundary.hpp"
 #include "shape/part_images.hpp"
 #include "trime/core/error.hpp"
@@ -26,7 +27,7 @@ bool is_name_character(char c) {
 std::string unknown_part_message(const std::string& name, std::span<const std::string> part_names) {
   std::vector<std::string> known(part_names.begin(), part_names.end());
   known.emplace_back(domain_name);
-  return fmt::format("unknown part '{}' in the geometry; known parts: {}{}", name, fmt::join(known, ", "),
+  return fmt::format("unknown part {} in the geometry; known parts: {}{}", quoted(name), fmt::join(known, ", "),
                      suggestion(name, known));
 }
 
@@ -44,7 +45,7 @@ public:
     expression(0);
     skip_blanks();
     if (position_ < text_.size())
-      fail("expected the end");
+      fail("expected the end of the formula, such as 'union(a, b)' for two parts");
   }
 
 private:
@@ -101,7 +102,7 @@ private:
     if (!take(')'))
       fail("expected ',' or ')'");
     if (operands.size() < 2)
-      fail(fmt::format("expected two or more arguments of {}(...) before this", word));
+      fail(fmt::format("expected {}(...) of two or more parts", word));
     region_.nodes_[node].operation = word == "union"          ? Operation::unite
                                      : word == "intersection" ? Operation::intersect
                                                               : Operation::subtract;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the sweeps of a stage, each of which certifies the stars and moves the sites.
+// Runs the sweeps of a stage. Each sweep certifies the stars and moves the sites.
 #pragma once
 
 #include "sweep/move_outcomes.hpp"
@@ -13,7 +13,7 @@
 
 namespace trime::sweep {
 
-/// Which tiles and sites may sleep.
+/// The choice of tiles and sites that may sleep.
 enum class Sleep { never, where_nothing_moves };
 
 /// @brief Moves the inner sites, sweep by sweep. `prepare` certifies every star at the present places and computes the
