@@ -4,7 +4,6 @@
 #include "app/config_sizing.hpp"
 #include "app/settings.hpp"
 #include "core/angle.hpp"
-#include "core/nearest_name.hpp"
 #include "core/quoted.hpp"
 #include "io/output_files.hpp"
 #include "trime/core/error.hpp"

@@ -2,8 +2,8 @@
 #include "app/convert.hpp"
 
 #include "comm/agree.hpp"
-#include "core/file_kind.hpp"
 #include "core/quoted.hpp"
+#include "core/read_file.hpp"
 #include "io/temporary_file.hpp"
 #include "trime/io/mesh_file.hpp"
 

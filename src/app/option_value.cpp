@@ -2,7 +2,6 @@
 #include "app/option_value.hpp"
 
 #include "app/option_table.hpp"
-#include "core/nearest_name.hpp"
 #include "core/quoted.hpp"
 
 #include <fmt/format.h>

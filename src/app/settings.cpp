@@ -2,7 +2,6 @@
 #include "app/settings.hpp"
 
 #include "app/option_value.hpp"
-#include "core/nearest_name.hpp"
 #include "core/quoted.hpp"
 #include "trime/core/error.hpp"
 

@@ -4,7 +4,7 @@
 #include "app/checkpoint_names.hpp"
 #include "app/convert.hpp"
 #include "comm/agree.hpp"
-#include "core/file_kind.hpp"
+#include "core/read_file.hpp"
 #include "io/output_files.hpp"
 #include "trime/core/error.hpp"
 

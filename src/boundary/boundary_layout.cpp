@@ -4,8 +4,8 @@
 #include "boundary/loop_stretches.hpp"
 #include "boundary/rules.hpp"
 #include "boundary/site_path.hpp"
-#include "core/gather.hpp"
-#include "polygon/junctions.hpp"
+#include "core/thread_loop.hpp"
+#include "polygon/polygon.hpp"
 
 #include "core/angle.hpp"
 #include "trime/core/error.hpp"

@@ -2,7 +2,7 @@
 #include "boundary/boundary_refiner.hpp"
 
 #include "boundary/rules.hpp"
-#include "core/gather.hpp"
+#include "core/thread_loop.hpp"
 
 #include "core/angle.hpp"
 #include "trime/core/error.hpp"

@@ -2,7 +2,7 @@
 // Makes the result of the layout of a boundary.
 
 #include "boundary/boundary_refiner.hpp"
-#include "comm/shared_work.hpp"
+#include "comm/agree.hpp"
 #include "core/thread_loop.hpp"
 #include "polygon/chord_curve.hpp"
 

@@ -2,7 +2,7 @@
 #include "boundary/boundary_sizes.hpp"
 
 #include "boundary/rules.hpp"
-#include "core/gather.hpp"
+#include "core/thread_loop.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "polygon/polygon.hpp"
-#include "polygon/simplification.hpp"
 #include "sizing/lowered_size.hpp"
 #include "trime/boundary/features.hpp"
 #include "trime/geometry/boundary.hpp"

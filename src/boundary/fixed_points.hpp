@@ -5,7 +5,7 @@
 
 #include "boundary/site_tree.hpp"
 #include "mesh/binned_points.hpp"
-#include "mesh/tile_range.hpp"
+#include "mesh/tile_grid.hpp"
 #include "polygon/boundary_guard.hpp"
 #include "trime/core/log.hpp"
 #include "trime/geometry/boundary.hpp"

@@ -4,7 +4,7 @@
 #include "boundary/rules.hpp"
 #include "core/angle.hpp"
 #include "core/thread_loop.hpp"
-#include "polygon/junctions.hpp"
+#include "polygon/polygon.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "boundary/site_tree.hpp"
 
 #include "core/thread_loop.hpp"
-#include "geometry/diametral.hpp"
+#include "geometry/predicates.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,8 +3,8 @@
 
 #include "boundary/rules.hpp"
 #include "boundary/site_tree.hpp"
-#include "comm/shared_work.hpp"
-#include "core/gather.hpp"
+#include "comm/agree.hpp"
+#include "core/thread_loop.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "certificate/boundary_proof.hpp"
 
-#include "certificate/exact_area.hpp"
 #include "certificate/facet_cycles.hpp"
 #include "certificate/rules.hpp"
 #include "comm/agree.hpp"
 #include "core/thread_loop.hpp"
 #include "polygon/chord_curve.hpp"
-#include "sizing/curve_distance.hpp"
+#include "sizing/lowered_size.hpp"
 #include "trime/geometry/piece_tree.hpp"
 
 #include <algorithm>

@@ -4,12 +4,11 @@
 #include "certificate/certificate.hpp"
 
 #include "certificate/boundary_proof.hpp"
-#include "certificate/exact_area.hpp"
 #include "certificate/rules.hpp"
 #include "core/random.hpp"
 #include "core/thread_loop.hpp"
 #include "geometry/predicates.hpp"
-#include "polygon/junctions.hpp"
+#include "polygon/polygon.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -2,7 +2,7 @@
 #include "cover.hpp"
 
 #include "exact.hpp"
-#include "nearest.hpp"
+#include "inside.hpp"
 
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/box.hpp>

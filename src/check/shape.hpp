@@ -4,7 +4,6 @@
 
 #include "config_text.hpp"
 #include "curve.hpp"
-#include "region.hpp"
 
 #include <memory>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "checks.hpp"
 #include "config_text.hpp"
-#include "nearest.hpp"
+#include "inside.hpp"
 
 #include <algorithm>
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "checkpoint/checkpoint_file.hpp"
 
-#include "checkpoint/content_hash.hpp"
 #include "checkpoint/history_columns.hpp"
-#include "checkpoint/named_values.hpp"
 #include "io/state_file.hpp"
 #include "trime/core/error.hpp"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "checkpoint/history_columns.hpp"
 
-#include "checkpoint/named_values.hpp"
-
 #include <cstdint>
 #include <type_traits>
 

@@ -1,14 +1,55 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stores the history of a run as columns, one for each member of its records.
+// The values of a checkpoint as columns: values with names, the history of a run, and the hash of all of it.
 #pragma once
 
-#include "checkpoint/content_hash.hpp"
+#include "core/random.hpp"
+#include "trime/core/error.hpp"
 #include "trime/io/metadata.hpp"
 #include "trime/sweep/sweep_history.hpp"
 
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <variant>
 #include <vector>
 
 namespace trime::checkpoint {
+
+/// Hashes words in their order. Hashes of rows are added up, so they do not depend on which rank has which row.
+class ContentHash {
+public:
+  explicit ContentHash(std::uint64_t seed) : value_(mix_bits(seed)) {}
+  void add(std::int64_t word) { value_ = mix_bits(value_ ^ static_cast<std::uint64_t>(word)); }
+  void add(double number) { add(std::bit_cast<std::int64_t>(number)); }
+  void add(const std::string& text) {
+    for (const char c : text)
+      add(std::int64_t{static_cast<unsigned char>(c)});
+    add(static_cast<std::int64_t>(text.size()));
+  }
+  std::uint64_t value() const { return value_; }
+
+private:
+  std::uint64_t value_;
+};
+
+/// Returns a column of a group. @throws FileError if no column has this name and type
+template <class T>
+const std::vector<T>& column(const io::Metadata& metadata, const char* group, const char* name) {
+  if (const io::MetadataGroup* found = io::find_group(metadata, group))
+    for (const io::Column& candidate : found->columns)
+      if (candidate.name == name && std::holds_alternative<std::vector<T>>(candidate.values))
+        return std::get<std::vector<T>>(candidate.values);
+  throw FileError(fmt::format("the checkpoint is damaged: expected the column {}/{}, found none", group, name));
+}
+
+/// Returns an attribute. @throws FileError if no attribute has this name and type
+template <class T>
+const T& attribute(const io::Metadata& metadata, const char* name) {
+  for (const io::Attribute& candidate : metadata.attributes)
+    if (candidate.name == name && std::holds_alternative<T>(candidate.value))
+      return std::get<T>(candidate.value);
+  throw FileError(fmt::format("the checkpoint is damaged: expected the attribute {}, found none", name));
+}
 
 /// Returns the group `history`.
 io::MetadataGroup columns_of(const std::vector<sweep::SweepRecord>& history);

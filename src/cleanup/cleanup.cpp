@@ -2,7 +2,7 @@
 #include "cleanup/cleanup.hpp"
 
 #include "cleanup/cleanup_rounds.hpp"
-#include "core/gather.hpp"
+#include "core/thread_loop.hpp"
 #include "sites/fan.hpp"
 #include "trime/mesh/quality.hpp"
 

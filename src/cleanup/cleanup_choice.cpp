@@ -2,7 +2,6 @@
 #include "cleanup/cleanup_choice.hpp"
 
 #include "cleanup/rules.hpp"
-#include "core/gather.hpp"
 #include "core/thread_loop.hpp"
 #include "geometry/box_tree.hpp"
 #include "trime/geometry/lattice.hpp"

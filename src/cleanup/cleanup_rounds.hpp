@@ -4,7 +4,6 @@
 
 #include "cleanup/cleanup.hpp"
 #include "cleanup/cleanup_boundary.hpp"
-#include "cleanup/cleanup_candidates.hpp"
 #include "cleanup/cleanup_limits.hpp"
 #include "cleanup/cleanup_sites.hpp"
 #include "cleanup/patch_optimizer.hpp"

@@ -26,6 +26,21 @@ struct DiscReply {
   std::int64_t sites;
 };
 
+/// What another rank wants to know: its discs among `near`, and what this rank has found in them.
+comm::Message reply_to(int rank, std::span<const PatchDisc> near, std::span<const Surroundings> found) {
+  std::vector<DiscReply> replies;
+  std::vector<PatchSite> sites;
+  for (std::size_t k = 0; k < near.size(); ++k)
+    if (near[k].rank == rank) {
+      replies.push_back({near[k].number, found[k].narrowings, std::ssize(found[k].sites)});
+      sites.insert(sites.end(), found[k].sites.begin(), found[k].sites.end());
+    }
+  comm::Parcel parcel;
+  parcel.add(replies);
+  parcel.add(sites);
+  return {rank, parcel.release()};
+}
+
 bool lies_in(const Disc& disc, Vec2 p) {
   return geometry::squared_length(p - disc.center) < disc.radius * disc.radius;
 }
@@ -130,19 +145,8 @@ std::vector<Surroundings> CleanupSites::around(std::span<const PatchDisc> own, s
   std::vector<Surroundings> all = list(own);
   const std::vector<Surroundings> theirs = list(near);
   std::vector<comm::Message> outgoing;
-  for (const int rank : partners) {
-    std::vector<DiscReply> replies;
-    std::vector<PatchSite> sites;
-    for (std::size_t k = 0; k < near.size(); ++k)
-      if (near[k].rank == rank) {
-        replies.push_back({near[k].number, theirs[k].narrowings, std::ssize(theirs[k].sites)});
-        sites.insert(sites.end(), theirs[k].sites.begin(), theirs[k].sites.end());
-      }
-    comm::Parcel parcel;
-    parcel.add(replies);
-    parcel.add(sites);
-    outgoing.push_back({rank, parcel.release()});
-  }
+  for (const int rank : partners)
+    outgoing.push_back(reply_to(rank, near, theirs));
   for (comm::Message& message : comm::exchange_among(state_.comm(), partners, outgoing)) {
     comm::Parcel parcel(std::move(message.data));
     const auto replies = parcel.take<DiscReply>();

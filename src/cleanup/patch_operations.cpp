@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cleanup/patch_operations.hpp"
 
-#include "geometry/diametral.hpp"
+#include "geometry/predicates.hpp"
 #include "polygon/rules.hpp"
 
 #include <algorithm>

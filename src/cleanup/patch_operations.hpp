@@ -2,7 +2,7 @@
 // Insertions and deletions that may help a bad triangle.
 #pragma once
 
-#include "cleanup/patch_chords.hpp"
+#include "cleanup/patch_mover.hpp"
 
 #include <array>
 #include <optional>

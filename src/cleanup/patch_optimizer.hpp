@@ -4,7 +4,6 @@
 
 #include "cleanup/patch.hpp"
 #include "cleanup/patch_contest.hpp"
-#include "cleanup/patch_start.hpp"
 
 #include <optional>
 #include <span>

@@ -103,6 +103,22 @@ TasksByRank deal_out(const comm::Communicator& comm, std::int64_t patches, std::
   return dealt;
 }
 
+/// Another rank, and how many tasks came from there.
+struct Guests {
+  int rank;
+  std::size_t tasks;
+};
+
+/// The results of guests go back to their ranks. @param results of the guests, rank by rank
+std::vector<comm::Message> replies_to(std::span<const Guests> guests, std::span<const PatchResult> results) {
+  std::vector<comm::Message> replies;
+  for (const auto& [rank, count] : guests) {
+    replies.push_back({rank, pack(results.first(count))});
+    results = results.subspan(count);
+  }
+  return replies;
+}
+
 } // namespace
 
 std::vector<PatchResult> try_shared(const comm::Communicator& comm, const PatchCounts& counts,
@@ -121,20 +137,16 @@ std::vector<PatchResult> try_shared(const comm::Communicator& comm, const PatchC
       partners.insert(rank);
     }
   const std::ptrdiff_t staying = std::ssize(tasks);
-  std::vector<std::pair<int, std::size_t>> guests; // rank, and how many tasks come from there
+  std::vector<Guests> guests;
   for (comm::Message& message : comm.exchange_any(outgoing)) {
     std::vector<PatchTask> arrived = unpack_tasks(std::move(message.data));
-    guests.emplace_back(message.peer, arrived.size());
+    guests.push_back({message.peer, arrived.size()});
     partners.insert(message.peer);
     tasks.insert(tasks.end(), std::move_iterator(arrived.begin()), std::move_iterator(arrived.end()));
   }
   const std::vector<PatchResult> results = trial(tasks);
-  std::vector<comm::Message> replies;
-  auto next = static_cast<std::size_t>(staying);
-  for (const auto& [rank, count] : guests) {
-    replies.push_back({rank, pack(std::span(results).subspan(next, count))});
-    next += count;
-  }
+  const std::vector<comm::Message> replies =
+      replies_to(guests, std::span(results).subspan(static_cast<std::size_t>(staying)));
   const std::vector<int> peers(partners.begin(), partners.end());
   std::map<int, std::vector<std::byte>> answers;
   for (comm::Message& message : comm::exchange_among(comm, peers, replies))

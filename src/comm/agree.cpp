@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "comm/agree.hpp"
 
-#include "core/free_memory.hpp"
+#include "comm/mpi_call.hpp"
+#include "core/processors.hpp"
 
+#include <chrono>
 #include <new>
+#include <thread>
 
 namespace trime::comm {
-
 namespace {
 
 /// The class that belongs to an exit code, so that callers can catch what the documentation names.
@@ -55,6 +57,25 @@ std::optional<Error> error_of(const std::function<void()>& work) {
 
 void run_agreed(const Communicator& comm, const std::function<void()>& work) {
   agree(comm, error_of(work));
+}
+
+bool all_arrive(const Communicator& comm, double seconds) {
+  using Clock = std::chrono::steady_clock;
+  if (comm.size() == 1)
+    return true;
+  const InMpi in_mpi;
+  MPI_Request request = MPI_REQUEST_NULL;
+  check(MPI_Ibarrier(native_handle(comm), &request));
+  const Clock::time_point end =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  int arrived = 0;
+  check(MPI_Test(&request, &arrived, MPI_STATUS_IGNORE));
+  while (arrived == 0 && Clock::now() < end) {
+    if (!is_simulated())
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    check(MPI_Test(&request, &arrived, MPI_STATUS_IGNORE));
+  }
+  return arrived != 0;
 }
 
 } // namespace trime::comm

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes every rank throw the same error together, so that no rank waits in a collective call for one that has left.
+// Work in which all ranks take part: errors that every rank throws together, so that no rank waits in a collective for
+// one that has left; whether all ranks have an error; and results that ranks and threads compute in shares and that
+// every rank needs.
 #pragma once
 
+#include "core/thread_loop.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/core/error.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace trime::comm {
 
@@ -20,5 +26,74 @@ std::optional<Error> error_of(const std::function<void()>& work);
 
 /// @brief Runs `work`, which must not communicate, and then calls agree with the error that it threw. Collective.
 void run_agreed(const Communicator& comm, const std::function<void()>& work);
+
+/// Returns the values of all ranks, one rank after the other, on every rank. Collective.
+template <class T>
+std::vector<T> gather_everywhere(const Communicator& comm, std::vector<T> mine) {
+  if (comm.size() == 1)
+    return mine;
+  return from_bytes<T>(comm.all_gather(std::as_bytes(std::span<const T>(mine))));
+}
+
+/// @brief Returns the results of work() on all ranks (std::vector<T>), one after the other, on every rank. Collective.
+/// @param work does not communicate; what it throws, all ranks throw
+template <class T, class Work>
+std::vector<T> gather_agreed(const Communicator& comm, const Work& work) {
+  std::vector<T> mine;
+  const std::optional<Error> error = error_of([&] { mine = work(); });
+  if (comm.size() == 1 && !error)
+    return mine;
+  const auto all = comm.all_gather_unless(error.has_value(), std::as_bytes(std::span<const T>(mine)));
+  if (!all)
+    agree(comm, error); // throws
+  return from_bytes<T>(*all);
+}
+
+/// @brief As gather_in_order, but shares the work among the ranks: each rank calls make(k, list) for a contiguous share
+/// of k = 0 .. n-1. Returns all lists, joined by rising k, on every rank. Collective.
+/// @param chunk how many successive k one thread takes
+/// @param make thread-safe, does not communicate; what it throws, all ranks throw
+template <class T, class Make>
+std::vector<T> gather_shared(const Communicator& comm, std::ptrdiff_t n, std::ptrdiff_t chunk, const Make& make) {
+  const std::ptrdiff_t first = n * comm.rank() / comm.size(), last = n * (comm.rank() + 1) / comm.size();
+  return gather_agreed<T>(comm, [&] {
+    return gather_in_order<T>(last - first, chunk,
+                              [&](std::ptrdiff_t k, std::vector<T>& list) { make(first + k, list); });
+  });
+}
+
+/// @brief Returns n results of type T on every rank. Calls work(first, last, results) for runs of `run` results, so
+/// `work` may carry values from one result of a run to the next: runs do not depend on ranks and threads. Each rank
+/// computes a contiguous share. Collective.
+/// @param work thread-safe, does not communicate; what it throws, all ranks throw
+template <class T, class Work>
+std::vector<T> compute_shared_runs(const Communicator& comm, std::size_t n, std::size_t run, const Work& work) {
+  const auto ranks = static_cast<std::size_t>(comm.size()), rank = static_cast<std::size_t>(comm.rank());
+  const std::size_t runs = (n + run - 1) / run, first = runs * rank / ranks, last = runs * (rank + 1) / ranks;
+  return gather_agreed<T>(comm, [&] {
+    std::vector<T> mine(std::min(n, last * run) - std::min(n, first * run));
+    thread_loop(static_cast<std::ptrdiff_t>(last - first), 1, [&](std::ptrdiff_t k, int) {
+      const std::size_t from = (first + static_cast<std::size_t>(k)) * run;
+      work(from, std::min(n, from + run), &mine[from - first * run]);
+    });
+    return mine;
+  });
+}
+
+/// @brief Returns work(k) of type T for k = 0 .. n-1 on every rank. Collective.
+/// @param work thread-safe, does not communicate; what it throws, all ranks throw
+template <class T, class Work>
+std::vector<T> compute_shared(const Communicator& comm, std::size_t n, const Work& work) {
+  return compute_shared_runs<T>(comm, n, 256, [&](std::size_t first, std::size_t last, T* result) {
+    for (std::size_t k = first; k < last; ++k)
+      *result++ = work(k);
+  });
+}
+
+/// @brief Returns true on all ranks if all of them call this function within `seconds`. A rank that waits for the
+/// caller in another collective call does not arrive, so the result is false. After false, the caller may only call
+/// abort_job.
+/// @param comm is used for nothing else
+bool all_arrive(const Communicator& comm, double seconds);
 
 } // namespace trime::comm

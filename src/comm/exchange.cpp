@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Messages between ranks that know each other, and from ranks that only the sender knows about.
-#include "comm/message_head.hpp"
 #include "comm/mpi_call.hpp"
+#include "comm/parcel.hpp"
 #include "trime/comm/communicator.hpp"
 
 #include <algorithm>

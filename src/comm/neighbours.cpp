@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "comm/neighbours.hpp"
 
-#include "comm/message_head.hpp"
+#include "comm/parcel.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>

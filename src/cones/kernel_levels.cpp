@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // CMake compiles this file once for each SIMD level, with TRIME_LANES doubles side by side and TRIME_LEVEL in names.
 #include "cones/cone_kernel_lanes.hpp"
-#include "cones/search_kernel_lanes.hpp"
 #include "core/simd_level.hpp"
 
 namespace trime::cones {

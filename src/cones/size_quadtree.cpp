@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cones/size_quadtree.hpp"
 
+#include "comm/agree.hpp"
 #include "comm/parcel.hpp"
-#include "comm/shared_work.hpp"
 
 #include <algorithm>
 #include <cmath>

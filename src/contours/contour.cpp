@@ -2,11 +2,15 @@
 #include "trime/contours/contour.hpp"
 
 #include "contours/contour_text.hpp"
-#include "contours/ring_builder.hpp"
 #include "contours/rules.hpp"
+#include "contours/segment_rings.hpp"
+#include "core/read_file.hpp"
 #include "trime/core/error.hpp"
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
 
 namespace trime::contours {
 
@@ -80,6 +84,175 @@ Normalization fit_to_container(const Contour& contour, const Box& container) {
   fit.to = 0.5 * (container.min + container.max);
   fit.scale = ContourRules::normalized_share * std::fmin(container.width(), container.height()) / side;
   return fit;
+}
+
+namespace {
+
+bool ends_with_extension(const std::string& path, std::string_view extension) {
+  if (path.size() < extension.size())
+    return false;
+  for (std::size_t i = 0; i < extension.size(); ++i) {
+    const char c = path[path.size() - extension.size() + i];
+    if ((c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c) != extension[i])
+      return false;
+  }
+  return true;
+}
+
+void refuse_unread_formats(const std::string& path) {
+  for (const std::string_view extension :
+       {".kml", ".kmz", ".gpkg", ".dxf", ".svg", ".gml", ".shx", ".dbf", ".zip", ".node"})
+    if (ends_with_extension(path, extension))
+      throw ConfigError(fmt::format("{}: expected a contour file of a known type, found '{}'; known are .xy, .geojson, "
+                                    ".poly, .shp or .msh (GDAL reads many formats of maps: ogr2ogr OUT.geojson {})",
+                                    path, extension, path));
+}
+
+bool is_geojson(const std::string& path) {
+  return ends_with_extension(path, ".geojson") || ends_with_extension(path, ".json");
+}
+
+void check_has_attributes(const std::string& path, const std::string& attribute) {
+  if (!attribute.empty() && !is_geojson(path) && !ends_with_extension(path, ".shp"))
+    throw ConfigError(fmt::format("{}: expected a .geojson or .shp, whose features may have the attribute '{}', found "
+                                  "a file of another type",
+                                  path, attribute));
+}
+
+/// Does a `.poly` say that its vertices stand in another file?
+bool lacks_vertices(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    const std::size_t word = line.find_first_not_of(" \t\r,\xEF\xBB\xBF");
+    if (word != std::string_view::npos && line[word] != '#')
+      return line[word] == '0';
+    at = end + 1;
+  }
+  return false;
+}
+
+template <class T>
+constexpr bool is_plain = std::is_arithmetic_v<T> || std::is_same_v<T, geometry::Vec2>;
+
+/// Appends values to bytes, or takes them off in the same order.
+class Writer {
+public:
+  template <class T>
+  void operator()(const T& value) {
+    if constexpr (is_plain<T>)
+      bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    else
+      list(value);
+  }
+  void operator()(const ContourRing& ring) { members(*this, ring); }
+  void operator()(const Contour& contour) { members(*this, contour); }
+  std::string take() { return std::move(bytes_); }
+
+  template <class Visitor, class Ring>
+  requires std::is_same_v<std::remove_const_t<Ring>, ContourRing>
+  static void members(Visitor& visit, Ring& ring) {
+    visit(ring.points);
+    visit(ring.lines);
+    visit(ring.markers);
+    visit(ring.in_file);
+  }
+  template <class Visitor, class One>
+  requires std::is_same_v<std::remove_const_t<One>, Contour>
+  static void members(Visitor& visit, One& contour) {
+    visit(contour.source);
+    visit(contour.rings);
+    visit(contour.warnings);
+    visit(contour.marker_names);
+    visit(contour.crs);
+    visit(contour.is_map);
+  }
+
+private:
+  template <class List>
+  void list(const List& values) {
+    (*this)(static_cast<std::uint64_t>(values.size()));
+    using Value = typename List::value_type;
+    if constexpr (is_plain<Value>)
+      bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value));
+    else
+      for (const auto& value : values)
+        (*this)(value);
+  }
+  std::string bytes_;
+};
+
+class Reader {
+public:
+  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
+  template <class T>
+  void operator()(T& value) {
+    if constexpr (is_plain<T>) {
+      take(&value, sizeof value);
+    } else {
+      std::uint64_t size = 0;
+      (*this)(size);
+      value.resize(size);
+      using Value = typename T::value_type;
+      if constexpr (is_plain<Value>)
+        take(value.data(), size * sizeof(Value));
+      else
+        for (auto& one : value)
+          (*this)(one);
+    }
+  }
+  void operator()(ContourRing& ring) { Writer::members(*this, ring); }
+  void operator()(Contour& contour) { Writer::members(*this, contour); }
+
+private:
+  void take(void* place, std::size_t count) {
+    TRIME_ASSERT(count <= bytes_.size(), "{} bytes left", bytes_.size());
+    if (count > 0)
+      std::memcpy(place, bytes_.data(), count);
+    bytes_.remove_prefix(count);
+  }
+
+  std::string_view bytes_;
+};
+
+} // namespace
+
+Contour parse_contour(std::string_view text, const std::string& source, const std::string& attribute) {
+  check_has_attributes(source, attribute);
+  if (is_geojson(source))
+    return parse_geojson(text, source, attribute);
+  if (ends_with_extension(source, ".poly"))
+    return parse_poly(text, source);
+  if (ends_with_extension(source, ".msh"))
+    return parse_jigsaw(text, source);
+  return parse_xy(text, source);
+}
+
+Contour read_contour(const std::string& path, const std::string& hint, const std::string& attribute) {
+  refuse_unread_formats(path);
+  check_has_attributes(path, attribute);
+  if (ends_with_extension(path, ".shp"))
+    return read_shapefile(path, hint, attribute);
+  const std::string text = read_file(path, hint);
+  if (ends_with_extension(path, ".poly") && lacks_vertices(text)) {
+    const std::string stem = path.substr(0, path.size() - std::string_view(".poly").size());
+    return parse_poly(
+        text, path,
+        read_file(stem + ".node", fmt::format(" ({} itself has no vertices, so they must be in this file)", path)));
+  }
+  return parse_contour(text, path, attribute);
+}
+
+std::string to_bytes(const Contour& contour) {
+  Writer write;
+  write(contour);
+  return write.take();
+}
+
+Contour contour_of_bytes(std::string_view bytes) {
+  Contour contour;
+  Reader{bytes}(contour);
+  return contour;
 }
 
 } // namespace trime::contours

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the text of contours and point files: lines and numbers. Its messages help users whose file holds something
-// else.
+// Reads the text of contours and point files: lines, numbers, and messages for users whose text is something else.
+// Each format has its reader in a source of its own; that of ESRI shapefiles uses libshp.
 #pragma once
 
+#include "trime/contours/contour.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <algorithm>
@@ -89,5 +90,14 @@ private:
 /// @brief Refuses coordinates that are not finite or larger than ContourRules::largest_coordinate.
 /// @throws GeometryError `source:line: ...`
 void check_coordinates(geometry::Vec2 p, const std::string& source, int line);
+
+/// @brief Returns the rings of the polygons of a shapefile, and of lines that form rings. The line number of a vertex
+/// is the number of its record, from 1. NAME.shx must be next to it; NAME.prj names the reference system.
+/// @param hint ends the message if the file cannot be opened
+/// @param attribute of NAME.dbf that names the boundary, see parse_geojson; may be empty. Texts are UTF-8 or Latin-1
+/// @throws FileError if a file is missing or damaged; ConfigError if there is no such attribute; GeometryError
+/// `source:record: ...` for open lines
+/// @note Serial.
+Contour read_shapefile(const std::string& path, const std::string& hint, const std::string& attribute);
 
 } // namespace trime::contours

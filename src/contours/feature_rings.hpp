@@ -3,7 +3,7 @@
 // attribute of the features gives markers and names.
 #pragma once
 
-#include "contours/ring_builder.hpp"
+#include "contours/segment_rings.hpp"
 
 #include <map>
 #include <optional>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The .msh files of JIGSAW (Engwirda, https://github.com/dengwirda/jigsaw/wiki): sections of a plane mesh or geometry.
 #include "contours/contour_text.hpp"
-#include "contours/ring_builder.hpp"
 #include "contours/segment_rings.hpp"
 #include "trime/contours/contour.hpp"
 #include "trime/core/error.hpp"

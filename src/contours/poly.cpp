@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The .poly files of Triangle (Shewchuk, https://www.cs.cmu.edu/~quake/triangle.poly.html).
 #include "contours/contour_text.hpp"
-#include "contours/ring_builder.hpp"
 #include "contours/segment_rings.hpp"
 #include "geometry/box_tree.hpp"
 #include "trime/contours/contour.hpp"

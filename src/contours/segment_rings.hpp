@@ -1,13 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes rings from numbered vertices and the segments between them, which files of meshing programs contain.
+// Makes rings: of vertices in reading order, whatever format they come from, and of numbered vertices and the segments
+// between them, as files of meshing programs have them.
 #pragma once
 
+#include "trime/contours/contour.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <string>
 #include <vector>
 
 namespace trime::contours {
+
+/// Makes the rings of a contour. Removes repeated vertices and refuses rings that are too short.
+class RingBuilder {
+public:
+  /// @param contour names its source; receives rings and warnings, and outlives this object
+  explicit RingBuilder(Contour& contour) : contour_(contour) {}
+
+  /// @param marker of the edge from this vertex to the next
+  /// @throws GeometryError for coordinates that are too large
+  void add(geometry::Vec2 p, int line, int marker = 0);
+  /// @throws GeometryError for a ring with fewer than three distinct vertices
+  void end_ring();
+  /// @param expected what the text should contain, for the message if it has no vertex
+  /// @throws GeometryError
+  void finish(const char* expected);
+
+private:
+  int distinct_vertices() const;
+  void warn(geometry::Vec2 p, int line);
+
+  Contour& contour_;
+  ContourRing ring_;
+  int merged_ = 0;
+};
 
 struct FileVertex {
   geometry::Vec2 position;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "contours/shapefile.hpp"
-
 #include "contours/contour_text.hpp"
+
 #include "contours/feature_rings.hpp"
 #include "core/read_file.hpp"
 #include "trime/core/error.hpp"

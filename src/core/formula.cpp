@@ -3,7 +3,7 @@
 
 #include "core/angle.hpp"
 #include "core/elementary.hpp"
-#include "core/nearest_name.hpp"
+#include "core/quoted.hpp"
 #include "core/thread_loop.hpp"
 #include "trime/core/error.hpp"
 

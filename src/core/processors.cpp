@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/processors.hpp"
 
+#include <fmt/format.h>
 #include <omp.h>
 #include <sched.h>
 
@@ -8,6 +9,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <cstdlib>
 #include <memory>
 #include <thread>
 
@@ -129,6 +131,26 @@ void spread_threads(int threads, int from) {
       wait_for_all(placed);
     }
   }
+}
+
+} // namespace trime
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+namespace trime {
+
+std::string out_of_memory_text() {
+  return fmt::format("out of memory; use fewer points or more nodes: the mesh needs about {:.0f} bytes per point, and "
+                     "each rank needs memory for the shape and the size field",
+                     bytes_per_point);
+}
+
+void return_free_memory() {
+#if defined(__GLIBC__) && !defined(TRIME_SHARED_HEAP)
+  malloc_trim(0);
+#endif
 }
 
 } // namespace trime

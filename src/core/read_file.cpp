@@ -13,6 +13,16 @@
 
 namespace trime {
 
+std::string irregular_kind(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode))
+    return {};
+  return S_ISDIR(status.st_mode)    ? "a directory"
+         : S_ISFIFO(status.st_mode) ? "a named pipe"
+         : S_ISSOCK(status.st_mode) ? "a socket"
+                                    : "a device";
+}
+
 namespace {
 
 /// Closes a file of the system.

@@ -1,7 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Chooses the vector instructions of kernels that are compiled several times. Every build gives the same bits; only the
-// time differs.
+// The arithmetic of the machine: a test of what "the same bits" needs (IEEE doubles, each operation rounded once to
+// nearest, denormal numbers kept), and the vector instructions that kernels with several builds may use. Every build
+// gives the same bits, only the time differs.
 #pragma once
+
+#include <cfloat>
+#include <string>
+
+#ifdef __FAST_MATH__
+#error "TriMe-MPI must not be compiled with -ffast-math or -Ofast: its meshes would depend on the compiler."
+#endif
+
+namespace trime {
+
+static_assert(FLT_EVAL_METHOD == 0, "doubles must be computed as doubles: on i386 compile with -mfpmath=sse -msse2");
+
+/// @brief Describes what is wrong with the arithmetic of the calling thread; empty if nothing is wrong. Compiler flags
+/// and loaded libraries may change the arithmetic: icpx has fast maths by default, and some libraries flush small
+/// numbers to zero.
+std::string arithmetic_fault();
+
+} // namespace trime
 
 /// The name of a function in a source that is compiled for several levels: `name` with the level TRIME_LEVEL behind it.
 #define TRIME_AT_LEVEL(name) TRIME_JOIN(name, TRIME_LEVEL)

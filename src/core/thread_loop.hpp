@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The only way in which this program uses threads: a loop over items, in which each item writes to its own elements.
-// The body must not call MPI. It should not throw; if it does (for lack of memory), the loop throws one of the
-// exceptions.
+// The only way in which this program uses threads: a loop over items in which each item writes to its own place, and a
+// list that several threads make together in the order of a single thread. The body must not call MPI. It should not
+// throw; if it does (no memory), one exception leaves the loop.
 #pragma once
 
 #include <omp.h>
@@ -180,6 +180,27 @@ std::uint64_t thread_sum(std::size_t n, const Term& term) {
   for (std::size_t item = 0; item < n; ++item)
     sum += term(item);
   return sum;
+}
+
+/// @brief Calls make(k, list) for k = 0 .. n-1, which may append to its list. Returns all lists joined, by rising k.
+/// @param chunk how many successive k one thread takes
+template <class Item, class Make>
+std::vector<Item> gather_in_order(std::ptrdiff_t n, std::ptrdiff_t chunk, const Make& make) {
+  std::vector<std::vector<Item>> lists(static_cast<std::size_t>((n + chunk - 1) / chunk));
+  thread_loop(std::ssize(lists), 1, [&](std::ptrdiff_t c, int) {
+    for (std::ptrdiff_t k = c * chunk; k < std::min(n, (c + 1) * chunk); ++k)
+      make(k, lists[static_cast<std::size_t>(c)]);
+  });
+  if (lists.size() == 1)
+    return std::move(lists.front());
+  std::size_t size = 0;
+  for (const std::vector<Item>& list : lists)
+    size += list.size();
+  std::vector<Item> all;
+  all.reserve(size);
+  for (const std::vector<Item>& list : lists)
+    all.insert(all.end(), list.begin(), list.end());
+  return all;
 }
 
 } // namespace trime

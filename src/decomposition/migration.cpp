@@ -2,7 +2,7 @@
 #include "decomposition/migration.hpp"
 
 #include "core/thread_loop.hpp"
-#include "mesh/tile_fit.hpp"
+#include "mesh/tile_grid.hpp"
 
 #include <algorithm>
 #include <functional>

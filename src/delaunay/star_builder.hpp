@@ -6,7 +6,7 @@
 
 #include "delaunay/star_table.hpp"
 #include "mesh/binned_points.hpp"
-#include "mesh/local_sizes.hpp"
+#include "mesh/site.hpp"
 #include "trime/geometry/lattice.hpp"
 
 #include <algorithm>

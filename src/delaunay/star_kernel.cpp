@@ -2,7 +2,7 @@
 #include "delaunay/star_kernel.hpp"
 
 #include "delaunay/circumcenter.hpp"
-#include "delaunay/convexity_rules.hpp"
+#include "delaunay/rules.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -11,6 +11,18 @@ namespace {
 constexpr std::uint8_t overflowing = StarTable::slots + 1;
 constexpr int chunk = 4096;
 
+/// Writes a ring in new numbers. Returns false if one of its neighbours has no new number.
+bool write_renumbered(std::span<const LocalIndex> ring, std::span<const LocalIndex> new_index, LocalIndex* to) {
+  for (const LocalIndex neighbour : ring) {
+    const auto k = static_cast<std::size_t>(neighbour);
+    const LocalIndex number = neighbour == gap ? neighbour : k < new_index.size() ? new_index[k] : -1;
+    if (number < 0 && neighbour != gap)
+      return false;
+    *to++ = number;
+  }
+  return true;
+}
+
 } // namespace
 
 void StarTable::reset(LocalIndex n) {
@@ -75,34 +87,19 @@ void StarTable::release_overflow(LocalIndex i) {
 }
 
 void StarTable::renumber(std::span<const LocalIndex> new_index, LocalIndex new_size) {
-  UnsetVector<std::array<LocalIndex, slots>> rings(static_cast<std::size_t>(new_size));
-  std::vector<std::uint8_t> new_degree(static_cast<std::size_t>(new_size), 0);
-  std::vector<std::uint8_t> flags(static_cast<std::size_t>(new_size), 0);
-  const LocalIndex old_size = static_cast<LocalIndex>(degree_.size());
-  const auto mapped = [&](LocalIndex neighbour) {
-    return neighbour == gap       ? gap
-           : neighbour < old_size ? new_index[static_cast<std::size_t>(neighbour)]
-                                  : LocalIndex{-2};
-  };
-  const auto map_ring = [&](std::span<const LocalIndex> from, LocalIndex* to) {
-    for (const LocalIndex neighbour : from) {
-      const LocalIndex m = mapped(neighbour);
-      if (m < 0 && neighbour != gap)
-        return false;
-      *to++ = m;
-    }
-    return true;
-  };
+  const LocalIndex old_size = size();
+  new_index = new_index.first(at(old_size));
+  UnsetVector<std::array<LocalIndex, slots>> rings(at(new_size));
+  std::vector<std::uint8_t> new_degree(at(new_size), 0), flags(at(new_size), 0);
   thread_loop((old_size + chunk - 1) / chunk, 1, [&](std::ptrdiff_t part, int) {
     const LocalIndex end = std::min(old_size, static_cast<LocalIndex>((part + 1) * chunk));
     for (LocalIndex i = static_cast<LocalIndex>(part * chunk); i < end; ++i) {
-      const LocalIndex to = new_index[static_cast<std::size_t>(i)];
-      const std::uint8_t n = degree_[static_cast<std::size_t>(i)];
-      if (to >= 0 && n != overflowing &&
-          map_ring({rings_[static_cast<std::size_t>(i)].data(), n}, rings[static_cast<std::size_t>(to)].data())) {
-        repeat(rings[static_cast<std::size_t>(to)], n);
-        new_degree[static_cast<std::size_t>(to)] = n;
-        flags[static_cast<std::size_t>(to)] = flags_[static_cast<std::size_t>(i)] & gapped;
+      const LocalIndex to = new_index[at(i)];
+      const std::uint8_t n = degree_[at(i)];
+      if (to >= 0 && n != overflowing && write_renumbered({rings_[at(i)].data(), n}, new_index, rings[at(to)].data())) {
+        repeat(rings[at(to)], n);
+        new_degree[at(to)] = n;
+        flags[at(to)] = flags_[at(i)] & gapped;
       }
     }
   });
@@ -113,14 +110,13 @@ void StarTable::renumber(std::span<const LocalIndex> new_index, LocalIndex new_s
   std::vector<std::vector<LocalIndex>> overflow;
   const bool none_overflows = overflow_.size() == free_overflow_.size();
   for (LocalIndex i = 0; i < old_size && !none_overflows; ++i) {
-    const LocalIndex to = new_index[static_cast<std::size_t>(i)];
-    if (to < 0 || degree_[static_cast<std::size_t>(i)] != overflowing)
+    if (new_index[at(i)] < 0 || degree_[at(i)] != overflowing)
       continue;
-    std::vector<LocalIndex> moved(overflow_[static_cast<std::size_t>(rings_[static_cast<std::size_t>(i)][0])]);
-    if (map_ring(moved, moved.data())) {
-      rings[static_cast<std::size_t>(to)][0] = static_cast<LocalIndex>(overflow.size());
-      new_degree[static_cast<std::size_t>(to)] = overflowing;
-      flags[static_cast<std::size_t>(to)] = flags_[static_cast<std::size_t>(i)] & gapped;
+    std::vector<LocalIndex> moved(overflow_[at(rings_[at(i)][0])]);
+    if (const LocalIndex to = new_index[at(i)]; write_renumbered(moved, new_index, moved.data())) {
+      rings[at(to)][0] = static_cast<LocalIndex>(overflow.size());
+      new_degree[at(to)] = overflowing;
+      flags[at(to)] = flags_[at(i)] & gapped;
       overflow.push_back(std::move(moved));
     }
   }

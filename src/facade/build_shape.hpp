@@ -1,17 +1,79 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes the domain from a shape of trime.hpp, on every rank.
+// From the shape and the size of a program to the boundary and the size field on every rank. A Shape is an expression
+// of parts as the user gave them.
 #pragma once
 
 #include "trime/comm/communicator.hpp"
+#include "trime/core/error.hpp"
 #include "trime/core/log.hpp"
 #include "trime/facade/mesh.hpp"
+#include "trime/facade/shape.hpp"
+#include "trime/facade/size.hpp"
 #include "trime/geometry/boundary.hpp"
+#include "trime/geometry/vec2.hpp"
+#include "trime/meshing/options.hpp"
+#include "trime/sizing/size_field.hpp"
+
+#include <exception>
+#include <functional>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
 
 namespace trime {
+
+struct RectangleForm {
+  Box box;
+};
+struct CircleForm {
+  Vec2 center;
+  double radius;
+};
+struct RingsForm {
+  std::vector<std::vector<Vec2>> rings;
+};
+struct FileForm {
+  std::string path;
+};
+struct FunctionForm {
+  std::function<double(Vec2)> distance;
+  Box box;
+};
+struct DomainForm {};
+
+/// A part, or an operation on at least two operands.
+struct Shape::Node {
+  enum class Operation { part, unite, subtract, intersect };
+  Operation operation = Operation::part;
+  std::string name{}; ///< name of a part
+  std::variant<DomainForm, RectangleForm, CircleForm, RingsForm, FileForm, FunctionForm> form{};
+  std::vector<Shape> operands{};
+};
+
+/// @brief Returns the value of the user's function at p. @param what names the function in messages
+/// @throws GeometryError on this rank alone, with the place, if the function throws anything other than an Error
+inline double called(const std::function<double(geometry::Vec2)>& function, geometry::Vec2 p, const std::string& what) {
+  try {
+    return function(p);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw GeometryError(fmt::format("{} failed at ({:.9g}, {:.9g}): {}", what, p.x, p.y, error.what()));
+  } catch (...) {
+    throw GeometryError(
+        fmt::format("{} failed at ({:.9g}, {:.9g}): it threw an exception that is no std::exception", what, p.x, p.y));
+  }
+}
 
 /// @brief Reads contours on rank 0, chooses the container as trime_mpi does, and makes the boundary with its fixed
 /// points.
 /// @throws ConfigError, GeometryError, FileError on all ranks together @note Collective.
 geometry::Domain build_domain(const Shape& shape, const MeshOptions& options, const comm::Communicator& comm, Log& log);
+
+/// @pre `size` outlives the field @throws ConfigError on all ranks together @note Collective.
+std::shared_ptr<const sizing::SizeField> build_size(const Size& size, const geometry::Domain& domain,
+                                                    const meshing::MeshOptions& options,
+                                                    const comm::Communicator& comm);
 
 } // namespace trime

@@ -2,9 +2,8 @@
 #include "trime/facade/mesh.hpp"
 
 #include "comm/agree.hpp"
-#include "core/nearest_name.hpp"
+#include "core/quoted.hpp"
 #include "facade/build_shape.hpp"
-#include "facade/build_size.hpp"
 #include "facade/check_options.hpp"
 #include "facade/names.hpp"
 #include "trime/comm/from_mpi.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trime/facade/shape.hpp"
 
-#include "facade/shape_node.hpp"
+#include "facade/build_shape.hpp"
 #include "trime/shape/region_shape.hpp"
 
 namespace trime {

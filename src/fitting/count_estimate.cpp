@@ -2,7 +2,6 @@
 #include "fitting/count_estimate.hpp"
 
 #include "comm/agree.hpp"
-#include "comm/shared_work.hpp"
 #include "core/angle.hpp"
 #include "fitting/density_integral.hpp"
 #include "fitting/layout.hpp"

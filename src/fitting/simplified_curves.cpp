@@ -6,7 +6,6 @@
 #include "core/thread_loop.hpp"
 #include "fitting/rules.hpp"
 #include "generalise/generalised_bytes.hpp"
-#include "sizing/curve_distance.hpp"
 #include "sizing/lowered_size.hpp"
 #include "trime/geometry/lattice.hpp"
 

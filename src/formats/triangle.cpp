@@ -2,7 +2,7 @@
 // The files of Triangle (Shewchuk, https://www.cs.cmu.edu/~quake/triangle.html): .node and .edge with boundary markers,
 // .ele with the region as its attribute. Numbers begin with 1. As with Triangle's option -e, .edge holds all edges:
 // those of the boundary first, then those inside, with the marker 0. Programs look up each side of a triangle there.
-#include "comm/shared_work.hpp"
+#include "comm/agree.hpp"
 #include "formats/exchange_mesh.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // The boundary of a shape at the resolution of a mesh: without parts that are narrower than its triangles.
 #pragma once
 
-#include "polygon/simplification.hpp"
+#include "polygon/polygon.hpp"
 #include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/sizing/size_field.hpp"

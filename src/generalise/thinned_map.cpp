@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "generalise/thinned_map.hpp"
 
-#include "polygon/simplification.hpp"
+#include "polygon/polygon.hpp"
 
 namespace trime::generalise {
 

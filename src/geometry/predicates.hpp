@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exact predicates for points of one lattice (lattice.hpp) inside its container or within twice its size around it.
+// Exact predicates for points of one lattice (lattice.hpp) inside its container or within twice its size around it;
+// the diametral disc of a segment, which makes it an edge of the Delaunay triangulation if it is free of other sites
+// (Gabriel); sides of lines for a point that is moved by (epsilon^2, epsilon), which is never on the line.
 #pragma once
 
 #include "trime/geometry/lattice.hpp"
@@ -52,5 +54,41 @@ int in_circle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice);
 /// order of the canonical images, so all images of four points agree. Without periods it is equal to the function
 /// above.
 int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d, const Lattice& lattice, const Periods& periods);
+
+/// @brief -1 if p lies strictly inside the circle with diameter a-b, 0 on it, +1 outside: the sign of (a-p).(b-p).
+/// Exact for points of one lattice, by the argument of orient2d.
+inline int diametral_side(Vec2 a, Vec2 b, Vec2 p) {
+  const double apx = a.x - p.x, apy = a.y - p.y, bpx = b.x - p.x, bpy = b.y - p.y;
+  const double left = apx * bpx, right = -(apy * bpy);
+  if (left > right)
+    return 1;
+  if (left < right)
+    return -1;
+  const double left_error = std::fma(apx, bpx, -left), right_error = std::fma(-apy, bpy, -right);
+  return (left_error > right_error) - (left_error < right_error);
+}
+
+/// Side of a line of direction d to which the move leads; 0 only if d is zero.
+inline int side_of_move(Vec2 d) {
+  return d.x != 0 ? (d.x > 0 ? 1 : -1) : (d.y < 0) - (d.y > 0);
+}
+
+/// Side of the line a-b on which the point moved from q lies; 0 only if a == b.
+inline int perturbed_side(const Segment& s, Vec2 q) {
+  const int sign = orient2d(s.a, s.b, q);
+  return sign != 0 ? sign : side_of_move(s.b - s.a);
+}
+
+/// Does the segment cross the way from p to q, both moved? Along any way between two points the even-odd rule changes
+/// sides with each segment of closed polygons that does.
+inline bool crosses_way(const Segment& s, Vec2 p, Vec2 q) {
+  if (p == q || perturbed_side(s, p) == perturbed_side(s, q))
+    return false;
+  const auto side = [&](Vec2 end) { // of the moved way, which is that of the way on which the end moved back lies
+    const int sign = orient2d(p, q, end);
+    return sign != 0 ? sign : -side_of_move(q - p);
+  };
+  return side(s.a) != side(s.b);
+}
 
 } // namespace trime::geometry

@@ -3,7 +3,7 @@
 // corner along cell edges, from a corner outside of everything; a query walks from its cell's corner to the point.
 #include "trime/geometry/segment_grid.hpp"
 
-#include "geometry/perturbed_side.hpp"
+#include "geometry/predicates.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>

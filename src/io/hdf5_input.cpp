@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/hdf5_input.hpp"
 
-#include "core/file_kind.hpp"
+#include "core/read_file.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -2,8 +2,8 @@
 // The look at the output directory before a run, so that no hour of work ends at a file that may not be written.
 #include "io/output_files.hpp"
 
-#include "core/file_kind.hpp"
 #include "core/quoted.hpp"
+#include "core/read_file.hpp"
 #include "io/temporary_file.hpp"
 #include "trime/core/error.hpp"
 

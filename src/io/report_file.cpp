@@ -2,8 +2,8 @@
 #include "io/report_file.hpp"
 
 #include "comm/agree.hpp"
-#include "core/file_kind.hpp"
 #include "core/quoted.hpp"
+#include "core/read_file.hpp"
 #include "io/temporary_file.hpp"
 
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/temporary_file.hpp"
 
-#include "core/file_kind.hpp"
 #include "core/quoted.hpp"
+#include "core/read_file.hpp"
 #include "trime/core/error.hpp"
 #include "trime/io/mesh_file.hpp"
 

@@ -7,11 +7,9 @@
 #include "mesh/drifts.hpp"
 #include "mesh/index_shift.hpp"
 #include "mesh/known_bins.hpp"
-#include "mesh/next_places.hpp"
 #include "mesh/site.hpp"
 #include "mesh/site_order.hpp"
 #include "mesh/tile_grid.hpp"
-#include "mesh/tile_marks.hpp"
 #include "trime/core/types.hpp"
 #include "trime/geometry/vec2.hpp"
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bounds on how far sites have moved since they were sorted into bins.
+// What is known of each tile between two sorts: how far its sites have come since they were sorted into bins, and a
+// mark.
 #pragma once
 
 #include "mesh/known_bins.hpp"
 #include "trime/core/types.hpp"
 #include "trime/geometry/vec2.hpp"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -39,6 +41,23 @@ public:
 private:
   std::vector<double> of_tile_;
   DriftBound largest_;
+};
+
+/// @brief A mark of each known tile, by its number in KnownBins, that its owner sets. Other ranks that know the tile
+/// receive the mark with the places of its sites; until then they treat it as set. The code that sets a mark decides
+/// what it means.
+class TileMarks {
+public:
+  bool of(LocalIndex tile) const { return marks_[static_cast<std::size_t>(tile)] != 0; }
+  void set(LocalIndex tile, bool mark) { marks_[static_cast<std::size_t>(tile)] = mark; }
+
+  /// Sets all marks after sites were sorted. @param tiles number of owned tiles
+  void forget(LocalIndex tiles) { marks_.assign(static_cast<std::size_t>(tiles), 1); }
+  /// Sets how many tiles are known, and marks the new ones.
+  void make_room(LocalIndex tiles) { marks_.resize(static_cast<std::size_t>(tiles), 1); }
+
+private:
+  std::vector<std::uint8_t> marks_;
 };
 
 } // namespace trime::mesh

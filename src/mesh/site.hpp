@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A site as it is sent between ranks, and the name of a bin.
+// Sites: a site as it travels between ranks, the name of a bin, where sites go at their next move, and the element
+// size h at them.
 #pragma once
 
 #include "trime/core/types.hpp"
 #include "trime/geometry/vec2.hpp"
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace trime::mesh {
 
@@ -38,6 +42,48 @@ struct BinRef {
   std::int32_t bin;
   std::int32_t image = 0;
   friend auto operator<=>(const BinRef&, const BinRef&) = default;
+};
+
+/// @brief Places, and leads if sites have leads, that sites take at the next BinnedPoints::advance. They are indexed by
+/// local index, and the caller sets them after BinnedPoints::prepare_advance.
+class NextPlaces {
+public:
+  std::span<geometry::Vec2> positions() { return positions_; }
+  std::span<const geometry::Vec2> positions() const { return positions_; }
+  /// The leads; empty if sites have no leads.
+  std::span<geometry::Vec2> leads() { return leads_; }
+  std::span<const geometry::Vec2> leads() const { return leads_; }
+
+private:
+  friend class BinnedPoints;
+  UnsetVector<geometry::Vec2> positions_, leads_;
+};
+
+/// Holds one number if h is the same everywhere, otherwise one for each site, or none before they are computed.
+class LocalSizes {
+public:
+  LocalSizes() = default;
+  explicit LocalSizes(double uniform) : uniform_(uniform) {}
+  explicit LocalSizes(std::vector<double> values) : values_(std::move(values)) {}
+
+  /// Returns false if the size of site i has not been computed since the sites changed.
+  bool known(LocalIndex i) const { return uniform_ > 0 || static_cast<std::size_t>(i) < values_.size(); }
+  bool is_uniform() const { return uniform_ > 0; }
+  /// Returns h at site i in domain units. @pre known(i)
+  double operator[](LocalIndex i) const { return uniform_ > 0 ? uniform_ : values_[static_cast<std::size_t>(i)]; }
+
+  const std::vector<double>& values() const { return values_; }
+  /// Returns the values by local index, which the caller fills. They are not used while the size is uniform.
+  std::vector<double>& values() { return values_; }
+  /// Forgets all sizes after the sites have changed.
+  void forget() {
+    uniform_ = 0;
+    values_.clear();
+  }
+
+private:
+  double uniform_ = 0; // 0: not uniform
+  std::vector<double> values_;
 };
 
 } // namespace trime::mesh

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The container and its tiles. It finds the tile, the bin and the position along the Hilbert curve of a point. It holds
-// no points and knows nothing of ranks.
+// The container and its tiles: where a point lies, in which tile and bin, when the Hilbert curve comes there, and
+// tiles of about equal weight. Geometry only: it holds no points and knows nothing of ranks.
 #pragma once
 
-#include "mesh/fixed_axis.hpp"
 #include "mesh/rules.hpp"
 #include "mesh/tile_tree.hpp"
 #include "trime/core/types.hpp"
@@ -11,11 +10,54 @@
 #include "trime/geometry/vec2.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace trime::mesh {
+
+/// @brief Fixed-point positions along one axis of the square of the Hilbert curve, which has 2^32 positions a side. The
+/// container has the positions first() to last(), a multiple of 2^unit_shift positions. A larger coordinate never has a
+/// smaller position.
+class FixedAxis {
+public:
+  FixedAxis() = default;
+  /// @param start coordinate where the container begins @param unit length of 2^unit_shift positions
+  /// @param first_unit, units where the container begins, and its length, in units @pre unit > 0, (first_unit + units)
+  /// * 2^unit_shift at most 2^32
+  FixedAxis(double start, double unit, std::uint32_t first_unit, std::uint32_t units, int unit_shift, bool periodic)
+      : start_(start), unit_(unit), scale_(std::ldexp(1.0, unit_shift) / unit),
+        limit_(static_cast<std::uint32_t>((std::uint64_t{units} << unit_shift) - 1)), first_(first_unit << unit_shift),
+        unit_shift_(unit_shift), periodic_(periodic) {}
+
+  /// Returns the position of a coordinate, clamped to the container.
+  std::uint32_t fixed(double at) const {
+    const double v = (at - start_) * scale_;
+    return first_ + (v <= 0 ? 0 : v >= static_cast<double>(limit_) ? limit_ : static_cast<std::uint32_t>(v));
+  }
+  /// Returns the position of a coordinate. It is not clamped if the axis is periodic, where images of the container
+  /// follow each other.
+  std::int64_t unrolled(double at) const {
+    return periodic_ ? std::int64_t{first_} + static_cast<std::int64_t>(std::floor((at - start_) * scale_)) : fixed(at);
+  }
+  /// Returns the coordinate where a position begins.
+  double coordinate(std::int64_t fixed) const {
+    return start_ + std::ldexp(static_cast<double>(fixed - std::int64_t{first_}), -unit_shift_) * unit_;
+  }
+  std::int64_t first() const { return first_; }
+  std::int64_t last() const { return std::int64_t{first_} + limit_; }
+  /// Number of positions of the container.
+  std::int64_t length() const { return std::int64_t{limit_} + 1; }
+  bool is_periodic() const { return periodic_; }
+
+private:
+  double start_ = 0, unit_ = 1, scale_ = 1;
+  std::uint32_t limit_ = 0, first_ = 0;
+  int unit_shift_ = 0;
+  bool periodic_ = false;
+};
 
 /// Returns the shift in periods along one axis, 0, 1 or -1, of an image with the number 0, 1 or 2 along this axis.
 constexpr int image_step(int number) {
@@ -171,5 +213,27 @@ void TileGrid::for_each_in(const FixedRect& rect, const Visit& visit) const {
         tree_.for_each_in(part, [&](LocalIndex tile) { visit(tile, image, part); });
     }
 }
+
+/// The tiles [first, last) of a grid.
+struct TileRange {
+  const TileGrid& grid;
+  LocalIndex first, last;
+};
+
+/// Returns the largest number of sites in a tile, if the mesh has `points` points.
+std::int64_t most_per_tile(double points);
+
+/// Tiles and their weights.
+struct WeightedTiles {
+  std::vector<Tile> tiles; ///< in the order of the curve
+  std::vector<std::int64_t> weights;
+  bool divided = false; ///< some tiles were divided: the caller must find the weights of their quarters
+};
+
+/// @brief Joins and divides tiles so that each becomes the largest square that weighs at most `most`. One call divides
+/// a tile only once, because the weights of its quarters are not known; repeated calls give a result that does not
+/// depend on the first tiles. O(tiles).
+/// @param weight of each tile of the grid
+WeightedTiles fit_tiles(const TileGrid& grid, std::span<const std::int64_t> weights, std::int64_t most);
 
 } // namespace trime::mesh

@@ -1,15 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The interface through which a run asks for checkpoints to be written.
+// The interface through which a run has its checkpoints kept, and the state that a run needs to continue as if nothing
+// had happened, except its sites. Whatever follows from the config alone is computed again: sizes, boundary, layout.
 #pragma once
 
-#include "meshing/run_state.hpp"
+#include "core/state_fields.hpp"
 #include "sites/site_state.hpp"
 #include "trime/core/error.hpp"
+#include "trime/sweep/sweep_history.hpp"
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace trime::meshing {
+
+/// State that is the same on every rank.
+struct RunState {
+  StateNumbers numbers; ///< numbers of the classes that have a function visit()
+  std::vector<sweep::SweepRecord> history;
+};
+
+/// A run that was read from a checkpoint. All members are the same on every rank, and so are the sites that `load`
+/// gives for the same arguments.
+struct SavedRun {
+  RunState state;
+  sites::SavedTiles tiles;
+  sites::SiteLoader load;
+};
 
 /// What a rank wants at the end of a sweep. If ranks have different wishes, the last of them in this list counts.
 enum class CheckpointWish : int {

@@ -4,8 +4,8 @@
 
 #include "cleanup/cleanup.hpp"
 #include "fitting/fit_options.hpp"
-#include "start/start_options.hpp"
-#include "sweep/sweep_options.hpp"
+#include "start/point_scheme.hpp"
+#include "sweep/stopping.hpp"
 #include "trime/meshing/options.hpp"
 
 namespace trime::meshing {

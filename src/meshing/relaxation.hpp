@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the sweeps of a stage, and measures and reports them.
+// The sweeps of a stage, one after the other, with what is measured and said about them, and an estimate of how long
+// the run still takes. The estimate steers nothing.
 #pragma once
 
 #include "meshing/checkpoint_writer.hpp"
-#include "meshing/snapshots.hpp"
+#include "meshing/stage_stars.hpp"
 #include "sweep/stopping.hpp"
 #include "sweep/sweeper.hpp"
 #include "trime/sweep/sweep_history.hpp"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace trime::meshing {
@@ -67,5 +69,12 @@ private:
   std::optional<sweep::Mover> begun_; // the rule that knows the sums for the next move
   sweep::StopReason stop_reason_ = sweep::StopReason::sweep_cap;
 };
+
+/// @brief Returns about how many seconds the run will still take, to within a factor of two or three. It assumes that
+/// the gains of this stage fall as a power of the number of sweeps until they are below the tolerance, and uses typical
+/// numbers for all that follows.
+/// @return a negative number before the second record of a stage, when nothing is known
+double seconds_left(std::span<const sweep::SweepRecord> history, const StageNumber& stage,
+                    const sweep::SweepOptions& options);
 
 } // namespace trime::meshing

@@ -2,8 +2,8 @@
 #include "meshing/same_input.hpp"
 
 #include "comm/agree.hpp"
-#include "core/arithmetic.hpp"
 #include "core/random.hpp"
+#include "core/simd_level.hpp"
 #include "meshing/rules.hpp"
 #include "trime/core/error.hpp"
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Computes the stars of a stage before and after its sweeps. During the sweeps, the module sweep updates them.
+// The stars of the sites of a stage, and the meshes that a run shows before it is done.
 #pragma once
 
+#include "core/state_fields.hpp"
 #include "delaunay/star_builder.hpp"
+#include "meshing/meshed_boundary.hpp"
 #include "meshing/run_context.hpp"
 #include "sites/stage.hpp"
 #include "sweep/site_classes.hpp"
+#include "trime/meshing/mesher.hpp"
 
 #include <memory>
 
@@ -45,6 +48,31 @@ private:
   GlobalId points_ = 0;   // number at the beginning of the stage
   double cap_factor_ = 0; // cap over h
   std::unique_ptr<delaunay::StarBuilder> builder_;
+};
+
+/// Counts the triangulations of a run, and shows to the observer those that MeshOptions::snapshot_interval asks for.
+class Snapshots {
+public:
+  /// Keeps references to all arguments. @param observer may be empty: then nothing is shown
+  Snapshots(const RunContext& run, const MeshedBoundary& boundary, const StageStars& stars,
+            const SnapshotObserver& observer)
+      : run_(run), boundary_(boundary), stars_(stars), observer_(observer) {}
+
+  /// Counts a new triangulation, and shows it if it is due. The run continues as if it had not been shown. Collective.
+  void take(const sites::Stage& stage);
+  /// Number of triangulations so far: the first of each stage, and one for each move.
+  int triangulations() const { return triangulations_; }
+  /// Visits the members that a checkpoint keeps.
+  void visit(StateFields& fields) { fields.field("triangulations", triangulations_); }
+
+private:
+  bool is_wanted() const;
+
+  const RunContext& run_;
+  const MeshedBoundary& boundary_;
+  const StageStars& stars_;
+  const SnapshotObserver& observer_;
+  int triangulations_ = 0;
 };
 
 } // namespace trime::meshing

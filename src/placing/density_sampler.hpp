@@ -6,7 +6,7 @@
 #include "core/angle.hpp"
 #include "core/hilbert.hpp"
 #include "core/thread_loop.hpp"
-#include "mesh/tile_range.hpp"
+#include "mesh/tile_grid.hpp"
 #include "placing/rules.hpp"
 #include "polygon/boundary_guard.hpp"
 #include "trime/core/error.hpp"

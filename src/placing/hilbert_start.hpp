@@ -4,7 +4,7 @@
 #pragma once
 
 #include "mesh/binned_points.hpp"
-#include "mesh/tile_range.hpp"
+#include "mesh/tile_grid.hpp"
 #include "polygon/boundary_guard.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/geometry/lattice.hpp"

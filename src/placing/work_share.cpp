@@ -2,10 +2,9 @@
 #include "placing/work_share.hpp"
 
 #include "comm/agree.hpp"
-#include "comm/shared_work.hpp"
 #include "core/angle.hpp"
 #include "core/thread_loop.hpp"
-#include "mesh/tile_fit.hpp"
+#include "mesh/tile_grid.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>

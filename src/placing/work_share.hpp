@@ -2,7 +2,7 @@
 // Decides which rank makes which sites, from weights, before there are sites.
 #pragma once
 
-#include "mesh/tile_range.hpp"
+#include "mesh/tile_grid.hpp"
 #include "sites/stage.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/geometry/lattice.hpp"

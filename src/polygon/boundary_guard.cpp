@@ -2,8 +2,8 @@
 #include "polygon/boundary_guard.hpp"
 
 #include "core/thread_loop.hpp"
-#include "geometry/diametral.hpp"
-#include "polygon/chord_closure.hpp"
+#include "geometry/predicates.hpp"
+#include "polygon/disc_cells.hpp"
 #include "polygon/rules.hpp"
 #include "trime/core/error.hpp"
 

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "polygon/disc_cells.hpp"
-#include "polygon/guard_cells.hpp"
 #include "polygon/polygon.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/geometry/segment_grid.hpp"

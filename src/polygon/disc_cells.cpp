@@ -3,8 +3,10 @@
 
 #include "core/thread_loop.hpp"
 #include "polygon/rules.hpp"
+#include "trime/core/error.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace trime::polygon {
 
@@ -53,48 +55,59 @@ void DiscCells::for_each_cell_of(const Reach& disc, int first_row, int last_row,
   }
 }
 
-/// Strips of rows are filled at the same time.
-void DiscCells::list_discs(std::span<const Segment> chords, std::span<const Segment> more) {
-  std::vector<Reach> reaches;
-  reaches.reserve(chords.size() + more.size());
-  const auto strips = static_cast<std::size_t>((rows_ - 1) / strip_rows + 1);
-  std::vector<std::vector<LocalIndex>> discs_of(strips);
+DiscCells::Strips DiscCells::strips_of(std::span<const Segment> chords, std::span<const Segment> more) const {
+  Strips strips;
+  strips.reaches.reserve(chords.size() + more.size());
+  strips.discs.resize(static_cast<std::size_t>((rows_ - 1) / strip_rows + 1));
   for (const std::span<const Segment> list : {chords, more})
     for (const Segment& chord : list) {
-      reaches.push_back({0.5 * (chord.a + chord.b), reach_of(chord)});
-      const auto [first, last] = rows_of(reaches.back());
+      strips.reaches.push_back({0.5 * (chord.a + chord.b), reach_of(chord)});
+      const auto [first, last] = rows_of(strips.reaches.back());
       for (int strip = first / strip_rows; strip <= last / strip_rows; ++strip)
-        discs_of[static_cast<std::size_t>(strip)].push_back(static_cast<LocalIndex>(reaches.size()) - 1);
+        strips.discs[static_cast<std::size_t>(strip)].push_back(static_cast<LocalIndex>(strips.reaches.size()) - 1);
     }
-  const auto for_each_strip = [&](const auto& body) {
-    thread_loop(static_cast<std::ptrdiff_t>(strips), 1, [&](std::ptrdiff_t k, int) {
-      const int first = static_cast<int>(k) * strip_rows, last = std::min(rows_, first + strip_rows);
-      body(static_cast<std::size_t>(k), first, last);
-    });
-  };
+  return strips;
+}
+
+/// Calls body(strip, first row, end of its rows) for all strips at the same time.
+template <class Body>
+void DiscCells::for_each_strip(const Body& body) const {
+  thread_loop((rows_ - 1) / strip_rows + 1, 1, [&](std::ptrdiff_t k, int) {
+    const int first = static_cast<int>(k) * strip_rows, last = std::min(rows_, first + strip_rows);
+    body(static_cast<std::size_t>(k), first, last);
+  });
+}
+
+void DiscCells::mark_cells(const Strips& strips) {
   static_assert(strip_rows % word == 0);
   bits_.assign((count() + word - 1) / word, 0);
   for_each_strip([&](std::size_t strip, int first, int last) {
-    for (const LocalIndex k : discs_of[strip])
-      for_each_cell_of(reaches[static_cast<std::size_t>(k)], first, last,
+    for (const LocalIndex k : strips.discs[strip])
+      for_each_cell_of(strips.reaches[static_cast<std::size_t>(k)], first, last,
                        [&](std::size_t cell) { bits_[cell / word] |= std::uint64_t{1} << (cell % word); });
   });
+}
+
+/// Cells with a disc above this row, where a word begins or the grid ends.
+std::size_t DiscCells::ranks_before(int row) const {
+  return static_cast<std::size_t>(
+      ranks_[std::min(bits_.size(), (static_cast<std::size_t>(row) * columns_ + word - 1) / word)]);
+}
+
+void DiscCells::list_discs(std::span<const Segment> chords, std::span<const Segment> more) {
+  const Strips strips = strips_of(chords, more);
+  mark_cells(strips);
   rank_cells();
-  // Cells with a disc above this row, where a word begins or the grid ends.
-  const auto ranks_before = [this](int row) {
-    return static_cast<std::size_t>(
-        ranks_[std::min(bits_.size(), (static_cast<std::size_t>(row) * columns_ + word - 1) / word)]);
-  };
   starts_.assign(static_cast<std::size_t>(ranks_.back()) + 1, 0);
-  std::vector<LocalIndex> entries_of(strips + 1, 0);
+  std::vector<LocalIndex> entries_of(strips.discs.size() + 1, 0);
   for_each_strip([&](std::size_t strip, int first, int last) {
-    for (const LocalIndex k : discs_of[strip])
-      for_each_cell_of(reaches[static_cast<std::size_t>(k)], first, last,
+    for (const LocalIndex k : strips.discs[strip])
+      for_each_cell_of(strips.reaches[static_cast<std::size_t>(k)], first, last,
                        [&](std::size_t cell) { ++starts_[rank(cell)]; });
     for (std::size_t k = ranks_before(first); k < ranks_before(last); ++k)
       entries_of[strip + 1] += starts_[k];
   });
-  for (std::size_t strip = 0; strip < strips; ++strip)
+  for (std::size_t strip = 0; strip < strips.discs.size(); ++strip)
     entries_of[strip + 1] += entries_of[strip];
   discs_.resize(static_cast<std::size_t>(entries_of.back()));
   starts_.back() = entries_of.back();
@@ -103,8 +116,8 @@ void DiscCells::list_discs(std::span<const Segment> chords, std::span<const Segm
     LocalIndex end = entries_of[strip];
     for (std::size_t k = ranks_before(first); k < ranks_before(last); ++k)
       starts_[k] = end += starts_[k];
-    for (auto k = discs_of[strip].rbegin(); k != discs_of[strip].rend(); ++k)
-      for_each_cell_of(reaches[static_cast<std::size_t>(*k)], first, last,
+    for (auto k = strips.discs[strip].rbegin(); k != strips.discs[strip].rend(); ++k)
+      for_each_cell_of(strips.reaches[static_cast<std::size_t>(*k)], first, last,
                        [&](std::size_t cell) { discs_[static_cast<std::size_t>(--starts_[rank(cell)])] = *k; });
   });
 }
@@ -127,6 +140,76 @@ void DiscCells::mark_discs(int row, std::uint8_t none, std::span<std::uint8_t> m
       if (const std::size_t cell = k * word + static_cast<std::size_t>(std::countr_zero(left));
           cell >= first && cell < last)
         marks[cell - first] = 0;
+}
+
+using geometry::Box;
+using geometry::Segment;
+using geometry::Vec2;
+
+namespace {
+
+std::vector<Vec2> loose_ends(const std::vector<Segment>& segments) {
+  std::vector<Vec2> ends, loose;
+  for (const Segment& s : segments)
+    ends.insert(ends.end(), {s.a, s.b});
+  std::sort(ends.begin(), ends.end(), geometry::lexicographically_less);
+  for (std::size_t k = 0, next = 0; k < ends.size(); k = next) {
+    while (next < ends.size() && ends[next] == ends[k])
+      ++next;
+    if ((next - k) % 2 == 1)
+      loose.push_back(ends[k]);
+  }
+  return loose;
+}
+
+/// A place on the rectangle that leads around: its side (from the lower one counter-clockwise) and how far along.
+struct Landing {
+  int side;
+  double along;
+  Vec2 position;
+};
+
+/// Straight away from the window.
+Landing land(Vec2 p, const Box& window, const Box& around) {
+  if (p.x < window.min.x)
+    return {3, -p.y, {around.min.x, p.y}};
+  if (p.x > window.max.x)
+    return {1, p.y, {around.max.x, p.y}};
+  TRIME_ASSERT(p.y < window.min.y || p.y > window.max.y, "a loose end at ({}, {}) inside the window", p.x, p.y);
+  if (p.y < window.min.y)
+    return {0, p.x, {p.x, around.min.y}};
+  return {2, -p.x, {p.x, around.max.y}};
+}
+
+} // namespace
+
+std::vector<Segment> close_outside(std::vector<Segment> segments, const Box& window, double margin) {
+  Box around;
+  for (const Segment& s : segments) {
+    around.include(s.a);
+    around.include(s.b);
+  }
+  around = {around.min - Vec2{margin, margin}, around.max + Vec2{margin, margin}};
+  std::vector<Landing> landings;
+  for (const Vec2 p : loose_ends(segments)) {
+    landings.push_back(land(p, window, around));
+    segments.push_back({p, landings.back().position});
+  }
+  std::sort(landings.begin(), landings.end(),
+            [](const Landing& a, const Landing& b) { return a.side != b.side ? a.side < b.side : a.along < b.along; });
+  // The corner at the end of each side.
+  const std::array<Vec2, 4> corners{Vec2{around.max.x, around.min.y}, around.max, Vec2{around.min.x, around.max.y},
+                                    around.min};
+  for (std::size_t k = 0; k + 1 < landings.size(); k += 2) {
+    Vec2 at = landings[k].position;
+    for (int side = landings[k].side; side < landings[k + 1].side; ++side) {
+      segments.push_back({at, corners[static_cast<std::size_t>(side)]});
+      at = corners[static_cast<std::size_t>(side)];
+    }
+    if (at != landings[k + 1].position)
+      segments.push_back({at, landings[k + 1].position});
+  }
+  return segments;
 }
 
 } // namespace trime::polygon

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A grid of square cells that lists the discs of chords that reach into each of them.
+// What the guard of the boundary consists of: a grid of square cells that lists the discs of chords that reach into
+// each of them, the same cells as plain numbers for loops that look for the clear ones themselves, and closed polygons
+// made of the segments that meet a window.
 #pragma once
 
 #include "trime/core/types.hpp"
@@ -13,6 +15,15 @@
 #include <vector>
 
 namespace trime::polygon {
+
+/// Rows of `columns` cells, beginning at `corner`. The pointer points into the guard.
+struct GuardCells {
+  /// A point in a cell with a positive state needs no push. Null if there are no sites, when no point needs one.
+  const std::int8_t* states = nullptr;
+  geometry::Vec2 corner;
+  double inverse_side = 1;
+  int columns = 0, rows = 0;
+};
 
 /// Returns a radius around the middle of a chord that covers its disc and everything nearer to the chord than
 /// PolygonRules::near_chord.
@@ -79,7 +90,17 @@ private:
     const std::uint64_t below = bits_[cell / word] & ((std::uint64_t{1} << (cell % word)) - 1);
     return static_cast<std::size_t>(ranks_[cell / word]) + static_cast<std::size_t>(std::popcount(below));
   }
+  /// The discs, and by strip of rows those that reach into it.
+  struct Strips {
+    std::vector<Reach> reaches;
+    std::vector<std::vector<LocalIndex>> discs;
+  };
+  Strips strips_of(std::span<const geometry::Segment> chords, std::span<const geometry::Segment> more) const;
+  template <class Body>
+  void for_each_strip(const Body& body) const;
+  void mark_cells(const Strips& strips);
   void rank_cells();
+  std::size_t ranks_before(int row) const;
 
   static constexpr std::size_t word = 64; // cells
 
@@ -91,5 +112,12 @@ private:
   std::vector<LocalIndex> ranks_;          // by word of these bits, the number of bits that are set before it
   std::vector<LocalIndex> starts_, discs_; // by cell with discs, where its discs begin in discs_
 };
+
+/// @brief Returns the segments and additional ones outside `window`, so that every end belongs to an even number of
+/// segments. Then the even-odd rule separates inside and outside in the window, but does not say which is which.
+/// @param segments an end that belongs to an odd number of them lies outside `window`
+/// @param margin distance of the added segments from all others; a multiple of the lattice step, as all ends are
+std::vector<geometry::Segment> close_outside(std::vector<geometry::Segment> segments, const geometry::Box& window,
+                                             double margin);
 
 } // namespace trime::polygon

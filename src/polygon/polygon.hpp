@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sites on the boundary and the polygon of the chords between them. After the layout of the boundary, all code uses
-// this polygon only.
+// The sites on the boundary and the polygon of the chords between them. Everything that comes after the layout of the
+// boundary knows it by this polygon alone. This header also says which junctions of the pieces of a loop are corners,
+// and counts what was simplified before the layout.
 #pragma once
 
 #include "trime/core/types.hpp"
+#include "trime/geometry/boundary.hpp"
 #include "trime/geometry/lattice.hpp"
 #include "trime/geometry/vec2.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -57,5 +61,51 @@ struct BoundarySites {
     return {site.position, sites[site.next].position + site.next_shift};
   }
 };
+
+/// Returns whether another part of the shape begins with this piece. Then a facet across the junction would belong to
+/// both parts.
+inline bool changes_part(const geometry::Loop& loop, std::size_t piece) {
+  return loop.pieces[piece > 0 ? piece - 1 : loop.pieces.size() - 1].part != loop.pieces[piece].part;
+}
+
+/// Returns whether the start of a piece is a corner, because the boundary turns there or another part begins. Corners
+/// below the resolution may be left out later.
+inline bool is_corner(const geometry::Loop& loop, std::size_t piece, double corner_degrees) {
+  return changes_part(loop, piece) || loop.turn_degrees(piece) > corner_degrees;
+}
+
+/// Counts of changes to a boundary over all passes.
+struct Simplification {
+  std::int64_t cut = 0;      ///< narrow parts of the shape that were removed
+  std::int64_t filled = 0;   ///< filled holes with a small perimeter
+  std::int64_t closed = 0;   ///< narrow parts of the outside that were filled
+  std::int64_t widened = 0;  ///< narrow parts of the outside, and thin components, whose sides were moved apart, in the
+                             ///< pass with most of them
+  std::int64_t thinned = 0;  ///< pieces of ragged runs that were replaced by fewer pieces
+  std::int64_t smoothed = 0; ///< vertices of ragged runs that were replaced by others
+  double cut_area = 0, closed_area = 0; ///< areas in squared units of the coordinates
+  double largest_move = 0;              ///< longest move of a vertex, over h
+  double coarseness = 1;                ///< h for which this was done, over h of the mesh
+
+  void add(const Simplification& other) {
+    cut += other.cut;
+    filled += other.filled;
+    closed += other.closed;
+    widened = std::max(widened, other.widened); // later passes may widen the same parts a little more
+    thinned += other.thinned;
+    smoothed += other.smoothed;
+    cut_area += other.cut_area;
+    closed_area += other.closed_area;
+    largest_move = std::max(largest_move, other.largest_move);
+  }
+};
+
+/// Returns the number of pieces of all loops.
+inline std::int64_t piece_count(const geometry::Boundary& boundary) {
+  std::int64_t count = 0;
+  for (const geometry::Loop& loop : boundary.loops)
+    count += static_cast<std::int64_t>(loop.pieces.size());
+  return count;
+}
 
 } // namespace trime::polygon

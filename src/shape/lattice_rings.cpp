@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shape/lattice_rings.hpp"
 
-#include "core/gather.hpp"
 #include "core/random.hpp"
 #include "core/thread_loop.hpp"
 #include "geometry/predicates.hpp"

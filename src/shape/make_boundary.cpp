@@ -8,11 +8,9 @@
 #include "geometry/box_tree.hpp"
 #include "shape/arrangement.hpp"
 #include "shape/boundary_area.hpp"
-#include "shape/inside_walk.hpp"
-#include "shape/marked_pieces.hpp"
 #include "shape/part_images.hpp"
-#include "shape/quotient.hpp"
 #include "shape/region_state.hpp"
+#include "shape/vertex_table.hpp"
 #include "trime/core/error.hpp"
 
 #include <algorithm>
@@ -115,6 +113,7 @@ private:
 
   int index_of(const Arrangement::Piece& piece) const { return placed_[piece.part].index; }
   bool holds(RegionState& state, const std::vector<int>& places) const;
+  bool are_uncut(const std::vector<int>& places) const;
   geometry::BoxTree tree_of_places() const;
   /// Where a vertex lies once it is an exact image of its node.
   Vec2 place_of(LocalIndex vertex) const { return nodes_->point(nodes_->node(vertex)) + nodes_->shift(vertex); }
@@ -164,6 +163,13 @@ bool BoundaryMaker::holds(RegionState& state, const std::vector<int>& places) co
   return held;
 }
 
+/// Do all of these placed parts lie in a container that is not cut, or is the part that cuts it one of them?
+bool BoundaryMaker::are_uncut(const std::vector<int>& places) const {
+  return placed_.back().index != cut_index || std::any_of(places.begin(), places.end(), [&](int place) {
+           return placed_[static_cast<std::size_t>(place)].index == cut_index;
+         });
+}
+
 geometry::BoxTree BoundaryMaker::tree_of_places() const {
   std::vector<Box> boxes;
   for (const PlacedPart& placed : placed_) {
@@ -210,11 +216,8 @@ void BoundaryMaker::classify() {
       left.push_back(static_cast<int>(place));
       right.push_back(static_cast<int>(place));
     });
-    const auto is_cut = [&](int place) { return placed_[static_cast<std::size_t>(place)].index == cut_index; };
-    const bool cuts = placed_.back().index == cut_index;
-    classify_sides(static_cast<LocalIndex>(k), holds(state, left), holds(state, right),
-                   !cuts || std::any_of(left.begin(), left.end(), is_cut),
-                   !cuts || std::any_of(right.begin(), right.end(), is_cut));
+    classify_sides(static_cast<LocalIndex>(k), holds(state, left), holds(state, right), are_uncut(left),
+                   are_uncut(right));
   }
 }
 

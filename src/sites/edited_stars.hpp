@@ -4,7 +4,7 @@
 
 #include "delaunay/star_builder.hpp"
 #include "mesh/binned_points.hpp"
-#include "mesh/local_sizes.hpp"
+#include "mesh/site.hpp"
 
 #include <span>
 #include <utility>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "decomposition/numbering.hpp"
-#include "sites/stage_view.hpp"
+#include "sites/stage.hpp"
 #include "trime/core/types.hpp"
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 #include "sites/site_state.hpp"
 
 #include "comm/agree.hpp"
-#include "core/free_memory.hpp"
+#include "core/processors.hpp"
 #include "core/thread_loop.hpp"
 #include "sites/edited_stars.hpp"
 #include "sites/rules.hpp"

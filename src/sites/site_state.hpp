@@ -1,20 +1,70 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sites of a run, and the data that ranks share about them: grid, partition, halo and stars.
+// The sites of a run and what holds them together over the ranks: grid, partition, halo, stars. Views of the stars for
+// all that moves sites or measures triangles, and the sites of a checkpoint, from which a state is restored.
 #pragma once
 
 #include "decomposition/halo.hpp"
 #include "decomposition/migration.hpp"
 #include "delaunay/star_builder.hpp"
+#include "delaunay/star_table.hpp"
 #include "mesh/binned_points.hpp"
-#include "mesh/local_sizes.hpp"
-#include "sites/saved_sites.hpp"
-#include "sites/star_view.hpp"
+#include "mesh/drifts.hpp"
+#include "mesh/site.hpp"
+#include "mesh/tile_tree.hpp"
 #include "trime/comm/communicator.hpp"
 #include "trime/sizing/size_field.hpp"
 
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace trime::sites {
+
+/// The tiles of a checkpoint, in the order of the curve; the same on all ranks.
+struct SavedTiles {
+  std::vector<mesh::Tile> tiles;
+  std::vector<std::int64_t> counts;    ///< number of sites that were sorted into each tile
+  std::vector<double> drifts;          ///< how far these sites may have moved since then, domain units
+  std::vector<std::uint64_t> activity; ///< activity of each tile in the sweeps, see TileActivity
+  mesh::DriftBound largest;            ///< bound on the drifts
+};
+
+/// Sites of consecutive tiles, tile by tile. They may have left the tiles into which they were sorted.
+struct SavedSites {
+  mesh::SiteList sites;
+  std::vector<double> sizes; ///< h of each site; empty if the size is uniform
+};
+
+/// Fetches rows [first, first + count) of all sites. Local. @throws FileError
+using SiteLoader = std::function<SavedSites(std::int64_t first, std::int64_t count)>;
+
+/// Certified stars around the inner sites, and h.
+class StarView {
+public:
+  /// @param sizes h at the sites, as far as it is known; if null, h is evaluated
+  StarView(const mesh::BinnedPoints& all_points, const delaunay::StarTable& all_stars, const sizing::SizeField& field,
+           const mesh::LocalSizes* sizes = nullptr)
+      : points(all_points), stars(all_stars), size_(field), sizes_(sizes), is_uniform_(field.is_uniform()),
+        uniform_size_(is_uniform_ ? field.size({}) : 0) {}
+
+  bool is_uniform() const { return is_uniform_; }
+  /// Returns h at any point, or at an image of a point.
+  double size(geometry::Vec2 p) const {
+    return is_uniform_ ? uniform_size_ : size_.size(points.grid().periods().wrap(p));
+  }
+  /// Returns h at site i, owned or ghost. It has the same bits as size(points.position(i)), but is looked up where it
+  /// is known.
+  double size(LocalIndex i) const { return sizes_ && sizes_->known(i) ? (*sizes_)[i] : size(points.position(i)); }
+
+  const mesh::BinnedPoints& points;
+  const delaunay::StarTable& stars;
+
+private:
+  const sizing::SizeField& size_;
+  const mesh::LocalSizes* sizes_;
+  bool is_uniform_;
+  double uniform_size_;
+};
 
 /// Which stars are to be computed.
 enum class Wanted { inner_sites, all_sites };

@@ -1,20 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The data of one stage of a run: the size of the triangles, the sites on the boundary, and the sites inside.
+// The data of one stage of a run: the size of the triangles, the sites on the boundary, and the sites inside; and a
+// view of a stage that only reads.
 #pragma once
 
 #include "polygon/boundary_guard.hpp"
 #include "polygon/polygon.hpp"
-#include "polygon/simplification.hpp"
 #include "sites/site_state.hpp"
-#include "sites/stage_view.hpp"
 #include "sizing/lowered_size.hpp"
 #include "trime/core/types.hpp"
 #include "trime/geometry/boundary.hpp"
+#include "trime/geometry/lattice.hpp"
 #include "trime/sizing/size_field.hpp"
 
 #include <memory>
+#include <span>
 
 namespace trime::sites {
+
+/// @brief The sites of a stage, or of a copy of its state, with size and boundary. Everything except the state is
+/// replicated. Keeps references.
+struct StageView {
+  const SiteState& state;
+  const polygon::BoundarySites& polygon;
+  const sizing::SizeField& size;
+  const geometry::Lattice& lattice;
+  std::span<const geometry::Vec2> fixed = {}; ///< points that must be vertices, in lexicographic order
+};
 
 /// @brief All data from which the sweeps of a stage start. Only `state` differs between ranks.
 ///

@@ -26,18 +26,20 @@ Vec2 nearest_on_arc(Vec2 p, const Piece& arc) {
   return squared_length(p - arc.start) <= squared_length(p - arc.end) ? arc.start : arc.end;
 }
 
+/// A straight piece and the shift of its image. It is small, since there may be very many.
+struct Segment {
+  const Piece* piece;
+  const Vec2* shift;
+  Box box() const {
+    const Box given = piece->covering_box();
+    return {given.min + *shift, given.max + *shift};
+  }
+};
+
 } // namespace
 
 PieceLocator::PieceLocator(const geometry::Boundary& boundary, const Images& images)
     : kernel_(search_kernel(simd_level())) {
-  struct Segment { // little, since there may be very many
-    const Piece* piece;
-    const Vec2* shift;
-    Box box() const {
-      const Box given = piece->covering_box();
-      return {given.min + *shift, given.max + *shift};
-    }
-  };
   std::vector<Segment> segments;
   std::size_t pieces = 0;
   for (const geometry::Loop& loop : boundary.loops)

@@ -1,16 +1,66 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nearest point of a boundary and of its periodic images.
+// Finds the nearest point of a boundary and of its periodic images, and the images of a thing that count in a
+// container: those within half a period of it.
 #pragma once
 
-#include "cones/box_tree.hpp"
-#include "sizing/images.hpp"
+#include "cones/cone_tree.hpp"
 #include "trime/core/types.hpp"
 #include "trime/geometry/boundary.hpp"
+#include "trime/geometry/vec2.hpp"
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
 namespace trime::sizing {
+
+class Images {
+public:
+  /// @param period_x, period_y 0 if not periodic
+  Images(const geometry::Box& container, double period_x, double period_y)
+      : container_(container), period_x_(period_x), period_y_(period_y) {}
+
+  /// Shifts that may bring a thing into reach, the null shift among them: things lie in the container or within two
+  /// periods of it.
+  std::vector<geometry::Vec2> shifts() const {
+    std::vector<geometry::Vec2> list;
+    const int nx = period_x_ > 0 ? 3 : 0, ny = period_y_ > 0 ? 3 : 0;
+    for (int j = -ny; j <= ny; ++j)
+      for (int i = -nx; i <= nx; ++i)
+        list.push_back({i * period_x_, j * period_y_});
+    return list;
+  }
+
+  /// May anything in the box be the nearest to a point of the container? Always true where it is not periodic.
+  bool in_reach(const geometry::Box& box) const {
+    return overlaps(box.min.x, box.max.x, container_.min.x, container_.max.x, period_x_) &&
+           overlaps(box.min.y, box.max.y, container_.min.y, container_.max.y, period_y_);
+  }
+
+  /// The image of p in the container, as far as it is periodic.
+  geometry::Vec2 wrap(geometry::Vec2 p) const {
+    return {wrap(p.x, container_.min.x, period_x_), wrap(p.y, container_.min.y, period_y_)};
+  }
+
+  /// Is p in the container, or in one of its images?
+  bool in_container(geometry::Vec2 p) const {
+    return (period_x_ > 0 || (p.x >= container_.min.x && p.x <= container_.max.x)) &&
+           (period_y_ > 0 || (p.y >= container_.min.y && p.y <= container_.max.y));
+  }
+
+  const geometry::Box& container() const { return container_; }
+
+private:
+  static double wrap(double v, double from, double period) {
+    return period > 0 ? v - period * std::floor((v - from) / period) : v;
+  }
+  static bool overlaps(double low, double high, double from, double to, double period) {
+    return !(period > 0) || (high >= from - 0.5 * period && low <= to + 0.5 * period);
+  }
+
+  geometry::Box container_;
+  double period_x_, period_y_;
+};
 
 /// Boxes around runs of consecutive pieces, and around those. Immutable; queries are thread-safe.
 class PieceLocator {

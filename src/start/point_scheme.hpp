@@ -1,19 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decides how points get into the mesh: all at once, by dividing the edges of a coarse mesh, or by insertions.
+// How the points come into the mesh: all at once, from a coarse mesh that is divided, or in insertions; with the
+// options of these stages.
 #pragma once
 
 #include "core/state_fields.hpp"
 #include "fitting/fit.hpp"
 #include "placing/hilbert_start.hpp"
 #include "placing/lattice_start.hpp"
-#include "start/start_options.hpp"
+#include "trime/start/start_choice.hpp"
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
 
 namespace trime::start {
+
+/// See MeshOptions for the meaning and the default of each option.
+struct StartOptions {
+  std::uint64_t seed = 0;
+  Start start = Start::automatic;
+  std::optional<double> initial_fraction;
+  bool cleanup = false; ///< a clean-up follows, for which some points are held back
+};
 
 /// @brief The stages of a run. Lattice: one stage of a hexagonal lattice whose spacing fits the count. Hilbert: one
 /// stage of quantiles along the Hilbert curve. Coarse to fine: 1/4^k of the points are relaxed, then all edges are

@@ -8,7 +8,7 @@
 
 #include "core/angle.hpp"
 #include "core/lanes.hpp"
-#include "sites/star_view.hpp"
+#include "sites/site_state.hpp"
 #include "sweep/rules.hpp"
 
 namespace trime::sweep {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/lanes.hpp"
-#include "delaunay/convexity_rules.hpp"
+#include "delaunay/rules.hpp"
 #include "sweep/sweep_kernel.hpp"
 
 namespace trime::sweep {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Decides which rule moves the sites and when a stage ends. It uses maxima and integer sums over all ranks, but no
-// times, so all runs decide alike.
+// Which rule moves the sites, and when a stage ends: from maxima and integer sums over all ranks only, never from
+// times; with the options of the sweeps.
 #pragma once
 
 #include "sweep/rules.hpp"
-#include "sweep/sweep_options.hpp"
 #include "sweep/update_rule.hpp"
 #include "trime/sweep/sweep_history.hpp"
 
@@ -14,6 +13,14 @@
 #include <vector>
 
 namespace trime::sweep {
+
+struct SweepOptions {
+  Method method;
+  int max_sweeps;                       ///< largest number of moves of the whole run, over all stages
+  std::optional<double> stop_tolerance; ///< least gain in six sweeps; empty: StopRules decide by rule and stage
+  int density_exponent;                 ///< see CvdRule
+  StarTests star_tests = {};
+};
 
 /// Says when a rule counts as stalled.
 struct Patience {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/simd_level.hpp"
-#include "polygon/guard_cells.hpp"
+#include "polygon/disc_cells.hpp"
 #include "sweep/rule_formulas.hpp"
 #include "trime/core/types.hpp"
 #include "trime/geometry/vec2.hpp"

@@ -284,6 +284,16 @@ TRIME_INLINE V at_most(V v, double limit) {
   return lanes::select(v < limit, v, V{} + limit);
 }
 
+/// Does a neighbour come after the site in lexicographic order? Triangles do not count at boundary sites.
+TRIME_INLINE M comes_after(const SweepTask& task, const Group& group, const Spoke<V>& a, int slot) {
+  M after = (a.x > 0.0) | ((a.x == 0.0) & (a.y > 0.0));
+  if (group.bordered)
+    for (int l = 0; l < width; ++l)
+      if (task.boundary[task.rings[slots * std::ptrdiff_t{group.site[l]} + slot]] >= 0)
+        after[l] = -1;
+  return after;
+}
+
 template <bool graded>
 TRIME_INLINE void measure_group(const SweepTask& task, const Group& group, double inverse_reference, QualityLanes& sums,
                                 double* excesses) {
@@ -295,25 +305,17 @@ TRIME_INLINE void measure_group(const SweepTask& task, const Group& group, doubl
     const V x = at.x - p.x, y = at.y - p.y;
     return Spoke<V>{x, y, x * x + y * y, own};
   };
-  const auto comes_after = [&](const Spoke<V>& a, int slot) { // triangles do not count at boundary sites
-    M after = (a.x > 0.0) | ((a.x == 0.0) & (a.y > 0.0));
-    if (group.bordered)
-      for (int l = 0; l < width; ++l)
-        if (task.boundary[task.rings[slots * std::ptrdiff_t{group.site[l]} + slot]] >= 0)
-          after[l] = -1;
-    return after;
-  };
   M is_local{};
   for (int l = 0; l < width; ++l)
     is_local[l] = -static_cast<std::int64_t>(group.local >> l & 1);
 
   const Spoke<V> first = spoke_at(0);
   Spoke<V> a = first;
-  M a_after = comes_after(a, 0);
+  M a_after = comes_after(task, group, a, 0);
   for (int k = 0; k < group.largest_degree; ++k) {
     const M active = is_local & (group.degree > static_cast<double>(k));
     const Spoke<V> b = k + 1 < slots ? spoke_at(k + 1) : first;
-    const M b_after = comes_after(b, k + 1 < slots ? k + 1 : 0);
+    const M b_after = comes_after(task, group, b, k + 1 < slots ? k + 1 : 0);
     V h = own * inverse_reference;
     if constexpr (graded)
       h = 0.5 * (own + load_sizes(task, group, k)) * inverse_reference;

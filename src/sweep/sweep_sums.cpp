@@ -71,4 +71,79 @@ SweepSums measure(const StarView& view, double reference_size) {
   return all;
 }
 
+namespace {
+
+using sites::StarView;
+
+// [bytes a site] The measures of a tile are kept for sweeps in which it sleeps, unless all tiles together take
+// more.
+constexpr std::size_t bytes_for_measures = 4;
+
+/// The sums of a thread, and its buffer for the excesses of the kernel.
+struct ThreadSums {
+  SweepSums sums;
+  std::vector<double> excesses;
+};
+
+/// Adds the stars of a tile: those of local and bordered sites by the kernel, the others one by one.
+void measure_tile(const SweepTask& all, const StarView& view, LocalIndex tile, double reference_size,
+                  std::vector<double>& excesses, SweepSums& sums) {
+  const QualityKernel kernel = sweep_kernels().measure;
+  const auto [first, last] = view.points.tile_range(tile);
+  for (LocalIndex begin = first; begin < last; begin += most_measured) {
+    const LocalIndex end = std::min(last, begin + most_measured);
+    excesses.resize(std::max(excesses.size(), delaunay::StarTable::slots * static_cast<std::size_t>(end - begin)));
+    const QualityTally tally = kernel(all, begin, end, 1 / reference_size, excesses.data());
+    sums.squared_length_ratio.add_units(tally.squared_lengths);
+    sums.squared_size_ratio.add_units(tally.squared_sizes);
+    sums.excess_alpha.add_units(tally.excess);
+    sums.triangles += tally.triangles;
+    sums.max_alpha = std::max(sums.max_alpha, 1 + tally.largest_excess);
+    for (std::int64_t k = 0; k < tally.triangles; ++k)
+      sums.alpha_bins.add(excesses[static_cast<std::size_t>(k)]);
+    for (LocalIndex i = begin; i < end; ++i)
+      if (all.classes[i] == SiteClass::exact || all.classes[i] == SiteClass::fixed)
+        measure_star(view, i, reference_size, sums);
+  }
+}
+
+} // namespace
+
+void StarMeasures::reset() {
+  of_tile_.clear();
+  is_measured_.clear();
+}
+
+SweepSums StarMeasures::measure(const SweepTask& task, const StarView& view, double reference_size) {
+  SweepTask all = task;
+  all.least_class = SiteClass::bordered;
+  const LocalIndex first_tile = view.points.first_tile();
+  const std::size_t tiles = static_cast<std::size_t>(view.points.last_tile() - first_tile);
+  const bool keeps = tiles * sizeof(SweepSums) < bytes_for_measures * static_cast<std::size_t>(view.points.owned());
+  if (keeps && of_tile_.size() != tiles) {
+    of_tile_.resize(tiles);
+    is_measured_.assign(tiles, 0);
+  }
+  PerThread<ThreadSums> of_thread;
+  thread_loop(static_cast<std::ptrdiff_t>(tiles), 1, [&](std::ptrdiff_t item, int thread) {
+    ThreadSums& mine = of_thread[thread];
+    const std::size_t t = static_cast<std::size_t>(item);
+    const LocalIndex tile = first_tile + static_cast<LocalIndex>(item);
+    if (!keeps) {
+      measure_tile(all, view, tile, reference_size, mine.excesses, mine.sums);
+      return;
+    }
+    if (!is_measured_[t]) {
+      of_tile_[t] = {};
+      measure_tile(all, view, tile, reference_size, mine.excesses, of_tile_[t]);
+      is_measured_[t] = 1;
+    }
+    mine.sums.add(of_tile_[t]);
+  });
+  SweepSums sums;
+  for (const ThreadSums& one : of_thread)
+    sums.add(one.sums);
+  return sums;
+}
+
 } // namespace trime::sweep

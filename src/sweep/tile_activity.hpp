@@ -6,7 +6,6 @@
 #include "sites/site_state.hpp"
 #include "sweep/site_classes.hpp"
 #include "sweep/sweep_kernel.hpp"
-#include "sweep/tiles_around.hpp"
 
 #include <atomic>
 #include <span>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/state_fields.hpp"
-#include "sites/star_view.hpp"
+#include "sites/site_state.hpp"
 #include "sweep/rule_formulas.hpp"
 #include "sweep/sweep_sums.hpp"
 #include "trime/geometry/vec2.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shapefiles: the input is the length of NAME.shp and of NAME.shx in two bytes each, these files, and NAME.dbf.
-#include "contours/shapefile.hpp"
+#include "contours/contour_text.hpp"
 #include "fuzz.hpp"
 #include "support/temporary_directory.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "comm/departure.hpp"
+#include "comm/agree.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The exchanges and reductions of the communicator in their uglier cases.
 #include "comm/agree.hpp"
-#include "comm/message_head.hpp"
+#include "comm/parcel.hpp"
 #include "support/distributed.hpp"
 #include "trime/comm/communicator.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Work that ranks share and whose results every rank needs.
-#include "comm/shared_work.hpp"
+#include "comm/agree.hpp"
 
 #include <gtest/gtest.h>
 

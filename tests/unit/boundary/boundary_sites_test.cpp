@@ -3,7 +3,6 @@
 #include "support/laid_sites.hpp"
 
 #include "core/random.hpp"
-#include "geometry/diametral.hpp"
 #include "geometry/predicates.hpp"
 #include "support/boundary_shapes.hpp"
 #include "trime/core/error.hpp"

@@ -4,7 +4,7 @@
 #include "boundary/site_path.hpp"
 #include "core/angle.hpp"
 #include "core/random.hpp"
-#include "geometry/diametral.hpp"
+#include "geometry/predicates.hpp"
 #include "sizing/lowered_size.hpp"
 #include "support/boundary_shapes.hpp"
 #include "support/laid_sites.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boundary sites and guard in periodic containers, against the definitions with all images.
 #include "core/random.hpp"
-#include "geometry/diametral.hpp"
+#include "geometry/predicates.hpp"
 #include "polygon/boundary_guard.hpp"
 #include "support/laid_sites.hpp"
 #include "support/periodic_shapes.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which places of bad triangles contend in a round.
-#include "cleanup/cleanup_candidates.hpp"
+#include "cleanup/cleanup_limits.hpp"
 
 #include "core/random.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the optimizer makes of patches on the boundary.
-#include "geometry/diametral.hpp"
+#include "geometry/predicates.hpp"
 #include "support/patch_stage.hpp"
 #include "trime/mesh/quality.hpp"
 

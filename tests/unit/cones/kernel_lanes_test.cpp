@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The kernels of cones and of searches give the same bits with any number of lanes; on any machine.
 #include "cones/cone_kernel_lanes.hpp"
-#include "cones/search_kernel_lanes.hpp"
 #include "support/point_sets.hpp"
 
 #include <gtest/gtest.h>

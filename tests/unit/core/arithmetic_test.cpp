@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/arithmetic.hpp"
+#include "core/simd_level.hpp"
 
 #include <gtest/gtest.h>
 

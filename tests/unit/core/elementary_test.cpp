@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Elementary functions against MPFR, on random and on hard arguments, and where they must not fall.
-#include "core/double_double.hpp"
 #include "core/elementary.hpp"
+#include "core/elementary_parts.hpp"
 #include "core/random.hpp"
 
 #include <gtest/gtest.h>

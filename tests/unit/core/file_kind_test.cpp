@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/file_kind.hpp"
+#include "core/read_file.hpp"
 
 #include "support/temporary_directory.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Suggestions for misspelt names.
-#include "core/nearest_name.hpp"
+#include "core/quoted.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Sites in tiles and bins: nothing is lost, nothing is found twice, what is unknown is said.
 #include "core/thread_loop.hpp"
 #include "mesh/binned_points.hpp"
-#include "mesh/tile_fit.hpp"
+#include "mesh/tile_grid.hpp"
 #include "support/point_sets.hpp"
 
 #include <gtest/gtest.h>

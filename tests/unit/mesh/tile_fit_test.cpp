@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tiles of about equal weight.
-#include "mesh/tile_fit.hpp"
+#include "mesh/tile_grid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "meshing/forecast.hpp"
+#include "meshing/relaxation.hpp"
 #include "meshing/rules.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Places on the boundary by arc length.
-#include "polygon/boundary_curve.hpp"
+#include "polygon/boundary_chain.hpp"
 
 #include "polygon/chord_curve.hpp"
 #include "support/boundary_shapes.hpp"

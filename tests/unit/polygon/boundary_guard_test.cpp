@@ -4,7 +4,7 @@
 #include "support/laid_sites.hpp"
 
 #include "core/random.hpp"
-#include "geometry/diametral.hpp"
+#include "geometry/predicates.hpp"
 #include "polygon/rules.hpp"
 #include "support/boundary_shapes.hpp"
 

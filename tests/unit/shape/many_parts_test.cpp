@@ -3,7 +3,6 @@
 #include "core/random.hpp"
 #include "geometry/predicates.hpp"
 #include "shape/arrangement.hpp"
-#include "shape/inside_walk.hpp"
 #include "shape/region_state.hpp"
 #include "unit/shape/boundary_checks.hpp"
 
